@@ -1,6 +1,7 @@
 """Fixtures for all tests."""
 
 import os
+import sys
 from pathlib import Path
 
 import pytest
@@ -9,6 +10,9 @@ from moyai.core.vocabulary import Strictness
 
 # A name of a result that no vocabulary declares is an error in every test
 Strictness.names = True
+# Workers, runs and the processes that tests start share their bytecode: to compile it takes longer than most tests
+sys.dont_write_bytecode = False
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 # The workers of the tests take all cores
 os.environ.setdefault("MOYAI_COMPILE_PROCESSES", "0")
 

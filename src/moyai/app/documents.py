@@ -128,7 +128,7 @@ class Documents:
         CaseError
             When it is no text.
         """
-        from moyai.case.yaml_reader import decode
+        from moyai.case.yaml_text import decode
 
         path = self._folder.inside(name)
         name = path.relative_to(self._folder.root).as_posix()

@@ -41,29 +41,19 @@ Run = Callable[..., "Result"]
 
 @dataclass(frozen=True)
 class Wish:
-    """What is asked of the worker.
+    """What is asked of the worker."""
 
-    Parameters
-    ----------
-    text : str
-        The case.
-    edits : mapping of str to str
-        Numbers to put at paths, in the unit as written.
-    file : Path
-        Where the case stands, or would stand.
-    root : Path
-        Folder out of which no file is read.
-    pinned : str
-        Text of the case that is drawn faint under this one; empty for none.
-    analyses : tuple of str
-        Other analyses than the cheap ones.
-    """
-
+    #: The case.
     text: str
+    #: Where the case stands, or would stand.
     file: Path
+    #: Folder out of which no file is read.
     root: Path
+    #: Numbers to put at paths, in the unit as written.
     edits: Mapping[str, str] = field(default_factory=dict)
+    #: Text of the case that is drawn faint under this one; empty for none.
     pinned: str = ""
+    #: Other analyses than the cheap ones.
     analyses: tuple[str, ...] = ()
 
 

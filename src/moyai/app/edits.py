@@ -24,20 +24,14 @@ _TOKEN = re.compile(
 
 @dataclass(frozen=True)
 class Written:
-    """A number as it stands in a text.
+    """A number as it stands in a text."""
 
-    Parameters
-    ----------
-    value : float
-        In the unit as written.
-    unit : str
-    start, end : int
-        Characters of the digits.
-    """
-
+    #: In the unit as written.
     value: float
     unit: str
+    #: Characters of the digits.
     start: int
+    #: Characters of the digits.
     end: int
 
 

@@ -22,17 +22,11 @@ _TITLE = re.compile(r"^title:\s*(.+?)\s*(?:#.*)?$", re.MULTILINE)
 
 @dataclass(frozen=True)
 class Folder:
-    """A folder whose files the app may read and write.
+    """A folder whose files the app may read and write."""
 
-    Parameters
-    ----------
-    root : Path
-        Absolute, links resolved.
-    output : Path
-        Where results are put; within ``root`` unless the user named another on the command line.
-    """
-
+    #: Absolute, links resolved.
     root: Path
+    #: Where results are put; within ``root`` unless the user named another on the command line.
     output: Path
 
     def inside(self, name: str) -> Path:

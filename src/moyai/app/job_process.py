@@ -21,32 +21,21 @@ _EVERY = 0.2
 
 @dataclass(frozen=True)
 class Order:
-    """What a job is to do.
+    """What a job is to do."""
 
-    Parameters
-    ----------
-    kind : str
-        ``run``, ``study``, ``fit`` or ``paper``.
-    name : str
-        Name of the file, or key of the paper.
-    folder : Path
-        Of the results.
-    root : Path
-        The chosen folder.
-    file : Path
-        Where the case stands, from which it names other files.
-    text : str
-        The case; empty for all but a run.
-    saved : bool
-        Whether ``file`` holds this text; else the command line that does the same takes the copy beside the results.
-    """
-
+    #: ``run``, ``study``, ``fit`` or ``paper``.
     kind: str
+    #: Name of the file, or key of the paper.
     name: str
+    #: Of the results.
     folder: Path
+    #: The chosen folder.
     root: Path
+    #: Where the case stands, from which it names other files.
     file: Path
+    #: The case; empty for all but a run.
     text: str = ""
+    #: Whether ``file`` holds this text; else the command line that does the same takes the copy beside the results.
     saved: bool = True
 
 

@@ -14,26 +14,22 @@ _MOST = 12
 
 @dataclass(frozen=True)
 class Slider:
-    """A number of the case that can be moved.
-
-    Parameters
-    ----------
-    path : str
-    label, unit : str
-        Unit as the file writes it.
-    value, low, high, step : float
-        In that unit.
-    decimals : int
-        Digits behind the point that the step needs.
-    """
+    """A number of the case that can be moved."""
 
     path: str
+    #: Unit as the file writes it.
     label: str
+    #: Unit as the file writes it.
     unit: str
+    #: In that unit.
     value: float
+    #: In that unit.
     low: float
+    #: In that unit.
     high: float
+    #: In that unit.
     step: float
+    #: Digits behind the point that the step needs.
     decimals: int
 
 

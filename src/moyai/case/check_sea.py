@@ -17,9 +17,14 @@ LARGEST_HEADING_DEG = 89.5
 LARGEST_SPEED = {"wind": 113.0, "current": 10.0}
 
 
+_HIGH = {"HWL", "HHWL", "MHWL", "MHWS", "HAT", "HHWOST"}
+_LOW = {"LWL", "LLWL", "MLWL", "MLWS", "LAT", "LLWOST"}
+
+
 def check_surroundings(model: Any, findings: Findings, folder: Path) -> None:
     """Check water levels, headings, sea states and current against each other."""
     _check_levels(model.site, findings)
+    _check_order(model.site.water_levels, findings)
     _check_bearings(model, findings)
     for index in duplicates(sea_names(model.waves)):
         name = sea_names(model.waves)[index]
@@ -70,6 +75,19 @@ def check_file(path: KeyPath, name: str, folder: Path, findings: Findings, *, fo
     except (OSError, ValueError) as error:
         findings.fault(path, f"'{name}' cannot be opened: {error}")
     return False
+
+
+def _check_order(levels: dict[str, float], findings: Findings) -> None:
+    """Warn of a high water that lies below a low water."""
+    high = {name: z for name, z in levels.items() if name.upper() in _HIGH}
+    low = {name: z for name, z in levels.items() if name.upper() in _LOW}
+    for name, z in high.items():
+        under = [other for other, height in low.items() if height > z]
+        if under:
+            findings.warn(
+                ("site", "water_levels", name), f"{name} lies below {under[0]}: {z:g} and {low[under[0]]:g} m",
+                remedy="heights count upwards from datum; were they exchanged?",
+            )  # fmt: skip
 
 
 def _check_levels(site: Any, findings: Findings) -> None:

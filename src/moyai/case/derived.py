@@ -15,28 +15,18 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Number:
-    """One derived number.
+    """One derived number."""
 
-    Parameters
-    ----------
-    group : str
-        What it belongs to: the unit, its lines, a sea state.
-    column : str
-        Water level that it holds at.
-    label : str
-    value : float
-        SI.
-    unit : str
-        Unit that it is shown in.
-    digits : int
-        Significant digits shown.
-    """
-
+    #: What it belongs to: the unit, its lines, a sea state.
     group: str
+    #: Water level that it holds at.
     column: str
     label: str
+    #: SI.
     value: float
+    #: Unit that it is shown in.
     unit: str = ""
+    #: Significant digits shown.
     digits: int = 4
 
     @property

@@ -115,7 +115,7 @@ class Translator:
     def _explained(self, item: Mapping[str, Any], path: KeyPath) -> bool:
         """Whether a list counts as too short only because faulty entries, reported apart, were left out."""
         value = value_at(self.document.data, path)
-        return item["type"] == "too_short" and len(value or ()) >= item["ctx"]["min_length"]
+        return bool(item["type"] == "too_short" and len(value or ()) >= item["ctx"]["min_length"])
 
     def _faults_between_keys(self, meant: set[KeyPath]) -> None:
         places = {id(block): path for path, block in _blocks(self.document.data, ())}

@@ -18,17 +18,11 @@ _STEP = re.compile(r"\s*(?:\.?(?P<key>[^.\[\]]+)|\[(?P<entry>[^\[\]]*)\])")
 
 @dataclass(frozen=True)
 class Step:
-    """One step of a path.
+    """One step of a path."""
 
-    Parameters
-    ----------
-    word : str
-        Key of a block, or number, name or ``*`` of the entries of a list.
-    in_brackets : bool
-        Whether it stood in brackets, which only the entries of a list may do.
-    """
-
+    #: Key of a block, or number, name or ``*`` of the entries of a list.
     word: str
+    #: Whether it stood in brackets, which only the entries of a list may do.
     in_brackets: bool
 
 

@@ -26,20 +26,13 @@ _SLIPS = (1e-3, 1e3, 1e-2, 1e2, 1e-6, 1e6)
 
 @dataclass(frozen=True)
 class Entry:
-    """A number of a case.
+    """A number of a case."""
 
-    Parameters
-    ----------
-    value : float
-        In the unit of plain numbers.
-    place : tuple or None
-        Its path in the file; ``None`` for a default and for what follows from other keys.
-    of : tuple of paths
-        Keys of the model that a derived number follows from.
-    """
-
+    #: In the unit of plain numbers.
     value: float
+    #: Its path in the file; ``None`` for a default and for what follows from other keys.
     place: KeyPath | None = None
+    #: Keys of the model that a derived number follows from.
     of: tuple[KeyPath, ...] = ()
 
 

@@ -27,27 +27,17 @@ from moyai.core.units import plain_text
 
 @dataclass(frozen=True)
 class Case:
-    """A case file that was read and found sound.
+    """A case file that was read and found sound."""
 
-    Parameters
-    ----------
-    model : Block
-        The content by the schema of its structure; SI units, headings in degrees.
-    document : Document
-        The file with the place of every key.
-    path : Path
-        The file.
-    warnings : tuple of Fault
-        What is allowed but odd, with its place.
-    case_hash : str
-        SHA-256 of the content and of the files that it names; comments, order of keys and choice of units do not
-        matter.
-    """
-
+    #: The content by the schema of its structure; SI units, headings in degrees.
     model: Any
+    #: The file with the place of every key.
     document: Document
+    #: The file.
     path: Path
+    #: What is allowed but odd, with its place.
     warnings: tuple[Fault, ...]
+    #: SHA-256 of the content and of the files that it names; comments, order of keys and choice of units do not matter.
     case_hash: str
 
     @property

@@ -35,23 +35,19 @@ def refuse(message: str, *, allowed: str = "", remedy: str = "") -> PydanticCust
 
 @dataclass(frozen=True)
 class QuantityOf:
-    """Annotation of a ``float`` field that takes a number or a text with a unit.
+    """Annotation of a ``float`` field that takes a number or a text with a unit."""
 
-    Parameters
-    ----------
-    kind : Kind
-        What is expected.
-    above, least, below, most : float
-        Open and closed limits, in the unit of plain numbers.
-    words : tuple of (str, float or None)
-        Words that stand for a value: ``(("infinite", math.inf),)``, ``(("auto", None),)``.
-    """
-
+    #: What is expected.
     kind: Kind
+    #: ``above``, ``least``, ``below``, ``most``: Open and closed limits, in the unit of plain numbers.
     above: float = -math.inf
+    #: ``above``, ``least``, ``below``, ``most``: Open and closed limits, in the unit of plain numbers.
     least: float = -math.inf
+    #: ``above``, ``least``, ``below``, ``most``: Open and closed limits, in the unit of plain numbers.
     below: float = math.inf
+    #: ``above``, ``least``, ``below``, ``most``: Open and closed limits, in the unit of plain numbers.
     most: float = math.inf
+    #: Words that stand for a value: ``(("infinite", math.inf),)``, ``(("auto", None),)``.
     words: tuple[tuple[str, float | None], ...] = ()
 
     @property

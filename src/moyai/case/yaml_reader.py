@@ -47,24 +47,17 @@ class Place:
 
 @dataclass(frozen=True)
 class Document:
-    """A YAML file as plain data with places.
+    """A YAML file as plain data with places."""
 
-    Parameters
-    ----------
-    data : object
-        Mappings, lists, text, numbers, truth values, ``None``.
-    text : str
-        The file as it was read.
-    file : str
-        Its name for messages.
-    keys, values : dict
-        Place of the key and of the value of every path, such as ``("lines", 0, "anchor", "x")``.
-    """
-
+    #: Mappings, lists, text, numbers, truth values, ``None``.
     data: Any
+    #: The file as it was read.
     text: str
+    #: Its name for messages.
     file: str
+    #: ``keys``, ``values``: Place of the key and of the value of every path, such as ``("lines", 0, "anchor", "x")``.
     keys: dict[KeyPath, Place] = field(default_factory=dict)
+    #: ``keys``, ``values``: Place of the key and of the value of every path, such as ``("lines", 0, "anchor", "x")``.
     values: dict[KeyPath, Place] = field(default_factory=dict)
 
     def place(self, path: KeyPath, *, of_key: bool = False) -> Place:

@@ -5,6 +5,7 @@ Imports of the numerical packages stand inside the commands, so that ``moyai --h
 
 from __future__ import annotations
 
+import gc
 import os
 import re
 import signal
@@ -352,9 +353,13 @@ def exit_code(result: Result, *, require_hold: bool) -> int:
 
 def _deck_or_case(file: Path, folder: Path, motions: list[str], duration: float | None) -> Path:
     """Return the case file: FILE itself, or that of a deck of MoorDyn, written into the folder of the results."""
-    from moyai.interop.moordyn_case import is_deck
+    deck = False
+    if file.suffix.lower() not in (".yaml", ".yml"):
+        # decks are read by half the package, which most cases do not need
+        from moyai.interop.moordyn_case import is_deck
 
-    if is_deck(file):
+        deck = is_deck(file)
+    if deck:
         return case_of_deck(file, folder / "case.yaml", motions, duration, None, replace=True)
     if motions or duration is not None:
         from moyai.core.errors import InputError
@@ -433,6 +438,8 @@ def _write_text(path: Path, text: str, force: bool) -> None:
 def main() -> None:
     """Entry point of the ``moyai`` command."""
     prepare_streams()
+    # Imports and the compiler make a million objects that live on: the search for garbage among them costs a tenth
+    gc.set_threshold(100_000, 50, 50)
     # Whoever ends the program politely gets the partial result as with Ctrl-C
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     arguments = sys.argv[1:]

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from moyai.cli.console import FAILED, OK, guard, print_json, progress_bars, rich_console, say, tell
+from moyai.cli.console import guard, progress_bars, rich_console, say
+from moyai.cli.measured import AsJson, Output, Pdf, Quiet, Report, hand_back
 
 if TYPE_CHECKING:
     from moyai.records.nets.campaign import NetFindings
@@ -19,13 +20,11 @@ def nets(
     file: Annotated[
         Path, typer.Argument(metavar="FILE", help="File that describes the runs (YAML).", show_default=False)
     ],
-    output: Annotated[
-        Path | None, typer.Option("--output", "-o", help="Folder of the results; out/<name of the file> when absent.")
-    ] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, faults included.")] = False,
-    report: Annotated[bool, typer.Option(help="Write the report and its tables next to results.nc.")] = True,
-    pdf: Annotated[bool, typer.Option("--pdf", help="Write the report as PDF too.")] = False,
-    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No progress bars and no summary.")] = False,
+    output: Output = None,
+    as_json: AsJson = False,
+    report: Report = True,
+    pdf: Pdf = False,
+    quiet: Quiet = False,
 ) -> None:
     """Find C_D, C_M and lift of nets from towing and waves, their laws A Re^-B, and tensions of model cages."""
     with guard(as_json):
@@ -43,19 +42,16 @@ def nets(
             found = measure_nets(campaign, progress)
         found = replace(found, notices=(*reported, *found.notices))
         result = nets_result(found, text=document.text)
-        files = [result.write(folder / "results.nc")]
-        if report:
-            from moyai.report.writer import write_report
-
-            files += write_report(result, folder, pdf=pdf)
-        seconds = time.perf_counter() - started
-        if as_json:
-            print_json(_record(found, result, files, seconds))
-        elif not quiet:
-            _print(found, result, files)
-        elif result.status != "converged":
-            tell(f"{result.status}: {result.message}")
-        raise typer.Exit(OK if result.status == "converged" else FAILED)
+        hand_back(
+            result,
+            folder,
+            record=lambda files: _record(found, result, files, time.perf_counter() - started),
+            summary=lambda files: _print(found, result, files),
+            report=report,
+            pdf=pdf,
+            as_json=as_json,
+            quiet=quiet,
+        )
 
 
 def _known(value: float, known: bool = True) -> float | None:

@@ -8,20 +8,19 @@ from typing import Annotated, Any
 
 import typer
 
-from moyai.cli.console import FAILED, OK, guard, print_json, progress_bars, rich_console, tell
+from moyai.cli.console import guard, progress_bars
+from moyai.cli.measured import AsJson, Output, Pdf, Quiet, Report, hand_back, print_summary_of
 
 
 def streaks(
     file: Annotated[
         Path, typer.Argument(metavar="FILE", help="File that describes the pictures (YAML).", show_default=False)
     ],
-    output: Annotated[
-        Path | None, typer.Option("--output", "-o", help="Folder of the results; out/<name of the file> when absent.")
-    ] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, faults included.")] = False,
-    report: Annotated[bool, typer.Option(help="Write the report and its tables next to results.nc.")] = True,
-    pdf: Annotated[bool, typer.Option("--pdf", help="Write the report as PDF too.")] = False,
-    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No progress bars and no summary.")] = False,
+    output: Output = None,
+    as_json: AsJson = False,
+    report: Report = True,
+    pdf: Pdf = False,
+    quiet: Quiet = False,
 ) -> None:
     """Measure the circulation around a section in waves from pictures of particle streaks.
 
@@ -43,21 +42,16 @@ def streaks(
                 attributes={"case_text": document.text},
                 progress=progress,
             )
-        files = [result.write(folder / "results.nc")]
-        if report:
-            from moyai.report.writer import write_report
-
-            files += write_report(result, folder, pdf=pdf)
-        seconds = time.perf_counter() - started
-        if as_json:
-            print_json(_record(result, files, seconds))
-        elif not quiet:
-            from moyai.cli.tables import print_summary
-
-            print_summary(rich_console(), result, files, seconds)
-        elif result.status != "converged":
-            tell(f"{result.status}: {result.message}")
-        raise typer.Exit(OK if result.status == "converged" else FAILED)
+        hand_back(
+            result,
+            folder,
+            record=lambda files: _record(result, files, time.perf_counter() - started),
+            summary=lambda files: print_summary_of(result, time.perf_counter() - started, files),
+            report=report,
+            pdf=pdf,
+            as_json=as_json,
+            quiet=quiet,
+        )
 
 
 def _record(result: Any, files: list[Path], seconds: float) -> dict[str, Any]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -88,7 +88,7 @@ def print_statements(paper: str, *, as_json: bool, quiet: bool) -> None:
         say(f"{row.finding.verdict:8} {row.statement.place}: {row.statement.text} {row.finding.found}{why}")
 
 
-def _list(listed: tuple, as_json: bool) -> None:
+def _list(listed: tuple[Any, ...], as_json: bool) -> None:
     if as_json:
         print_json(
             {

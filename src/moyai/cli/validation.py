@@ -18,22 +18,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Outcome:
-    """One case computed again.
+    """One case computed again."""
 
-    Parameters
-    ----------
-    topic : str
-        Module that holds the case.
-    case : ValidationCase
-    value : float
-        What came out (NaN when it failed).
-    failure : str
-        Why there is no value, else empty.
-    """
-
+    #: Module that holds the case.
     topic: str
     case: ValidationCase
+    #: What came out (NaN when it failed).
     value: float
+    #: Why there is no value, else empty.
     failure: str = ""
 
     @property

@@ -8,6 +8,7 @@ of date costs time, never a number: what it lacks is compiled by the run.
 
 from __future__ import annotations
 
+import gc
 import os
 import re
 import subprocess
@@ -36,20 +37,13 @@ _SHORT = re.compile(r"\b([feizb])(\d)([CFA])(r?)\b")
 
 @dataclass(frozen=True)
 class ListedKernel:
-    """A kernel for arguments of given types.
+    """A kernel for arguments of given types."""
 
-    Parameters
-    ----------
-    seconds : float
-        What it took on the machine that wrote the list, without the kernels that it calls [s].
-    module, name : str
-    signature : str
-        Types of the arguments, see :func:`signature_text`.
-    """
-
+    #: What it took on the machine that wrote the list, without the kernels that it calls [s].
     seconds: float
     module: str
     name: str
+    #: Types of the arguments, see :func:`signature_text`.
     signature: str
 
 
@@ -173,6 +167,7 @@ def compiling_ahead(kind: str) -> Iterator[None]:
 
 
 if __name__ == "__main__":
+    gc.set_threshold(100_000, 50, 50)
     place, count, *kinds = sys.argv[1:]
     lists = parts_of(listed_kernels(*kinds), int(count))
     # who is done early goes on with the parts behind his own

@@ -3,6 +3,10 @@
 The cache of numba looks at the file of a kernel alone. A kernel that calls one of another file would go on with the old
 inner one after an edit or an upgrade; here the content of every file of the package that it imports, directly or not,
 belongs to the key.
+
+Numba optimises a kernel and all that it calls, makes machine code of it and wrappers for calls from Python, and then
+does so again for every kernel that calls it. Here a kernel that another one calls is typed and lowered, no more: it is
+optimised once, as a part of what Python calls.
 """
 
 from __future__ import annotations
@@ -16,8 +20,11 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 import numba
-from numba.core import event
+from numba.core import event, sigutils, typing
 from numba.core.caching import CompileResultCacheImpl, FunctionCache
+from numba.core.codegen import JITCodeLibrary
+from numba.core.compiler import Flags, compile_extra
+from numba.core.registry import CPUDispatcher
 
 _PACKAGE = Path(__file__).parents[1]
 _IMPORT = re.compile(r"^from (moyai[\w.]*) import (\([^)]*\)|[^\n]*)", re.MULTILINE)
@@ -68,13 +75,69 @@ class _Cache(FunctionCache):  # type: ignore[misc]
     _impl_class = _CacheImpl
 
 
-def njit(**options: Any) -> Callable[[Callable[..., Any]], Any]:
-    """Return numba's decorator of the same name; ``cache=True`` sees the kernels that a kernel calls."""
+class _Part(JITCodeLibrary):  # type: ignore[misc]
+    """Code of a kernel that is a part of another one: neither optimised nor made machine code of by itself."""
+
+    def finalize(self) -> None:
+        self._finalized = True
+
+
+class _Kernel(CPUDispatcher):  # type: ignore[misc]
+    """A kernel that others take in as a part, and Python calls in a form of its own."""
+
+    def __init__(self, *arguments: Any, **options: Any) -> None:
+        super().__init__(*arguments, **options)
+        #: Types of the arguments to signature and key of the part, which numba looks up by its key.
+        self._parts: dict[tuple[Any, ...], tuple[Any, object]] = {}
+
+    def _lower_as_part(self, arguments: tuple[Any, ...]) -> None:
+        """Type and lower the kernel for arguments of given types."""
+        context, flags = self.targetctx, Flags()
+        self.targetdescr.options.parse_as_flags(flags, self.targetoptions)
+        flags.no_compile = flags.no_cpython_wrapper = flags.no_cfunc_wrapper = True
+        done = compile_extra(
+            self.typingctx, context, self.py_func, args=arguments, return_type=None, flags=flags,
+            locals=self._compiler.locals, pipeline_class=self._compiler.pipeline_class,
+        )  # fmt: skip
+        if done.typing_error is not None:
+            raise done.typing_error
+        code, key = done.library, object()
+        code.__class__ = _Part
+        # the parts of a part are linked by whoever takes it in
+        context.insert_user_function(key, done.fndesc, [code, *code._linking_libraries])
+        self._parts[arguments] = done.signature, key
+
+    def get_call_template(self, args: Any, kws: Any) -> Any:
+        """Return how another kernel calls this one; see numba's method."""
+        pysig, folded = self._compiler.fold_argument_types(args, kws)
+        arguments = tuple(folded)
+        if arguments not in self._parts:
+            self._lower_as_part(arguments)
+        name = self.py_func.__name__
+        signatures = [signature for signature, _ in self._parts.values()]
+        template = typing.make_concrete_template(f"CallTemplate({name})", key=name, signatures=signatures)
+        return template, pysig, folded, {}
+
+    def get_overload(self, sig: Any) -> object:
+        """Return the key of the part for a signature; see numba's method."""
+        arguments, _ = sigutils.normalize_signature(sig)
+        return self._parts[tuple(arguments)][1]
+
+
+def njit(*, pointer: bool = False, **options: Any) -> Callable[[Callable[..., Any]], Any]:
+    """Return numba's decorator of the same name; ``cache=True`` sees the kernels that a kernel calls.
+
+    ``pointer`` says that another kernel takes this one as an argument.
+    """
     cached = options.pop("cache", False)
+    if not pointer:
+        options["no_cfunc_wrapper"] = True
 
     def compiled(function: Callable[..., Any]) -> Any:
-        kernel = numba.njit(**options)(function)
-        if cached and not numba.config.DISABLE_JIT:
+        if numba.config.DISABLE_JIT:
+            return function
+        kernel = _Kernel(py_func=function, targetoptions={"nopython": True, "boundscheck": None, **options})
+        if cached:
             kernel._cache = _Cache(function)
         return kernel
 

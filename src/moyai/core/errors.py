@@ -8,28 +8,21 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Fault:
-    """One fault of an input, worded for the person who wrote it.
+    """One fault of an input, worded for the person who wrote it."""
 
-    Parameters
-    ----------
-    message : str
-        What is wrong, with the value that was found.
-    path : str
-        Dotted path of the key (``structure.section.beam``) or the name of the argument.
-    allowed : str
-        The allowed range or form, empty when the message says it.
-    remedy : str
-        How to correct it, for instance ``did you mean 'draught'?``.
-    file, line, column : str, int, int
-        Place in the file, 1-based; 0 where there is none.
-    """
-
+    #: What is wrong, with the value that was found.
     message: str
+    #: Dotted path of the key (``structure.section.beam``) or the name of the argument.
     path: str = ""
+    #: The allowed range or form, empty when the message says it.
     allowed: str = ""
+    #: How to correct it, for instance ``did you mean 'draught'?``.
     remedy: str = ""
+    #: ``file``, ``line``, ``column``: Place in the file, 1-based; 0 where there is none.
     file: str = ""
+    #: ``file``, ``line``, ``column``: Place in the file, 1-based; 0 where there is none.
     line: int = 0
+    #: ``file``, ``line``, ``column``: Place in the file, 1-based; 0 where there is none.
     column: int = 0
 
     def __str__(self) -> str:

@@ -24,26 +24,19 @@ NONE = "none"
 
 @dataclass(frozen=True)
 class Band:
-    """How far a headline moves over what is uncertain or varies by chance.
+    """How far a headline moves over what is uncertain or varies by chance."""
 
-    Parameters
-    ----------
-    low, high : float
-        Smallest and largest value, in the unit of the headline.
-    of : str
-        What is varied and how far, for instance ``viscous damping halved and doubled`` or ``5 seeds``.
-    decides : bool
-        Whether a criterion is judged at the unfavourable end (an uncertain coefficient) or at the value itself
-        (the scatter of seeds about their mean).
-    judged : (float, float) or None
-        Interval at whose unfavourable end a criterion is judged where the band itself does not decide, for instance the
-        confidence interval of a mean over few seeds; ``None``: at the value itself.
-    """
-
+    #: ``low``, ``high``: Smallest and largest value, in the unit of the headline.
     low: float
+    #: ``low``, ``high``: Smallest and largest value, in the unit of the headline.
     high: float
+    #: What is varied and how far, for instance ``viscous damping halved and doubled`` or ``5 seeds``.
     of: str
+    #: Whether a criterion is judged at the unfavourable end (an uncertain coefficient) or at the value itself (the
+    #: scatter of seeds about their mean).
     decides: bool = True
+    #: Interval at whose unfavourable end a criterion is judged where the band itself does not decide, for instance the
+    #: confidence interval of a mean over few seeds; ``None``: at the value itself.
     judged: tuple[float, float] | None = None
 
 
@@ -51,61 +44,43 @@ class Band:
 class Headline:
     """One number of the first page.
 
-    Parameters
-    ----------
-    name : str
-        Stable name, for instance ``line_tension``; criteria and comparisons use it.
-    label : str
-        Words for the reader; the first letter becomes a capital.
-    value : float
-        In SI units and radians; NaN where only ``text`` says it.
-    unit : str
-        Unit of the value; ``1`` for ratios.
-    where : str
-        Water level, sea state, period, line.
-    model : str
-        The model that governs, by the name that the page "How the answer is made" gives it.
-    band : Band or None
-        What the number varies with.
-    bound : {"", "at most", "at least"}
-        Set where only a bound is known.
-    detail : str
-        One more fact that the reader needs, for instance the breaking load.
-    text : str
-        Shown in place of the number; ``none`` stands for zero.
-    sea : str
-        Name of the sea state that it holds in; criteria at a named sea are judged on it.
-    mean : float or None
-        Mean over time of a value that is a maximum over time, in its unit; codes that weigh the mean and the varying
-        part of a tension apart need it. None where it is not known.
-    shown : bool
-        Whether it stands on the first page; one that does not and has a sea is judged only by a criterion at that sea.
-    analysis : str
-        ``dynamic``, ``quasi_static`` or ``static`` where criteria depend on the analysis that gave the number.
-    condition : bool
-        Whether it is what the other numbers were found in (a current, the height of a sea, the start of a run) and not
-        an answer: no limit is looked for.
-
     Notes
     -----
     A headline called ``..._utilisation`` is the load over the strength, without any factor of safety: the factor is the
     criterion's.
     """
 
+    #: Stable name, for instance ``line_tension``; criteria and comparisons use it.
     name: str
+    #: Words for the reader; the first letter becomes a capital.
     label: str
+    #: In SI units and radians; NaN where only ``text`` says it.
     value: float
+    #: Unit of the value; ``1`` for ratios.
     unit: str
+    #: Water level, sea state, period, line.
     where: str = ""
+    #: The model that governs, by the name that the page "How the answer is made" gives it.
     model: str = ""
+    #: What the number varies with.
     band: Band | None = None
+    #: Set where only a bound is known; one of "", "at most", "at least".
     bound: Bound = ""
+    #: One more fact that the reader needs, for instance the breaking load.
     detail: str = ""
+    #: Shown in place of the number; ``none`` stands for zero.
     text: str = ""
+    #: Name of the sea state that it holds in; criteria at a named sea are judged on it.
     sea: str = ""
+    #: Mean over time of a value that is a maximum over time, in its unit; codes that weigh the mean and the varying
+    #: part of a tension apart need it. None where it is not known.
     mean: float | None = None
+    #: Whether it stands on the first page; one that does not and has a sea is judged only by a criterion at that sea.
     shown: bool = True
+    #: ``dynamic``, ``quasi_static`` or ``static`` where criteria depend on the analysis that gave the number.
     analysis: str = ""
+    #: Whether it is what the other numbers were found in (a current, the height of a sea, the start of a run) and not
+    #: an answer: no limit is looked for.
     condition: bool = False
 
     def __post_init__(self) -> None:
@@ -155,46 +130,31 @@ def governing(candidates: Iterable[Headline]) -> list[Headline]:
 
 @dataclass(frozen=True)
 class Criterion:
-    """What a headline has to keep.
+    """What a headline has to keep."""
 
-    Parameters
-    ----------
-    name : str
-        Key of the criterion in the case file.
-    headline : str
-        Name of the headline that is judged.
-    limit : float
-        In the unit of the headline.
-    sense : {"at most", "at least"}
-    source : str
-        Who set the limit: the case file, a code with its table, or the default of the structure.
-    label : str
-        Words for the reader; the headline's own label where empty.
-    unit : str
-        Unit of the limit; ``%`` for a ratio that is shown in per cent.
-    sea : str
-        Name of the sea state that it is asked in; empty for the governing value.
-    as_factor : bool
-        Whether the limit is one over a factor of safety, which is what people want to read.
-    mean_weight : float
-        Weight of the mean of a value over time, that of its varying part being 1 (codes with partial factors).
-    assumed : bool
-        Whether the program assumed it: the case file does not name it.
-    analysis : str
-        Analysis whose numbers it is for; empty: of any.
-    """
-
+    #: Key of the criterion in the case file.
     name: str
+    #: Name of the headline that is judged.
     headline: str
+    #: In the unit of the headline.
     limit: float
+    #: One of "at most", "at least".
     sense: Sense
+    #: Who set the limit: the case file, a code with its table, or the default of the structure.
     source: str
+    #: Words for the reader; the headline's own label where empty.
     label: str = ""
+    #: Unit of the limit; ``%`` for a ratio that is shown in per cent.
     unit: str = "1"
+    #: Name of the sea state that it is asked in; empty for the governing value.
     sea: str = ""
+    #: Whether the limit is one over a factor of safety, which is what people want to read.
     as_factor: bool = False
+    #: Weight of the mean of a value over time, that of its varying part being 1 (codes with partial factors).
     mean_weight: float = 1.0
+    #: Whether the program assumed it: the case file does not name it.
     assumed: bool = False
+    #: Analysis whose numbers it is for; empty: of any.
     analysis: str = ""
 
     @property
@@ -249,19 +209,12 @@ class Judgement:
 
 @dataclass(frozen=True)
 class Verdict:
-    """Whether the design holds: every criterion judged, and the whole.
+    """Whether the design holds: every criterion judged, and the whole."""
 
-    Parameters
-    ----------
-    outcome : {"holds", "does not hold", "not judged"}
-        ``does not hold`` when one criterion fails; ``holds`` when all judged ones hold and at least one was judged
-        and none had to be left out; ``not judged`` otherwise.
-    message : str
-        One sentence: what fails, or what could not be judged.
-    judgements : tuple of Judgement
-    """
-
+    #: ``does not hold`` when one criterion fails; ``holds`` when all judged ones hold and at least one was judged and
+    #: none had to be left out; ``not judged`` otherwise; one of "holds", "does not hold", "not judged".
     outcome: Outcome = "not judged"
+    #: One sentence: what fails, or what could not be judged.
     message: str = ""
     judgements: tuple[Judgement, ...] = ()
 

@@ -24,26 +24,17 @@ _NOT_FINITE = re.compile(r"[+-]?\.?(?:inf(?:inity)?|nan)\b", re.IGNORECASE)
 
 @dataclass(frozen=True)
 class Kind:
-    """A kind of quantity: what is expected where.
+    """A kind of quantity: what is expected where."""
 
-    Parameters
-    ----------
-    name : str
-        With its article, as it stands in a message: ``a length``.
-    unit : str
-        Unit of plain numbers, SI symbol (or ``deg`` for keys that end in ``_deg``).
-    plain : str
-        That unit in words: ``metres``.
-    example : str
-        A quantity as a user would write it.
-    angle_matters : bool
-        Whether rad, deg and Hz must be distinguished from plain numbers and 1/s (angles and frequencies).
-    """
-
+    #: With its article, as it stands in a message: ``a length``.
     name: str
+    #: Unit of plain numbers, SI symbol (or ``deg`` for keys that end in ``_deg``).
     unit: str
+    #: That unit in words: ``metres``.
     plain: str
+    #: A quantity as a user would write it.
     example: str
+    #: Whether rad, deg and Hz must be distinguished from plain numbers and 1/s (angles and frequencies).
     angle_matters: bool = False
 
     @property

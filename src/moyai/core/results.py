@@ -33,35 +33,23 @@ DIRECTION_CONVENTION = "heading 0 travels towards +x, 90 degrees towards +y; x, 
 
 @dataclass(frozen=True)
 class Result:
-    """What a run hands back and what the file on disk holds.
+    """What a run hands back and what the file on disk holds."""
 
-    Parameters
-    ----------
-    tree : xarray.DataTree
-        Groups of labelled data; every variable carries ``units`` and ``long_name``.
-    status : str
-        ``converged``, ``outside_validity``, ``not_converged``, ``interrupted`` or ``failed``.
-    message : str
-        One sentence behind the status.
-    checks : tuple of IdentityCheck
-        Identities of the run with their figures.
-    notices : tuple of Notice
-        Validity notices.
-    provenance : mapping
-        Version, inputs, conventions, seed, time of the run.
-    headlines : tuple of Headline
-        The numbers of the first page, the governing one first.
-    verdict : Verdict
-        Whether the design keeps its criteria; apart from ``status``, which speaks of the computation.
-    """
-
+    #: Groups of labelled data; every variable carries ``units`` and ``long_name``.
     tree: xr.DataTree
+    #: ``converged``, ``outside_validity``, ``not_converged``, ``interrupted`` or ``failed``.
     status: Status = "converged"
+    #: One sentence behind the status.
     message: str = ""
+    #: Identities of the run with their figures.
     checks: tuple[IdentityCheck, ...] = ()
+    #: Validity notices.
     notices: tuple[Notice, ...] = ()
+    #: Version, inputs, conventions, seed, time of the run.
     provenance: Mapping[str, Any] = field(default_factory=dict)
+    #: The numbers of the first page, the governing one first.
     headlines: tuple[Headline, ...] = ()
+    #: Whether the design keeps its criteria; apart from ``status``, which speaks of the computation.
     verdict: Verdict = field(default_factory=Verdict)
 
     def with_notices(self, *notices: Notice) -> Result:
@@ -144,6 +132,8 @@ def write_result(result: Result, path: Path) -> Path:
     """Write a result; see :meth:`Result.write`."""
     import xarray as xr
 
+    from moyai.core.netcdf_writer import can_write, write_tree
+
     header = {
         "Conventions": "CF-1.10",
         "title": str(result.provenance.get("title", "moyai result")),
@@ -166,7 +156,10 @@ def write_result(result: Result, path: Path) -> Path:
     groups["/"] = root
     tree = xr.DataTree.from_dict(groups)
     with partial_file(path, size=sum(node.nbytes for node in tree.subtree)) as partial:
-        tree.to_netcdf(partial, engine="h5netcdf")
+        if can_write(tree):
+            write_tree(tree, partial)
+        else:
+            tree.to_netcdf(partial, engine="h5netcdf")
     return path
 
 

@@ -39,14 +39,9 @@ def key_of(*parts: object) -> str:
 
 @dataclass(frozen=True)
 class DatasetStore:
-    """A folder of datasets by key.
+    """A folder of datasets by key."""
 
-    Parameters
-    ----------
-    directory : Path
-        Made when the first dataset is put in.
-    """
-
+    #: Made when the first dataset is put in.
     directory: Path
 
     def get(self, key: str) -> xr.Dataset | None:

@@ -42,21 +42,13 @@ class Dimension:
 
 @dataclass(frozen=True)
 class Unit:
-    """A unit: ``value_SI = value * factor * pi**pi_power``.
+    """A unit: ``value_SI = value * factor * pi**pi_power``."""
 
-    Parameters
-    ----------
-    symbol : str
-        As the user wrote it.
-    factor : Fraction
-        Exact rational part of the factor to SI.
-    pi_power : int
-        Power of pi in the factor (degrees have 1).
-    dimension : Dimension
-    """
-
+    #: As the user wrote it.
     symbol: str
+    #: Exact rational part of the factor to SI.
     factor: Fraction
+    #: Power of pi in the factor (degrees have 1).
     pi_power: int
     dimension: Dimension
 

@@ -42,32 +42,21 @@ def reference_kind(source: str) -> ReferenceKind:
 
 @dataclass(frozen=True)
 class ValidationCase:
-    """One number that somebody else found, and how to compute it here.
+    """One number that somebody else found, and how to compute it here."""
 
-    Parameters
-    ----------
-    name : str
-        Short unique name, ``<topic>: <what>``.
-    source : str
-        Paper and equation, exact solution, identity, or measured record.
-    compute : callable
-        Returns the value; called without arguments, pure, quick (seconds at most).
-    reference : float
-        The value of the source.
-    tolerance : float
-        Accepted error, with its reason in ``note``.
-    relative : bool
-        Whether the error is divided by ``|reference|``.
-    note : str
-        Why the tolerance is what it is; known misprints of the source.
-    """
-
+    #: Short unique name, ``<topic>: <what>``.
     name: str
+    #: Paper and equation, exact solution, identity, or measured record.
     source: str
+    #: Returns the value; called without arguments, pure, quick (seconds at most).
     compute: Callable[[], float]
+    #: The value of the source.
     reference: float
+    #: Accepted error, with its reason in ``note``.
     tolerance: float
+    #: Whether the error is divided by ``|reference|``.
     relative: bool = True
+    #: Why the tolerance is what it is; known misprints of the source.
     note: str = ""
 
     @property

@@ -11,30 +11,21 @@ Severity = Literal["information", "warning", "error"]
 
 @dataclass(frozen=True)
 class Notice:
-    """A statement about the range of validity of a result.
+    """A statement about the range of validity of a result."""
 
-    Parameters
-    ----------
-    code : str
-        Short stable identifier, for instance ``wave-breaking``.
-    message : str
-        One sentence for the engineer, naming the quantity, its number and the limit.
-    value, limit : float
-        The number found and the limit it was held against (NaN where there is none).
-    severity : {"information", "warning", "error"}
-        ``error`` makes the status of the result ``outside_validity``.
-    remedy : str
-        What to do about it.
-    source : str
-        Paper, equation or standard behind the limit.
-    """
-
+    #: Short stable identifier, for instance ``wave-breaking``.
     code: str
+    #: One sentence for the engineer, naming the quantity, its number and the limit.
     message: str
+    #: ``value``, ``limit``: The number found and the limit it was held against (NaN where there is none).
     value: float = math.nan
+    #: ``value``, ``limit``: The number found and the limit it was held against (NaN where there is none).
     limit: float = math.nan
+    #: ``error`` makes the status of the result ``outside_validity``; one of "information", "warning", "error".
     severity: Severity = "warning"
+    #: What to do about it.
     remedy: str = ""
+    #: Paper, equation or standard behind the limit.
     source: str = ""
 
     def as_dict(self) -> dict[str, Any]:
@@ -45,23 +36,15 @@ class Notice:
 
 @dataclass(frozen=True)
 class IdentityCheck:
-    """An identity that every correct solution obeys, held against the solution at hand.
+    """An identity that every correct solution obeys, held against the solution at hand."""
 
-    Parameters
-    ----------
-    name : str
-        For instance ``energy balance of the fixed section``.
-    value : float
-        Largest relative violation found.
-    tolerance : float
-        What is accepted.
-    meaning : str
-        The identity in words or symbols.
-    """
-
+    #: For instance ``energy balance of the fixed section``.
     name: str
+    #: Largest relative violation found.
     value: float
+    #: What is accepted.
     tolerance: float
+    #: The identity in words or symbols.
     meaning: str = ""
 
     def __post_init__(self) -> None:

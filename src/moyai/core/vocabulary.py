@@ -36,23 +36,15 @@ class VocabularyError(LookupError):
 
 @dataclass(frozen=True)
 class Variable:
-    """One concept of a result.
+    """One concept of a result."""
 
-    Parameters
-    ----------
-    name : str
-        Name in the file.
-    units : str
-        SI unit; ``"1"`` without dimension, :data:`NO_UNIT` for texts.
-    long_name : str
-        What it is, in words.
-    dims : tuple of str
-        Dimensions that it always has, in any order among others; empty where they are not fixed.
-    """
-
+    #: Name in the file.
     name: str
+    #: SI unit; ``"1"`` without dimension, :data:`NO_UNIT` for texts.
     units: str
+    #: What it is, in words.
     long_name: str
+    #: Dimensions that it always has, in any order among others; empty where they are not fixed.
     dims: tuple[str, ...] = ()
 
 
@@ -114,30 +106,20 @@ def former(name: str) -> str:
 
 @dataclass(frozen=True)
 class Vocabulary:
-    """All names that the results of one kind may carry.
+    """All names that the results of one kind may carry."""
 
-    Parameters
-    ----------
-    kind : str
-        Kind of result, for messages.
-    variables : mapping
-        Declarations by their name.
-    patterns : mapping
-        Units by a regular expression that names of the user's making match as a whole: channels of a record. Such a
-        variable brings its own words; :data:`NO_UNIT` where it brings its own unit as well.
-    parts : mapping
-        Vocabularies of groups that have one of their own, by a regular expression of their path.
-    open_groups : tuple of str
-        Paths of groups whose variables the user's file names.
-    always : mapping
-        Names that a group holds whenever its analysis was run to its end, by a regular expression of its path.
-    """
-
+    #: Kind of result, for messages.
     kind: str
+    #: Declarations by their name.
     variables: Mapping[str, Variable]
+    #: Units by a regular expression that names of the user's making match as a whole: channels of a record. Such a
+    #: variable brings its own words; :data:`NO_UNIT` where it brings its own unit as well.
     patterns: Mapping[str, str] = field(default_factory=dict)
+    #: Vocabularies of groups that have one of their own, by a regular expression of their path.
     parts: Mapping[str, Vocabulary] = field(default_factory=dict)
+    #: Paths of groups whose variables the user's file names.
     open_groups: tuple[str, ...] = ()
+    #: Names that a group holds whenever its analysis was run to its end, by a regular expression of its path.
     always: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     @classmethod

@@ -24,32 +24,25 @@ ALIGNED = 1e-6
 
 @dataclass(frozen=True)
 class RodPart:
-    """A round rod along one of the axes of its body.
+    """A round rod along one of the axes of its body."""
 
-    Parameters
-    ----------
-    start, end : (float, float, float)
-        [m].
-    diameter : float
-        [m].
-    mass_per_length : float
-        Of a solid cylinder [kg/m].
-    drag_normal, added_mass_normal : float
-        Across it, on diameter and volume [-].
-    drag_end, added_mass_end : float
-        Of each end along it, on its face and on half a sphere of water [-].
-    slices : int
-        That the water meets one by one; 24 at least are taken.
-    """
-
+    #: [m].
     start: Triple
+    #: [m].
     end: Triple
+    #: [m].
     diameter: float
+    #: Of a solid cylinder [kg/m].
     mass_per_length: float
+    #: ``drag_normal``, ``added_mass_normal``: Across it, on diameter and volume [-].
     drag_normal: float
+    #: ``drag_normal``, ``added_mass_normal``: Across it, on diameter and volume [-].
     added_mass_normal: float
+    #: ``drag_end``, ``added_mass_end``: Of each end along it, on its face and on half a sphere of water [-].
     drag_end: float
+    #: ``drag_end``, ``added_mass_end``: Of each end along it, on its face and on half a sphere of water [-].
     added_mass_end: float
+    #: That the water meets one by one; 24 at least are taken.
     slices: int = SLICES
 
     @property
@@ -67,24 +60,17 @@ class RodPart:
 
 @dataclass(frozen=True)
 class VolumePart:
-    """A mass and a volume at one place, wet wherever it is.
+    """A mass and a volume at one place, wet wherever it is."""
 
-    Parameters
-    ----------
-    place : (float, float, float)
-        [m].
-    mass, volume : float
-        [kg], [m3].
-    drag_area : (float, float, float)
-        Drag coefficient times area along the axes of the body [m2].
-    added_mass_coefficient : (float, float, float)
-        On the volume along them [-].
-    """
-
+    #: [m].
     place: Triple
+    #: [kg].
     mass: float = 0.0
+    #: [m3].
     volume: float = 0.0
+    #: Drag coefficient times area along the axes of the body [m2].
     drag_area: Triple = (0.0, 0.0, 0.0)
+    #: On the volume along them [-].
     added_mass_coefficient: Triple = (0.0, 0.0, 0.0)
 
 

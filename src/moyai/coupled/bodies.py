@@ -29,32 +29,22 @@ PLACE_TOLERANCE = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class BodyHistory:
-    """Motion of one body.
+    """Motion of one body."""
 
-    Parameters
-    ----------
-    position : ndarray (k, 3)
-        Of the origin of its axes in site axes [m].
-    rotation : ndarray (k, 3, 3)
-        Body to site.
-    velocity : ndarray (k, 6)
-        Of the centre of gravity and spin, site axes [m/s, rad/s].
-    reaction : ndarray (k, 6)
-        Mean force of the network over the last step, and its moment about the centre of gravity, site axes [N, N m].
-    point_force : ndarray (k, points, 3)
-        The same for every carried point [N].
-    points : tuple of str
-        Their names.
-    kinetic_energy : ndarray (k,)
-        With added mass at infinite frequency, without that of lumps [J].
-    """
-
+    #: Of the origin of its axes in site axes [m]; shape (k, 3).
     position: Array
+    #: Body to site; shape (k, 3, 3).
     rotation: Array
+    #: Of the centre of gravity and spin, site axes [m/s, rad/s]; shape (k, 6).
     velocity: Array
+    #: Mean force of the network over the last step, and its moment about the centre of gravity, site axes [N, N m];
+    #: shape (k, 6).
     reaction: Array
+    #: The same for every carried point [N]; shape (k, points, 3).
     point_force: Array
+    #: Their names.
     points: tuple[str, ...]
+    #: With added mass at infinite frequency, without that of lumps [J]; shape (k,).
     kinetic_energy: Array
 
     @property
@@ -83,18 +73,12 @@ class BodyHistory:
 
 @dataclass(frozen=True, eq=False)
 class BodyState:
-    """Where a rigid body is in its motion, for a run that goes on.
+    """Where a rigid body is in its motion, for a run that goes on."""
 
-    Parameters
-    ----------
-    motion : ndarray (13,)
-        Place of the centre of gravity [m], unit quaternion from body to site, velocity [m/s] in site axes, spin
-        [rad/s] in body axes.
-    memory : ndarray (poles,)
-        States of the radiation, none without coefficients.
-    """
-
+    #: Place of the centre of gravity [m], unit quaternion from body to site, velocity [m/s] in site axes, spin [rad/s]
+    #: in body axes; shape (13,).
     motion: Array
+    #: States of the radiation, none without coefficients; shape (poles,).
     memory: NDArray[np.complex128]
 
     @classmethod

@@ -16,34 +16,26 @@ from moyai.core.errors import InputError
 class Lumps:
     """Parts of a body that the water sees one by one, in body axes [eq:coupled-lumps].
 
-    Parameters
-    ----------
-    place : array_like, shape (l, 3)
-        Centres from the origin of the body [m].
-    volume : array_like, shape (l,)
-        Displaced volume when wholly wet [m3].
-    length : array_like, shape (l,)
-        Extent along the body's z axis [m]; the part under the surface counts. 0: always wet, wherever it is.
-    drag_area : array_like, shape (l, 3)
-        Drag coefficient times area for flow along each body axis [m2]; the force along an axis is rho/2 CdA u U, with
-        the speed U that ``axis`` chooses.
-    added_mass : array_like, shape (l, 3)
-        When wholly wet, along each body axis [kg].
-    axis : array_like of int, shape (l,)
-        -1: U is the whole relative speed (a compact part). 0, 1 or 2: the part is slender along that body axis, and U
-        is the speed across it for the two forces across, the speed along it for the force along (cross-flow principle).
-
     Raises
     ------
     InputError
         For shapes that disagree and values that are negative or not finite.
     """
 
+    #: Centres from the origin of the body [m]; shape (l, 3).
     place: Array
+    #: Displaced volume when wholly wet [m3]; shape (l,).
     volume: Array
+    #: Extent along the body's z axis [m]; the part under the surface counts. 0: always wet, wherever it is. Shape (l,).
     length: Array
+    #: Drag coefficient times area for flow along each body axis [m2]; the force along an axis is rho/2 CdA u U, with
+    #: the speed U that ``axis`` chooses; shape (l, 3).
     drag_area: Array
+    #: When wholly wet, along each body axis [kg]; shape (l, 3).
     added_mass: Array
+    #: -1: U is the whole relative speed (a compact part). 0, 1 or 2: the part is slender along that body axis, and U is
+    #: the speed across it for the two forces across, the speed along it for the force along (cross-flow principle).
+    #: Shape (l,).
     axis: NDArray[np.int64] | int = -1
 
     def __post_init__(self) -> None:

@@ -30,29 +30,6 @@ SAMPLES_PER_PERIOD = 160
 class PlanarBody:
     """A floating body in the modes sway, heave, roll of [eq:floating-cummins] that carries points of a network.
 
-    Parameters
-    ----------
-    name : str
-    model : CumminsModel
-        Its memory as states; nonlinear lines of its own act next to the network, at rest at every instant.
-    forcing : Forcing
-        Waves, drift, steady loads.
-    duration : float
-        How long the forcing is needed [s].
-    points : mapping of str to array_like (3,)
-        Carried points from the centre of gravity at rest: x, y, z [m].
-    copies : mapping of str to int
-        How many identical lines one point stands for (1 when left out).
-    centre_at_rest : array_like (3,)
-        Centre of gravity at rest in site axes [m].
-    reaction_at_rest : array_like (3,)
-        Pull of the network at rest that weight and buoyancy balance (F_x, F_z, M_y), copies included [N, N, N m]
-        [eq:coupled-rest].
-    initial_position, initial_velocity : array_like (3,)
-        Motion at the start, relative to rest.
-    initial_memory : array_like or None
-        States of the memory at the start, one per pole; empty when left out.
-
     Raises
     ------
     InputError
@@ -60,15 +37,26 @@ class PlanarBody:
     """
 
     name: str
+    #: Its memory as states; nonlinear lines of its own act next to the network, at rest at every instant.
     model: CumminsModel
+    #: Waves, drift, steady loads.
     forcing: Forcing
+    #: How long the forcing is needed [s].
     duration: float
+    #: Carried points from the centre of gravity at rest: x, y, z [m]; shape (3,).
     points: Mapping[str, ArrayLike]
+    #: How many identical lines one point stands for (1 when left out).
     copies: Mapping[str, int] = field(default_factory=dict)
+    #: Centre of gravity at rest in site axes [m]; shape (3,).
     centre_at_rest: ArrayLike = (0.0, 0.0, 0.0)
+    #: Pull of the network at rest that weight and buoyancy balance (F_x, F_z, M_y), copies included [N, N, N m]
+    #: [eq:coupled-rest]; shape (3,).
     reaction_at_rest: ArrayLike = (0.0, 0.0, 0.0)
+    #: ``initial_position``, ``initial_velocity``: Motion at the start, relative to rest; shape (3,).
     initial_position: ArrayLike = (0.0, 0.0, 0.0)
+    #: ``initial_position``, ``initial_velocity``: Motion at the start, relative to rest; shape (3,).
     initial_velocity: ArrayLike = (0.0, 0.0, 0.0)
+    #: States of the memory at the start, one per pole; empty when left out.
     initial_memory: ArrayLike | None = None
 
     def __post_init__(self) -> None:

@@ -31,29 +31,19 @@ SLACK, MOST_TIPS = 1e-6, 3
 
 @dataclass(frozen=True, eq=False)
 class CoupledRest:
-    """Bodies and network at rest.
+    """Bodies and network at rest."""
 
-    Parameters
-    ----------
-    network : Network
-        With its carried points where the bodies rest.
-    state : State
-        Of the network.
-    bodies : mapping of str to RigidBody
-        The same bodies, starting from rest.
-    tension : ndarray (m,)
-        [N].
-    residual : float
-        Force left on the bodies over the largest weight or pull.
-    rounds : int
-        Solves of the network.
-    """
-
+    #: With its carried points where the bodies rest.
     network: Network
+    #: Of the network.
     state: State
+    #: The same bodies, starting from rest.
     bodies: dict[str, RigidBody]
+    #: [N]; shape (m,).
     tension: Array
+    #: Force left on the bodies over the largest weight or pull.
     residual: float
+    #: Solves of the network.
     rounds: int
 
 

@@ -50,68 +50,52 @@ class RigidBody:
 
     Body axes are fixed in the body; their origin is any point of it. Rotations are finite and exact.
 
-    Parameters
-    ----------
-    name : str
-        For messages and results.
-    mass : float
-        [kg].
-    inertia : array_like, shape (3, 3) or (3,)
-        About the centre of gravity in body axes [kg m2]; three numbers stand for a diagonal.
-    centre_of_gravity : array_like (3,)
-        In body axes [m].
-    position : array_like (3,)
-        Of the origin of the body axes at the start, in site axes [m].
-    rotation : array_like (3,)
-        Roll, pitch, yaw at the start [rad]: R = Rz(yaw) Ry(pitch) Rx(roll).
-    points : mapping of str to array_like (3,)
-        Points of the network that the body carries, in body axes [m].
-    lumps : Lumps, optional
-        What the water meets: buoyancy, drag, inertia part by part (see :mod:`moyai.coupled.hulls`).
-    added_mass : array_like, shape (6, 6) or (6,), optional
-        About the origin in body axes [kg, kg m, kg m2]; answers to the motion relative to the water at the centre of
-        gravity, with its turning [eq:coupled-added-mass].
-    linear_damping : array_like, shape (6, 6) or (6,), optional
-        About the centre of gravity in body axes, on the velocity through the site [N s/m ... N m s].
-    quadratic_damping : array_like (6,), optional
-        About the centre of gravity, axis by axis: force b u|u| of the velocity relative to the water [N s2/m2, N m s2].
-    stiffness : array_like, shape (6, 6) or (6,), optional
-        Linear restoring about the centre of gravity at the start pose, in axes that turn with the yaw
-        [eq:coupled-restoring] (springs of a test rig); that of the water comes with ``loads`` or ``lumps``.
-    loads : WaveLoads, optional
-        Coefficients of a three-dimensional program: excitation, radiation with memory, linear hydrostatics.
-    force : array_like (6,)
-        Constant force and moment about the centre of gravity in site axes [N, N m].
-    free : six bools
-        Translations along site axes and rotations about body axes that may change.
-    rest : (array_like (3,), float), optional
-        Place of the origin [m] and yaw [rad] that ``stiffness`` counts from; those of the start when left out.
-    pin : array_like (3,), optional
-        Place in body axes that stays where it is at the start: the body only turns about it. Damping, stiffness and the
-        moments of the results then refer to this place, not to the centre of gravity.
-
     Raises
     ------
     InputError
         For values out of range, each with its name.
     """
 
+    #: For messages and results.
     name: str
+    #: [kg].
     mass: float
+    #: About the centre of gravity in body axes [kg m2]; three numbers stand for a diagonal; shape (3, 3) or (3,).
     inertia: ArrayLike
+    #: In body axes [m]; shape (3,).
     centre_of_gravity: ArrayLike = field(default_factory=lambda: np.zeros(3))
+    #: Of the origin of the body axes at the start, in site axes [m]; shape (3,).
     position: ArrayLike = field(default_factory=lambda: np.zeros(3))
+    #: Roll, pitch, yaw at the start [rad]: R = Rz(yaw) Ry(pitch) Rx(roll); shape (3,).
     rotation: ArrayLike = field(default_factory=lambda: np.zeros(3))
+    #: Points of the network that the body carries, in body axes [m]; shape (3,).
     points: Mapping[str, ArrayLike] = field(default_factory=dict)
+    #: What the water meets: buoyancy, drag, inertia part by part (see :mod:`moyai.coupled.hulls`).
     lumps: Lumps | None = None
+    #: About the origin in body axes [kg, kg m, kg m2]; answers to the motion relative to the water at the centre of
+    #: gravity, with its turning [eq:coupled-added-mass]; shape (6, 6) or (6,).
     added_mass: ArrayLike | None = None
+    #: About the centre of gravity in body axes, on the velocity through the site [N s/m ... N m s]. Shape (6, 6) or
+    #: (6,).
     linear_damping: ArrayLike | None = None
+    #: About the centre of gravity, axis by axis: force b u|u| of the velocity relative to the water [N s2/m2, N m s2];
+    #: shape (6,).
     quadratic_damping: ArrayLike = field(default_factory=lambda: np.zeros(6))
+    #: Linear restoring about the centre of gravity at the start pose, in axes that turn with the yaw
+    #: [eq:coupled-restoring] (springs of a test rig); that of the water comes with ``loads`` or ``lumps``; shape (6, 6)
+    #: or (6,).
     stiffness: ArrayLike | None = None
+    #: Coefficients of a three-dimensional program: excitation, radiation with memory, linear hydrostatics.
     loads: WaveLoads | None = None
+    #: Constant force and moment about the centre of gravity in site axes [N, N m]; shape (6,).
     force: ArrayLike = field(default_factory=lambda: np.zeros(6))
+    #: Translations along site axes and rotations about body axes that may change.
     free: tuple[bool, ...] = (True,) * 6
+    #: Place of the origin [m] and yaw [rad] that ``stiffness`` counts from; those of the start when left out; shape
+    #: (3,).
     rest: tuple[ArrayLike, float] | None = None
+    #: Place in body axes that stays where it is at the start: the body only turns about it. Damping, stiffness and the
+    #: moments of the results then refer to this place, not to the centre of gravity. Shape (3,).
     pin: ArrayLike | None = None
 
     def __post_init__(self) -> None:

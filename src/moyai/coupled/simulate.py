@@ -36,41 +36,28 @@ TOLERANCE = 1e-4
 
 @dataclass(frozen=True, eq=False)
 class CoupledHistory:
-    """Bodies and their network through time; rows are the same for both.
+    """Bodies and their network through time; rows are the same for both."""
 
-    Parameters
-    ----------
-    time : ndarray (k,)
-        [s].
-    bodies : mapping of str to BodyHistory
-    network : StepRecord
-        Positions, tensions and peaks.
-    body_step, network_step : float
-        Largest step of the bodies and smallest of the network [s].
-    passes : float
-        Runs of the network per step of the bodies, on average.
-    final : State
-        Of the network at the last row.
-    final_bodies : mapping of str to BodyState
-        Of the rigid bodies at the last row.
-    status, message : str
-    checks, notices : tuple
-    network_steps : int
-        Accepted steps of the network.
-    """
-
+    #: [s]; shape (k,).
     time: Array
     bodies: Mapping[str, BodyHistory]
+    #: Positions, tensions and peaks.
     network: StepRecord
+    #: ``body_step``, ``network_step``: Largest step of the bodies and smallest of the network [s].
     body_step: float
+    #: ``body_step``, ``network_step``: Largest step of the bodies and smallest of the network [s].
     network_step: float
+    #: Runs of the network per step of the bodies, on average.
     passes: float
+    #: Of the network at the last row.
     final: State
+    #: Of the rigid bodies at the last row.
     final_bodies: Mapping[str, BodyState]
     status: Status
     message: str
     checks: tuple[IdentityCheck, ...] = ()
     notices: tuple[Notice, ...] = ()
+    #: Accepted steps of the network.
     network_steps: int = 0
 
 

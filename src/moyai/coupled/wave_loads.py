@@ -32,46 +32,35 @@ class WaveLoads:
 
     The axes of the coefficients are those of the body at rest; radiation and restoring turn with the body, the heading
     of the waves is counted from its yaw.
-
-    Parameters
-    ----------
-    omega : ndarray (n,)
-        [rad/s].
-    headings : ndarray (m,)
-        Directions of travel [rad], increasing.
-    amplitude : ndarray (n, m, 6)
-        Exciting force per unit amplitude, Re(X exp(-i omega t)), phase at the origin of the coefficients.
-    infinite_frequency_added_mass, stiffness : ndarray (6, 6)
-    memory : StateSpaceMemory
-    displaced_volume : float
-        At rest [m3].
-    reference : ndarray (3,)
-        Point that rotations and moments are about, in the axes of the coefficients (z from still water) [m].
-    rest : ndarray (3,)
-        Where the origin of the body axes stands at rest in site axes [m].
-    rest_yaw : float
-        Yaw at rest [rad].
-    origin : (float, float)
-        Origin of the coefficients in body axes, x and y [m].
-    follow : bool
-        Phases of the waves at the present place of the body instead of its place at rest.
-    checks, notices : tuple
-        Identities of the memory.
     """
 
+    #: [rad/s]; shape (n,).
     omega: Array
+    #: Directions of travel [rad], increasing; shape (m,).
     headings: Array
+    #: Exciting force per unit amplitude, Re(X exp(-i omega t)), phase at the origin of the coefficients; shape (n, m,
+    #: 6).
     amplitude: ComplexArray
+    #: Shape (6, 6).
     infinite_frequency_added_mass: Array
+    #: Shape (6, 6).
     stiffness: Array
     memory: StateSpaceMemory
+    #: At rest [m3].
     displaced_volume: float
+    #: Point that rotations and moments are about, in the axes of the coefficients (z from still water) [m]; shape (3,).
     reference: Array
+    #: Where the origin of the body axes stands at rest in site axes [m]; shape (3,).
     rest: Array
+    #: Yaw at rest [rad].
     rest_yaw: float = 0.0
+    #: Origin of the coefficients in body axes, x and y [m].
     origin: tuple[float, float] = (0.0, 0.0)
+    #: Phases of the waves at the present place of the body instead of its place at rest.
     follow: bool = False
+    #: Identities of the memory.
     checks: tuple[IdentityCheck, ...] = ()
+    #: Identities of the memory.
     notices: tuple[Notice, ...] = ()
 
     @classmethod
@@ -264,7 +253,7 @@ class Excitation:
         along = waves.wave_number * (x * np.cos(waves.heading) + y * np.sin(waves.heading))
         turn = waves.amplitude * np.exp(1j * (along - waves.omega * time + waves.phase))
         own = growth * np.real(turn @ self._at_heading(waves.heading - yaw))
-        out = own.copy()
+        out: Array = own.copy()
         for first in (0, 3):
             out[first], out[first + 1] = c * own[first] - s * own[first + 1], s * own[first] + c * own[first + 1]
         return out

@@ -16,48 +16,32 @@ from moyai.tables.design_codes import CodeRule, applicable_rule, code_rules
 
 @dataclass(frozen=True)
 class LineLoad:
-    """Tension of a line in one condition.
+    """Tension of a line in one condition."""
 
-    Parameters
-    ----------
-    line : str
-        Name of the line.
-    maximum_tension, mean_tension : float
-        [N]
-    breaking_load : float
-        Minimum breaking load of the new line [N].
-    component : str
-        ``chain``, ``rope``, ``wire``, ``knotted_rope``, ``shackle`` or ``used_chain``.
-    lost : str
-        Name of the line that is lost, empty when intact.
-    """
-
+    #: Name of the line.
     line: str
+    #: [N]
     maximum_tension: float
+    #: [N]
     mean_tension: float
+    #: Minimum breaking load of the new line [N].
     breaking_load: float
+    #: ``chain``, ``rope``, ``wire``, ``knotted_rope``, ``shackle`` or ``used_chain``.
     component: str
+    #: Name of the line that is lost, empty when intact.
     lost: str = ""
 
 
 @dataclass(frozen=True)
 class DesignCode:
-    """A code as it is applied: which analysis, which class, which of its values the user has confirmed.
+    """A code as it is applied: which analysis, which class, which of its values the user has confirmed."""
 
-    Parameters
-    ----------
-    name : str
-        Name of the code.
-    rules : tuple of CodeRule
-    analysis : str
-        How the tensions were found: ``dynamic``, ``quasi_static`` or ``static``.
-    consequence : str
-        Class of the code, empty where it has none.
-    """
-
+    #: Name of the code.
     name: str
     rules: tuple[CodeRule, ...]
+    #: How the tensions were found: ``dynamic``, ``quasi_static`` or ``static``.
     analysis: str
+    #: Class of the code, empty where it has none.
     consequence: str = ""
 
     def value(self, rule: str, condition: str, component: str) -> CodeRule | None:
@@ -74,27 +58,17 @@ class DesignCode:
 
 @dataclass(frozen=True)
 class LineCheck:
-    """Outcome of a line under a code.
-
-    Parameters
-    ----------
-    load : LineLoad
-    code : str
-    utilisation : float
-        Design tension over design strength; above 1 fails. NaN where the breaking load is unknown.
-    breaking_load : float
-        After the corrosion allowance [N].
-    factors : str
-        The factors in words.
-    confirmed : bool
-        Whether every factor was confirmed.
-    """
+    """Outcome of a line under a code."""
 
     load: LineLoad
     code: str
+    #: Design tension over design strength; above 1 fails. NaN where the breaking load is unknown.
     utilisation: float
+    #: After the corrosion allowance [N].
     breaking_load: float
+    #: The factors in words.
     factors: str
+    #: Whether every factor was confirmed.
     confirmed: bool
 
     @property

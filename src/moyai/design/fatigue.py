@@ -18,26 +18,16 @@ from moyai.core.errors import InputError
 
 @dataclass(frozen=True)
 class EnduranceCurve:
-    """Cycles to failure ``N = capacity / range^exponent``.
-
-    Parameters
-    ----------
-    name : str
-    exponent : float
-        Inverse slope m.
-    capacity : float
-        Number of cycles at a range of one (ratio to the breaking load, or stress in ``unit``).
-    unit : str
-        ``1`` where ranges are ratios to the breaking load (T-N), ``MPa`` where they are stresses (S-N).
-    confirmed : bool
-        Whether the values were held against the standard itself.
-    source : str
-    """
+    """Cycles to failure ``N = capacity / range^exponent``."""
 
     name: str
+    #: Inverse slope m.
     exponent: float
+    #: Number of cycles at a range of one (ratio to the breaking load, or stress in ``unit``).
     capacity: float
+    #: ``1`` where ranges are ratios to the breaking load (T-N), ``MPa`` where they are stresses (S-N).
     unit: str
+    #: Whether the values were held against the standard itself.
     confirmed: bool
     source: str
 
@@ -109,7 +99,7 @@ def narrow_band_damage(deviation: float, crossing_frequency: float, duration: fl
     """
     m = curve.exponent
     mean_power = (2.0 * math.sqrt(2.0) * deviation) ** m * float(gamma(1.0 + m / 2.0))
-    return crossing_frequency * duration * mean_power / curve.capacity
+    return float(crossing_frequency * duration * mean_power / curve.capacity)
 
 
 def dirlik_damage(moments: ArrayLike, duration: float, curve: EnduranceCurve) -> float:

@@ -104,22 +104,16 @@ def return_level(
 class JointSea:
     """Joint distribution of significant height and period: Weibull, and lognormal given the height.
 
-    Parameters
-    ----------
-    height : Fit
-        Weibull of the significant height [m].
-    mean_log : tuple of float
-        ``a0 + a1 h^a2``, mean of the logarithm of the period.
-    deviation_log : tuple of float
-        ``b0 + b1 exp(b2 h)``, standard deviation of the logarithm of the period.
-
     Notes
     -----
     The conditional model of DNV-RP-C205 [eq:extremes-joint].
     """
 
+    #: Weibull of the significant height [m].
     height: Fit
+    #: ``a0 + a1 h^a2``, mean of the logarithm of the period.
     mean_log: tuple[float, float, float]
+    #: ``b0 + b1 exp(b2 h)``, standard deviation of the logarithm of the period.
     deviation_log: tuple[float, float, float]
 
     def period(self, height: ArrayLike, normal: ArrayLike) -> Array:

@@ -13,27 +13,19 @@ from moyai.design.similarity import Scale, ScaledQuantity, mass_to_add, match_st
 
 @dataclass(frozen=True)
 class Need:
-    """What one quantity of a model needs.
+    """What one quantity of a model needs."""
 
-    Parameters
-    ----------
-    name : str
-        Which quantity.
-    wanted, at_hand : float
-        Value by the scale, and value of what is there, in ``unit``.
-    unit : str
-        Unit of the scaled quantity.
-    over : float
-        At hand over wanted [-].
-    remedy : str
-        What corrects it, with figures.
-    """
-
+    #: Which quantity.
     name: str
+    #: ``wanted``, ``at_hand``: Value by the scale, and value of what is there, in ``unit``.
     wanted: float
+    #: ``wanted``, ``at_hand``: Value by the scale, and value of what is there, in ``unit``.
     at_hand: float
+    #: Unit of the scaled quantity.
     unit: str
+    #: At hand over wanted [-].
     over: float
+    #: What corrects it, with figures.
     remedy: str
 
 

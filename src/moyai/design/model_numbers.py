@@ -13,23 +13,15 @@ from moyai.tables.waters import WaterProperties
 
 @dataclass(frozen=True)
 class Motion:
-    """How water passes the member whose loads matter, in the prototype.
+    """How water passes the member whose loads matter, in the prototype."""
 
-    Parameters
-    ----------
-    speed : float
-        Largest speed of the water past it [m/s].
-    across : float
-        Its size across the flow [m].
-    period : float
-        Wave period [s]; infinite without waves.
-    water_depth : float
-        [m]; may be infinite.
-    """
-
+    #: Largest speed of the water past it [m/s].
     speed: float
+    #: Its size across the flow [m].
     across: float
+    #: Wave period [s]; infinite without waves.
     period: float
+    #: [m]; may be infinite.
     water_depth: float
 
     def __post_init__(self) -> None:
@@ -43,23 +35,16 @@ class Motion:
 
 @dataclass(frozen=True)
 class ModelNumber:
-    """A dimensionless number in both sizes.
-
-    Parameters
-    ----------
-    name : str
-    prototype, model : float
-        [-].
-    kept : bool
-        Whether Froude scaling with scaled stiffness keeps it.
-    meaning : str
-        What it governs, and what suffers where it is not kept.
-    """
+    """A dimensionless number in both sizes."""
 
     name: str
+    #: [-].
     prototype: float
+    #: [-].
     model: float
+    #: Whether Froude scaling with scaled stiffness keeps it.
     kept: bool
+    #: What it governs, and what suffers where it is not kept.
     meaning: str
 
 

@@ -21,15 +21,6 @@ from moyai.sea.water import Water
 class Scale:
     """Ratios of prototype to model.
 
-    Parameters
-    ----------
-    length : float
-        S = L_prototype / L_model [-].
-    density : float
-        Of the waters [-]: 1.025 for the sea against a flume of fresh water.
-    gravity : float
-        [-]; 1 except in a centrifuge.
-
     Examples
     --------
     >>> from moyai.design import Scale
@@ -38,8 +29,11 @@ class Scale:
     (5.0, 16015.6)
     """
 
+    #: S = L_prototype / L_model [-].
     length: float
+    #: Of the waters [-]: 1.025 for the sea against a flume of fresh water.
     density: float
+    #: [-]; 1 except in a centrifuge.
     gravity: float
 
     def __post_init__(self) -> None:
@@ -66,7 +60,7 @@ class Scale:
             return 1.0
         # one power of S keeps the rounding to one operation
         exponent = dimension.length + 3 * dimension.mass + 0.5 * dimension.time
-        return self.length**exponent * self.density**dimension.mass * self.gravity ** (-0.5 * dimension.time)
+        return float(self.length**exponent * self.density**dimension.mass * self.gravity ** (-0.5 * dimension.time))
 
     def to_model(self, value: float, unit: str) -> float:
         """Return the model's value of a prototype's value in ``unit``."""
@@ -79,22 +73,17 @@ class Scale:
 
 @dataclass(frozen=True)
 class ScaledQuantity:
-    """A quantity in both sizes.
+    """A quantity in both sizes."""
 
-    Parameters
-    ----------
-    name, unit : str
-        What it is, and its unit.
-    prototype, model : float
-        Values in that unit.
-    ratio : float
-        Prototype over model [-].
-    """
-
+    #: ``name``, ``unit``: What it is, and its unit.
     name: str
+    #: ``name``, ``unit``: What it is, and its unit.
     unit: str
+    #: Values in that unit.
     prototype: float
+    #: Values in that unit.
     model: float
+    #: Prototype over model [-].
     ratio: float
 
 
@@ -127,22 +116,16 @@ def cauchy_number(axial_stiffness: float, water: Water) -> float:
 
 @dataclass(frozen=True)
 class StretchMatch:
-    """How to give a model line the stretch of the prototype.
+    """How to give a model line the stretch of the prototype."""
 
-    Parameters
-    ----------
-    wanted, available : float
-        EA that the model needs, EA of the line at hand [N].
-    distortion : float
-        Available over wanted [-]: the factor on the Cauchy number's square, on tension about its root.
-    series_spring : float
-        Stiffness of a spring in series that corrects a line too stiff [N/m]; infinite where none is needed, NaN where a
-        line is too soft and nothing in series helps.
-    """
-
+    #: ``wanted``, ``available``: EA that the model needs, EA of the line at hand [N].
     wanted: float
+    #: ``wanted``, ``available``: EA that the model needs, EA of the line at hand [N].
     available: float
+    #: Available over wanted [-]: the factor on the Cauchy number's square, on tension about its root.
     distortion: float
+    #: Stiffness of a spring in series that corrects a line too stiff [N/m]; infinite where none is needed, NaN where a
+    #: line is too soft and nothing in series helps.
     series_spring: float
 
 
@@ -190,21 +173,15 @@ def mass_to_add(prototype_mass: float, model_mass: float, scale: Scale, unit: st
 
 @dataclass(frozen=True)
 class UnkeptNumber:
-    """A number that Froude scaling in water cannot keep.
+    """A number that Froude scaling in water cannot keep."""
 
-    Parameters
-    ----------
-    name : str
-        Whose number.
-    prototype, model : float
-        Values [-].
-    meaning : str
-        What suffers.
-    """
-
+    #: Whose number.
     name: str
+    #: Values [-].
     prototype: float
+    #: Values [-].
     model: float
+    #: What suffers.
     meaning: str
 
 

@@ -23,44 +23,37 @@ BAR_ROWS = (
 
 @dataclass(frozen=True, eq=False)
 class KernelArrays:
-    """What the kernels read.
+    """What the kernels read."""
 
-    Parameters
-    ----------
-    nodes : ndarray, shape (12, n)
-        Rows of ``NODE_ROWS``: mass [kg], weight [N], attached volume [m3], rho/2 times drag area, attached added mass
-        [kg],
-        stiffness [N/m] and damping [N s/m] of the bed, height [m], form, 1 where a component is free.
-    bars : ndarray, shape (13, m)
-        Rows of ``BAR_ROWS``: length [m], EA/L0 [N/m], BA/L0 [N s/m], least tension (0, or -1e300 of bars that bear
-        compression), rho/2 Cd d l, ..., radius [m], one over the mass of half a bar.
-    curve : ndarray of int, shape (m,)
-        Rope curve of each bar, -1 for a linear one.
-    curves : ndarray, shape (c, 3, points)
-        Rope curves: strain, tension, slope.
-    hinges, bending : ndarray
-        Node triples of bending; EI over the mean bar length [N m], one over both unstretched lengths [1/m].
-    attached : ndarray of int
-        Nodes that carry volume, drag or added mass of their own.
-    """
-
+    #: Rows of ``NODE_ROWS``: mass [kg], weight [N], attached volume [m3], rho/2 times drag area, attached added mass
+    #: [kg], stiffness [N/m] and damping [N s/m] of the bed, height [m], form, 1 where a component is free; shape (12,
+    #: n).
     nodes: Array
+    #: Rows of ``BAR_ROWS``: length [m], EA/L0 [N/m], BA/L0 [N s/m], least tension (0, or -1e300 of bars that bear
+    #: compression), rho/2 Cd d l, ..., radius [m], one over the mass of half a bar; shape (13, m).
     bars: Array
     start: IntArray
     end: IntArray
+    #: Rope curve of each bar, -1 for a linear one; shape (m,).
     curve: IntArray
+    #: Rope curves: strain, tension, slope; shape (c, 3, points).
     curves: Array
+    #: Node triples of bending; EI over the mean bar length [N m].
     hinges: IntArray
+    #: One over both unstretched lengths [1/m].
     bending: Array
+    #: Nodes that carry volume, drag or added mass of their own.
     attached: IntArray
 
     def node(self, name: str) -> Array:
         """Return one row of the nodes."""
-        return self.nodes[NODE_ROWS.index(name)]
+        values: Array = self.nodes[NODE_ROWS.index(name)]
+        return values
 
     def bar(self, name: str) -> Array:
         """Return one row of the bars."""
-        return self.bars[BAR_ROWS.index(name)]
+        values: Array = self.bars[BAR_ROWS.index(name)]
+        return values
 
     @property
     def greatest_spring(self) -> Array:

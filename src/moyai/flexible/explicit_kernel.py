@@ -235,7 +235,7 @@ def save_row(A: Any, out: int, saved: Any, spine: int, runs: Any) -> None:
             A[PEAK + k] = A[PULL + k]
 
 
-@njit(cache=True, error_model="numpy", fastmath=FAST)
+@njit(cache=True, error_model="numpy", fastmath=FAST, pointer=True)
 def march(
     A: Any, sizes: Any, runs: Any, curves: Any, hinges: Any, bending: Any, attached: Any, fluid: Any, waves: Any,
     driving: Any, bed: Any, timing: Any, ledger: Any, saved: Any, parts: Any, watch: Any,

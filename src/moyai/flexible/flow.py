@@ -28,36 +28,26 @@ class Current(Protocol):
 class Flow:
     """Motion of the water: a uniform velocity, a profile over the height, waves, or all of them together.
 
-    Parameters
-    ----------
-    velocity : array_like (3,)
-        Uniform and steady [m/s].
-    current : Current, optional
-        Profile over the height.
-    ramp : float
-        Time over which velocity, current and waves grow from zero, half a cosine [s].
-    waves : WaveComponents, optional
-        Linear waves; they need their ``water``.
-    stretching : {"wheeler", "linear", "constant"}
-        Kinematics above still water.
-    interval : float, optional
-        Time between two evaluations, joined linearly [s]; a fiftieth of the shortest wave period that carries energy
-        when left out.
-    wave_ramp : float
-        Time over which the waves alone grow from zero, while the current stands [s].
-
     Raises
     ------
     InputError
         For a velocity that is not finite, waves without water, or an interval that is not positive.
     """
 
+    #: Uniform and steady [m/s]; shape (3,).
     velocity: Array | tuple[float, float, float] = (0.0, 0.0, 0.0)
+    #: Profile over the height.
     current: Current | None = None
+    #: Time over which velocity, current and waves grow from zero, half a cosine [s].
     ramp: float = 0.0
+    #: Linear waves; they need their ``water``.
     waves: WaveComponents | None = None
+    #: Kinematics above still water; one of "wheeler", "linear", "constant".
     stretching: Stretching = "wheeler"
+    #: Time between two evaluations, joined linearly [s]; a fiftieth of the shortest wave period that carries energy
+    #: when left out.
     interval: float | None = None
+    #: Time over which the waves alone grow from zero, while the current stands [s].
     wave_ramp: float = 0.0
 
     def __post_init__(self) -> None:

@@ -17,25 +17,19 @@ WINDOW, JUMP = 0.25, 0.4
 
 @dataclass(frozen=True)
 class Front:
-    """The steepest rise of tension that was seen at one place of a strand.
+    """The steepest rise of tension that was seen at one place of a strand."""
 
-    Parameters
-    ----------
-    strand : int
-        Its number.
-    highest, rise : float
-        Highest tension there, and highest rise within the window [N].
-    within, travel : float
-        The window, and the time of an elastic wave along the strand [s].
-    fall : float
-        Highest speed with which a node of the strand came down on the bed [m/s].
-    """
-
+    #: Its number.
     strand: int
+    #: ``highest``, ``rise``: Highest tension there, and highest rise within the window [N].
     highest: float
+    #: ``highest``, ``rise``: Highest tension there, and highest rise within the window [N].
     rise: float
+    #: ``within``, ``travel``: The window, and the time of an elastic wave along the strand [s].
     within: float
+    #: ``within``, ``travel``: The window, and the time of an elastic wave along the strand [s].
     travel: float
+    #: Highest speed with which a node of the strand came down on the bed [m/s].
     fall: float
 
 

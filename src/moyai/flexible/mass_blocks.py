@@ -21,21 +21,6 @@ class MassBlocks:
     the right of it: with guides along +y the normal is +x. The matrices stay as they are given while the frames turn
     and stretch with the guides.
 
-    Parameters
-    ----------
-    nodes : array_like of int, shape (g, k)
-        Nodes of each group (a section of the sheet), no node twice.
-    guides : array_like of int, shape (g, k, 2)
-        Neighbours of each node along the cable, before and behind.
-    added_mass : array_like, shape (g, 2 k, 2 k)
-        Symmetric, not negative [kg].
-    convective : bool
-        Whether the forces that follow from turning and stretching frames are kept, so that the energy of the water is
-        conserved; without them only added mass times acceleration acts, as the papers have it.
-    turning : bool
-        Whether the frames follow their guides. Held ones keep the directions and lengths of the start: for motions that
-        turn the sheet little, and energy is kept whatever the cloth does; then ``convective`` is off.
-
     Raises
     ------
     InputError
@@ -43,10 +28,17 @@ class MassBlocks:
         not symmetric or give energy back.
     """
 
+    #: Nodes of each group (a section of the sheet), no node twice; shape (g, k).
     nodes: IntArray
+    #: Neighbours of each node along the cable, before and behind; shape (g, k, 2).
     guides: IntArray
+    #: Symmetric, not negative [kg]; shape (g, 2 k, 2 k).
     added_mass: Array
+    #: Whether the forces that follow from turning and stretching frames are kept, so that the energy of the water is
+    #: conserved; without them only added mass times acceleration acts, as the papers have it.
     convective: bool = True
+    #: Whether the frames follow their guides. Held ones keep the directions and lengths of the start: for motions that
+    #: turn the sheet little, and energy is kept whatever the cloth does; then ``convective`` is off.
     turning: bool = True
 
     def __post_init__(self) -> None:
@@ -93,30 +85,23 @@ class MassBlocks:
 
 @dataclass(frozen=True, eq=False)
 class PackedBlocks:
-    """Blocks ready for the kernels.
+    """Blocks ready for the kernels."""
 
-    Parameters
-    ----------
-    nodes, guides : ndarray of int
-        As in :class:`MassBlocks`.
-    frames : ndarray, shape (g, k, 6)
-        Directions, roots of the stretch and first lengths of the guides, shares of the own mass in the inverse; the
-        kernels turn them.
-    added, inverse : ndarray, shape (g, 2 k, 2 k)
-        Added mass and inverse of the whole mass [kg], [1/kg]; zero rows where held.
-    along : ndarray, shape (g, k)
-        One over the own mass of each node, for motion along the cable [1/kg]; zero where held.
-    light : ndarray, shape (4, n)
-        One over the own mass of every node of the network, and over its mass along the normal of its section [1/kg];
-        that normal in plan, which the kernels turn.
-    """
-
+    #: As in :class:`MassBlocks`.
     nodes: IntArray
+    #: As in :class:`MassBlocks`.
     guides: IntArray
+    #: Directions, roots of the stretch and first lengths of the guides, shares of the own mass in the inverse; the
+    #: kernels turn them; shape (g, k, 6).
     frames: Array
+    #: Added mass and inverse of the whole mass [kg]; zero rows where held; shape (g, 2 k, 2 k).
     added: Array
+    #: Added mass and inverse of the whole mass [1/kg]; zero rows where held; shape (g, 2 k, 2 k).
     inverse: Array
+    #: One over the own mass of each node, for motion along the cable [1/kg]; zero where held; shape (g, k).
     along: Array
+    #: One over the own mass of every node of the network, and over its mass along the normal of its section [1/kg];
+    #: that normal in plan, which the kernels turn; shape (4, n).
     light: Array
 
 

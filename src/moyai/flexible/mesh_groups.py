@@ -12,24 +12,17 @@ from moyai.flexible.network import BarType
 
 @dataclass(frozen=True, eq=False)
 class GroupedBars:
-    """Bars that stand for the twines of a net.
+    """Bars that stand for the twines of a net."""
 
-    Parameters
-    ----------
-    start, end : ndarray of int
-        Nodes.
-    length : ndarray
-        Unstretched [m].
-    twine_length : ndarray
-        Length of all twines that each bar stands for [m].
-    twines : ndarray
-        How many twines side by side carry its tension [-].
-    """
-
+    #: Nodes.
     start: IntArray
+    #: Nodes.
     end: IntArray
+    #: Unstretched [m].
     length: Array
+    #: Length of all twines that each bar stands for [m].
     twine_length: Array
+    #: How many twines side by side carry its tension [-].
     twines: Array
 
     def types(

@@ -24,17 +24,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Modes:
-    """Undamped modes about a state.
+    """Undamped modes about a state."""
 
-    Parameters
-    ----------
-    omega : ndarray, shape (k,)
-        Angular frequencies, rising [rad/s]; 0 where the network may move freely or the state is not stable.
-    shape : ndarray, shape (k, n, 3)
-        Modes, largest component 1.
-    """
-
+    #: Angular frequencies, rising [rad/s]; 0 where the network may move freely or the state is not stable; shape (k,).
     omega: Array
+    #: Modes, largest component 1; shape (k, n, 3).
     shape: Array
 
 

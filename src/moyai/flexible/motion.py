@@ -41,22 +41,19 @@ class Beginning:
 class Motion:
     """Displacement of a driven point over time: a cubic through displacement and velocity at each grid time.
 
-    Parameters
-    ----------
-    start, step : float
-        First time and spacing of the grid [s].
-    displacement, velocity : array_like, shape (k, 3)
-        Relative to the node's position in the network [m], and its rate [m/s].
-
     Raises
     ------
     InputError
         For less than two times, a step that is not positive, or values that are not finite.
     """
 
+    #: ``start``, ``step``: First time and spacing of the grid [s].
     start: float
+    #: ``start``, ``step``: First time and spacing of the grid [s].
     step: float
+    #: Relative to the node's position in the network [m]; shape (k, 3).
     displacement: Array
+    #: Its rate [m/s]; shape (k, 3).
     velocity: Array
 
     def __post_init__(self) -> None:

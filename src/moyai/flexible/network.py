@@ -56,20 +56,15 @@ def _require(ok: bool, message: str, path: str, allowed: str, remedy: str = "") 
 class RopeCurve:
     """Tension of a rope over its strain, joined linearly between the points and continued with the last slope.
 
-    Parameters
-    ----------
-    strain : array_like
-        Engineering strain L/L0 - 1 [-], rising, the first 0.
-    tension : array_like
-        Tension [N], rising, the first 0.
-
     Raises
     ------
     InputError
         When the points do not rise from (0, 0).
     """
 
+    #: Engineering strain L/L0 - 1 [-], rising, the first 0.
     strain: Array
+    #: Tension [N], rising, the first 0.
     tension: Array
 
     def __post_init__(self) -> None:
@@ -96,49 +91,37 @@ class RopeCurve:
 class BarType:
     """What a bar is made of.
 
-    Parameters
-    ----------
-    name : str
-        For messages and reports.
-    mass_per_length : float
-        In air, per unstretched metre [kg/m].
-    axial_stiffness : float
-        EA [N] (with ``curve`` its slope at zero strain is taken instead).
-    diameter : float
-        Diameter of the drag and of the contact with the bed [m].
-    volume_per_length : float, optional
-        Displaced volume [m2]; pi d^2 / 4 when left out.
-    viscosity : float
-        Internal damping BA [N s]: force per rate of strain. A property of the material, not of the mesh.
-    drag_normal, drag_tangential : float
-        Force per length rho/2 C d u|u| [-].
-    added_mass_normal, added_mass_tangential : float
-        On the displaced volume [-].
-    bending_stiffness : float
-        EI [N m2].
-    tension_only : bool
-        Whether the bar goes slack instead of bearing compression.
-    curve : RopeCurve, optional
-        Nonlinear tension over strain.
-
     Raises
     ------
     InputError
         For a value that is negative or, where a zero makes no sense, zero.
     """
 
+    #: For messages and reports.
     name: str
+    #: In air, per unstretched metre [kg/m].
     mass_per_length: float
+    #: EA [N] (with ``curve`` its slope at zero strain is taken instead).
     axial_stiffness: float
+    #: Diameter of the drag and of the contact with the bed [m].
     diameter: float
+    #: Displaced volume [m2]; pi d^2 / 4 when left out.
     volume_per_length: float = -1.0
+    #: Internal damping BA [N s]: force per rate of strain. A property of the material, not of the mesh.
     viscosity: float = 0.0
+    #: Force per length rho/2 C d u|u| [-].
     drag_normal: float = 0.0
+    #: Force per length rho/2 C d u|u| [-].
     drag_tangential: float = 0.0
+    #: On the displaced volume [-].
     added_mass_normal: float = 0.0
+    #: On the displaced volume [-].
     added_mass_tangential: float = 0.0
+    #: EI [N m2].
     bending_stiffness: float = 0.0
+    #: Whether the bar goes slack instead of bearing compression.
     tension_only: bool = True
+    #: Nonlinear tension over strain.
     curve: RopeCurve | None = None
 
     def __post_init__(self) -> None:
@@ -196,26 +179,19 @@ class Bed:
     The contact area of a node is half the unstretched length of its bars times their diameter; attached bodies add
     their own contact area. The bed pushes and never pulls [eq:flexible-bed].
 
-    Parameters
-    ----------
-    level : float
-        Height of the bed [m].
-    stiffness : float
-        Normal stiffness per contact area [Pa/m].
-    damping : float
-        Normal damping per contact area [Pa s/m].
-    friction : float
-        Coulomb coefficient [-].
-
     Raises
     ------
     InputError
         For a negative value or a stiffness of zero.
     """
 
+    #: Height of the bed [m].
     level: float
+    #: Normal stiffness per contact area [Pa/m].
     stiffness: float
+    #: Normal damping per contact area [Pa s/m].
     damping: float = 0.0
+    #: Coulomb coefficient [-].
     friction: float = 0.0
 
     def __post_init__(self) -> None:
@@ -231,37 +207,30 @@ class Bed:
 
 @dataclass(frozen=True, eq=False)
 class Nodes:
-    """The nodes and what is attached to them (floats, clump weights, sinkers, joints).
+    """The nodes and what is attached to them (floats, clump weights, sinkers, joints)."""
 
-    Parameters
-    ----------
-    position : array_like, shape (n, 3)
-        Start position; of driven nodes the place from which their motion counts [m].
-    kind : array_like of int, shape (n,)
-        ``FREE``, ``FIXED`` or ``DRIVEN``.
-    held : array_like of bool, shape (n, 3)
-        Components that do not move although the node is free (a float held at the surface, a planar problem).
-    motion : array_like of int, shape (n,)
-        Index into :attr:`Network.motion_names` of driven nodes, -1 of others.
-    mass, volume, drag_area, added_mass, contact_area : array_like, shape (n,)
-        Attached mass [kg], volume [m3], drag coefficient times area [m2], added mass [kg], contact area with the bed
-        [m2].
-    height : array_like, shape (n,)
-        Vertical extent of the attached body for its partial immersion [m]; 0 for one that is always wet.
-    form : array_like of int, shape (n,)
-        ``BOX`` or ``SPHERE``: how the immersed part of the height becomes a part of the volume.
-    """
-
+    #: Start position; of driven nodes the place from which their motion counts [m]; shape (n, 3).
     position: Array
+    #: ``FREE``, ``FIXED`` or ``DRIVEN``; shape (n,).
     kind: IntArray
+    #: Components that do not move although the node is free (a float held at the surface, a planar problem); shape (n,
+    #: 3).
     held: BoolArray = field(default_factory=lambda: np.zeros((), dtype=np.bool_))
+    #: Index into :attr:`Network.motion_names` of driven nodes, -1 of others; shape (n,).
     motion: IntArray = field(default_factory=lambda: np.full((), -1, dtype=np.int64))
+    #: Attached mass [kg]; shape (n,).
     mass: Array = field(default_factory=lambda: np.zeros(()))
+    #: Volume [m3]; shape (n,).
     volume: Array = field(default_factory=lambda: np.zeros(()))
+    #: Drag coefficient times area [m2]; shape (n,).
     drag_area: Array = field(default_factory=lambda: np.zeros(()))
+    #: Added mass [kg]; shape (n,).
     added_mass: Array = field(default_factory=lambda: np.zeros(()))
+    #: Contact area with the bed [m2]; shape (n,).
     contact_area: Array = field(default_factory=lambda: np.zeros(()))
+    #: Vertical extent of the attached body for its partial immersion [m]; 0 for one that is always wet; shape (n,).
     height: Array = field(default_factory=lambda: np.zeros(()))
+    #: ``BOX`` or ``SPHERE``: how the immersed part of the height becomes a part of the volume; shape (n,).
     form: IntArray = field(default_factory=lambda: np.zeros((), dtype=np.int64))
 
     def __post_init__(self) -> None:
@@ -294,27 +263,19 @@ class Nodes:
 
 @dataclass(frozen=True, eq=False)
 class Bars:
-    """The bars: straight, elastic, each of one type.
+    """The bars: straight, elastic, each of one type."""
 
-    Parameters
-    ----------
-    start, end : array_like of int, shape (m,)
-        Nodes.
-    length : array_like, shape (m,)
-        Unstretched lengths [m].
-    kind : array_like of int, shape (m,)
-        Index into ``types``.
-    types : tuple of BarType
-        The materials.
-    flow_factor : array_like, shape (m,)
-        Factor on the water velocity that meets the bar (1; less in the wake of others).
-    """
-
+    #: Nodes; shape (m,).
     start: IntArray
+    #: Nodes; shape (m,).
     end: IntArray
+    #: Unstretched lengths [m]; shape (m,).
     length: Array
+    #: Index into ``types``; shape (m,).
     kind: IntArray
+    #: The materials.
     types: tuple[BarType, ...]
+    #: Factor on the water velocity that meets the bar (1; less in the wake of others); shape (m,).
     flow_factor: Array = field(default_factory=lambda: np.ones(()))
 
     def __post_init__(self) -> None:
@@ -352,20 +313,13 @@ class Bars:
 
 @dataclass(frozen=True, eq=False)
 class Strand:
-    """A named string of bars, from its first node to its last (a mooring line, a twine, a row of a net).
+    """A named string of bars, from its first node to its last (a mooring line, a twine, a row of a net)."""
 
-    Parameters
-    ----------
-    name : str
-        For results and messages.
-    nodes : array_like of int
-        Nodes in order.
-    bars : array_like of int
-        Bars in order, one less than nodes.
-    """
-
+    #: For results and messages.
     name: str
+    #: Nodes in order.
     nodes: IntArray
+    #: Bars in order, one less than nodes.
     bars: IntArray
 
     def __post_init__(self) -> None:
@@ -379,29 +333,6 @@ class Strand:
 class Network:
     """A network ready for statics and dynamics.
 
-    Parameters
-    ----------
-    nodes, bars : Nodes, Bars
-        The parts.
-    water : Water
-        Depth, density, gravity.
-    bed : Bed, optional
-        Contact with the bed; none when left out.
-    strands : tuple of Strand
-        Named lines.
-    points : mapping of str to int
-        Named nodes.
-    motion_names : tuple of str
-        Names of the prescribed motions that driven nodes follow.
-    sheets : Sheets, optional
-        Triangles between nodes.
-    blocks : MassBlocks, optional
-        Dense added mass of groups of nodes.
-    panels : NetPanels, optional
-        Pieces of net that the water loads by a law.
-    rings : tuple of Ring
-        Elastic rings that are curved at rest.
-
     Raises
     ------
     InputError
@@ -409,16 +340,27 @@ class Network:
         the bed, driven nodes without motion.
     """
 
+    #: The parts.
     nodes: Nodes
+    #: The parts.
     bars: Bars
+    #: Depth, density, gravity.
     water: Water
+    #: Contact with the bed; none when left out.
     bed: Bed | None = None
+    #: Named lines.
     strands: tuple[Strand, ...] = ()
+    #: Named nodes.
     points: Mapping[str, int] = field(default_factory=dict)
+    #: Names of the prescribed motions that driven nodes follow.
     motion_names: tuple[str, ...] = ()
+    #: Triangles between nodes.
     sheets: Sheets | None = None
+    #: Dense added mass of groups of nodes.
     blocks: MassBlocks | None = None
+    #: Pieces of net that the water loads by a law.
     panels: NetPanels | None = None
+    #: Elastic rings that are curved at rest.
     rings: tuple[Ring, ...] = ()
 
     def __post_init__(self) -> None:

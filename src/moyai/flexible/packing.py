@@ -18,26 +18,17 @@ _LANES = 8
 
 @dataclass(frozen=True, eq=False)
 class Packed:
-    """A network in the array of the kernels.
+    """A network in the array of the kernels."""
 
-    Parameters
-    ----------
-    memory : ndarray
-        The array; its rows are named in :mod:`moyai.flexible.explicit_rows`.
-    sizes : ndarray of int
-        Nodes and spine bars that the loops run over (filled up to whole vectors).
-    runs : ndarray of int, shape (r, 5)
-        Runs of ribs.
-    place : ndarray of int, shape (m,)
-        Where each bar of the network lies, relative to a row of bars.
-    nodes : int
-        Number of nodes of the network.
-    """
-
+    #: The array; its rows are named in :mod:`moyai.flexible.explicit_rows`.
     memory: Array
+    #: Nodes and spine bars that the loops run over (filled up to whole vectors).
     sizes: IntArray
+    #: Runs of ribs; shape (r, 5).
     runs: IntArray
+    #: Where each bar of the network lies, relative to a row of bars; shape (m,).
     place: IntArray
+    #: Number of nodes of the network.
     nodes: int
 
     def node_rows(self, first: int, rows: int) -> Array:

@@ -30,28 +30,23 @@ class Coefficients(Protocol):
 class PanelLaw:
     """A law of net forces as a table.
 
-    Parameters
-    ----------
-    name : str
-        For results.
-    along, normal : ndarray, shape (speeds, cosines)
-        Coefficients a (along the flow) and b (along the normal) of ``F = (a w + b n (n.w)) |w| rho A / 2``
-        [eq:cage-panel-force]; one row when the law knows no Reynolds number.
-    first_decade : float
-        log10 of the first speed.
-    per_decade : float
-        Speeds per decade.
-
     Raises
     ------
     InputError
         For tables that are not finite or of unequal shapes.
     """
 
+    #: For results.
     name: str
+    #: ``along``, ``normal``: Coefficients a (along the flow) and b (along the normal) of ``F = (a w + b n (n.w)) |w|
+    #: rho A / 2`` [eq:cage-panel-force]; one row when the law knows no Reynolds number; shape (speeds, cosines).
     along: Array
+    #: ``along``, ``normal``: Coefficients a (along the flow) and b (along the normal) of ``F = (a w + b n (n.w)) |w|
+    #: rho A / 2`` [eq:cage-panel-force]; one row when the law knows no Reynolds number; shape (speeds, cosines).
     normal: Array
+    #: log10 of the first speed.
     first_decade: float = -3.0
+    #: Speeds per decade.
     per_decade: float = 10.0
 
     def __post_init__(self) -> None:
@@ -123,39 +118,28 @@ class PanelLaw:
 class NetPanels:
     """Net panels of a network.
 
-    Parameters
-    ----------
-    corners : array_like of int, shape (p, 4)
-        Nodes around each panel; the fourth is -1 for triangles.
-    laws : tuple of PanelLaw
-        The laws in use.
-    law : array_like of int, shape (p,)
-        Which one each panel follows.
-    area : array_like, shape (p,)
-        Outline area that the coefficients refer to [m2]: that of the net at rest, since a net that shears keeps its
-        twines; 0 takes the present outline.
-    flow_factor : array_like, shape (p,)
-        Factor on the velocity of the water.
-    shadow : array_like, shape (p, 3)
-        Velocity taken from that of the water: what the current has lost upstream [m/s].
-    group : array_like of int, shape (p,)
-        Number of the group that results are reported for.
-    group_names : tuple of str
-        Their names.
-
     Raises
     ------
     InputError
         For negative areas, unknown laws or groups, corners that meet.
     """
 
+    #: Nodes around each panel; the fourth is -1 for triangles; shape (p, 4).
     corners: IntArray
+    #: The laws in use.
     laws: tuple[PanelLaw, ...]
+    #: Which one each panel follows; shape (p,).
     law: IntArray = field(default_factory=lambda: np.zeros((), dtype=np.int64))
+    #: Outline area that the coefficients refer to [m2]: that of the net at rest, since a net that shears keeps its
+    #: twines; 0 takes the present outline; shape (p,).
     area: Array = field(default_factory=lambda: np.zeros(()))
+    #: Factor on the velocity of the water; shape (p,).
     flow_factor: Array = field(default_factory=lambda: np.ones(()))
+    #: Velocity taken from that of the water: what the current has lost upstream [m/s]; shape (p, 3).
     shadow: Array = field(default_factory=lambda: np.zeros(()))
+    #: Number of the group that results are reported for; shape (p,).
     group: IntArray = field(default_factory=lambda: np.zeros((), dtype=np.int64))
+    #: Their names.
     group_names: tuple[str, ...] = ("net",)
 
     def __post_init__(self) -> None:
@@ -200,23 +184,15 @@ class NetPanels:
 
 @dataclass(frozen=True, eq=False)
 class PanelArrays:
-    """Panels for the kernels.
+    """Panels for the kernels."""
 
-    Parameters
-    ----------
-    corners : ndarray of int, shape (p, 4)
-        Nodes.
-    rows : ndarray, shape (p, 6)
-        Area (0: the present one) [m2], flow factor, shadow (3) [m/s], law.
-    table : ndarray, shape (laws, speeds, cosines, 2)
-        Coefficients a and b.
-    grid : ndarray, shape (laws, 2)
-        log10 of the first speed, speeds per decade.
-    """
-
+    #: Nodes; shape (p, 4).
     corners: IntArray
+    #: Area (0: the present one) [m2], flow factor, shadow (3) [m/s], law; shape (p, 6).
     rows: Array
+    #: Coefficients a and b; shape (laws, speeds, cosines, 2).
     table: Array
+    #: log10 of the first speed, speeds per decade; shape (laws, 2).
     grid: Array
 
     @property

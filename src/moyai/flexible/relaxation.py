@@ -63,26 +63,17 @@ def kernel_plan(plan: SparsePlan) -> tuple[object, ...]:
 
 @dataclass(frozen=True)
 class Attempt:
-    """How far one call went.
+    """How far one call went."""
 
-    Parameters
-    ----------
-    place : ndarray, shape (n, 3)
-        Where it ended [m].
-    residual : float
-        Largest force left over the largest force at work.
-    worst : int
-        Node of the force left.
-    steps : int
-        Solves.
-    converged : bool
-        Whether the tolerance was reached.
-    """
-
+    #: Where it ended [m]; shape (n, 3).
     place: Array
+    #: Largest force left over the largest force at work.
     residual: float
+    #: Node of the force left.
     worst: int
+    #: Solves.
     steps: int
+    #: Whether the tolerance was reached.
     converged: bool
 
 

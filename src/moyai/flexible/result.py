@@ -16,18 +16,13 @@ RunStatus = Literal["converged", "not_converged", "interrupted"]
 
 @dataclass(frozen=True, eq=False)
 class State:
-    """Position and velocity of all nodes at one time.
+    """Position and velocity of all nodes at one time."""
 
-    Parameters
-    ----------
-    time : float
-        [s].
-    position, velocity : ndarray, shape (n, 3)
-        [m], [m/s].
-    """
-
+    #: [s].
     time: float
+    #: [m]; shape (n, 3).
     position: Array
+    #: [m/s]; shape (n, 3).
     velocity: Array
 
     @classmethod
@@ -38,64 +33,54 @@ class State:
 
 @dataclass(frozen=True, eq=False)
 class History:
-    """The run of a network through time.
+    """The run of a network through time."""
 
-    Parameters
-    ----------
-    network : Network
-        What was run.
-    time : ndarray, shape (k,)
-        Times of the rows [s].
-    nodes, bars : ndarray of int
-        Which nodes and bars the arrays hold.
-    position : ndarray, shape (k, nodes, 3)
-        [m].
-    tension : ndarray, shape (k, bars)
-        At the times of the rows [N].
-    tension_peak : ndarray, shape (k, bars)
-        Highest since the row before, taken at every step [N].
-    kinetic_energy, elastic_energy, work : ndarray, shape (k,)
-        Energy of what is free, energy of bars, hinges and bed, and the work done on them since the start by weight,
-        water and
-        driven points [J].
-    final : State
-        State at the end, from which a run can go on.
-    method : str
-        Name of the scheme.
-    step : float
-        Time step (the smallest used) [s].
-    steps : int
-        Number of steps.
-    status, message : str
-        ``converged``, ``not_converged`` or ``interrupted``, and why.
-    checks, notices : tuple
-        Identities of the run; where it leaves its range.
-    """
-
+    #: What was run.
     network: Network
+    #: Times of the rows [s]; shape (k,).
     time: Array
+    #: ``nodes``, ``bars``: Which nodes and bars the arrays hold.
     nodes: IntArray
+    #: ``nodes``, ``bars``: Which nodes and bars the arrays hold.
     bars: IntArray
+    #: [m]; shape (k, nodes, 3).
     position: Array
+    #: At the times of the rows [N]; shape (k, bars).
     tension: Array
+    #: Highest since the row before, taken at every step [N]; shape (k, bars).
     tension_peak: Array
+    #: ``kinetic_energy``, ``elastic_energy``, ``work``: Energy of what is free, energy of bars, hinges and bed, and the
+    #: work done on them since the start by weight, water and driven points [J]; shape (k,).
     kinetic_energy: Array
+    #: ``kinetic_energy``, ``elastic_energy``, ``work``: Energy of what is free, energy of bars, hinges and bed, and the
+    #: work done on them since the start by weight, water and driven points [J]; shape (k,).
     elastic_energy: Array
+    #: ``kinetic_energy``, ``elastic_energy``, ``work``: Energy of what is free, energy of bars, hinges and bed, and the
+    #: work done on them since the start by weight, water and driven points [J]; shape (k,).
     work: Array
+    #: State at the end, from which a run can go on.
     final: State
+    #: Name of the scheme.
     method: str
+    #: Time step (the smallest used) [s].
     step: float
+    #: Number of steps.
     steps: int
+    #: ``status``, ``message``: ``converged``, ``not_converged`` or ``interrupted``, and why.
     status: RunStatus = "converged"
+    #: ``status``, ``message``: ``converged``, ``not_converged`` or ``interrupted``, and why.
     message: str = ""
+    #: ``checks``, ``notices``: Identities of the run; where it leaves its range.
     checks: tuple[IdentityCheck, ...] = ()
+    #: ``checks``, ``notices``: Identities of the run; where it leaves its range.
     notices: tuple[Notice, ...] = field(default=())
 
     @property
     def energy_balance(self) -> Array:
         """Energy now minus energy at the first row minus work: minus what viscosity, bed and scheme have taken [J]."""
         energy = self.kinetic_energy + self.elastic_energy
-        return energy - energy[0] - (self.work - self.work[0])
+        values: Array = energy - energy[0] - (self.work - self.work[0])
+        return values
 
     def peak_at(self, bar: int) -> Array:
         """Return the highest tension of one bar in every row [N]."""

@@ -17,19 +17,6 @@ from moyai.flexible.checks import numbers_of, whole_numbers
 class Ring:
     """A closed pipe through nodes of a network; its axial stiffness, mass and loads belong to the bars between them.
 
-    Parameters
-    ----------
-    name : str
-        For results.
-    nodes : array_like of int, shape (k,)
-        Around the ring.
-    rest : array_like, shape (k, 3)
-        Places of the nodes in the stress-free shape, anywhere in space; that shape has to be plane [m].
-    bending_stiffness : float
-        EI, the same in all directions [N m2].
-    torsional_stiffness : float
-        GJ [N m2].
-
     Raises
     ------
     InputError
@@ -37,10 +24,15 @@ class Ring:
         stiffness that is not positive.
     """
 
+    #: For results.
     name: str
+    #: Around the ring; shape (k,).
     nodes: IntArray
+    #: Places of the nodes in the stress-free shape, anywhere in space; that shape has to be plane [m]; shape (k, 3).
     rest: Array
+    #: EI, the same in all directions [N m2].
     bending_stiffness: float
+    #: GJ [N m2].
     torsional_stiffness: float
 
     def __post_init__(self) -> None:
@@ -87,24 +79,17 @@ class Ring:
 
 @dataclass(frozen=True, eq=False)
 class RingArrays:
-    """Rings for the kernels.
+    """Rings for the kernels."""
 
-    Parameters
-    ----------
-    nodes : ndarray of int
-        Nodes of all rings, one after the other.
-    first : ndarray of int, shape (rings + 1,)
-        Where each begins.
-    rows : ndarray, shape (nodes, 6)
-        EI over the mean length at the node [N m], one over the bar before and behind [1/m], rest curvature times that
-        length (chord of the unit vectors) [-], GJ over the bar behind [N m], rest angle of the bar behind [rad].
-    rest : ndarray, shape (nodes, 3)
-        Stress-free places [m].
-    """
-
+    #: Nodes of all rings, one after the other.
     nodes: IntArray
+    #: Where each begins; shape (rings + 1,).
     first: IntArray
+    #: EI over the mean length at the node [N m], one over the bar before and behind [1/m], rest curvature times that
+    #: length (chord of the unit vectors) [-], GJ over the bar behind [N m], rest angle of the bar behind [rad]; shape
+    #: (nodes, 6).
     rows: Array
+    #: Stress-free places [m]; shape (nodes, 3).
     rest: Array
 
     @property

@@ -23,28 +23,30 @@ from moyai.flexible.simulation import simulate
 
 @dataclass(frozen=True)
 class PeakSensitivity:
-    """The highest tension of a bar and what it becomes when the discretisation or the viscosity changes.
+    """The highest tension of a bar and what it becomes when the discretisation or the viscosity changes."""
 
-    Parameters
-    ----------
-    peak : float
-        Of the run itself [N].
-    half_step, double_mesh, half_viscosity, double_viscosity : float
-        Highest tension at the same place with half the step, with every bar cut in two, and with half and twice the
-        viscosity [N]; of a network without any viscosity, twice stands for a twentieth of critical damping on the mesh.
-    step : float
-        Time step of the run itself [s].
-    damped : float
-        On a finer mesh whose bars are damped by a part of critical [N]; NaN where it was not run. Fronts on undamped
-        bars overshoot by a part that no finer mesh takes away.
-    """
-
+    #: Of the run itself [N].
     peak: float
+    #: ``half_step``, ``double_mesh``, ``half_viscosity``, ``double_viscosity``: Highest tension at the same place with
+    #: half the step, with every bar cut in two, and with half and twice the viscosity [N]; of a network without any
+    #: viscosity, twice stands for a twentieth of critical damping on the mesh.
     half_step: float
+    #: ``half_step``, ``double_mesh``, ``half_viscosity``, ``double_viscosity``: Highest tension at the same place with
+    #: half the step, with every bar cut in two, and with half and twice the viscosity [N]; of a network without any
+    #: viscosity, twice stands for a twentieth of critical damping on the mesh.
     double_mesh: float
+    #: ``half_step``, ``double_mesh``, ``half_viscosity``, ``double_viscosity``: Highest tension at the same place with
+    #: half the step, with every bar cut in two, and with half and twice the viscosity [N]; of a network without any
+    #: viscosity, twice stands for a twentieth of critical damping on the mesh.
     half_viscosity: float
+    #: ``half_step``, ``double_mesh``, ``half_viscosity``, ``double_viscosity``: Highest tension at the same place with
+    #: half the step, with every bar cut in two, and with half and twice the viscosity [N]; of a network without any
+    #: viscosity, twice stands for a twentieth of critical damping on the mesh.
     double_viscosity: float
+    #: Time step of the run itself [s].
     step: float
+    #: On a finer mesh whose bars are damped by a part of critical [N]; NaN where it was not run. Fronts on undamped
+    #: bars overshoot by a part that no finer mesh takes away.
     damped: float = math.nan
 
     @property

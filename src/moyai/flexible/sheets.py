@@ -28,57 +28,46 @@ class Sheets:
     All values but the first two are given once or for every triangle. The strain is Green's, so that a strip
     of stiffness K pulls with K (e + 3 e^2 / 2 + ...) at the strain e [eq:flexible-sheet].
 
-    Parameters
-    ----------
-    triangles : array_like of int, shape (t, 3)
-        Nodes; the normal follows the right hand around them.
-    rest : array_like, shape (t, 3, 2)
-        Unstretched places of the corners along warp and weft [m]; each triangle may count from its own origin.
-    warp_stiffness, weft_stiffness : array_like
-        Young's modulus times thickness [N/m]; 0 for a sheet without threads that way.
-    shear_stiffness : array_like
-        Shear modulus times thickness [N/m]; 0 lets the two families of threads work apart.
-    contraction : array_like
-        Contraction of the weft by a pull along the warp (Poisson's ratio) [-].
-    mass_per_area : array_like
-        [kg/m2].
-    volume_per_area : array_like
-        Displaced volume per area, the thickness [m].
-    drag_normal, drag_tangential : array_like
-        Force per area rho/2 C u|u| of the relative velocity across and along [-].
-    damping_time : array_like
-        Time by which the rate of strain is multiplied and added to the strain (internal damping) [s].
-    pressure : array_like
-        Pressure difference that pushes along the normal, whatever the shape [Pa].
-    flow_factor : array_like
-        Factor on the water's velocity.
-    tension_field : bool
-        Whether the sheet wrinkles instead of bearing compression.
-    added_mass_per_area : array_like
-        Water that the sheet takes along across its directions as built, where it is wet [kg/m2]: for a strip of depth d
-        that swings as a whole, both sides wet, pi/4 rho d on average. For sections that turn, and whose nodes feel each
-        other, see :class:`moyai.flexible.mass_blocks.MassBlocks`.
-
     Raises
     ------
     InputError
         For numbers out of range, corners in one line, and stiffnesses that give energy back.
     """
 
+    #: Nodes; the normal follows the right hand around them; shape (t, 3).
     triangles: IntArray
+    #: Unstretched places of the corners along warp and weft [m]; each triangle may count from its own origin; shape (t,
+    #: 3, 2).
     rest: Array
+    #: ``warp_stiffness``, ``weft_stiffness``: Young's modulus times thickness [N/m]; 0 for a sheet without threads that
+    #: way.
     warp_stiffness: Array | float
+    #: ``warp_stiffness``, ``weft_stiffness``: Young's modulus times thickness [N/m]; 0 for a sheet without threads that
+    #: way.
     weft_stiffness: Array | float
+    #: Shear modulus times thickness [N/m]; 0 lets the two families of threads work apart.
     shear_stiffness: Array | float = 0.0
+    #: Contraction of the weft by a pull along the warp (Poisson's ratio) [-].
     contraction: Array | float = 0.0
+    #: [kg/m2].
     mass_per_area: Array | float = 0.0
+    #: Displaced volume per area, the thickness [m].
     volume_per_area: Array | float = 0.0
+    #: ``drag_normal``, ``drag_tangential``: Force per area rho/2 C u|u| of the relative velocity across and along [-].
     drag_normal: Array | float = 0.0
+    #: ``drag_normal``, ``drag_tangential``: Force per area rho/2 C u|u| of the relative velocity across and along [-].
     drag_tangential: Array | float = 0.0
+    #: Time by which the rate of strain is multiplied and added to the strain (internal damping) [s].
     damping_time: Array | float = 0.0
+    #: Pressure difference that pushes along the normal, whatever the shape [Pa].
     pressure: Array | float = 0.0
+    #: Factor on the water's velocity.
     flow_factor: Array | float = 1.0
+    #: Whether the sheet wrinkles instead of bearing compression.
     tension_field: bool = True
+    #: Water that the sheet takes along across its directions as built, where it is wet [kg/m2]: for a strip of depth d
+    #: that swings as a whole, both sides wet, pi/4 rho d on average. For sections that turn, and whose nodes feel each
+    #: other, see :class:`moyai.flexible.mass_blocks.MassBlocks`.
     added_mass_per_area: Array | float = 0.0
 
     def __post_init__(self) -> None:
@@ -249,23 +238,19 @@ class Sheets:
 
 @dataclass(frozen=True, eq=False)
 class SheetStress:
-    """Stresses of the triangles at one shape [N/m].
+    """Stresses of the triangles at one shape [N/m]."""
 
-    Parameters
-    ----------
-    warp, weft, shear : ndarray, shape (t,)
-        Components along the threads.
-    first, second : ndarray, shape (t,)
-        Principal stresses, the higher one first.
-    state : ndarray of int, shape (t,)
-        0 slack, 1 wrinkled, 2 taut.
-    """
-
+    #: Components along the threads; shape (t,).
     warp: Array
+    #: Components along the threads; shape (t,).
     weft: Array
+    #: Components along the threads; shape (t,).
     shear: Array
+    #: ``first``, ``second``: Principal stresses, the higher one first; shape (t,).
     first: Array
+    #: ``first``, ``second``: Principal stresses, the higher one first; shape (t,).
     second: Array
+    #: 0 slack, 1 wrinkled, 2 taut; shape (t,).
     state: IntArray
 
 

@@ -261,7 +261,7 @@ def simulate(
         status,
         message,
         throughput,
-    )  # type: ignore[arg-type]
+    )
 
 
 def _advance(

@@ -24,33 +24,22 @@ _LEAF = 4
 
 @dataclass(frozen=True, eq=False)
 class SparsePlan:
-    """How the matrix of a network is stored, filled and eliminated.
+    """How the matrix of a network is stored, filled and eliminated."""
 
-    Parameters
-    ----------
-    order : ndarray of int, shape (n,)
-        Nodes in the order of their elimination.
-    fronts : ndarray of int, shape (f, 6)
-        First pivot node (place in ``order``), pivot nodes, later nodes touched, where its list of later nodes begins,
-        where its numbers begin, front that takes its rest (-1: none).
-    later : ndarray of int
-        Places (in ``order``) of the later nodes of every front, rising.
-    target : ndarray of int
-        For each entry of ``later``: its local place in the front that takes the rest.
-    size : int
-        Numbers in all fronts.
-    own : ndarray of int, shape (n, 2)
-        Where the diagonal block of a node begins, and the length of a row there.
-    pairs : tuple of ndarray of int, shape (e, k, k, 2)
-        The same for every pair of nodes of every element, one array per family of elements.
-    """
-
+    #: Nodes in the order of their elimination; shape (n,).
     order: IntArray
+    #: First pivot node (place in ``order``), pivot nodes, later nodes touched, where its list of later nodes begins,
+    #: where its numbers begin, front that takes its rest (-1: none); shape (f, 6).
     fronts: IntArray
+    #: Places (in ``order``) of the later nodes of every front, rising.
     later: IntArray
+    #: For each entry of ``later``: its local place in the front that takes the rest.
     target: IntArray
+    #: Numbers in all fronts.
     size: int
+    #: Where the diagonal block of a node begins, and the length of a row there; shape (n, 2).
     own: IntArray
+    #: The same for every pair of nodes of every element, one array per family of elements; shape (e, k, k, 2).
     pairs: tuple[IntArray, ...]
 
 
@@ -76,13 +65,38 @@ def _breadth_first(first: int, nodes: Any, low: int, high: int, part: Any, begin
 
 
 @njit(cache=True, error_model="numpy")
+def _sort(values: Any, start: int, end: int) -> None:
+    """Sort a stretch of numbers in place, by a heap: compiled in a fraction of the time of numpy's sort."""
+    size = end - start
+    root, last = size // 2, size
+    while last > 1:
+        if root > 0:
+            root -= 1
+            moved = values[start + root]
+        else:
+            last -= 1
+            moved = values[start + last]
+            values[start + last] = values[start]
+        place, child = root, 2 * root + 1
+        while child < last:
+            if child + 1 < last and values[start + child + 1] > values[start + child]:
+                child += 1
+            if not values[start + child] > moved:
+                break
+            values[start + place] = values[start + child]
+            place, child = child, 2 * child + 1
+        values[start + place] = moved
+
+
+@njit(cache=True, error_model="numpy")
 def _cut(key: Any, nodes: Any, low: int, high: int, side: Any, begin: Any, other: Any) -> int:
     """Set ``side`` to 0, 1 or 2 (the cut) by a key; return the size of the cut, or all when a half came out small."""
     size = high - low
     values = np.empty(size)
     for place in range(size):
         values[place] = key[nodes[low + place]]
-    ranked = np.sort(values)
+    ranked = values
+    _sort(ranked, 0, size)
     # where the key jumps most between 0.4 and 0.6, so that a row of a net is not cut in two
     half, best = size // 2, -1.0
     for place in range(max(1, int(0.4 * size)), min(size - 1, int(0.6 * size) + 1)):
@@ -178,8 +192,8 @@ def _dissect(begin: Any, other: Any, place: Any, leaf: int) -> tuple[Any, Any]:
         stack[depth, 0], stack[depth, 1] = low, low + bounds[1]
         stack[depth + 1, 0], stack[depth + 1, 1] = low + bounds[1], low + bounds[2]
         depth += 2
-    begins = np.sort(starts[:sets])
-    return nodes, begins
+    _sort(starts, 0, sets)
+    return nodes, starts[:sets].copy()
 
 
 @njit(cache=True, error_model="numpy")
@@ -201,7 +215,8 @@ def _fronts(order: Any, begins: Any, begin: Any, other: Any) -> tuple[Any, Any, 
         first, own = fronts[s, 0], fronts[s, 1]
         if used + count > later.size:
             more = np.empty(2 * later.size + count, dtype=np.int64)
-            more[:used] = later[:used]
+            for j in range(used):
+                more[j] = later[j]
             later = more
         start = used
         for p in range(first, first + own):
@@ -221,7 +236,7 @@ def _fronts(order: Any, begins: Any, begin: Any, other: Any) -> tuple[Any, Any, 
                     later[used] = q
                     used += 1
             c = sibling[c]
-        later[start:used] = np.sort(later[start:used])
+        _sort(later, start, used)
         fronts[s, 2], fronts[s, 3], fronts[s, 4] = used - start, start, size
         size += (3 * (own + used - start)) ** 2
         if used > start:

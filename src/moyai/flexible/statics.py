@@ -44,27 +44,18 @@ _SHAKES, _SHAKE_INTERVALS = 6, 40
 
 @dataclass(frozen=True, eq=False)
 class Equilibrium:
-    """A network at rest under weight, buoyancy, bed and steady current.
+    """A network at rest under weight, buoyancy, bed and steady current."""
 
-    Parameters
-    ----------
-    state : State
-        Positions (velocities are zero); a run starts from it.
-    tension : ndarray, shape (m,)
-        Tension of every bar [N].
-    residual : float
-        Largest force left on a free node over the largest force at work.
-    steps : int
-        Solves that it took.
-    found : str
-        How: ``direct``, ``small steps``, ``rising current``, ``rising stiffness``, ``dynamic relaxation``, ``true
-        motion``.
-    """
-
+    #: Positions (velocities are zero); a run starts from it.
     state: State
+    #: Tension of every bar [N]; shape (m,).
     tension: Array
+    #: Largest force left on a free node over the largest force at work.
     residual: float
+    #: Solves that it took.
     steps: int
+    #: How: ``direct``, ``small steps``, ``rising current``, ``rising stiffness``, ``dynamic relaxation``, ``true
+    #: motion``.
     found: str = "direct"
 
 

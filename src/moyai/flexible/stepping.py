@@ -57,32 +57,30 @@ class _SteppedRun(ExplicitRun):
 
 @dataclass(frozen=True, eq=False)
 class StepRecord:
-    """What a network did in its accepted steps; rows are the ends of kept steps, the first is the start.
+    """What a network did in its accepted steps; rows are the ends of kept steps, the first is the start."""
 
-    Parameters
-    ----------
-    time : ndarray, shape (k,)
-        [s].
-    nodes, bars : ndarray of int
-        Which nodes and bars the arrays hold.
-    position : ndarray, shape (k, nodes, 3)
-        [m].
-    tension, tension_peak, tension_trough : ndarray, shape (k, bars)
-        At the row, and the highest and lowest since the row before [N]; the highest counts every small step, the
-        lowest the accepted ones.
-    kinetic_energy, elastic_energy, work : ndarray, shape (k,)
-        As in :class:`moyai.flexible.result.History` [J].
-    """
-
+    #: [s]; shape (k,).
     time: Array
+    #: ``nodes``, ``bars``: Which nodes and bars the arrays hold.
     nodes: IntArray
+    #: ``nodes``, ``bars``: Which nodes and bars the arrays hold.
     bars: IntArray
+    #: [m]; shape (k, nodes, 3).
     position: Array
+    #: ``tension``, ``tension_peak``, ``tension_trough``: At the row, and the highest and lowest since the row before
+    #: [N]; the highest counts every small step, the lowest the accepted ones; shape (k, bars).
     tension: Array
+    #: ``tension``, ``tension_peak``, ``tension_trough``: At the row, and the highest and lowest since the row before
+    #: [N]; the highest counts every small step, the lowest the accepted ones; shape (k, bars).
     tension_peak: Array
+    #: ``tension``, ``tension_peak``, ``tension_trough``: At the row, and the highest and lowest since the row before
+    #: [N]; the highest counts every small step, the lowest the accepted ones; shape (k, bars).
     tension_trough: Array
+    #: As in :class:`moyai.flexible.result.History` [J]; shape (k,).
     kinetic_energy: Array
+    #: As in :class:`moyai.flexible.result.History` [J]; shape (k,).
     elastic_energy: Array
+    #: As in :class:`moyai.flexible.result.History` [J]; shape (k,).
     work: Array
 
 
@@ -198,7 +196,7 @@ class SteppedNetwork:
     @property
     def time(self) -> float:
         """Time of the accepted state [s]."""
-        return self._kept[1]
+        return float(self._kept[1])
 
     @property
     def energy(self) -> tuple[float, float, float]:

@@ -12,27 +12,19 @@ from moyai.core.arrays import Array
 
 @dataclass(frozen=True, eq=False)
 class Tableau:
-    """An implicit method whose first stage is explicit and whose last stage is the step, with one diagonal value.
+    """An implicit method whose first stage is explicit and whose last stage is the step, with one diagonal value."""
 
-    Parameters
-    ----------
-    name : str
-        As the user calls it.
-    order, embedded_order : int
-        Of the step and of the solution that estimates its error.
-    stages : ndarray, shape (s, s)
-        Lower triangular; the last row is the step.
-    embedded : ndarray, shape (s,)
-        Weights of the embedded solution.
-    source : str
-        Where the coefficients stand.
-    """
-
+    #: As the user calls it.
     name: str
+    #: ``order``, ``embedded_order``: Of the step and of the solution that estimates its error.
     order: int
+    #: ``order``, ``embedded_order``: Of the step and of the solution that estimates its error.
     embedded_order: int
+    #: Lower triangular; the last row is the step; shape (s, s).
     stages: Array
+    #: Weights of the embedded solution; shape (s,).
     embedded: Array
+    #: Where the coefficients stand.
     source: str
 
     def __post_init__(self) -> None:

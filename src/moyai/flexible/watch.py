@@ -17,33 +17,22 @@ LEAST_SHARE = 0.05
 
 @dataclass(frozen=True, eq=False)
 class Watch:
-    """Gauges on the first and last bar of every line, one on a line of one bar, and the fall of nodes on the bed.
+    """Gauges on the first and last bar of every line, one on a line of one bar, and the fall of nodes on the bed."""
 
-    Parameters
-    ----------
-    strands : ndarray of int, shape (g,)
-        Line of each gauge.
-    travel : ndarray, shape (g,)
-        Time of an elastic wave along it [s].
-    places : ndarray of int, shape (g,)
-        Its bar in the array of the kernels.
-    gauges : ndarray, shape (g, 6)
-        See :func:`moyai.flexible.explicit_kernel.read_gauges`; in the implicit schemes its blocks are counted in
-        seconds.
-    within : ndarray, shape (g,)
-        Longest time within which a rise was seen [s].
-    falls : ndarray, shape (2, n)
-        See :func:`moyai.flexible.explicit_kernel.note_landings`; of no nodes without a bed.
-    broken : ndarray of int, shape (1,)
-        Steps done of a row that was broken off, -1 when none was.
-    """
-
+    #: Line of each gauge; shape (g,).
     strands: IntArray
+    #: Time of an elastic wave along it [s]; shape (g,).
     travel: Array
+    #: Its bar in the array of the kernels; shape (g,).
     places: IntArray
+    #: See :func:`moyai.flexible.explicit_kernel.read_gauges`; in the implicit schemes its blocks are counted in
+    #: seconds; shape (g, 6).
     gauges: Array
+    #: Longest time within which a rise was seen [s]; shape (g,).
     within: Array
+    #: See :func:`moyai.flexible.explicit_kernel.note_landings`; of no nodes without a bed; shape (2, n).
     falls: Array
+    #: Steps done of a row that was broken off, -1 when none was; shape (1,).
     broken: IntArray
 
     @property

@@ -17,7 +17,8 @@ def square_matrix(value: ArrayLike, size: int, name: str) -> Array:
     matrix = np.asarray(value, dtype=float)
     if matrix.shape != (size, size):
         raise InputError(f"{name} has the shape {matrix.shape}", path=name, allowed=f"({size}, {size})")
-    return finite(matrix, name)
+    values: Array = finite(matrix, name)
+    return values
 
 
 def finite(value: Any, name: str) -> Any:
@@ -39,4 +40,5 @@ def increasing(value: ArrayLike, name: str) -> Array:
     array = np.atleast_1d(np.asarray(value, dtype=float))
     if array.ndim != 1 or array.size == 0 or np.any(np.diff(array) <= 0.0):
         raise InputError(f"{name} is not a strictly increasing list", path=name)
-    return finite(array, name)
+    values: Array = finite(array, name)
+    return values

@@ -25,42 +25,35 @@ if TYPE_CHECKING:
 class Hydrodynamics:
     """Radiation and excitation against frequency, convention ``exp(-i omega t)``, phases at x = 0.
 
-    Parameters
-    ----------
-    omega : ndarray (n,)
-        Angular frequencies, increasing [rad/s].
-    added_mass, radiation_damping : ndarray (n, m, m)
-        ``[frequency, influenced, radiating]`` [kg, kg m, kg m2 and per second].
-    excitation : ndarray (n, h, m)
-        Complex force per unit wave amplitude [N/m, N].
-    heading : ndarray (h,)
-        Directions of travel [rad].
-    modes : tuple of str
-        Names of the m modes.
-    infinite_frequency_added_mass : ndarray (m, m) or None
-    reflection, transmission : ndarray (n, h) or None
-        Complex coefficients of the body held fixed; ``None`` for a body of finite length.
-    radiated_wave : ndarray (n, m, 2) or None
-        Complex wave amplitude per unit velocity towards -x and +x [s].
-    length : float
-        Length of structure that forces and coefficients refer to [m]; 1 for coefficients per metre.
-
     Raises
     ------
     InputError
         When shapes disagree or a number is not finite.
     """
 
+    #: Angular frequencies, increasing [rad/s]; shape (n,).
     omega: Array
+    #: ``[frequency, influenced, radiating]`` [kg, kg m, kg m2 and per second]; shape (n, m, m).
     added_mass: Array
+    #: ``[frequency, influenced, radiating]`` [kg, kg m, kg m2 and per second]; shape (n, m, m).
     radiation_damping: Array
+    #: Complex force per unit wave amplitude [N/m, N]; shape (n, h, m).
     excitation: ComplexArray
+    #: Directions of travel [rad]; shape (h,).
     heading: Array
+    #: Names of the m modes.
     modes: tuple[str, ...]
+    #: Shape (m, m).
     infinite_frequency_added_mass: Array | None = None
+    #: ``reflection``, ``transmission``: Complex coefficients of the body held fixed; ``None`` for a body of finite
+    #: length; shape (n, h).
     reflection: ComplexArray | None = None
+    #: ``reflection``, ``transmission``: Complex coefficients of the body held fixed; ``None`` for a body of finite
+    #: length; shape (n, h).
     transmission: ComplexArray | None = None
+    #: Complex wave amplitude per unit velocity towards -x and +x [s]; shape (n, m, 2).
     radiated_wave: ComplexArray | None = None
+    #: Length of structure that forces and coefficients refer to [m]; 1 for coefficients per metre.
     length: float = 1.0
 
     def __post_init__(self) -> None:

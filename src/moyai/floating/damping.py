@@ -40,17 +40,11 @@ def critical_damping(inertia: Array, added_mass: Array, stiffness: Array) -> Arr
 
 @dataclass(frozen=True)
 class LinearDamping:
-    """Damping that the user adds to wave radiation.
+    """Damping that the user adds to wave radiation."""
 
-    Parameters
-    ----------
-    matrix : ndarray (m, m)
-        Constant part [N s/m, N s, N m s].
-    critical_fraction : ndarray (m,)
-        zeta of each mode, of the critical damping with added mass; zero for modes that are left alone.
-    """
-
+    #: Constant part [N s/m, N s, N m s]; shape (m, m).
     matrix: Array
+    #: zeta of each mode, of the critical damping with added mass; zero for modes that are left alone; shape (m,).
     critical_fraction: Array
 
     def __post_init__(self) -> None:
@@ -88,16 +82,11 @@ class QuadraticDamping:
 
     A row of the unit matrix is the quadratic damping of that mode (b2 of roll); a row that gives the velocity of a
     fairlead along some axis is the drag of a line there [eq:floating-quadratic-damping].
-
-    Parameters
-    ----------
-    directions : ndarray (k, m)
-        Rows J_k.
-    coefficients : ndarray (k,)
-        c_k, for roll b2 [N m s2].
     """
 
+    #: Rows J_k; shape (k, m).
     directions: Array
+    #: c_k, for roll b2 [N m s2]; shape (k,).
     coefficients: Array
     count: int = field(init=False)
 
@@ -128,7 +117,8 @@ class QuadraticDamping:
         return -self.directions.T @ (self.coefficients * np.abs(measure) * measure)
 
     def _assembled(self, equivalent: Array) -> Array:
-        return np.einsum("ki,...k,kj->...ij", self.directions, equivalent, self.directions)
+        values: Array = np.einsum("ki,...k,kj->...ij", self.directions, equivalent, self.directions)
+        return values
 
     def equivalent_regular(self, measure_amplitude: Array) -> Array:
         """Return the linear damping (..., m, m) of equal work at amplitudes (..., k) of J_k v.

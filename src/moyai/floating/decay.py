@@ -14,32 +14,21 @@ from moyai.core.errors import InputError
 
 @dataclass(frozen=True)
 class Decay:
-    """What a free decay tells about one mode.
+    """What a free decay tells about one mode."""
 
-    Parameters
-    ----------
-    period : float
-        Mean damped period [s].
-    damping_ratio : float
-        zeta of vanishing amplitude, linear part.
-    quadratic_over_inertia : float
-        b2 over inertia with added mass [1/m or 1/rad]: quadratic part.
-    extremes : ndarray (n,)
-        Absolute extremes about the mean, in the order of time.
-    extreme_times : ndarray (n,)
-        [s].
-    ratios : ndarray (n - 1,)
-        Damping ratio of every half cycle.
-    remainder : float
-        Root-mean-square misfit of ``ratios``.
-    """
-
+    #: Mean damped period [s].
     period: float
+    #: zeta of vanishing amplitude, linear part.
     damping_ratio: float
+    #: b2 over inertia with added mass [1/m or 1/rad]: quadratic part.
     quadratic_over_inertia: float
+    #: Absolute extremes about the mean, in the order of time; shape (n,).
     extremes: Array
+    #: [s]; shape (n,).
     extreme_times: Array
+    #: Damping ratio of every half cycle; shape (n - 1,).
     ratios: Array
+    #: Root-mean-square misfit of ``ratios``.
     remainder: float
 
 

@@ -14,74 +14,51 @@ from moyai.floating.coefficients import Hydrodynamics
 from moyai.floating.damping import EquivalentDamping, LinearDamping, QuadraticDamping
 from moyai.floating.far_field import FarField, drift_force_per_amplitude_squared, far_field
 from moyai.floating.frequency import Motions, solve_motions
-from moyai.floating.irregular import integration_weights, linearised_in_sea
+from moyai.floating.irregular import linearised_in_sea
 from moyai.floating.offset import MeanOffset, Mooring, Status, mean_offset
 from moyai.sea.water import Water
 
 
 @dataclass(frozen=True)
 class DriftedMotions:
-    """Motions about the mean offset that their own drift causes.
+    """Motions about the mean offset that their own drift causes."""
 
-    Parameters
-    ----------
-    motions : Motions
-        One heading.
-    far : FarField
-    drift_force : ndarray (n,)
-        Mean drift force along x [N]: of each regular wave, or n equal values in an irregular sea.
-    offset : ndarray (n, m)
-        Mean offset X0.
-    mooring_stiffness : ndarray (n, m, m)
-        K_M about the offset.
-    iterations : ndarray (n,) of int
-    status : tuple of str
-        One for each wave.
-    notices : tuple of Notice
-    """
-
+    #: One heading.
     motions: Motions
     far: FarField
+    #: Mean drift force along x [N]: of each regular wave, or n equal values in an irregular sea; shape (n,).
     drift_force: Array
+    #: Mean offset X0; shape (n, m).
     offset: Array
+    #: K_M about the offset; shape (n, m, m).
     mooring_stiffness: Array
+    #: Shape (n,).
     iterations: Array
+    #: One for each wave.
     status: tuple[Status, ...]
     notices: tuple[Notice, ...] = ()
 
 
 @dataclass(frozen=True)
 class DriftProblem:
-    """A moored section in one sea: everything that the loop holds fixed.
+    """A moored section in one sea: everything that the loop holds fixed."""
 
-    Parameters
-    ----------
-    hydrodynamics : Hydrodynamics
-        Coefficients of the whole unit with the far field; the loop uses heading number ``heading_index``.
-    inertia, hydrostatic_stiffness : ndarray (m, m)
-    mooring : Mooring
-    water : Water
-    damping : LinearDamping or None
-        The fraction of critical follows K_M of the offset position.
-    quadratic : QuadraticDamping or None
-    line_damping : callable or None
-    steady_force : ndarray (m,) or None
-        Wind and current [N, N, N m].
-    heading_index : int
-    water_motion : ndarray (n, 1, k) or None
-        What the water does in the measures of ``quadratic``, per unit wave amplitude.
-    """
-
+    #: Coefficients of the whole unit with the far field; the loop uses heading number ``heading_index``.
     hydrodynamics: Hydrodynamics
+    #: Shape (m, m).
     inertia: Array
+    #: Shape (m, m).
     hydrostatic_stiffness: Array
     mooring: Mooring
     water: Water
+    #: The fraction of critical follows K_M of the offset position.
     damping: LinearDamping | None = None
     quadratic: QuadraticDamping | None = None
     line_damping: EquivalentDamping | None = None
+    #: Wind and current [N, N, N m]; shape (m,).
     steady_force: Array | None = None
     heading_index: int = 0
+    #: What the water does in the measures of ``quadratic``, per unit wave amplitude; shape (n, 1, k).
     water_motion: ComplexArray | None = None
 
     def one_heading(self) -> Hydrodynamics:
@@ -225,49 +202,6 @@ def solve_with_drift(
         statuses.append(status)
     progress("drift loop", count, count)
     return _joined(hydro, states, amplitude, iterations, tuple(statuses), with_drift)
-
-
-def solve_irregular_with_drift(
-    problem: DriftProblem,
-    spectral_density: ArrayLike,
-    *,
-    with_drift: bool = True,
-    tolerance: float = 1e-8,
-    maximum_iterations: int = 60,
-) -> DriftedMotions:
-    """Run the drift/stiffness loop for an irregular sea: one offset from the drift of the whole spectrum.
-
-    Parameters
-    ----------
-    problem : DriftProblem
-        Quadratic terms are linearised for the sea inside the loop.
-    spectral_density : array_like (n,)
-        S at the frequencies of the coefficients [m2 s/rad].
-    with_drift, tolerance, maximum_iterations
-        As in :func:`solve_with_drift`.
-
-    Returns
-    -------
-    DriftedMotions
-        ``drift_force``, ``offset`` and ``mooring_stiffness`` repeat one value along n.
-    """
-    hydro = problem.one_heading()
-    # A component of amplitude a has a^2 = 2 S d omega
-    density = np.asarray(spectral_density, dtype=float)
-    weight = 2.0 * density * integration_weights(hydro.omega)
-    amplitude = np.sqrt(np.maximum(weight, 0.0))
-    state, used, status = _loop(problem, hydro, weight, amplitude, with_drift, tolerance, maximum_iterations, density)
-    count = len(hydro.omega)
-    return DriftedMotions(
-        motions=state.motions,
-        far=state.far,
-        drift_force=np.full(count, state.force),
-        offset=np.tile(state.offset.position, (count, 1)),
-        mooring_stiffness=np.tile(state.stiffness, (count, 1, 1)),
-        iterations=np.full(count, float(used)),
-        status=(status,) * count,
-        notices=_loop_notices((status,), hydro.omega[:1]),
-    )
 
 
 def _loop(

@@ -44,26 +44,17 @@ def unexplained_share(loss: ArrayLike, work: ArrayLike, least: float = LEAST_LOS
 
 @dataclass(frozen=True)
 class HarmonicWork:
-    """Mean power that a motion gives away, one entry per harmonic [W].
+    """Mean power that a motion gives away, one entry per harmonic [W]."""
 
-    Parameters
-    ----------
-    damping : ndarray (n,)
-        To linear damping beyond radiation.
-    drag : ndarray (n,)
-        To quadratic damping, less what moving water drives through it.
-    lines : ndarray (n,)
-        To the lines: what they lose and what they carry into other harmonics.
-    radiation : ndarray (n,)
-        To radiated waves; NaN in the first harmonic, whose waves meet those of the fixed body.
-    lines_in_all : float
-        To the lines in all harmonics: what they lose; zero for lines at rest at every instant.
-    """
-
+    #: To linear damping beyond radiation; shape (n,).
     damping: Array
+    #: To quadratic damping, less what moving water drives through it; shape (n,).
     drag: Array
+    #: To the lines: what they lose and what they carry into other harmonics; shape (n,).
     lines: Array
+    #: To radiated waves; NaN in the first harmonic, whose waves meet those of the fixed body; shape (n,).
     radiation: Array
+    #: To the lines in all harmonics: what they lose; zero for lines at rest at every instant.
     lines_in_all: float
 
 

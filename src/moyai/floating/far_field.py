@@ -18,21 +18,15 @@ from moyai.sea.water import Water
 
 @dataclass(frozen=True)
 class FarField:
-    """Waves far from the moving section and what they cost, per frequency and heading.
+    """Waves far from the moving section and what they cost, per frequency and heading."""
 
-    Parameters
-    ----------
-    reflection, transmission : ndarray (n, h)
-        Complex coefficients of the moving body.
-    loss : ndarray (n, h)
-        E_L = 1 - |R|^2 - |T|^2.
-    drift_coefficient : ndarray (n, h)
-        F* = |R|^2 + E_L / 2.
-    """
-
+    #: Complex coefficients of the moving body; shape (n, h).
     reflection: ComplexArray
+    #: Complex coefficients of the moving body; shape (n, h).
     transmission: ComplexArray
+    #: E_L = 1 - |R|^2 - |T|^2; shape (n, h).
     loss: Array
+    #: F* = |R|^2 + E_L / 2; shape (n, h).
     drift_coefficient: Array
 
 
@@ -102,7 +96,8 @@ def drift_force_per_amplitude_squared(
     group, phase = energy_velocity(omega, water)
     energy = 0.5 * water.density * water.gravity
     flux = energy * (group / phase)[:, None] * np.cos(heading) ** 2 * np.sign(np.cos(heading)) * length
-    return 2.0 * flux * far.drift_coefficient
+    values: Array = 2.0 * flux * far.drift_coefficient
+    return values
 
 
 def dissipated_fraction(
@@ -132,7 +127,8 @@ def dissipated_fraction(
         ).real
     )
     flux = 0.5 * water.density * water.gravity * group[:, None] * np.abs(np.cos(heading)) * length
-    return power / flux
+    values: Array = power / flux
+    return values
 
 
 def _driven_fraction(motions: Motions, water: Water, length: float) -> Array:

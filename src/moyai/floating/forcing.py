@@ -47,17 +47,11 @@ def cosine_ramp(time: ArrayLike, duration: float) -> Array:
 
 @dataclass(frozen=True)
 class CalmWater:
-    """No waves: a steady force only, for free decay and static tests.
+    """No waves: a steady force only, for free decay and static tests."""
 
-    Parameters
-    ----------
-    steady : ndarray (m,)
-        [N, N, N m].
-    ramp : float
-        Length of the cosine ramp of the steady force [s].
-    """
-
+    #: [N, N, N m]; shape (m,).
     steady: Array
+    #: Length of the cosine ramp of the steady force [s].
     ramp: float = 0.0
 
     @property
@@ -78,32 +72,21 @@ class CalmWater:
 @checks_words
 @dataclass(frozen=True)
 class RegularForcing:
-    """A regular wave [eq:floating-regular-forcing].
+    """A regular wave [eq:floating-regular-forcing]."""
 
-    Parameters
-    ----------
-    omega : float
-        [rad/s].
-    wave_amplitude : float
-        [m].
-    excitation : ndarray (m,)
-        Complex force per unit amplitude, phase at x = 0.
-    mean_drift : ndarray (m,)
-        Mean second-order force [N, N, N m].
-    steady : ndarray (m,)
-        Wind and current.
-    drift_law : {"ramped", "pulsating"}
-        P3 leaves the time law open: the mean force with the ramp of the waves, or times 1 + cos(2 omega t).
-    ramp : float
-        Length of the cosine ramp of all forces [s].
-    """
-
+    #: [rad/s].
     omega: float
+    #: [m].
     wave_amplitude: float
+    #: Complex force per unit amplitude, phase at x = 0; shape (m,).
     excitation: ComplexArray
+    #: Mean second-order force [N, N, N m]; shape (m,).
     mean_drift: Array
+    #: Wind and current; shape (m,).
     steady: Array
+    #: P3 leaves the time law open: the mean force with the ramp of the waves, or times 1 + cos(2 omega t).
     drift_law: Literal["ramped", "pulsating"] = "ramped"
+    #: Length of the cosine ramp of all forces [s].
     ramp: float = 0.0
 
     def __post_init__(self) -> None:
@@ -136,36 +119,24 @@ class RegularForcing:
 @checks_words
 @dataclass(frozen=True)
 class IrregularForcing:
-    """A sum of wave components with slow drift after Newman [eq:floating-irregular-forcing].
+    """A sum of wave components with slow drift after Newman [eq:floating-irregular-forcing]."""
 
-    Parameters
-    ----------
-    omega : ndarray (k,)
-        [rad/s], any order, several headings may share a frequency.
-    amplitude : ndarray (k,)
-        Complex amplitudes ``a exp(i phase)`` at x = 0 [m].
-    excitation : ndarray (k, m)
-        Complex force per unit amplitude of each component.
-    drift : ndarray (k, m) or None
-        Mean drift force over amplitude squared of each component [N/m2].
-    steady : ndarray (m,)
-        Wind and current, and the mean drift when ``drift_law`` is ``"ramped"``.
-    drift_law : {"newman", "newman_product", "ramped", "none"}
-        ``newman``: T_ij = (T_i + T_j)/2, any sign [eq:floating-newman]. ``newman_product``: T_ij = sqrt(T_i T_j), for
-        drift of one sign. ``ramped``: the mean alone.
-    ramp : float
-        [s].
-    energy_share : float
-        Share of the wave energy below ``shortest_period``'s frequency.
-    """
-
+    #: [rad/s], any order, several headings may share a frequency; shape (k,).
     omega: Array
+    #: Complex amplitudes ``a exp(i phase)`` at x = 0 [m]; shape (k,).
     amplitude: ComplexArray
+    #: Complex force per unit amplitude of each component; shape (k, m).
     excitation: ComplexArray
+    #: Mean drift force over amplitude squared of each component [N/m2]; shape (k, m).
     drift: Array | None
+    #: Wind and current, and the mean drift when ``drift_law`` is ``"ramped"``; shape (m,).
     steady: Array
+    #: ``newman``: T_ij = (T_i + T_j)/2, any sign [eq:floating-newman]. ``newman_product``: T_ij = sqrt(T_i T_j), for
+    #: drift of one sign. ``ramped``: the mean alone.
     drift_law: Literal["newman", "newman_product", "ramped", "none"] = "newman"
+    #: [s].
     ramp: float = 0.0
+    #: Share of the wave energy below ``shortest_period``'s frequency.
     energy_share: float = 0.99
 
     def __post_init__(self) -> None:
@@ -260,7 +231,7 @@ class IrregularForcing:
             return time_step
         from scipy.fft import next_fast_len
 
-        return repeat / next_fast_len(math.ceil(repeat / time_step - 1e-9))
+        return float(repeat / next_fast_len(math.ceil(repeat / time_step - 1e-9)))
 
     def mean_drift(self) -> Array:
         """Return the mean drift force (m,) of the sea, sum of T_i |a_i|^2."""

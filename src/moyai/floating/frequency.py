@@ -20,38 +20,24 @@ SINGULAR = 1e13
 
 @dataclass(frozen=True)
 class Motions:
-    """Complex amplitudes of motion, ``Re(X exp(-i omega t))``.
+    """Complex amplitudes of motion, ``Re(X exp(-i omega t))``."""
 
-    Parameters
-    ----------
-    omega : ndarray (n,)
-        [rad/s].
-    heading : ndarray (h,)
-        [rad].
-    modes : tuple of str
-    displacement : ndarray (n, h, m)
-        Per unit wave amplitude [m/m, rad/m]; NaN where the undamped body is at resonance.
-    damping : ndarray (n, h, m, m)
-        Damping beyond radiation that was used, equivalents of quadratic terms included.
-    wave_amplitude : ndarray (n, h)
-        Amplitude that quadratic terms were linearised at [m]; zero where there are none.
-    iterations : int
-        Iterations of the equivalent linearisation.
-    checks : tuple of IdentityCheck
-    notices : tuple of Notice
-    drag_excitation : ndarray (n, h, m) or None
-        Force of moving water through linearised quadratic drag, per unit wave amplitude.
-    """
-
+    #: [rad/s]; shape (n,).
     omega: Array
+    #: [rad]; shape (h,).
     heading: Array
     modes: tuple[str, ...]
+    #: Per unit wave amplitude [m/m, rad/m]; NaN where the undamped body is at resonance; shape (n, h, m).
     displacement: ComplexArray
+    #: Damping beyond radiation that was used, equivalents of quadratic terms included; shape (n, h, m, m).
     damping: Array
+    #: Amplitude that quadratic terms were linearised at [m]; zero where there are none; shape (n, h).
     wave_amplitude: Array
+    #: Iterations of the equivalent linearisation.
     iterations: int
     checks: tuple[IdentityCheck, ...] = ()
     notices: tuple[Notice, ...] = ()
+    #: Force of moving water through linearised quadratic drag, per unit wave amplitude; shape (n, h, m).
     drag_excitation: ComplexArray | None = None
 
     @property

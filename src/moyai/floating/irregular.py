@@ -26,25 +26,16 @@ def integration_weights(omega: ArrayLike) -> Array:
 
 @dataclass(frozen=True)
 class ResponseStatistics:
-    """Statistics of Gaussian responses, one entry a response.
+    """Statistics of Gaussian responses, one entry a response."""
 
-    Parameters
-    ----------
-    spectrum : ndarray (n, ...)
-        Response spectra [unit^2 s/rad] [eq:floating-response].
-    moments : ndarray (4, ...)
-        m0, m1, m2, m4.
-    standard_deviation : ndarray
-    significant : ndarray
-        Significant double amplitude, 4 sqrt(m0).
-    mean_zero_crossing_period : ndarray
-        2 pi sqrt(m0/m2) [s].
-    """
-
+    #: Response spectra [unit^2 s/rad] [eq:floating-response]; shape (n, ...).
     spectrum: Array
+    #: m0, m1, m2, m4; shape (4, ...).
     moments: Array
     standard_deviation: Array
+    #: Significant double amplitude, 4 sqrt(m0).
     significant: Array
+    #: 2 pi sqrt(m0/m2) [s].
     mean_zero_crossing_period: Array
 
     def most_probable_maximum(self, duration: float) -> Array:
@@ -112,21 +103,12 @@ def energy_transmission(omega: ArrayLike, transmission: ArrayLike, density: Arra
 
 @dataclass(frozen=True)
 class SeaMotions:
-    """Motions with quadratic damping linearised for one sea.
-
-    Parameters
-    ----------
-    motions : Motions
-    equivalent_damping : ndarray (m, m)
-        What the quadratic terms amount to in this sea.
-    measure_deviation : ndarray (k,)
-        Standard deviation of each measure J_k v.
-    iterations : int
-    converged : bool
-    """
+    """Motions with quadratic damping linearised for one sea."""
 
     motions: Motions
+    #: What the quadratic terms amount to in this sea; shape (m, m).
     equivalent_damping: Array
+    #: Standard deviation of each measure J_k v; shape (k,).
     measure_deviation: Array
     iterations: int
     converged: bool

@@ -97,7 +97,7 @@ def _lost(q: Any, v: Any, limit: Any) -> bool:
     return lost
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, error_model="numpy", pointer=True)
 def run_state_space(
     q: Any, v: Any, z: Any, first: int, steps: int, h: float, force: Any, body: Any, lines: Any, rest: Any,
     exponential: Any, inputs: Any, outputs: Any, limit: Any, every: int, saved: Any,

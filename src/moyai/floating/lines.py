@@ -19,22 +19,15 @@ class PlanarMooring:
     """Nonlinear lines in the modes sway, heave, roll about the centre of gravity; positions are relative to rest.
 
     Implements [eq:floating-lines]; it serves the drift loop (exact forces and tangents) and the time domain (compiled).
-
-    Parameters
-    ----------
-    system : LineSystem
-        Lines with their fairleads in body axes.
-    rest : tuple of float
-        Centre of gravity (x, z) [m] in site axes and heel [rad] of the body at rest.
-    centre : tuple of float
-        Centre of gravity (x, z) in the body axes of the fairleads [m].
-    compiled : CompiledLines
-        For the time domain: tables inside a window of motion, the exact solver outside; or exact everywhere.
     """
 
+    #: Lines with their fairleads in body axes.
     system: LineSystem
+    #: Centre of gravity (x, z) [m] in site axes and heel [rad] of the body at rest.
     rest: tuple[float, float, float]
+    #: Centre of gravity (x, z) in the body axes of the fairleads [m].
     centre: tuple[float, float]
+    #: For the time domain: tables inside a window of motion, the exact solver outside; or exact everywhere.
     compiled: CompiledLines
 
     @classmethod

@@ -32,22 +32,16 @@ class ModalForm(Protocol):
 
 @dataclass(frozen=True)
 class StateSpaceMemory:
-    """Memory force ``-Re(outputs z) - dashpot v`` with ``z' = poles z + inputs v`` [eq:floating-state-space].
+    """Memory force ``-Re(outputs z) - dashpot v`` with ``z' = poles z + inputs v`` [eq:floating-state-space]."""
 
-    Parameters
-    ----------
-    poles : ndarray (n,)
-        One of each conjugate pair, real parts negative [1/s].
-    inputs : ndarray (n, m)
-    outputs : ndarray (m, n)
-        The partner of a complex pole is already in: its factor 2.
-    dashpot : ndarray (m, m)
-        Instantaneous part, for instance the feedthrough of a fit or a steady dashpot D(0) that the states leave out.
-    """
-
+    #: One of each conjugate pair, real parts negative [1/s]; shape (n,).
     poles: ComplexArray
+    #: Shape (n, m).
     inputs: ComplexArray
+    #: The partner of a complex pole is already in: its factor 2; shape (m, n).
     outputs: ComplexArray
+    #: Instantaneous part, for instance the feedthrough of a fit or a steady dashpot D(0) that the states leave out;
+    #: shape (m, m).
     dashpot: Array
 
     def __post_init__(self) -> None:
@@ -75,7 +69,8 @@ class StateSpaceMemory:
         """Return K(t) (n, m, m) of the states, without the dashpot."""
         instants = np.atleast_1d(np.asarray(time, dtype=float))
         growth = np.exp(self.poles[None, :] * instants[:, None])
-        return np.einsum("ik,tk,kj->tij", self.outputs, growth, self.inputs).real
+        values: Array = np.einsum("ik,tk,kj->tij", self.outputs, growth, self.inputs).real
+        return values
 
     def transfer(self, omega: ArrayLike) -> ComplexArray:
         """Return ``int K exp(i omega t) dt + dashpot`` = B - i omega (A - A_inf), (n, m, m)."""
@@ -169,21 +164,14 @@ class StateSpaceMemory:
 
 @dataclass(frozen=True)
 class ConvolutionMemory:
-    """Memory force ``-int_0^L K(s) v(t - s) ds - dashpot v`` [eq:floating-cummins].
+    """Memory force ``-int_0^L K(s) v(t - s) ds - dashpot v`` [eq:floating-cummins]."""
 
-    Parameters
-    ----------
-    time : ndarray (n,)
-        From 0 [s].
-    velocity_kernel : ndarray (n, m, m)
-        K(t).
-    dashpot : ndarray (m, m)
-        Instantaneous part next to the convolution; what truncation cuts off, D(0) less the integral of K up to the end,
-        keeps the slow motions right (see :meth:`truncated`).
-    """
-
+    #: From 0 [s]; shape (n,).
     time: Array
+    #: K(t); shape (n, m, m).
     velocity_kernel: Array
+    #: Instantaneous part next to the convolution; what truncation cuts off, D(0) less the integral of K up to the end,
+    #: keeps the slow motions right (see :meth:`truncated`); shape (m, m).
     dashpot: Array
 
     def __post_init__(self) -> None:

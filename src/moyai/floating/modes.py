@@ -20,27 +20,17 @@ from moyai.floating.coefficients import Hydrodynamics
 
 @dataclass(frozen=True)
 class NaturalModes:
-    """Undamped modes, sorted by the motion that leads each of them.
+    """Undamped modes, sorted by the motion that leads each of them."""
 
-    Parameters
-    ----------
-    modes : tuple of str
-        Name of the leading motion of each mode, in the order of the coefficients.
-    period : ndarray (m,)
-        Natural periods [s]; ``inf`` without restoring, NaN when restoring is negative (unstable).
-    omega : ndarray (m,)
-        [rad/s]; 0 without restoring.
-    shape : ndarray (m, m)
-        Row j is mode j, leading motion 1 (so sway per roll is in m/rad).
-    damping_ratio : ndarray (m,)
-        Radiation and given damping over critical at the natural frequency.
-    notices : tuple of Notice
-    """
-
+    #: Name of the leading motion of each mode, in the order of the coefficients.
     modes: tuple[str, ...]
+    #: Natural periods [s]; ``inf`` without restoring, NaN when restoring is negative (unstable); shape (m,).
     period: Array
+    #: [rad/s]; 0 without restoring; shape (m,).
     omega: Array
+    #: Row j is mode j, leading motion 1 (so sway per roll is in m/rad); shape (m, m).
     shape: Array
+    #: Radiation and given damping over critical at the natural frequency; shape (m,).
     damping_ratio: Array
     notices: tuple[Notice, ...] = ()
 

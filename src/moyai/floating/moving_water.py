@@ -12,26 +12,17 @@ from moyai.floating.forcing import Forcing, complex_sum, cosine_ramp
 
 @dataclass(frozen=True)
 class MovingWater:
-    """A forcing and what its waves do in the measures of quadratic damping [eq:viscous-water].
+    """A forcing and what its waves do in the measures of quadratic damping [eq:viscous-water]."""
 
-    Parameters
-    ----------
-    forcing : Forcing
-        Forces on the body.
-    omega : ndarray (n,)
-        Of the wave components [rad/s].
-    amplitude : ndarray (n,)
-        Complex [m].
-    water : ndarray (n, w)
-        Motion of the water per unit amplitude in the last w measures of the quadratic damping.
-    ramp : float
-        Of the waves [s].
-    """
-
+    #: Forces on the body.
     forcing: Forcing
+    #: Of the wave components [rad/s]; shape (n,).
     omega: Array
+    #: Complex [m]; shape (n,).
     amplitude: ComplexArray
+    #: Motion of the water per unit amplitude in the last w measures of the quadratic damping; shape (n, w).
     water: ComplexArray
+    #: Of the waves [s].
     ramp: float
 
     @property

@@ -66,21 +66,14 @@ class FunctionMooring:
 
 @dataclass(frozen=True)
 class MeanOffset:
-    """Position under a steady force.
+    """Position under a steady force."""
 
-    Parameters
-    ----------
-    position : ndarray (m,)
-        Relative to rest [m, m, rad].
-    residual : float
-        Remaining force over the largest force involved, rows scaled by their stiffness.
-    iterations : int
-    status : {"converged", "not_converged"}
-    """
-
+    #: Relative to rest [m, m, rad]; shape (m,).
     position: Array
+    #: Remaining force over the largest force involved, rows scaled by their stiffness.
     residual: float
     iterations: int
+    #: One of "converged", "not_converged".
     status: Status
 
 
@@ -118,7 +111,8 @@ def mean_offset(
     rest = mooring.force(np.zeros(len(load)))
 
     def residual(at: Array) -> Array:
-        return mooring.force(at) - rest - restoring @ at + load
+        values: Array = mooring.force(at) - rest - restoring @ at + load
+        return values
 
     if not np.any(load):
         return MeanOffset(np.zeros(len(load)), 0.0, 0, "converged")

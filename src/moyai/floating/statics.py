@@ -48,33 +48,24 @@ is at x, z [m] with heel [rad]."""
 
 @dataclass(frozen=True)
 class Hydrostatics:
-    """Weight, buoyancy and restoring of one position.
+    """Weight, buoyancy and restoring of one position."""
 
-    Parameters
-    ----------
-    stiffness : ndarray (3, 3)
-        Restoring of buoyancy and weight about ``centre`` in sway, heave, roll [N/m, N, N m] [eq:floating-hydrostatic].
-    displaced_mass, mass : float
-        rho A l and body mass [kg].
-    centre : tuple of float
-        Centre of gravity (x, z) of the site frame [m].
-    centre_of_buoyancy : tuple of float
-        (x, z) [m].
-    metacentric_height : float
-        GM [m] [eq:floating-metacentre].
-    waterplane_area : float
-        Breadth of all waterlines times length [m2].
-    reserve : float
-        Displacement less weight [N]: what lines may pull down.
-    """
-
+    #: Restoring of buoyancy and weight about ``centre`` in sway, heave, roll [N/m, N, N m] [eq:floating-hydrostatic];
+    #: shape (3, 3).
     stiffness: Array
+    #: ``displaced_mass``, ``mass``: rho A l and body mass [kg].
     displaced_mass: float
+    #: ``displaced_mass``, ``mass``: rho A l and body mass [kg].
     mass: float
+    #: Centre of gravity (x, z) of the site frame [m].
     centre: tuple[float, float]
+    #: (x, z) [m].
     centre_of_buoyancy: tuple[float, float]
+    #: GM [m] [eq:floating-metacentre].
     metacentric_height: float
+    #: Breadth of all waterlines times length [m2].
     waterplane_area: float
+    #: Displacement less weight [N]: what lines may pull down.
     reserve: float
 
     def imbalance(self, vertical_pull: float = 0.0, *, gravity: float) -> float:
@@ -175,28 +166,19 @@ def inertia_matrix(
 
 @dataclass(frozen=True)
 class Equilibrium:
-    """A position at rest: draught and heel of the hull, and what is left of the balance.
+    """A position at rest: draught and heel of the hull, and what is left of the balance."""
 
-    Parameters
-    ----------
-    draught, heel : float
-        Depth of the origin of the body frame [m], turn about it [rad].
-    offset : float
-        x [m] of that origin.
-    centre_of_gravity : tuple of float
-        (x, z) of the site frame [m].
-    section : SectionLike
-        Immersed section at that position, drawn with its body origin at x = 0.
-    residual : float
-        Largest remaining force or moment, in parts of the displacement (moment: times the waterline breadth).
-    iterations : int
-    """
-
+    #: Depth of the origin of the body frame [m].
     draught: float
+    #: Turn about it [rad].
     heel: float
+    #: x [m] of that origin.
     offset: float
+    #: (x, z) of the site frame [m].
     centre_of_gravity: tuple[float, float]
+    #: Immersed section at that position, drawn with its body origin at x = 0.
     section: SectionLike
+    #: Largest remaining force or moment, in parts of the displacement (moment: times the waterline breadth).
     residual: float
     iterations: int
 
@@ -276,9 +258,10 @@ def find_equilibrium(
             area, x_buoyancy = section.area, section.centroid[0] + offset
         buoyancy = density * gravity * area * length
         # Positive roll carries a point on the +x side down, so an upward force there turns the body back
-        return (
+        values: Array = (
             np.array([lines[0], lines[1] + buoyancy - weight, lines[2] - buoyancy * (x_buoyancy - x_gravity)]) / scale
         )
+        return values
 
     value = residual(state)
     iterations = 0
@@ -344,20 +327,14 @@ def _scale_of(hull: HullLike, draught: float) -> float:
 
 @dataclass(frozen=True)
 class RightingCurve:
-    """Righting lever against heel at constant displacement.
+    """Righting lever against heel at constant displacement."""
 
-    Parameters
-    ----------
-    heel : ndarray (n,)
-        [rad].
-    lever : ndarray (n,)
-        GZ [m], positive when it turns the body back from a positive heel; NaN where the displacement cannot be reached.
-    draught : ndarray (n,)
-        Depth of the body origin that keeps the displacement [m].
-    """
-
+    #: [rad]; shape (n,).
     heel: Array
+    #: GZ [m], positive when it turns the body back from a positive heel; NaN where the displacement cannot be reached;
+    #: shape (n,).
     lever: Array
+    #: Depth of the body origin that keeps the displacement [m]; shape (n,).
     draught: Array
 
 

@@ -34,27 +34,16 @@ SECONDS_BETWEEN_LOOKS = 0.25
 
 @dataclass(frozen=True)
 class CumminsModel:
-    """A floating body in time.
+    """A floating body in time."""
 
-    Parameters
-    ----------
-    inertia : ndarray (m, m)
-        M + A_inf, mass and infinite-frequency added mass.
-    stiffness : ndarray (m, m)
-        Hydrostatic restoring, and linear moorings.
-    linear_damping : ndarray (m, m)
-        Beyond radiation.
-    memory : StateSpaceMemory or ConvolutionMemory
-    mooring : PlanarMooring or None
-        Nonlinear lines on the first three modes; their force at rest balances weight and buoyancy and is subtracted.
-    quadratic : QuadraticDamping or None
-    modes : tuple of str
-    """
-
+    #: M + A_inf, mass and infinite-frequency added mass; shape (m, m).
     inertia: Array
+    #: Hydrostatic restoring, and linear moorings; shape (m, m).
     stiffness: Array
+    #: Beyond radiation; shape (m, m).
     linear_damping: Array
     memory: Memory
+    #: Nonlinear lines on the first three modes; their force at rest balances weight and buoyancy and is subtracted.
     mooring: PlanarMooring | None = None
     quadratic: QuadraticDamping | None = None
     modes: tuple[str, ...] = ("sway", "heave", "roll")
@@ -77,41 +66,29 @@ Status = Literal["converged", "diverged", "interrupted"]
 
 @dataclass(frozen=True)
 class Simulation:
-    """A simulated motion. Rows are instants.
+    """A simulated motion. Rows are instants."""
 
-    Parameters
-    ----------
-    time : ndarray (n,)
-        [s].
-    position, velocity : ndarray (n, m)
-        Relative to rest [m, rad; per second].
-    mooring_force : ndarray (n, m)
-        Of all nonlinear lines, at-rest force included [N, N m].
-    tension : ndarray (n, l)
-        Fairlead tension of one copy of each line [N].
-    elevation : ndarray (n,)
-        Incident surface at x = 0 [m].
-    time_step : float
-        Of the integrator [s].
-    status : {"converged", "diverged", "interrupted"}
-        Diverged and interrupted runs hold what was computed: the last row is the last good state.
-    message : str
-    notices : tuple of Notice
-        Why this time step, and this memory.
-    cost : mapping
-        CPU seconds of the parts, and the number of steps.
-    """
-
+    #: [s]; shape (n,).
     time: Array
+    #: Relative to rest [m, rad; per second]; shape (n, m).
     position: Array
+    #: Relative to rest [m, rad; per second]; shape (n, m).
     velocity: Array
+    #: Of all nonlinear lines, at-rest force included [N, N m]; shape (n, m).
     mooring_force: Array
+    #: Fairlead tension of one copy of each line [N]; shape (n, l).
     tension: Array
+    #: Incident surface at x = 0 [m]; shape (n,).
     elevation: Array
+    #: Of the integrator [s].
     time_step: float
+    #: Diverged and interrupted runs hold what was computed: the last row is the last good state; one of "converged",
+    #: "diverged", "interrupted".
     status: Status
     message: str
+    #: Why this time step, and this memory.
     notices: tuple[Notice, ...] = ()
+    #: CPU seconds of the parts, and the number of steps.
     cost: Mapping[str, float] = field(default_factory=dict)
 
 
@@ -350,18 +327,20 @@ def _stepper(
         inputs, outputs = np.ascontiguousarray(memory.inputs), np.ascontiguousarray(memory.outputs)
 
         def advance_states(first: int, count: int) -> tuple[int, int]:
-            return kernel.run_state_space(
+            found: tuple[int, int] = kernel.run_state_space(
                 q, v, z, first, count, step, force, body, lines, rest, weights, inputs, outputs, limit, every, saved
-            )  # fmt: skip
+            )
+            return found
 
         return advance_states, ()
     values = memory.on_steps(0.5 * step)
     history = np.zeros((values.shape[0] // 2 + 1, len(q)))
 
     def advance_convolution(first: int, count: int) -> tuple[int, int]:
-        return kernel.run_convolution(
+        found: tuple[int, int] = kernel.run_convolution(
             q, v, history, first, count, step, force, body, lines, rest, values, limit, every, saved
-        )  # fmt: skip
+        )
+        return found
 
     notice = Notice(
         code="memory-length",

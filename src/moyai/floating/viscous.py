@@ -25,40 +25,27 @@ PLATE_POINTS = 8
 
 @dataclass(frozen=True)
 class Face:
-    """A face next to an edge, as far as it belongs to that edge.
+    """A face next to an edge, as far as it belongs to that edge."""
 
-    Parameters
-    ----------
-    far : tuple of float
-        End of it away from the edge (x, z) [m].
-    length : float
-        [m].
-    normal : tuple of float
-        Out of the body.
-    """
-
+    #: End of it away from the edge (x, z) [m].
     far: tuple[float, float]
+    #: [m].
     length: float
+    #: Out of the body.
     normal: tuple[float, float]
 
 
 @dataclass(frozen=True)
 class CornerEdge:
-    """A corner of the section under water.
+    """A corner of the section under water."""
 
-    Parameters
-    ----------
-    point : tuple of float
-        (x, z) [m], for a round bilge where the faces would meet.
-    before, after : Face
-        The faces on both sides.
-    pressure : float
-        C_p, rounding and angle included; the same at every KC for a right angle [eq:viscous-exponent].
-    """
-
+    #: (x, z) [m], for a round bilge where the faces would meet.
     point: tuple[float, float]
+    #: The faces on both sides.
     before: Face
+    #: The faces on both sides.
     after: Face
+    #: C_p, rounding and angle included; the same at every KC for a right angle [eq:viscous-exponent].
     pressure: float
 
 
@@ -83,25 +70,20 @@ def equivalent_point(first: float, second: float) -> float:
         Lengths of the two faces [m].
     """
     numerator = (0.5 * (first**2 + second**2) ** 2) ** (1.0 / 3.0)
-    return numerator / (first ** (4.0 / 3.0) + second ** (4.0 / 3.0))
+    return float(numerator / (first ** (4.0 / 3.0) + second ** (4.0 / 3.0)))
 
 
 @dataclass(frozen=True)
 class Measure:
-    """One measure of velocity: weighted velocities of points along directions, with its drag coefficient per length.
+    """One measure of velocity: weighted velocities of points along directions, with its drag coefficient per length."""
 
-    Parameters
-    ----------
-    weights : ndarray (p,)
-    points, directions : ndarray (p, 2)
-        (x, z) [m]; unit vectors.
-    coefficient : float
-        c / (rho l) of the force c |J v| J v.
-    """
-
+    #: Shape (p,).
     weights: Array
+    #: ``points``, ``directions``: (x, z) [m]; unit vectors; shape (p, 2).
     points: Array
+    #: ``points``, ``directions``: (x, z) [m]; unit vectors; shape (p, 2).
     directions: Array
+    #: c / (rho l) of the force c |J v| J v.
     coefficient: float
 
     def row(self, centre: tuple[float, float]) -> Array:
@@ -110,7 +92,8 @@ class Measure:
             weight * velocity_row(point, direction, centre)
             for weight, point, direction in zip(self.weights, self.points, self.directions, strict=True)
         ]
-        return np.sum(rows, axis=0)
+        values: Array = np.sum(rows, axis=0)
+        return values
 
 
 def measures(corners: tuple[CornerEdge, ...], plates: tuple[PlateEdge, ...]) -> tuple[Measure, ...]:

@@ -53,105 +53,72 @@ ROD_COLUMNS = {
 
 @dataclass(frozen=True)
 class DeckRodType:
-    """A row of ROD TYPES.
-
-    Parameters
-    ----------
-    name : str
-    diameter : float
-        [m].
-    mass_per_length : float
-        [kg/m].
-    drag_normal, added_mass_normal : float
-        Across the rod, on diameter and volume [-].
-    drag_end, added_mass_end : float
-        Of each end along the rod, on its face and on half a sphere [-].
-    line : int
-        Line of the file.
-    """
+    """A row of ROD TYPES."""
 
     name: str
+    #: [m].
     diameter: float
+    #: [kg/m].
     mass_per_length: float
+    #: ``drag_normal``, ``added_mass_normal``: Across the rod, on diameter and volume [-].
     drag_normal: float
+    #: ``drag_normal``, ``added_mass_normal``: Across the rod, on diameter and volume [-].
     added_mass_normal: float
+    #: ``drag_end``, ``added_mass_end``: Of each end along the rod, on its face and on half a sphere [-].
     drag_end: float
+    #: ``drag_end``, ``added_mass_end``: Of each end along the rod, on its face and on half a sphere [-].
     added_mass_end: float
+    #: Line of the file.
     line: int = field(default=0, compare=False)
 
 
 @checks_words
 @dataclass(frozen=True)
 class DeckBody:
-    """A row of BODIES.
-
-    Parameters
-    ----------
-    number : int
-    kind : {"fixed", "coupled", "coupled pinned", "free"}
-    position : (float, float, float)
-        Of its axes [m].
-    angles : (float, float, float)
-        Turns about its own x, then y, then z [deg].
-    mass : float
-        Without rods and points [kg].
-    centre : (float, float, float)
-        Centre of gravity in body axes [m].
-    inertia : (float, float, float)
-        About it [kg m2].
-    volume : float
-        [m3].
-    drag_area : tuple of six floats
-        Along and about the axes [m2, m5].
-    added_mass : (float, float, float)
-        On the volume [-].
-    line : int
-        Line of the file.
-    """
+    """A row of BODIES."""
 
     number: int
+    #: One of "fixed", "coupled", "coupled pinned", "free".
     kind: BodyKind
+    #: Of its axes [m].
     position: Triple
+    #: Turns about its own x, then y, then z [deg].
     angles: Triple
+    #: Without rods and points [kg].
     mass: float
+    #: Centre of gravity in body axes [m].
     centre: Triple
+    #: About it [kg m2].
     inertia: Triple
+    #: [m3].
     volume: float
+    #: Along and about the axes [m2, m5].
     drag_area: tuple[float, ...]
+    #: On the volume [-].
     added_mass: Triple
+    #: Line of the file.
     line: int = field(default=0, compare=False)
 
 
 @checks_words
 @dataclass(frozen=True)
 class DeckRod:
-    """A row of RODS.
-
-    Parameters
-    ----------
-    number : int
-    rod_type : str
-    kind : str
-        ``fixed``, ``coupled``, ``free``, ``pinned``, ``coupled pinned`` (at end A), ``body`` (part of one).
-    start, end : (float, float, float)
-        Ends A and B [m]; in body axes for part of a body.
-    segments : int
-        0 for a rod of no length, which joins lines.
-    body : int
-        The body it is part of, 0 for none.
-    outputs : str
-    line : int
-        Line of the file.
-    """
+    """A row of RODS."""
 
     number: int
     rod_type: str
+    #: ``fixed``, ``coupled``, ``free``, ``pinned``, ``coupled pinned`` (at end A), ``body`` (part of one).
     kind: RodKind
+    #: ``start``, ``end``: Ends A and B [m]; in body axes for part of a body.
     start: Triple
+    #: ``start``, ``end``: Ends A and B [m]; in body axes for part of a body.
     end: Triple
+    #: 0 for a rod of no length, which joins lines.
     segments: int
+    #: The body it is part of, 0 for none.
     body: int = 0
     outputs: str = "-"
+    #: Line of the file.
     line: int = field(default=0, compare=False)
 
 
@@ -264,7 +231,7 @@ def read_rods(
                 row.line, f"rod {number} has {segments:g} segments and "
                 + ("no length" if segments else "a length"), "0 segments for a rod of no length", path="rods",
             )  # fmt: skip
-        choice: RodKind = kind or "fixed"  # type: ignore[assignment]
+        choice: RodKind = kind or "fixed"
         found.append(
             DeckRod(
                 number, name, choice, (xa, ya, za), (xb, yb, zb), int(segments), body, row.cells.get("outputs", "-"),

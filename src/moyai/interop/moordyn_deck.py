@@ -31,148 +31,115 @@ FORMAT_DEFAULTS = {"g": 9.80665, "WtrDnsty": 1025.0, "kBot": 3.0e6, "cBot": 3.0e
 
 @dataclass(frozen=True)
 class DeckLineType:
-    """A row of LINE TYPES.
+    """A row of LINE TYPES."""
 
-    Parameters
-    ----------
-    name : str
-        Its name.
-    diameter : float
-        Volume-equivalent [m].
-    mass_per_length : float
-        In air [kg/m].
-    stiffness : float or StiffnessTable
-        EA [N], or the table.
-    damping : float
-        BA [N s]; negative: minus the part of the critical damping of one segment.
-    bending_stiffness : float
-        EI [N m2].
-    drag_normal, added_mass_normal, drag_axial, added_mass_axial : float
-        Cd on the diameter, Ca, CdAx on the circumference, CaAx [-].
-    line : int
-        Line of the file, 0 for a record that was not read.
-    """
-
+    #: Its name.
     name: str
+    #: Volume-equivalent [m].
     diameter: float
+    #: In air [kg/m].
     mass_per_length: float
+    #: EA [N], or the table.
     stiffness: float | StiffnessTable
+    #: BA [N s]; negative: minus the part of the critical damping of one segment.
     damping: float
+    #: EI [N m2].
     bending_stiffness: float
+    #: ``drag_normal``, ``added_mass_normal``, ``drag_axial``, ``added_mass_axial``: Cd on the diameter, Ca, CdAx on the
+    #: circumference, CaAx [-].
     drag_normal: float
+    #: ``drag_normal``, ``added_mass_normal``, ``drag_axial``, ``added_mass_axial``: Cd on the diameter, Ca, CdAx on the
+    #: circumference, CaAx [-].
     added_mass_normal: float
+    #: ``drag_normal``, ``added_mass_normal``, ``drag_axial``, ``added_mass_axial``: Cd on the diameter, Ca, CdAx on the
+    #: circumference, CaAx [-].
     drag_axial: float
+    #: ``drag_normal``, ``added_mass_normal``, ``drag_axial``, ``added_mass_axial``: Cd on the diameter, Ca, CdAx on the
+    #: circumference, CaAx [-].
     added_mass_axial: float
+    #: Line of the file, 0 for a record that was not read.
     line: int = field(default=0, compare=False)
 
 
 @checks_words
 @dataclass(frozen=True)
 class DeckPoint:
-    """A row of POINTS.
+    """A row of POINTS."""
 
-    Parameters
-    ----------
-    number : int
-        Its ID.
-    kind : {"fixed", "coupled", "free", "body"}
-        What moves it: nothing, a prescribed motion, its forces, the body that carries it.
-    position : (float, float, float)
-        Start [m]; in body axes on a body.
-    mass, volume, drag_area : float
-        [kg], [m3], [m2].
-    added_mass_coefficient : float
-        On the volume [-].
-    line : int
-        Line of the file.
-    body : int
-        The body that carries it, 0 for none.
-    """
-
+    #: Its ID.
     number: int
+    #: What moves it: nothing, a prescribed motion, its forces, the body that carries it; one of "fixed", "coupled",
+    #: "free", "body".
     kind: PointKind
+    #: Start [m]; in body axes on a body.
     position: tuple[float, float, float]
+    #: [kg].
     mass: float
+    #: [m3].
     volume: float
+    #: [m2].
     drag_area: float
+    #: On the volume [-].
     added_mass_coefficient: float
+    #: Line of the file.
     line: int = field(default=0, compare=False)
+    #: The body that carries it, 0 for none.
     body: int = 0
 
 
 @dataclass(frozen=True)
 class DeckLine:
-    """A row of LINES.
+    """A row of LINES."""
 
-    Parameters
-    ----------
-    number : int
-        Its ID.
-    line_type : str
-        Name of a line type.
-    start, end : int or str
-        IDs of the points at its ends A and B, or ends of rods such as ``R1A``.
-    length : float
-        Unstretched [m].
-    segments : int
-        Number of segments.
-    outputs : str
-        Flags of the line's own output file, ``-`` for none.
-    line : int
-        Line of the file.
-    """
-
+    #: Its ID.
     number: int
+    #: Name of a line type.
     line_type: str
+    #: ``start``, ``end``: IDs of the points at its ends A and B, or ends of rods such as ``R1A``.
     start: int | str
+    #: ``start``, ``end``: IDs of the points at its ends A and B, or ends of rods such as ``R1A``.
     end: int | str
+    #: Unstretched [m].
     length: float
+    #: Number of segments.
     segments: int
+    #: Flags of the line's own output file, ``-`` for none.
     outputs: str = "-"
+    #: Line of the file.
     line: int = field(default=0, compare=False)
 
 
 @dataclass(frozen=True)
 class MoorDynDeck:
-    """A MoorDyn input file.
+    """A MoorDyn input file."""
 
-    Parameters
-    ----------
-    line_types, points, lines : tuple
-        Rows of the sections.
-    options : tuple of DeckOption
-        Rows of OPTIONS, in order.
-    outputs : tuple of str
-        Channels of OUTPUTS.
-    current : DeckCurrent, optional
-        When the option Currents is 1.
-    seafloor_depth : float, optional
-        Depth of a flat grid of depths [m].
-    rod_types, bodies, rods : tuple
-        Rows of ROD TYPES, BODIES and RODS.
-    title : str
-        Line that describes the deck.
-    source : str
-        Name of the file.
-    notes : tuple of str
-        What the reader says about the file that is no fault: options without meaning here, columns in another order.
-    waves : DeckWaves, optional
-        When the option WaveKin is 2, 3 or 7. Decks are written with 7, which needs no grid.
-    """
-
+    #: Rows of the sections.
     line_types: tuple[DeckLineType, ...]
+    #: Rows of the sections.
     points: tuple[DeckPoint, ...]
+    #: Rows of the sections.
     lines: tuple[DeckLine, ...]
+    #: Rows of OPTIONS, in order.
     options: tuple[DeckOption, ...] = ()
+    #: Channels of OUTPUTS.
     outputs: tuple[str, ...] = ()
+    #: When the option Currents is 1.
     current: DeckCurrent | None = None
+    #: Depth of a flat grid of depths [m].
     seafloor_depth: float | None = None
+    #: ``rod_types``, ``bodies``, ``rods``: Rows of ROD TYPES, BODIES and RODS.
     rod_types: tuple[DeckRodType, ...] = ()
+    #: ``rod_types``, ``bodies``, ``rods``: Rows of ROD TYPES, BODIES and RODS.
     bodies: tuple[DeckBody, ...] = ()
+    #: ``rod_types``, ``bodies``, ``rods``: Rows of ROD TYPES, BODIES and RODS.
     rods: tuple[DeckRod, ...] = ()
+    #: Line that describes the deck.
     title: str = field(default="", compare=False)
+    #: Name of the file.
     source: str = field(default="", compare=False)
+    #: What the reader says about the file that is no fault: options without meaning here, columns in another order.
     notes: tuple[str, ...] = field(default=(), compare=False)
+    #: When the option WaveKin is 2, 3 or 7. Decks are written with 7, which needs no grid.
     waves: DeckWaves | None = None
 
     def number(self, key: str) -> float | None:

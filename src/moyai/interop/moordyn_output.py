@@ -23,20 +23,13 @@ _TO_SI = {
 
 @dataclass(frozen=True, eq=False)
 class MoorDynOutput:
-    """Channels over time.
+    """Channels over time."""
 
-    Parameters
-    ----------
-    time : ndarray, shape (k,)
-        [s].
-    channels : mapping of str to ndarray
-        Channels in SI units (forces in N, angles in rad), by the names of the file.
-    units : mapping of str to str
-        Units that the file states, empty where it states none.
-    """
-
+    #: [s]; shape (k,).
     time: Array
+    #: Channels in SI units (forces in N, angles in rad), by the names of the file.
     channels: Mapping[str, Array]
+    #: Units that the file states, empty where it states none.
     units: Mapping[str, str]
 
     def channel(self, name: str) -> Array:

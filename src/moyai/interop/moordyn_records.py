@@ -10,55 +10,35 @@ CURRENT_FILE = "current_profile.txt"
 
 @dataclass(frozen=True)
 class StiffnessTable:
-    """Tension over strain, from a file that a line type names in place of EA.
+    """Tension over strain, from a file that a line type names in place of EA."""
 
-    Parameters
-    ----------
-    strain : tuple of float
-        Rising from 0 [-].
-    tension : tuple of float
-        Rising from 0 [N].
-    file : str
-        Name of the file, next to the deck.
-    """
-
+    #: Rising from 0 [-].
     strain: tuple[float, ...]
+    #: Rising from 0 [N].
     tension: tuple[float, ...]
+    #: Name of the file, next to the deck.
     file: str
 
 
 @dataclass(frozen=True)
 class DeckOption:
-    """A row of OPTIONS.
+    """A row of OPTIONS."""
 
-    Parameters
-    ----------
-    key : str
-        In the spelling of MoorDyn v2.
-    value : float or str
-        As the file has it.
-    line : int
-        Line of the file.
-    """
-
+    #: In the spelling of MoorDyn v2.
     key: str
+    #: As the file has it.
     value: float | str
+    #: Line of the file.
     line: int = field(default=0, compare=False)
 
 
 @dataclass(frozen=True)
 class DeckCurrent:
-    """Steady current over the height, from ``current_profile.txt`` next to the deck.
+    """Steady current over the height, from ``current_profile.txt`` next to the deck."""
 
-    Parameters
-    ----------
-    z : tuple of float
-        Heights [m], rising.
-    velocity : tuple of (float, float)
-        Horizontal components at them [m/s].
-    """
-
+    #: Heights [m], rising.
     z: tuple[float, ...]
+    #: Horizontal components at them [m/s].
     velocity: tuple[tuple[float, float], ...]
 
 
@@ -71,27 +51,19 @@ class DeckWaves:
     """Waves of the files next to a deck, as the rows of ``wave_frequencies.txt`` for WaveKin 7.
 
     The elevation at the origin is the sum of Im((real + i imaginary) e^{i omega t}) = real sin + imaginary cos.
-
-    Parameters
-    ----------
-    omega : tuple of float
-        [rad/s].
-    real, imaginary : tuple of float
-        [m].
-    direction : tuple of float
-        Of travel, from +x towards +y [rad].
-    file : str
-        Record of the elevation that they come from, empty for waves given one by one.
-    time_step : float, optional
-        That the record is taken at [s].
-    period : float, optional
-        After which the record repeats [s].
     """
 
+    #: [rad/s].
     omega: tuple[float, ...]
+    #: [m].
     real: tuple[float, ...]
+    #: [m].
     imaginary: tuple[float, ...]
+    #: Of travel, from +x towards +y [rad].
     direction: tuple[float, ...]
+    #: Record of the elevation that they come from, empty for waves given one by one.
     file: str = field(default="", compare=False)
+    #: That the record is taken at [s].
     time_step: float | None = field(default=None, compare=False)
+    #: After which the record repeats [s].
     period: float | None = field(default=None, compare=False)

@@ -15,17 +15,11 @@ from moyai.interop.textfiles import parse_number, read_lines
 
 @dataclass(frozen=True)
 class Row:
-    """Entries of a row of a deck by column, and its line.
+    """Entries of a row of a deck by column, and its line."""
 
-    Parameters
-    ----------
-    line : int
-        Line of the file.
-    cells : mapping of str to str
-        Entries by the names of :mod:`moyai.interop.moordyn_keys`.
-    """
-
+    #: Line of the file.
     line: int
+    #: Entries by the names of :mod:`moyai.interop.moordyn_keys`.
     cells: Mapping[str, str]
 
 

@@ -29,20 +29,13 @@ Triple = tuple[float, float, float]
 
 @dataclass(frozen=True, eq=False)
 class DeckSystem:
-    """Network and bodies of a deck.
+    """Network and bodies of a deck."""
 
-    Parameters
-    ----------
-    network : Network
-        Points ``point 1`` ..., ends of rods ``rod 1 A`` ..., lines ``line 1`` ....
-    bodies : dict of str to RigidBody
-        ``body 1`` ..., and ``rod 1`` ... for rods that move by themselves.
-    notes : tuple of str
-        What a run here does otherwise than MoorDyn.
-    """
-
+    #: Points ``point 1`` ..., ends of rods ``rod 1 A`` ..., lines ``line 1`` ....
     network: Network
+    #: ``body 1`` ..., and ``rod 1`` ... for rods that move by themselves.
     bodies: dict[str, RigidBody]
+    #: What a run here does otherwise than MoorDyn.
     notes: tuple[str, ...] = ()
 
 
@@ -91,40 +84,27 @@ def to_system(deck: MoorDynDeck, *, water: Water | None = None, segments: int | 
 
 @dataclass(frozen=True, eq=False)
 class BodyOfDeck:
-    """A body of a deck, or a rod that is none's, in axes of its own.
-
-    Parameters
-    ----------
-    name : str
-    kind : {"fixed", "coupled", "free", "pinned"}
-        What holds it; ``pinned``: the origin of its axes stays.
-    position : ndarray (3,)
-        Of the origin of its axes [m].
-    rotation : ndarray (3, 3)
-        From its axes to those of the site.
-    mass : float
-        Without parts [kg].
-    centre, inertia : (float, float, float)
-        Centre of that mass, and its moments of inertia about it [m, kg m2].
-    parts : tuple of RodPart or VolumePart
-    points : mapping of str to ndarray (3,)
-        Points that lines meet, in its axes [m].
-    turning_drag : (float, float, float)
-        Drag of turns about its axes, CdA of the deck [m5].
-    line : int
-        Line of the file.
-    """
+    """A body of a deck, or a rod that is none's, in axes of its own."""
 
     name: str
+    #: What holds it; ``pinned``: the origin of its axes stays; one of "fixed", "coupled", "free", "pinned".
     kind: str
+    #: Of the origin of its axes [m]; shape (3,).
     position: Array
+    #: From its axes to those of the site; shape (3, 3).
     rotation: Array
+    #: Without parts [kg].
     mass: float
+    #: ``centre``, ``inertia``: Centre of that mass, and its moments of inertia about it [m, kg m2].
     centre: Triple
+    #: ``centre``, ``inertia``: Centre of that mass, and its moments of inertia about it [m, kg m2].
     inertia: Triple
     parts: tuple[RodPart | VolumePart, ...]
+    #: Points that lines meet, in its axes [m]; shape (3,).
     points: dict[str, Array]
+    #: Drag of turns about its axes, CdA of the deck [m5].
     turning_drag: Triple = (0.0, 0.0, 0.0)
+    #: Line of the file.
     line: int = 0
 
     @property

@@ -14,20 +14,13 @@ from moyai.core.validity import Notice
 
 @dataclass(frozen=True)
 class Sinker:
-    """A weight on the bed.
+    """A weight on the bed."""
 
-    Parameters
-    ----------
-    submerged_weight : float
-        [N]
-    friction : float
-        Coefficient on the bed.
-    safety_factor : float
-        Against sliding and lifting.
-    """
-
+    #: [N]
     submerged_weight: float
+    #: Coefficient on the bed.
     friction: float
+    #: Against sliding and lifting.
     safety_factor: float
 
     def __post_init__(self) -> None:
@@ -38,18 +31,11 @@ class Sinker:
 
 @dataclass(frozen=True)
 class DragAnchor:
-    """An anchor that digs in.
+    """An anchor that digs in."""
 
-    Parameters
-    ----------
-    weight : float
-        In air [N].
-    holding_power : float
-        Horizontal holding over weight.
-    safety_factor : float
-    """
-
+    #: In air [N].
     weight: float
+    #: Horizontal holding over weight.
     holding_power: float
     safety_factor: float
 
@@ -61,16 +47,11 @@ class DragAnchor:
 
 @dataclass(frozen=True)
 class AnchorCheck:
-    """Outcome of an anchor.
+    """Outcome of an anchor."""
 
-    Parameters
-    ----------
-    sliding, lifting : float
-        Utilisation against each; above 1 fails.
-    notices : tuple of Notice
-    """
-
+    #: ``sliding``, ``lifting``: Utilisation against each; above 1 fails.
     sliding: float
+    #: ``sliding``, ``lifting``: Utilisation against each; above 1 fails.
     lifting: float
     notices: tuple[Notice, ...] = ()
 

@@ -21,32 +21,25 @@ class CatenarySolution:
 
     Forces are those of the fairlead on the line: H away from the anchor, V upwards. The line pulls the anchor with
     ``horizontal_tension_anchor`` towards the fairlead and ``vertical_tension_anchor`` upwards.
-
-    Parameters
-    ----------
-    horizontal_tension : ndarray
-        Horizontal tension at the fairlead [N]; constant along the part that is clear of the bed.
-    vertical_tension_fairlead, vertical_tension_anchor : ndarray
-        Vertical tension [N], positive where the line rises towards the fairlead.
-    horizontal_tension_anchor : ndarray
-        Horizontal tension at the anchor [N], lowered by bed friction.
-    grounded_length : ndarray
-        Unstretched length on the bed [m].
-    stiffness : ndarray
-        ``[[dH/dX, dH/dZ], [dV/dX, dV/dZ]]`` of the fairlead [N/m], last two axes; not symmetric with bed friction.
-    residual : ndarray
-        Largest error of the end position that the forces give back, over the line length.
-    regime : ndarray of int
-        Codes of :mod:`moyai.mooring.kernels`, in words from :attr:`regime_names`.
     """
 
+    #: Horizontal tension at the fairlead [N]; constant along the part that is clear of the bed.
     horizontal_tension: Array
+    #: ``vertical_tension_fairlead``, ``vertical_tension_anchor``: Vertical tension [N], positive where the line rises
+    #: towards the fairlead.
     vertical_tension_fairlead: Array
+    #: ``vertical_tension_fairlead``, ``vertical_tension_anchor``: Vertical tension [N], positive where the line rises
+    #: towards the fairlead.
     vertical_tension_anchor: Array
+    #: Horizontal tension at the anchor [N], lowered by bed friction.
     horizontal_tension_anchor: Array
+    #: Unstretched length on the bed [m].
     grounded_length: Array
+    #: ``[[dH/dX, dH/dZ], [dV/dX, dV/dZ]]`` of the fairlead [N/m], last two axes; not symmetric with bed friction.
     stiffness: Array
+    #: Largest error of the end position that the forces give back, over the line length.
     residual: Array
+    #: Codes of :mod:`moyai.mooring.kernels`, in words from :attr:`regime_names`.
     regime: IntArray
 
     @property

@@ -7,7 +7,6 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
-from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.mooring import kernels
 from moyai.mooring.lines import Line, LineElement, LineState
@@ -73,24 +72,6 @@ def check_line_system(
         if isinstance(line, Line):
             notices += _geometry(line, point, state, system.water_depth, still_water, label, where)
     return tuple(notices)
-
-
-def require_line_system(
-    system: LineSystem, *, body_box: BoxCorners | None = None, path: str = "lines"
-) -> tuple[Notice, ...]:
-    """Check at rest and raise the first finding of severity ``error``; return the others.
-
-    Raises
-    ------
-    InputError
-        For a line that breaks at rest, lies in a heap, cannot reach, ends in the body or under the bed.
-    """
-    notices = check_line_system(system, body_box=body_box, path=path)
-    for notice in notices:
-        if notice.severity == "error":
-            where, _, message = notice.message.partition(": ")
-            raise InputError(message, path=where, remedy=notice.remedy)
-    return notices
 
 
 def _below_bed(label: str, height: float, depth: float) -> Notice:
@@ -217,23 +198,3 @@ def _geometry(
             )
         )
     return notices
-
-
-def check_planar_symmetry(system: LineSystem, tolerance: float = 1e-6) -> tuple[Notice, ...]:
-    """Tell when the planar view leaves out a net force across the plane at rest."""
-    force = system.forces(np.zeros(6))
-    scale = max(float(np.sum(system.tensions(np.zeros(6)))), 1e-300)
-    across = float(abs(force[1]))
-    if across <= tolerance * scale:
-        return ()
-    return (
-        Notice(
-            "mooring-out-of-plane",
-            f"the lines pull with {across / 1e3:.4g} kN out of the plane of the section, "
-            f"{across / scale:.2g} of their tension",
-            across,
-            tolerance * scale,
-            "warning",
-            "arrange the lines in mirror-image pairs along the structure",
-        ),
-    )

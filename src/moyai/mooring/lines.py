@@ -22,23 +22,15 @@ Vector = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class LineType:
-    """What a segment is made of.
+    """What a segment is made of."""
 
-    Parameters
-    ----------
-    name : str
-        For messages and reports.
-    submerged_weight : float
-        Weight in water per unstretched metre [N/m]; negative for a buoyant rope.
-    axial_stiffness : float
-        EA [N]; ``inf`` for inextensible.
-    breaking_load : float
-        Minimum breaking load [N]; ``inf`` where it is not known, then no check against it is made.
-    """
-
+    #: For messages and reports.
     name: str
+    #: Weight in water per unstretched metre [N/m]; negative for a buoyant rope.
     submerged_weight: float
+    #: EA [N]; ``inf`` for inextensible.
     axial_stiffness: float
+    #: Minimum breaking load [N]; ``inf`` where it is not known, then no check against it is made.
     breaking_load: float = math.inf
 
     def __post_init__(self) -> None:
@@ -59,17 +51,11 @@ class LineType:
 
 @dataclass(frozen=True)
 class Segment:
-    """A length of one line type.
+    """A length of one line type."""
 
-    Parameters
-    ----------
-    line_type : LineType
-        The material.
-    length : float
-        Unstretched length [m].
-    """
-
+    #: The material.
     line_type: LineType
+    #: Unstretched length [m].
     length: float
 
     def __post_init__(self) -> None:
@@ -78,54 +64,39 @@ class Segment:
 
 @dataclass(frozen=True)
 class Clump:
-    """A weight or buoy at the upper end of a segment that is not the last one.
+    """A weight or buoy at the upper end of a segment that is not the last one."""
 
-    Parameters
-    ----------
-    after_segment : int
-        Index of the segment below it, counted from 0 at the anchor.
-    submerged_weight : float
-        Weight in water [N]; negative for a buoy.
-    """
-
+    #: Index of the segment below it, counted from 0 at the anchor.
     after_segment: int
+    #: Weight in water [N]; negative for a buoy.
     submerged_weight: float
 
 
 @dataclass(frozen=True)
 class LineState:
-    """Lines at rest for n fairlead positions.
+    """Lines at rest for n fairlead positions."""
 
-    Parameters
-    ----------
-    force : ndarray (n, 3)
-        Force of all copies on the body [N], site axes.
-    stiffness : ndarray (n, 3, 3)
-        Minus the derivative of ``force`` with respect to the fairlead position [N/m].
-    tension_fairlead, tension_anchor : ndarray (n,)
-        Tensions of one copy [N].
-    horizontal_tension, vertical_tension_fairlead, vertical_tension_anchor : ndarray (n,)
-        Components for one copy [N].
-    grounded_length : ndarray (n,)
-        Unstretched length on the bed of one copy [m].
-    anchor_uplift_angle : ndarray (n,)
-        Angle at the anchor above the horizontal [rad].
-    residual : ndarray (n,)
-        Error of the end position over the line length.
-    regime : ndarray (n,) of int
-        Codes of :mod:`moyai.mooring.kernels`; -1 for a spring.
-    """
-
+    #: Force of all copies on the body [N], site axes; shape (n, 3).
     force: Array
+    #: Minus the derivative of ``force`` with respect to the fairlead position [N/m]; shape (n, 3, 3).
     stiffness: Array
+    #: Tensions of one copy [N]; shape (n,).
     tension_fairlead: Array
+    #: Tensions of one copy [N]; shape (n,).
     tension_anchor: Array
+    #: Components for one copy [N]; shape (n,).
     horizontal_tension: Array
+    #: Components for one copy [N]; shape (n,).
     vertical_tension_fairlead: Array
+    #: Components for one copy [N]; shape (n,).
     vertical_tension_anchor: Array
+    #: Unstretched length on the bed of one copy [m]; shape (n,).
     grounded_length: Array
+    #: Angle at the anchor above the horizontal [rad]; shape (n,).
     anchor_uplift_angle: Array
+    #: Error of the end position over the line length; shape (n,).
     residual: Array
+    #: Codes of :mod:`moyai.mooring.kernels`; -1 for a spring; shape (n,).
     regime: IntArray
 
 
@@ -173,35 +144,25 @@ def _vector(value: ArrayLike, path: str) -> Vector:
 class Line:
     """A mooring line of one or more segments from an anchor to a fairlead on a body.
 
-    Parameters
-    ----------
-    name : str
-        Unique name.
-    anchor : tuple
-        Position of the anchor (x, y, z) [m], site axes, z up from still water.
-    fairlead : tuple
-        Position of the fairlead (x, y, z) [m], body axes (equal to site axes at zero motion).
-    segments : tuple of Segment
-        From the anchor to the fairlead.
-    clumps : tuple of Clump
-        Weights or buoys between segments.
-    bed_friction : float
-        Coulomb coefficient of the bed [-].
-    count : int
-        Number of identical copies at the same place.
-
     Raises
     ------
     InputError
         For an empty line, a clump that is not between two segments, NaN.
     """
 
+    #: Unique name.
     name: str
+    #: Position of the anchor (x, y, z) [m], site axes, z up from still water.
     anchor: Vector
+    #: Position of the fairlead (x, y, z) [m], body axes (equal to site axes at zero motion).
     fairlead: Vector
+    #: From the anchor to the fairlead.
     segments: tuple[Segment, ...]
+    #: Weights or buoys between segments.
     clumps: tuple[Clump, ...] = ()
+    #: Coulomb coefficient of the bed [-].
     bed_friction: float = 0.0
+    #: Number of identical copies at the same place.
     count: int = 1
 
     def __post_init__(self) -> None:
@@ -325,29 +286,23 @@ class Line:
 
 @dataclass(frozen=True)
 class SpringLine:
-    """A straight weightless linear spring between a fixed point and the body, for flume tests and soft guides.
+    """A straight weightless linear spring between a fixed point and the body, for flume tests and soft guides."""
 
-    Parameters
-    ----------
-    name, anchor, fairlead, count
-        As for :class:`Line`.
-    stiffness : float
-        [N/m].
-    pretension : float
-        Tension at zero motion of the body [N]; may be negative unless ``tension_only``.
-    tension_only : bool
-        Whether the spring goes slack instead of pushing.
-    breaking_load : float
-        [N]; ``inf`` where it is not known.
-    """
-
+    #: As for :class:`Line`.
     name: str
+    #: As for :class:`Line`.
     anchor: Vector
+    #: As for :class:`Line`.
     fairlead: Vector
+    #: [N/m].
     stiffness: float
+    #: Tension at zero motion of the body [N]; may be negative unless ``tension_only``.
     pretension: float
+    #: Whether the spring goes slack instead of pushing.
     tension_only: bool = False
+    #: As for :class:`Line`.
     count: int = 1
+    #: [N]; ``inf`` where it is not known.
     breaking_load: float = math.inf
 
     def __post_init__(self) -> None:

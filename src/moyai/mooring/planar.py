@@ -28,14 +28,9 @@ _KEPT = [0, 2, 4]
 
 @dataclass(frozen=True)
 class PlanarLineSystem:
-    """Line system of a body that moves in the x-z plane; positions and forces have 3 components.
+    """Line system of a body that moves in the x-z plane; positions and forces have 3 components."""
 
-    Parameters
-    ----------
-    system : LineSystem
-        The lines in space; their y coordinates are honoured, all copies and all lines count.
-    """
-
+    #: The lines in space; their y coordinates are honoured, all copies and all lines count.
     system: LineSystem
 
     @property

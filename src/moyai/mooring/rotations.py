@@ -50,7 +50,8 @@ def rotation_from_vector(vector: ArrayLike) -> Array:
     angle = np.linalg.norm(v, axis=-1)[..., None, None]
     s = cross_matrix(v)
     half = np.sinc(0.5 * angle / np.pi)
-    return np.eye(3) + np.sinc(angle / np.pi) * s + 0.5 * half**2 * (s @ s)
+    values: Array = np.eye(3) + np.sinc(angle / np.pi) * s + 0.5 * half**2 * (s @ s)
+    return values
 
 
 def spin_of_angle_rates(angles: ArrayLike) -> Array:

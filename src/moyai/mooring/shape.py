@@ -14,24 +14,19 @@ from moyai.mooring.lines import Line, LineElement
 
 @dataclass(frozen=True)
 class LineShape:
-    """Points along a line from anchor to fairlead.
+    """Points along a line from anchor to fairlead."""
 
-    Parameters
-    ----------
-    points : ndarray (n, 3)
-        Positions (x, y, z) [m], site axes.
-    arc_length : ndarray (n,)
-        Unstretched length from the anchor [m].
-    tension : ndarray (n,)
-        [N].
-    horizontal, height : ndarray (n,)
-        Distance from the anchor and height above it in the line's own vertical plane [m].
-    """
-
+    #: Positions (x, y, z) [m], site axes; shape (n, 3).
     points: Array
+    #: Unstretched length from the anchor [m]; shape (n,).
     arc_length: Array
+    #: [N]; shape (n,).
     tension: Array
+    #: ``horizontal``, ``height``: Distance from the anchor and height above it in the line's own vertical plane [m];
+    #: shape (n,).
     horizontal: Array
+    #: ``horizontal``, ``height``: Distance from the anchor and height above it in the line's own vertical plane [m];
+    #: shape (n,).
     height: Array
 
 

@@ -15,21 +15,15 @@ from moyai.core.errors import InputError
 
 @dataclass(frozen=True)
 class ShojiSolution:
-    """A line with part of it on the bed.
+    """A line with part of it on the bed."""
 
-    Parameters
-    ----------
-    horizontal_tension, vertical_tension : float
-        T_H and T_V = w s at the fairlead [N].
-    suspended_length : float
-        Unstretched length s clear of the bed [m].
-    reduced_distance : float
-        xbar: distance to the fairlead less the unstretched grounded length [m].
-    """
-
+    #: ``horizontal_tension``, ``vertical_tension``: T_H and T_V = w s at the fairlead [N].
     horizontal_tension: float
+    #: ``horizontal_tension``, ``vertical_tension``: T_H and T_V = w s at the fairlead [N].
     vertical_tension: float
+    #: Unstretched length s clear of the bed [m].
     suspended_length: float
+    #: xbar: distance to the fairlead less the unstretched grounded length [m].
     reduced_distance: float
 
 

@@ -28,67 +28,41 @@ DEGREES_OF_FREEDOM = ("surge", "sway", "heave", "roll", "pitch", "yaw")
 
 @dataclass(frozen=True)
 class RestoringCurve:
-    """Answer of a line system to an imposed offset.
+    """Answer of a line system to an imposed offset."""
 
-    Parameters
-    ----------
-    offsets : ndarray (n,)
-        Imposed offsets [m or rad].
-    direction : ndarray (d,)
-        Unit motion of the offset.
-    force : ndarray (n, d)
-        Force and moment on the body [N, N m].
-    tension : ndarray (n, lines)
-        Fairlead tension of one copy of every line [N].
-    stiffness : ndarray (n, d, d)
-        Tangent stiffness at every offset.
-    """
-
+    #: Imposed offsets [m or rad]; shape (n,).
     offsets: Array
+    #: Unit motion of the offset; shape (d,).
     direction: Array
+    #: Force and moment on the body [N, N m]; shape (n, d).
     force: Array
+    #: Fairlead tension of one copy of every line [N]; shape (n, lines).
     tension: Array
+    #: Tangent stiffness at every offset; shape (n, d, d).
     stiffness: Array
 
 
 @dataclass(frozen=True)
 class Equilibrium:
-    """A body at rest under its lines, an external load and linear hydrostatics.
+    """A body at rest under its lines, an external load and linear hydrostatics."""
 
-    Parameters
-    ----------
-    position : ndarray (d,)
-        Position found.
-    line_force : ndarray (d,)
-        Force of the lines on the body there [N, N m].
-    tension : ndarray (lines,)
-        Fairlead tensions of one copy [N].
-    stiffness : ndarray (d, d)
-        Tangent stiffness of the lines there.
-    residual : float
-        Largest imbalance over the largest load taking part.
-    iterations : int
-        Newton steps.
-    """
-
+    #: Position found; shape (d,).
     position: Array
+    #: Force of the lines on the body there [N, N m]; shape (d,).
     line_force: Array
+    #: Fairlead tensions of one copy [N]; shape (lines,).
     tension: Array
+    #: Tangent stiffness of the lines there; shape (d, d).
     stiffness: Array
+    #: Largest imbalance over the largest load taking part.
     residual: float
+    #: Newton steps.
     iterations: int
 
 
 @dataclass(frozen=True)
 class LineSystem:
     """Lines between the bed and one body.
-
-    Parameters
-    ----------
-    lines : tuple of Line or SpringLine
-        With unique names.
-    water_depth : float
-        [m]; the bed lies at z = -water_depth; ``inf`` for no bed.
 
     Examples
     --------
@@ -101,7 +75,9 @@ class LineSystem:
     2.01
     """
 
+    #: With unique names.
     lines: tuple[LineElement, ...]
+    #: [m]; the bed lies at z = -water_depth; ``inf`` for no bed.
     water_depth: float
 
     def __post_init__(self) -> None:
@@ -126,7 +102,8 @@ class LineSystem:
         """Return fairlead positions (..., lines, 3) [m] in site axes for body positions (..., 6)."""
         position = _positions(position)
         rotation = rotation_matrix(position[..., 3:])
-        return position[..., None, :3] + np.einsum("...ij,lj->...li", rotation, self._arms)
+        values: Array = position[..., None, :3] + np.einsum("...ij,lj->...li", rotation, self._arms)
+        return values
 
     def states(self, position: ArrayLike) -> dict[str, LineState]:
         """Solve every line for body positions (n, 6) or (6,); arrays of the states have a leading axis n."""
@@ -215,7 +192,8 @@ class LineSystem:
         rest = evaluate(np.zeros(6))[0] if subtract_rest_force else np.zeros(6)
 
         def imbalance(position: Array) -> Array:
-            return evaluate(position)[0] - rest + load - hydrostatic @ position
+            values: Array = evaluate(position)[0] - rest + load - hydrostatic @ position
+            return values
 
         def jacobian(position: Array) -> Array:
             spin = np.eye(6)
@@ -394,7 +372,8 @@ def direction_vector(direction: str | ArrayLike, names: Sequence[str]) -> Array:
     if isinstance(direction, str):
         if direction not in names:
             raise InputError(f"unknown direction {direction!r}", path="direction", allowed=", ".join(names))
-        return np.eye(len(names))[list(names).index(direction)]
+        values: Array = np.eye(len(names))[list(names).index(direction)]
+        return values
     vector = np.asarray(direction, dtype=float)
     if vector.shape != (len(names),):
         raise InputError(f"{vector.size} components", path="direction", allowed=f"{len(names)} components or a name")

@@ -29,32 +29,25 @@ _ROUNDS = 24
 
 @dataclass(frozen=True)
 class TabulatedForce:
-    """Table of (H, V) of one line over the distance of its ends.
+    """Table of (H, V) of one line over the distance of its ends."""
 
-    Parameters
-    ----------
-    line : Line
-        The line.
-    water_depth : float
-        [m].
-    horizontal_range, vertical_range : tuple
-        Window of X and Z [m] in which the table was asked for.
-    tolerance : float
-        Relative accuracy asked for: |error of (H, V)| over the tension.
-    measured_error : float
-        Largest relative error found at 4000 random points of the window.
-    nodes, lookup, index : ndarray
-        Arrays for :func:`moyai.mooring.planar_kernel.table_force`.
-    """
-
+    #: The line.
     line: Line
+    #: [m].
     water_depth: float
+    #: ``horizontal_range``, ``vertical_range``: Window of X and Z [m] in which the table was asked for.
     horizontal_range: tuple[float, float]
+    #: ``horizontal_range``, ``vertical_range``: Window of X and Z [m] in which the table was asked for.
     vertical_range: tuple[float, float]
+    #: Relative accuracy asked for: |error of (H, V)| over the tension.
     tolerance: float
+    #: Largest relative error found at 4000 random points of the window.
     measured_error: float
+    #: Arrays for :func:`moyai.mooring.planar_kernel.table_force`.
     nodes: Array = field(repr=False)
+    #: Arrays for :func:`moyai.mooring.planar_kernel.table_force`.
     lookup: IntArray = field(repr=False)
+    #: Arrays for :func:`moyai.mooring.planar_kernel.table_force`.
     index: IntArray = field(repr=False)
 
     @property
@@ -99,7 +92,8 @@ def _lift_off_distance(line: Line, depth: float, z: Array) -> Array | None:
 def _bins(nodes: Array) -> IntArray:
     """Return the cell that holds the lower edge of every uniform bin."""
     edges = nodes[0] + (nodes[-1] - nodes[0]) * np.arange(_BINS) / _BINS
-    return np.clip(np.searchsorted(nodes, edges, side="right") - 1, 0, len(nodes) - 2).astype(np.int64)
+    values: IntArray = np.clip(np.searchsorted(nodes, edges, side="right") - 1, 0, len(nodes) - 2).astype(np.int64)
+    return values
 
 
 @dataclass(frozen=True)
@@ -258,20 +252,17 @@ def tabulate_line(
 
 @dataclass(frozen=True)
 class CompiledLines:
-    """All lines of a planar system as arrays for :func:`moyai.mooring.planar_kernel.planar_line_force`.
+    """All lines of a planar system as arrays for :func:`moyai.mooring.planar_kernel.planar_line_force`."""
 
-    Parameters
-    ----------
-    parameters, index, nodes, lookup : ndarray
-        Passed on to the compiled function in this order.
-    tables : tuple
-        The table of every line, None where the exact solver serves.
-    """
-
+    #: Passed on to the compiled function in this order.
     parameters: Array
+    #: Passed on to the compiled function in this order.
     index: IntArray
+    #: Passed on to the compiled function in this order.
     nodes: Array
+    #: Passed on to the compiled function in this order.
     lookup: IntArray
+    #: The table of every line, None where the exact solver serves.
     tables: tuple[TabulatedForce | None, ...]
 
     @property

@@ -45,23 +45,6 @@ RELAXATION_PERIODS = 5.0
 class CirculationLaw:
     """How strong the circulation is and when it is counted.
 
-    Parameters
-    ----------
-    strength : float or str
-        gamma of Gamma = gamma v_x v_y T: a number, or ``arai`` (0.936), ``otsuka`` (1), ``chaplin`` (1.036).
-    purpose : {"extreme", "response"}
-        ``extreme``: no circulation, which keeps the larger force (the reduction is on the safe side to leave out).
-        ``response``: with circulation, for prediction of response and fatigue.
-    relaxation_periods : float
-        tau in wave periods.
-    start : {"settled", "calm"}
-        Whether the state begins at its mean target or at zero.
-    table : tuple of (float, float)
-        Rows (KC, reduction of C_M in a circular orbit) by the user, KC increasing; between the first and the last KC
-        they replace the law.
-    beta_table : tuple of (float, float)
-        Rows (beta, gamma) that replace ``strength``.
-
     Raises
     ------
     InputError
@@ -69,11 +52,19 @@ class CirculationLaw:
         not rise.
     """
 
+    #: gamma of Gamma = gamma v_x v_y T: a number, or ``arai`` (0.936), ``otsuka`` (1), ``chaplin`` (1.036).
     strength: float | str = "arai"
+    #: ``extreme``: no circulation, which keeps the larger force (the reduction is on the safe side to leave out).
+    #: ``response``: with circulation, for prediction of response and fatigue. One of "extreme", "response".
     purpose: Purpose = "extreme"
+    #: tau in wave periods.
     relaxation_periods: float = RELAXATION_PERIODS
+    #: Whether the state begins at its mean target or at zero; one of "settled", "calm".
     start: Start = "settled"
+    #: Rows (KC, reduction of C_M in a circular orbit) by the user, KC increasing; between the first and the last KC
+    #: they replace the law.
     table: tuple[tuple[float, float], ...] = field(default=())
+    #: Rows (beta, gamma) that replace ``strength``.
     beta_table: tuple[tuple[float, float], ...] = field(default=())
 
     def __post_init__(self) -> None:

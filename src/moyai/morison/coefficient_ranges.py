@@ -14,23 +14,17 @@ from moyai.morison.coefficients import CoefficientRule, KeuleganCarpenterTable
 
 @dataclass(frozen=True)
 class MeasuredRange:
-    """Where a coefficient was found and what it is worth there.
+    """Where a coefficient was found and what it is worth there."""
 
-    Parameters
-    ----------
-    name : str
-        Of the law, in words.
-    keulegan_carpenter, reynolds : tuple of float
-        Range that its source covers [-].
-    below, above : float
-        Allowance under and over the coefficient, as a part of it [-].
-    source : str
-    """
-
+    #: Of the law, in words.
     name: str
+    #: Range that its source covers [-].
     keulegan_carpenter: tuple[float, float]
+    #: Range that its source covers [-].
     reynolds: tuple[float, float]
+    #: ``below``, ``above``: Allowance under and over the coefficient, as a part of it [-].
     below: float
+    #: ``below``, ``above``: Allowance under and over the coefficient, as a part of it [-].
     above: float
     source: str
 

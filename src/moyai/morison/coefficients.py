@@ -34,40 +34,25 @@ API_ROUGH = 1e-4
 
 @dataclass(frozen=True)
 class Conditions:
-    """The flow at a strip, by axis of the section where it differs.
+    """The flow at a strip, by axis of the section where it differs."""
 
-    Parameters
-    ----------
-    keulegan_carpenter : float
-        KC = u T / D with the larger amplitude and the larger extent [-].
-    reynolds : float
-        Re = u D / nu [-].
-    beta : float
-        D^2 f / nu [-].
-    relative_roughness : float
-        k / D [-].
-    """
-
+    #: KC = u T / D with the larger amplitude and the larger extent [-].
     keulegan_carpenter: float
+    #: Re = u D / nu [-].
     reynolds: float
+    #: D^2 f / nu [-].
     beta: float
+    #: k / D [-].
     relative_roughness: float = 0.0
 
 
 @dataclass(frozen=True)
 class StripCoefficients:
-    """Coefficients of one strip in axes of the section.
+    """Coefficients of one strip in axes of the section."""
 
-    Parameters
-    ----------
-    inertia : ndarray, shape (2, 2)
-        C_M before the circulation.
-    drag : ndarray, shape (2,)
-        C_D on the width across each axis.
-    notices : tuple of Notice
-    """
-
+    #: C_M before the circulation; shape (2, 2).
     inertia: Array
+    #: C_D on the width across each axis; shape (2,).
     drag: Array
     notices: tuple[Notice, ...] = ()
 
@@ -76,17 +61,13 @@ class StripCoefficients:
 class KeuleganCarpenterTable:
     """Coefficients over KC, linear between the rows.
 
-    Parameters
-    ----------
-    rows : tuple of (float, float, float)
-        KC, coefficient along the first and along the second axis; KC rising.
-
     Raises
     ------
     InputError
         When there are fewer than two rows, KC does not rise, or a value is negative.
     """
 
+    #: KC, coefficient along the first and along the second axis; KC rising.
     rows: tuple[tuple[float, float, float], ...]
 
     def __post_init__(self) -> None:
@@ -117,17 +98,11 @@ class KeuleganCarpenterTable:
 
 @dataclass(frozen=True)
 class CoefficientRule:
-    """Where the coefficients of a member come from.
+    """Where the coefficients of a member come from."""
 
-    Parameters
-    ----------
-    drag : tuple of float, str or KeuleganCarpenterTable
-        C_D along both axes, a law of ``DRAG_LAWS``, or a table of one's own.
-    inertia : tuple of float, str or KeuleganCarpenterTable
-        C_M along both axes, a law of ``INERTIA_LAWS``, or a table of one's own.
-    """
-
+    #: C_D along both axes, a law of ``DRAG_LAWS``, or a table of one's own.
     drag: tuple[float, float] | str | KeuleganCarpenterTable
+    #: C_M along both axes, a law of ``INERTIA_LAWS``, or a table of one's own.
     inertia: tuple[float, float] | str | KeuleganCarpenterTable = "ideal"
 
     def __post_init__(self) -> None:

@@ -25,13 +25,6 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(32)
 class Contour:
     """A closed contour, counter-clockwise; one given clockwise is turned round.
 
-    Parameters
-    ----------
-    vertices : array_like, shape (n, 2)
-        Corners (x, z) [m]; the last need not repeat the first.
-    bulges : array_like, shape (n,), optional
-        tan(sweep / 4) of the edge that leaves each corner: 0 (default) is straight, 1 a counter-clockwise half circle.
-
     Raises
     ------
     InputError
@@ -39,7 +32,10 @@ class Contour:
         contour that meets itself.
     """
 
+    #: Corners (x, z) [m]; the last need not repeat the first; shape (n, 2).
     vertices: Array
+    #: tan(sweep / 4) of the edge that leaves each corner: 0 (default) is straight, 1 a counter-clockwise half circle;
+    #: shape (n,).
     bulges: Array | None = None
 
     def __post_init__(self) -> None:

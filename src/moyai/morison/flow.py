@@ -21,18 +21,13 @@ _WHEELER_NODES = 14
 
 @dataclass(frozen=True, eq=False)
 class FlowSample:
-    """Orbital motion at points over time, without current.
+    """Orbital motion at points over time, without current."""
 
-    Parameters
-    ----------
-    elevation : ndarray, shape (times, points)
-        Surface above each point [m].
-    velocity, acceleration : ndarray, shape (times, points, 3)
-        [m/s], [m/s2]; above the surface whatever the theory continues to, see the wetted share.
-    """
-
+    #: Surface above each point [m]; shape (times, points).
     elevation: Array
+    #: [m/s]; above the surface whatever the theory continues to, see the wetted share; shape (times, points, 3).
     velocity: Array
+    #: [m/s2]; above the surface whatever the theory continues to, see the wetted share; shape (times, points, 3).
     acceleration: Array
 
 
@@ -46,17 +41,11 @@ class Flow(Protocol):
 @checks_words
 @dataclass(frozen=True, eq=False)
 class LinearFlow:
-    """Linear waves, regular or irregular, with a treatment of the region above still water.
+    """Linear waves, regular or irregular, with a treatment of the region above still water."""
 
-    Parameters
-    ----------
-    components : WaveComponents
-        With their water.
-    stretching : {"constant", "linear", "wheeler"}
-        See :func:`moyai.sea.kinematics.stretching_code`.
-    """
-
+    #: With their water.
     components: WaveComponents
+    #: See :func:`moyai.sea.kinematics.stretching_code`; one of "constant", "linear", "wheeler".
     stretching: Stretching = "wheeler"
 
     def __post_init__(self) -> None:
@@ -108,14 +97,9 @@ def _lagrange(nodes: Array, at: Array) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class NonlinearFlow:
-    """A regular wave of finite height (Stokes, stream function); its uniform current is taken out.
+    """A regular wave of finite height (Stokes, stream function); its uniform current is taken out."""
 
-    Parameters
-    ----------
-    wave : NonlinearWave
-        Kinematics reach the crest; the acceleration is that of water particles, convective part included.
-    """
-
+    #: Kinematics reach the crest; the acceleration is that of water particles, convective part included.
     wave: NonlinearWave
 
     def sample(self, time: Array, points: Array) -> FlowSample:

@@ -29,20 +29,13 @@ _STRAIGHT = 0.02
 
 @dataclass(frozen=True, eq=False)
 class InertiaCoefficients:
-    """Ideal inertia coefficients of a section.
+    """Ideal inertia coefficients of a section."""
 
-    Parameters
-    ----------
-    tensor : ndarray, shape (2, 2)
-        C_M in axes of the section: force per length rho A C_M a for an acceleration a of the fluid.
-    error : float
-        Largest change of the tensor on refinement, over its largest entry: an estimate of its error.
-    checks : tuple of IdentityCheck
-        Symmetry of the tensor, which the computation does not impose.
-    """
-
+    #: C_M in axes of the section: force per length rho A C_M a for an acceleration a of the fluid; shape (2, 2).
     tensor: Array
+    #: Largest change of the tensor on refinement, over its largest entry: an estimate of its error.
     error: float
+    #: Symmetry of the tensor, which the computation does not impose.
     checks: tuple[IdentityCheck, ...]
 
     @property

@@ -18,24 +18,19 @@ from moyai.morison.sections import MemberSection
 class StraightMember:
     """A straight member between two points.
 
-    Parameters
-    ----------
-    start, end : tuple of three float
-        Ends (x, y, z) [m], z above the reference level of the caller.
-    section : MemberSection
-        In axes of the section; see :attr:`axes`.
-    section_angle : float
-        Angle by which the section is turned about the member, from the first towards the second axis [rad].
-
     Raises
     ------
     InputError
         When an end is not finite or both coincide.
     """
 
+    #: ``start``, ``end``: Ends (x, y, z) [m], z above the reference level of the caller.
     start: tuple[float, float, float]
+    #: ``start``, ``end``: Ends (x, y, z) [m], z above the reference level of the caller.
     end: tuple[float, float, float]
+    #: In axes of the section; see :attr:`axes`.
     section: MemberSection
+    #: Angle by which the section is turned about the member, from the first towards the second axis [rad].
     section_angle: float = 0.0
 
     def __post_init__(self) -> None:
@@ -128,23 +123,15 @@ class StraightMember:
 
 @dataclass(frozen=True, eq=False)
 class Strips:
-    """Equal strips of a member.
+    """Equal strips of a member."""
 
-    Parameters
-    ----------
-    centres : ndarray, shape (strips, 3)
-        Centroids of the section in the middle of each strip [m].
-    length : float
-        Of one strip [m].
-    half_height : float
-        Half of the vertical extent of a strip, section included [m].
-    middle : float
-        Height of the middle of that extent above the centroid [m].
-    """
-
+    #: Centroids of the section in the middle of each strip [m]; shape (strips, 3).
     centres: Array
+    #: Of one strip [m].
     length: float
+    #: Half of the vertical extent of a strip, section included [m].
     half_height: float
+    #: Height of the middle of that extent above the centroid [m].
     middle: float = 0.0
 
     def wet_share(self, elevation: ArrayLike) -> Array:

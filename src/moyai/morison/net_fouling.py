@@ -18,18 +18,13 @@ _CLOSED = 0.9
 
 @dataclass(frozen=True)
 class FouledNet:
-    """A net under growth.
+    """A net under growth."""
 
-    Parameters
-    ----------
-    clean, net : Net
-        Without and with the growth.
-    density : float
-        Of the growth [kg/m3].
-    """
-
+    #: ``clean``, ``net``: Without and with the growth.
     clean: Net
+    #: ``clean``, ``net``: Without and with the growth.
     net: Net
+    #: Of the growth [kg/m3].
     density: float
 
     @property

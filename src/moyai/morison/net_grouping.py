@@ -15,30 +15,21 @@ from moyai.morison.nets import Net
 
 @dataclass(frozen=True)
 class GroupedTwine:
-    """One bar that stands for several parallel twines of a net.
+    """One bar that stands for several parallel twines of a net."""
 
-    Parameters
-    ----------
-    count : float
-        Number of twines, also not whole.
-    projected_diameter : float
-        Width that shades what the twines shade, half of the crossings counted to each family [m].
-    material_diameter : float
-        Diameter of the round bar that has their section of material [m].
-    reynolds_diameter : float
-        Of one real twine [m].
-    mass_per_length, volume_per_length : float
-        [kg/m], displaced [m2].
-    axial_stiffness : float
-        EA of the bar [N].
-    """
-
+    #: Number of twines, also not whole.
     count: float
+    #: Width that shades what the twines shade, half of the crossings counted to each family [m].
     projected_diameter: float
+    #: Diameter of the round bar that has their section of material [m].
     material_diameter: float
+    #: Of one real twine [m].
     reynolds_diameter: float
+    #: [kg/m].
     mass_per_length: float
+    #: Displaced [m2].
     volume_per_length: float
+    #: EA of the bar [N].
     axial_stiffness: float
 
     def submerged_weight_per_length(self, density: float, gravity: float) -> float:

@@ -22,41 +22,31 @@ from moyai.morison.nets import Net
 
 @dataclass(frozen=True)
 class NetLaw(ABC):
-    """A law of the force of flowing water on a panel of net.
+    """A law of the force of flowing water on a panel of net."""
 
-    Attributes
-    ----------
-    name : str
-        Name in case files.
-    kind : str
-        ``screen`` (the panel as one surface) or ``twine`` (its twines one by one).
-    source : str
-        Who found it, where.
-    reynolds_range, solidity_range : tuple of float
-        Range that the source covers; outside it the law is continued as ``outside`` says, with a notice.
-    reynolds_name : str
-        Definition of the Reynolds number of the range.
-    outside : str
-        What is done outside the range of Reynolds numbers.
-    skin : str
-        What is left when the solidity goes to zero, or the flow is parallel to the panel.
-    basis : str
-        What it was fitted to: ``nets`` (panels of fibre net of several solidities), ``one net``, ``wire nets`` (metal),
-        ``round twines`` (a cylinder in the faster flow between the twines, of any material),
-        ``single twine`` (a cylinder alone, without the faster flow between the twines of a net).
-    confirmed : bool
-        Whether formula and numbers were read in the source itself; otherwise in the works that use it.
-    """
-
+    #: Name in case files.
     name: ClassVar[str]
+    #: ``screen`` (the panel as one surface) or ``twine`` (its twines one by one).
     kind: ClassVar[str]
+    #: Who found it, where.
     source: ClassVar[str]
+    #: ``reynolds_range``, ``solidity_range``: Range that the source covers; outside it the law is continued as
+    #: ``outside`` says, with a notice.
     reynolds_range: ClassVar[tuple[float, float]]
+    #: ``reynolds_range``, ``solidity_range``: Range that the source covers; outside it the law is continued as
+    #: ``outside`` says, with a notice.
     solidity_range: ClassVar[tuple[float, float]]
+    #: Definition of the Reynolds number of the range.
     reynolds_name: ClassVar[str] = "Re = U d / nu"
+    #: What is done outside the range of Reynolds numbers.
     outside: ClassVar[str] = "the coefficients do not depend on Re"
+    #: What is left when the solidity goes to zero, or the flow is parallel to the panel.
     skin: ClassVar[str]
+    #: What it was fitted to: ``nets`` (panels of fibre net of several solidities), ``one net``, ``wire nets`` (metal),
+    #: ``round twines`` (a cylinder in the faster flow between the twines, of any material), ``single twine`` (a
+    #: cylinder alone, without the faster flow between the twines of a net).
     basis: ClassVar[str] = "nets"
+    #: Whether formula and numbers were read in the source itself; otherwise in the works that use it.
     confirmed: ClassVar[bool] = False
 
     @abstractmethod

@@ -19,29 +19,19 @@ _BASES = {"nets": "fibre nets", "one net": "one net", "wire nets": "wire nets", 
 
 @dataclass(frozen=True)
 class LawChoice:
-    """The laws that were measured on nets like this one, by their drag at normal flow.
+    """The laws that were measured on nets like this one, by their drag at normal flow."""
 
-    Parameters
-    ----------
-    chosen : NetLaw
-        That of the case.
-    drag : float
-        Its C_D at normal flow [-].
-    laws : tuple of NetLaw
-        Those that are valid here and the chosen one, by their C_D.
-    drags : tuple of float
-        Their C_D [-]. The loads of a net that gives way follow their angles too: all of them are run.
-    reasons : mapping of str to str
-        Why each other law is left out.
-    reynolds : float
-        U d / nu [-].
-    """
-
+    #: That of the case.
     chosen: NetLaw
+    #: Its C_D at normal flow [-].
     drag: float
+    #: Those that are valid here and the chosen one, by their C_D.
     laws: tuple[NetLaw, ...]
+    #: Their C_D [-]. The loads of a net that gives way follow their angles too: all of them are run.
     drags: tuple[float, ...]
+    #: Why each other law is left out.
     reasons: dict[str, str]
+    #: U d / nu [-].
     reynolds: float
 
     @property

@@ -12,32 +12,24 @@ from moyai.core.errors import InputError
 class Net:
     """Square meshes of twine.
 
-    Parameters
-    ----------
-    twine_diameter : float
-        d [m].
-    mesh_pitch : float
-        p, from centre to centre of neighbouring twines: the bar length of a mesh, half of the stretched mesh [m]. The
-        clear aperture is p - d.
-    solidity_listed : float, optional
-        Shading ratio as a paper or a maker lists it, by whatever definition; None takes 2 d / p, which counts the
-        crossings twice. Kept apart from the geometric one: only laws that were fitted to listed values use it.
-    knotted : bool
-        Whether the crossings are knots, which shade more than the twines that they join.
-    solidity_measured : float, optional
-        Shaded share of the outline area found by measurement (a picture of the net, say), crossings counted once;
-        takes the place of the formula in ``solidity``.
-
     Raises
     ------
     InputError
         For lengths that are not positive, or a solidity that is not between 0 and 1.
     """
 
+    #: d [m].
     twine_diameter: float
+    #: p, from centre to centre of neighbouring twines: the bar length of a mesh, half of the stretched mesh [m]. The
+    #: clear aperture is p - d.
     mesh_pitch: float
+    #: Shading ratio as a paper or a maker lists it, by whatever definition; None takes 2 d / p, which counts the
+    #: crossings twice. Kept apart from the geometric one: only laws that were fitted to listed values use it.
     solidity_listed: float | None = None
+    #: Whether the crossings are knots, which shade more than the twines that they join.
     knotted: bool = False
+    #: Shaded share of the outline area found by measurement (a picture of the net, say), crossings counted once; takes
+    #: the place of the formula in ``solidity``.
     solidity_measured: float | None = None
 
     def __post_init__(self) -> None:

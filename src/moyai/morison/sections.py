@@ -16,18 +16,12 @@ from moyai.morison.inertia import InertiaCoefficients, inertia_coefficients
 
 @dataclass(frozen=True, eq=False)
 class MemberSection:
-    """The section of a straight member.
+    """The section of a straight member."""
 
-    Parameters
-    ----------
-    contour : Contour
-        Outline in axes of the section: first axis across the member (for a horizontal member along the crests the
-        direction of the waves), second axis upwards.
-    name : str
-        Shape in words.
-    """
-
+    #: Outline in axes of the section: first axis across the member (for a horizontal member along the crests the
+    #: direction of the waves), second axis upwards.
     contour: Contour
+    #: Shape in words.
     name: str
 
     @property

@@ -26,32 +26,23 @@ _ASYMPTOTIC = 1e4  # times the last frequency: beyond it only the leading power 
 
 @dataclass(frozen=True)
 class DampingModel:
-    """Radiation damping between 0 and infinity.
+    """Radiation damping between 0 and infinity."""
 
-    Parameters
-    ----------
-    knots : ndarray (n + 1,)
-        Frequencies from 0 to the last one given [rad/s].
-    coefficients : ndarray (6, n, m, m)
-        Local powers of the damping on every interval, lowest first.
-    over_frequency : ndarray (6, n, m, m)
-        The same of (damping - steady)/omega.
-    steady : ndarray (m, m)
-        Damping at zero frequency, D(0).
-    tails : tuple of tuple of Tail
-        Beyond the last frequency.
-    """
-
+    #: Frequencies from 0 to the last one given [rad/s]; shape (n + 1,).
     knots: Array
+    #: Local powers of the damping on every interval, lowest first; shape (6, n, m, m).
     coefficients: Array
+    #: The same of (damping - steady)/omega; shape (6, n, m, m).
     over_frequency: Array
+    #: Damping at zero frequency, D(0); shape (m, m).
     steady: Array
+    #: Beyond the last frequency.
     tails: tuple[tuple[Tail, ...], ...]
 
     @property
     def size(self) -> int:
         """Number of modes."""
-        return self.steady.shape[0]
+        return int(self.steady.shape[0])
 
     def damping(self, omega: ArrayLike) -> Array:
         """Return the damping (k, m, m) at any frequencies [rad/s]."""
@@ -106,7 +97,8 @@ class DampingModel:
         out = kernel @ values - kernel.sum(axis=1)[:, None] * own
         end = edges[-1]
         out -= own * (np.arctanh(w / end) / w)[:, None]
-        return (2.0 / np.pi * out).reshape(len(w), self.size, self.size)
+        found: Array = (2.0 / np.pi * out).reshape(len(w), self.size, self.size)
+        return found
 
     def response(self, omega: ArrayLike) -> ComplexArray:
         """Return the transform of K, integral of K exp(i omega t) = B - i omega (A - A_inf), (k, m, m)."""
@@ -118,7 +110,8 @@ class DampingModel:
         half = 0.5 * np.diff(self.knots)
         x = (self.knots[:-1, None] + half[:, None] * (_POINTS + 1.0)).ravel()
         weight = (half[:, None] * _WEIGHTS).ravel()
-        return -2.0 / np.pi * np.einsum("k,kij->ij", weight * x**2, self.damping(x))
+        values: Array = -2.0 / np.pi * np.einsum("k,kij->ij", weight * x**2, self.damping(x))
+        return values
 
 
 def _times(time: ArrayLike) -> Array:

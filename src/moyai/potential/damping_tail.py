@@ -23,25 +23,19 @@ _STEEPEST = 24.0
 
 @dataclass(frozen=True)
 class Tail:
-    """Damping beyond the last frequency: sum of coefficient (start/omega)^exponent, [eq:memory-tail-series].
+    """Damping beyond the last frequency: sum of coefficient (start/omega)^exponent, [eq:memory-tail-series]."""
 
-    Parameters
-    ----------
-    kind : {"zero", "negligible", "theory", "series", "power"}
-        ``theory``: the exact leading terms with two matched corrections; ``series``: omega^-3 and omega^-5 matched;
-        ``power``: one fitted exponent; ``negligible``: one steep power of no consequence; ``zero``: no damping at all.
-    start : float
-        Last frequency given [rad/s].
-    exponents, coefficients : tuple of float
-        Terms; coefficients are those at ``start``.
-    reason : str
-        Why this kind was taken.
-    """
-
+    #: ``theory``: the exact leading terms with two matched corrections; ``series``: omega^-3 and omega^-5 matched;
+    #: ``power``: one fitted exponent; ``negligible``: one steep power of no consequence; ``zero``: no damping at all;
+    #: one of "zero", "negligible", "theory", "series", "power".
     kind: TailKind
+    #: Last frequency given [rad/s].
     start: float
+    #: ``exponents``, ``coefficients``: Terms; coefficients are those at ``start``.
     exponents: tuple[float, ...]
+    #: ``exponents``, ``coefficients``: Terms; coefficients are those at ``start``.
     coefficients: tuple[float, ...]
+    #: Why this kind was taken.
     reason: str
 
     def damping(self, omega: ArrayLike) -> Array:

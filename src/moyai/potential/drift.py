@@ -22,41 +22,31 @@ from moyai.potential.waves import incident_wave
 
 @dataclass(frozen=True, eq=False)
 class FarFieldDrift:
-    """Mean force from the momentum of the waves far off.
+    """Mean force from the momentum of the waves far off."""
 
-    Parameters
-    ----------
-    horizontal : ndarray, shape (omega,)
-        Along x, per unit amplitude squared [N/m per m2].
-    along_crest : ndarray, shape (omega,)
-        Along y; only energy that is taken from the waves pushes that way.
-    reflection, transmission : ndarray of complex, shape (omega,)
-        Of the moving section.
-    loss : ndarray, shape (omega,)
-        1 - |R|^2 - |T|^2.
-    """
-
+    #: Along x, per unit amplitude squared [N/m per m2]; shape (omega,).
     horizontal: Array
+    #: Along y; only energy that is taken from the waves pushes that way; shape (omega,).
     along_crest: Array
+    #: Of the moving section; shape (omega,).
     reflection: ComplexArray
+    #: Of the moving section; shape (omega,).
     transmission: ComplexArray
+    #: 1 - |R|^2 - |T|^2; shape (omega,).
     loss: Array
 
 
 @dataclass(frozen=True, eq=False)
 class NearFieldDrift:
-    """Mean force from the pressure on the section, per unit amplitude squared.
+    """Mean force from the pressure on the section, per unit amplitude squared."""
 
-    Parameters
-    ----------
-    horizontal, vertical : ndarray, shape (omega,)
-        Along x and z [N/m per m2]. The vertical one counts the mean pressure from zero Bernoulli constant.
-    moment : ndarray, shape (omega,)
-        About the centre of roll, positive as roll [N m/m per m2].
-    """
-
+    #: ``horizontal``, ``vertical``: Along x and z [N/m per m2]. The vertical one counts the mean pressure from zero
+    #: Bernoulli constant. Shape (omega,).
     horizontal: Array
+    #: ``horizontal``, ``vertical``: Along x and z [N/m per m2]. The vertical one counts the mean pressure from zero
+    #: Bernoulli constant. Shape (omega,).
     vertical: Array
+    #: About the centre of roll, positive as roll [N m/m per m2]; shape (omega,).
     moment: Array
 
 

@@ -33,29 +33,26 @@ def arc_position(start: ComplexArray, end: ComplexArray, bulge: Array, t: Array 
     """Position at the arc-length fraction ``t`` (0..1) of edges with bulge tan(sweep / 4); all broadcast."""
     half_sweep = 2.0 * np.arctan(bulge)
     ratio = t * np.sinc(half_sweep * t / np.pi) / np.sinc(half_sweep / np.pi)
-    return start + (end - start) * ratio * np.exp(1j * half_sweep * (t - 1.0))
+    values: ComplexArray = start + (end - start) * ratio * np.exp(1j * half_sweep * (t - 1.0))
+    return values
 
 
 def arc_slope(start: ComplexArray, end: ComplexArray, bulge: Array, t: Array | float) -> ComplexArray:
     """Derivative of :func:`arc_position` with respect to ``t``; its modulus is the length of the edge."""
     half_sweep = 2.0 * np.arctan(bulge)
-    return (end - start) / np.sinc(half_sweep / np.pi) * np.exp(1j * half_sweep * (2.0 * t - 1.0))
+    values: ComplexArray = (end - start) / np.sinc(half_sweep / np.pi) * np.exp(1j * half_sweep * (2.0 * t - 1.0))
+    return values
 
 
 @dataclass(frozen=True, eq=False)
 class Edges:
-    """A run of straight and circular edges, one after the other.
+    """A run of straight and circular edges, one after the other."""
 
-    Parameters
-    ----------
-    start, end : ndarray, shape (n, 2)
-        End points (x, z) [m] of each edge.
-    bulge : ndarray, shape (n,)
-        tan(sweep / 4) of each edge: 0 is straight, positive turns counter-clockwise, 1 is a half circle.
-    """
-
+    #: End points (x, z) [m] of each edge; shape (n, 2).
     start: Array
+    #: End points (x, z) [m] of each edge; shape (n, 2).
     end: Array
+    #: tan(sweep / 4) of each edge: 0 is straight, positive turns counter-clockwise, 1 is a half circle; shape (n,).
     bulge: Array
 
     def __post_init__(self) -> None:

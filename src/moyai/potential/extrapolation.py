@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 
-def extrapolated_limit(terms: NDArray, exponent: ArrayLike) -> NDArray:
+def extrapolated_limit(terms: NDArray[Any], exponent: ArrayLike) -> NDArray[Any]:
     """Return the limit of values at doubled counts whose error is a power series in 1/count, [eq:reference-richardson].
 
     Parameters

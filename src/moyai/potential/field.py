@@ -15,8 +15,9 @@ from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
+from moyai.potential.oblique_quadrature import add_helmholtz
 from moyai.potential.panels import GAP, PLATE, Panels, gauss_rule, make_panels
-from moyai.potential.quadrature import add_helmholtz, add_rankine
+from moyai.potential.quadrature import add_rankine
 from moyai.potential.solution import RadiationDiffraction
 from moyai.potential.waves import depth_profile, incident_wave
 from moyai.sea.dispersion import evanescent_wave_numbers
@@ -91,7 +92,7 @@ def potential_at(
     on_body = part.radiation[index] @ speed + amplitude * part.scattered[index]
     on_surface = part.radiation_surface[index] @ speed + amplitude * part.scattered_surface[index]
 
-    out = unit * incident_wave(place, states.wave_number[one], states.along[one], water.depth)[0][0]
+    out: ComplexArray = unit * incident_wave(place, states.wave_number[one], states.along[one], water.depth)[0][0]
     left, right = solution.section.bounds[0], solution.section.bounds[1]
     # A point sees the surface at x + i |z|: where that lies above the ray, the representation still holds
     reach = 1.2 * np.maximum(0.0, np.maximum(place[:, 0] - right, left - place[:, 0]))

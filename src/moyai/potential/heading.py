@@ -52,53 +52,48 @@ class HeadingSolution:
 
     Modes vary as exp(i k sin(beta) y) along the structure. Radiation is for unit velocity, diffraction for unit wave
     amplitude.
-
-    Parameters
-    ----------
-    heading : float
-        beta [rad].
-    states : WaveStates
-        The frequencies.
-    body, surface : Panels
-        Nodes of the whole wetted boundary and free surface, on which the potentials are given.
-    added_mass, radiation_damping : ndarray, shape (omega, radiating, influenced)
-        [kg/m], [kg/m/s] for translations. Damping is that of the waves sent out (and of the lid), which is exact to a
-        share of itself however small it is.
-    pressure_damping : ndarray, shape (omega, radiating, influenced)
-        The same by integration of the pressure, exact to a share of the added mass only; for the check.
-    froude_krylov_force, diffraction_force : ndarray of complex, shape (omega, mode)
-        [N/m per m].
-    radiated_wave : ndarray of complex, shape (omega, mode, 2)
-        Wave amplitude on the minus and the plus side per unit velocity [m per m/s].
-    reflection, transmission : ndarray of complex, shape (omega,)
-        Of the section held fixed, phase at x = 0.
-    lid_loss : ndarray, shape (omega,)
-        Share of the incident energy that the lid takes when the section is held fixed.
-    lid_damping : ndarray, shape (omega, mode, mode)
-        Part of the radiation damping that the lid takes.
-    radiation, radiation_surface : ndarray of complex, shape (omega, n, mode)
-        Potentials on the nodes of body and free surface [m2/s per m/s].
-    scattered, scattered_surface : ndarray of complex, shape (omega, n)
-        The same of the scattered wave [m2/s per m].
     """
 
+    #: beta [rad].
     heading: float
+    #: The frequencies.
     states: WaveStates
+    #: ``body``, ``surface``: Nodes of the whole wetted boundary and free surface, on which the potentials are given.
     body: Panels
+    #: ``body``, ``surface``: Nodes of the whole wetted boundary and free surface, on which the potentials are given.
     surface: Panels
+    #: [kg/m] for translations. Damping is that of the waves sent out (and of the lid), which is exact to a share of
+    #: itself however small it is. Shape (omega, radiating, influenced).
     added_mass: Array
+    #: [kg/m/s] for translations. Damping is that of the waves sent out (and of the lid), which is exact to a share of
+    #: itself however small it is. Shape (omega, radiating, influenced).
     radiation_damping: Array
+    #: The same by integration of the pressure, exact to a share of the added mass only; for the check; shape (omega,
+    #: radiating, influenced).
     pressure_damping: Array
+    #: [N/m per m]; shape (omega, mode).
     froude_krylov_force: ComplexArray
+    #: [N/m per m]; shape (omega, mode).
     diffraction_force: ComplexArray
+    #: Wave amplitude on the minus and the plus side per unit velocity [m per m/s]; shape (omega, mode, 2).
     radiated_wave: ComplexArray
+    #: ``reflection``, ``transmission``: Of the section held fixed, phase at x = 0; shape (omega,).
     reflection: ComplexArray
+    #: ``reflection``, ``transmission``: Of the section held fixed, phase at x = 0; shape (omega,).
     transmission: ComplexArray
+    #: Share of the incident energy that the lid takes when the section is held fixed; shape (omega,).
     lid_loss: Array
+    #: Part of the radiation damping that the lid takes; shape (omega, mode, mode).
     lid_damping: Array
+    #: ``radiation``, ``radiation_surface``: Potentials on the nodes of body and free surface [m2/s per m/s]; shape
+    #: (omega, n, mode).
     radiation: ComplexArray
+    #: ``radiation``, ``radiation_surface``: Potentials on the nodes of body and free surface [m2/s per m/s]; shape
+    #: (omega, n, mode).
     radiation_surface: ComplexArray
+    #: The same of the scattered wave [m2/s per m]; shape (omega, n).
     scattered: ComplexArray
+    #: The same of the scattered wave [m2/s per m]; shape (omega, n).
     scattered_surface: ComplexArray
 
     @property

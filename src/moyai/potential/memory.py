@@ -31,39 +31,23 @@ _MOST_INSTANTS = 4000
 
 @dataclass(frozen=True)
 class MemoryFunctions:
-    """Both memory functions on a time grid.
+    """Both memory functions on a time grid."""
 
-    Parameters
-    ----------
-    time : ndarray (t,)
-        [s].
-    velocity_kernel : ndarray (t, m, m)
-        K: the force is -integral of K(t - s) velocity(s) ds.
-    acceleration_kernel : ndarray (t, m, m)
-        lambda = integral of K: the force is -integral of lambda(t - s) acceleration(s) ds. It tends to
-        ``steady_dashpot``, not to zero.
-    steady_dashpot : ndarray (m, m)
-        D(0). ``acceleration_kernel - steady_dashpot`` is what decays.
-    infinite_frequency_added_mass : ndarray (m, m)
-        The added mass that goes with both forms.
-    model : DampingModel
-        Damping at every frequency, with the tails and why they were chosen.
-    checks : tuple of IdentityCheck
-        Integral of K against lambda, Kramers-Kronig and Ogilvie relations, resolution of the frequencies.
-    """
-
+    #: [s]; shape (t,).
     time: Array
+    #: K: the force is -integral of K(t - s) velocity(s) ds; shape (t, m, m).
     velocity_kernel: Array
+    #: lambda = integral of K: the force is -integral of lambda(t - s) acceleration(s) ds. It tends to
+    #: ``steady_dashpot``, not to zero. Shape (t, m, m).
     acceleration_kernel: Array
+    #: D(0). ``acceleration_kernel - steady_dashpot`` is what decays. Shape (m, m).
     steady_dashpot: Array
+    #: The added mass that goes with both forms; shape (m, m).
     infinite_frequency_added_mass: Array
+    #: Damping at every frequency, with the tails and why they were chosen.
     model: DampingModel
+    #: Integral of K against lambda, Kramers-Kronig and Ogilvie relations, resolution of the frequencies.
     checks: tuple[IdentityCheck, ...]
-
-    @property
-    def decaying_acceleration_kernel(self) -> Array:
-        """Return lambda - D(0): this may be cut off at the end of the memory, lambda itself never."""
-        return self.acceleration_kernel - self.steady_dashpot
 
 
 @checks_words

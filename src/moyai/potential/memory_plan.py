@@ -24,17 +24,11 @@ _FIRST = 0.3
 
 @dataclass(frozen=True)
 class FrequencyPlan:
-    """Frequencies at which radiation should be solved, and why these.
+    """Frequencies at which radiation should be solved, and why these."""
 
-    Parameters
-    ----------
-    omega : ndarray (n,)
-        [rad/s].
-    reason : str
-        One or two sentences for the report.
-    """
-
+    #: [rad/s]; shape (n,).
     omega: Array
+    #: One or two sentences for the report.
     reason: str
 
 
@@ -111,26 +105,21 @@ def refine_frequencies(
     poor = errors > tolerance
     # Both gaps next to a poor frequency are halved
     gaps = poor[:-1] | poor[1:]
-    return 0.5 * (w[:-1] + w[1:])[gaps]
+    values: Array = 0.5 * (w[:-1] + w[1:])[gaps]
+    return values
 
 
 @dataclass(frozen=True)
 class MemoryPlan:
-    """Length and step of a convolution, and why.
+    """Length and step of a convolution, and why."""
 
-    Parameters
-    ----------
-    length, time_step : float
-        [s].
-    reached : bool
-        Whether the memory has decayed at ``length``; if not the state-space form should be used.
-    reason : str
-        One or two sentences for the report.
-    """
-
+    #: [s].
     length: float
+    #: [s].
     time_step: float
+    #: Whether the memory has decayed at ``length``; if not the state-space form should be used.
     reached: bool
+    #: One or two sentences for the report.
     reason: str
 
 

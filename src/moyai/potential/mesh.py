@@ -39,29 +39,19 @@ _MOST_ON_A_RAY = 4000
 
 @dataclass(frozen=True)
 class Resolution:
-    """How fine the panels are.
+    """How fine the panels are."""
 
-    Parameters
-    ----------
-    order : int
-        Gauss-Legendre nodes per panel.
-    wave : float
-        Largest panel length times wave number.
-    corner : float
-        Largest panel at a corner, in terms of the local scale there.
-    growth : float
-        Largest length of a panel, in terms of its distance from the corner.
-    reach : float
-        Wave number times length of the ray: a wave has fallen to exp(-reach / sqrt 2) at its end.
-    deep_reach : float
-        In deep water the local disturbance dies out like 1/x^2 only: longer rays, by this factor.
-    """
-
+    #: Gauss-Legendre nodes per panel.
     order: int = 8
+    #: Largest panel length times wave number.
     wave: float = 3.0
+    #: Largest panel at a corner, in terms of the local scale there.
     corner: float = 1.0
+    #: Largest length of a panel, in terms of its distance from the corner.
     growth: float = 1.0
+    #: Wave number times length of the ray: a wave has fallen to exp(-reach / sqrt 2) at its end.
     reach: float = 14.0
+    #: In deep water the local disturbance dies out like 1/x^2 only: longer rays, by this factor.
     deep_reach: float = 8.0
 
     @classmethod
@@ -83,26 +73,18 @@ class Resolution:
 
 @dataclass(frozen=True, eq=False)
 class Run:
-    """Edges one after the other, fluid on their right, with the places where the potential is singular.
+    """Edges one after the other, fluid on their right, with the places where the potential is singular."""
 
-    Parameters
-    ----------
-    edges : Edges
-        The edges.
-    corner : ndarray of bool, shape (n + 1,)
-        Whether there is a corner (or the still water) before the first edge, between two, after the last.
-    body : int
-        Number of the outline.
-    kind : int
-        BODY or PLATE.
-    tips : (bool, bool)
-        Whether the run starts and ends at a free edge of a plate.
-    """
-
+    #: The edges.
     edges: Edges
+    #: Whether there is a corner (or the still water) before the first edge, between two, after the last; shape (n +
+    #: 1,).
     corner: NDArray[np.bool_]
+    #: Number of the outline.
     body: int
+    #: BODY or PLATE.
     kind: int = BODY
+    #: Whether the run starts and ends at a free edge of a plate.
     tips: tuple[bool, bool] = (False, False)
 
 
@@ -236,7 +218,8 @@ class Surroundings:
             chord = self._chord[None, others]
             along = np.clip((offset / chord).real, 0.0, 1.0)
             best = np.abs(offset - along * chord).min(axis=1)
-        return np.minimum(best, bed)
+        values: Array = np.minimum(best, bed)
+        return values
 
     def corner_scale(self, run: int, edge: int, place: int) -> float:
         """Local length at the start (0) or end (1) of an edge: its neighbour, other edges, bed, still water."""
@@ -449,20 +432,13 @@ def _real_surface(
 
 @dataclass(frozen=True, eq=False)
 class Layout:
-    """Panels of one problem: the body first, then the free surface.
+    """Panels of one problem: the body first, then the free surface."""
 
-    Parameters
-    ----------
-    panels : Panels
-        Only the half to the right of ``axis`` where the section is symmetric.
-    body_count : int
-        Number of nodes on the body.
-    axis : float or None
-        Axis of symmetry [m].
-    """
-
+    #: Only the half to the right of ``axis`` where the section is symmetric.
     panels: Panels
+    #: Number of nodes on the body.
     body_count: int
+    #: Axis of symmetry [m].
     axis: float | None
 
     @property

@@ -19,23 +19,17 @@ DisplacementField = Callable[[Array], Array]
 class Modes:
     """Named displacement fields of the wetted boundary.
 
-    Parameters
-    ----------
-    names : tuple of str
-        Unique names: the entries of ``radiating_dof`` and ``influenced_dof``.
-    functions : tuple of callable
-        Each takes points (n, 2) [m] in the frame of the site and returns displacements (n, 2) for unit amplitude.
-    bodies : tuple
-        For each mode the numbers of the outlines that it moves; ``None`` moves all.
-
     Raises
     ------
     InputError
         When names repeat or their number differs from that of the functions.
     """
 
+    #: Unique names: the entries of ``radiating_dof`` and ``influenced_dof``.
     names: tuple[str, ...]
+    #: Each takes points (n, 2) [m] in the frame of the site and returns displacements (n, 2) for unit amplitude.
     functions: tuple[DisplacementField, ...]
+    #: For each mode the numbers of the outlines that it moves; ``None`` moves all.
     bodies: tuple[tuple[int, ...] | None, ...] = ()
 
     def __post_init__(self) -> None:

@@ -30,21 +30,17 @@ _EXPONENT = 3.0
 
 @dataclass(frozen=True)
 class CircleCoefficients:
-    """Radiation of a circular cylinder, without dimension.
+    """Radiation of a circular cylinder, without dimension."""
 
-    Parameters
-    ----------
-    added_mass, radiation_damping : float
-        a/(rho area) and b/(rho area omega) with the area of the immersed section (half or whole circle).
-    wave_ratio : float
-        Amplitude of the radiated wave on one side over the amplitude of the motion.
-    energy_defect : float
-        Relative difference of the power of the damping force and of the two waves.
-    """
-
+    #: ``added_mass``, ``radiation_damping``: a/(rho area) and b/(rho area omega) with the area of the immersed section
+    #: (half or whole circle).
     added_mass: float
+    #: ``added_mass``, ``radiation_damping``: a/(rho area) and b/(rho area omega) with the area of the immersed section
+    #: (half or whole circle).
     radiation_damping: float
+    #: Amplitude of the radiated wave on one side over the amplitude of the motion.
     wave_ratio: float
+    #: Relative difference of the power of the damping force and of the two waves.
     energy_defect: float
 
 
@@ -150,24 +146,17 @@ def _pole_integral(zeta: ComplexArray, ka: float) -> tuple[ComplexArray, Complex
 
 @dataclass(frozen=True)
 class SubmergedCircle:
-    """Submerged circular cylinder in infinite depth, without dimension; sway and heave are equal.
+    """Submerged circular cylinder in infinite depth, without dimension; sway and heave are equal."""
 
-    Parameters
-    ----------
-    added_mass, radiation_damping : float
-        a/(rho pi a^2) and b/(rho pi a^2 omega).
-    wave_ratio : float
-        Amplitude of the radiated wave on one side over the amplitude of the motion.
-    transmission : complex
-        Of the cylinder held fixed; its modulus is 1, since no wave is reflected.
-    energy_defect : float
-        Relative difference of the power of the damping force and of the two waves.
-    """
-
+    #: ``added_mass``, ``radiation_damping``: a/(rho pi a^2) and b/(rho pi a^2 omega).
     added_mass: float
+    #: ``added_mass``, ``radiation_damping``: a/(rho pi a^2) and b/(rho pi a^2 omega).
     radiation_damping: float
+    #: Amplitude of the radiated wave on one side over the amplitude of the motion.
     wave_ratio: float
+    #: Of the cylinder held fixed; its modulus is 1, since no wave is reflected.
     transmission: complex
+    #: Relative difference of the power of the damping force and of the two waves.
     energy_defect: float
 
 

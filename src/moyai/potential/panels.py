@@ -7,7 +7,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,25 +24,19 @@ RAY_DIRECTION = cmath.exp(0.25j * math.pi)
 
 @dataclass(frozen=True, eq=False)
 class Rule:
-    """Gauss-Legendre rule of one panel with the matrices that go with it.
+    """Gauss-Legendre rule of one panel with the matrices that go with it."""
 
-    Parameters
-    ----------
-    nodes, weights : ndarray, shape (p,)
-        On [-1, 1].
-    projection : ndarray, shape (p, p)
-        Legendre coefficients (rows) from node values.
-    derivative : ndarray, shape (p, p)
-        d/dt at the nodes from node values.
-    first, last : ndarray, shape (p,)
-        Values at t = -1 and t = 1 from node values.
-    """
-
+    #: On [-1, 1]; shape (p,).
     nodes: Array
+    #: On [-1, 1]; shape (p,).
     weights: Array
+    #: Legendre coefficients (rows) from node values; shape (p, p).
     projection: Array
+    #: d/dt at the nodes from node values; shape (p, p).
     derivative: Array
+    #: ``first``, ``last``: Values at t = -1 and t = 1 from node values; shape (p,).
     first: Array
+    #: ``first``, ``last``: Values at t = -1 and t = 1 from node values; shape (p,).
     last: Array
 
 
@@ -72,39 +66,31 @@ class Piece(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Panels:
-    """Panels and their nodes; the nodes of a panel follow each other, in the direction that has the fluid on its right.
+    """Panels and their nodes; those of a panel follow each other in the direction that has the fluid on its right."""
 
-    Parameters
-    ----------
-    pieces : tuple of Piece
-        The panels.
-    order : int
-        Nodes per panel.
-    u, v : ndarray of complex, shape (nodes,)
-        x + i z and x - i z; conjugate where x is real.
-    du, dv : ndarray of complex
-        Their derivatives with respect to the parameter t of the panel.
-    element : ndarray of complex
-        dsigma/dt: the speed on bodies, dx/dt on the free surface.
-    weight : ndarray of complex
-        ``element`` times the Gauss weight: sums over it are integrals along the boundary.
-    kind, body : ndarray of int
-        Of each node.
-    """
-
+    #: The panels.
     pieces: tuple[Piece, ...]
+    #: Nodes per panel.
     order: int
+    #: ``u``, ``v``: x + i z and x - i z; conjugate where x is real; shape (nodes,).
     u: ComplexArray
+    #: ``u``, ``v``: x + i z and x - i z; conjugate where x is real; shape (nodes,).
     v: ComplexArray
+    #: Their derivatives with respect to the parameter t of the panel.
     du: ComplexArray
+    #: Their derivatives with respect to the parameter t of the panel.
     dv: ComplexArray
+    #: dsigma/dt: the speed on bodies, dx/dt on the free surface.
     element: ComplexArray
+    #: ``element`` times the Gauss weight: sums over it are integrals along the boundary.
     weight: ComplexArray
+    #: Of each node.
     kind: IntArray
+    #: Of each node.
     body: IntArray
 
     @property
-    def kernel_panels(self) -> tuple[NDArray, ...]:
+    def kernel_panels(self) -> tuple[NDArray[Any], ...]:
         """The panels as the compiled quadrature wants them."""
         start = np.array([piece.start for piece in self.pieces], dtype=complex)
         step = np.array([piece.step for piece in self.pieces], dtype=complex)

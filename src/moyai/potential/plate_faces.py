@@ -19,21 +19,16 @@ from moyai.potential.quadrature import add_rankine
 
 @dataclass(frozen=True, eq=False)
 class PlateTip:
-    """A free edge of a plate.
+    """A free edge of a plate."""
 
-    Parameters
-    ----------
-    place, outward : ndarray, shape (2,)
-        Where it is [m], and the unit vector along which the plate would go on.
-    strength : ndarray, shape (n,)
-        Weights that give C of the jump C sqrt(distance) from the values on all nodes of the body [1 / sqrt(m)].
-    body : int
-        Number of the body that carries the plate.
-    """
-
+    #: ``place``, ``outward``: Where it is [m], and the unit vector along which the plate would go on; shape (2,).
     place: Array
+    #: ``place``, ``outward``: Where it is [m], and the unit vector along which the plate would go on; shape (2,).
     outward: Array
+    #: Weights that give C of the jump C sqrt(distance) from the values on all nodes of the body [1 / sqrt(m)]; shape
+    #: (n,).
     strength: Array
+    #: Number of the body that carries the plate.
     body: int
 
 

@@ -30,20 +30,16 @@ _BESIDE_JOINT = 5e-3
 class PlateLine:
     """An open line of straight and circular edges without thickness.
 
-    Parameters
-    ----------
-    points : array_like, shape (n, 2)
-        x, z [m] of both ends and of every corner between, in the frame of the hull or of the site.
-    bulges : array_like, shape (n - 1,), optional
-        tan(sweep / 4) of each edge: 0 (default) straight, positive turns counter-clockwise, 1 half circle.
-
     Raises
     ------
     InputError
         For fewer than two points, points that are not finite or coincide, or a line that meets itself.
     """
 
+    #: x, z [m] of both ends and of every corner between, in the frame of the hull or of the site; shape (n, 2).
     points: Array
+    #: tan(sweep / 4) of each edge: 0 (default) straight, positive turns counter-clockwise, 1 half circle; shape (n -
+    #: 1,).
     bulges: Array | None = None
 
     def __post_init__(self) -> None:
@@ -99,20 +95,13 @@ class PlateLine:
 
 @dataclass(frozen=True, eq=False)
 class WettedPlate:
-    """The part of a plate that is under water.
+    """The part of a plate that is under water."""
 
-    Parameters
-    ----------
-    edges : Edges
-        One after the other.
-    joined : (bool, bool)
-        Whether the first and the last point lie on the still water, a hull or another plate; a free edge does not.
-    body : int
-        Number of the body that it moves with.
-    """
-
+    #: One after the other.
     edges: Edges
+    #: Whether the first and the last point lie on the still water, a hull or another plate; a free edge does not.
     joined: tuple[bool, bool]
+    #: Number of the body that it moves with.
     body: int
 
 

@@ -40,49 +40,39 @@ _ALMOST_ZERO = 1e-4  # kh at which the zero-frequency limit is taken; its error 
 
 @dataclass(frozen=True)
 class RectangleSolution:
-    """Coefficients of a rectangle per metre, convention ``exp(-i omega t)``, phases at x = 0.
+    """Coefficients of a rectangle per metre, convention ``exp(-i omega t)``, phases at x = 0."""
 
-    Parameters
-    ----------
-    beam, draught : float
-        B and d [m].
-    centre : (float, float)
-        x, z [m] of the point that roll turns about.
-    water : Water
-        Depth, density, gravity.
-    omega : ndarray (n,)
-        Angular frequencies [rad/s].
-    heading : ndarray (h,)
-        Directions of travel [rad].
-    added_mass, radiation_damping : ndarray (n, 3, 3)
-        Motions equal along the structure [kg/m, kg, kg m; /s].
-    infinite_frequency_added_mass, zero_frequency_added_mass : ndarray (3, 3)
-        Limits of the added mass.
-    radiated_wave : ndarray (n, 3, 2)
-        Wave amplitude per unit velocity towards -x and +x [s, m s].
-    excitation_force, froude_krylov_force : ndarray (n, h, 3)
-        Per unit wave amplitude [N/m2, N/m].
-    reflection, transmission : ndarray (n, h)
-        Of the body held fixed.
-    checks : tuple of IdentityCheck
-        Energy, Haskind, symmetry, far-field damping.
-    """
-
+    #: ``beam``, ``draught``: B and d [m].
     beam: float
+    #: ``beam``, ``draught``: B and d [m].
     draught: float
+    #: x, z [m] of the point that roll turns about.
     centre: tuple[float, float]
+    #: Depth, density, gravity.
     water: Water
+    #: Angular frequencies [rad/s]; shape (n,).
     omega: Array
+    #: Directions of travel [rad]; shape (h,).
     heading: Array
+    #: Motions equal along the structure [kg/m, kg, kg m; /s]; shape (n, 3, 3).
     added_mass: Array
+    #: Motions equal along the structure [kg/m, kg, kg m; /s]; shape (n, 3, 3).
     radiation_damping: Array
+    #: Limits of the added mass; shape (3, 3).
     infinite_frequency_added_mass: Array
+    #: Limits of the added mass; shape (3, 3).
     zero_frequency_added_mass: Array
+    #: Wave amplitude per unit velocity towards -x and +x [s, m s]; shape (n, 3, 2).
     radiated_wave: ComplexArray
+    #: Per unit wave amplitude [N/m2, N/m]; shape (n, h, 3).
     excitation_force: ComplexArray
+    #: Per unit wave amplitude [N/m2, N/m]; shape (n, h, 3).
     froude_krylov_force: ComplexArray
+    #: Of the body held fixed; shape (n, h).
     reflection: ComplexArray
+    #: Of the body held fixed; shape (n, h).
     transmission: ComplexArray
+    #: Energy, Haskind, symmetry, far-field damping.
     checks: tuple[IdentityCheck, ...]
 
     @property

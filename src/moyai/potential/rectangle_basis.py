@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,14 +24,9 @@ _FEWEST_MODES = 512
 
 @dataclass(frozen=True)
 class GapBasis:
-    """Even functions of y with the corner singularities of the exact velocity, [eq:reference-gap-basis].
+    """Even functions of y with the corner singularities of the exact velocity, [eq:reference-gap-basis]."""
 
-    Parameters
-    ----------
-    pairs : int
-        Functions of each of the two corner families; one constant is added to them.
-    """
-
+    #: Functions of each of the two corner families; one constant is added to them.
     pairs: int
 
     @property
@@ -114,11 +110,12 @@ class GapBasis:
                 points.append(y)
         return np.array(points), np.array(rows)
 
-    def moments(self, function_values: NDArray) -> NDArray:
+    def moments(self, function_values: NDArray[Any]) -> NDArray[Any]:
         """Return integrals over 0 < y < 1 of basis times a function given (3, q) at :meth:`moment_rules`."""
         _, weights = self.moment_rules()
         family = np.concatenate([np.zeros(self.pairs, int), np.ones(self.pairs, int), [2]])
-        return np.einsum("iq,iq->i", weights, np.asarray(function_values)[family])
+        values: NDArray[Any] = np.einsum("iq,iq->i", weights, np.asarray(function_values)[family])
+        return values
 
 
 @lru_cache(maxsize=32)

@@ -73,9 +73,12 @@ def _heave(x: Array, y: Array, along: float) -> Array:
     """Solution with unit upward velocity at y = 1 and none at y = 0."""
     if along == 0.0:
         return 0.5 * (y**2 - x**2)
+    values: Array
     if _plain(along):
-        return np.exp(along * (y - 1.0)) * (1.0 + np.exp(-2.0 * along * y)) / (along * -np.expm1(-2.0 * along))
-    return 2.0 * (np.sinh(0.5 * along * y) ** 2 - np.sinh(0.5 * along * x) ** 2) / (along * np.sinh(along))
+        values = np.exp(along * (y - 1.0)) * (1.0 + np.exp(-2.0 * along * y)) / (along * -np.expm1(-2.0 * along))
+        return values
+    values = 2.0 * (np.sinh(0.5 * along * y) ** 2 - np.sinh(0.5 * along * x) ** 2) / (along * np.sinh(along))
+    return values
 
 
 def _heave_slope(x: Array, along: float) -> Array:
@@ -92,7 +95,8 @@ def _roll(x: Array, y: Array, along: float) -> Array:
     if _plain(along):
         return -x * _heave(x, y, along)
     excess = 2.0 * x * np.sinh(0.5 * along * y) ** 2 - _sinh_excess(along * x) / along
-    return -excess / (along * np.sinh(along))
+    values: Array = -excess / (along * np.sinh(along))
+    return values
 
 
 def _roll_slope(x: Array, y: Array, along: float) -> Array:
@@ -101,7 +105,8 @@ def _roll_slope(x: Array, y: Array, along: float) -> Array:
         return 0.5 * (x**2 - y**2)
     if _plain(along):
         return -_heave(x, y, along)
-    return -2.0 * (np.sinh(0.5 * along * y) ** 2 - np.sinh(0.5 * along * x) ** 2) / (along * np.sinh(along))
+    values: Array = -2.0 * (np.sinh(0.5 * along * y) ** 2 - np.sinh(0.5 * along * x) ** 2) / (along * np.sinh(along))
+    return values
 
 
 def _sinh_excess(u: Array) -> Array:
@@ -112,31 +117,22 @@ def _sinh_excess(u: Array) -> Array:
 
 @dataclass(frozen=True)
 class Fields:
-    """Solution at one frequency, modes sway, heave, roll about the middle of the waterline.
+    """Solution at one frequency, modes sway, heave, roll about the middle of the waterline."""
 
-    Parameters
-    ----------
-    potential_moment : ndarray (3, 3)
-        Integral of phi_j n_i over the wetted surface for unit velocity, over the gap height squared (one more power
-        for every roll index).
-    exciting_moment : ndarray (3,)
-        The same integral for a wave of unit potential amplitude (norm 1 over the depth) from -x, body held.
-    incident_moment : ndarray (3,)
-        The part of the undisturbed wave in it.
-    radiated : ndarray (3,)
-        Amplitude of the wave mode at x > 0, phase referred to x = 0.
-    reflection, transmission : complex
-        Of the body held fixed, phase referred to x = 0.
-    surface : float
-        Value of the wave mode at the surface.
-    """
-
+    #: Integral of phi_j n_i over the wetted surface for unit velocity, over the gap height squared (one more power for
+    #: every roll index); shape (3, 3).
     potential_moment: ComplexArray
+    #: The same integral for a wave of unit potential amplitude (norm 1 over the depth) from -x, body held; shape (3,).
     exciting_moment: ComplexArray
+    #: The part of the undisturbed wave in it; shape (3,).
     incident_moment: ComplexArray
+    #: Amplitude of the wave mode at x > 0, phase referred to x = 0; shape (3,).
     radiated: ComplexArray
+    #: ``reflection``, ``transmission``: Of the body held fixed, phase referred to x = 0.
     reflection: complex
+    #: ``reflection``, ``transmission``: Of the body held fixed, phase referred to x = 0.
     transmission: complex
+    #: Value of the wave mode at the surface.
     surface: float
 
 

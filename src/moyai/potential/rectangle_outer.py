@@ -67,7 +67,8 @@ def log_matrix(basis: GapBasis, reference: float) -> Array:
     at_zero = 0.5 ** (first + second + 1.0) / (gamma(first + 1.0) * gamma(second + 1.0))
     slope = -digamma(sigma) + np.log(2.0) + 0.5 * (digamma(second + 1.0) + digamma(first + 1.0) + digamma(sigma))
     finite = at_zero * (2.0 * slope + np.euler_gamma + 2.0 * np.log(reference))
-    return (2.0 / np.pi) * scale[:, None] * scale[None, :] * np.where(lowest, finite, values)
+    integrals: Array = (2.0 / np.pi) * scale[:, None] * scale[None, :] * np.where(lowest, finite, values)
+    return integrals
 
 
 @lru_cache(maxsize=8)

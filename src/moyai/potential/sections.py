@@ -28,20 +28,16 @@ _TOUCH = 1e-9
 class Outline:
     """A closed outline, counter-clockwise; one given clockwise is turned round.
 
-    Parameters
-    ----------
-    vertices : array_like, shape (n, 2)
-        Corners (x, z) [m] in the body frame; the last one need not repeat the first.
-    bulges : array_like, shape (n,), optional
-        tan(sweep / 4) of the edge that leaves each corner: 0 (default) is straight, 1 a counter-clockwise half circle.
-
     Raises
     ------
     InputError
         For NaN, fewer than three corners (two with arcs), repeated corners, no area, or an outline that meets itself.
     """
 
+    #: Corners (x, z) [m] in the body frame; the last one need not repeat the first; shape (n, 2).
     vertices: Array
+    #: tan(sweep / 4) of the edge that leaves each corner: 0 (default) is straight, 1 a counter-clockwise half circle;
+    #: shape (n,).
     bulges: Array | None = None
 
     def __post_init__(self) -> None:
@@ -112,21 +108,13 @@ class Outline:
 
 def _turned(points: Array, heel: float) -> Array:
     cosine, sine = math.cos(heel), math.sin(heel)
-    return points @ np.array([[cosine, -sine], [sine, cosine]])
+    values: Array = points @ np.array([[cosine, -sine], [sine, cosine]])
+    return values
 
 
 @dataclass(frozen=True, eq=False)
 class Hull:
     """One or several closed outlines and thin plates that float together, in the body frame.
-
-    Parameters
-    ----------
-    outlines : sequence of Outline
-        They may not overlap. None at all is a structure of plates alone.
-    name : str
-        For messages and plots.
-    plates : sequence of PlateLine
-        Plates of no thickness: keel plates that end on an outline, a curtain under the hull, a barrier.
 
     Raises
     ------
@@ -134,8 +122,11 @@ class Hull:
         When there is neither outline nor plate, two outlines overlap or touch, or plates cross what they may not.
     """
 
+    #: They may not overlap. None at all is a structure of plates alone.
     outlines: tuple[Outline, ...]
+    #: For messages and plots.
     name: str = "hull"
+    #: Plates of no thickness: keel plates that end on an outline, a curtain under the hull, a barrier.
     plates: tuple[PlateLine, ...] = ()
 
     def __post_init__(self) -> None:
@@ -221,20 +212,13 @@ def _overlap(first: Array, second: Array) -> bool:
 
 @dataclass(frozen=True, eq=False)
 class Chain:
-    """A connected piece of wetted boundary, fluid on its right.
+    """A connected piece of wetted boundary, fluid on its right."""
 
-    Parameters
-    ----------
-    edges : Edges
-        From the left waterline point under the body to the right one, or all around a submerged outline.
-    closed : bool
-        Whether it is wholly under water.
-    body : int
-        Number of the outline it belongs to.
-    """
-
+    #: From the left waterline point under the body to the right one, or all around a submerged outline.
     edges: Edges
+    #: Whether it is wholly under water.
     closed: bool
+    #: Number of the outline it belongs to.
     body: int
 
 
@@ -244,28 +228,23 @@ class Section:
 
     Made by :meth:`Hull.immersed`. Areas and moments are per metre of structure and exact, arcs included.
 
-    Parameters
-    ----------
-    outlines : tuple of Outline
-        Whole outlines in the frame of the site.
-    draught, heel, offset : float
-        How the hull was set into the water [m, rad, m].
-    name : str
-        For messages and plots.
-    plates : tuple of PlateLine
-        Thin plates in the frame of the site.
-
     Raises
     ------
     InputError
         When no part is under water, an outline touches the still water from below, or holds a basin of its own.
     """
 
+    #: Whole outlines in the frame of the site.
     outlines: tuple[Outline, ...]
+    #: How the hull was set into the water [m, rad, m].
     draught: float
+    #: How the hull was set into the water [m, rad, m].
     heel: float = 0.0
+    #: How the hull was set into the water [m, rad, m].
     offset: float = 0.0
+    #: For messages and plots.
     name: str = "section"
+    #: Thin plates in the frame of the site.
     plates: tuple[PlateLine, ...] = ()
 
     def __post_init__(self) -> None:
@@ -304,7 +283,8 @@ class Section:
 
     @cached_property
     def _moments(self) -> Array:
-        return np.sum([chain.edges.moments() for chain in self.chains] + [(0.0, 0.0, 0.0)], axis=0)
+        values: Array = np.sum([chain.edges.moments() for chain in self.chains] + [(0.0, 0.0, 0.0)], axis=0)
+        return values
 
     @property
     def area(self) -> float:
@@ -373,9 +353,10 @@ class Section:
 
     def to_site(self, points: ArrayLike) -> Array:
         """Return points (n, 2) of the body frame in the frame of the site, for instance a fairlead [m]."""
-        return _turned(np.atleast_2d(np.asarray(points, dtype=float)), self.heel) + np.array(
+        values: Array = _turned(np.atleast_2d(np.asarray(points, dtype=float)), self.heel) + np.array(
             [self.offset, -self.draught]
         )
+        return values
 
     def symmetry_axis(self) -> float | None:
         """Return x [m] of the upright line about which the wetted boundary is its own mirror image, or None."""

@@ -22,37 +22,37 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class RadiationDiffraction:
-    """Coefficients, potentials and identities of one section; everything per metre of structure.
+    """Coefficients, potentials and identities of one section; everything per metre of structure."""
 
-    Parameters
-    ----------
-    section, water, modes, heading, lid
-        The problem that was solved (heading in radians).
-    normal : HeadingSolution
-        Waves along +x; its radiation coefficients hold for motion that is uniform along the structure.
-    oblique : tuple of HeadingSolution
-        One for every other |heading|; its modes vary as exp(i k sin(beta) y).
-    infinite_frequency_added_mass, zero_frequency_added_mass : ndarray, shape (radiating, influenced)
-        Limits; NaN where there is none (zero frequency in infinite depth, modes that displace volume).
-    unknowns : int
-        Number of nodes.
-    status, message, checks, notices
-        Whether the identities were met, and their figures.
-    """
-
+    #: The problem that was solved (heading in radians).
     section: Section
+    #: The problem that was solved (heading in radians).
     water: Water
+    #: The problem that was solved (heading in radians).
     modes: Modes
+    #: The problem that was solved (heading in radians).
     heading: Array
+    #: The problem that was solved (heading in radians).
     lid: float
+    #: Waves along +x; its radiation coefficients hold for motion that is uniform along the structure.
     normal: HeadingSolution
+    #: One for every other |heading|; its modes vary as exp(i k sin(beta) y).
     oblique: tuple[HeadingSolution, ...]
+    #: ``infinite_frequency_added_mass``, ``zero_frequency_added_mass``: Limits; NaN where there is none (zero frequency
+    #: in infinite depth, modes that displace volume); shape (radiating, influenced).
     infinite_frequency_added_mass: Array
+    #: ``infinite_frequency_added_mass``, ``zero_frequency_added_mass``: Limits; NaN where there is none (zero frequency
+    #: in infinite depth, modes that displace volume); shape (radiating, influenced).
     zero_frequency_added_mass: Array
+    #: Number of nodes.
     unknowns: int
+    #: ``status``, ``message``, ``checks``, ``notices``: Whether the identities were met, and their figures.
     status: Status
+    #: ``status``, ``message``, ``checks``, ``notices``: Whether the identities were met, and their figures.
     message: str
+    #: ``status``, ``message``, ``checks``, ``notices``: Whether the identities were met, and their figures.
     checks: tuple[IdentityCheck, ...]
+    #: ``status``, ``message``, ``checks``, ``notices``: Whether the identities were met, and their figures.
     notices: tuple[Notice, ...] = ()
 
     @property
@@ -92,17 +92,20 @@ class RadiationDiffraction:
     @property
     def excitation_force(self) -> ComplexArray:
         """Excitation (omega, heading, mode) per unit wave amplitude."""
-        return self._over_headings("excitation_force")
+        values: ComplexArray = self._over_headings("excitation_force")
+        return values
 
     @property
     def reflection_coefficient(self) -> ComplexArray:
         """R (omega, heading) of the section held fixed, phase at x = 0."""
-        return self._over_headings("reflection")
+        values: ComplexArray = self._over_headings("reflection")
+        return values
 
     @property
     def transmission_coefficient(self) -> ComplexArray:
         """T (omega, heading) of the section held fixed, phase at x = 0."""
-        return self._over_headings("transmission")
+        values: ComplexArray = self._over_headings("transmission")
+        return values
 
     def _over_headings(self, name: str) -> Any:
         """Stack a quantity of the headings that were finished along a second axis; NaN for the others."""

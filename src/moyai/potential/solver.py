@@ -180,7 +180,7 @@ def _solve_once(
 def _blocks_the_water(plate: Edges, depth: float) -> bool:
     """Tell whether a plate runs from the still water to the bed."""
     ends = plate.start[0, 1], plate.end[-1, 1]
-    return max(ends) == 0.0 and min(ends) + depth < 1e-6 * depth
+    return bool(max(ends) == 0.0 and min(ends) + depth < 1e-6 * depth)
 
 
 def _solve_oblique(

@@ -38,29 +38,19 @@ _MARGIN = 5e-3  # of the tolerance: damping that the repair leaves where it lift
 
 @dataclass(frozen=True)
 class StateSpace:
-    """Memory force ``-Re(outputs z)`` with ``z' = poles z + inputs velocity``, [eq:memory-state-space].
+    """Memory force ``-Re(outputs z)`` with ``z' = poles z + inputs velocity``, [eq:memory-state-space]."""
 
-    Parameters
-    ----------
-    poles : ndarray (n,)
-        One of each conjugate pair (imaginary part not negative), real parts negative [1/s].
-    inputs : ndarray (n, m)
-        Complex modal form.
-    outputs : ndarray (m, n)
-        The partner of a complex pole is already in: its factor 2.
-    error : float
-        Largest error of the frequency response over the largest response of the pair of modes.
-    least_damping : float
-        Smallest eigenvalue of the damping over all frequencies, in the same measure; not negative if passive.
-    checks : tuple of IdentityCheck
-        Accuracy, passivity, damping of slow motion.
-    """
-
+    #: One of each conjugate pair (imaginary part not negative), real parts negative [1/s]; shape (n,).
     poles: ComplexArray
+    #: Complex modal form; shape (n, m).
     inputs: ComplexArray
+    #: The partner of a complex pole is already in: its factor 2; shape (m, n).
     outputs: ComplexArray
+    #: Largest error of the frequency response over the largest response of the pair of modes.
     error: float
+    #: Smallest eigenvalue of the damping over all frequencies, in the same measure; not negative if passive.
     least_damping: float
+    #: Accuracy, passivity, damping of slow motion.
     checks: tuple[IdentityCheck, ...]
 
     @property
@@ -111,7 +101,8 @@ class StateSpace:
         """Return K(t) (t, m, m)."""
         t = np.atleast_1d(np.asarray(time, dtype=float))
         growth = np.exp(self.poles * t[:, None])
-        return np.einsum("ik,tk,kj->tij", self.outputs, growth, self.inputs).real
+        values: Array = np.einsum("ik,tk,kj->tij", self.outputs, growth, self.inputs).real
+        return values
 
     def response(self, omega: ArrayLike) -> ComplexArray:
         """Return the integral of K exp(i omega t), B - i omega (A - A_inf), (k, m, m)."""

@@ -16,25 +16,22 @@ from moyai.potential.state_space import StateSpace
 
 @dataclass(frozen=True)
 class DiscreteMemory:
-    """Arrays for a kernel: ``z_new = decay z + old v_0 + middle v_(1/2) + new v_1``; force ``-Re(outputs z)``.
+    """Arrays for a kernel: ``z_new = decay z + old v_0 + middle v_(1/2) + new v_1``; force ``-Re(outputs z)``."""
 
-    Parameters
-    ----------
-    time_step : float
-        [s].
-    decay : ndarray (n,)
-        exp(pole time_step).
-    old, middle, new : ndarray (n, m)
-        Weights of the velocities at start, middle and end of the step; ``middle`` is zero for linear variation.
-    outputs : ndarray (m, n)
-        Of the state space.
-    """
-
+    #: [s].
     time_step: float
+    #: exp(pole time_step); shape (n,).
     decay: ComplexArray
+    #: ``old``, ``middle``, ``new``: Weights of the velocities at start, middle and end of the step; ``middle`` is zero
+    #: for linear variation; shape (n, m).
     old: ComplexArray
+    #: ``old``, ``middle``, ``new``: Weights of the velocities at start, middle and end of the step; ``middle`` is zero
+    #: for linear variation; shape (n, m).
     middle: ComplexArray
+    #: ``old``, ``middle``, ``new``: Weights of the velocities at start, middle and end of the step; ``middle`` is zero
+    #: for linear variation; shape (n, m).
     new: ComplexArray
+    #: Of the state space; shape (m, n).
     outputs: ComplexArray
 
 

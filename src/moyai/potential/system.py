@@ -10,13 +10,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-from moyai.core.arrays import Array, ComplexArray
+from moyai.core.arrays import Array, ComplexArray, IntArray
 from moyai.potential.mesh import Layout, require_memory
+from moyai.potential.oblique_quadrature import add_helmholtz, add_helmholtz_slopes
 from moyai.potential.panels import GAP, PLATE, RAY, gauss_rule
-from moyai.potential.quadrature import add_helmholtz, add_helmholtz_slopes, add_rankine, add_rankine_slopes
+from moyai.potential.quadrature import add_rankine, add_rankine_slopes
 
 # Stacks of matrices are cut so that one takes about this many bytes
 _STACK_BYTES = 6.0e7
@@ -28,13 +30,9 @@ class Block:
 
     phi_F solves (surface + K surface_rate) phi_F = flux q_B; then
     phi_B = body_flux q_B - (body + K body_rate) phi_F.
-
-    Parameters
-    ----------
-    sign : int
-        1 symmetric, -1 antisymmetric, 0 the whole section.
     """
 
+    #: 1 symmetric, -1 antisymmetric, 0 the whole section.
     sign: int
     body: ComplexArray
     body_rate: ComplexArray
@@ -71,7 +69,9 @@ class Block:
         return max(1, int(_STACK_BYTES / (16.0 * (len(self.surface) ** 2 + 1))))
 
 
-def _slopes(u: ComplexArray, normal: ComplexArray, own: np.ndarray, tables: tuple, crest: float) -> ComplexArray:
+def _slopes(
+    u: ComplexArray, normal: ComplexArray, own: IntArray, tables: tuple[Any, ...], crest: float
+) -> ComplexArray:
     """Return derivatives of S and D along normals at real targets, one image (2, targets, nodes)."""
     shape = 2, len(u), len(tables[1][0])
     slopes = np.zeros(shape, dtype=complex)

@@ -39,21 +39,19 @@ class Plate:
     Its normal points to the left of the way from ``start`` to ``end``: towards +x for a plate that hangs down from its
     start.
 
-    Parameters
-    ----------
-    start, end : (float, float)
-        x, z [m]; the start may lie on the still water z = 0, the end may stand on the bed. Both may be submerged.
-    bulge : float
-        tan(sweep / 4): 0 straight, positive turns counter-clockwise (a hanging plate bulges towards -x), 1 half circle.
-
     Raises
     ------
     InputError
         When the plate has no length, is more than a half circle, or rises above the still water.
     """
 
+    #: ``start``, ``end``: x, z [m]; the start may lie on the still water z = 0, the end may stand on the bed. Both may
+    #: be submerged.
     start: tuple[float, float]
+    #: ``start``, ``end``: x, z [m]; the start may lie on the still water z = 0, the end may stand on the bed. Both may
+    #: be submerged.
     end: tuple[float, float]
+    #: tan(sweep / 4): 0 straight, positive turns counter-clockwise (a hanging plate bulges towards -x), 1 half circle.
     bulge: float = 0.0
 
     def __post_init__(self) -> None:
@@ -141,30 +139,22 @@ def horizontal_motion(_points: Array, normals: Array) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class PlateLimit:
-    """Added mass and jumps at one of the limits of frequency.
+    """Added mass and jumps at one of the limits of frequency."""
 
-    Parameters
-    ----------
-    plate : Plate
-        The plate.
-    added_mass : ndarray, shape (modes, modes)
-        M_ij per metre of structure [kg/m for translations]: force against mode i for unit acceleration of mode j.
-    points : ndarray, shape (n, 2)
-        Places along the plate [m].
-    arc : ndarray, shape (n,)
-        Arc-length fractions of the points.
-    jump : ndarray, shape (n, modes)
-        Potential on the side of the normal minus that on the other side, for unit velocity [m2/s per m/s]; negative
-        where the plate pushes water. The impulsive pressure difference is -rho times the jump times the speed.
-    centre_of_pressure : ndarray, shape (modes, 2)
-        Where the impulse of each mode acts on the average [m].
-    """
-
+    #: The plate.
     plate: Plate
+    #: M_ij per metre of structure [kg/m for translations]: force against mode i for unit acceleration of mode j; shape
+    #: (modes, modes).
     added_mass: Array
+    #: Places along the plate [m]; shape (n, 2).
     points: Array
+    #: Arc-length fractions of the points; shape (n,).
     arc: Array
+    #: Potential on the side of the normal minus that on the other side, for unit velocity [m2/s per m/s]; negative
+    #: where the plate pushes water. The impulsive pressure difference is -rho times the jump times the speed. Shape (n,
+    #: modes).
     jump: Array
+    #: Where the impulse of each mode acts on the average [m]; shape (modes, 2).
     centre_of_pressure: Array
 
 

@@ -19,24 +19,17 @@ _CUSP = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class PlateGrid:
-    """Nodes with their weights and, half a step before, between and behind them, targets.
+    """Nodes with their weights and, half a step before, between and behind them, targets."""
 
-    Parameters
-    ----------
-    fraction : ndarray, shape (n,)
-        Arc-length fractions of the nodes, the tails beyond the unknowns included.
-    weight : ndarray, shape (n,)
-        Sums of a function of the arc-length fraction times these are its integral.
-    target : ndarray, shape (last - first + 1,)
-        Arc-length fractions at which the equation holds.
-    first, last : int
-        Range of the nodes that carry unknowns; those before and behind follow from them.
-    """
-
+    #: Arc-length fractions of the nodes, the tails beyond the unknowns included; shape (n,).
     fraction: Array
+    #: Sums of a function of the arc-length fraction times these are its integral; shape (n,).
     weight: Array
+    #: Arc-length fractions at which the equation holds; shape (last - first + 1,).
     target: Array
+    #: ``first``, ``last``: Range of the nodes that carry unknowns; those before and behind follow from them.
     first: int
+    #: ``first``, ``last``: Range of the nodes that carry unknowns; those before and behind follow from them.
     last: int
 
 

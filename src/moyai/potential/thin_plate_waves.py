@@ -54,36 +54,26 @@ def plate_section(*plates: Plate | PlateLine, name: str = "plates") -> Section:
 
 @dataclass(frozen=True, eq=False)
 class PlateJump:
-    """Jump of the potential over one plate: its value where the normal points minus that behind.
+    """Jump of the potential over one plate: its value where the normal points minus that behind."""
 
-    Parameters
-    ----------
-    points, normals : ndarray, shape (n, 2)
-        Places [m] and unit normals.
-    arc : ndarray, shape (n,)
-        Distance along the plate [m].
-    weight : ndarray, shape (n,)
-        Sums over it are integrals along the plate [m].
-    radiation : ndarray of complex, shape (omega, n, mode)
-        For unit velocity [m2/s per m/s]; the pressure difference is i omega rho times it.
-    diffraction : ndarray of complex, shape (omega, n)
-        Of the section held fixed, for unit wave amplitude [m2/s per m].
-    tip_places : ndarray, shape (tips, 2)
-        Free edges [m].
-    tip_radiation : ndarray of complex, shape (omega, tips, mode)
-        C of the jump C sqrt(distance) at the free edges, for unit velocity [eq:plate-suction].
-    tip_diffraction : ndarray of complex, shape (omega, tips)
-        The same for unit wave amplitude.
-    """
-
+    #: ``points``, ``normals``: Places [m] and unit normals; shape (n, 2).
     points: Array
+    #: ``points``, ``normals``: Places [m] and unit normals; shape (n, 2).
     normals: Array
+    #: Distance along the plate [m]; shape (n,).
     arc: Array
+    #: Sums over it are integrals along the plate [m]; shape (n,).
     weight: Array
+    #: For unit velocity [m2/s per m/s]; the pressure difference is i omega rho times it; shape (omega, n, mode).
     radiation: ComplexArray
+    #: Of the section held fixed, for unit wave amplitude [m2/s per m]; shape (omega, n).
     diffraction: ComplexArray
+    #: Free edges [m]; shape (tips, 2).
     tip_places: Array
+    #: C of the jump C sqrt(distance) at the free edges, for unit velocity [eq:plate-suction]; shape (omega, tips,
+    #: mode).
     tip_radiation: ComplexArray
+    #: The same for unit wave amplitude; shape (omega, tips).
     tip_diffraction: ComplexArray
 
 
@@ -141,17 +131,11 @@ def _distance(points: Array, start: complex) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class PlateWaves:
-    """Thin plates in waves that travel along +x and along -x, per metre of structure.
+    """Thin plates in waves that travel along +x and along -x, per metre of structure."""
 
-    Parameters
-    ----------
-    solution : RadiationDiffraction
-        Waves along +x, with the identities.
-    backward : RadiationDiffraction
-        Waves along -x: the mirrored plates in waves along +x.
-    """
-
+    #: Waves along +x, with the identities.
     solution: RadiationDiffraction
+    #: Waves along -x: the mirrored plates in waves along +x.
     backward: RadiationDiffraction
 
     @property

@@ -102,7 +102,8 @@ def _zeros(poles: ComplexArray, residues: Array) -> ComplexArray:
     kept = values[values.imag >= 0.0]
     # a pole on the axis would ring for ever
     damping = np.maximum(np.abs(kept.real), _LEAST_DAMPING * np.abs(kept))
-    return -damping + 1j * kept.imag
+    turned: ComplexArray = -damping + 1j * kept.imag
+    return turned
 
 
 def constrained_least_squares(
@@ -148,4 +149,5 @@ def constrained_least_squares(
         rest = stack @ dual - unit
         if abs(rest[-1]) > 1e-14:
             y = target - rest[:-1] / rest[-1]
-    return particular + back @ y
+    best: Array = particular + back @ y
+    return best

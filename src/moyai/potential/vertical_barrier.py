@@ -23,22 +23,17 @@ from moyai.sea.water import Water
 
 @dataclass(frozen=True, eq=False)
 class VerticalBarrier:
-    """Sway coefficients and scattering of a vertical barrier that hangs from the still water, per metre.
+    """Sway coefficients and scattering of a vertical barrier that hangs from the still water, per metre."""
 
-    Parameters
-    ----------
-    omega : ndarray, shape (n,)
-        [rad/s].
-    added_mass, radiation_damping : ndarray, shape (n,)
-        Of motion along x [kg/m, kg/(m s)].
-    reflection, transmission : ndarray of complex, shape (n,)
-        Of the barrier held fixed, phase at the barrier.
-    """
-
+    #: [rad/s]; shape (n,).
     omega: Array
+    #: Of motion along x [kg/m, kg/(m s)]; shape (n,).
     added_mass: Array
+    #: Of motion along x [kg/m, kg/(m s)]; shape (n,).
     radiation_damping: Array
+    #: ``reflection``, ``transmission``: Of the barrier held fixed, phase at the barrier; shape (n,).
     reflection: ComplexArray
+    #: ``reflection``, ``transmission``: Of the barrier held fixed, phase at the barrier; shape (n,).
     transmission: ComplexArray
 
 

@@ -29,20 +29,14 @@ LARGEST_CONDITION = 1e3
 
 @dataclass(frozen=True)
 class Parameter:
-    """A parameter to be found.
-
-    Parameters
-    ----------
-    name, unit : str
-    start : float
-        First guess.
-    lower, upper : float
-        Bounds.
-    """
+    """A parameter to be found."""
 
     name: str
+    #: First guess.
     start: float
+    #: Bounds.
     lower: float = -math.inf
+    #: Bounds.
     upper: float = math.inf
     unit: str = ""
 
@@ -55,63 +49,45 @@ class Parameter:
 
 @dataclass(frozen=True, eq=False)
 class LeftOut:
-    """The fit without one group of observations, and how it predicts that group.
-
-    Parameters
-    ----------
-    group : str
-    values : ndarray
-        Parameters found without the group.
-    bias, rms : float
-        Of prediction minus observation in the group, in the unit of the observations.
-    count : int
-    """
+    """The fit without one group of observations, and how it predicts that group."""
 
     group: str
+    #: Parameters found without the group.
     values: Array
+    #: ``bias``, ``rms``: Of prediction minus observation in the group, in the unit of the observations.
     bias: float
+    #: ``bias``, ``rms``: Of prediction minus observation in the group, in the unit of the observations.
     rms: float
     count: int
 
 
 @dataclass(frozen=True, eq=False)
 class Calibration:
-    """Parameters of a model found from observations; equation [eq:records-calibration].
-
-    Parameters
-    ----------
-    parameters : tuple of Parameter
-    values, errors : ndarray
-        Estimates and standard errors.
-    covariance : ndarray
-    prediction, residual : ndarray
-        At the estimate; residual is prediction minus observation.
-    bias, rms : float
-        Of the residual.
-    condition : float
-        Condition number of the scaled sensitivities.
-    interval : ndarray, shape (parameters, 2)
-        95 % interval of the bootstrap, widened for few observations; of the covariance (Student) where there was none.
-    samples : ndarray, shape (draws, parameters)
-        Bootstrap estimates.
-    left_out : tuple of LeftOut
-    evaluations : int
-        Calls of the model.
-    notices : tuple of Notice
-    """
+    """Parameters of a model found from observations; equation [eq:records-calibration]."""
 
     parameters: tuple[Parameter, ...]
+    #: ``values``, ``errors``: Estimates and standard errors.
     values: Array
+    #: ``values``, ``errors``: Estimates and standard errors.
     errors: Array
     covariance: Array
+    #: ``prediction``, ``residual``: At the estimate; residual is prediction minus observation.
     prediction: Array
+    #: ``prediction``, ``residual``: At the estimate; residual is prediction minus observation.
     residual: Array
+    #: Of the residual.
     bias: float
+    #: Of the residual.
     rms: float
+    #: Condition number of the scaled sensitivities.
     condition: float
+    #: 95 % interval of the bootstrap, widened for few observations; of the covariance (Student) where there was none;
+    #: shape (parameters, 2).
     interval: Array
+    #: Bootstrap estimates; shape (draws, parameters).
     samples: Array
     left_out: tuple[LeftOut, ...]
+    #: Calls of the model.
     evaluations: int
     notices: tuple[Notice, ...]
 
@@ -450,20 +426,14 @@ def _worst_pair(parameters: Sequence[Parameter], covariance: Array) -> str:
 
 @dataclass(frozen=True, eq=False)
 class ProfileOfFit:
-    """Least sum of squares over the other parameters, along one.
-
-    Parameters
-    ----------
-    name : str
-    values, squares : ndarray
-        Values of the parameter and the sum of weighted squares.
-    interval : tuple of float
-        Where the sum rises by no more than 3.84 standard variances: 95 % interval; infinite on an open side.
-    """
+    """Least sum of squares over the other parameters, along one."""
 
     name: str
+    #: ``values``, ``squares``: Values of the parameter and the sum of weighted squares.
     values: Array
+    #: ``values``, ``squares``: Values of the parameter and the sum of weighted squares.
     squares: Array
+    #: Where the sum rises by no more than 3.84 standard variances: 95 % interval; infinite on an open side.
     interval: tuple[float, float]
 
 

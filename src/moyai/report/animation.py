@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -19,46 +20,29 @@ FRAMES_PER_PERIOD_COARSE = 8
 
 @dataclass(frozen=True)
 class MovingBody:
-    """A rigid body of the scene.
-
-    Parameters
-    ----------
-    name : str
-    outlines : tuple of ndarray, shape (points, 2)
-        Closed outlines at rest, x and z in site axes [m].
-    pivot : tuple of float
-        Point that ``pose`` moves and turns about [m].
-    pose : ndarray, shape (frames, 3)
-        Sway and heave [m], roll [rad], relative to rest.
-    """
+    """A rigid body of the scene."""
 
     name: str
+    #: Closed outlines at rest, x and z in site axes [m]; shape (points, 2).
     outlines: tuple[Array, ...]
+    #: Point that ``pose`` moves and turns about [m].
     pivot: tuple[float, float]
+    #: Sway and heave [m], roll [rad], relative to rest; shape (frames, 3).
     pose: Array
 
 
 @dataclass(frozen=True)
 class MovingLine:
-    """A line of the scene.
-
-    Parameters
-    ----------
-    name : str
-    path : ndarray, shape (frames, points, 2)
-        x and z from the anchor to the fairlead [m].
-    tension : ndarray, shape (frames,)
-        Tension at the fairlead [N].
-    maximum : float
-        Largest tension of the whole record [N].
-    breaking_load : float
-        NaN where not known [N].
-    """
+    """A line of the scene."""
 
     name: str
+    #: x and z from the anchor to the fairlead [m]; shape (frames, points, 2).
     path: Array
+    #: Tension at the fairlead [N]; shape (frames,).
     tension: Array
+    #: Largest tension of the whole record [N].
     maximum: float
+    #: NaN where not known [N].
     breaking_load: float = float("nan")
 
 
@@ -105,7 +89,12 @@ def encode_track(values: Array, tolerance: float, *, everywhere: bool = True) ->
             break
     kept, basis = coefficients[:, :count], vectors[:, :count]
     # half the tolerance is left for the rounding of the coefficients; roundings of several columns add as squares
-    rounding = 0.5 * np.sqrt(((np.ptp(kept, axis=0) / QUANTA[8] * np.abs(basis).max(axis=0)) ** 2).sum())
+    steps = np.ptp(kept, axis=0) / QUANTA[8]
+    if everywhere:
+        rounding = 0.5 * np.sqrt(((steps * np.abs(basis).max(axis=0)) ** 2).sum())
+    else:
+        # evenly spread within half a step, over columns of unit length
+        rounding = np.sqrt((steps**2).sum() / 12.0 / len(mean))
     return {
         "mean": encode_array(mean),
         "basis": [encode_array(column) for column in basis.T],
@@ -124,7 +113,12 @@ def plain_track(values: Array) -> dict[str, Any]:
 
 
 def frame_times(
-    time: Array, window: tuple[float, float], period: float, moments: Sequence[float] = (), budget: int = 12000
+    time: Array,
+    window: tuple[float, float],
+    period: float,
+    moments: Sequence[float] = (),
+    budget: int = 12000,
+    around: float = math.inf,
 ) -> Array:
     """Return the times of the frames: dense in the window, coarse elsewhere, with ``moments`` hit exactly.
 
@@ -140,6 +134,8 @@ def frame_times(
         Times to hit exactly, such as that of the maximum [s].
     budget : int
         Frames outside the window at most.
+    around : float
+        Periods before and after the window beyond which there are no frames.
 
     Returns
     -------
@@ -149,6 +145,7 @@ def frame_times(
     first, last = float(time[0]), float(time[-1])
     if not period > 0.0:
         period = max((last - first) / 50.0, 1e-9)
+    first, last = max(first, window[0] - around * period), min(last, window[1] + around * period)
     fine = np.arange(window[0], window[1], period / FRAMES_PER_PERIOD_FINE)
     outside = (last - first) - (window[1] - window[0])
     coarse_step = max(period / FRAMES_PER_PERIOD_COARSE, outside / budget)
@@ -266,7 +263,8 @@ def displaced_line(rest: Array, fairlead_shift: Array, bed: float | None) -> Arr
         if lying.size and lying[0] == 0:
             touchdown = float(along[lying[-1]])
     weight = np.clip((along - touchdown) / max(along[-1] - touchdown, 1e-12), 0.0, 1.0)
-    return rest[None, :, :] + weight[None, :, None] * fairlead_shift[:, None, :]
+    values: Array = rest[None, :, :] + weight[None, :, None] * fairlead_shift[:, None, :]
+    return values
 
 
 def _distance(points: Array) -> Array:
@@ -308,7 +306,8 @@ def tabulated_line(shift_x: Array, shift_z: Array, shapes: Array, fairlead_shift
     origin = shapes[:, :, -1, :] - np.stack(np.meshgrid(shift_x, shift_z, indexing="ij"), axis=-1)
     missing = origin.reshape(-1, 2).mean(axis=0) + fairlead_shift - path[:, -1, :]
     weight = np.linspace(0.0, 1.0, shapes.shape[2])
-    return path + weight[None, :, None] * missing[:, None, :]
+    values: Array = path + weight[None, :, None] * missing[:, None, :]
+    return values
 
 
 def fairlead_motion(pose: Array, arm: tuple[float, float]) -> Array:

@@ -39,7 +39,8 @@ def envelope_indices(values: ArrayLike, bins: int) -> NDArray[np.int64]:
         chosen.append(starts + low.reshape(bins, length).argmin(axis=1))
         chosen.append(starts + high.reshape(bins, length).argmax(axis=1))
     indices = np.unique(np.concatenate(chosen))
-    return indices[indices < samples]
+    kept: NDArray[np.int64] = indices[indices < samples]
+    return kept
 
 
 def focus_indices(

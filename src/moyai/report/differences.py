@@ -25,19 +25,12 @@ DIFFERENCES = "differences"
 
 @dataclass(frozen=True)
 class Other:
-    """Another result that a report is compared with.
+    """Another result that a report is compared with."""
 
-    Parameters
-    ----------
-    name : str
-        As legends and tables call it.
-    result : Result
-    document : Document
-        Its report, composed.
-    """
-
+    #: As legends and tables call it.
     name: str
     result: Result
+    #: Its report, composed.
     document: Document
 
 

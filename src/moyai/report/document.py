@@ -21,78 +21,53 @@ Cell = str | float | int | bool | None
 
 @dataclass(frozen=True)
 class Abscissa:
-    """One way to plot a figure along: period, L/B, time.
+    """One way to plot a figure along: period, L/B, time."""
 
-    Parameters
-    ----------
-    key : str
-        Short name by which the series give their values.
-    label, unit : str
-        Words and unit of the axis, in display units.
-    log : bool
-        Logarithmic scale.
-    """
-
+    #: Short name by which the series give their values.
     key: str
+    #: ``label``, ``unit``: Words and unit of the axis, in display units.
     label: str
+    #: ``label``, ``unit``: Words and unit of the axis, in display units.
     unit: str = ""
+    #: Logarithmic scale.
     log: bool = False
 
 
 @dataclass(frozen=True)
 class Panel:
-    """One of the diagrams stacked in a figure over a common abscissa.
+    """One of the diagrams stacked in a figure over a common abscissa."""
 
-    Parameters
-    ----------
-    label, unit : str
-        Words and unit of the ordinate, in display units.
-    limits : tuple of float or None
-        Range of the axis; found from the data when absent.
-    from_zero : bool
-        Let the axis start at zero.
-    """
-
+    #: ``label``, ``unit``: Words and unit of the ordinate, in display units.
     label: str
+    #: ``label``, ``unit``: Words and unit of the ordinate, in display units.
     unit: str = ""
+    #: Range of the axis; found from the data when absent.
     limits: tuple[float, float] | None = None
+    #: Let the axis start at zero.
     from_zero: bool = False
 
 
 @dataclass(frozen=True)
 class Series:
-    """A curve, points or bars.
+    """A curve, points or bars."""
 
-    Parameters
-    ----------
-    label : str
-        Name in the legend and in the data.
-    x : mapping of str to ndarray
-        Values along every abscissa of the figure, keyed as those are (bars: the names are in ``Figure.categories``).
-    y : ndarray
-        Values in the unit of the panel.
-    panel : int
-        Index of the panel.
-    tone : int
-        Place in the colour-blind-safe palette.
-    style : str
-        ``line``, ``points``, ``line+points`` or ``bar``.
-    dash : str
-        ``solid``, ``dash``, ``dot`` or ``dashdot``.
-    faint : bool
-        Draw it thin, as a companion of something else.
-    belongs_to : str
-        Label of the series that the legend names in its stead: its fit, its intervals.
-    """
-
+    #: Name in the legend and in the data.
     label: str
+    #: Values along every abscissa of the figure, keyed as those are (bars: the names are in ``Figure.categories``).
     x: Mapping[str, Array]
+    #: Values in the unit of the panel.
     y: Array
+    #: Index of the panel.
     panel: int = 0
+    #: Place in the colour-blind-safe palette.
     tone: int = 0
+    #: ``line``, ``points``, ``line+points`` or ``bar``.
     style: Style = "line"
+    #: ``solid``, ``dash``, ``dot`` or ``dashdot``.
     dash: Literal["solid", "dash", "dot", "dashdot"] = "solid"
+    #: Draw it thin, as a companion of something else.
     faint: bool = False
+    #: Label of the series that the legend names in its stead: its fit, its intervals.
     belongs_to: str = ""
 
 
@@ -113,80 +88,51 @@ class Mark:
 
 @dataclass(frozen=True)
 class Figure:
-    """A figure with its data.
+    """A figure with its data."""
 
-    Parameters
-    ----------
-    key : str
-        Unique name, also the file name of a download.
-    title : str
-    abscissae : tuple of Abscissa
-        The first is drawn; the reader may change to another.
-    panels : tuple of Panel
-        From top to bottom.
-    series : tuple of Series
-    caption : str
-        What the figure shows and the conditions it holds for.
-    hint : str
-        How to use it on the screen; not on paper.
-    marks : tuple of Mark
-    window : tuple of float or None
-        Part of the first abscissa shown at first.
-    slider : bool
-        Give a small overview below with handles for the part that is shown.
-    categories : tuple of str
-        Names below the bars of a bar chart.
-    height : int
-        Height of the diagram in CSS pixels.
-    """
-
+    #: Unique name, also the file name of a download.
     key: str
     title: str
+    #: The first is drawn; the reader may change to another.
     abscissae: tuple[Abscissa, ...]
+    #: From top to bottom.
     panels: tuple[Panel, ...]
     series: tuple[Series, ...]
+    #: What the figure shows and the conditions it holds for.
     caption: str = ""
     marks: tuple[Mark, ...] = ()
+    #: Part of the first abscissa shown at first.
     window: tuple[float, float] | None = None
+    #: Give a small overview below with handles for the part that is shown.
     slider: bool = False
+    #: Names below the bars of a bar chart.
     categories: tuple[str, ...] = ()
+    #: Height of the diagram in CSS pixels.
     height: int = 340
+    #: How to use it on the screen; not on paper.
     hint: str = ""
 
 
 @dataclass(frozen=True)
 class Column:
-    """A column of a table.
-
-    Parameters
-    ----------
-    label : str
-    unit : str
-        Unit of the values as given; shown values are scaled to a display unit unless ``fixed``.
-    values : sequence
-        Numbers (NaN or None: not known), texts or truth values.
-    digits : int
-        Significant digits shown.
-    fixed : bool
-        Keep the unit as given.
-    uniform : bool
-        One number of decimals for the column; switch off where rows are of different kinds.
-    trim : bool
-        Drop trailing zeros (input echo).
-    links : sequence of str
-        File next to the report that each cell leads to, empty text where to none; on the screen only.
-    like : float
-        Magnitude that chooses the display unit together with the values (see :func:`in_one_unit`).
-    """
+    """A column of a table."""
 
     label: str
+    #: Numbers (NaN or None: not known), texts or truth values.
     values: Sequence[Cell]
+    #: Unit of the values as given; shown values are scaled to a display unit unless ``fixed``.
     unit: str = ""
+    #: Significant digits shown.
     digits: int = 3
+    #: Keep the unit as given.
     fixed: bool = False
+    #: One number of decimals for the column; switch off where rows are of different kinds.
     uniform: bool = True
+    #: Drop trailing zeros (input echo).
     trim: bool = False
+    #: File next to the report that each cell leads to, empty text where to none; on the screen only.
     links: Sequence[str] = ()
+    #: Magnitude that chooses the display unit together with the values (see :func:`in_one_unit`).
     like: float = 0.0
 
 
@@ -212,30 +158,19 @@ def in_one_unit(columns: Sequence[Column], unit: str = "N") -> tuple[Column, ...
 
 @dataclass(frozen=True)
 class Table:
-    """A table that is shown and written as CSV.
+    """A table that is shown and written as CSV."""
 
-    Parameters
-    ----------
-    key : str
-        Unique name and name of the CSV file.
-    title : str
-    columns : tuple of Column
-        All of one length.
-    note : str
-    emphasised : tuple of int
-        Rows that govern.
-    failed : tuple of int
-        Rows that did not pass.
-    collapsed : bool
-        Fold it away at first (screen only).
-    """
-
+    #: Unique name and name of the CSV file.
     key: str
     title: str
+    #: All of one length.
     columns: tuple[Column, ...]
     note: str = ""
+    #: Rows that govern.
     emphasised: tuple[int, ...] = ()
+    #: Rows that did not pass.
     failed: tuple[int, ...] = ()
+    #: Fold it away at first (screen only).
     collapsed: bool = False
 
     @property
@@ -246,25 +181,16 @@ class Table:
 
 @dataclass(frozen=True)
 class KeyFigure:
-    """One governing number: what, how much, where, and how it stands against its limit.
-
-    Parameters
-    ----------
-    label : str
-    text : str
-        The number with its unit, formatted.
-    detail : str
-        Where and when it occurs.
-    utilisation : float
-        Fraction of the limit (NaN where there is none): draws a bar.
-    judgement : {"", "good", "caution", "bad"}
-        Colour and word of the bar.
-    """
+    """One governing number: what, how much, where, and how it stands against its limit."""
 
     label: str
+    #: The number with its unit, formatted.
     text: str
+    #: Where and when it occurs.
     detail: str = ""
+    #: Fraction of the limit (NaN where there is none): draws a bar.
     utilisation: float = float("nan")
+    #: Colour and word of the bar.
     judgement: Literal["", "good", "caution", "bad"] = ""
 
 
@@ -386,25 +312,16 @@ class Option:
 
 @dataclass(frozen=True)
 class Choice:
-    """Alternatives of which one is shown: water levels, sea states, runs.
+    """Alternatives of which one is shown: water levels, sea states, runs."""
 
-    Parameters
-    ----------
-    group : str
-        Choices of one group change together, wherever they stand.
-    label : str
-        What is chosen.
-    options : tuple of Option
-    default : int
-        The one shown at first (the governing one).
-    print_all : bool
-        Whether the PDF carries all of them, or the default alone and says so.
-    """
-
+    #: Choices of one group change together, wherever they stand.
     group: str
+    #: What is chosen.
     label: str
     options: tuple[Option, ...]
+    #: The one shown at first (the governing one).
     default: int = 0
+    #: Whether the PDF carries all of them, or the default alone and says so.
     print_all: bool = True
 
 
@@ -422,50 +339,34 @@ class Section:
 
 @dataclass(frozen=True)
 class Badge:
-    """What a reader sees before all numbers: whether they were computed, and whether the design holds.
+    """What a reader sees before all numbers: whether they were computed, and whether the design holds."""
 
-    Parameters
-    ----------
-    label : str
-        ``Computation`` or ``Design``.
-    word : str
-        The outcome.
-    message : str
-        One sentence behind it.
-    tone : {"good", "caution", "bad", "neutral"}
-    """
-
+    #: ``Computation`` or ``Design``.
     label: str
+    #: The outcome.
     word: str
+    #: One sentence behind it.
     message: str = ""
+    #: One of "good", "caution", "bad", "neutral".
     tone: Tone = "neutral"
 
 
 @dataclass(frozen=True)
 class Document:
-    """A whole report.
-
-    Parameters
-    ----------
-    title, subtitle : str
-    status, message : str
-        Status of the result and the sentence behind it.
-    sections : tuple of Section
-    provenance : mapping
-        For the foot of the page.
-    badges : tuple of Badge
-        At the head of the page; of the status alone where empty.
-    units : {"SI", "tf"}
-        System of units that it was composed in, and is shown in.
-    """
+    """A whole report."""
 
     title: str
     subtitle: str
+    #: ``status``, ``message``: Status of the result and the sentence behind it.
     status: str
+    #: ``status``, ``message``: Status of the result and the sentence behind it.
     message: str
     sections: tuple[Section, ...]
+    #: For the foot of the page.
     provenance: Mapping[str, Any] = field(default_factory=dict)
+    #: At the head of the page; of the status alone where empty.
     badges: tuple[Badge, ...] = ()
+    #: System of units that it was composed in, and is shown in; one of "SI", "tf".
     units: str = "SI"
 
     def tables(self) -> tuple[Table, ...]:

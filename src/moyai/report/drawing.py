@@ -19,28 +19,22 @@ def _metres(length: float) -> str:
 
 @dataclass(frozen=True)
 class SectionGeometry:
-    """What the drawings of a floating section need, in site axes of the water level [m].
+    """What the drawings of a floating section need, in site axes of the water level [m]."""
 
-    Parameters
-    ----------
-    outlines : sequence of ndarray, shape (n, 2)
-        Closed outlines of the hull at rest.
-    centre_of_gravity : tuple of float
-    draught, freeboard, beam, section_height : float
-        NaN where not known.
-    water_depth : float
-        Infinite or NaN: no bed is drawn.
-    lines : sequence of (str, ndarray)
-        Name and shape at rest from the anchor to the fairlead.
-    """
-
+    #: Closed outlines of the hull at rest; shape (n, 2).
     outlines: Sequence[Array]
     centre_of_gravity: tuple[float, float]
+    #: NaN where not known.
     draught: float
+    #: NaN where not known.
     freeboard: float
+    #: NaN where not known.
     beam: float
+    #: NaN where not known.
     section_height: float
+    #: Infinite or NaN: no bed is drawn.
     water_depth: float
+    #: Name and shape at rest from the anchor to the fairlead.
     lines: Sequence[tuple[str, Array]]
 
     def box(self, with_lines: bool) -> tuple[float, float, float, float]:

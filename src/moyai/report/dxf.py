@@ -65,7 +65,7 @@ def shapes_dxf(shapes: tuple[Shape, ...], unit: str) -> bytes:
         import ezdxf
     except ImportError as error:
         raise InputError("DXF needs ezdxf", path="--dxf", remedy="pip install 'moyai[dxf]'") from error
-    drawing = ezdxf.new("R2010", setup=["linetypes"])
+    drawing = ezdxf.filemanagement.new("R2010", setup=["linetypes"])
     drawing.header["$INSUNITS"] = _INSUNITS[unit]
     drawing.header["$MEASUREMENT"] = 1
     style = drawing.dimstyles.new("MOYAI")

@@ -237,7 +237,7 @@ def column_unit(column: Column) -> DisplayUnit:
     """Return the unit in which a column is shown and written."""
     if column.fixed or any(isinstance(value, str) for value in column.values):
         return DisplayUnit("" if column.unit in {"1", "-"} else column.unit)
-    numbers = [float(value) for value in column.values if value is not None and not isinstance(value, bool)]  # type: ignore[arg-type]
+    numbers = [float(value) for value in column.values if value is not None and not isinstance(value, bool)]
     return display_unit(column.unit, [*numbers, column.like] if numbers else None)
 
 

@@ -38,17 +38,11 @@ _SUPERSCRIPTS = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 
 @dataclass(frozen=True)
 class DisplayUnit:
-    """Unit in which a quantity is shown.
+    """Unit in which a quantity is shown."""
 
-    Parameters
-    ----------
-    name : str
-        The unit shown, plain text (``kN m``); empty for a pure number.
-    factor : float
-        Multiply a value in the stored unit by it.
-    """
-
+    #: The unit shown, plain text (``kN m``); empty for a pure number.
     name: str
+    #: Multiply a value in the stored unit by it.
     factor: float = 1.0
 
     @property
@@ -243,4 +237,5 @@ def axis_label(label: str, unit: str) -> str:
 def finite(values: ArrayLike) -> NDArray[np.float64]:
     """Return the finite entries, flattened."""
     array = np.asarray(values, dtype=float).ravel()
-    return array[np.isfinite(array)]
+    sound: NDArray[np.float64] = array[np.isfinite(array)]
+    return sound

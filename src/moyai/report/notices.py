@@ -26,19 +26,12 @@ _REPEATED = {
 
 @dataclass(frozen=True)
 class NoticeGroup:
-    """All notices of one kind.
+    """All notices of one kind."""
 
-    Parameters
-    ----------
-    notice : Notice
-        The most severe of them.
-    count : int
-    places : tuple of str
-        Water level, sea, line of each, as their messages begin; empty where they do not say it.
-    """
-
+    #: The most severe of them.
     notice: Notice
     count: int = 1
+    #: Water level, sea, line of each, as their messages begin; empty where they do not say it.
     places: tuple[str, ...] = ()
 
     @property

@@ -25,26 +25,21 @@ _NO_UNIT = ("", "1", "-")
 
 @dataclass(frozen=True)
 class Pair:
-    """A series of this report and the one of the same name of another result, in one unit.
+    """A series of this report and the one of the same name of another result, in one unit."""
 
-    Parameters
-    ----------
-    figure : str
-        Title of the figure.
-    label, unit : str
-        Series with its panel, and unit of the values.
-    x, here : ndarray
-        Abscissa and values of this report.
-    x_there, there : ndarray
-        Those of the other result.
-    """
-
+    #: Title of the figure.
     figure: str
+    #: ``label``, ``unit``: Series with its panel, and unit of the values.
     label: str
+    #: ``label``, ``unit``: Series with its panel, and unit of the values.
     unit: str
+    #: ``x``, ``here``: Abscissa and values of this report.
     x: Array
+    #: ``x``, ``here``: Abscissa and values of this report.
     here: Array
+    #: Those of the other result.
     x_there: Array
+    #: Those of the other result.
     there: Array
 
 

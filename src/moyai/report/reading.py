@@ -56,19 +56,13 @@ class Group:
 
     What depends on the options of a case may be absent and is blank then; :meth:`require` asks for what is always
     there. A name that the vocabulary of the result does not declare is an error wherever it is asked for.
-
-    Parameters
-    ----------
-    name : str
-        Last part of its path.
-    node : xarray.DataTree or None
-        ``None`` where the group does not exist.
-    vocabulary : Vocabulary or None
-        Names that the result may carry; ``None`` for a result of no known kind.
     """
 
+    #: Last part of its path.
     name: str
+    #: ``None`` where the group does not exist.
     node: xr.DataTree | None
+    #: Names that the result may carry; ``None`` for a result of no known kind.
     vocabulary: Vocabulary | None = None
 
     @property

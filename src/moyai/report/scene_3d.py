@@ -30,68 +30,42 @@ MOST_COMPONENTS, MOST_TRACES = 60, 6
 
 @dataclass(frozen=True, eq=False)
 class Faces:
-    """Faces between nodes: a skirt, a membrane, net panels.
+    """Faces between nodes: a skirt, a membrane, net panels."""
 
-    Parameters
-    ----------
-    nodes : array_like of int, shape (t, 3) or (t, 4)
-        Corners.
-    name : str
-    kind : {"sheet", "net"}
-        Cloth that hides what is behind it, or netting that lets it through.
-    load : ndarray, shape (frames, t), optional
-        What colours the faces, for instance the larger principal tension; no colour when left out.
-    load_unit : str
-        Stored unit of ``load``.
-    """
-
+    #: Corners; shape (t, 3) or (t, 4).
     nodes: ArrayLike
     name: str = "sheet"
+    #: Cloth that hides what is behind it, or netting that lets it through.
     kind: Literal["sheet", "net"] = "sheet"
+    #: What colours the faces, for instance the larger principal tension; no colour when left out; shape (frames, t).
     load: Array | None = None
+    #: Stored unit of ``load``.
     load_unit: str = "N/m"
 
 
 @dataclass(frozen=True)
 class Marker:
-    """A named node that is drawn.
-
-    Parameters
-    ----------
-    node : int
-    name : str
-    kind : {"anchor", "driven", "float", "clump", "joint"}
-    diameter : float
-        To scale [m]; 0: a small sign.
-    """
+    """A named node that is drawn."""
 
     node: int
     name: str
     kind: Literal["anchor", "driven", "float", "clump", "joint"] = "joint"
+    #: To scale [m]; 0: a small sign.
     diameter: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
 class Body3D:
-    """A rigid body.
-
-    Parameters
-    ----------
-    name : str
-    vertices : ndarray, shape (v, 3)
-        In its own axes [m].
-    faces : sequence of sequences of int
-        Corners of its faces.
-    origin : ndarray, shape (frames, 3)
-        Where the origin of its axes is [m].
-    rotation : ndarray, shape (frames, 3, 3)
-        From its axes to those of the site.
-    """
+    """A rigid body."""
 
     name: str
+    #: In its own axes [m]; shape (v, 3).
     vertices: Array
+    #: Corners of its faces.
     faces: Sequence[Sequence[int]]
+    #: Where the origin of its axes is [m]; shape (frames, 3).
     origin: Array
+    #: From its axes to those of the site; shape (frames, 3, 3).
     rotation: Array
 
     @classmethod
@@ -116,45 +90,34 @@ class Body3D:
 
 @dataclass(frozen=True, eq=False)
 class Trace:
-    """Tension of one line over the whole record, under the picture.
-
-    Parameters
-    ----------
-    name : str
-    time : ndarray, shape (k,)
-        [s].
-    tension : ndarray, shape (k,)
-        [N]; best the highest since the row before, so that no peak is lost.
-    bar : int
-        Bar that it belongs to, -1 for none.
-    breaking_load : float
-        NaN where not known [N].
-    """
+    """Tension of one line over the whole record, under the picture."""
 
     name: str
+    #: [s]; shape (k,).
     time: Array
+    #: [N]; best the highest since the row before, so that no peak is lost; shape (k,).
     tension: Array
+    #: Bar that it belongs to, -1 for none.
     bar: int = -1
+    #: NaN where not known [N].
     breaking_load: float = math.nan
 
 
 @dataclass(frozen=True, eq=False)
 class Waves3D:
-    """Water surface of a sum of linear waves, A cos(k (x cos b + y sin b) - w t + phase), grown over ``ramp`` seconds.
+    """Surface of a sum of linear waves, A cos(k (x cos b + y sin b) - w t + phase), grown over ``ramp`` seconds."""
 
-    Parameters
-    ----------
-    amplitude, omega, wave_number, heading, phase : ndarray, shape (c,)
-        [m], [rad/s], [1/m], [rad], [rad].
-    ramp : float
-        Half a cosine from the time 0 [s].
-    """
-
+    #: [m]; shape (c,).
     amplitude: Array
+    #: [rad/s]; shape (c,).
     omega: Array
+    #: [1/m]; shape (c,).
     wave_number: Array
+    #: [rad]; shape (c,).
     heading: Array
+    #: [rad]; shape (c,).
     phase: Array
+    #: Half a cosine from the time 0 [s].
     ramp: float = 0.0
 
 
@@ -168,62 +131,45 @@ class Surface3D:
 
 @dataclass(frozen=True, eq=False)
 class Scene3D:
-    """What is shown.
+    """What is shown."""
 
-    Parameters
-    ----------
-    time : ndarray, shape (frames,)
-        Increasing [s].
-    position : ndarray, shape (frames, n, 3)
-        Nodes, z up from still water [m].
-    bars : ndarray of int, shape (m, 2)
-        Nodes that they join.
-    tension : ndarray, shape (frames, m)
-        [N].
-    thin : ndarray of bool, shape (m,), optional
-        Bars drawn thin (twines of a net, edges of a sheet).
-    faces, markers, bodies, traces : tuple
-        What else there is; of the traces the highest are kept.
-    waves : Waves3D or Surface3D, optional
-        Moving surface; still water when left out.
-    bed : float, optional
-        Elevation of the bed [m]; none when left out.
-    has_water : bool
-        Whether the water is drawn at all.
-    current : tuple of float
-        Velocity at the surface along x and y [m/s], for an arrow.
-    slack_level : float
-        Tension at or below which a bar is drawn slack [N].
-    full_scale : float
-        Tension of the last colour [N]; NaN: the highest of bars and traces.
-    window : tuple of float, optional
-        Part that is played at first [s].
-    maximum : float
-        Time of the governing maximum [s]; NaN: that of the traces, or of the bars.
-    names : tuple of str
-        Line that each bar belongs to, shown under the pointer.
-    is_still : bool
-        Nothing moves: no transport is shown.
-    """
-
+    #: Increasing [s]; shape (frames,).
     time: Array
+    #: Nodes, z up from still water [m]; shape (frames, n, 3).
     position: Array
+    #: Nodes that they join; shape (m, 2).
     bars: IntArray
+    #: [N]; shape (frames, m).
     tension: Array
+    #: Bars drawn thin (twines of a net, edges of a sheet); shape (m,).
     thin: NDArray[np.bool_] | None = None
+    #: ``faces``, ``markers``, ``bodies``, ``traces``: What else there is; of the traces the highest are kept.
     faces: tuple[Faces, ...] = ()
+    #: ``faces``, ``markers``, ``bodies``, ``traces``: What else there is; of the traces the highest are kept.
     markers: tuple[Marker, ...] = ()
+    #: ``faces``, ``markers``, ``bodies``, ``traces``: What else there is; of the traces the highest are kept.
     bodies: tuple[Body3D, ...] = ()
+    #: ``faces``, ``markers``, ``bodies``, ``traces``: What else there is; of the traces the highest are kept.
     traces: tuple[Trace, ...] = ()
+    #: Moving surface; still water when left out.
     waves: Waves3D | Surface3D | None = None
+    #: Elevation of the bed [m]; none when left out.
     bed: float | None = None
+    #: Whether the water is drawn at all.
     has_water: bool = True
+    #: Velocity at the surface along x and y [m/s], for an arrow.
     current: tuple[float, float] = (0.0, 0.0)
+    #: Tension at or below which a bar is drawn slack [N].
     slack_level: float = 0.0
+    #: Tension of the last colour [N]; NaN: the highest of bars and traces.
     full_scale: float = math.nan
+    #: Part that is played at first [s].
     window: tuple[float, float] | None = None
+    #: Time of the governing maximum [s]; NaN: that of the traces, or of the bars.
     maximum: float = math.nan
+    #: Line that each bar belongs to, shown under the pointer.
     names: tuple[str, ...] = field(default=())
+    #: Nothing moves: no transport is shown.
     is_still: bool = False
 
     def __post_init__(self) -> None:

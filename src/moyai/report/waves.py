@@ -75,7 +75,8 @@ def travelling_surface(
         there = (along + np.conj(reflected) * np.conj(along)) if place < 0.0 else np.conj(transmitted) * along
         carried = np.fft.irfft(spectrum * there, n=length) * (length / closed.size)
         out[:, number] = np.interp(wanted, coarse, carried, period=closed.size * step)
-    return out + mean
+    values: Array = out + mean
+    return values
 
 
 def _coefficients(

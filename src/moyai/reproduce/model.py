@@ -18,137 +18,91 @@ Verdict = Literal["agrees", "differs", "open"]
 
 @dataclass(frozen=True)
 class Equation:
-    """A numbered equation.
+    """A numbered equation."""
 
-    Parameters
-    ----------
-    number : str
-        As in the paper.
-    subject : str
-        What it gives, in words.
-    places : tuple of str
-        Dotted names of the code that computes it.
-    note : str
-        Misprints and how the code reads them; empty where the print is sound.
-    """
-
+    #: As in the paper.
     number: str
+    #: What it gives, in words.
     subject: str
+    #: Dotted names of the code that computes it.
     places: tuple[str, ...]
+    #: Misprints and how the code reads them; empty where the print is sound.
     note: str = ""
 
 
 @dataclass(frozen=True)
 class Finding:
-    """What the runs say about a statement.
+    """What the runs say about a statement."""
 
-    Parameters
-    ----------
-    found : str
-        The numbers that were computed, in words.
-    verdict : {"agrees", "differs", "open"}
-        ``open`` where it cannot be decided, as with measured points that are not published as numbers.
-    why : str
-        The reason for a difference, or what stays open.
-    """
-
+    #: The numbers that were computed, in words.
     found: str
+    #: ``open`` where it cannot be decided, as with measured points that are not published as numbers; one of "agrees",
+    #: "differs", "open".
     verdict: Verdict
+    #: The reason for a difference, or what stays open.
     why: str = ""
 
 
 @dataclass(frozen=True)
 class Statement:
-    """One statement of the text of a paper.
+    """One statement of the text of a paper."""
 
-    Parameters
-    ----------
-    key : str
-        Unique within the paper.
-    place : str
-        Section and figure of the paper.
-    text : str
-        What it says, in words of our own.
-    judge : callable
-        Takes the runs of the paper, returns a :class:`Finding`.
-    """
-
+    #: Unique within the paper.
     key: str
+    #: Section and figure of the paper.
     place: str
+    #: What it says, in words of our own.
     text: str
+    #: Takes the runs of the paper, returns a :class:`Finding`.
     judge: Callable[[Any], Finding]
 
 
 @dataclass(frozen=True)
 class PaperFigure:
-    """A figure of the paper, drawn again.
+    """A figure of the paper, drawn again."""
 
-    Parameters
-    ----------
-    number : str
-        As in the paper, with the letter of its part: ``5c``.
-    drawn : Figure, Drawing or None
-        ``None`` where it is not drawn; the note says why.
-    note : str
-    """
-
+    #: As in the paper, with the letter of its part: ``5c``.
     number: str
+    #: ``None`` where it is not drawn; the note says why.
     drawn: Figure | Drawing | None
     note: str = ""
 
 
 @dataclass(frozen=True)
 class FilledInput:
-    """An input that the paper leaves out, and how far the answer moves with it.
+    """An input that the paper leaves out, and how far the answer moves with it."""
 
-    Parameters
-    ----------
-    name, value : str
-        What it is and what was taken.
-    varied : str
-        Other values that were tried.
-    effect : str
-        What they do to a number of the paper; computed.
-    """
-
+    #: ``name``, ``value``: What it is and what was taken.
     name: str
+    #: ``name``, ``value``: What it is and what was taken.
     value: str
+    #: Other values that were tried.
     varied: str
+    #: What they do to a number of the paper; computed.
     effect: str
 
 
 @dataclass(frozen=True)
 class Paper:
-    """One paper.
+    """One paper."""
 
-    Parameters
-    ----------
-    key : str
-        Name on the command line.
-    authors, year, title, journal : str
-    line : str
-        What is reproduced, in one line.
-    equations : tuple of Equation
-    statements : tuple of Statement
-    plotted : tuple of str
-        Numbers of the figures that are curves, over which points can be laid.
-    run : callable
-        ``run(quick, progress)`` computes everything and returns the runs.
-    figures, filled : callable
-        Take the runs; return the figures and the inputs that were filled in.
-    """
-
+    #: Name on the command line.
     key: str
     authors: str
     year: str
     title: str
     journal: str
+    #: What is reproduced, in one line.
     line: str
     equations: tuple[Equation, ...]
     statements: tuple[Statement, ...]
+    #: Numbers of the figures that are curves, over which points can be laid.
     plotted: tuple[str, ...]
+    #: ``run(quick, progress)`` computes everything and returns the runs.
     run: Callable[[bool, Progress], Any]
+    #: ``figures``, ``filled``: Take the runs; return the figures and the inputs that were filled in.
     figures: Callable[[Any], tuple[PaperFigure, ...]]
+    #: ``figures``, ``filled``: Take the runs; return the figures and the inputs that were filled in.
     filled: Callable[[Any], tuple[FilledInput, ...]]
 
 

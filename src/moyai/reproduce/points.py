@@ -18,18 +18,11 @@ LABEL = "points laid over"
 
 @dataclass(frozen=True)
 class Points:
-    """Points of one figure, in the units of its axes.
+    """Points of one figure, in the units of its axes."""
 
-    Parameters
-    ----------
-    figure : str
-        Number of the figure.
-    source : str
-        Name of the file.
-    x, y : ndarray
-    """
-
+    #: Number of the figure.
     figure: str
+    #: Name of the file.
     source: str
     x: Array
     y: Array
@@ -37,25 +30,16 @@ class Points:
 
 @dataclass(frozen=True)
 class Agreement:
-    """How one curve stands against the points.
-
-    Parameters
-    ----------
-    curve : str
-    count : int
-        Points within the reach of the curve.
-    bias : float
-        Mean of curve less point, in the unit of the ordinate.
-    scatter : float
-        Standard deviation of curve less point.
-    relative : float
-        Root mean square of curve less point over that of the points.
-    """
+    """How one curve stands against the points."""
 
     curve: str
+    #: Points within the reach of the curve.
     count: int
+    #: Mean of curve less point, in the unit of the ordinate.
     bias: float
+    #: Standard deviation of curve less point.
     scatter: float
+    #: Root mean square of curve less point over that of the points.
     relative: float
 
 

@@ -43,22 +43,12 @@ class Row:
 
 @dataclass(frozen=True)
 class Reproduction:
-    """A paper computed again.
-
-    Parameters
-    ----------
-    paper : Paper
-    quick : bool
-    rows : tuple of Row
-    figures : tuple of PaperFigure
-        With the points on them.
-    filled : tuple of FilledInput
-    laid : tuple of (Points, tuple of Agreement)
-    """
+    """A paper computed again."""
 
     paper: Paper
     quick: bool
     rows: tuple[Row, ...]
+    #: With the points on them.
     figures: tuple[PaperFigure, ...]
     filled: tuple[FilledInput, ...]
     laid: tuple[tuple[Points, tuple[Agreement, ...]], ...] = ()

@@ -12,20 +12,13 @@ from moyai.sea.water import Water
 
 @dataclass(frozen=True)
 class BreakingLimit:
-    """The smallest of the limiting heights that apply.
+    """The smallest of the limiting heights that apply."""
 
-    Parameters
-    ----------
-    height : float
-        Limiting height [m].
-    criterion : str
-        Name and form of the criterion that governs.
-    source : str
-        Where it comes from.
-    """
-
+    #: Limiting height [m].
     height: float
+    #: Name and form of the criterion that governs.
     criterion: str
+    #: Where it comes from.
     source: str
 
 

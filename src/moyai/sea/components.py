@@ -22,38 +22,27 @@ from moyai.sea.water import Water
 class WaveComponents:
     """A sea as a sum of linear waves a cos(k (x cos b + y sin b) - omega t + phase) [eq:sea-elevation].
 
-    Parameters
-    ----------
-    omega : array_like
-        Angular frequencies in the fixed frame [rad/s], positive.
-    amplitude : array_like
-        Amplitudes [m].
-    phase : array_like
-        Phases at the origin [rad].
-    heading : array_like
-        Directions of travel [rad].
-    wave_number : array_like
-        Wave numbers [1/m].
-    water : Water, optional
-        Needed for velocities, accelerations and pressures.
-    intrinsic_omega : array_like, optional
-        Frequencies seen by an observer who drifts with the current [rad/s]; equal to ``omega`` in still water.
-    frequency_step : float, optional
-        Common step of which all frequencies are whole multiples [rad/s]: opens the way to Fourier transforms.
-
     Raises
     ------
     InputError
         When the arrays differ in length, are empty or hold a value that is not finite.
     """
 
+    #: Angular frequencies in the fixed frame [rad/s], positive.
     omega: Array
+    #: Amplitudes [m].
     amplitude: Array
+    #: Phases at the origin [rad].
     phase: Array
+    #: Directions of travel [rad].
     heading: Array
+    #: Wave numbers [1/m].
     wave_number: Array
+    #: Needed for velocities, accelerations and pressures.
     water: Water | None = None
+    #: Frequencies seen by an observer who drifts with the current [rad/s]; equal to ``omega`` in still water.
     intrinsic_omega: Array | None = None
+    #: Common step of which all frequencies are whole multiples [rad/s]: opens the way to Fourier transforms.
     frequency_step: float | None = None
 
     def __post_init__(self) -> None:

@@ -61,7 +61,8 @@ class CurrentProfile(ABC):
     def depth_mean(self, z_bottom: float, z_top: float) -> Array:
         """Return the mean velocity (x, y) [m/s] between two heights [m]."""
         z, weights = self._panels(z_bottom, z_top)
-        return np.einsum("ij,ijk->k", weights, self.velocity(z))
+        values: Array = np.einsum("ij,ijk->k", weights, self.velocity(z))
+        return values
 
     def depth_mean_squared(self, z_bottom: float, z_top: float, heading: float | None = None) -> float:
         """Return the mean square [m2/s2] between two heights [m], of the speed or of the component along a heading."""
@@ -134,7 +135,7 @@ class PowerLawCurrent(CurrentProfile):
         low, high = (float(self._relative(z)) for z in (z_bottom, z_top))
         above = max(z_top, 0.0) - max(z_bottom, 0.0)
         below = self.water_depth * (high ** (exponent + 1.0) - low ** (exponent + 1.0)) / (exponent + 1.0)
-        return (below + above) / (z_top - z_bottom)
+        return float((below + above) / (z_top - z_bottom))
 
     def depth_mean(self, z_bottom: float, z_top: float) -> Array:
         """Return the mean velocity (x, y) [m/s] between two heights [m]."""

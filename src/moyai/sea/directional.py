@@ -87,14 +87,9 @@ class _HalfAngle(Spreading):
 
 @dataclass(frozen=True)
 class CosineTwoS(_HalfAngle):
-    """cos^2s(offset/2) of Longuet-Higgins et al. (1963) with one exponent for all frequencies.
+    """cos^2s(offset/2) of Longuet-Higgins et al. (1963) with one exponent for all frequencies."""
 
-    Parameters
-    ----------
-    exponent : float
-        s [-], greater than 0.
-    """
-
+    #: s [-], greater than 0.
     exponent: float
 
     def __post_init__(self) -> None:
@@ -110,16 +105,11 @@ class Mitsuyasu(_HalfAngle):
     """cos^2s(offset/2) with the frequency-dependent exponent of Mitsuyasu et al. (1975) [eq:sea-mitsuyasu].
 
     s = s_max (f/f_p)^5 below and s_max (f/f_p)^-2.5 above the peak frequency.
-
-    Parameters
-    ----------
-    maximum_exponent : float
-        s_max [-]; :data:`GODA_MAXIMUM_EXPONENTS` holds the usual choices.
-    peak_omega : float
-        Peak frequency [rad/s].
     """
 
+    #: s_max [-]; :data:`GODA_MAXIMUM_EXPONENTS` holds the usual choices.
     maximum_exponent: float
+    #: Peak frequency [rad/s].
     peak_omega: float
 
     def __post_init__(self) -> None:
@@ -136,14 +126,9 @@ class Mitsuyasu(_HalfAngle):
 
 @dataclass(frozen=True)
 class CosinePower(Spreading):
-    """cos^n(offset) within 90 degrees of the mean heading, zero beyond.
+    """cos^n(offset) within 90 degrees of the mean heading, zero beyond."""
 
-    Parameters
-    ----------
-    exponent : float
-        n [-], greater than 0.
-    """
-
+    #: n [-], greater than 0.
     exponent: float
 
     def __post_init__(self) -> None:
@@ -177,14 +162,9 @@ class CosinePower(Spreading):
 
 @dataclass(frozen=True)
 class WrappedNormal(Spreading):
-    """The normal distribution wrapped around the circle.
+    """The normal distribution wrapped around the circle."""
 
-    Parameters
-    ----------
-    standard_deviation : float
-        Of the unwrapped normal [rad], greater than 0.
-    """
-
+    #: Of the unwrapped normal [rad], greater than 0.
     standard_deviation: float
 
     def __post_init__(self) -> None:

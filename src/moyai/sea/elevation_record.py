@@ -17,22 +17,17 @@ LEFT_OUT = 1e-8
 
 @dataclass(frozen=True, eq=False)
 class RecordComponents:
-    """Waves a cos(phase - omega t) at the place of a record [eq:sea-record].
+    """Waves a cos(phase - omega t) at the place of a record [eq:sea-record]."""
 
-    Parameters
-    ----------
-    omega, amplitude, phase : ndarray (n,)
-        [rad/s], [m], [rad].
-    mean : float
-        Mean elevation, which no wave carries [m].
-    period : float
-        After which they repeat [s].
-    """
-
+    #: [rad/s]; shape (n,).
     omega: Array
+    #: [m]; shape (n,).
     amplitude: Array
+    #: [rad]; shape (n,).
     phase: Array
+    #: Mean elevation, which no wave carries [m].
     mean: float
+    #: After which they repeat [s].
     period: float
 
 

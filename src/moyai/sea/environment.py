@@ -21,23 +21,13 @@ class Wind:
 
 @dataclass(frozen=True)
 class Environment:
-    """Everything around the structure.
+    """Everything around the structure."""
 
-    Parameters
-    ----------
-    water : Water
-        Water at datum (level 0): depth [m] or infinite, density, gravity.
-    water_levels : tuple of (str, float)
-        Names and elevations above datum [m]; each is run.
-    sea_states : tuple of RegularSea or IrregularSea
-        Those of networks may be of `ComponentSea` too.
-        Waves; may be empty.
-    wind : Wind or None
-    current : CurrentProfile or None
-    """
-
+    #: Water at datum (level 0): depth [m] or infinite, density, gravity.
     water: Water
+    #: Names and elevations above datum [m]; each is run.
     water_levels: tuple[tuple[str, float], ...] = (("SWL", 0.0),)
+    #: Those of networks may be of `ComponentSea` too. Waves; may be empty.
     sea_states: tuple[SeaState, ...] = ()
     wind: Wind | None = None
     current: CurrentProfile | None = None

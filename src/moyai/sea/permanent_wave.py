@@ -54,40 +54,29 @@ def fourier_wave_kernel(
 
 @dataclass(frozen=True, eq=False)
 class NonlinearWave:
-    """A wave of permanent form, crest at x = y = 0 when t = 0; made by :func:`nonlinear_wave`.
+    """A wave of permanent form, crest at x = y = 0 when t = 0; made by :func:`nonlinear_wave`."""
 
-    Parameters
-    ----------
-    theory : str
-        ``airy``, ``stokes`` or ``stream_function``.
-    order : int
-        Order, or number of Fourier components.
-    height, period, wavelength : float
-        H [m], T in the fixed frame [s], L [m].
-    heading : float
-        Direction of travel [rad].
-    water : Water
-        Depth, density, gravity.
-    current_along_wave : float
-        Uniform current along the heading [m/s].
-    elevation_harmonics : ndarray
-        E_j of the elevation, sum of E_j cos j(kx - omega t) [m].
-    crest_velocities : ndarray
-        Amplitudes of the horizontal velocity harmonics at crest level [m/s].
-    relative_celerity : float
-        Speed of the crest relative to the current [m/s].
-    """
-
+    #: ``airy``, ``stokes`` or ``stream_function``.
     theory: Theory
+    #: Order, or number of Fourier components.
     order: int
+    #: H [m].
     height: float
+    #: T in the fixed frame [s].
     period: float
+    #: L [m].
     wavelength: float
+    #: Direction of travel [rad].
     heading: float
+    #: Depth, density, gravity.
     water: Water
+    #: Uniform current along the heading [m/s].
     current_along_wave: float
+    #: E_j of the elevation, sum of E_j cos j(kx - omega t) [m].
     elevation_harmonics: Array
+    #: Amplitudes of the horizontal velocity harmonics at crest level [m/s].
     crest_velocities: Array
+    #: Speed of the crest relative to the current [m/s].
     relative_celerity: float
 
     @property
@@ -203,7 +192,8 @@ class NonlinearWave:
         """
         (u, w, _, _), shape = self._fields(time, x, y, z)
         head = self.bernoulli_constant - 0.5 * ((u - self.relative_celerity) ** 2 + w**2)
-        return (self.water.density * head).reshape(shape)
+        values: Array = (self.water.density * head).reshape(shape)
+        return values
 
     def notices(self) -> tuple[Notice, ...]:
         """Return a warning where a stream-function wave misses its free surface by more than :data:`RESIDUAL`."""

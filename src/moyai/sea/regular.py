@@ -20,29 +20,21 @@ from moyai.sea.water import Water
 class RegularWave:
     """A regular wave of linear theory, crest at x = y = 0 when t = 0.
 
-    Parameters
-    ----------
-    height : float
-        Wave height H, crest to trough [m].
-    period : float
-        Period T in the fixed frame [s].
-    heading : float
-        Direction of travel [rad], 0 towards +x, pi/2 towards +y.
-    water : Water
-        Depth, density, gravity.
-    current_along_wave : float
-        Component of a depth-uniform current along ``heading`` [m/s]; the Doppler shift is applied.
-
     Raises
     ------
     InputError
         When height is negative, period not positive, or the current blocks the wave.
     """
 
+    #: Wave height H, crest to trough [m].
     height: float
+    #: Period T in the fixed frame [s].
     period: float
+    #: Direction of travel [rad], 0 towards +x, pi/2 towards +y.
     heading: float
+    #: Depth, density, gravity.
     water: Water
+    #: Component of a depth-uniform current along ``heading`` [m/s]; the Doppler shift is applied.
     current_along_wave: float = 0.0
 
     def __post_init__(self) -> None:

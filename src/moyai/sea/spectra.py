@@ -153,7 +153,7 @@ def goda_factor(peak_enhancement: float, *, zero_crossing: bool) -> float:
 def goda_peak_period(significant_period: float, peak_enhancement: float) -> float:
     """Return T_p = T_1/3 / (1 - 0.132 (gamma + 0.2)^-0.559) [s] of Goda (1988) [eq:sea-goda-period]."""
     _positive("significant_period", significant_period)
-    return significant_period / (1.0 - 0.132 * (peak_enhancement + 0.2) ** -0.559)
+    return float(significant_period / (1.0 - 0.132 * (peak_enhancement + 0.2) ** -0.559))
 
 
 def pierson_moskowitz(significant_height: float, peak_period: float, omega: ArrayLike | None = None) -> Spectrum:

@@ -24,28 +24,21 @@ from moyai.sea.spectrum_file import spectrum_table
 
 @dataclass(frozen=True)
 class WindSeaShape:
-    """One wind-sea peak: scale omega^-5 exp(-5/4 (omega_p/omega)^4) gamma^r phi(omega) [eq:sea-jonswap].
+    """One wind-sea peak: scale omega^-5 exp(-5/4 (omega_p/omega)^4) gamma^r phi(omega) [eq:sea-jonswap]."""
 
-    Parameters
-    ----------
-    scale : float
-        Coefficient of omega^-5 [m2 rad^4/s^4].
-    peak_omega : float
-        Peak frequency omega_p of the deep-water form [rad/s].
-    peak_enhancement : float
-        gamma [-]; 1 gives Pierson-Moskowitz.
-    sigma_low, sigma_high : float
-        Width of the peak below and above omega_p [-].
-    depth, gravity : float
-        Water of the TMA depth function; infinite depth where it is not applied.
-    """
-
+    #: Coefficient of omega^-5 [m2 rad^4/s^4].
     scale: float
+    #: Peak frequency omega_p of the deep-water form [rad/s].
     peak_omega: float
+    #: gamma [-]; 1 gives Pierson-Moskowitz.
     peak_enhancement: float = 1.0
+    #: ``sigma_low``, ``sigma_high``: Width of the peak below and above omega_p [-].
     sigma_low: float = 0.07
+    #: ``sigma_low``, ``sigma_high``: Width of the peak below and above omega_p [-].
     sigma_high: float = 0.09
+    #: ``depth``, ``gravity``: Water of the TMA depth function; infinite depth where it is not applied.
     depth: float = math.inf
+    #: ``depth``, ``gravity``: Water of the TMA depth function; infinite depth where it is not applied.
     gravity: float = math.nan
 
     def __call__(self, omega: Array) -> Array:
@@ -79,33 +72,25 @@ def depth_function(omega: ArrayLike, water_depth: float, gravity: float) -> Arra
 class Spectrum:
     """A frequency spectrum of the sea.
 
-    Parameters
-    ----------
-    omega : array_like
-        Angular frequencies [rad/s], strictly increasing, not negative.
-    density : array_like
-        One-sided spectral density S [m2 s/rad] at ``omega``, not negative.
-    name : str
-        For instance ``jonswap``.
-    parameters : mapping
-        What the spectrum was made from, SI.
-    shapes : tuple of WindSeaShape
-        Closed shapes whose sum is the spectrum; empty for a table, which is linear between its points and zero outside.
-    lower, upper : float
-        Band limits [rad/s]: the spectrum is zero outside.
-
     Raises
     ------
     InputError
         When the table has fewer than two points, is not increasing, or holds a negative or non-finite value.
     """
 
+    #: Angular frequencies [rad/s], strictly increasing, not negative.
     omega: Array
+    #: One-sided spectral density S [m2 s/rad] at ``omega``, not negative.
     density: Array
+    #: For instance ``jonswap``.
     name: str
+    #: What the spectrum was made from, SI.
     parameters: Mapping[str, Any] = field(default_factory=dict)
+    #: Closed shapes whose sum is the spectrum; empty for a table, which is linear between its points and zero outside.
     shapes: tuple[WindSeaShape, ...] = ()
+    #: ``lower``, ``upper``: Band limits [rad/s]: the spectrum is zero outside.
     lower: float = 0.0
+    #: ``lower``, ``upper``: Band limits [rad/s]: the spectrum is zero outside.
     upper: float = math.inf
 
     def __post_init__(self) -> None:
@@ -257,11 +242,6 @@ class Spectrum:
         """Energy period T_e = T_m-1,0 = 2 pi m_-1 / m_0 [s]."""
         return 2.0 * math.pi * self.moment(-1) / self.moment(0)
 
-    @property
-    def narrowness(self) -> float:
-        """Spectral width nu = sqrt(m_0 m_2 / m_1^2 - 1) of Longuet-Higgins (1975) [-]."""
-        return math.sqrt(max(self.moment(0) * self.moment(2) / self.moment(1) ** 2 - 1.0, 0.0))
-
     def broadness(self, upper: float = math.inf) -> float:
         """Return epsilon = sqrt(1 - m_2^2 / (m_0 m_4)) of Cartwright and Longuet-Higgins (1956) [-].
 
@@ -283,11 +263,3 @@ class Spectrum:
         """Return the spectrum with all densities multiplied by ``factor`` [-]."""
         shapes = tuple(replace(shape, scale=shape.scale * factor) for shape in self.shapes)
         return replace(self, density=self.density * factor, shapes=shapes)
-
-    def with_significant_height(self, significant_height: float) -> Spectrum:
-        """Return the same form with another significant height H_m0 [m]."""
-        if not (math.isfinite(significant_height) and significant_height > 0.0):
-            raise InputError(
-                f"significant_height is {significant_height:g}", path="significant_height", allowed="greater than 0"
-            )
-        return self.scaled((significant_height / self.significant_height) ** 2)

@@ -28,29 +28,20 @@ from moyai.sea.spectrum_wavespectra import kind_of, read_with_wavespectra
 
 @dataclass(frozen=True)
 class SpectrumArchive:
-    """Spectra of several times and places.
+    """Spectra of several times and places."""
 
-    Parameters
-    ----------
-    format : str
-        ``swan``, ``ww3``, ``ndbc``, or the name of a reader of wavespectra.
-    time : tuple of str
-        ISO 8601, one a record.
-    place : tuple of str
-        Names or coordinates, one a place.
-    frequency : ndarray (f,)
-        [Hz], rising.
-    density : ndarray (time, place, f)
-        [m2/Hz]; NaN where a record holds nothing for a place.
-    direction : ndarray (time, place)
-        Mean direction that the waves come from, clockwise from north [degrees]; NaN where the file tells none.
-    """
-
+    #: ``swan``, ``ww3``, ``ndbc``, or the name of a reader of wavespectra.
     format: str
+    #: ISO 8601, one a record.
     time: tuple[str, ...]
+    #: Names or coordinates, one a place.
     place: tuple[str, ...]
+    #: [Hz], rising; shape (f,).
     frequency: Array
+    #: [m2/Hz]; NaN where a record holds nothing for a place; shape (time, place, f).
     density: Array
+    #: Mean direction that the waves come from, clockwise from north [degrees]; NaN where the file tells none; shape
+    #: (time, place).
     direction: Array
 
     def spectrum(self, record: int, place: int = 0) -> Spectrum:

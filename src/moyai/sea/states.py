@@ -15,23 +15,15 @@ from moyai.sea.spectrum import Spectrum
 
 @dataclass(frozen=True)
 class RegularSea:
-    """Regular waves of one height and one or more periods.
+    """Regular waves of one height and one or more periods."""
 
-    Parameters
-    ----------
-    name : str
-        Label of the sea state.
-    height : float
-        Wave height H [m].
-    periods : tuple of float
-        Wave periods T [s] in the fixed frame.
-    heading : float
-        Direction of travel [rad], 0 along +x (normal to the breakwater).
-    """
-
+    #: Label of the sea state.
     name: str
+    #: Wave height H [m].
     height: float
+    #: Wave periods T [s] in the fixed frame.
     periods: tuple[float, ...]
+    #: Direction of travel [rad], 0 along +x (normal to the breakwater).
     heading: float = 0.0
 
     def __post_init__(self) -> None:
@@ -43,29 +35,19 @@ class RegularSea:
 
 @dataclass(frozen=True)
 class IrregularSea:
-    """An irregular sea by its spectrum.
+    """An irregular sea by its spectrum."""
 
-    Parameters
-    ----------
-    name : str
-        Label of the sea state.
-    spectrum : Spectrum
-        Frequency spectrum [m2 s/rad].
-    heading : float
-        Mean direction of travel [rad].
-    spreading : object or None
-        Directional spreading of :mod:`moyai.sea`, ``None`` for long crests.
-    duration : float
-        Length of the time-domain realisation [s].
-    seed : int
-        Seed of the random phases.
-    """
-
+    #: Label of the sea state.
     name: str
+    #: Frequency spectrum [m2 s/rad].
     spectrum: Spectrum
+    #: Mean direction of travel [rad].
     heading: float = 0.0
+    #: Directional spreading of :mod:`moyai.sea`, ``None`` for long crests.
     spreading: Any = None
+    #: Length of the time-domain realisation [s].
     duration: float = 10800.0
+    #: Seed of the random phases.
     seed: int = 1
 
 
@@ -74,26 +56,21 @@ SeaState = RegularSea | IrregularSea
 
 @dataclass(frozen=True, eq=False)
 class ComponentSea:
-    """A sea given wave by wave, or by a record of its elevation at the origin; for networks.
+    """A sea given wave by wave, or by a record of its elevation at the origin; for networks."""
 
-    Parameters
-    ----------
-    name : str
-        Label of the sea state.
-    omega, amplitude, phase, headings : ndarray (n,)
-        Of the waves a cos(k (x cos b + y sin b) - omega t + phase) [rad/s, m, rad, rad].
-    duration : float or None
-        Of the run [s]; ``None``: the case says it elsewhere.
-    period : float
-        After which a record repeats [s]; infinite for waves that were given one by one.
-    """
-
+    #: Label of the sea state.
     name: str
+    #: Of the waves a cos(k (x cos b + y sin b) - omega t + phase) [rad/s, m, rad, rad]; shape (n,).
     omega: NDArray[np.float64]
+    #: Of the waves a cos(k (x cos b + y sin b) - omega t + phase) [rad/s, m, rad, rad]; shape (n,).
     amplitude: NDArray[np.float64]
+    #: Of the waves a cos(k (x cos b + y sin b) - omega t + phase) [rad/s, m, rad, rad]; shape (n,).
     phase: NDArray[np.float64]
+    #: Of the waves a cos(k (x cos b + y sin b) - omega t + phase) [rad/s, m, rad, rad]; shape (n,).
     headings: NDArray[np.float64]
+    #: Of the run [s]; ``None``: the case says it elsewhere.
     duration: float | None = None
+    #: After which a record repeats [s]; infinite for waves that were given one by one.
     period: float = math.inf
 
     @property

@@ -33,52 +33,35 @@ _LADDER, _FEW = 1.2, 13
 
 @dataclass(frozen=True)
 class StreamFunctionProblem:
-    """A wave to be found: height, water, current, and either period or wavelength.
+    """A wave to be found: height, water, current, and either period or wavelength."""
 
-    Parameters
-    ----------
-    height : float
-        H [m].
-    water : Water
-        Depth and gravity.
-    omega : float
-        Angular frequency in the fixed frame [rad/s]; NaN where ``wave_number`` is given.
-    wave_number : float
-        k [1/m]; NaN where ``omega`` is given.
-    current : float
-        Uniform current along the wave [m/s].
-    """
-
+    #: H [m].
     height: float
+    #: Depth and gravity.
     water: Water
+    #: Angular frequency in the fixed frame [rad/s]; NaN where ``wave_number`` is given.
     omega: float
+    #: k [1/m]; NaN where ``omega`` is given.
     wave_number: float
+    #: Uniform current along the wave [m/s].
     current: float
 
 
 @dataclass(frozen=True, eq=False)
 class StreamFunctionSolution:
-    """Unknowns of a wave, dimensionless with k and g except the wave number.
+    """Unknowns of a wave, dimensionless with k and g except the wave number."""
 
-    Parameters
-    ----------
-    surface : ndarray, shape (order + 1,)
-        k eta at phase angles 0 ... pi.
-    coefficients : ndarray, shape (order,)
-        B_j of the stream function, scaled by cosh(j k h).
-    celerity : float
-        c (k/g)^1/2 relative to the current.
-    stream, head : float
-        Constants of the kinematic and the dynamic condition.
-    wave_number : float
-        k [1/m].
-    """
-
+    #: k eta at phase angles 0 ... pi. Shape (order + 1,).
     surface: Array
+    #: B_j of the stream function, scaled by cosh(j k h); shape (order,).
     coefficients: Array
+    #: c (k/g)^1/2 relative to the current.
     celerity: float
+    #: ``stream``, ``head``: Constants of the kinematic and the dynamic condition.
     stream: float
+    #: ``stream``, ``head``: Constants of the kinematic and the dynamic condition.
     head: float
+    #: k [1/m].
     wave_number: float
 
     def vector(self) -> Array:

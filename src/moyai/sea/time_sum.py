@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,22 +48,37 @@ def sum_in_window(number: NDArray[np.int64], rows: ComplexArray, count: int, per
     count, period : int
         Times asked, times of a full repetition.
     """
-    from scipy.fft import fft, ifft, next_fast_len
+    from scipy.fft import fft, ifft
 
-    first, width = int(number.min()), int(number.max() - number.min()) + 1
+    first, width = int(number.min()), int(np.ptp(number)) + 1
+    chirp, back, ahead = _window(first, width, count, period)
+    place = number - first
+    spread = np.zeros((rows.shape[0], back.size), dtype=np.complex128)
+    if np.unique(place).size == place.size:
+        spread[:, place] = rows * chirp[place]
+    else:
+        for row, amplitudes in zip(spread, rows * chirp[place], strict=True):
+            np.add.at(row, place, amplitudes)
+    found = fft(spread, axis=1, overwrite_x=True)
+    found *= back
+    found = ifft(found, axis=1, overwrite_x=True)[:, :count]
+    found *= ahead
+    return np.asarray(found)
+
+
+@lru_cache(maxsize=4)
+def _window(first: int, width: int, count: int, period: int) -> tuple[ComplexArray, ComplexArray, ComplexArray]:
+    """Return the factors of Bluestein's algorithm: of the components, of their transform, and of the times."""
+    from scipy.fft import fft, next_fast_len
+
     along = np.arange(max(width, count), dtype=np.int64)
     chirp = np.exp(-1j * math.pi / period * (along * along % (2 * period)))
     size = next_fast_len(width + count - 1)
-    spread = np.zeros((rows.shape[0], size), dtype=np.complex128)
-    for row, amplitudes in zip(spread, rows, strict=True):
-        np.add.at(row, number - first, amplitudes)
-    spread[:, :width] *= chirp[:width]
     back = np.zeros(size, dtype=np.complex128)
     back[:count] = chirp[:count].conj()
     back[size - width + 1 :] = chirp[1:width][::-1].conj()
-    found = ifft(fft(spread, axis=1) * fft(back), axis=1)[:, :count]
-    at = np.arange(count, dtype=np.int64)
-    return np.asarray(found * chirp[:count] * np.exp(-2j * math.pi / period * (first * at % period)))
+    turns = np.exp(-2j * math.pi / period * (first * along[:count] % period))
+    return chirp[:width], fft(back), chirp[:count] * turns
 
 
 def window_pays(number: NDArray[np.int64], count: int, period: int) -> bool:
@@ -110,7 +126,13 @@ def sum_over_time(omega: Array, amplitudes: ComplexArray, time: Array, frequency
         The sums.
     """
     rows = np.ascontiguousarray(amplitudes.reshape(-1, omega.size))
-    flat = np.ascontiguousarray(time).reshape(-1)
+    out = sum_rows_over_time(omega, rows, np.ascontiguousarray(time).reshape(-1), frequency_step)
+    moved = np.moveaxis(out, 0, -1)
+    return np.ascontiguousarray(moved).reshape((*time.shape, *amplitudes.shape[:-1]))
+
+
+def sum_rows_over_time(omega: Array, rows: ComplexArray, flat: Array, frequency_step: float | None) -> Array:
+    """Return the sums of :func:`sum_over_time` for rows of amplitudes (r, n) at times (t,), shape (r, t)."""
     step = uniform_step(flat)
     out: Array
     period = 0
@@ -133,5 +155,4 @@ def sum_over_time(omega: Array, amplitudes: ComplexArray, time: Array, frequency
             sum_over_uniform_time(omega, rows, float(flat[0]), step, out)
         else:
             sum_over_any_time(omega, rows, flat, out)
-    moved = np.moveaxis(out, 0, -1)
-    return np.ascontiguousarray(moved).reshape((*time.shape, *amplitudes.shape[:-1]))
+    return out

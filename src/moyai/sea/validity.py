@@ -56,26 +56,17 @@ REALISED_HEIGHT = 0.95
 
 @dataclass(frozen=True)
 class TheoryAdvice:
-    """The lowest wave theory that serves a regular wave.
+    """The lowest wave theory that serves a regular wave."""
 
-    Parameters
-    ----------
-    theory : str
-        ``airy``, ``stokes`` or ``stream_function``.
-    order : int
-        Stokes order; 1 for Airy, 0 for the stream function (as many components as it needs).
-    neglected : tuple of float
-        First neglected harmonic over the first one for orders 1 to 4 [-].
-    ursell_number : float
-        H L^2 / h^3 [-].
-    breaking_ratio : float
-        Height over the breaking height [-].
-    """
-
+    #: ``airy``, ``stokes`` or ``stream_function``.
     theory: Theory
+    #: Stokes order; 1 for Airy, 0 for the stream function (as many components as it needs).
     order: int
+    #: First neglected harmonic over the first one for orders 1 to 4 [-].
     neglected: tuple[float, float, float, float]
+    #: H L^2 / h^3 [-].
     ursell_number: float
+    #: Height over the breaking height [-].
     breaking_ratio: float
 
     @property

@@ -12,23 +12,17 @@ from moyai.core.errors import InputError
 class Water:
     """Still water of constant depth.
 
-    Parameters
-    ----------
-    depth : float
-        Water depth h [m]; ``math.inf`` for infinite depth.
-    density : float
-        Density rho [kg/m3].
-    gravity : float
-        Acceleration of gravity g [m/s2]; 0 leaves weight and buoyancy out of a network, and has no waves.
-
     Raises
     ------
     InputError
         When one of them is not positive (gravity: negative).
     """
 
+    #: Water depth h [m]; ``math.inf`` for infinite depth.
     depth: float
+    #: Density rho [kg/m3].
     density: float
+    #: Acceleration of gravity g [m/s2]; 0 leaves weight and buoyancy out of a network, and has no waves.
     gravity: float
 
     def __post_init__(self) -> None:

@@ -20,45 +20,29 @@ from moyai.series.intervals import Interval
 
 @dataclass(frozen=True)
 class ExceedanceRates:
-    """Rates at which peaks exceed levels, given that the peaks before did not.
+    """Rates at which peaks exceed levels, given that the peaks before did not."""
 
-    Parameters
-    ----------
-    level : ndarray (m,)
-        Of the unit of the peaks.
-    rate : ndarray (m,)
-        Average conditional exceedance rate, per peak.
-    deviation : ndarray (m,)
-        Standard deviation of the rate: between realisations where there are several, binomial otherwise.
-    order : int
-        Number of peaks that the condition spans, the one itself counted.
-    count : int
-        Number of peaks.
-    """
-
+    #: Of the unit of the peaks; shape (m,).
     level: Array
+    #: Average conditional exceedance rate, per peak; shape (m,).
     rate: Array
+    #: Standard deviation of the rate: between realisations where there are several, binomial otherwise; shape (m,).
     deviation: Array
+    #: Number of peaks that the condition spans, the one itself counted.
     order: int
+    #: Number of peaks.
     count: int
 
 
 @dataclass(frozen=True)
 class AcerFit:
-    """The tail ``q exp(-a (level - b)^c)`` fitted to rates.
-
-    Parameters
-    ----------
-    q, a, b, c : float
-    tail_from : float
-        Level above which it was fitted.
-    rates : ExceedanceRates
-    """
+    """The tail ``q exp(-a (level - b)^c)`` fitted to rates."""
 
     q: float
     a: float
     b: float
     c: float
+    #: Level above which it was fitted.
     tail_from: float
     rates: ExceedanceRates
 
@@ -80,7 +64,7 @@ class AcerFit:
 def _level_of(tail: AcerFit, rate: float) -> float:
     if not 0.0 < rate < tail.q:
         raise InputError("the number of peaks is too small for the tail", path="count", remedy="ask for a rarer level")
-    return tail.b + (math.log(tail.q / rate) / tail.a) ** (1.0 / tail.c)
+    return float(tail.b + (math.log(tail.q / rate) / tail.a) ** (1.0 / tail.c))
 
 
 def exceedance_rates(realisations: list[ArrayLike], *, order: int, levels: int = 60) -> ExceedanceRates:

@@ -14,19 +14,13 @@ MOST_BLOCKS, LEAST_BLOCKS, PERIODS = 20, 6, 4.0
 
 @dataclass(frozen=True)
 class Maximum:
-    """The largest value of records of one length.
+    """The largest value of records of one length."""
 
-    Parameters
-    ----------
-    observed : float
-        Largest value of the record at hand.
-    mean, deviation : float
-        Over all records of that length, estimated from the maxima of blocks.
-    blocks : int
-    """
-
+    #: Largest value of the record at hand.
     observed: float
+    #: ``mean``, ``deviation``: Over all records of that length, estimated from the maxima of blocks.
     mean: float
+    #: ``mean``, ``deviation``: Over all records of that length, estimated from the maxima of blocks.
     deviation: float
     blocks: int
 

@@ -17,17 +17,11 @@ from moyai.core.options import checks_words
 @checks_words
 @dataclass(frozen=True)
 class Detrend:
-    """What is taken off a record.
+    """What is taken off a record."""
 
-    Parameters
-    ----------
-    kind : {"none", "mean", "linear", "quadratic", "high_pass"}
-        ``high_pass`` takes off the slow part that :func:`slow_part` finds: tide, surge, long waves.
-    cutoff : float
-        Period above which ``high_pass`` counts as slow [s].
-    """
-
+    #: ``high_pass`` takes off the slow part that :func:`slow_part` finds: tide, surge, long waves.
     kind: Literal["none", "mean", "linear", "quadratic", "high_pass"] = "mean"
+    #: Period above which ``high_pass`` counts as slow [s].
     cutoff: float = math.nan
 
     def __post_init__(self) -> None:

@@ -28,33 +28,22 @@ _LEAST = {"gumbel": 5, "weibull": 5, "generalised_pareto": 10}
 @checks_words
 @dataclass(frozen=True)
 class Fit:
-    """A distribution of peaks or maxima.
+    """A distribution of peaks or maxima."""
 
-    Parameters
-    ----------
-    family : str
-        ``gumbel`` (maxima of blocks), ``weibull`` (peaks above a location), ``generalised_pareto`` (peaks above a
-        threshold).
-    location : float
-        Of the unit of the data: mode of the Gumbel, lower end of the others.
-    scale : float
-        Of the unit of the data.
-    shape : float
-        Weibull exponent, or Pareto shape (positive: heavy tail); 0 for the Gumbel.
-    count : int
-        Number of values.
-    log_likelihood : float
-        Of the values under the fit.
-    threshold : float or None
-        Weibull of a tail: the distribution is that of values above it [eq:extremes-weibull-tail].
-    """
-
+    #: ``gumbel`` (maxima of blocks), ``weibull`` (peaks above a location), ``generalised_pareto`` (peaks above a
+    #: threshold).
     family: Family
+    #: Of the unit of the data: mode of the Gumbel, lower end of the others.
     location: float
+    #: Of the unit of the data.
     scale: float
+    #: Weibull exponent, or Pareto shape (positive: heavy tail); 0 for the Gumbel.
     shape: float
+    #: Number of values.
     count: int
+    #: Of the values under the fit.
     log_likelihood: float
+    #: Weibull of a tail: the distribution is that of values above it [eq:extremes-weibull-tail].
     threshold: float | None = None
 
     def __post_init__(self) -> None:

@@ -18,36 +18,28 @@ from moyai.core.errors import InputError
 
 @dataclass(frozen=True, eq=False)
 class Harmonics:
-    """Mean and harmonics of one or more channels; equation [eq:harmonic-model].
+    """Mean and harmonics of one or more channels; equation [eq:harmonic-model]."""
 
-    Parameters
-    ----------
-    omega : float
-        Angular frequency of the first harmonic [rad/s].
-    mean : ndarray, shape (...)
-        Mean value, in the unit of the channel; the shape of one row of the series.
-    amplitude : ndarray, shape (harmonics, ...)
-        Complex amplitudes X_1, X_2, ... of ``Re(X_n exp(-i n omega t))``.
-    residual : ndarray, shape (...)
-        Root mean square of what mean and harmonics leave unexplained: unsteadiness or noise.
-    periods : int
-        Number of whole periods that were used.
-    start, end : float
-        First instant used and the instant one step after the last [s].
-    """
-
+    #: Angular frequency of the first harmonic [rad/s].
     omega: float
+    #: Mean value, in the unit of the channel; the shape of one row of the series; shape (...).
     mean: Array
+    #: Complex amplitudes X_1, X_2, ... of ``Re(X_n exp(-i n omega t))``. Shape (harmonics, ...).
     amplitude: ComplexArray
+    #: Root mean square of what mean and harmonics leave unexplained: unsteadiness or noise; shape (...).
     residual: Array
+    #: Number of whole periods that were used.
     periods: int
+    #: ``start``, ``end``: First instant used and the instant one step after the last [s].
     start: float
+    #: ``start``, ``end``: First instant used and the instant one step after the last [s].
     end: float
 
     @property
     def first(self) -> ComplexArray:
         """Complex amplitude of the first harmonic."""
-        return self.amplitude[0]
+        values: ComplexArray = self.amplitude[0]
+        return values
 
 
 def fit_harmonics(

@@ -13,19 +13,15 @@ from moyai.core.errors import InputError
 
 @dataclass(frozen=True)
 class Interval:
-    """An estimate with its confidence interval.
+    """An estimate with its confidence interval."""
 
-    Parameters
-    ----------
-    value, lower, upper : float
-        Of the unit of the data.
-    confidence : float
-        Probability that the interval covers.
-    """
-
+    #: Of the unit of the data.
     value: float
+    #: Of the unit of the data.
     lower: float
+    #: Of the unit of the data.
     upper: float
+    #: Probability that the interval covers.
     confidence: float
 
 

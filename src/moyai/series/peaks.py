@@ -63,17 +63,11 @@ def peaks_of(series: ArrayLike, *, slack_share: float = SLACK_SHARE) -> tuple[Ar
 
 @dataclass(frozen=True)
 class Kind:
-    """Peaks of one kind.
+    """Peaks of one kind."""
 
-    Parameters
-    ----------
-    fitted : Fit
-        Distribution of those above its location.
-    count : float
-        How many of them come in the time that the maximum is meant for.
-    """
-
+    #: Distribution of those above its location.
     fitted: Fit
+    #: How many of them come in the time that the maximum is meant for.
     count: float
 
 

@@ -20,17 +20,15 @@ from moyai.series.intervals import student_quantile
 
 @dataclass(frozen=True)
 class Estimate:
-    """A fitted number.
+    """A fitted number."""
 
-    Parameters
-    ----------
-    value, error, low, high : float
-        Estimate, standard error, bounds.
-    """
-
+    #: ``value``, ``error``, ``low``, ``high``: Estimate, standard error, bounds.
     value: float
+    #: ``value``, ``error``, ``low``, ``high``: Estimate, standard error, bounds.
     error: float
+    #: ``value``, ``error``, ``low``, ``high``: Estimate, standard error, bounds.
     low: float
+    #: ``value``, ``error``, ``low``, ``high``: Estimate, standard error, bounds.
     high: float
 
     def holds(self, value: float) -> bool:
@@ -40,32 +38,21 @@ class Estimate:
 
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """A fitted relation of y to x.
+    """A fitted relation of y to x."""
 
-    Parameters
-    ----------
-    form : str
-        In words.
-    parameters : dict of str to Estimate
-        By name.
-    determination : float
-        R^2 about the mean of y; negative where a constant fits better.
-    deviation : float
-        Standard deviation of the residuals [unit of y].
-    residual : ndarray
-        Observed less fitted.
-    covariance : ndarray
-        Of the parameters, in their order.
-    predict : callable
-        The relation.
-    """
-
+    #: In words.
     form: str
+    #: By name.
     parameters: dict[str, Estimate]
+    #: R^2 about the mean of y; negative where a constant fits better.
     determination: float
+    #: Standard deviation of the residuals [unit of y].
     deviation: float
+    #: Observed less fitted.
     residual: Array
+    #: Of the parameters, in their order.
     covariance: Array
+    #: The relation.
     predict: Callable[[ArrayLike], Array]
 
     def __getitem__(self, name: str) -> Estimate:
@@ -277,24 +264,17 @@ def type_ratio(reference: ArrayLike, other: ArrayLike, *, confidence: float = 0.
 
 @dataclass(frozen=True, eq=False)
 class ClassFit:
-    """A class of directions against the line of all observations.
+    """A class of directions against the line of all observations."""
 
-    Parameters
-    ----------
-    low, high : float
-        Bounds of the class [rad].
-    count : int
-        Observations.
-    fit : Fit or None
-        Line of the class alone; None with fewer than three observations.
-    departure : Estimate or None
-        Mean residual from the common line, as a share of the mean load; None with fewer than three observations.
-    """
-
+    #: Bounds of the class [rad].
     low: float
+    #: Bounds of the class [rad].
     high: float
+    #: Observations.
     count: int
+    #: Line of the class alone; None with fewer than three observations.
     fit: Fit | None
+    #: Mean residual from the common line, as a share of the mean load; None with fewer than three observations.
     departure: Estimate | None
 
     @property

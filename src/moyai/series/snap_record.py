@@ -27,31 +27,23 @@ _SOURCE = "Sawaragi, Aoki and Liu (1991): the impact tension is the peak less th
 
 @dataclass(frozen=True)
 class CableSnap:
-    """The snap of one cable, or of the sum.
+    """The snap of one cable, or of the sum."""
 
-    Parameters
-    ----------
-    name : str
-        Of the cable.
-    peak, peak_time : float
-        Largest tension above the unloaded level [N] and when [s].
-    plateau : float
-        Steady level after the spike [N].
-    plateau_error : float
-        Standard error of the plateau [N], from the scatter of blocks.
-    offset, drift : float
-        What was taken off: level [N] at the first sample and its slope [N/s].
-    noise : float
-        Standard deviation of the noise [N].
-    """
-
+    #: Of the cable.
     name: str
+    #: ``peak``, ``peak_time``: Largest tension above the unloaded level [N] and when [s].
     peak: float
+    #: ``peak``, ``peak_time``: Largest tension above the unloaded level [N] and when [s].
     peak_time: float
+    #: Steady level after the spike [N].
     plateau: float
+    #: Standard error of the plateau [N], from the scatter of blocks.
     plateau_error: float
+    #: ``offset``, ``drift``: What was taken off: level [N] at the first sample and its slope [N/s].
     offset: float
+    #: ``offset``, ``drift``: What was taken off: level [N] at the first sample and its slope [N/s].
     drift: float
+    #: Standard deviation of the noise [N].
     noise: float
 
     @property
@@ -62,35 +54,30 @@ class CableSnap:
 
 @dataclass(frozen=True, eq=False)
 class MeasuredSnap:
-    """What a record says about a snap.
+    """What a record says about a snap."""
 
-    Parameters
-    ----------
-    release_time : float
-        When the tension begins to rise [s]; NaN where noise hides it.
-    taut_time, peak_time, plateau_start : float
-        [s]; the plateau starts where the summed tension stays within a tenth of the impact of it.
-    sum : CableSnap
-        Of the sum of all cables.
-    cables : tuple of CableSnap
-        Each cable.
-    sampling_step : float
-        [s].
-    time, tension : ndarray
-        The record without offset and drift: (n,), (cables, n).
-    notices : tuple of Notice
-        What makes the numbers doubtful.
-    """
-
+    #: When the tension begins to rise [s]; NaN where noise hides it.
     release_time: float
+    #: ``taut_time``, ``peak_time``, ``plateau_start``: [s]; the plateau starts where the summed tension stays within a
+    #: tenth of the impact of it.
     taut_time: float
+    #: ``taut_time``, ``peak_time``, ``plateau_start``: [s]; the plateau starts where the summed tension stays within a
+    #: tenth of the impact of it.
     peak_time: float
+    #: ``taut_time``, ``peak_time``, ``plateau_start``: [s]; the plateau starts where the summed tension stays within a
+    #: tenth of the impact of it.
     plateau_start: float
+    #: Of the sum of all cables.
     sum: CableSnap
+    #: Each cable.
     cables: tuple[CableSnap, ...]
+    #: [s].
     sampling_step: float
+    #: ``time``, ``tension``: The record without offset and drift: (n,), (cables, n).
     time: Array
+    #: ``time``, ``tension``: The record without offset and drift: (n,), (cables, n).
     tension: Array
+    #: What makes the numbers doubtful.
     notices: tuple[Notice, ...]
 
     @property

@@ -32,42 +32,30 @@ _FAMILY: dict[str, Family] = {"weibull": "weibull", "pareto": "generalised_paret
 
 @dataclass(frozen=True, eq=False)
 class SnapFit:
-    """Law of the peaks above a threshold.
+    """Law of the peaks above a threshold."""
 
-    Parameters
-    ----------
-    law : {"weibull", "pareto"}
-        exp(-(y/a)^c), or (1 + c y/a)^(-1/c), y the excess over the threshold [eq:curtain-snap-exceedance].
-    threshold : float
-        [N].
-    shape, scale : Interval
-        c [-] and a [N].
-    rate : Interval
-        Peaks above the threshold per hour; exact bounds of Poisson's law.
-    peaks : ndarray
-        Peaks above the threshold, largest first [N].
-    hours : float
-        Observed time [h].
-    confidence : float
-        Of all intervals.
-    distance : float
-        Largest difference of empirical and fitted probability (Kolmogorov and Smirnov).
-    resampled : ndarray, shape (n, 3)
-        Shape, scale and rate of the samples behind the intervals.
-    notices : tuple of Notice
-        Where the fit is thin.
-    """
-
+    #: exp(-(y/a)^c), or (1 + c y/a)^(-1/c), y the excess over the threshold [eq:curtain-snap-exceedance]; one of
+    #: "weibull", "pareto".
     law: SnapLaw
+    #: [N].
     threshold: float
+    #: ``shape``, ``scale``: c [-] and a [N].
     shape: Interval
+    #: ``shape``, ``scale``: c [-] and a [N].
     scale: Interval
+    #: Peaks above the threshold per hour; exact bounds of Poisson's law.
     rate: Interval
+    #: Peaks above the threshold, largest first [N].
     peaks: Array
+    #: Observed time [h].
     hours: float
+    #: Of all intervals.
     confidence: float
+    #: Largest difference of empirical and fitted probability (Kolmogorov and Smirnov).
     distance: float
+    #: Shape, scale and rate of the samples behind the intervals; shape (n, 3).
     resampled: Array
+    #: Where the fit is thin.
     notices: tuple[Notice, ...]
 
     def exceedance(self, tension: ArrayLike) -> Array:

@@ -14,47 +14,35 @@ from moyai.series.wave_statistics import exceedance
 
 @dataclass(frozen=True)
 class Contact:
-    """One time that a slack line comes taut, and the load that follows until it is slack again.
+    """One time that a slack line comes taut, and the load that follows until it is slack again."""
 
-    Parameters
-    ----------
-    time : float
-        When the tension leaves the slack level [s].
-    slack_before : float
-        How long it was slack before [s].
-    peak, peak_time : float
-        Highest tension until the next slack or the end [N], and when [s].
-    rise_time : float
-        From a tenth to nine tenths of the peak, on the way to it [s].
-    is_snap : bool
-        Whether the peak exceeds the threshold.
-    """
-
+    #: When the tension leaves the slack level [s].
     time: float
+    #: How long it was slack before [s].
     slack_before: float
+    #: Highest tension until the next slack or the end [N].
     peak: float
+    #: When [s].
     peak_time: float
+    #: From a tenth to nine tenths of the peak, on the way to it [s].
     rise_time: float
+    #: Whether the peak exceeds the threshold.
     is_snap: bool
 
 
 @dataclass(frozen=True, eq=False)
 class SnapRecord:
-    """Snap loads of one record.
+    """Snap loads of one record."""
 
-    Parameters
-    ----------
-    slack_level, threshold : float
-        Tension below which a line counts as slack, and peak above which a contact counts as a snap [N].
-    slack : ndarray, shape (k, 2)
-        Begin and end of every slack interval [s].
-    contacts : tuple of Contact
-        In order.
-    """
-
+    #: ``slack_level``, ``threshold``: Tension below which a line counts as slack, and peak above which a contact counts
+    #: as a snap [N].
     slack_level: float
+    #: ``slack_level``, ``threshold``: Tension below which a line counts as slack, and peak above which a contact counts
+    #: as a snap [N].
     threshold: float
+    #: Begin and end of every slack interval [s]; shape (k, 2).
     slack: Array
+    #: In order.
     contacts: tuple[Contact, ...]
 
     @property

@@ -23,26 +23,17 @@ Window = Literal["hann", "rectangular", "cosine_tenth"]
 @checks_words
 @dataclass(frozen=True)
 class WelchOptions:
-    """How a record is cut into segments.
+    """How a record is cut into segments."""
 
-    Parameters
-    ----------
-    segment : float
-        Length of a segment [s]; infinite takes the whole record.
-    overlap : float
-        Share of a segment that it has in common with the next, 0 to 0.9.
-    window : {"hann", "rectangular", "cosine_tenth"}
-        Taper; ``cosine_tenth`` tapers a tenth at each end.
-    detrend : {"none", "mean", "linear"}
-        What is taken off each segment.
-    bands : int
-        Neighbouring frequencies averaged after that.
-    """
-
+    #: Length of a segment [s]; infinite takes the whole record.
     segment: float = math.inf
+    #: Share of a segment that it has in common with the next, 0 to 0.9.
     overlap: float = 0.5
+    #: Taper; ``cosine_tenth`` tapers a tenth at each end; one of "hann", "rectangular", "cosine_tenth".
     window: Window = "hann"
+    #: What is taken off each segment.
     detrend: Literal["none", "mean", "linear"] = "linear"
+    #: Neighbouring frequencies averaged after that.
     bands: int = 1
 
     def __post_init__(self) -> None:
@@ -68,28 +59,20 @@ def taper(kind: Window, size: int) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class CrossSpectra:
-    """Spectral matrix of some channels.
+    """Spectral matrix of some channels."""
 
-    Parameters
-    ----------
-    frequency : ndarray, shape (frequencies,)
-        [Hz].
-    matrix : ndarray, shape (frequencies, channels, channels)
-        One-sided cross spectra ``S_ij = 2 <X_i X_j*> / ...``: auto spectra on the diagonal [unit2/Hz].
-    degrees_of_freedom : float
-        Equivalent degrees of freedom of each estimate; equation [eq:records-freedom].
-    segments, left_out : int
-        Segments used, and those left out because a sample was missing.
-    resolution : float
-        Width of the frequency band that one estimate stands for [Hz].
-    notices : tuple of Notice
-    """
-
+    #: [Hz]; shape (frequencies,).
     frequency: Array
+    #: One-sided cross spectra ``S_ij = 2 <X_i X_j*> / ...``: auto spectra on the diagonal [unit2/Hz]; shape
+    #: (frequencies, channels, channels).
     matrix: ComplexArray
+    #: Equivalent degrees of freedom of each estimate; equation [eq:records-freedom].
     degrees_of_freedom: float
+    #: ``segments``, ``left_out``: Segments used, and those left out because a sample was missing.
     segments: int
+    #: ``segments``, ``left_out``: Segments used, and those left out because a sample was missing.
     left_out: int
+    #: Width of the frequency band that one estimate stands for [Hz].
     resolution: float
     notices: tuple[Notice, ...] = ()
 
@@ -118,28 +101,19 @@ class CrossSpectra:
 
 @dataclass(frozen=True, eq=False)
 class MeasuredSpectrum:
-    """Spectrum of one channel.
+    """Spectrum of one channel."""
 
-    Parameters
-    ----------
-    frequency : ndarray
-        [Hz], evenly spaced.
-    density : ndarray
-        One-sided density [unit2/Hz].
-    degrees_of_freedom : float
-        Equivalent degrees of freedom of each estimate.
-    segments, left_out : int
-        Segments used and left out.
-    resolution : float
-        [Hz].
-    notices : tuple of Notice
-    """
-
+    #: [Hz], evenly spaced.
     frequency: Array
+    #: One-sided density [unit2/Hz].
     density: Array
+    #: Equivalent degrees of freedom of each estimate.
     degrees_of_freedom: float
+    #: ``segments``, ``left_out``: Segments used and left out.
     segments: int = 1
+    #: ``segments``, ``left_out``: Segments used and left out.
     left_out: int = 0
+    #: [Hz].
     resolution: float = math.nan
     notices: tuple[Notice, ...] = ()
 

@@ -79,21 +79,15 @@ def rayleigh_maximum_quantile(count: int, probability: float) -> float:
 
 @dataclass(frozen=True)
 class HeightFit:
-    """Weibull distribution ``1 - exp(-(x / scale)^shape)`` of heights, with what is known of it [eq:records-weibull].
+    """Weibull distribution ``1 - exp(-(x / scale)^shape)`` of heights, and its uncertainty [eq:records-weibull]."""
 
-    Parameters
-    ----------
-    fitted : Fit
-        The distribution; a shape of 2 is Rayleigh's.
-    scale_error, shape_error : float
-        Standard errors by the observed information.
-    distance : float
-        Largest distance of the empirical from the fitted distribution (Kolmogorov) [-].
-    """
-
+    #: The distribution; a shape of 2 is Rayleigh's.
     fitted: Fit
+    #: Standard errors by the observed information.
     scale_error: float
+    #: Standard errors by the observed information.
     shape_error: float
+    #: Largest distance of the empirical from the fitted distribution (Kolmogorov) [-].
     distance: float
 
     @property

@@ -23,31 +23,22 @@ Rounding = Literal["nearest", "down", "up"]
 @checks_words
 @dataclass(frozen=True)
 class WaveOptions:
-    """How a record is cut into waves.
+    """How a record is cut into waves."""
 
-    Parameters
-    ----------
-    crossing : {"up", "down"}
-        A wave begins where the surface rises, or falls, through the mean level.
-    detrend : Detrend
-        What is taken off before.
-    dead_band : float
-        A crossing counts when the surface has been so far below the level and then rises so far above it [unit of the
-        record]; 0 counts every crossing.
-    crest : {"sample", "parabola"}
-        The highest sample, or the top of the parabola through it and its neighbours.
-    share : {"nearest", "down", "up"}
-        How N/3 and N/10 are rounded to whole waves (at least one).
-    shortest, longest : float
-        Waves with other periods are left out of the statistics [s].
-    """
-
+    #: A wave begins where the surface rises, or falls, through the mean level.
     crossing: Literal["up", "down"] = "up"
+    #: What is taken off before.
     detrend: Detrend = field(default_factory=Detrend)
+    #: A crossing counts when the surface has been so far below the level and then rises so far above it [unit of the
+    #: record]; 0 counts every crossing.
     dead_band: float = 0.0
+    #: The highest sample, or the top of the parabola through it and its neighbours.
     crest: Literal["sample", "parabola"] = "parabola"
+    #: How N/3 and N/10 are rounded to whole waves (at least one); one of "nearest", "down", "up".
     share: Rounding = "nearest"
+    #: Waves with other periods are left out of the statistics [s].
     shortest: float = 0.0
+    #: Waves with other periods are left out of the statistics [s].
     longest: float = math.inf
 
     def __post_init__(self) -> None:
@@ -61,22 +52,20 @@ class WaveOptions:
 
 @dataclass(frozen=True, eq=False)
 class Waves:
-    """Waves of a record.
+    """Waves of a record."""
 
-    Parameters
-    ----------
-    start, period : ndarray
-        Opening crossing and duration [s].
-    height, crest, trough : ndarray
-        Height, highest and lowest value about the level (trough negative) [unit of the record].
-    options : WaveOptions
-    notices : tuple of Notice
-    """
-
+    #: ``start``, ``period``: Opening crossing and duration [s].
     start: Array
+    #: ``start``, ``period``: Opening crossing and duration [s].
     period: Array
+    #: ``height``, ``crest``, ``trough``: Height, highest and lowest value about the level (trough negative) [unit of
+    #: the record].
     height: Array
+    #: ``height``, ``crest``, ``trough``: Height, highest and lowest value about the level (trough negative) [unit of
+    #: the record].
     crest: Array
+    #: ``height``, ``crest``, ``trough``: Height, highest and lowest value about the level (trough negative) [unit of
+    #: the record].
     trough: Array
     options: WaveOptions
     notices: tuple[Notice, ...] = ()

@@ -22,20 +22,13 @@ Assignments = tuple[tuple[str, Any], ...]
 
 @dataclass(frozen=True)
 class Ground:
-    """On what the variations of a study stand.
+    """On what the variations of a study stand."""
 
-    Parameters
-    ----------
-    base : object
-        Content of the base case.
-    folder : Path
-        From which the study file names other files.
-    base_folder : Path
-        From which the base case names other files.
-    """
-
+    #: Content of the base case.
     base: Any
+    #: From which the study file names other files.
     folder: Path
+    #: From which the base case names other files.
     base_folder: Path
 
     def named_by_the_base(self, file: str) -> str:
@@ -54,42 +47,27 @@ class Ground:
 
 @dataclass(frozen=True)
 class Point:
-    """One place on an axis.
+    """One place on an axis."""
 
-    Parameters
-    ----------
-    label : str
-        What stands in tables.
-    assignments : tuple of (str, object)
-        Path and value of everything that changes.
-    removals : tuple of str
-        Paths that are left out.
-    probability : float
-        Weight of the point, NaN where it has none.
-    """
-
+    #: What stands in tables.
     label: str
+    #: Path and value of everything that changes.
     assignments: Assignments = ()
+    #: Paths that are left out.
     removals: tuple[str, ...] = ()
+    #: Weight of the point, NaN where it has none.
     probability: float = math.nan
 
 
 @dataclass(frozen=True)
 class Axis:
-    """One axis of a study.
+    """One axis of a study."""
 
-    Parameters
-    ----------
-    name : str
-        Name of the dimension.
-    points : tuple of Point
-        Where it was varied to.
-    lost_line : bool
-        Its points are the intact structure and lost lines.
-    """
-
+    #: Name of the dimension.
     name: str
+    #: Where it was varied to.
     points: tuple[Point, ...]
+    #: Its points are the intact structure and lost lines.
     lost_line: bool = False
 
     def coordinates(self) -> dict[str, tuple[list[Any], str]]:
@@ -104,21 +82,15 @@ class Axis:
 
 @dataclass(frozen=True)
 class Combination:
-    """One case of the product of all axes.
+    """One case of the product of all axes."""
 
-    Parameters
-    ----------
-    index : int
-        Its number, from 0, the last axis running fastest.
-    labels : tuple of str
-        Its place on every axis.
-    assignments, removals : tuple
-        What it changes in the base case, in the order of the axes.
-    """
-
+    #: Its number, from 0, the last axis running fastest.
     index: int
+    #: Its place on every axis.
     labels: tuple[str, ...]
+    #: ``assignments``, ``removals``: What it changes in the base case, in the order of the axes.
     assignments: Assignments = ()
+    #: ``assignments``, ``removals``: What it changes in the base case, in the order of the axes.
     removals: tuple[str, ...] = ()
     options: Assignments = ()
 

@@ -29,29 +29,23 @@ Backend = Callable[[Task, tuple[Combination, ...]], Iterator[Record]]
 
 @dataclass(frozen=True)
 class Standing:
-    """How far a study is, for whoever watches.
+    """How far a study is, for whoever watches."""
 
-    Parameters
-    ----------
-    done, total, failed : int
-        Cases; refused ones count as failed.
-    seconds_left : float
-        Estimated from the rate so far, NaN at the start [s].
-    largest, smallest : tuple of (float, int) or None
-        Of the watched response: value and number of the case.
-    latest : Record or None
-        The case that ended last.
-    unit : str
-        Of the watched response.
-    """
-
+    #: ``done``, ``total``, ``failed``: Cases; refused ones count as failed.
     done: int
+    #: ``done``, ``total``, ``failed``: Cases; refused ones count as failed.
     total: int
+    #: ``done``, ``total``, ``failed``: Cases; refused ones count as failed.
     failed: int
+    #: Estimated from the rate so far, NaN at the start [s].
     seconds_left: float
+    #: ``largest``, ``smallest``: Of the watched response: value and number of the case.
     largest: tuple[float, int] | None
+    #: ``largest``, ``smallest``: Of the watched response: value and number of the case.
     smallest: tuple[float, int] | None
+    #: The case that ended last.
     latest: Record | None = None
+    #: Of the watched response.
     unit: str = "1"
 
 

@@ -32,53 +32,34 @@ from moyai.study.variations_of_files import column_of, read_rows
 
 @dataclass(frozen=True)
 class Row:
-    """One observation.
+    """One observation."""
 
-    Parameters
-    ----------
-    changes : tuple of (str, object)
-        What it sets in the case.
-    observed, error : float
-        Observation and its standard error (NaN where not given).
-    group : str
-        Storm or test.
-    """
-
+    #: What it sets in the case.
     changes: tuple[tuple[str, Any], ...]
+    #: ``observed``, ``error``: Observation and its standard error (NaN where not given).
     observed: float
+    #: ``observed``, ``error``: Observation and its standard error (NaN where not given).
     error: float
+    #: Storm or test.
     group: str
 
 
 @dataclass(frozen=True)
 class Fit:
-    """A fit that was read and found sound.
-
-    Parameters
-    ----------
-    title : str
-    base : Document
-        With the changes that all rows share.
-    base_path : Path
-    parameters : tuple of (Parameter, str)
-        By path, each with the unit in which it is written.
-    rows : tuple of Row
-    response : str
-    bootstrap, seed : int
-    step : float
-    source : str
-        Name and hash of the file of observations.
-    """
+    """A fit that was read and found sound."""
 
     title: str
+    #: With the changes that all rows share.
     base: Document
     base_path: Path
+    #: By path, each with the unit in which it is written.
     parameters: tuple[tuple[Parameter, str], ...]
     rows: tuple[Row, ...]
     response: str
     bootstrap: int
     seed: int
     step: float
+    #: Name and hash of the file of observations.
     source: str
 
 

@@ -16,26 +16,17 @@ _NAME_AND_UNIT = re.compile(r"(.*?)(?: \[([^\]]*)\])?")
 
 @dataclass(frozen=True)
 class Found:
-    """The answer of the search of one case.
+    """The answer of the search of one case."""
 
-    Parameters
-    ----------
-    index : int
-        Number of the case.
-    values : tuple of (str, float, str)
-        Path, value and unit: the best values, or the largest one that holds (NaN where none does).
-    objective : tuple of (str, float, str) or None
-        What was to be least, with its unit; ``None`` for a limit.
-    governing : tuple of str
-        Responses whose limit governs, and ends of ranges; empty where nothing does.
-    settled : bool
-        Whether the search settled; one that ended at its number of runs may still find better values.
-    """
-
+    #: Number of the case.
     index: int
+    #: Path, value and unit: the best values, or the largest one that holds (NaN where none does).
     values: tuple[tuple[str, float, str], ...]
+    #: What was to be least, with its unit; ``None`` for a limit.
     objective: tuple[str, float, str] | None
+    #: Responses whose limit governs, and ends of ranges; empty where nothing does.
     governing: tuple[str, ...]
+    #: Whether the search settled; one that ended at its number of runs may still find better values.
     settled: bool = True
 
     @property

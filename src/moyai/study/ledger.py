@@ -30,29 +30,19 @@ _SYNC = 1.0
 
 @dataclass(frozen=True)
 class Record:
-    """What is known of one case.
+    """What is known of one case."""
 
-    Parameters
-    ----------
-    index : int
-        Number of the case.
-    status : str
-        Status of its result, ``failed``, or ``refused`` where the check of the case refused it.
-    message : str
-        One sentence behind it.
-    seconds : float
-        Time it took [s].
-    values : dict
-        What was kept (:func:`moyai.study.responses.kept`).
-    verdict : str
-        Whether the design holds; empty where nothing was to be judged.
-    """
-
+    #: Number of the case.
     index: int
+    #: Status of its result, ``failed``, or ``refused`` where the check of the case refused it.
     status: str
+    #: One sentence behind it.
     message: str
+    #: Time it took [s].
     seconds: float
+    #: What was kept (:func:`moyai.study.responses.kept`).
     values: dict[str, Any]
+    #: Whether the design holds; empty where nothing was to be judged.
     verdict: str = ""
 
     def line(self) -> str:

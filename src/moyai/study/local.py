@@ -130,7 +130,8 @@ class _Worker:
 
     def exit_code(self) -> int | None:
         self.process.join(timeout=1.0)
-        return self.process.exitcode
+        found: int | None = self.process.exitcode
+        return found
 
     def end(self) -> None:
         with contextlib.suppress(OSError):

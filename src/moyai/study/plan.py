@@ -30,53 +30,35 @@ _CHECKED_ALL = 500
 
 @dataclass(frozen=True)
 class Study:
-    """A study that was read and found sound.
+    """A study that was read and found sound."""
 
-    Parameters
-    ----------
-    title : str
-        Title of the study.
-    base : Document
-        The base case as read.
-    base_path : Path
-        Its file.
-    axes : tuple of Axis
-        Along which it is varied.
-    cases : tuple of Combination
-        The product of the axes.
-    wanted : tuple of Wanted
-        Responses that were asked for.
-    watch : str
-        Variable that is shown on the way.
-    keep_results : bool
-        Keep results.nc of every case.
-    key : str
-        Hash of everything that the results depend on.
-    search : LimitSearch or Optimisation or None
-        What is searched for in every case.
-    assessment : Assessment or None
-        What is made of all cases together.
-    replays : int
-        Number of governing cases that are run again with a report of their own.
-    skips_refused : bool
-        Cases that the check refuses become rows with the reason, instead of stopping the study.
-    refused : tuple of int
-        Numbers of the cases that were refused, of those that were checked beforehand.
-    """
-
+    #: Title of the study.
     title: str
+    #: The base case as read.
     base: Document
+    #: Its file.
     base_path: Path
+    #: Along which it is varied.
     axes: tuple[Axis, ...]
+    #: The product of the axes.
     cases: tuple[Combination, ...]
+    #: Responses that were asked for.
     wanted: tuple[Wanted, ...]
+    #: Variable that is shown on the way.
     watch: str
+    #: Keep results.nc of every case.
     keep_results: bool
+    #: Hash of everything that the results depend on.
     key: str
+    #: What is searched for in every case.
     search: schema.LimitSearch | schema.Optimisation | None = None
+    #: What is made of all cases together.
     assessment: schema.Assessment | None = None
+    #: Number of governing cases that are run again with a report of their own.
     replays: int = 3
+    #: Cases that the check refuses become rows with the reason, instead of stopping the study.
     skips_refused: bool = False
+    #: Numbers of the cases that were refused, of those that were checked beforehand.
     refused: tuple[int, ...] = ()
 
     @property

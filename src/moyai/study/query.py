@@ -40,23 +40,15 @@ _WORDS = ("status", "message", "verdict")
 
 @dataclass(frozen=True)
 class Column:
-    """One column of the table of cases.
+    """One column of the table of cases."""
 
-    Parameters
-    ----------
-    name : str
-        As asked for.
-    unit : str
-        SI; ``1`` where there is none.
-    values : ndarray or None
-        Number of every case, ``None`` for text.
-    texts : tuple of str
-        What to show of every case.
-    """
-
+    #: As asked for.
     name: str
+    #: SI; ``1`` where there is none.
     unit: str
+    #: Number of every case, ``None`` for text.
     values: Array | None
+    #: What to show of every case.
     texts: tuple[str, ...]
 
 

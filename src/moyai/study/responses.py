@@ -21,24 +21,16 @@ _LARGEST = 400
 
 @dataclass(frozen=True)
 class Wanted:
-    """A value that was asked for.
+    """A value that was asked for."""
 
-    Parameters
-    ----------
-    variable : str
-        Group and name: ``SWL/rao/mean_drift_force``.
-    reduce : str
-        ``maximum``, ``minimum``, ``mean``, ``last``, ``all``, ``rainflow``, ``peaks``, ``snap_peaks``,
-        ``other_peaks`` or ``mean_in_time``.
-    over : tuple of str
-        Dimensions; all whose coordinate is no label when empty.
-    exponent : float
-        Of the endurance curve, for ``rainflow``.
-    """
-
+    #: Group and name: ``SWL/rao/mean_drift_force``.
     variable: str
+    #: ``maximum``, ``minimum``, ``mean``, ``last``, ``all``, ``rainflow``, ``peaks``, ``snap_peaks``, ``other_peaks``
+    #: or ``mean_in_time``.
     reduce: str
+    #: Dimensions; all whose coordinate is no label when empty.
     over: tuple[str, ...] = ()
+    #: Of the endurance curve, for ``rainflow``.
     exponent: float = 0.0
 
     @property

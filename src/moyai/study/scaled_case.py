@@ -31,29 +31,19 @@ _SHOWN = ("m", "s", "m/s", "kg", "N", "N/m", "kg/m", "Pa", "N m", "kg m2")
 
 @dataclass(frozen=True)
 class ScaledCase:
-    """A case file in another size.
+    """A case file in another size."""
 
-    Parameters
-    ----------
-    text : str
-        The new case file.
-    rows : tuple of ScaledQuantity
-        Every quantity that changed, named by its path in the file; ``prototype`` and ``model`` in its unit.
-    case : Case
-        The new file as it was read again, with its warnings.
-    from_model : bool
-        Whether the file given was that of the model.
-    scale : Scale
-        Ratios of prototype to model.
-    files : tuple of (str, str)
-        Name and text of the files that stand next to the new case.
-    """
-
+    #: The new case file.
     text: str
+    #: Every quantity that changed, named by its path in the file; ``prototype`` and ``model`` in its unit.
     rows: tuple[ScaledQuantity, ...]
+    #: The new file as it was read again, with its warnings.
     case: Case
+    #: Whether the file given was that of the model.
     from_model: bool
+    #: Ratios of prototype to model.
     scale: Scale
+    #: Name and text of the files that stand next to the new case.
     files: tuple[tuple[str, str], ...] = ()
 
 

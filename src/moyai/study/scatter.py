@@ -15,20 +15,13 @@ _TOLERANCE = 1e-3
 
 @dataclass(frozen=True)
 class SeaState:
-    """One cell of a scatter diagram.
+    """One cell of a scatter diagram."""
 
-    Parameters
-    ----------
-    significant_height : float
-        [m]
-    period : float
-        The period by which the diagram is sorted [s].
-    probability : float
-        Share of the time.
-    """
-
+    #: [m]
     significant_height: float
+    #: The period by which the diagram is sorted [s].
     period: float
+    #: Share of the time.
     probability: float
 
 

@@ -36,21 +36,14 @@ _GOVERNS = 0.02
 
 @dataclass(frozen=True)
 class Limit:
-    """A response that must stay on one side of a value.
+    """A response that must stay on one side of a value."""
 
-    Parameters
-    ----------
-    response : str
-        Group and name in the result, perhaps with labels: ``SWL/time/storm/tension[line=seaward]``; its largest entry
-        counts.
-    value : float
-        The limit.
-    sign : int
-        1 where the response must stay below, -1 where it must stay above.
-    """
-
+    #: Group and name in the result, perhaps with labels: ``SWL/time/storm/tension[line=seaward]``; its largest entry
+    #: counts.
     response: str
+    #: The limit.
     value: float
+    #: 1 where the response must stay below, -1 where it must stay above.
     sign: int
 
     def excess(self, tree: xr.DataTree) -> float:
@@ -68,27 +61,19 @@ class Limit:
 
 @dataclass(frozen=True)
 class LimitRun:
-    """Run a case as often as it takes to find up to which value it holds.
+    """Run a case as often as it takes to find up to which value it holds."""
 
-    Parameters
-    ----------
-    run : callable
-        Runs one case.
-    path : str
-        Path that is raised.
-    first, last : object
-        Range, as a case file holds it.
-    limits : tuple of Limit
-        What must hold.
-    tolerance : float
-        Share of the range.
-    """
-
+    #: Runs one case.
     run: RunCase
+    #: Path that is raised.
     path: str
+    #: ``first``, ``last``: Range, as a case file holds it.
     first: Any
+    #: ``first``, ``last``: Range, as a case file holds it.
     last: Any
+    #: What must hold.
     limits: tuple[Limit, ...]
+    #: Share of the range.
     tolerance: float
 
     def __call__(self, case: Case, progress: Progress) -> Result:
@@ -137,34 +122,25 @@ class LimitRun:
 
 @dataclass(frozen=True)
 class OptimiseRun:
-    """Run a case as often as it takes to find the best values.
+    """Run a case as often as it takes to find the best values."""
 
-    Parameters
-    ----------
-    run : callable
-        Runs one case.
-    variables : tuple of (str, object, object)
-        Path and range of each value.
-    minimise : str
-        Response.
-    limits : tuple of Limit
-        What must hold.
-    trade_off : str
-        Response whose limit comes with the case, empty when there is none.
-    starts, evaluations, seed : int
-        Effort; the starting points are a Latin hypercube.
-    options : dict
-        What the case brings (``@at_most``).
-    """
-
+    #: Runs one case.
     run: RunCase
+    #: Path and range of each value.
     variables: tuple[tuple[str, Any, Any], ...]
+    #: Response.
     minimise: str
+    #: What must hold.
     limits: tuple[Limit, ...]
+    #: Response whose limit comes with the case, empty when there is none.
     trade_off: str
+    #: ``starts``, ``evaluations``, ``seed``: Effort; the starting points are a Latin hypercube.
     starts: int
+    #: ``starts``, ``evaluations``, ``seed``: Effort; the starting points are a Latin hypercube.
     evaluations: int
+    #: ``starts``, ``evaluations``, ``seed``: Effort; the starting points are a Latin hypercube.
     seed: int
+    #: What the case brings (``@at_most``).
     options: dict[str, Any] = field(default_factory=dict)
 
     def bind(self, options: dict[str, Any]) -> OptimiseRun:
@@ -218,7 +194,7 @@ class OptimiseRun:
             scale[0] = abs(first) if math.isfinite(first) and first != 0.0 else 1.0
             bounds = [{"type": "ineq", "fun": lambda x, i=i: x[i]} for i in range(len(ranges))]
             bounds += [{"type": "ineq", "fun": lambda x, i=i: 1.0 - x[i]} for i in range(len(ranges))]
-            found = minimize(  # type: ignore[call-overload]
+            found = minimize(
                 objective, point, method="COBYLA", constraints=[*bounds, {"type": "ineq", "fun": margin}],
                 options={"maxiter": self.evaluations, "rhobeg": 0.25, "tol": 1e-3},
             )  # fmt: skip

@@ -24,22 +24,17 @@ _UPLIFT = "maximum_anchor_vertical_tension"
 
 @dataclass(frozen=True)
 class Tensions:
-    """Tensions of the lines in one group of the results, over the axes of the study and ``line``.
+    """Tensions of the lines in one group of the results, over the axes of the study and ``line``."""
 
-    Parameters
-    ----------
-    group : str
-        Where they stand in the results.
-    maximum, mean, breaking : xarray.DataArray
-        [N]
-    uplift : xarray.DataArray or None
-        Largest vertical pull at the anchor [N].
-    """
-
+    #: Where they stand in the results.
     group: str
+    #: [N]
     maximum: xr.DataArray
+    #: [N]
     mean: xr.DataArray
+    #: [N]
     breaking: xr.DataArray
+    #: Largest vertical pull at the anchor [N].
     uplift: xr.DataArray | None
 
 

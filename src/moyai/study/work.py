@@ -21,25 +21,16 @@ _POLL = 0.2
 
 @dataclass(frozen=True)
 class Task:
-    """What all cases of a study have in common; small enough to be sent to a worker.
+    """What all cases of a study have in common; small enough to be sent to a worker."""
 
-    Parameters
-    ----------
-    base : Document
-        The base case.
-    base_path : Path
-        Its file, from which it names others.
-    wanted : tuple of Wanted
-    results_folder : Path or None
-        Where results.nc of every case goes.
-    run : callable
-        ``run(case, progress)``: must be importable by the workers.
-    """
-
+    #: The base case.
     base: Document
+    #: Its file, from which it names others.
     base_path: Path
     wanted: tuple[Wanted, ...]
+    #: Where results.nc of every case goes.
     results_folder: Path | None
+    #: ``run(case, progress)``: must be importable by the workers.
     run: RunCase
 
 

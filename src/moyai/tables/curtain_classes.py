@@ -14,37 +14,27 @@ _FILE = "curtain_classes.csv"
 
 @dataclass(frozen=True)
 class CurtainClass:
-    """One class; NaN where the source gives no number.
+    """One class; NaN where the source gives no number."""
 
-    Parameters
-    ----------
-    name, practice : str
-        Letter or numeral, and whose practice.
-    significant_height, current : float
-        Largest H_1/3 [m] and current [m/s].
-    float_diameter : float
-        [m].
-    float_buoyancy : float
-        Least buoyancy of the floats per length [N/m].
-    fabric_strength : tuple of float
-        Low and high strength of the fabric per width [N/m].
-    toe_chain : tuple of float
-        Low and high mass of the toe chain per length [kg/m].
-    confirmed : bool
-        Whether every value was read in the source named; otherwise check before design use.
-    source : str
-        Where the values come from.
-    """
-
+    #: ``name``, ``practice``: Letter or numeral, and whose practice.
     name: str
+    #: ``name``, ``practice``: Letter or numeral, and whose practice.
     practice: str
+    #: ``significant_height``, ``current``: Largest H_1/3 [m] and current [m/s].
     significant_height: float
+    #: ``significant_height``, ``current``: Largest H_1/3 [m] and current [m/s].
     current: float
+    #: [m].
     float_diameter: float
+    #: Least buoyancy of the floats per length [N/m].
     float_buoyancy: float
+    #: Low and high strength of the fabric per width [N/m].
     fabric_strength: tuple[float, float]
+    #: Low and high mass of the toe chain per length [kg/m].
     toe_chain: tuple[float, float]
+    #: Whether every value was read in the source named; otherwise check before design use.
     confirmed: bool
+    #: Where the values come from.
     source: str
 
 

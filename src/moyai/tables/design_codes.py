@@ -14,58 +14,36 @@ _FACTORS = "anchor_factors.csv"
 
 @dataclass(frozen=True)
 class CodeRule:
-    """One value of a design code.
+    """One value of a design code."""
 
-    Parameters
-    ----------
-    code, edition : str
-        Name and edition.
-    condition : str
-        ``intact``, ``one_lost`` or ``any``.
-    analysis : str
-        ``dynamic``, ``quasi_static``, ``static`` or ``any``.
-    consequence : str
-        Class of the code, or ``any``.
-    component : str
-        ``chain``, ``rope``, ... or ``any``.
-    rule : str
-        ``safety_factor``, ``partial_mean``, ``partial_dynamic``, ``load_factor``, ``material_factor`` or ``share``.
-    value : float
-    confirmed : bool
-        Whether it was held against the standard itself.
-    source : str
-    """
-
+    #: ``code``, ``edition``: Name and edition.
     code: str
+    #: ``code``, ``edition``: Name and edition.
     edition: str
+    #: ``intact``, ``one_lost`` or ``any``.
     condition: str
+    #: ``dynamic``, ``quasi_static``, ``static`` or ``any``.
     analysis: str
+    #: Class of the code, or ``any``.
     consequence: str
+    #: ``chain``, ``rope``, ... or ``any``.
     component: str
+    #: ``safety_factor``, ``partial_mean``, ``partial_dynamic``, ``load_factor``, ``material_factor`` or ``share``.
     rule: str
     value: float
+    #: Whether it was held against the standard itself.
     confirmed: bool
     source: str
 
 
 @dataclass(frozen=True)
 class EnduranceData:
-    """An endurance curve of the table; see :class:`moyai.design.fatigue.EnduranceCurve`.
-
-    Parameters
-    ----------
-    name : str
-    exponent, capacity : float
-    mean_term : float
-        By how much log10 of the capacity falls with the mean tension over the breaking load.
-    unit : str
-    confirmed : bool
-    source : str
-    """
+    """An endurance curve of the table; see :class:`moyai.design.fatigue.EnduranceCurve`."""
 
     name: str
     exponent: float
     capacity: float
+    #: By how much log10 of the capacity falls with the mean tension over the breaking load.
     mean_term: float
     unit: str
     confirmed: bool
@@ -74,22 +52,13 @@ class EnduranceData:
 
 @dataclass(frozen=True)
 class HoldingData:
-    """Friction of a sinker, or holding power of a drag anchor.
+    """Friction of a sinker, or holding power of a drag anchor."""
 
-    Parameters
-    ----------
-    kind : str
-        ``sinker`` or ``drag_anchor``.
-    name, bed : str
-    value : float
-        Friction coefficient, or holding power over weight in air.
-    confirmed : bool
-    source : str
-    """
-
+    #: ``sinker`` or ``drag_anchor``.
     kind: str
     name: str
     bed: str
+    #: Friction coefficient, or holding power over weight in air.
     value: float
     confirmed: bool
     source: str

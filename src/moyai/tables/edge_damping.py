@@ -11,36 +11,32 @@ _FILE = "edge_damping.csv"
 
 @dataclass(frozen=True)
 class EdgeDampingNumbers:
-    """What the laws of :mod:`moyai.floating.viscous` take from the table.
+    """What the laws of :mod:`moyai.floating.viscous` take from the table."""
 
-    Parameters
-    ----------
-    edge_pressure : float
-        C_p of a sharp corner of 90 degrees.
-    plate_drag, plate_exponent, plate_keulegan_carpenter : float
-        C_D = plate_drag KC^plate_exponent of a thin plate, and the KC that it is taken at.
-    smallest_turn : float
-        Turn of the outline below which a vertex is smooth [degrees].
-    thin_plate : float
-        A face shorter than this part of its neighbours is the tip of a plate.
-    largest_radius : float
-        Bilge radius over the shorter face beyond which no corner is left.
-    ikeda_half_beam_low, ikeda_half_beam_high : float
-        Half beam over draught that the law of round bilges is held to.
-    band_low, band_high : float
-        Factors on the damping for the band of an answer.
-    """
-
+    #: C_p of a sharp corner of 90 degrees.
     edge_pressure: float
+    #: ``plate_drag``, ``plate_exponent``, ``plate_keulegan_carpenter``: C_D = plate_drag KC^plate_exponent of a thin
+    #: plate, and the KC that it is taken at.
     plate_drag: float
+    #: ``plate_drag``, ``plate_exponent``, ``plate_keulegan_carpenter``: C_D = plate_drag KC^plate_exponent of a thin
+    #: plate, and the KC that it is taken at.
     plate_exponent: float
+    #: ``plate_drag``, ``plate_exponent``, ``plate_keulegan_carpenter``: C_D = plate_drag KC^plate_exponent of a thin
+    #: plate, and the KC that it is taken at.
     plate_keulegan_carpenter: float
+    #: Turn of the outline below which a vertex is smooth [degrees].
     smallest_turn: float
+    #: A face shorter than this part of its neighbours is the tip of a plate.
     thin_plate: float
+    #: Bilge radius over the shorter face beyond which no corner is left.
     largest_radius: float
+    #: Half beam over draught that the law of round bilges is held to.
     ikeda_half_beam_low: float
+    #: Half beam over draught that the law of round bilges is held to.
     ikeda_half_beam_high: float
+    #: Factors on the damping for the band of an answer.
     band_low: float
+    #: Factors on the damping for the band of an answer.
     band_high: float
 
     @property

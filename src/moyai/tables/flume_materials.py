@@ -14,30 +14,21 @@ _FILE = "flume_materials.csv"
 
 @dataclass(frozen=True)
 class FlumeMaterial:
-    """A material with the range of its properties.
+    """A material with the range of its properties."""
 
-    Parameters
-    ----------
-    name, material : str
-        Catalogue name and what it is.
-    modulus : tuple of float
-        Low and high modulus E [Pa].
-    density : float
-        [kg/m3].
-    strength : tuple of float
-        Low and high tensile strength [Pa].
-    confirmed : bool
-        Whether every value was read in the source named; otherwise measure the line at hand.
-    source : str
-        Where the values come from.
-    """
-
+    #: ``name``, ``material``: Catalogue name and what it is.
     name: str
+    #: ``name``, ``material``: Catalogue name and what it is.
     material: str
+    #: Low and high modulus E [Pa].
     modulus: tuple[float, float]
+    #: [kg/m3].
     density: float
+    #: Low and high tensile strength [Pa].
     strength: tuple[float, float]
+    #: Whether every value was read in the source named; otherwise measure the line at hand.
     confirmed: bool
+    #: Where the values come from.
     source: str
 
     def line_stiffness(self, diameter: float) -> tuple[float, float]:

@@ -15,47 +15,37 @@ _FILE = "lines.csv"
 
 @dataclass(frozen=True)
 class LineProperties:
-    """Properties of one mooring line type at one diameter.
+    """Properties of one mooring line type at one diameter."""
 
-    Parameters
-    ----------
-    name, material : str
-        Catalogue name and what it is.
-    diameter : float
-        Nominal diameter d (bar diameter of a chain) [m].
-    mass_per_length : float
-        In air [kg/m].
-    volume_per_length : float
-        Displaced volume [m2].
-    axial_stiffness : float
-        EA [N]; of fibre ropes the quasi-static value.
-    breaking_load : float
-        Minimum breaking load, new [N].
-    drag_normal, drag_tangential : float
-        Drag coefficients on the nominal diameter [-]: force per length rho/2 C d u|u|.
-    added_mass_normal, added_mass_tangential : float
-        Added-mass coefficients on the displaced volume [-].
-    diameter_range : tuple
-        Range of the source [m].
-    confirmed : bool
-        Whether every value was read in the source named; otherwise check before design use.
-    source : str
-        Where the values come from.
-    """
-
+    #: ``name``, ``material``: Catalogue name and what it is.
     name: str
+    #: ``name``, ``material``: Catalogue name and what it is.
     material: str
+    #: Nominal diameter d (bar diameter of a chain) [m].
     diameter: float
+    #: In air [kg/m].
     mass_per_length: float
+    #: Displaced volume [m2].
     volume_per_length: float
+    #: EA [N]; of fibre ropes the quasi-static value.
     axial_stiffness: float
+    #: Minimum breaking load, new [N].
     breaking_load: float
+    #: ``drag_normal``, ``drag_tangential``: Drag coefficients on the nominal diameter [-]: force per length rho/2 C d
+    #: u|u|.
     drag_normal: float
+    #: ``drag_normal``, ``drag_tangential``: Drag coefficients on the nominal diameter [-]: force per length rho/2 C d
+    #: u|u|.
     drag_tangential: float
+    #: Added-mass coefficients on the displaced volume [-].
     added_mass_normal: float
+    #: Added-mass coefficients on the displaced volume [-].
     added_mass_tangential: float
+    #: Range of the source [m].
     diameter_range: tuple[float, float]
+    #: Whether every value was read in the source named; otherwise check before design use.
     confirmed: bool
+    #: Where the values come from.
     source: str
 
     def submerged_weight_per_length(self, density: float, gravity: float) -> float:
@@ -143,24 +133,6 @@ def line_type(name: str, diameter: float) -> LineProperties:
         confirmed=record["confirmed"] == "true",
         source=record["source"],
     )
-
-
-def diameter_for_submerged_weight(name: str, weight: float, density: float, gravity: float) -> float:
-    """Return the nominal diameter [m] whose submerged weight is ``weight`` [N/m] in water of ``density`` [kg/m3].
-
-    Raises
-    ------
-    InputError
-        When the type floats or the weight is not positive.
-    """
-    unit = line_type(name, 1e-3).submerged_weight_per_length(density, gravity) * 1e6
-    if not (weight > 0.0 and unit > 0.0):
-        raise InputError(
-            f"{name} with a submerged weight of {weight:g} N/m in water of {density:g} kg/m3",
-            path="submerged_weight",
-            allowed="a positive weight and a type heavier than water",
-        )
-    return math.sqrt(weight / unit)
 
 
 def check_line_properties(properties: LineProperties) -> tuple[Notice, ...]:

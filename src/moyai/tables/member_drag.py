@@ -14,25 +14,19 @@ _FILE = "member_drag.csv"
 
 @dataclass(frozen=True)
 class DragEntry:
-    """One row.
+    """One row."""
 
-    Parameters
-    ----------
-    drag, inertia : float
-        C_D and C_M [-]; NaN where the table gives none.
-    reynolds_low, reynolds_high : float
-        Range of the Reynolds number that it was found in.
-    confirmed : bool
-        Whether the value was read in the source named; otherwise check before design use.
-    source : str
-        Letter of the source in the notes of the file.
-    """
-
+    #: ``drag``, ``inertia``: C_D and C_M [-]; NaN where the table gives none.
     drag: float
+    #: ``drag``, ``inertia``: C_D and C_M [-]; NaN where the table gives none.
     inertia: float
+    #: Range of the Reynolds number that it was found in.
     reynolds_low: float
+    #: Range of the Reynolds number that it was found in.
     reynolds_high: float
+    #: Whether the value was read in the source named; otherwise check before design use.
     confirmed: bool
+    #: Letter of the source in the notes of the file.
     source: str
 
 

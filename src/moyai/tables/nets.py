@@ -18,32 +18,21 @@ _SOLIDITY_TOLERANCE, _PITCH_TOLERANCE, _AREA_TOLERANCE = 0.035, 0.02, 0.10
 
 @dataclass(frozen=True)
 class NetRow:
-    """One of the ten nets, as printed, with what its columns say of each other.
-
-    Parameters
-    ----------
-    name : str
-    twine_diameter, aperture : float
-        [m].
-    projected_area : float
-        Of the panel's wires [m2], as printed.
-    solidity : float
-        As printed [-].
-    meshes_per_inch : float
-    flag : str
-        Column that is printed wrongly; empty where none is.
-    believed : float
-        What that column should be, in SI; NaN where nothing is flagged.
-    remark : str
-    """
+    """One of the ten nets, as printed, with what its columns say of each other."""
 
     name: str
+    #: [m].
     twine_diameter: float
+    #: [m].
     aperture: float
+    #: Of the panel's wires [m2], as printed.
     projected_area: float
+    #: As printed [-].
     solidity: float
     meshes_per_inch: float
+    #: Column that is printed wrongly; empty where none is.
     flag: str
+    #: What that column should be, in SI; NaN where nothing is flagged.
     believed: float
     remark: str
 
@@ -127,23 +116,15 @@ def _net_row(record: Record) -> NetRow:
 
 @dataclass(frozen=True)
 class NetMaterial:
-    """A material of twine with the range of its properties.
-
-    Parameters
-    ----------
-    name, material : str
-    density : float
-        [kg/m3].
-    modulus, strength : tuple of float
-        Low and high, on the nominal section [Pa].
-    confirmed : bool
-    source : str
-    """
+    """A material of twine with the range of its properties."""
 
     name: str
     material: str
+    #: [kg/m3].
     density: float
+    #: ``modulus``, ``strength``: Low and high, on the nominal section [Pa].
     modulus: tuple[float, float]
+    #: ``modulus``, ``strength``: Low and high, on the nominal section [Pa].
     strength: tuple[float, float]
     confirmed: bool
     source: str
@@ -176,23 +157,17 @@ def net_material(name: str) -> NetMaterial:
 
 @dataclass(frozen=True)
 class FoulingEntry:
-    """Growth on a net as a source gives it.
-
-    Parameters
-    ----------
-    name, meaning : str
-    diameter_factor, drag_factor : float
-        Fouled over clean twine diameter, or drag; NaN for the one that the source does not give [-].
-    density : float
-        Of the growth [kg/m3].
-    confirmed : bool
-    source : str
-    """
+    """Growth on a net as a source gives it."""
 
     name: str
     meaning: str
+    #: ``diameter_factor``, ``drag_factor``: Fouled over clean twine diameter, or drag; NaN for the one that the source
+    #: does not give [-].
     diameter_factor: float
+    #: ``diameter_factor``, ``drag_factor``: Fouled over clean twine diameter, or drag; NaN for the one that the source
+    #: does not give [-].
     drag_factor: float
+    #: Of the growth [kg/m3].
     density: float
     confirmed: bool
     source: str

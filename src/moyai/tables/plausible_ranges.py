@@ -15,52 +15,35 @@ _STEP = re.compile(r"(?P<sign>^| \* | / )(?P<key>[^\s^]+)(?:\^(?P<power>\d+))?")
 
 @dataclass(frozen=True)
 class Factor:
-    """One key of a quantity.
+    """One key of a quantity."""
 
-    Parameters
-    ----------
-    steps : tuple of str
-        Steps of its path; ``*`` stands for one index or name, ``**`` at the front for any way to the key.
-    power : int
-        Its exponent in the quantity.
-    relative : bool
-        Whether the steps start at the block of the first key.
-    """
-
+    #: Steps of its path; ``*`` stands for one index or name, ``**`` at the front for any way to the key.
     steps: tuple[str, ...]
+    #: Its exponent in the quantity.
     power: int
+    #: Whether the steps start at the block of the first key.
     relative: bool
 
 
 @dataclass(frozen=True)
 class PlausibleRange:
-    """What a quantity usually is and what it can be, as magnitudes.
+    """What a quantity usually is and what it can be, as magnitudes."""
 
-    Parameters
-    ----------
-    structure : str
-        Kind of structure, ``*`` for all, ``kind`` for the bounds of a kind of quantity.
-    quantity : str
-        As the table writes it.
-    factors : tuple of Factor
-        The keys that it is made of.
-    unit : str
-        SI unit of a single key; ratios have none.
-    possible, usual : (float, float)
-        Closed ranges; outside the first it is an error, outside the second a warning.
-    what : str
-        The quantity in words.
-    source : str
-        Letter of the source.
-    """
-
+    #: Kind of structure, ``*`` for all, ``kind`` for the bounds of a kind of quantity.
     structure: str
+    #: As the table writes it.
     quantity: str
+    #: The keys that it is made of.
     factors: tuple[Factor, ...]
+    #: SI unit of a single key; ratios have none.
     unit: str
+    #: ``possible``, ``usual``: Closed ranges; outside the first it is an error, outside the second a warning.
     possible: tuple[float, float]
+    #: ``possible``, ``usual``: Closed ranges; outside the first it is an error, outside the second a warning.
     usual: tuple[float, float]
+    #: The quantity in words.
     what: str
+    #: Letter of the source.
     source: str
 
 

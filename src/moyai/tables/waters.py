@@ -12,27 +12,19 @@ _FILE = "waters.csv"
 
 @dataclass(frozen=True)
 class WaterProperties:
-    """Properties of a water at 20 degrees Celsius.
+    """Properties of a water at 20 degrees Celsius."""
 
-    Parameters
-    ----------
-    name, water : str
-        Short name, and which water.
-    density : float
-        [kg/m3].
-    viscosity : float
-        Kinematic [m2/s].
-    surface_tension : float
-        Against air [N/m].
-    source : str
-        Where the values come from.
-    """
-
+    #: ``name``, ``water``: Short name, and which water.
     name: str
+    #: ``name``, ``water``: Short name, and which water.
     water: str
+    #: [kg/m3].
     density: float
+    #: Kinematic [m2/s].
     viscosity: float
+    #: Against air [N/m].
     surface_tension: float
+    #: Where the values come from.
     source: str
 
 

@@ -226,7 +226,7 @@ CASES: tuple[ValidationCase, ...] = (
         ValidationCase(
             f"flexible: mass thrown into a slack rope, {method} [N]",
             "V sqrt(k m)",
-            partial(_thrown, method),  # type: ignore[arg-type]
+            partial(_thrown, method),
             1.5 * math.sqrt(1e5 * 40.0),
             2e-4,
         )

@@ -55,7 +55,7 @@ def _wrinkled() -> float:
     angle, pull, push = 0.4, 0.01, -0.02
     c, s = math.cos(angle), math.sin(angle)
     strain = pull * c * c + push * s * s, pull * s * s + push * c * c, 2.0 * (pull - push) * c * s
-    return sheet_kernel.tensile_stress(sheets.constants(_FLUME), 0, *strain)[3] / (0.5 * 1000.0 * pull**2)
+    return float(sheet_kernel.tensile_stress(sheets.constants(_FLUME), 0, *strain)[3] / (0.5 * 1000.0 * pull**2))
 
 
 _PROTOTYPE = "independent prototype, two digits given"

@@ -142,7 +142,7 @@ def row(period: float) -> int:
 def motion_ratio(period: float, mode: int, lines: int = 4) -> float:
     """Return |x|/(H/2), |z|/(H/2) or |theta| B/H of the frequency domain with drift."""
     factor = (1.0, 1.0, 0.5 * BEAM)[mode]
-    return factor * abs(paper_drift(lines).motions.displacement[row(period), 0, mode])
+    return float(factor * abs(paper_drift(lines).motions.displacement[row(period), 0, mode]))
 
 
 @lru_cache(maxsize=32)
@@ -176,7 +176,7 @@ def paper_time(period: float, linear_mooring: bool = False, lines: int = 4) -> t
 def time_ratio(period: float, mode: int) -> float:
     """Return the motion ratio of the time domain with nonlinear chains."""
     factor = (1.0, 1.0, 0.5 * BEAM)[mode]
-    return factor * abs(paper_time(period)[1].first[mode]) / WAVE_AMPLITUDE
+    return float(factor * abs(paper_time(period)[1].first[mode]) / WAVE_AMPLITUDE)
 
 
 def linear_time_error(period: float) -> float:
@@ -327,7 +327,7 @@ def _quadratic_resonance() -> float:
     )
     motions = solve_motions(hydro, [[1.0]], [[4.0]], quadratic=QuadraticDamping.of_modes([0.7]), wave_amplitude=0.4)
     velocity = 0.4 * abs(motions.velocity[0, 0, 0])
-    return 8.0 / (3.0 * math.pi) * 0.7 * velocity**2 / 0.4
+    return float(8.0 / (3.0 * math.pi) * 0.7 * velocity**2 / 0.4)
 
 
 def _case(

@@ -47,7 +47,7 @@ def _units_do_not_matter() -> float:
     other = text.replace("beam: 10 m, height: 4.5 m}", "beam: 1e4 mm, height: 450 cm}", 1)
     problems = [build(case_of(parse_yaml(found, "a.yaml"), Path("a.yaml"))) for found in (text, other)]
     areas = [problem.breakwater.hull.immersed(3.0).area for problem in problems]
-    return abs(areas[0] - areas[1])
+    return float(abs(areas[0] - areas[1]))
 
 
 CASES: tuple[ValidationCase, ...] = (

@@ -74,7 +74,7 @@ def _third_harmonic() -> float:
     """Third over first harmonic of u|u|, the part that a low-pass between them deletes."""
     angle = 2.0 * math.pi * np.arange(4000) / 4000
     force = np.cos(angle) * np.abs(np.cos(angle))
-    return abs(np.mean(force * np.exp(3j * angle))) / abs(np.mean(force * np.exp(1j * angle)))
+    return float(abs(np.mean(force * np.exp(3j * angle))) / abs(np.mean(force * np.exp(1j * angle))))
 
 
 CASES: tuple[ValidationCase, ...] = (

@@ -11,7 +11,7 @@ from moyai.sea.components import WaveComponents
 from moyai.sea.current import uniform
 from moyai.sea.dispersion import wave_number
 from moyai.sea.water import Water
-from moyai.structures.cage.rigid import kernel
+from moyai.structures.cage.rigid import load_kernel, water_kernel
 from moyai.structures.cage.rigid.lines import CageLine
 from moyai.structures.cage.rigid.modes import mass_matrix, natural_modes
 from moyai.structures.cage.rigid.pack import pack
@@ -367,7 +367,7 @@ def test_water_in_the_kernel_is_that_of_the_sea(seed):
         for _ in range(20):
             x, z = rng.normal() * water.depth, -water.depth * rng.uniform(-0.02, 1.0)
             time, work = rng.uniform(0, 100), np.empty(6)
-            kernel._water_at(packed, time, x, z, work)
+            water_kernel.water_at(packed, time, x, z, work)
             eta, velocity, acceleration = waves.kinematics(time, x, 0.0, z, stretching)
             wanted = np.array([eta, velocity[0], velocity[2], acceleration[0], acceleration[2]])
             assert work[:5] == pytest.approx(wanted, rel=1e-9, abs=1e-12)
@@ -400,7 +400,7 @@ def test_irregular_seas_from_their_series_are_those_summed_at_every_part():
                 values = []
                 for item in (packed, direct):
                     force, mass, work = np.empty(3), np.empty((3, 3)), np.empty(6)
-                    kernel.loads(item, time, state, np.zeros(0), force, mass, work)
+                    load_kernel.loads(item, time, state, np.zeros(0), force, mass, work)
                     values.append(force / np.array([1.0, 1.0, size]))
                 gaps.append(np.abs(values[0] - values[1]).max())
                 sizes.append(np.abs(values[1]).max())
@@ -517,7 +517,7 @@ def test_net_behind_the_upstream_wall_misses_part_of_the_current():
             )
             packed = packed._replace(spheres=packed.spheres[:0].copy())
             force, mass, work = np.empty(3), np.empty((3, 3)), np.empty(6)
-            kernel.loads(packed, 0.0, np.array([0.0, -10.0, 0, 0, 0, 0]), np.zeros(0), force, mass, work)
+            load_kernel.loads(packed, 0.0, np.array([0.0, -10.0, 0, 0, 0, 0]), np.zeros(0), force, mass, work)
             found.append(sense * force[0])
         assert found[0] == pytest.approx(2.0 * (wall * drag(across, speed) + half_side * drag(along, speed)), rel=2e-3)
         sheltered = wall * drag(across, behind) + half_side * drag(along, behind)

@@ -146,7 +146,9 @@ def test_examples_are_sound():
 
 
 def test_growth_and_own_ropes_reach_the_model():
-    model = build(case(("wake: loland", "wake: loland\n    growth: {standard: ns9415}"))).cage
+    fouled = case(("wake: loland", "wake: loland\n    growth: {standard: ns9415}"))
+    assert [item.path for item in fouled.warnings if "was not read in its source" in item.message]
+    model = build(fouled).cage
     net = model.design.net
     assert net.net.twine_diameter == pytest.approx(1.5 * 0.0025) and net.clean_diameter == 0.0025
     own = "{diameter: 48 mm, axial_stiffness: 1 MN, mass: 1.4 kg/m, breaking_load: 400 kN}"

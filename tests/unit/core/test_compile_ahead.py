@@ -51,7 +51,7 @@ def test_types_without_a_text_are_refused() -> None:
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_listed_kernel_exists(kind: str) -> None:
     kernels = listed_kernels(kind)
-    assert len(kernels) > 20
+    assert len(kernels) > 5
     for kernel in kernels:
         assert hasattr(getattr(import_module(kernel.module), kernel.name), "overloads"), kernel
         assert signature_types(kernel.signature)

@@ -39,3 +39,60 @@ def test_the_first_compilation_is_told_once() -> None:
         assert twice(1.0) == np.inf
         assert twice(np.float32(1.0)) == np.inf
     assert calls == [1]
+
+
+@njit(error_model="numpy")
+def _half(x):
+    return 0.5 * x
+
+
+@njit(error_model="numpy")
+def _quarter(x):
+    return _half(_half(x))
+
+
+@njit(error_model="numpy")
+def _eighths(values):
+    total = 0.0
+    for value in values:
+        total += _quarter(_half(value)) + 0.0 * _half(1)
+    return total
+
+
+def test_kernels_within_a_kernel_are_parts_and_have_a_form_of_their_own_for_python() -> None:
+    assert _eighths(np.array([8.0, 16.0])) == 3.0
+    assert not _half.overloads and not _quarter.overloads
+    assert len(_eighths.overloads) == 1
+    assert _quarter(2.0) == 0.5
+    assert len(_quarter.overloads) == 1
+    # what is compiled already serves other types and callers too
+    assert _eighths(np.array([8, 16])) == 3.0
+
+
+def test_a_fault_in_a_part_comes_through() -> None:
+    @njit()
+    def refuse(x):
+        if x > 0.0:
+            raise ValueError("too large")
+        return x
+
+    @njit()
+    def call(x):
+        return refuse(x) + 1.0
+
+    assert call(-1.0) == 0.0
+    with pytest.raises(ValueError, match="too large"):
+        call(1.0)
+
+
+def test_types_that_a_part_cannot_take_are_told() -> None:
+    @njit()
+    def part(x):
+        return x.no_such_thing
+
+    @njit()
+    def call(x):
+        return part(x)
+
+    with pytest.raises(Exception, match="no_such_thing"):
+        call(1.0)

@@ -9,7 +9,7 @@ from moyai.core.errors import InputError
 from moyai.sea.water import Water
 from moyai.structures.curtain.impact.cable import Impact, peak_by_energy
 from moyai.structures.curtain.impact.compare import check_skirt, compare_models
-from moyai.structures.curtain.impact.record import compare_record, model_series, residual_against
+from moyai.structures.curtain.impact.record import compare_record, model_series
 from moyai.structures.curtain.impact.release import snap_in_current
 from moyai.structures.curtain.impact.skirt import Skirt, cable_and_skirt_impact, curved_impact
 
@@ -62,15 +62,6 @@ def test_plateau_taken_off_explains_that_model_a_lies_above_records():
     model = peak_by_energy(flume(150.0, speed=snap.start_speed)).tension
     assert 1.0 < model / snap.impact_tension < 1.6
     assert model < snap.peak_tension
-
-
-def test_own_series_has_no_residual():
-    series = model_series(flume(), memory=False)[0]
-    assert residual_against(series, series.time, series.tension) == 0.0
-    shifted = residual_against(series, series.time, np.roll(series.tension, 100))
-    assert 0.01 < shifted < 0.5
-    with pytest.raises(InputError, match="share no time"):
-        residual_against(series, [90.0], [1.0])
 
 
 def test_finite_depth_raises_all_masses():

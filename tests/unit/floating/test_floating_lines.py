@@ -10,10 +10,9 @@ import pytest
 from moyai.core.errors import InputError
 from moyai.floating.coefficients import Hydrodynamics
 from moyai.floating.damping import LinearDamping, QuadraticDamping
-from moyai.floating.drift import DriftProblem, solve_irregular_with_drift, solve_with_drift
+from moyai.floating.drift import DriftProblem, solve_with_drift
 from moyai.floating.far_field import drift_force_per_amplitude_squared, energy_check
 from moyai.floating.forcing import IrregularForcing, RegularForcing
-from moyai.floating.irregular import integration_weights
 from moyai.floating.lines import PlanarMooring
 from moyai.floating.memory import StateSpaceMemory
 from moyai.floating.offset import LinearMooring
@@ -123,27 +122,6 @@ def test_energy_of_a_random_coupled_section(
     total = restoring + mooring.matrix
     expected = np.linalg.solve(total, np.stack([force, 0 * force, 0 * force]))
     assert np.allclose(found.offset, expected.T, rtol=1e-6, atol=1e-12)
-
-
-def test_drift_of_a_sea_is_the_sum_of_its_components(
-    random_section: tuple[Hydrodynamics, np.ndarray, np.ndarray, Water],
-) -> None:
-    hydro, inertia, restoring, water = random_section
-    mooring = LinearMooring(np.diag([2e4, 1e4, 1e5]))
-    problem = DriftProblem(
-        hydro, inertia, restoring, mooring, water, damping=LinearDamping.of_modes(critical_fraction=[0.1] * 3),
-        steady_force=np.array([5e3, 0.0, 0.0]),
-    )  # fmt: skip
-    density = jonswap(1.2, 6.0, 3.3).density_at(hydro.omega)
-    sea = solve_irregular_with_drift(problem, density)
-    waves = solve_with_drift(problem, 1.0)
-    per_square = drift_force_per_amplitude_squared(waves.far, hydro.omega, hydro.heading, water, hydro.length)[:, 0]
-    # Linear lines: the stiffness does not follow the offset, so the two loops share their motions
-    mean = 2.0 * float(np.sum(integration_weights(hydro.omega) * density * per_square))
-    assert sea.drift_force[0] == pytest.approx(mean, rel=1e-6)
-    total = restoring + mooring.matrix
-    assert np.allclose(sea.offset[0], np.linalg.solve(total, [5e3 + mean, 0.0, 0.0]), rtol=1e-6)
-    assert sea.status[0] == "converged"
 
 
 def test_sea_as_forcing_has_the_surface_of_the_sea(

@@ -361,3 +361,9 @@ def test_power_law_of_ones_own():
             net_law(text)
     with pytest.raises(InputError, match="such as"):
         net_law("11.4 Re-0.4")
+
+
+@pytest.mark.parametrize(("knotted", "shaded"), [(False, 0.19), (True, 0.205)])
+def test_solidity_of_the_geometry_is_what_twines_and_knots_shade(knotted: bool, shaded: float) -> None:
+    """d/p = 0.1: two twines less where they cross, 0.2 - 0.01; a knot shades half a d^2 more, 0.2 + 0.005."""
+    assert Net(2e-3, 2e-2, knotted=knotted).solidity_geometric == pytest.approx(shaded, rel=1e-12)

@@ -9,8 +9,9 @@ import pytest
 from scipy.integrate import quad
 from scipy.special import kv
 
+from moyai.potential.oblique_quadrature import _bessel_k, add_helmholtz
 from moyai.potential.panels import BODY, RAY, RAY_DIRECTION, Piece, gauss_rule, make_panels
-from moyai.potential.quadrature import _bessel_k, add_helmholtz, add_rankine
+from moyai.potential.quadrature import add_rankine
 
 ORDER = 12
 

@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from moyai.core.errors import InputError
-from moyai.records.survey.motions import ImagePlane, fit_decay_record, response_function, rigid_motion
+from moyai.records.survey.motions import fit_decay_record, response_function, rigid_motion
 from moyai.series.spectra import WelchOptions
 
 
@@ -115,10 +115,6 @@ def test_markers_give_the_motion_back(seed):
         np.testing.assert_allclose(np.delete(lost.sway, 50), np.delete(sway, 50), atol=1e-12)
 
 
-def test_camera_plane():
-    plane = ImagePlane(scale=0.001, origin=(640.0, 400.0), tilt=math.radians(5.0))
-    level = [(640.0 + 100.0 * math.cos(math.radians(5.0)), 400.0 - 100.0 * math.sin(math.radians(5.0)))]
-    np.testing.assert_allclose(plane.to_plane(level), [[0.1, 0.0]], atol=1e-12)
-    np.testing.assert_allclose(ImagePlane(0.002, mirrored=True).to_plane([[10.0, -5.0]]), [[-0.02, 0.01]])
+def test_one_marker_is_refused():
     with pytest.raises(InputError, match="markers"):
         rigid_motion(np.zeros((5, 1, 2)), np.zeros((1, 2)), centre=(0.0, 0.0))

@@ -93,6 +93,10 @@ def test_frames_are_dense_in_the_window_and_hit_the_maximum() -> None:
         inside = frames[(frames > time[first]) & (frames < time[last - 1])]
         assert np.diff(inside).max() <= period * (1.0 / 40.0 + 1e-3)
         assert np.diff(frames).max() <= max(period * (1.0 / 8.0 + 1e-3), 1.001 * time[-1] / 12000)
+        near = frame_times(time, (time[first], time[last - 1]), period, (moment,), around=5.0)
+        assert moment in near
+        np.testing.assert_allclose(near[0], max(time[0], time[first] - 5.0 * period))
+        np.testing.assert_allclose(near[-1], min(time[-1], time[last - 1] + 5.0 * period))
 
 
 def test_body_points_turn_as_rigid_bodies_do() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import math
+import re
 import warnings
 
 import docx
@@ -147,6 +148,9 @@ def test_the_report_is_written_again_from_the_results(tmp_path):
     runner = CliRunner()
     case = tmp_path / "member.yaml"
     assert runner.invoke(app, ["new", "member", "-o", str(case)]).exit_code == 0
+    text, storms = re.subn(r"(?ms)^  - name: storm.*?(?=^(#|structure:))", "", case.read_text(encoding="utf-8"))
+    assert storms == 1
+    case.write_text(text, encoding="utf-8")
     assert runner.invoke(app, ["run", str(case), "-o", str(tmp_path / "run"), "-q"]).exit_code == 0
     first = (tmp_path / "run" / "report.html").read_text(encoding="utf-8")
     done = runner.invoke(app, ["report", str(tmp_path / "run" / "results.nc"), "-o", str(tmp_path / "again"), "--docx"])

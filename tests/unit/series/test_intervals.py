@@ -59,6 +59,11 @@ def test_equal_values_have_no_likeliest_distribution():
         fit(np.full(10, 3.0), "weibull", location=0.0)
 
 
+def test_excesses_over_many_decades_have_no_likeliest_pareto_distribution():
+    with pytest.raises(ConvergenceError, match="no maximum"):
+        pareto_likelihood(np.geomspace(1e-6, 1.0, 40))
+
+
 @pytest.mark.parametrize("shape", [-0.6, 0.0, 0.3])
 def test_pareto_likelihood_is_at_least_that_of_scipy(shape):
     values = stats.genpareto.rvs(shape, scale=2.0, size=200, random_state=4)

@@ -9,7 +9,7 @@ from moyai.core.errors import InputError
 from moyai.sea import spectra as sea_spectra
 from moyai.sea.irregular import synthesise
 from moyai.sea.water import Water
-from moyai.series.spectra import WelchOptions, cross_spectra, spectrum_of
+from moyai.series.spectra import MeasuredSpectrum, WelchOptions, cross_spectra, spectrum_of
 
 
 @pytest.mark.parametrize("size", [100, 101, 1024])
@@ -106,3 +106,18 @@ def test_segments_with_a_gap_are_left_out():
         spectrum_of(1.0, values, WelchOptions(segment=5000.0))
     with pytest.raises(InputError, match="overlap"):
         WelchOptions(overlap=1.0)
+
+
+def test_figures_of_two_lines_are_those_by_hand():
+    """Energies 3 and 1 at 0.1 and 0.2 Hz: m_n = 3 * 0.1^n + 0.2^n."""
+    frequency, density = np.arange(0.0, 0.51, 0.01), np.zeros(51)
+    density[[10, 20]] = 300.0, 100.0
+    found = MeasuredSpectrum(frequency, density, 2.0).figures()
+    m0, m1, m2, m4, below = (3.0 * 0.1**n + 0.2**n for n in (0, 1, 2, 4, -1))
+    assert found["spectral_height"] == pytest.approx(4.0 * math.sqrt(m0), rel=1e-12)
+    assert found["period_m01"] == pytest.approx(m0 / m1, rel=1e-12)
+    assert found["period_m02"] == pytest.approx(math.sqrt(m0 / m2), rel=1e-12)
+    assert found["period_energy"] == pytest.approx(below / m0, rel=1e-12)
+    assert found["spectral_width"] == pytest.approx(math.sqrt(1.0 - m2**2 / (m0 * m4)), rel=1e-12)
+    weight = (1.0 / 3.0) ** 4
+    assert found["smooth_peak_period"] == pytest.approx((1.0 + weight) / (0.1 + 0.2 * weight), rel=1e-12)

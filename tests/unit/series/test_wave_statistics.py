@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy import stats
 from scipy.special import comb
 
 from moyai.core.errors import InputError
@@ -78,6 +79,18 @@ def test_rayleigh_constants():
         assert wave_statistics.rayleigh_expected_maximum(count) == pytest.approx(exact, rel=1e-10)
     median = wave_statistics.rayleigh_maximum_quantile(1000, 0.5)
     assert (1.0 - float(wave_statistics.rayleigh_exceedance(median, 1.0))) ** 1000 == pytest.approx(0.5, rel=1e-9)
+
+
+def test_likelihoods_of_height_fits_are_those_of_scipy():
+    heights = np.random.default_rng(6).rayleigh(0.7, 300)
+    rayleigh = wave_statistics.fit_rayleigh(heights)
+    expected = stats.rayleigh.logpdf(heights, scale=rayleigh.scale / math.sqrt(2.0)).sum()
+    assert rayleigh.fitted.log_likelihood == pytest.approx(expected, rel=1e-12)
+    weibull = wave_statistics.fit_weibull(heights)
+    expected = stats.weibull_min.logpdf(heights, weibull.shape, scale=weibull.scale).sum()
+    assert weibull.fitted.log_likelihood == pytest.approx(expected, rel=1e-10)
+    # one parameter more is never less likely
+    assert weibull.fitted.log_likelihood >= rayleigh.fitted.log_likelihood
 
 
 def test_narrow_sea_has_rayleigh_heights():

@@ -10,7 +10,6 @@ from moyai.core.errors import InputError
 from moyai.tables.lines import (
     available_line_types,
     check_line_properties,
-    diameter_for_submerged_weight,
     line_sources,
     line_type,
 )
@@ -57,13 +56,6 @@ def test_submerged_weight_follows_the_water() -> None:
     steel = chain.mass_per_length / chain.volume_per_length
     assert chain.submerged_weight_per_length(steel, 9.81) == pytest.approx(0.0, abs=1e-9)
     assert line_type("polypropylene_8_strand", 0.05).submerged_weight_per_length(1025.0, 9.81) < 0.0
-
-
-def test_diameter_from_the_submerged_weight() -> None:
-    d = diameter_for_submerged_weight("studless_chain_U2", 777.0, 1025.0, 9.81)
-    assert line_type("studless_chain_U2", d).submerged_weight_per_length(1025.0, 9.81) == pytest.approx(777.0)
-    with pytest.raises(InputError):
-        diameter_for_submerged_weight("hmpe", 10.0, 1025.0, 9.81)
 
 
 def test_range_and_unconfirmed_values_are_told() -> None:

@@ -32,10 +32,12 @@ class ChooCasarella(TwineLaw):
         slow = np.log(8.0 / np.minimum(number, 1.0)) - _EULER
         creeping = 8.0 * math.pi / (np.minimum(number, 1.0) * slow) * (1.0 - 0.87 / slow**2)
         middle = 1.45 + 8.55 * number**-0.9
-        return np.where(number <= 1.0, creeping, np.where(number < 30.0, middle, 1.1 + 4.0 * number**-0.5))
+        values: Array = np.where(number <= 1.0, creeping, np.where(number < 30.0, middle, 1.1 + 4.0 * number**-0.5))
+        return values
 
     def tangential_drag(self, reynolds: ArrayLike, along: ArrayLike, net: Net) -> Array:
         """[eq:net-choo-tangential]: pi mu (0.55 Re^(1/2) + 0.084 Re^(2/3)) u_t per length, on rho/2 d u_t^2."""
         across, axial = np.asarray(reynolds, dtype=float), np.asarray(along, dtype=float)
         friction = 2.0 * math.pi * (0.55 * np.sqrt(across) + 0.084 * across ** (2.0 / 3.0))
-        return friction / np.maximum(axial, 1e-12)
+        values: Array = friction / np.maximum(axial, 1e-12)
+        return values

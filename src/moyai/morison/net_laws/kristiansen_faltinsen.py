@@ -34,15 +34,7 @@ def cylinder_drag(reynolds: ArrayLike) -> Array:
 @checks_words
 @dataclass(frozen=True)
 class KristiansenFaltinsen(NetLaw):
-    """Drag and lift by two harmonics of the angle, scaled at 0 and at 45 degrees.
-
-    Parameters
-    ----------
-    normal_at_45 : {"cross_flow", "solidity"}
-        Normal force coefficient at 45 degrees behind the tangential force: by cross flow it is C_D0 / 2, the same
-        as in the rest of the law; ``solidity`` takes C_cyl S / (2 (1 - S)^2), as one published code does. The two
-        meet at zero solidity; the second lowers the lift, by a tenth at a solidity of 0.3.
-    """
+    """Drag and lift by two harmonics of the angle, scaled at 0 and at 45 degrees."""
 
     name: ClassVar[str] = "kristiansen_faltinsen"
     kind: ClassVar[str] = "screen"
@@ -54,6 +46,9 @@ class KristiansenFaltinsen(NetLaw):
     basis: ClassVar[str] = "round twines"
     skin: ClassVar[str] = "no force at zero solidity, none along a panel parallel to the flow"
 
+    #: Normal force coefficient at 45 degrees behind the tangential force: by cross flow it is C_D0 / 2, the same as in
+    #: the rest of the law; ``solidity`` takes C_cyl S / (2 (1 - S)^2), as one published code does. The two meet at zero
+    #: solidity; the second lowers the lift, by a tenth at a solidity of 0.3.
     normal_at_45: Literal["cross_flow", "solidity"] = "cross_flow"
 
     def reynolds(self, speed: ArrayLike, net: Net, kinematic_viscosity: float) -> Array:

@@ -27,17 +27,6 @@ class Matsubara(NetLaw):
     Below Re = 84, where the measured values scatter, the power goes on up to a cap; above 1800, the largest number
     towed, the coefficient is held.
 
-    Parameters
-    ----------
-    cap : float
-        Largest C_D on the area of the twines [-].
-    solidity : {"listed", "geometric"}
-        Area of the twines per outline area. ``listed`` reproduces the paper, whose areas count the crossings twice;
-        ``geometric`` counts them once, and then the same law gives less than the paper measured.
-    tangential_share : float
-        Force along the panel: this share of C_D, on the speed along the panel [-]. Not from the paper, which towed
-        its nets square to the flow.
-
     Raises
     ------
     InputError
@@ -54,8 +43,13 @@ class Matsubara(NetLaw):
     basis: ClassVar[str] = "wire nets"
     confirmed: ClassVar[bool] = True
 
+    #: Largest C_D on the area of the twines [-].
     cap: float = 3.0
+    #: Area of the twines per outline area. ``listed`` reproduces the paper, whose areas count the crossings twice;
+    #: ``geometric`` counts them once, and then the same law gives less than the paper measured.
     solidity: Literal["listed", "geometric"] = "listed"
+    #: Force along the panel: this share of C_D, on the speed along the panel [-]. Not from the paper, which towed its
+    #: nets square to the flow.
     tangential_share: float = 0.25
 
     def __post_init__(self) -> None:

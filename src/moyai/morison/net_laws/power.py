@@ -25,19 +25,6 @@ _TEXT = re.compile(rf"^\s*{_NUMBER}\s*Re\s*\^\s*-\s*{_NUMBER}(?:\s+from\s+{_NUMB
 class PowerLawNet(NetLaw):
     """C_D = A Re^-B across a panel, a share of it along the panel [eq:net-components].
 
-    Parameters
-    ----------
-    factor, exponent : float
-        A and B.
-    lowest, highest : float
-        Range of Re that they were found in: below it the power goes on up to the cap, above it C_D is held.
-    cap : float
-        Largest C_D on the area of the twines [-].
-    solidity : {"listed", "geometric"}
-        Area of the twines per outline area: the one that the C_D were referred to.
-    tangential_share : float
-        Force along the panel, as a share of C_D [-].
-
     Raises
     ------
     InputError
@@ -53,12 +40,21 @@ class PowerLawNet(NetLaw):
     basis: ClassVar[str] = "one net"
     skin: ClassVar[str] = "no force at zero solidity; the tangential share along the panel"
 
+    #: ``factor``, ``exponent``: A and B.
     factor: float
+    #: ``factor``, ``exponent``: A and B.
     exponent: float
+    #: ``lowest``, ``highest``: Range of Re that they were found in: below it the power goes on up to the cap, above it
+    #: C_D is held.
     lowest: float = 0.0
+    #: ``lowest``, ``highest``: Range of Re that they were found in: below it the power goes on up to the cap, above it
+    #: C_D is held.
     highest: float = math.inf
+    #: Largest C_D on the area of the twines [-].
     cap: float = 3.0
+    #: Area of the twines per outline area: the one that the C_D were referred to.
     solidity: Literal["listed", "geometric"] = "listed"
+    #: Force along the panel, as a share of C_D [-].
     tangential_share: float = 0.25
 
     def __post_init__(self) -> None:

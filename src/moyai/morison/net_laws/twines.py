@@ -21,12 +21,6 @@ class TwineLaw(NetLaw):
     """Both families of twines by the cross-flow principle, without shelter of one by another [eq:net-twines].
 
     Each family holds half of the shaded area, so that crossings count once.
-
-    Parameters
-    ----------
-    azimuth : float
-        Angle in the panel between the first family of twines and the plane of flow and normal [rad]: 0 for an upright
-        wall of square meshes in a level current, pi/4 for diamond meshes.
     """
 
     kind: ClassVar[str] = "twine"
@@ -34,6 +28,8 @@ class TwineLaw(NetLaw):
     skin: ClassVar[str] = "no force at zero solidity; twines across the flow keep their drag on a parallel panel"
     basis: ClassVar[str] = "single twine"
 
+    #: Angle in the panel between the first family of twines and the plane of flow and normal [rad]: 0 for an upright
+    #: wall of square meshes in a level current, pi/4 for diamond meshes.
     azimuth: float = 0.0
 
     def __post_init__(self) -> None:

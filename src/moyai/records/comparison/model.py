@@ -16,38 +16,28 @@ from moyai.core.errors import InputError
 
 @dataclass(frozen=True)
 class Agreement:
-    """Figures of a model against observations; equation [eq:records-agreement].
+    """Figures of a model against observations; equation [eq:records-agreement]."""
 
-    Parameters
-    ----------
-    count : int
-        Pairs.
-    bias : float
-        Mean of model minus observation.
-    rms : float
-        Root mean square of the difference.
-    scatter_index : float
-        RMS after taking off the bias, over the mean magnitude of the observations [-].
-    correlation : float
-    slope : float
-        Of the line through the origin, model over observation, by least squares of both directions (principal axis).
-    skill : float
-        1 - sum of squared differences over that of the observations about their mean (Nash and Sutcliffe) [-].
-    index_of_agreement : float
-        Willmott's d [-].
-    paper_error, paper_error_spread : float
-        Mean and root mean square of (model - observation)/model, the error of Tabata et al. [-].
-    """
-
+    #: Pairs.
     count: int
+    #: Mean of model minus observation.
     bias: float
+    #: Root mean square of the difference.
     rms: float
+    #: RMS after taking off the bias, over the mean magnitude of the observations [-].
     scatter_index: float
     correlation: float
+    #: Of the line through the origin, model over observation, by least squares of both directions (principal axis).
     slope: float
+    #: 1 - sum of squared differences over that of the observations about their mean (Nash and Sutcliffe) [-].
     skill: float
+    #: Willmott's d [-].
     index_of_agreement: float
+    #: ``paper_error``, ``paper_error_spread``: Mean and root mean square of (model - observation)/model, the error of
+    #: Tabata et al. [-].
     paper_error: float
+    #: ``paper_error``, ``paper_error_spread``: Mean and root mean square of (model - observation)/model, the error of
+    #: Tabata et al. [-].
     paper_error_spread: float
 
 
@@ -138,22 +128,15 @@ def agreement_by_state(
 
 @dataclass(frozen=True, eq=False)
 class Overlay:
-    """A model's series and an observed one on common instants.
+    """A model's series and an observed one on common instants."""
 
-    Parameters
-    ----------
-    time : ndarray
-        Instants of the observation inside the model's time [s].
-    model, observed : ndarray
-        NaN in gaps.
-    lag : float
-        Seconds by which the model was moved.
-    agreement : Agreement
-    """
-
+    #: Instants of the observation inside the model's time [s].
     time: Array
+    #: NaN in gaps.
     model: Array
+    #: NaN in gaps.
     observed: Array
+    #: Seconds by which the model was moved.
     lag: float
     agreement: Agreement
 

@@ -31,17 +31,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Pairing:
-    """Which variable of the result belongs to which column of the record.
+    """Which variable of the result belongs to which column of the record."""
 
-    Parameters
-    ----------
-    variable : str
-        Path in the result, for instance ``/SWL/time/storm/sway``, or its name where only one group has it.
-    column : str
-        Heading in the record without its unit.
-    """
-
+    #: Path in the result, for instance ``/SWL/time/storm/sway``, or its name where only one group has it.
     variable: str
+    #: Heading in the record without its unit.
     column: str
 
 

@@ -32,51 +32,33 @@ _HUBER = 1.345
 @checks_words
 @dataclass(frozen=True)
 class Setup:
-    """What the record was taken on and how it is read.
+    """What the record was taken on and how it is read."""
 
-    Parameters
-    ----------
-    density : float
-        Of the water [kg/m3].
-    area : float
-        Of the section [m2].
-    widths : tuple of float
-        Width across the flow for every component [m]: H for x, B for z.
-    period : float or None
-        Of regular waves [s]; ``None`` finds it from the velocity.
-    regular : bool
-        Whether the record is periodic; ``fourier`` needs it.
-    form : {"component", "vector"}
-        Drag u|u| or u|U| with the speed of all components.
-    methods : tuple of str
-    harmonics : tuple of int
-        Harmonics of the force (2, 3, ...) that Morison's equation is not asked to explain: fitted next to it.
-    mean : bool
-        Whether the mean force is fitted next to it too.
-    phase_error : float
-        Standard error of the phase between force and velocity [rad].
-    confidence : float
-        Probability that the intervals cover.
-    bootstrap : int
-        Number of bootstrap samples.
-    seed : int
-    ideal_inertia : tuple of float or None
-        Ideal inertia coefficients: gives the reduction and the circulation that it stands for.
-    """
-
+    #: Of the water [kg/m3].
     density: float
+    #: Of the section [m2].
     area: float
+    #: Width across the flow for every component [m]: H for x, B for z.
     widths: tuple[float, ...]
+    #: Of regular waves [s]; ``None`` finds it from the velocity.
     period: float | None = None
+    #: Whether the record is periodic; ``fourier`` needs it.
     regular: bool = True
+    #: Drag u|u| or u|U| with the speed of all components; one of "component", "vector".
     form: Form = "component"
     methods: tuple[Method, ...] = METHODS
+    #: Harmonics of the force (2, 3, ...) that Morison's equation is not asked to explain: fitted next to it.
     harmonics: tuple[int, ...] = ()
+    #: Whether the mean force is fitted next to it too.
     mean: bool = True
+    #: Standard error of the phase between force and velocity [rad].
     phase_error: float = 0.0
+    #: Probability that the intervals cover.
     confidence: float = 0.95
+    #: Number of bootstrap samples.
     bootstrap: int = 400
     seed: int = 1
+    #: Ideal inertia coefficients: gives the reduction and the circulation that it stands for.
     ideal_inertia: tuple[float, ...] | None = None
 
     def __post_init__(self) -> None:
@@ -109,25 +91,16 @@ class Setup:
 
 @dataclass(frozen=True)
 class Coefficient:
-    """One coefficient and what is known of it.
-
-    Parameters
-    ----------
-    value : float
-    half_width : float
-        Of the interval by the bootstrap over blocks, at the confidence asked for.
-    phase_half_width : float
-        What the phase error adds, at the same confidence.
-    phase_sensitivity : float
-        Change per radian of phase error.
-    rounding : float
-        Error by the rounding of the record's own numbers.
-    """
+    """One coefficient and what is known of it."""
 
     value: float
+    #: Of the interval by the bootstrap over blocks, at the confidence asked for.
     half_width: float
+    #: What the phase error adds, at the same confidence.
     phase_half_width: float
+    #: Change per radian of phase error.
     phase_sensitivity: float
+    #: Error by the rounding of the record's own numbers.
     rounding: float
 
     @property
@@ -159,39 +132,29 @@ class Coefficient:
 @checks_words
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """One component by one method.
-
-    Parameters
-    ----------
-    method, component : str, int
-    inertia, drag : Coefficient
-    covariance : ndarray, shape (2, 2)
-        Of C_M and C_D, by the bootstrap.
-    correlation : float
-        Between both.
-    condition : float
-        Condition number of the two columns, scaled to unit length.
-    samples : ndarray, shape (bootstrap, 2)
-        Bootstrap samples.
-    force, residual : ndarray, shape (samples,)
-        Morison's force by the fit, with mean and harmonics, and what is left [N/m].
-    explained : float
-        Share of the variance of the force that is explained.
-    drag_share : float
-        Amplitude of the drag over that of the inertia force.
-    """
+    """One component by one method."""
 
     method: Method
     component: int
     inertia: Coefficient
     drag: Coefficient
+    #: Of C_M and C_D, by the bootstrap; shape (2, 2).
     covariance: Array
+    #: Between both.
     correlation: float
+    #: Condition number of the two columns, scaled to unit length.
     condition: float
+    #: Bootstrap samples; shape (bootstrap, 2).
     samples: Array
+    #: ``force``, ``residual``: Morison's force by the fit, with mean and harmonics, and what is left [N/m]; shape
+    #: (samples,).
     force: Array
+    #: ``force``, ``residual``: Morison's force by the fit, with mean and harmonics, and what is left [N/m]; shape
+    #: (samples,).
     residual: Array
+    #: Share of the variance of the force that is explained.
     explained: float
+    #: Amplitude of the drag over that of the inertia force.
     drag_share: float
 
 

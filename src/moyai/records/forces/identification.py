@@ -35,34 +35,21 @@ _SPEED_FACTOR = 8.0 / (3.0 * math.pi)
 
 @dataclass(frozen=True, eq=False)
 class Identification:
-    """Everything that a record gave.
+    """Everything that a record gave."""
 
-    Parameters
-    ----------
-    record : ForceRecord
-        The part that was used: whole periods of a regular record.
-    setup : Setup
-    period : float
-        Period, or mean period of an irregular record [s].
-    acceleration : ndarray
-        [m/s2].
-    velocity_amplitude : ndarray, shape (components,)
-        [m/s].
-    keulegan_carpenter : tuple of float
-        u T / b of every component, b its width.
-    fits : tuple of Fit
-    blocks : int
-        Independent blocks behind the intervals.
-    notices : tuple of Notice
-    """
-
+    #: The part that was used: whole periods of a regular record.
     record: ForceRecord
     setup: Setup
+    #: Period, or mean period of an irregular record [s].
     period: float
+    #: [m/s2].
     acceleration: Array
+    #: [m/s]; shape (components,).
     velocity_amplitude: Array
+    #: u T / b of every component, b its width.
     keulegan_carpenter: tuple[float, ...]
     fits: tuple[Fit, ...]
+    #: Independent blocks behind the intervals.
     blocks: int
     notices: tuple[Notice, ...] = field(default=())
 

@@ -22,26 +22,19 @@ _LEAST_PLATEAU = 4
 class ForceRecord:
     """Force on a member and velocity of the water at its axis, component by component.
 
-    Parameters
-    ----------
-    time : array_like, shape (samples,)
-        Evenly spaced [s].
-    force : array_like, shape (samples,) or (samples, components)
-        Per length of the member [N/m].
-    velocity : array_like, shape of ``force``
-        Undisturbed, relative to the member [m/s].
-    acceleration : array_like, optional
-        [m/s2]; found from the velocity when absent.
-
     Raises
     ------
     InputError
         For gaps, uneven steps, lengths that differ, clipped gauges.
     """
 
+    #: Evenly spaced [s]; shape (samples,).
     time: Array
+    #: Per length of the member [N/m]; shape (samples,) or (samples, components).
     force: Array
+    #: Undisturbed, relative to the member [m/s].
     velocity: Array
+    #: [m/s2]; found from the velocity when absent.
     acceleration: Array | None = None
 
     def __post_init__(self) -> None:

@@ -30,28 +30,6 @@ _SAME_WAVES = 0.08
 class NetCampaign:
     """Nets, runs and how they are read.
 
-    Parameters
-    ----------
-    title : str
-    tank : Tank
-    specimens : tuple of Specimen
-    runs : tuple of NetRun
-        Those of the bare frame have no net.
-    cages : tuple of CageRecord
-        Tensions of a moored cage.
-    vibration : Vibration, "auto" or "none"
-        The band to take out; ``auto`` finds it in the still-water runs.
-    search : tuple of float
-        Range to find it in [Hz].
-    solidity : {"geometric", "listed"}
-        What the law of all nets takes.
-    confidence : float
-    calibration : float
-        Relative standard error of the force gauge [-].
-    phase_error : float
-        Standard error of the phase between force and velocity [rad].
-    bootstrap, seed : int
-
     Raises
     ------
     InputError
@@ -61,13 +39,20 @@ class NetCampaign:
     title: str
     tank: Tank
     specimens: tuple[Specimen, ...]
+    #: Those of the bare frame have no net.
     runs: tuple[NetRun, ...]
+    #: Tensions of a moored cage.
     cages: tuple[CageRecord, ...] = ()
+    #: The band to take out; ``auto`` finds it in the still-water runs.
     vibration: Vibration | Literal["auto", "none"] = "auto"
+    #: Range to find it in [Hz].
     search: tuple[float, float] = (1.5, 20.0)
+    #: What the law of all nets takes.
     solidity: Literal["geometric", "listed"] = "geometric"
     confidence: float = 0.95
+    #: Relative standard error of the force gauge [-].
     calibration: float = 0.0
+    #: Standard error of the phase between force and velocity [rad].
     phase_error: float = 0.0
     bootstrap: int = 200
     seed: int = 1
@@ -110,38 +95,23 @@ class NetCampaign:
 
 @dataclass(frozen=True, eq=False)
 class NetFindings:
-    """Everything that a campaign gave.
-
-    Parameters
-    ----------
-    campaign : NetCampaign
-    search : VibrationSearch or None
-        What the spectrum of the still-water runs showed.
-    vibration : Vibration or None
-        What was taken out.
-    tows : tuple of Tow
-        All still-water runs, frame included.
-    towing : tuple of TowCoefficients
-    waves : tuple of WaveCoefficients
-    fits : tuple of WaveFit
-        In the order of ``waves``.
-    laws : tuple of PowerLaw
-        Of every net with three runs or more.
-    joint : JointLaw or None
-    tensions : tuple of (str, tuple of EndTension)
-        By run.
-    notices : tuple of Notice
-    """
+    """Everything that a campaign gave."""
 
     campaign: NetCampaign
+    #: What the spectrum of the still-water runs showed.
     search: VibrationSearch | None
+    #: What was taken out.
     vibration: Vibration | None
+    #: All still-water runs, frame included.
     tows: tuple[Tow, ...]
     towing: tuple[TowCoefficients, ...]
     waves: tuple[WaveCoefficients, ...]
+    #: In the order of ``waves``.
     fits: tuple[WaveFit, ...]
+    #: Of every net with three runs or more.
     laws: tuple[PowerLaw, ...]
     joint: JointLaw | None
+    #: By run.
     tensions: tuple[tuple[str, tuple[EndTension, ...]], ...]
     notices: tuple[Notice, ...]
 

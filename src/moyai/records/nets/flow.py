@@ -24,19 +24,15 @@ _PERIOD_GAP = 0.03
 
 @dataclass(frozen=True, eq=False)
 class Flow:
-    """Motion of the water past the panel over the part of the record that is used.
+    """Motion of the water past the panel over the part of the record that is used."""
 
-    Parameters
-    ----------
-    time, velocity, acceleration : ndarray
-        [s], [m/s], of the water itself [m/s2].
-    encounter : float or None
-        Period at which the panel meets regular waves [s].
-    """
-
+    #: [s].
     time: Array
+    #: [m/s].
     velocity: Array
+    #: Of the water itself [m/s2].
     acceleration: Array
+    #: Period at which the panel meets regular waves [s].
     encounter: float | None
 
 

@@ -26,32 +26,23 @@ _LEAST_NETS = 3
 
 @dataclass(frozen=True, eq=False)
 class PowerLaw:
-    """C_D = A Re^-B of one net.
-
-    Parameters
-    ----------
-    net : str
-    factor, exponent : float
-        A and B.
-    factor_interval, exponent_interval : tuple of float
-        At the confidence asked for.
-    scatter : float
-        Standard deviation of ln C_D beyond the errors of the runs.
-    covariance : ndarray, shape (2, 2)
-        Of ln A and B.
-    reynolds_range : tuple of float
-    count : int
-        Number of runs.
-    """
+    """C_D = A Re^-B of one net."""
 
     net: str
+    #: ``factor``, ``exponent``: A and B.
     factor: float
+    #: ``factor``, ``exponent``: A and B.
     exponent: float
+    #: At the confidence asked for.
     factor_interval: tuple[float, float]
+    #: At the confidence asked for.
     exponent_interval: tuple[float, float]
+    #: Standard deviation of ln C_D beyond the errors of the runs.
     scatter: float
+    #: Of ln A and B; shape (2, 2).
     covariance: Array
     reynolds_range: tuple[float, float]
+    #: Number of runs.
     count: int
 
     @property
@@ -130,39 +121,33 @@ def fit_power_law(
 
 @dataclass(frozen=True, eq=False)
 class JointLaw:
-    """The law of all nets together [eq:net-joint-law].
+    """The law of all nets together [eq:net-joint-law]."""
 
-    Parameters
-    ----------
-    coefficients : ndarray, shape (5,)
-        a0 to a4; a4 is 0 without the diameter.
-    covariance : ndarray, shape (5, 5)
-    scatter : float
-        Standard deviation of ln C_D within a net, beyond the errors of the runs.
-    between : float
-        Standard deviation of the levels of the nets about the law.
-    prior : float
-        Width of the prior of the standardised slopes of solidity and diameter: 0 leaves one power law for all.
-    reynolds_range, solidity_range, diameter_range : tuple of float
-        What the law was fitted to.
-    count, nets : int
-        Runs and nets.
-    left_out_error, pooled_error : float
-        Root mean square of ln C_D predicted for nets left out, by this law and by one power law for all.
-    confidence : float
-    """
-
+    #: a0 to a4; a4 is 0 without the diameter; shape (5,).
     coefficients: Array
+    #: Shape (5, 5).
     covariance: Array
+    #: Standard deviation of ln C_D within a net, beyond the errors of the runs.
     scatter: float
+    #: Standard deviation of the levels of the nets about the law.
     between: float
+    #: Width of the prior of the standardised slopes of solidity and diameter: 0 leaves one power law for all.
     prior: float
+    #: What the law was fitted to.
     reynolds_range: tuple[float, float]
+    #: What the law was fitted to.
     solidity_range: tuple[float, float]
+    #: What the law was fitted to.
     diameter_range: tuple[float, float]
+    #: ``count``, ``nets``: Runs and nets.
     count: int
+    #: ``count``, ``nets``: Runs and nets.
     nets: int
+    #: ``left_out_error``, ``pooled_error``: Root mean square of ln C_D predicted for nets left out, by this law and by
+    #: one power law for all.
     left_out_error: float
+    #: ``left_out_error``, ``pooled_error``: Root mean square of ln C_D predicted for nets left out, by this law and by
+    #: one power law for all.
     pooled_error: float
     confidence: float
 

@@ -22,21 +22,13 @@ _STEP_TOLERANCE = 0.02
 
 @dataclass(frozen=True)
 class Specimen:
-    """A net as it was towed.
-
-    Parameters
-    ----------
-    name : str
-    net : Net
-    panel_area : float
-        Outline of the panel [m2].
-    projected_area : float
-        Area of its twines that C_D refers to [m2].
-    """
+    """A net as it was towed."""
 
     name: str
     net: Net
+    #: Outline of the panel [m2].
     panel_area: float
+    #: Area of its twines that C_D refers to [m2].
     projected_area: float
 
     def __post_init__(self) -> None:
@@ -66,22 +58,17 @@ class Specimen:
 
 @dataclass(frozen=True)
 class Tank:
-    """Water and geometry that all runs share.
+    """Water and geometry that all runs share."""
 
-    Parameters
-    ----------
-    density, viscosity, gravity : float
-        [kg/m3], kinematic [m2/s], [m/s2].
-    water_depth : float
-        [m], may be infinite.
-    panel_z : float
-        Height of the centre of the panel above still water, negative [m].
-    """
-
+    #: [kg/m3].
     density: float
+    #: Kinematic [m2/s].
     viscosity: float
+    #: [m/s2].
     gravity: float
+    #: [m], may be infinite.
     water_depth: float
+    #: Height of the centre of the panel above still water, negative [m].
     panel_z: float
 
     def __post_init__(self) -> None:
@@ -102,41 +89,6 @@ class Tank:
 class NetRun:
     """One record.
 
-    Parameters
-    ----------
-    name : str
-    net : str
-        Name of the specimen; empty for a run of the bare frame.
-    kind : {"still_water", "towing_waves", "waves"}
-    time, force : ndarray, shape (samples,)
-        [s], along the water's motion past the panel [N].
-    lift : ndarray, optional
-        Across it [N].
-    speed : float
-        Speed of towing, so of the water past the panel [m/s]; 0 in waves alone.
-    speed_record : ndarray, optional
-        Measured speed of the carriage [m/s].
-    velocity : ndarray, optional
-        Of the water past the panel, by a meter on the carriage [m/s].
-    elevation : ndarray, optional
-        Surface at a gauge that moves with the carriage [m].
-    distance : float
-        From that gauge to the panel in the direction of the waves [m].
-    acceleration : ndarray, optional
-        Of the carriage [m/s2].
-    period : float or None
-        Of regular waves as at rest [s].
-    regular : bool
-        Whether the waves are regular.
-    following : bool
-        Waves run with the carriage: against the water's motion past the panel.
-    window : tuple of float or None
-        Part of the record to use [s].
-    zero : tuple of float or None
-        Part in which the force is nothing: its mean is taken off [s].
-    frame : str
-        Run of the bare frame to subtract; empty lets the conditions choose.
-
     Raises
     ------
     InputError
@@ -144,22 +96,39 @@ class NetRun:
     """
 
     name: str
+    #: Name of the specimen; empty for a run of the bare frame.
     net: str
+    #: One of "still_water", "towing_waves", "waves".
     kind: RunKind
+    #: [s]; shape (samples,).
     time: Array
+    #: Along the water's motion past the panel [N]; shape (samples,).
     force: Array
+    #: Across it [N].
     lift: Array | None = None
+    #: Speed of towing, so of the water past the panel [m/s]; 0 in waves alone.
     speed: float = 0.0
+    #: Measured speed of the carriage [m/s].
     speed_record: Array | None = None
+    #: Of the water past the panel, by a meter on the carriage [m/s].
     velocity: Array | None = None
+    #: Surface at a gauge that moves with the carriage [m].
     elevation: Array | None = None
+    #: From that gauge to the panel in the direction of the waves [m].
     distance: float = 0.0
+    #: Of the carriage [m/s2].
     acceleration: Array | None = None
+    #: Of regular waves as at rest [s].
     period: float | None = None
+    #: Whether the waves are regular.
     regular: bool = True
+    #: Waves run with the carriage: against the water's motion past the panel.
     following: bool = False
+    #: Part of the record to use [s].
     window: tuple[float, float] | None = None
+    #: Part in which the force is nothing: its mean is taken off [s].
     zero: tuple[float, float] | None = None
+    #: Run of the bare frame to subtract; empty lets the conditions choose.
     frame: str = ""
 
     def __post_init__(self) -> None:

@@ -19,21 +19,15 @@ _LEAST_SHARE = 0.1
 
 @dataclass(frozen=True)
 class Mean:
-    """A mean and what is known of it.
+    """A mean and what is known of it."""
 
-    Parameters
-    ----------
-    value, error : float
-        Mean and its standard error.
-    freedom : float
-        Effective number of independent samples less one.
-    half_width : float
-        Of the interval at the confidence asked for.
-    """
-
+    #: ``value``, ``error``: Mean and its standard error.
     value: float
+    #: ``value``, ``error``: Mean and its standard error.
     error: float
+    #: Effective number of independent samples less one.
     freedom: float
+    #: Of the interval at the confidence asked for.
     half_width: float
 
 

@@ -14,39 +14,34 @@ from moyai.records.nets.runs import NetRun, RunKind, Specimen, Tank
 
 @dataclass(frozen=True)
 class Rig:
-    """A carriage with its gauge and frame.
+    """A carriage with its gauge and frame."""
 
-    Parameters
-    ----------
-    rate : float
-        Samples per second [Hz].
-    frame_drag_area, frame_volume : float
-        C_D A [m2] and C_M V [m3] of the bare frame.
-    vibration_frequency, vibration_damping : float
-        [Hz], share of critical [-].
-    vibration_force : float
-        Root mean square of the force it makes in the gauge [N].
-    shaken_mass : float
-        Mass on the gauge [kg]: the carriage's acceleration is the vibration's force over it.
-    white_noise, slow_noise, slow_time : float
-        Root mean square of white and of slow noise [N], its correlation time [s].
-    lift_share : float
-        Lift over drag [-].
-    zero : float
-        Reading of the gauge at rest [N].
-    """
-
+    #: Samples per second [Hz].
     rate: float = 50.0
+    #: ``frame_drag_area``, ``frame_volume``: C_D A [m2] and C_M V [m3] of the bare frame.
     frame_drag_area: float = 4e-3
+    #: ``frame_drag_area``, ``frame_volume``: C_D A [m2] and C_M V [m3] of the bare frame.
     frame_volume: float = 2e-5
+    #: [Hz].
     vibration_frequency: float = 3.0
+    #: Share of critical [-].
     vibration_damping: float = 0.02
+    #: Root mean square of the force it makes in the gauge [N].
     vibration_force: float = 0.15
+    #: Mass on the gauge [kg]: the carriage's acceleration is the vibration's force over it.
     shaken_mass: float = 1.2
+    #: ``white_noise``, ``slow_noise``, ``slow_time``: Root mean square of white and of slow noise [N], its correlation
+    #: time [s].
     white_noise: float = 0.02
+    #: ``white_noise``, ``slow_noise``, ``slow_time``: Root mean square of white and of slow noise [N], its correlation
+    #: time [s].
     slow_noise: float = 0.02
+    #: ``white_noise``, ``slow_noise``, ``slow_time``: Root mean square of white and of slow noise [N], its correlation
+    #: time [s].
     slow_time: float = 1.5
+    #: Lift over drag [-].
     lift_share: float = 0.0
+    #: Reading of the gauge at rest [N].
     zero: float = 0.0
 
     def shaking(self, size: int, rng: np.random.Generator) -> Array:

@@ -22,35 +22,19 @@ _LEAST_RISE = 3
 
 @dataclass(frozen=True, eq=False)
 class EndRecord:
-    """Tension at one end of a line.
+    """Tension at one end of a line."""
 
-    Parameters
-    ----------
-    line, end : str
-        For instance ``shore`` and ``cage``.
-    tension : ndarray, shape (samples,)
-        [N].
-    """
-
+    #: ``line``, ``end``: For instance ``shore`` and ``cage``.
     line: str
+    #: ``line``, ``end``: For instance ``shore`` and ``cage``.
     end: str
+    #: [N]; shape (samples,).
     tension: Array
 
 
 @dataclass(frozen=True, eq=False)
 class CageRecord:
     """Tensions of a cage in regular waves.
-
-    Parameters
-    ----------
-    name : str
-    time : ndarray, shape (samples,)
-        [s].
-    ends : tuple of EndRecord
-    period : float or None
-        Of the waves [s]; found from the tension that varies most when absent.
-    window : tuple of float or None
-        Part to use [s].
 
     Raises
     ------
@@ -59,9 +43,12 @@ class CageRecord:
     """
 
     name: str
+    #: [s]; shape (samples,).
     time: Array
     ends: tuple[EndRecord, ...]
+    #: Of the waves [s]; found from the tension that varies most when absent.
     period: float | None = None
+    #: Part to use [s].
     window: tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
@@ -85,31 +72,27 @@ class CageRecord:
 
 @dataclass(frozen=True)
 class EndTension:
-    """What one end of a line bears.
-
-    Parameters
-    ----------
-    line, end : str
-    mean, least, peak : float
-        Over the whole window, as recorded [N].
-    mean_peak, peak_deviation : float
-        Mean and standard deviation of the peaks of single periods [N].
-    first, first_phase : float
-        Amplitude [N] and phase [rad] of the first harmonic, Re(X e^{-i omega t}) about the start of the window.
-    slack : float
-        Share of the time below 2 % of the peak [-].
-    periods : int
-    """
+    """What one end of a line bears."""
 
     line: str
     end: str
+    #: ``mean``, ``least``, ``peak``: Over the whole window, as recorded [N].
     mean: float
+    #: ``mean``, ``least``, ``peak``: Over the whole window, as recorded [N].
     least: float
+    #: ``mean``, ``least``, ``peak``: Over the whole window, as recorded [N].
     peak: float
+    #: ``mean_peak``, ``peak_deviation``: Mean and standard deviation of the peaks of single periods [N].
     mean_peak: float
+    #: ``mean_peak``, ``peak_deviation``: Mean and standard deviation of the peaks of single periods [N].
     peak_deviation: float
+    #: ``first``, ``first_phase``: Amplitude [N] and phase [rad] of the first harmonic, Re(X e^{-i omega t}) about the
+    #: start of the window.
     first: float
+    #: ``first``, ``first_phase``: Amplitude [N] and phase [rad] of the first harmonic, Re(X e^{-i omega t}) about the
+    #: start of the window.
     first_phase: float
+    #: Share of the time below 2 % of the peak [-].
     slack: float
     periods: int
 

@@ -24,64 +24,48 @@ SAME_SPEED = 0.05
 
 @dataclass(frozen=True, eq=False)
 class Tow:
-    """The steady part of one still-water run.
-
-    Parameters
-    ----------
-    run : NetRun
-    window : tuple of float
-        Steady part [s].
-    speed, force : Mean
-        [m/s], [N].
-    lift : Mean or None
-        [N].
-    clean : ndarray
-        Force over the whole record, without the vibration [N].
-    slow : ndarray
-        Its low-passed course [N].
-    mass : float
-        Mass whose inertia force was subtracted [kg]; NaN where the band was stopped instead.
-    """
+    """The steady part of one still-water run."""
 
     run: NetRun
+    #: Steady part [s].
     window: tuple[float, float]
+    #: [m/s].
     speed: Mean
+    #: [N].
     force: Mean
+    #: [N].
     lift: Mean | None
+    #: Force over the whole record, without the vibration [N].
     clean: Array
+    #: Its low-passed course [N].
     slow: Array
+    #: Mass whose inertia force was subtracted [kg]; NaN where the band was stopped instead.
     mass: float = math.nan
 
 
 @dataclass(frozen=True)
 class TowCoefficients:
-    """What a net's run gave.
-
-    Parameters
-    ----------
-    run, net : str
-    speed, reynolds : float
-        [m/s], U d / nu [-].
-    frame_force : float
-        Subtracted [N].
-    drag, drag_half_width, drag_error : float
-        C_D on the twines, half of its interval, standard error [-].
-    freedom : float
-        Effective degrees of freedom.
-    lift, lift_half_width : float
-        C_L on the same area; NaN where it was not measured.
-    """
+    """What a net's run gave."""
 
     run: str
     net: str
+    #: [m/s].
     speed: float
+    #: U d / nu [-].
     reynolds: float
+    #: Subtracted [N].
     frame_force: float
+    #: ``drag``, ``drag_half_width``, ``drag_error``: C_D on the twines, half of its interval, standard error [-].
     drag: float
+    #: ``drag``, ``drag_half_width``, ``drag_error``: C_D on the twines, half of its interval, standard error [-].
     drag_half_width: float
+    #: ``drag``, ``drag_half_width``, ``drag_error``: C_D on the twines, half of its interval, standard error [-].
     drag_error: float
+    #: Effective degrees of freedom.
     freedom: float
+    #: ``lift``, ``lift_half_width``: C_L on the same area; NaN where it was not measured.
     lift: float
+    #: ``lift``, ``lift_half_width``: C_L on the same area; NaN where it was not measured.
     lift_half_width: float
 
 
@@ -144,17 +128,13 @@ def measure_tow(run: NetRun, vibration: Vibration | None, confidence: float) -> 
 
 @dataclass(frozen=True)
 class FrameLaw:
-    """Force on the bare frame by its speed [eq:net-frame].
+    """Force on the bare frame by its speed [eq:net-frame]."""
 
-    Parameters
-    ----------
-    speeds, forces, errors : tuple of float
-        Of its runs, speed rising [m/s], [N], [N].
-    names : tuple of str
-    """
-
+    #: Of its runs, speed rising [m/s].
     speeds: tuple[float, ...]
+    #: Of its runs, speed rising [N].
     forces: tuple[float, ...]
+    #: Of its runs, speed rising [N].
     errors: tuple[float, ...]
     names: tuple[str, ...]
 

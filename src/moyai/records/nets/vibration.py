@@ -29,22 +29,17 @@ _WIDEST = 0.3
 
 @dataclass(frozen=True)
 class Vibration:
-    """A line of the spectrum.
+    """A line of the spectrum."""
 
-    Parameters
-    ----------
-    frequency, low, high : float
-        Of the line and the band that holds it [Hz].
-    amplitude : float
-        Root mean square of the force in the band, mean over the runs [N].
-    prominence : float
-        Spectral density of the line over that about it [-].
-    """
-
+    #: ``frequency``, ``low``, ``high``: Of the line and the band that holds it [Hz].
     frequency: float
+    #: ``frequency``, ``low``, ``high``: Of the line and the band that holds it [Hz].
     low: float
+    #: ``frequency``, ``low``, ``high``: Of the line and the band that holds it [Hz].
     high: float
+    #: Root mean square of the force in the band, mean over the runs [N].
     amplitude: float = math.nan
+    #: Spectral density of the line over that about it [-].
     prominence: float = math.nan
 
     def __post_init__(self) -> None:
@@ -58,21 +53,19 @@ class Vibration:
 
 @dataclass(frozen=True, eq=False)
 class VibrationSearch:
-    """What the search saw.
+    """What the search saw."""
 
-    Parameters
-    ----------
-    frequency, density, background : ndarray
-        [Hz]; mean density of the runs, each over its own median, and the smooth one about it [-].
-    found : Vibration or None
-    limit : float
-        Prominence from which on an estimate is called a line [-].
-    """
-
+    #: ``frequency``, ``density``, ``background``: [Hz]; mean density of the runs, each over its own median, and the
+    #: smooth one about it [-].
     frequency: Array
+    #: ``frequency``, ``density``, ``background``: [Hz]; mean density of the runs, each over its own median, and the
+    #: smooth one about it [-].
     density: Array
+    #: ``frequency``, ``density``, ``background``: [Hz]; mean density of the runs, each over its own median, and the
+    #: smooth one about it [-].
     background: Array
     found: Vibration | None
+    #: Prominence from which on an estimate is called a line [-].
     limit: float
 
 
@@ -247,20 +240,13 @@ def _filtered(step: float, values: Array, gain: Callable[[Array], Array]) -> Arr
 
 @dataclass(frozen=True)
 class ShakenMass:
-    """Mass that the gauge carries, by the acceleration of the carriage in the band of the vibration.
+    """Mass that the gauge carries, by the acceleration of the carriage in the band of the vibration."""
 
-    Parameters
-    ----------
-    mass : float
-        Force per acceleration, in phase, sign of the gauge included [kg].
-    error : float
-        Its standard error [kg].
-    coherence : float
-        Squared coherence of force and acceleration in the band [-].
-    """
-
+    #: Force per acceleration, in phase, sign of the gauge included [kg].
     mass: float
+    #: Its standard error [kg].
     error: float
+    #: Squared coherence of force and acceleration in the band [-].
     coherence: float
 
 

@@ -26,29 +26,18 @@ _ROUNDS = 4
 
 @dataclass(frozen=True, eq=False)
 class WaveFit:
-    """A record in waves with its fit.
-
-    Parameters
-    ----------
-    run : NetRun
-    flow : Flow
-        Over the samples that the fit used.
-    force : ndarray
-        Measured, without the vibration [N].
-    raw : ndarray
-        As measured [N].
-    found : Identification
-        Of the whole force, frame included, on the areas of the net.
-    mass : float
-        Mass whose inertia force was subtracted [kg]; NaN where the band was stopped.
-    notices : tuple of Notice
-    """
+    """A record in waves with its fit."""
 
     run: NetRun
+    #: Over the samples that the fit used.
     flow: Flow
+    #: Measured, without the vibration [N].
     force: Array
+    #: As measured [N].
     raw: Array
+    #: Of the whole force, frame included, on the areas of the net.
     found: Identification
+    #: Mass whose inertia force was subtracted [kg]; NaN where the band was stopped.
     mass: float
     notices: tuple[Notice, ...]
 
@@ -60,59 +49,67 @@ class WaveFit:
 
 @dataclass(frozen=True, eq=False)
 class WaveCoefficients:
-    """What a net's record in waves gave.
-
-    Parameters
-    ----------
-    run, net, kind : str
-    reynolds, keulegan_carpenter : float
-        Largest speed times d / nu; amplitude of the wave's velocity times its period over d [-].
-    velocity_amplitude, mean_velocity, period : float
-        [m/s], [m/s], as met [s].
-    drag, inertia : float
-        C_D on the area of the twines, C_M on their volume [-].
-    drag_half_width, inertia_half_width : float
-        Half of the intervals [-].
-    drag_error, inertia_error, correlation : float
-        Standard errors and correlation of both [-].
-    drag_known, inertia_known : bool
-        Whether the interval is narrower than half of the coefficient.
-    frame_drag_area, frame_inertia_volume : float
-        C_D A and C_M V of the frame that were subtracted [m2], [m3].
-    explained : float
-        Share of the variance of the whole force that the fit explains.
-    lift_amplitude, lift_share : float
-        C_L by the root mean square of lift and of u^2, and rms lift over rms drag force [-]; NaN without lift.
-    time, velocity, force, modelled, raw : ndarray
-        Record with the frame's force taken off, and the fit [s], [m/s], [N]; ``raw`` as measured.
-    """
+    """What a net's record in waves gave."""
 
     run: str
     net: str
     kind: str
+    #: ``reynolds``, ``keulegan_carpenter``: Largest speed times d / nu; amplitude of the wave's velocity times its
+    #: period over d [-].
     reynolds: float
+    #: ``reynolds``, ``keulegan_carpenter``: Largest speed times d / nu; amplitude of the wave's velocity times its
+    #: period over d [-].
     keulegan_carpenter: float
+    #: [m/s].
     velocity_amplitude: float
+    #: [m/s].
     mean_velocity: float
+    #: As met [s].
     period: float
+    #: ``drag``, ``inertia``: C_D on the area of the twines, C_M on their volume [-].
     drag: float
+    #: ``drag``, ``inertia``: C_D on the area of the twines, C_M on their volume [-].
     inertia: float
+    #: Half of the intervals [-].
     drag_half_width: float
+    #: Half of the intervals [-].
     inertia_half_width: float
+    #: ``drag_error``, ``inertia_error``, ``correlation``: Standard errors and correlation of both [-].
     drag_error: float
+    #: ``drag_error``, ``inertia_error``, ``correlation``: Standard errors and correlation of both [-].
     inertia_error: float
+    #: ``drag_error``, ``inertia_error``, ``correlation``: Standard errors and correlation of both [-].
     correlation: float
+    #: Whether the interval is narrower than half of the coefficient.
     drag_known: bool
+    #: Whether the interval is narrower than half of the coefficient.
     inertia_known: bool
+    #: C_D A and C_M V of the frame that were subtracted [m2].
     frame_drag_area: float
+    #: C_D A and C_M V of the frame that were subtracted [m3].
     frame_inertia_volume: float
+    #: Share of the variance of the whole force that the fit explains.
     explained: float
+    #: ``lift_amplitude``, ``lift_share``: C_L by the root mean square of lift and of u^2, and rms lift over rms drag
+    #: force [-]; NaN without lift.
     lift_amplitude: float
+    #: ``lift_amplitude``, ``lift_share``: C_L by the root mean square of lift and of u^2, and rms lift over rms drag
+    #: force [-]; NaN without lift.
     lift_share: float
+    #: ``time``, ``velocity``, ``force``, ``modelled``, ``raw``: Record with the frame's force taken off, and the fit
+    #: [s], [m/s], [N]; ``raw`` as measured.
     time: Array
+    #: ``time``, ``velocity``, ``force``, ``modelled``, ``raw``: Record with the frame's force taken off, and the fit
+    #: [s], [m/s], [N]; ``raw`` as measured.
     velocity: Array
+    #: ``time``, ``velocity``, ``force``, ``modelled``, ``raw``: Record with the frame's force taken off, and the fit
+    #: [s], [m/s], [N]; ``raw`` as measured.
     force: Array
+    #: ``time``, ``velocity``, ``force``, ``modelled``, ``raw``: Record with the frame's force taken off, and the fit
+    #: [s], [m/s], [N]; ``raw`` as measured.
     modelled: Array
+    #: ``time``, ``velocity``, ``force``, ``modelled``, ``raw``: Record with the frame's force taken off, and the fit
+    #: [s], [m/s], [N]; ``raw`` as measured.
     raw: Array
 
 

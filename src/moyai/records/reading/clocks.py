@@ -18,23 +18,22 @@ from moyai.records.reading.sources import ClockCorrection
 
 @dataclass(frozen=True, eq=False)
 class ClockFit:
-    """Error of a logger's clock against another; equation [eq:records-clock].
+    """Error of a logger's clock against another; equation [eq:records-clock]."""
 
-    Parameters
-    ----------
-    correction : ClockCorrection
-        What to add to the second logger's time.
-    offset_error, drift_error : float
-        Standard errors [s], [s/s]; NaN where a single window was used.
-    times, offsets, correlation : ndarray
-        Middle of each window on the second clock [s], its offset [s] and the height of its correlation peak [-].
-    """
-
+    #: What to add to the second logger's time.
     correction: ClockCorrection
+    #: Standard errors [s]; NaN where a single window was used.
     offset_error: float
+    #: Standard errors [s/s]; NaN where a single window was used.
     drift_error: float
+    #: ``times``, ``offsets``, ``correlation``: Middle of each window on the second clock [s], its offset [s] and the
+    #: height of its correlation peak [-].
     times: Array
+    #: ``times``, ``offsets``, ``correlation``: Middle of each window on the second clock [s], its offset [s] and the
+    #: height of its correlation peak [-].
     offsets: Array
+    #: ``times``, ``offsets``, ``correlation``: Middle of each window on the second clock [s], its offset [s] and the
+    #: height of its correlation peak [-].
     correlation: Array
 
 

@@ -25,45 +25,32 @@ from moyai.records.reading.record import Record, instant_text
 
 @dataclass(frozen=True)
 class QualityOptions:
-    """Limits of the quality control of one channel.
+    """Limits of the quality control of one channel."""
 
-    Parameters
-    ----------
-    gap_steps : float
-        A time step longer than so many usual steps is a gap.
-    spike_scale : float
-        A sample that differs from the median of its neighbourhood by more than so many robust standard deviations of
-        these differences is a spike; infinite looks for none [eq:records-spike].
-    spike_samples : int
-        Longest spike [samples]; the neighbourhood holds twice as many plus one, at least five.
-    spike_least : float
-        Smaller differences are none [unit of the channel].
-    flat_seconds : float
-        Identical values for longer are a flat line [s]; infinite looks for none.
-    clip_samples : int
-        So many identical values in a row at the highest or lowest value of the block, met at least twice there, are
-        clipped; 0 looks for none.
-    clip_lowest : bool
-        Look for clipping at the lowest value too; not where a channel rests there by nature (a slack line).
-    lowest, highest : float
-        Range of the instrument [unit of the channel].
-    drift_share : float
-        A trend of the block means over the record, beyond its own uncertainty, that exceeds this share of the channel's
-        standard deviation is a drift; infinite looks for none.
-    unit_slips : bool
-        Look for a sudden change of scale by a factor between units.
-    """
-
+    #: A time step longer than so many usual steps is a gap.
     gap_steps: float = 1.5
+    #: A sample that differs from the median of its neighbourhood by more than so many robust standard deviations of
+    #: these differences is a spike; infinite looks for none [eq:records-spike].
     spike_scale: float = 8.0
+    #: Longest spike [samples]; the neighbourhood holds twice as many plus one, at least five.
     spike_samples: int = 2
+    #: Smaller differences are none [unit of the channel].
     spike_least: float = 0.0
+    #: Identical values for longer are a flat line [s]; infinite looks for none.
     flat_seconds: float = 10.0
+    #: So many identical values in a row at the highest or lowest value of the block, met at least twice there, are
+    #: clipped; 0 looks for none.
     clip_samples: int = 3
+    #: Look for clipping at the lowest value too; not where a channel rests there by nature (a slack line).
     clip_lowest: bool = True
+    #: Range of the instrument [unit of the channel].
     lowest: float = -math.inf
+    #: Range of the instrument [unit of the channel].
     highest: float = math.inf
+    #: A trend of the block means over the record, beyond its own uncertainty, that exceeds this share of the channel's
+    #: standard deviation is a drift; infinite looks for none.
     drift_share: float = math.inf
+    #: Look for a sudden change of scale by a factor between units.
     unit_slips: bool = True
 
     def __post_init__(self) -> None:
@@ -79,47 +66,31 @@ class QualityOptions:
 
 @dataclass(frozen=True)
 class Finding:
-    """One stretch of doubtful samples.
-
-    Parameters
-    ----------
-    channel, kind : str
-    start, end : float
-        First and last instant [s].
-    count : int
-        Samples.
-    detail : str
-    """
+    """One stretch of doubtful samples."""
 
     channel: str
     kind: str
+    #: ``start``, ``end``: First and last instant [s].
     start: float
+    #: ``start``, ``end``: First and last instant [s].
     end: float
+    #: Samples.
     count: int
     detail: str = ""
 
 
 @dataclass(frozen=True, eq=False)
 class Quality:
-    """What was found in a record.
+    """What was found in a record."""
 
-    Parameters
-    ----------
-    record : Record
-        The record with its flags.
-    findings : tuple of Finding
-    counts : dict
-        Samples by channel and kind.
-    gaps : tuple of (float, float)
-        First missing instant and duration of each gap in the clock [s].
-    missing_samples : int
-        Samples that the gaps lack.
-    """
-
+    #: The record with its flags.
     record: Record
     findings: tuple[Finding, ...]
+    #: Samples by channel and kind.
     counts: Mapping[str, Mapping[str, int]]
+    #: First missing instant and duration of each gap in the clock [s].
     gaps: tuple[tuple[float, float], ...]
+    #: Samples that the gaps lack.
     missing_samples: int
 
     def share(self, channel: str) -> float:
@@ -431,23 +402,16 @@ def _weather(others: Sequence[Mapping[int, float]], before: int, after: int, jum
 
 @dataclass(frozen=True)
 class Drift:
-    """Trend of a channel's block means.
-
-    Parameters
-    ----------
-    channel : str
-    rate, error : float
-        Change per second and its standard error [unit/s].
-    change : float
-        Change over the record [unit].
-    share : float
-        ``|change|`` over the typical standard deviation inside a block.
-    """
+    """Trend of a channel's block means."""
 
     channel: str
+    #: ``rate``, ``error``: Change per second and its standard error [unit/s].
     rate: float
+    #: ``rate``, ``error``: Change per second and its standard error [unit/s].
     error: float
+    #: Change over the record [unit].
     change: float
+    #: ``|change|`` over the typical standard deviation inside a block.
     share: float
 
     @property

@@ -40,31 +40,22 @@ FLAG_NAMES = {
 
 @dataclass(frozen=True, eq=False)
 class Record:
-    """Channels sampled on one clock.
+    """Channels sampled on one clock."""
 
-    Parameters
-    ----------
-    time : ndarray, shape (samples,)
-        Strictly increasing instants [s]: since 1970-01-01 UTC where ``dated``, else of the logger's own clock.
-    values : ndarray, shape (samples, channels)
-        Samples in SI units; NaN where missing.
-    names, units : tuple of str
-        Name and SI unit of each channel.
-    dated : bool
-        Whether ``time`` is a date.
-    source : str
-        File or files, for messages.
-    flags : ndarray, shape (samples, channels), optional
-        Bits of what was found about each sample; :data:`FLAG_NAMES` says which.
-    notices : tuple of Notice
-    """
-
+    #: Strictly increasing instants [s]: since 1970-01-01 UTC where ``dated``, else of the logger's own clock; shape
+    #: (samples,).
     time: Array
+    #: Samples in SI units; NaN where missing; shape (samples, channels).
     values: Array
+    #: ``names``, ``units``: Name and SI unit of each channel.
     names: tuple[str, ...]
+    #: ``names``, ``units``: Name and SI unit of each channel.
     units: tuple[str, ...]
+    #: Whether ``time`` is a date.
     dated: bool = False
+    #: File or files, for messages.
     source: str = ""
+    #: Bits of what was found about each sample; :data:`FLAG_NAMES` says which; shape (samples, channels).
     flags: FlagArray | None = None
     notices: tuple[Notice, ...] = field(default=())
 

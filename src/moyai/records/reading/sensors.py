@@ -36,20 +36,16 @@ _DIRECTION = {"x": (1, 0), "y": (0, 1), "z": (0, 0)}
 @checks_words
 @dataclass(frozen=True)
 class Sensor:
-    """One channel of a wave instrument.
+    """One channel of a wave instrument."""
 
-    Parameters
-    ----------
-    quantity : str
-        What it measures: elevation [m], pressure [Pa], velocity [m/s], slope [rad], displacement of a buoy [m],
-        vertical acceleration [m/s2].
-    x, y, z : float
-        Where [m]; z from the mean water level, upwards.
-    """
-
+    #: What it measures: elevation [m], pressure [Pa], velocity [m/s], slope [rad], displacement of a buoy [m], vertical
+    #: acceleration [m/s2].
     quantity: Quantity
+    #: ``x``, ``y``, ``z``: Where [m]; z from the mean water level, upwards.
     x: float = 0.0
+    #: ``x``, ``y``, ``z``: Where [m]; z from the mean water level, upwards.
     y: float = 0.0
+    #: ``x``, ``y``, ``z``: Where [m]; z from the mean water level, upwards.
     z: float = 0.0
 
     @property
@@ -126,19 +122,13 @@ QUANTITIES = (
 
 @dataclass(frozen=True, eq=False)
 class SurfaceFromRecord:
-    """Surface elevation found from another quantity.
+    """Surface elevation found from another quantity."""
 
-    Parameters
-    ----------
-    elevation : ndarray
-        [m], band-limited.
-    lowest, highest : float
-        Band that was carried over [Hz].
-    notices : tuple of Notice
-    """
-
+    #: [m], band-limited.
     elevation: Array
+    #: Band that was carried over [Hz].
     lowest: float
+    #: Band that was carried over [Hz].
     highest: float
     notices: tuple[Notice, ...]
 

@@ -23,20 +23,13 @@ _FLOOR = 1e-4
 
 @dataclass(frozen=True, eq=False)
 class FilledGaps:
-    """Columns after the filling of short gaps.
+    """Columns after the filling of short gaps."""
 
-    Parameters
-    ----------
-    values : ndarray, shape (samples, channels)
-        NaN stays where a gap is too long, and in a channel that lacks too much.
-    share : float
-        Largest share of a channel that was filled [-].
-    effect : float
-        Bound on the relative change of 4 sqrt(m0) by the filling [-]; equation [eq:records-short-gaps].
-    """
-
+    #: NaN stays where a gap is too long, and in a channel that lacks too much; shape (samples, channels).
     values: Array
+    #: Largest share of a channel that was filled [-].
     share: float
+    #: Bound on the relative change of 4 sqrt(m0) by the filling [-]; equation [eq:records-short-gaps].
     effect: float
 
     def notice(self, what: str) -> Notice:

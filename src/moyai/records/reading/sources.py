@@ -22,61 +22,42 @@ ENDINGS = {
 
 @dataclass(frozen=True)
 class ColumnSource:
-    """One column of a file and what it becomes.
+    """One column of a file and what it becomes."""
 
-    Parameters
-    ----------
-    column : str or int
-        Heading in the file (with or without its unit), a variable (``vel[0,3]`` for an entry of its other dimensions),
-        or a number counted from 1.
-    name : str
-        Name of the channel.
-    unit : str
-        Unit in the file; empty takes the one that the file states.
-    scale, offset : float
-        Applied before the unit: ``value * scale + offset``.
-    missing : tuple of float or str
-        Numbers and words that mean "no value".
-    """
-
+    #: Heading in the file (with or without its unit), a variable (``vel[0,3]`` for an entry of its other dimensions),
+    #: or a number counted from 1.
     column: str | int
+    #: Name of the channel.
     name: str
+    #: Unit in the file; empty takes the one that the file states.
     unit: str = ""
+    #: ``scale``, ``offset``: Applied before the unit: ``value * scale + offset``.
     scale: float = 1.0
+    #: ``scale``, ``offset``: Applied before the unit: ``value * scale + offset``.
     offset: float = 0.0
+    #: Numbers and words that mean "no value".
     missing: tuple[float | str, ...] = ()
 
 
 @checks_words
 @dataclass(frozen=True)
 class TimeSource:
-    """Where the time comes from.
+    """Where the time comes from."""
 
-    Parameters
-    ----------
-    columns : tuple of str or int
-        Column of the time, or two: date and time of day. Empty where the file has none and ``rate`` counts.
-    form : str
-        ``number``, ``iso``, or a pattern such as ``%Y/%m/%d %H:%M:%S.%f``.
-    unit : str
-        Unit of a number: seconds and its relatives, or MATLAB's ``datenum``, or ``excel``: days of a spreadsheet.
-    start : float
-        Instant added to numbers [s since 1970 UTC], NaN for a logger's own clock.
-    rate : float
-        Sampling rate [Hz], NaN where the stamps alone count. With stamps to the whole second, samples are spread evenly
-        at this rate and the stamps are used to find gaps.
-    utc_offset : float
-        Local time minus UTC [s].
-    order : {"strict", "drop"}
-        Instants that do not increase are an error, or are left out and reported.
-    """
-
+    #: Column of the time, or two: date and time of day. Empty where the file has none and ``rate`` counts.
     columns: tuple[str | int, ...] = ()
+    #: ``number``, ``iso``, or a pattern such as ``%Y/%m/%d %H:%M:%S.%f``.
     form: str = "number"
+    #: Unit of a number: seconds and its relatives, or MATLAB's ``datenum``, or ``excel``: days of a spreadsheet.
     unit: TimeUnit = "s"
+    #: Instant added to numbers [s since 1970 UTC], NaN for a logger's own clock.
     start: float = math.nan
+    #: Sampling rate [Hz], NaN where the stamps alone count. With stamps to the whole second, samples are spread evenly
+    #: at this rate and the stamps are used to find gaps.
     rate: float = math.nan
+    #: Local time minus UTC [s].
     utc_offset: float = 0.0
+    #: Instants that do not increase are an error, or are left out and reported.
     order: Literal["strict", "drop"] = "strict"
 
     def __post_init__(self) -> None:
@@ -91,63 +72,40 @@ class TimeSource:
 
 @dataclass(frozen=True)
 class ClockCorrection:
-    """Error of a logger's clock; equation [eq:records-clock].
+    """Error of a logger's clock; equation [eq:records-clock]."""
 
-    Parameters
-    ----------
-    offset : float
-        Seconds to add at ``reference``.
-    drift : float
-        Seconds to add per second of the logger after that.
-    reference : float
-        Instant of the logger at which the offset was found [s]; NaN takes the first sample.
-    """
-
+    #: Seconds to add at ``reference``.
     offset: float = 0.0
+    #: Seconds to add per second of the logger after that.
     drift: float = 0.0
+    #: Instant of the logger at which the offset was found [s]; NaN takes the first sample.
     reference: float = math.nan
 
 
 @checks_words
 @dataclass(frozen=True)
 class LoggerSource:
-    """All that is needed to read one logger.
-
-    Parameters
-    ----------
-    name : str
-    files : tuple of Path
-        In the order of time.
-    columns : tuple of ColumnSource
-    time : TimeSource
-    clock : ClockCorrection
-    format : str
-        ``auto`` goes by the ending.
-    encoding : str
-        ``auto`` tries UTF-8, UTF-16 with its mark, Shift-JIS as Windows writes it (cp932), in this order.
-    delimiter : str
-        ``auto``, ``whitespace``, or the character.
-    decimal : str
-        Decimal sign.
-    header_row : int
-        Line of the headings, counted from 1; 0 where there is none; -1: the first line that is not a comment.
-    first_row : int
-        Line of the first sample; 0: the line after the headings.
-    comment : str
-        Sign that opens a comment, empty for none.
-    """
+    """All that is needed to read one logger."""
 
     name: str
+    #: In the order of time.
     files: tuple[Path, ...]
     columns: tuple[ColumnSource, ...]
     time: TimeSource
     clock: ClockCorrection = ClockCorrection()
+    #: ``auto`` goes by the ending.
     format: Format = "auto"
+    #: ``auto`` tries UTF-8, UTF-16 with its mark, Shift-JIS as Windows writes it (cp932), in this order.
     encoding: str = "auto"
+    #: ``auto``, ``whitespace``, or the character.
     delimiter: str = "auto"
+    #: Decimal sign.
     decimal: str = "."
+    #: Line of the headings, counted from 1; 0 where there is none; -1: the first line that is not a comment.
     header_row: int = -1
+    #: Line of the first sample; 0: the line after the headings.
     first_row: int = 0
+    #: Sign that opens a comment, empty for none.
     comment: str = "#"
 
     def __post_init__(self) -> None:

@@ -28,17 +28,11 @@ _SAMPLE = 65536
 
 @dataclass(frozen=True, eq=False)
 class RawChunk:
-    """Consecutive rows of some columns.
+    """Consecutive rows of some columns."""
 
-    Parameters
-    ----------
-    columns : dict
-        Arrays of numbers, or of text for stamps, by the key they were asked for.
-    first : int
-        Number of rows before these in the file.
-    """
-
+    #: Arrays of numbers, or of text for stamps, by the key they were asked for.
     columns: dict[str | int, NDArray[Any]]
+    #: Number of rows before these in the file.
     first: int
 
     def __len__(self) -> int:
@@ -101,24 +95,17 @@ def _bytes(path: Path, most: int) -> bytes:
 
 @dataclass(frozen=True)
 class TextLayout:
-    """How a text file is laid out.
+    """How a text file is laid out."""
 
-    Parameters
-    ----------
-    encoding, delimiter : str
-        As pandas and Python name them.
-    headings : tuple of str
-        Empty where the file has none.
-    skipped : int
-        Lines before the first sample.
-    width : int
-        Number of columns.
-    """
-
+    #: ``encoding``, ``delimiter``: As pandas and Python name them.
     encoding: str
+    #: ``encoding``, ``delimiter``: As pandas and Python name them.
     delimiter: str
+    #: Empty where the file has none.
     headings: tuple[str, ...]
+    #: Lines before the first sample.
     skipped: int
+    #: Number of columns.
     width: int
 
 

@@ -18,18 +18,11 @@ _ALL = "all cables"
 
 @dataclass(frozen=True, eq=False)
 class ModelCurve:
-    """C_T of model A over one number.
+    """C_T of model A over one number."""
 
-    Parameters
-    ----------
-    number : str
-        ``froude``, ``span_ratio``, ``depth_ratio`` or ``cauchy``.
-    cable : str
-        Material whose runs give the other numbers, by their medians.
-    x, coefficient : ndarray
-    """
-
+    #: ``froude``, ``span_ratio``, ``depth_ratio`` or ``cauchy``.
     number: str
+    #: Material whose runs give the other numbers, by their medians.
     cable: str
     x: Array
     coefficient: Array

@@ -18,20 +18,13 @@ Origin = Literal["measured", "generated"]
 
 @dataclass(frozen=True)
 class SnapRun:
-    """One release.
+    """One release."""
 
-    Parameters
-    ----------
-    name, cable : str
-        Of the run, of the material of its cables.
-    impact : Impact
-        The span; its speed is that of the current.
-    skirt : Skirt or None
-    record : RecordedSnap
-    """
-
+    #: ``name``, ``cable``: Of the run, of the material of its cables.
     name: str
+    #: ``name``, ``cable``: Of the run, of the material of its cables.
     cable: str
+    #: The span; its speed is that of the current.
     impact: Impact
     skirt: Skirt | None
     record: RecordedSnap
@@ -40,110 +33,73 @@ class SnapRun:
 @checks_words
 @dataclass(frozen=True)
 class SnapRuns:
-    """A set of runs.
-
-    Parameters
-    ----------
-    title : str
-    origin : {"measured", "generated"}
-    drag_coefficient : float or None
-        Of the drift of the slack curtain.
-    memory : bool
-        Whether to run the model with memory.
-    runs : tuple of SnapRun
-    """
+    """A set of runs."""
 
     title: str
+    #: One of "measured", "generated".
     origin: Origin
+    #: Of the drift of the slack curtain.
     drag_coefficient: float | None
+    #: Whether to run the model with memory.
     memory: bool
     runs: tuple[SnapRun, ...]
 
 
 @dataclass(frozen=True)
 class SnapFinding:
-    """What was found in one run.
-
-    Parameters
-    ----------
-    run : SnapRun
-    numbers : ImpactNumbers
-        C_T of the measured impact (peak less drag level, both cables), C_E, Fr; all with the speed of the current.
-    start_speed : float
-        Speed of the models when the cables become taut [m/s].
-    comparison : Comparison
-        The models on this run.
-    """
+    """What was found in one run."""
 
     run: SnapRun
+    #: C_T of the measured impact (peak less drag level, both cables), C_E, Fr; all with the speed of the current.
     numbers: ImpactNumbers
+    #: Speed of the models when the cables become taut [m/s].
     start_speed: float
+    #: The models on this run.
     comparison: Comparison
 
 
 @dataclass(frozen=True)
 class Exponents:
-    """C_T as a product of powers of the similarity numbers that vary among the runs [eq:snap-runs-powers].
+    """C_T as a product of powers of the similarity numbers that vary among the runs [eq:snap-runs-powers]."""
 
-    Parameters
-    ----------
-    of : str
-        ``record``, or the name of a model.
-    names : tuple of str
-        ``froude``, ``span_ratio``, ``depth_ratio``, ``cauchy`` as far as they vary.
-    values, low, high : tuple of float
-        Exponents and their bounds of 95 %.
-    scatter : float
-        Standard deviation of the logarithm of C_T about the product.
-    """
-
+    #: ``record``, or the name of a model.
     of: str
+    #: ``froude``, ``span_ratio``, ``depth_ratio``, ``cauchy`` as far as they vary.
     names: tuple[str, ...]
+    #: ``values``, ``low``, ``high``: Exponents and their bounds of 95 %.
     values: tuple[float, ...]
+    #: ``values``, ``low``, ``high``: Exponents and their bounds of 95 %.
     low: tuple[float, ...]
+    #: ``values``, ``low``, ``high``: Exponents and their bounds of 95 %.
     high: tuple[float, ...]
+    #: Standard deviation of the logarithm of C_T about the product.
     scatter: float
 
 
 @dataclass(frozen=True)
 class Agreement:
-    """A model over the records of all runs.
-
-    Parameters
-    ----------
-    model : str
-    ratio, low, high : float
-        Geometric mean of model over record, and its bounds of 95 %.
-    scatter : float
-        Standard deviation of the logarithm of that ratio.
-    count : int
-    """
+    """A model over the records of all runs."""
 
     model: str
+    #: ``ratio``, ``low``, ``high``: Geometric mean of model over record, and its bounds of 95 %.
     ratio: float
+    #: ``ratio``, ``low``, ``high``: Geometric mean of model over record, and its bounds of 95 %.
     low: float
+    #: ``ratio``, ``low``, ``high``: Geometric mean of model over record, and its bounds of 95 %.
     high: float
+    #: Standard deviation of the logarithm of that ratio.
     scatter: float
     count: int
 
 
 @dataclass(frozen=True)
 class SnapFindings:
-    """All runs, and what they say together.
-
-    Parameters
-    ----------
-    runs : SnapRuns
-    found : tuple of SnapFinding
-    agreements : tuple of Agreement
-        One for each model that every run has.
-    exponents : tuple of Exponents
-        Of the records, then of each of these models.
-    notices : tuple of Notice
-    """
+    """All runs, and what they say together."""
 
     runs: SnapRuns
     found: tuple[SnapFinding, ...]
+    #: One for each model that every run has.
     agreements: tuple[Agreement, ...]
+    #: Of the records, then of each of these models.
     exponents: tuple[Exponents, ...]
     notices: tuple[Notice, ...]

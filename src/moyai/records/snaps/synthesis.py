@@ -21,43 +21,29 @@ _FINE = 40.0
 
 @dataclass(frozen=True)
 class Logger:
-    """How a record is taken.
+    """How a record is taken."""
 
-    Parameters
-    ----------
-    rate : float
-        Samples a second [Hz].
-    noise : float
-        Standard deviation of each cable's noise [N].
-    drift : float
-        Of each cable's zero over the record [N].
-    """
-
+    #: Samples a second [Hz].
     rate: float
+    #: Standard deviation of each cable's noise [N].
     noise: float
+    #: Of each cable's zero over the record [N].
     drift: float
 
 
 @dataclass(frozen=True, eq=False)
 class MadeRecord:
-    """A made record and what was planted in it.
+    """A made record and what was planted in it."""
 
-    Parameters
-    ----------
-    time, tension : ndarray
-        [s], [N]; tension has the shape (2, n): upper, lower.
-    impact : float
-        Peak of the sum above the drag level [N].
-    unloaded : tuple of (float, float)
-        Intervals in which the cables carry nothing [s].
-    window : (float, float)
-        Interval that holds snap and plateau [s].
-    """
-
+    #: [s]; tension has the shape (2, n): upper, lower.
     time: Array
+    #: [N]; tension has the shape (2, n): upper, lower.
     tension: Array
+    #: Peak of the sum above the drag level [N].
     impact: float
+    #: Intervals in which the cables carry nothing [s].
     unloaded: tuple[tuple[float, float], ...]
+    #: Interval that holds snap and plateau [s].
     window: tuple[float, float]
 
 

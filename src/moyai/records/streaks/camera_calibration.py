@@ -33,22 +33,19 @@ class Calibration(Protocol):
 
 @dataclass(frozen=True)
 class Refraction:
-    """Flat wall and water between camera and light sheet, all parallel.
+    """Flat wall and water between camera and light sheet, all parallel."""
 
-    Parameters
-    ----------
-    camera_to_wall : float
-        From the camera's centre of projection to the outside of the wall [m].
-    wall_thickness, wall_index : float
-        Thickness [m] and refractive index of the wall.
-    sheet_distance, water_index : float
-        From the inside of the wall to the light sheet [m], and refractive index of the water.
-    """
-
+    #: From the camera's centre of projection to the outside of the wall [m].
     camera_to_wall: float
+    #: ``wall_thickness``, ``wall_index``: Thickness [m] and refractive index of the wall.
     wall_thickness: float
+    #: ``wall_thickness``, ``wall_index``: Thickness [m] and refractive index of the wall.
     wall_index: float
+    #: ``sheet_distance``, ``water_index``: From the inside of the wall to the light sheet [m], and refractive index of
+    #: the water.
     sheet_distance: float
+    #: ``sheet_distance``, ``water_index``: From the inside of the wall to the light sheet [m], and refractive index of
+    #: the water.
     water_index: float
 
     def __post_init__(self) -> None:
@@ -107,20 +104,13 @@ class Refraction:
 
 @dataclass(frozen=True, eq=False)
 class Homography:
-    """Projective map between two planes [eq:streaks-homography].
+    """Projective map between two planes [eq:streaks-homography]."""
 
-    Parameters
-    ----------
-    matrix : ndarray, shape (3, 3)
-        From world (x, z, 1) to pixels (column, row, 1), up to a factor.
-    residual : float
-        Root mean square distance of the targets in pixels.
-    condition : float
-        How much an error of the targets grows: ratio of the largest to the second smallest singular value.
-    """
-
+    #: From world (x, z, 1) to pixels (column, row, 1), up to a factor; shape (3, 3).
     matrix: Array
+    #: Root mean square distance of the targets in pixels.
     residual: float = 0.0
+    #: How much an error of the targets grows: ratio of the largest to the second smallest singular value.
     condition: float = 1.0
 
     def to_pixels(self, world: ArrayLike) -> Array:
@@ -212,28 +202,18 @@ def _normalising(points: Array) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class RayCamera:
-    """Pinhole camera that looks through a wall into water, with exact rays.
+    """Pinhole camera that looks through a wall into water, with exact rays."""
 
-    Parameters
-    ----------
-    foot : ndarray, shape (2,)
-        Foot x, z of the camera on the light sheet, along the normal of the wall [m].
-    rotation : ndarray, shape (3,)
-        Rotation vector of the camera from looking straight at the wall [rad].
-    focal_length : float
-        In pixels.
-    centre : ndarray, shape (2,)
-        Principal point, column and row.
-    refraction : Refraction
-    residual : float
-        Root mean square distance of the targets in pixels.
-    """
-
+    #: Foot x, z of the camera on the light sheet, along the normal of the wall [m]; shape (2,).
     foot: Array
+    #: Rotation vector of the camera from looking straight at the wall [rad]; shape (3,).
     rotation: Array
+    #: In pixels.
     focal_length: float
+    #: Principal point, column and row; shape (2,).
     centre: Array
     refraction: Refraction
+    #: Root mean square distance of the targets in pixels.
     residual: float = 0.0
 
     def to_pixels(self, world: ArrayLike) -> Array:

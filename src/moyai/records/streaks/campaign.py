@@ -40,87 +40,59 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class StreakRun:
-    """One wave and its pictures.
-
-    Parameters
-    ----------
-    name : str
-    period : float
-        Wave period [s].
-    amplitude_x, amplitude_z : float
-        Velocity amplitudes of the undisturbed orbit at the centre of the section [m/s].
-    recordings : tuple of Recording
-    measured_reduction : float
-        Reduction of the inertia coefficient found from forces; NaN where it was not measured.
-    no_model : tuple of Recording
-        The same wave without the section; empty: the pictures of the whole campaign serve.
-    """
+    """One wave and its pictures."""
 
     name: str
+    #: Wave period [s].
     period: float
+    #: Velocity amplitudes of the undisturbed orbit at the centre of the section [m/s].
     amplitude_x: float
+    #: Velocity amplitudes of the undisturbed orbit at the centre of the section [m/s].
     amplitude_z: float
     recordings: tuple[Recording, ...]
+    #: Reduction of the inertia coefficient found from forces; NaN where it was not measured.
     measured_reduction: float = math.nan
+    #: The same wave without the section; empty: the pictures of the whole campaign serve.
     no_model: tuple[Recording, ...] = ()
 
 
 @checks_words
 @dataclass(frozen=True, eq=False)
 class Campaign:
-    """Everything that a measurement needs.
+    """Everything that a measurement needs."""
 
-    Parameters
-    ----------
-    title, section : str
-        Title, and the section in words.
-    outline : ndarray, shape (n, 2)
-        Closed outline about the centre of the section [m].
-    area : float
-        Area of the section [m2].
-    centre : ndarray, shape (2,)
-        Centre x, z in the coordinates of the targets [m].
-    sense : int
-        1 for waves towards +x (clockwise orbits), -1 for the others.
-    calibration : Calibration
-    runs : tuple of StreakRun
-    settings : RunSettings
-    mask_margin : float
-        Margin around the section where nothing is looked for [m].
-    no_model : tuple of Recording
-        Pictures without the section; empty where there are none.
-    background : BackgroundDrift or None
-        Settling and mass transport where they were given instead.
-    size_ratio : tuple of float
-        Contours Bc/B.
-    least_ratio, confidence : float
-    method : {"spline", "triangles"}
-    resamples, seed : int
-    notices : tuple of Notice
-        What its calibration gave rise to.
-    shape : SectionMap or None
-        Map of the section, from which the bias of the circulation is found; ``None`` for a polygon.
-    """
-
+    #: ``title``, ``section``: Title, and the section in words.
     title: str
+    #: ``title``, ``section``: Title, and the section in words.
     section: str
+    #: Closed outline about the centre of the section [m]; shape (n, 2).
     outline: Array
+    #: Area of the section [m2].
     area: float
+    #: Centre x, z in the coordinates of the targets [m]; shape (2,).
     centre: Array
+    #: 1 for waves towards +x (clockwise orbits), -1 for the others.
     sense: int
     calibration: Calibration
     runs: tuple[StreakRun, ...]
     settings: RunSettings
+    #: Margin around the section where nothing is looked for [m].
     mask_margin: float
+    #: Pictures without the section; empty where there are none.
     no_model: tuple[Recording, ...] = ()
+    #: Settling and mass transport where they were given instead.
     background: BackgroundDrift | None = None
+    #: Contours Bc/B.
     size_ratio: tuple[float, ...] = (1.25, 1.5, 1.75, 2.0, 2.25, 2.5, 2.75, 3.0)
     least_ratio: float = 1.5
+    #: One of "spline", "triangles".
     method: Interpolation = "spline"
     resamples: int = 200
     confidence: float = 0.95
     seed: int = 0
+    #: What its calibration gave rise to.
     notices: tuple[Notice, ...] = ()
+    #: Map of the section, from which the bias of the circulation is found; ``None`` for a polygon.
     shape: SectionMap | None = None
 
     @property

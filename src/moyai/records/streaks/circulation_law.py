@@ -20,22 +20,15 @@ LEAST_KC, MOST_KC = 1.0, 2.0
 
 @dataclass(frozen=True, eq=False)
 class CirculationLaw:
-    """Circulation = coefficient * f B^2 KC^2.
+    """Circulation = coefficient * f B^2 KC^2."""
 
-    Parameters
-    ----------
-    coefficient, deviation : float
-        Dimensionless coefficient and its standard error (NaN with one run).
-    dimensional : ndarray
-        coefficient * f B^2 of each run [m2/s].
-    weight : ndarray
-        Weight of each run; below one where it lies off the others.
-    notices : tuple of Notice
-    """
-
+    #: ``coefficient``, ``deviation``: Dimensionless coefficient and its standard error (NaN with one run).
     coefficient: float
+    #: ``coefficient``, ``deviation``: Dimensionless coefficient and its standard error (NaN with one run).
     deviation: float
+    #: coefficient * f B^2 of each run [m2/s].
     dimensional: Array
+    #: Weight of each run; below one where it lies off the others.
     weight: Array
     notices: tuple[Notice, ...] = field(default_factory=tuple)
 

@@ -29,43 +29,33 @@ Extrapolation = Literal["stokes", "linear"]
 
 @dataclass(frozen=True, eq=False)
 class Circulation:
-    """Circulation around a section, about +y (clockwise with x to the right, z up).
+    """Circulation around a section, about +y (clockwise with x to the right, z up)."""
 
-    Parameters
-    ----------
-    size_ratio : ndarray
-        Sizes Bc/B of the contours.
-    value, deviation : ndarray
-        Circulation of each contour [m2/s] and its standard error from drawn clouds; NaN where the contour
-        leaves the cloud of particles.
-    limit, limit_interval : float, (float, float)
-        Circulation G without the Stokes drift, and its confidence interval [m2/s].
-    stokes_term : float
-        The c of G + c (B/Bc)^4 [m2/s].
-    linear, linear_interval : float, (float, float)
-        Straight line through all contours at Bc/B = 1, as the paper does [m2/s].
-    confidence : float
-        Level of the intervals.
-    samples : ndarray, shape (samples, contours)
-        Circulation of the drawn clouds [m2/s].
-    outlier : ndarray of bool, shape (particles,)
-        Particles left out because they lie off their neighbours.
-    bias : float
-        What interpolation and extrapolation add, taken off ``limit`` and its interval [m2/s]; NaN where unknown.
-    notices : tuple of Notice
-    """
-
+    #: Sizes Bc/B of the contours.
     size_ratio: Array
+    #: ``value``, ``deviation``: Circulation of each contour [m2/s] and its standard error from drawn clouds; NaN where
+    #: the contour leaves the cloud of particles.
     value: Array
+    #: ``value``, ``deviation``: Circulation of each contour [m2/s] and its standard error from drawn clouds; NaN where
+    #: the contour leaves the cloud of particles.
     deviation: Array
+    #: ``limit``, ``limit_interval``: Circulation G without the Stokes drift, and its confidence interval [m2/s].
     limit: float
+    #: ``limit``, ``limit_interval``: Circulation G without the Stokes drift, and its confidence interval [m2/s].
     limit_interval: tuple[float, float]
+    #: The c of G + c (B/Bc)^4 [m2/s].
     stokes_term: float
+    #: ``linear``, ``linear_interval``: Straight line through all contours at Bc/B = 1, as the paper does [m2/s].
     linear: float
+    #: ``linear``, ``linear_interval``: Straight line through all contours at Bc/B = 1, as the paper does [m2/s].
     linear_interval: tuple[float, float]
+    #: Level of the intervals.
     confidence: float
+    #: Circulation of the drawn clouds [m2/s]; shape (samples, contours).
     samples: Array
+    #: Particles left out because they lie off their neighbours; shape (particles,).
     outlier: NDArray[np.bool_]
+    #: What interpolation and extrapolation add, taken off ``limit`` and its interval [m2/s]; NaN where unknown.
     bias: float = math.nan
     notices: tuple[Notice, ...] = field(default_factory=tuple)
 

@@ -16,31 +16,23 @@ from moyai.records.streaks.fit import PARAMETERS, fit_streaks, gather_pixels, st
 
 @dataclass(frozen=True)
 class DetectionSettings:
-    """How streaks are distinguished from noise.
+    """How streaks are distinguished from noise."""
 
-    Parameters
-    ----------
-    threshold, edge_threshold : float
-        A region needs a pixel ``threshold`` and reaches out to ``edge_threshold`` standard deviations of the noise
-        above the background, in the picture smoothed a little.
-    smoothing : float
-        Standard deviation of that smoothing [pixels].
-    least_length : float
-        Shortest streak [pixels].
-    background_block : int
-        Size of the blocks whose median is the background [pixels].
-    most_overlap : int
-        Most streaks that one region is taken apart into.
-    unexplained : float
-        Share of a region's light that the fitted streaks may miss.
-    """
-
+    #: ``threshold``, ``edge_threshold``: A region needs a pixel ``threshold`` and reaches out to ``edge_threshold``
+    #: standard deviations of the noise above the background, in the picture smoothed a little.
     threshold: float = 7.0
+    #: ``threshold``, ``edge_threshold``: A region needs a pixel ``threshold`` and reaches out to ``edge_threshold``
+    #: standard deviations of the noise above the background, in the picture smoothed a little.
     edge_threshold: float = 3.5
+    #: Standard deviation of that smoothing [pixels].
     smoothing: float = 1.0
+    #: Shortest streak [pixels].
     least_length: float = 4.0
+    #: Size of the blocks whose median is the background [pixels].
     background_block: int = 32
+    #: Most streaks that one region is taken apart into.
     most_overlap: int = 3
+    #: Share of a region's light that the fitted streaks may miss.
     unexplained: float = 0.16
 
     def __post_init__(self) -> None:
@@ -52,39 +44,26 @@ class DetectionSettings:
 
 @dataclass(frozen=True, eq=False)
 class Streaks:
-    """Streaks of one picture; which end came first is not known yet.
+    """Streaks of one picture; which end came first is not known yet."""
 
-    Parameters
-    ----------
-    ends : ndarray, shape (streaks, 2, 2)
-        Column and row of both ends [pixels].
-    bow : ndarray, shape (streaks,)
-        Height of the arc over the chord, to the right of going from the first to the second end with rows downwards
-        [pixels].
-    light : ndarray, shape (streaks,)
-        Sum of grey levels of the streak.
-    blur : ndarray, shape (streaks,)
-        Standard deviation of the profile across [pixels].
-    overlapping : ndarray of bool, shape (streaks,)
-        Whether it shares its region with others.
-    noise : float
-        Standard deviation of the picture's noise [grey levels].
-    background : float
-        Median grey level.
-    rejected : int
-        Regions that could not be explained by streaks.
-    shape : tuple of int
-        Rows and columns of the picture.
-    """
-
+    #: Column and row of both ends [pixels]; shape (streaks, 2, 2).
     ends: Array
+    #: Height of the arc over the chord, to the right of going from the first to the second end with rows downwards
+    #: [pixels]; shape (streaks,).
     bow: Array
+    #: Sum of grey levels of the streak; shape (streaks,).
     light: Array
+    #: Standard deviation of the profile across [pixels]; shape (streaks,).
     blur: Array
+    #: Whether it shares its region with others; shape (streaks,).
     overlapping: NDArray[np.bool_]
+    #: Standard deviation of the picture's noise [grey levels].
     noise: float
+    #: Median grey level.
     background: float
+    #: Regions that could not be explained by streaks.
     rejected: int
+    #: Rows and columns of the picture.
     shape: tuple[int, int]
 
     @property

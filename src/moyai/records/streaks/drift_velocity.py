@@ -19,19 +19,15 @@ from moyai.core.errors import InputError
 
 @dataclass(frozen=True, eq=False)
 class StreakChain:
-    """Streaks of one particle in the order of time.
+    """Streaks of one particle in the order of time."""
 
-    Parameters
-    ----------
-    start_time, end_time : ndarray, shape (streaks,)
-        Instants at which the light goes on and off [s].
-    start, end : ndarray, shape (streaks, 2)
-        Positions x, z at these instants [m].
-    """
-
+    #: ``start_time``, ``end_time``: Instants at which the light goes on and off [s]; shape (streaks,).
     start_time: Array
+    #: ``start_time``, ``end_time``: Instants at which the light goes on and off [s]; shape (streaks,).
     end_time: Array
+    #: ``start``, ``end``: Positions x, z at these instants [m]; shape (streaks, 2).
     start: Array
+    #: ``start``, ``end``: Positions x, z at these instants [m]; shape (streaks, 2).
     end: Array
 
     def __post_init__(self) -> None:
@@ -64,26 +60,17 @@ class StreakChain:
 
 @dataclass(frozen=True, eq=False)
 class Drift:
-    """Drift of one particle.
+    """Drift of one particle."""
 
-    Parameters
-    ----------
-    position : ndarray, shape (2,)
-        Mean over time of one orbit, where the drift counts [m].
-    velocity : ndarray, shape (2,)
-        Displacement in one period over the period [m/s].
-    closure : ndarray, shape (2,)
-        Where the particle is one period after the middle of its first streak [m].
-    deviation : float
-        Standard error of each component of the velocity [m/s]; NaN where the method gives none.
-    residual : float
-        Root mean square distance of the ends from the fit [m]; NaN where nothing is left over.
-    """
-
+    #: Mean over time of one orbit, where the drift counts [m]; shape (2,).
     position: Array
+    #: Displacement in one period over the period [m/s]; shape (2,).
     velocity: Array
+    #: Where the particle is one period after the middle of its first streak [m]; shape (2,).
     closure: Array
+    #: Standard error of each component of the velocity [m/s]; NaN where the method gives none.
     deviation: float = math.nan
+    #: Root mean square distance of the ends from the fit [m]; NaN where nothing is left over.
     residual: float = math.nan
 
 

@@ -27,26 +27,18 @@ _SHORT = 12
 @checks_words
 @dataclass(frozen=True, eq=False)
 class SectionMap:
-    """Map of the outside of the unit circle onto the outside of a section, ``Z = x + i z = f(zeta)`` [eq:streaks-map].
-
-    Parameters
-    ----------
-    kind : {"circle", "rectangle"}
-    breadth, height : float
-        Sizes along x and z [m].
-    scale : float
-        f'(infinity), the radius of the circle of equal outer mapping [m].
-    corner : float
-        Angle of the image of the upper right corner [rad]; 0 for the circle.
-    series : ndarray
-        Coefficients c_n of ``f = scale (zeta + sum c_n zeta**(1 - 2 n))``, n = 1, 2, ...; empty for the circle.
-    """
+    """Map of the outside of the unit circle onto that of a section, ``Z = x + i z = f(zeta)`` [eq:streaks-map]."""
 
     kind: Literal["circle", "rectangle"]
+    #: ``breadth``, ``height``: Sizes along x and z [m].
     breadth: float
+    #: ``breadth``, ``height``: Sizes along x and z [m].
     height: float
+    #: f'(infinity), the radius of the circle of equal outer mapping [m].
     scale: float
+    #: Angle of the image of the upper right corner [rad]; 0 for the circle.
     corner: float = 0.0
+    #: Coefficients c_n of ``f = scale (zeta + sum c_n zeta**(1 - 2 n))``, n = 1, 2, ...; empty for the circle.
     series: Array = field(default_factory=lambda: np.zeros(0))
 
     @property
@@ -170,34 +162,25 @@ def _derivative(zeta: ComplexArray, corner: float, round_section: bool) -> Compl
 
 @dataclass(frozen=True, eq=False)
 class OrbitalFlow:
-    """Orbital flow past a section [eq:streaks-potential].
+    """Orbital flow past a section [eq:streaks-potential]."""
 
-    Parameters
-    ----------
-    section : SectionMap or None
-        ``None``: the same flow without a model.
-    period : float
-        Wave period [s].
-    amplitude_x, amplitude_z : float
-        Velocity amplitudes of the undisturbed orbit at the centre, ``u = amplitude_x cos(omega t)``,
-        ``w = -amplitude_z sin(omega t)`` [m/s].
-    circulation : float
-        Positive about +y (clockwise with x to the right, z up) [m2/s].
-    mass_transport : float
-        Mean velocity along +x at the level of the centre [m/s].
-    decay : float
-        The mass transport grows like ``exp(decay z)`` (twice the wave number in deep water) [1/m].
-    settling : float
-        Speed at which the particles sink through the water [m/s].
-    """
-
+    #: ``None``: the same flow without a model.
     section: SectionMap | None
+    #: Wave period [s].
     period: float
+    #: ``amplitude_x``, ``amplitude_z``: Velocity amplitudes of the undisturbed orbit at the centre, ``u = amplitude_x
+    #: cos(omega t)``, ``w = -amplitude_z sin(omega t)`` [m/s].
     amplitude_x: float
+    #: ``amplitude_x``, ``amplitude_z``: Velocity amplitudes of the undisturbed orbit at the centre, ``u = amplitude_x
+    #: cos(omega t)``, ``w = -amplitude_z sin(omega t)`` [m/s].
     amplitude_z: float
+    #: Positive about +y (clockwise with x to the right, z up) [m2/s].
     circulation: float = 0.0
+    #: Mean velocity along +x at the level of the centre [m/s].
     mass_transport: float = 0.0
+    #: The mass transport grows like ``exp(decay z)`` (twice the wave number in deep water) [1/m].
     decay: float = 0.0
+    #: Speed at which the particles sink through the water [m/s].
     settling: float = 0.0
 
     def __post_init__(self) -> None:

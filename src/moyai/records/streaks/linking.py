@@ -17,20 +17,13 @@ from moyai.records.streaks.timing import LEAST_EVIDENCE, PulseTrain, direction_e
 
 @dataclass(frozen=True, eq=False)
 class WorldStreaks:
-    """Streaks of one picture in the light sheet.
+    """Streaks of one picture in the light sheet."""
 
-    Parameters
-    ----------
-    ends : ndarray, shape (streaks, 2, 2)
-        x, z of both ends [m].
-    tangents : ndarray, shape (streaks, 2, 2)
-        Unit vectors of motion at both ends when going from the first to the second.
-    light : ndarray, shape (streaks,)
-        Logarithm of the light.
-    """
-
+    #: x, z of both ends [m]; shape (streaks, 2, 2).
     ends: Array
+    #: Unit vectors of motion at both ends when going from the first to the second; shape (streaks, 2, 2).
     tangents: Array
+    #: Logarithm of the light; shape (streaks,).
     light: Array
 
     @property
@@ -51,42 +44,28 @@ class WorldStreaks:
 
 @dataclass(frozen=True)
 class LinkingSettings:
-    """How far a streak may lie from where it is expected.
+    """How far a streak may lie from where it is expected."""
 
-    Parameters
-    ----------
-    relative : float
-        Share of the way between two streaks.
-    absolute : float
-        Further distance [m].
-    missing : int
-        Most pulses in a row that a chain may lack.
-    """
-
+    #: Share of the way between two streaks.
     relative: float = 0.2
+    #: Further distance [m].
     absolute: float = 3e-4
+    #: Most pulses in a row that a chain may lack.
     missing: int = 1
 
 
 @dataclass(frozen=True, eq=False)
 class LinkedChain:
-    """A chain and the streaks that it is made of.
-
-    Parameters
-    ----------
-    chain : StreakChain
-    picture, streak : ndarray
-        Picture and number in it of every streak, in the order of time.
-    pulse : ndarray
-        Pulse that made it.
-    evidence : float
-        Log-likelihood by which the direction is surer than its reverse; infinite where frames tell it.
-    """
+    """A chain and the streaks that it is made of."""
 
     chain: StreakChain
+    #: ``picture``, ``streak``: Picture and number in it of every streak, in the order of time.
     picture: IntArray
+    #: ``picture``, ``streak``: Picture and number in it of every streak, in the order of time.
     streak: IntArray
+    #: Pulse that made it.
     pulse: IntArray
+    #: Log-likelihood by which the direction is surer than its reverse; infinite where frames tell it.
     evidence: float
 
 

@@ -23,21 +23,16 @@ _REACHED = 2e-2
 
 @dataclass(frozen=True, eq=False)
 class Orbits:
-    """Undisturbed orbits of the water and the section in them.
-
-    Parameters
-    ----------
-    section : SectionMap
-    period : float
-        Wave period [s].
-    amplitude_x, amplitude_z : float
-        Velocity amplitudes as in :class:`moyai.records.streaks.flow.OrbitalFlow`; ``amplitude_z`` below 0 for waves
-        towards -x [m/s].
-    """
+    """Undisturbed orbits of the water and the section in them."""
 
     section: SectionMap
+    #: Wave period [s].
     period: float
+    #: ``amplitude_x``, ``amplitude_z``: Velocity amplitudes as in :class:`moyai.records.streaks.flow.OrbitalFlow`;
+    #: ``amplitude_z`` below 0 for waves towards -x [m/s].
     amplitude_x: float
+    #: ``amplitude_x``, ``amplitude_z``: Velocity amplitudes as in :class:`moyai.records.streaks.flow.OrbitalFlow`;
+    #: ``amplitude_z`` below 0 for waves towards -x [m/s].
     amplitude_z: float
 
     def drift(self, position: Array, circulation: float) -> tuple[Array, Array]:

@@ -32,22 +32,14 @@ _VERSION = 2
 
 @dataclass(frozen=True, eq=False)
 class Recording:
-    """Pictures taken in one go.
+    """Pictures taken in one go."""
 
-    Parameters
-    ----------
-    pictures : tuple of Path
-        One per pulse in the order of time, or a single one that holds all pulses.
-    train : PulseTrain
-    frames : bool
-        Whether every pulse has its own picture.
-    period : float
-        Wave period [s].
-    """
-
+    #: One per pulse in the order of time, or a single one that holds all pulses.
     pictures: tuple[Path, ...]
     train: PulseTrain
+    #: Whether every pulse has its own picture.
     frames: bool
+    #: Wave period [s].
     period: float
 
     def __post_init__(self) -> None:
@@ -58,27 +50,32 @@ class Recording:
 
 @dataclass(frozen=True, eq=False)
 class DriftCloud:
-    """Drift velocities of one recording or of several.
+    """Drift velocities of one recording or of several."""
 
-    Parameters
-    ----------
-    position, velocity : ndarray, shape (particles, 2)
-        Mean positions [m] and drift velocities [m/s].
-    deviation, residual : ndarray, shape (particles,)
-        Standard error of a component of the velocity [m/s] and misfit of the ends [m].
-    streaks, chains, refused, undecided, rejected : int
-        Streaks found, chains linked, chains too short or too rough for a drift, chains without direction, regions
-        that are no streaks.
-    """
-
+    #: ``position``, ``velocity``: Mean positions [m] and drift velocities [m/s]; shape (particles, 2).
     position: Array
+    #: ``position``, ``velocity``: Mean positions [m] and drift velocities [m/s]; shape (particles, 2).
     velocity: Array
+    #: ``deviation``, ``residual``: Standard error of a component of the velocity [m/s] and misfit of the ends [m];
+    #: shape (particles,).
     deviation: Array
+    #: ``deviation``, ``residual``: Standard error of a component of the velocity [m/s] and misfit of the ends [m];
+    #: shape (particles,).
     residual: Array
+    #: ``streaks``, ``chains``, ``refused``, ``undecided``, ``rejected``: Streaks found, chains linked, chains too short
+    #: or too rough for a drift, chains without direction, regions that are no streaks.
     streaks: int = 0
+    #: ``streaks``, ``chains``, ``refused``, ``undecided``, ``rejected``: Streaks found, chains linked, chains too short
+    #: or too rough for a drift, chains without direction, regions that are no streaks.
     chains: int = 0
+    #: ``streaks``, ``chains``, ``refused``, ``undecided``, ``rejected``: Streaks found, chains linked, chains too short
+    #: or too rough for a drift, chains without direction, regions that are no streaks.
     refused: int = 0
+    #: ``streaks``, ``chains``, ``refused``, ``undecided``, ``rejected``: Streaks found, chains linked, chains too short
+    #: or too rough for a drift, chains without direction, regions that are no streaks.
     undecided: int = 0
+    #: ``streaks``, ``chains``, ``refused``, ``undecided``, ``rejected``: Streaks found, chains linked, chains too short
+    #: or too rough for a drift, chains without direction, regions that are no streaks.
     rejected: int = 0
 
     @property
@@ -90,24 +87,15 @@ class DriftCloud:
 @checks_words
 @dataclass(frozen=True)
 class RunSettings:
-    """Settings of the way from pictures to drift.
-
-    Parameters
-    ----------
-    detection : DetectionSettings
-    linking : LinkingSettings
-    closing : {"harmonics", "cubic"}
-        How the period is closed.
-    least_span : float
-        Shortest chain, in periods.
-    most_residual : float
-        Roughest chain: root mean square misfit of its ends [m].
-    """
+    """Settings of the way from pictures to drift."""
 
     detection: DetectionSettings = field(default_factory=DetectionSettings)
     linking: LinkingSettings = field(default_factory=LinkingSettings)
+    #: How the period is closed; one of "harmonics", "cubic".
     closing: Closing = "harmonics"
+    #: Shortest chain, in periods.
     least_span: float = 0.95
+    #: Roughest chain: root mean square misfit of its ends [m].
     most_residual: float = 8e-4
 
 
@@ -372,18 +360,13 @@ def gather(datasets: Sequence[xr.Dataset]) -> DriftCloud:
 
 @dataclass(frozen=True, eq=False)
 class BackgroundDrift:
-    """Drift without a model: settling and mass transport as a linear function of the level.
+    """Drift without a model: settling and mass transport as a linear function of the level."""
 
-    Parameters
-    ----------
-    mean, gradient : ndarray, shape (2,)
-        Drift x, z at z = 0 [m/s] and its growth with z [1/s].
-    particles : int
-        Particles that it was measured from; 0 when it was given.
-    """
-
+    #: ``mean``, ``gradient``: Drift x, z at z = 0 [m/s] and its growth with z [1/s]; shape (2,).
     mean: Array
+    #: ``mean``, ``gradient``: Drift x, z at z = 0 [m/s] and its growth with z [1/s]; shape (2,).
     gradient: Array
+    #: Particles that it was measured from; 0 when it was given.
     particles: int = 0
 
     def at(self, position: Array) -> Array:

@@ -20,47 +20,31 @@ Picture = NDArray[np.uint8] | NDArray[np.uint16]
 
 @dataclass(frozen=True)
 class Optics:
-    """Tracer, light sheet and camera.
+    """Tracer, light sheet and camera."""
 
-    Parameters
-    ----------
-    density : float
-        Particles within the light sheet per area of the plane [1/m2].
-    diameter : tuple of float
-        Range of diameters of the particles [m].
-    brightness : float
-        Grey levels per pixel of a typical streak of full power, above the background.
-    brightness_scatter : float
-        Standard deviation of the logarithm of the particles' brightness.
-    sheet_thickness : float
-        Distance from the middle of the sheet at which the light has fallen to 1/e^2 [m].
-    out_of_plane_speed : float
-        Standard deviation of the particles' speed across the sheet [m/s].
-    unevenness : float
-        Relative fall of the light from the middle of the picture to its corners and along the sheet.
-    blur : float
-        Standard deviation of the point spread [pixels].
-    background : float
-        Mean grey level without particles.
-    read_noise : float
-        Standard deviation of the sensor's noise [grey levels].
-    photons_per_level : float
-        Photo-electrons per grey level: shot noise.
-    bits : int
-        8 or 16.
-    """
-
+    #: Particles within the light sheet per area of the plane [1/m2].
     density: float = 3000.0
+    #: Range of diameters of the particles [m].
     diameter: tuple[float, float] = (0.3e-3, 0.5e-3)
+    #: Grey levels per pixel of a typical streak of full power, above the background.
     brightness: float = 90.0
+    #: Standard deviation of the logarithm of the particles' brightness.
     brightness_scatter: float = 0.3
+    #: Distance from the middle of the sheet at which the light has fallen to 1/e^2 [m].
     sheet_thickness: float = 2.0e-3
+    #: Standard deviation of the particles' speed across the sheet [m/s].
     out_of_plane_speed: float = 0.4e-3
+    #: Relative fall of the light from the middle of the picture to its corners and along the sheet.
     unevenness: float = 0.4
+    #: Standard deviation of the point spread [pixels].
     blur: float = 0.8
+    #: Mean grey level without particles.
     background: float = 14.0
+    #: Standard deviation of the sensor's noise [grey levels].
     read_noise: float = 1.5
+    #: Photo-electrons per grey level: shot noise.
     photons_per_level: float = 6.0
+    #: 8 or 16.
     bits: int = 8
 
     def __post_init__(self) -> None:
@@ -72,20 +56,13 @@ class Optics:
 
 @dataclass(frozen=True, eq=False)
 class Exposure:
-    """Pictures and the truth behind them.
+    """Pictures and the truth behind them."""
 
-    Parameters
-    ----------
-    pictures : tuple of ndarray
-        One per frame.
-    position : ndarray, shape (particles, pulses, 2, 2)
-        Position x, z at the start and end of every pulse [m].
-    lit : ndarray, shape (particles, pulses)
-        Relative brightness of every streak (1: middle of the sheet, full power).
-    """
-
+    #: One per frame.
     pictures: tuple[Picture, ...]
+    #: Position x, z at the start and end of every pulse [m]; shape (particles, pulses, 2, 2).
     position: Array = field(repr=False)
+    #: Relative brightness of every streak (1: middle of the sheet, full power); shape (particles, pulses).
     lit: Array = field(repr=False)
 
 

@@ -21,18 +21,13 @@ LEAST_EVIDENCE = 5.0
 
 @dataclass(frozen=True, eq=False)
 class PulseTrain:
-    """Pulses of light while the shutter is open, or over the frames of a film.
+    """Pulses of light while the shutter is open, or over the frames of a film."""
 
-    Parameters
-    ----------
-    start, duration : ndarray, shape (pulses,)
-        Instants at which the light goes on, and on-times [s].
-    power : ndarray, shape (pulses,)
-        Relative brightness of the light.
-    """
-
+    #: ``start``, ``duration``: Instants at which the light goes on, and on-times [s]; shape (pulses,).
     start: Array
+    #: ``start``, ``duration``: Instants at which the light goes on, and on-times [s]; shape (pulses,).
     duration: Array
+    #: Relative brightness of the light; shape (pulses,).
     power: Array
 
     def __post_init__(self) -> None:

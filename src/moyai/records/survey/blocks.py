@@ -31,54 +31,38 @@ _STILL = 0.5
 
 @dataclass(frozen=True, eq=False)
 class BlockResult:
-    """Figures of a block.
-
-    Parameters
-    ----------
-    index : int
-    start : float
-        [s].
-    moments : dict
-        By channel, for drift and unit slips.
-    channels : dict
-        By channel: mean, deviation, smallest, largest, share of sound samples.
-    counts : dict
-        Flagged samples by channel and kind.
-    findings : tuple of Finding
-    gaps : tuple of (float, float)
-    lacking, samples : int
-        Samples that gaps lack, and those there are (of the first logger).
-    waves : dict
-        By channel: statistics of waves.
-    cut : dict
-        By channel: the waves themselves.
-    spectra : dict
-        By channel: (frequency, density, degrees of freedom, figures).
-    directions, current, reflection : dict
-        Figures by name.
-    tensions : dict
-        By channel: figures by name.
-    responses : dict
-        By channel: the response to the wave channel.
-    notices : tuple of Notice
-    """
+    """Figures of a block."""
 
     index: int
+    #: [s].
     start: float
+    #: By channel, for drift and unit slips.
     moments: dict[str, BlockMoments]
+    #: By channel: mean, deviation, smallest, largest, share of sound samples.
     channels: dict[str, tuple[float, ...]]
+    #: Flagged samples by channel and kind.
     counts: dict[str, dict[str, int]]
     findings: tuple[Finding, ...]
     gaps: tuple[tuple[float, float], ...]
+    #: ``lacking``, ``samples``: Samples that gaps lack, and those there are (of the first logger).
     lacking: int
+    #: ``lacking``, ``samples``: Samples that gaps lack, and those there are (of the first logger).
     samples: int
+    #: By channel: statistics of waves.
     waves: dict[str, dict[str, float]] = field(default_factory=dict)
+    #: By channel: the waves themselves.
     cut: dict[str, Waves] = field(default_factory=dict)
+    #: By channel: (frequency, density, degrees of freedom, figures).
     spectra: dict[str, tuple[Array, Array, float, dict[str, float]]] = field(default_factory=dict)
+    #: Figures by name.
     directions: dict[str, float] = field(default_factory=dict)
+    #: Figures by name.
     current: dict[str, float] = field(default_factory=dict)
+    #: Figures by name.
     reflection: dict[str, float] = field(default_factory=dict)
+    #: By channel: figures by name.
     tensions: dict[str, dict[str, float]] = field(default_factory=dict)
+    #: By channel: the response to the wave channel.
     responses: dict[str, ResponseFunction] = field(default_factory=dict)
     notices: tuple[Notice, ...] = ()
 

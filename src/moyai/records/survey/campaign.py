@@ -28,32 +28,23 @@ CHANNELS = ("elevation", "u", "v", "J-0", "J-1", "J-2", "F-1", "F-2")
 
 @dataclass(frozen=True)
 class Storm:
-    """One campaign.
-
-    Parameters
-    ----------
-    name : str
-    start : float
-        [s since 1970 UTC].
-    days : float
-    peak_height, peak_day : float
-        Highest H1/3 [m] and when [d after the start].
-    calm_height : float
-        H1/3 far from the peak [m].
-    duration : float
-        Standard deviation of the storm in time [d].
-    angle_start, angle_end : float
-        Angle of the waves from the normal of the curtain, first and last [rad].
-    """
+    """One campaign."""
 
     name: str
+    #: [s since 1970 UTC].
     start: float
     days: float
+    #: ``peak_height``, ``peak_day``: Highest H1/3 [m] and when [d after the start].
     peak_height: float
+    #: ``peak_height``, ``peak_day``: Highest H1/3 [m] and when [d after the start].
     peak_day: float
+    #: H1/3 far from the peak [m].
     calm_height: float
+    #: Standard deviation of the storm in time [d].
     duration: float
+    #: ``angle_start``, ``angle_end``: Angle of the waves from the normal of the curtain, first and last [rad].
     angle_start: float
+    #: ``angle_start``, ``angle_end``: Angle of the waves from the normal of the curtain, first and last [rad].
     angle_end: float
 
 
@@ -68,79 +59,61 @@ def _storms() -> tuple[Storm, ...]:
 
 @dataclass(frozen=True)
 class CampaignLaws:
-    """What is planted.
-
-    Parameters
-    ----------
-    storms : tuple of Storm
-    water : Water
-    block, rate : float
-        Length of a block over which the sea is stationary [s], sampling rate [Hz].
-    period_factor : float
-        T1/3 = factor sqrt(H1/3) [s/m^0.5].
-    peak_enhancement, half_spread : float
-        Of the spectrum [-]; half the angle between the two long-crested halves of the sea [rad].
-    orbital_factor : float
-        alpha of the energy model.
-    mass_product : float
-        M m_B [kg].
-    rope_stiffness : float
-        K [N/m].
-    angle_exponent : float
-        Tension goes with the cosine of the angle to this power.
-    type_ratio, wire_ratio : float
-        New over conventional type; tension wire over anchor rope.
-    slack_speed : float
-        Speed that the slack of the rope takes up before it pulls [m/s].
-    slack_ratio : float
-        Wave tension while the current slackens the rope (U_x below 0) over that while it draws it taut.
-    scatter : float
-        Standard deviation of a wave's tension over its law.
-    pulse : float
-        Duration of a pull [s].
-    lag : float
-        Delay of the pull behind the crest [s].
-    steady_new, steady_conventional : float
-        Mean of the pretension [N].
-    steady_scatter : float
-        Standard deviation of its slow wander, over the mean.
-    tide_speed, tide_period : float
-        Amplitude [m/s] and period [s] of the current along the normal.
-    cross_share : float
-        Current along the curtain over that along its normal, a quarter of a period later.
-    noise_elevation, noise_velocity, noise_tension : float
-        Standard deviations of the instruments [m], [m/s], [N].
-    gauge_depth : float
-        Depth of the current meter [m].
-    """
+    """What is planted."""
 
     storms: tuple[Storm, ...] = field(default_factory=_storms)
     water: Water = field(default_factory=lambda: Water(depth=20.0, density=1025.0, gravity=9.81))
+    #: Length of a block over which the sea is stationary [s].
     block: float = 1200.0
+    #: Sampling rate [Hz].
     rate: float = 10.0
+    #: T1/3 = factor sqrt(H1/3) [s/m^0.5].
     period_factor: float = 3.86
+    #: Of the spectrum [-].
     peak_enhancement: float = 2.0
+    #: Half the angle between the two long-crested halves of the sea [rad].
     half_spread: float = math.radians(12.0)
+    #: alpha of the energy model.
     orbital_factor: float = 2.0
+    #: M m_B [kg].
     mass_product: float = 103.6
+    #: K [N/m].
     rope_stiffness: float = 890e3
+    #: Tension goes with the cosine of the angle to this power.
     angle_exponent: float = 2.0
+    #: ``type_ratio``, ``wire_ratio``: New over conventional type; tension wire over anchor rope.
     type_ratio: float = 0.7
+    #: ``type_ratio``, ``wire_ratio``: New over conventional type; tension wire over anchor rope.
     wire_ratio: float = 0.6
+    #: Speed that the slack of the rope takes up before it pulls [m/s].
     slack_speed: float = 0.35
+    #: Wave tension while the current slackens the rope (U_x below 0) over that while it draws it taut.
     slack_ratio: float = 0.85
+    #: Standard deviation of a wave's tension over its law.
     scatter: float = 0.15
+    #: Duration of a pull [s].
     pulse: float = 0.8
+    #: Delay of the pull behind the crest [s].
     lag: float = 1.1
+    #: Mean of the pretension [N].
     steady_new: float = 8.0e3
+    #: Mean of the pretension [N].
     steady_conventional: float = 11.0e3
+    #: Standard deviation of its slow wander, over the mean.
     steady_scatter: float = 0.07
+    #: ``tide_speed``, ``tide_period``: Amplitude [m/s] and period [s] of the current along the normal.
     tide_speed: float = 0.18
+    #: ``tide_speed``, ``tide_period``: Amplitude [m/s] and period [s] of the current along the normal.
     tide_period: float = 44714.0
+    #: Current along the curtain over that along its normal, a quarter of a period later.
     cross_share: float = 0.5
+    #: Standard deviations of the instruments [m].
     noise_elevation: float = 0.004
+    #: Standard deviations of the instruments [m/s].
     noise_velocity: float = 0.01
+    #: Standard deviations of the instruments [N].
     noise_tension: float = 20.0
+    #: Depth of the current meter [m].
     gauge_depth: float = 4.0
 
     def height(self, storm: Storm, time: float) -> float:

@@ -36,27 +36,19 @@ def heading_of_bearing(bearing: ArrayLike, x_axis_bearing: float, *, coming_from
 
 @dataclass(frozen=True, eq=False)
 class MeanCurrents:
-    """Currents by block.
+    """Currents by block."""
 
-    Parameters
-    ----------
-    start : ndarray, shape (blocks,)
-        [s].
-    count : ndarray of int
-        Samples in each.
-    x, y : ndarray
-        Vector means [m/s]; NaN in blocks with too few samples.
-    scalar_speed : ndarray
-        Mean of the speed [m/s].
-    deviation : ndarray
-        Root of the mean squared departure from the vector mean [m/s].
-    """
-
+    #: [s]; shape (blocks,).
     start: Array
+    #: Samples in each.
     count: Array
+    #: ``x``, ``y``: Vector means [m/s]; NaN in blocks with too few samples.
     x: Array
+    #: ``x``, ``y``: Vector means [m/s]; NaN in blocks with too few samples.
     y: Array
+    #: Mean of the speed [m/s].
     scalar_speed: Array
+    #: Root of the mean squared departure from the vector mean [m/s].
     deviation: Array
 
     @property
@@ -119,18 +111,13 @@ def block_means(
 
 @dataclass(frozen=True)
 class PrincipalAxis:
-    """Axis along which a current varies most.
+    """Axis along which a current varies most."""
 
-    Parameters
-    ----------
-    heading : float
-        Of the axis, in (-pi/2, pi/2] [rad].
-    major, minor : float
-        Standard deviations along and across [m/s].
-    """
-
+    #: Of the axis, in (-pi/2, pi/2] [rad].
     heading: float
+    #: ``major``, ``minor``: Standard deviations along and across [m/s].
     major: float
+    #: ``major``, ``minor``: Standard deviations along and across [m/s].
     minor: float
 
 
@@ -151,30 +138,26 @@ def principal_axis(x: ArrayLike, y: ArrayLike) -> PrincipalAxis:
 
 @dataclass(frozen=True, eq=False)
 class Profile:
-    """Mean profile of an acoustic profiler.
+    """Mean profile of an acoustic profiler."""
 
-    Parameters
-    ----------
-    z : ndarray
-        Heights of the bins above the bed or depths, as given [m].
-    x, y : ndarray
-        Mean velocities [m/s].
-    share : ndarray
-        Share of samples that were good in each bin.
-    exponent, surface_speed, exponent_error : float
-        Power law ``speed = surface_speed (z / top)^exponent`` fitted to the speed along the mean direction; NaN
-        where the profile does not allow it.
-    depth_mean : tuple of float
-        Mean over the profiled height (x, y) [m/s].
-    """
-
+    #: Heights of the bins above the bed or depths, as given [m].
     z: Array
+    #: Mean velocities [m/s].
     x: Array
+    #: Mean velocities [m/s].
     y: Array
+    #: Share of samples that were good in each bin.
     share: Array
+    #: ``exponent``, ``surface_speed``, ``exponent_error``: Power law ``speed = surface_speed (z / top)^exponent``
+    #: fitted to the speed along the mean direction; NaN where the profile does not allow it.
     exponent: float
+    #: ``exponent``, ``surface_speed``, ``exponent_error``: Power law ``speed = surface_speed (z / top)^exponent``
+    #: fitted to the speed along the mean direction; NaN where the profile does not allow it.
     surface_speed: float
+    #: ``exponent``, ``surface_speed``, ``exponent_error``: Power law ``speed = surface_speed (z / top)^exponent``
+    #: fitted to the speed along the mean direction; NaN where the profile does not allow it.
     exponent_error: float
+    #: Mean over the profiled height (x, y) [m/s].
     depth_mean: tuple[float, float]
 
 

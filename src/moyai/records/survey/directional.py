@@ -35,27 +35,17 @@ HEADINGS = 180
 
 @dataclass(frozen=True, eq=False)
 class DirectionalSpectrum:
-    """Spectrum over frequency and heading.
+    """Spectrum over frequency and heading."""
 
-    Parameters
-    ----------
-    frequency : ndarray, shape (frequencies,)
-        [Hz].
-    heading : ndarray, shape (headings,)
-        Directions of travel [rad], evenly spaced over a full turn.
-    density : ndarray, shape (frequencies, headings)
-        [m2/(Hz rad)].
-    order : ndarray of int
-        Order of the Fourier series at each frequency.
-    misfit : ndarray
-        Sum of the squared weighted residuals over their number less the parameters.
-    notices : tuple of Notice
-    """
-
+    #: [Hz]; shape (frequencies,).
     frequency: Array
+    #: Directions of travel [rad], evenly spaced over a full turn; shape (headings,).
     heading: Array
+    #: [m2/(Hz rad)]; shape (frequencies, headings).
     density: Array
+    #: Order of the Fourier series at each frequency.
     order: NDArray[np.int64]
+    #: Sum of the squared weighted residuals over their number less the parameters.
     misfit: Array
     notices: tuple[Notice, ...] = ()
 
@@ -285,26 +275,21 @@ def _descend(parameters: Array, basis: Array, weighted: Array, target: Array) ->
 
 @dataclass(frozen=True, eq=False)
 class FourierDirections:
-    """First Fourier coefficients of the spreading at each frequency; equation [eq:records-triplet].
+    """First Fourier coefficients of the spreading at each frequency; equation [eq:records-triplet]."""
 
-    Parameters
-    ----------
-    frequency : ndarray
-        [Hz].
-    spectrum : ndarray
-        Surface elevation [m2/Hz], from the vertical channel.
-    a1, b1, a2, b2 : ndarray
-        Fourier coefficients [-].
-    check_ratio : ndarray
-        Horizontal over vertical energy against linear theory [-]: 1 in a sea that obeys it.
-    """
-
+    #: [Hz].
     frequency: Array
+    #: Surface elevation [m2/Hz], from the vertical channel.
     spectrum: Array
+    #: Fourier coefficients [-].
     a1: Array
+    #: Fourier coefficients [-].
     b1: Array
+    #: Fourier coefficients [-].
     a2: Array
+    #: Fourier coefficients [-].
     b2: Array
+    #: Horizontal over vertical energy against linear theory [-]: 1 in a sea that obeys it.
     check_ratio: Array
 
     def figures(self, lowest: float = 0.0, highest: float = math.inf) -> dict[str, float]:

@@ -25,27 +25,19 @@ _HEADING = re.compile(r"^\s*(?P<name>.*?)\s*(?:\[(?P<unit>[^\]]*)\])?\s*$")
 
 @dataclass(frozen=True, eq=False)
 class FlumeRecord:
-    """Channels sampled on one clock.
+    """Channels sampled on one clock."""
 
-    Parameters
-    ----------
-    time : ndarray, shape (samples,)
-        Instants of the record's own clock [s].
-    names, units : tuple of str
-        Name and unit of each channel; the unit is empty where the file states none.
-    values : ndarray, shape (samples, channels)
-        Values as stored; missing ones are NaN.
-    notices : tuple of Notice
-        What was found odd while reading: missing units, missing values, uneven steps.
-    source : str
-        File name.
-    """
-
+    #: Instants of the record's own clock [s]; shape (samples,).
     time: Array
+    #: ``names``, ``units``: Name and unit of each channel; the unit is empty where the file states none.
     names: tuple[str, ...]
+    #: ``names``, ``units``: Name and unit of each channel; the unit is empty where the file states none.
     units: tuple[str, ...]
+    #: Values as stored; missing ones are NaN; shape (samples, channels).
     values: Array
+    #: What was found odd while reading: missing units, missing values, uneven steps.
     notices: tuple[Notice, ...] = ()
+    #: File name.
     source: str = ""
 
     @property
@@ -68,21 +60,15 @@ class FlumeRecord:
 
 @dataclass(frozen=True)
 class FlumeLayout:
-    """Where things stand along the flume, positions from the wavemaker towards the beach [m].
+    """Where things stand along the flume, positions from the wavemaker towards the beach [m]."""
 
-    Parameters
-    ----------
-    model : float
-        Centre of the model.
-    gauges : mapping of str to float
-        Wave gauges by channel name.
-    front, behind : tuple of str
-        Gauges that separate incident and reflected waves, and gauges of the transmitted wave.
-    """
-
+    #: Centre of the model.
     model: float
+    #: Wave gauges by channel name.
     gauges: Mapping[str, float]
+    #: ``front``, ``behind``: Gauges that separate incident and reflected waves, and gauges of the transmitted wave.
     front: tuple[str, ...]
+    #: ``front``, ``behind``: Gauges that separate incident and reflected waves, and gauges of the transmitted wave.
     behind: tuple[str, ...]
 
     def __post_init__(self) -> None:
@@ -105,41 +91,35 @@ class Window:
 
 @dataclass(frozen=True, eq=False)
 class RegularRun:
-    """What one run in regular waves gives.
+    """What one run in regular waves gives."""
 
-    Parameters
-    ----------
-    period, wave_number : float
-        Wave period [s] and wave number [rad/m].
-    window : Window
-        Useful part of the record.
-    harmonics : Harmonics
-        Mean and harmonics of every channel, phases referred to the record's clock.
-    mean_spread, amplitude_spread : ndarray
-        How much mean and amplitudes move while the whole periods slide in the window.
-    separation : Separation
-        Incident and reflected wave; x = 0 at the centre of the model.
-    reflection, transmission : float
-        Moduli of the reflected and transmitted over the incident first harmonic.
-    reflection_spread, transmission_spread, incident_spread : float
-        The same spread for these (incident in the unit of the gauges).
-    names : tuple of str
-        Channels in the order of the harmonics.
-    notices : tuple of Notice
-    """
-
+    #: ``period``, ``wave_number``: Wave period [s] and wave number [rad/m].
     period: float
+    #: ``period``, ``wave_number``: Wave period [s] and wave number [rad/m].
     wave_number: float
+    #: Useful part of the record.
     window: Window
+    #: Mean and harmonics of every channel, phases referred to the record's clock.
     harmonics: Harmonics
+    #: ``mean_spread``, ``amplitude_spread``: How much mean and amplitudes move while the whole periods slide in the
+    #: window.
     mean_spread: Array
+    #: ``mean_spread``, ``amplitude_spread``: How much mean and amplitudes move while the whole periods slide in the
+    #: window.
     amplitude_spread: Array
+    #: Incident and reflected wave; x = 0 at the centre of the model.
     separation: Separation
+    #: ``reflection``, ``transmission``: Moduli of the reflected and transmitted over the incident first harmonic.
     reflection: float
+    #: ``reflection``, ``transmission``: Moduli of the reflected and transmitted over the incident first harmonic.
     transmission: float
+    #: The same spread for these (incident in the unit of the gauges).
     reflection_spread: float
+    #: The same spread for these (incident in the unit of the gauges).
     transmission_spread: float
+    #: The same spread for these (incident in the unit of the gauges).
     incident_spread: float
+    #: Channels in the order of the harmonics.
     names: tuple[str, ...]
     notices: tuple[Notice, ...] = field(default_factory=tuple)
 

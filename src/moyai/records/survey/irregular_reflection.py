@@ -20,38 +20,29 @@ from moyai.series.spectra import WelchOptions, degrees_of_freedom, taper
 
 @dataclass(frozen=True, eq=False)
 class IrregularSeparation:
-    """What the gauges on one side of a structure say about a sea; equation [eq:records-separation].
+    """What the gauges on one side of a structure say about a sea; equation [eq:records-separation]."""
 
-    Parameters
-    ----------
-    frequency : ndarray
-        [Hz].
-    incident, reflected : ndarray
-        Spectra of waves towards +x and -x [m2/Hz]; NaN where the gauges are badly placed.
-    noise : ndarray
-        Density of what two waves leave unexplained, per gauge [m2/Hz]; NaN with two gauges.
-    condition : ndarray
-        Condition number at each frequency.
-    used : ndarray of bool
-        Frequencies that enter the coefficients.
-    reflection, reflection_error : float
-        Root of the energy ratio over the band, and its standard error over the segments.
-    incident_height, reflected_height : float
-        4 sqrt(m0) over the band [m].
-    degrees_of_freedom : float
-    segments : int
-    notices : tuple of Notice
-    """
-
+    #: [Hz].
     frequency: Array
+    #: ``incident``, ``reflected``: Spectra of waves towards +x and -x [m2/Hz]; NaN where the gauges are badly placed.
     incident: Array
+    #: ``incident``, ``reflected``: Spectra of waves towards +x and -x [m2/Hz]; NaN where the gauges are badly placed.
     reflected: Array
+    #: Density of what two waves leave unexplained, per gauge [m2/Hz]; NaN with two gauges.
     noise: Array
+    #: Condition number at each frequency.
     condition: Array
+    #: Frequencies that enter the coefficients.
     used: NDArray[np.bool_]
+    #: ``reflection``, ``reflection_error``: Root of the energy ratio over the band, and its standard error over the
+    #: segments.
     reflection: float
+    #: ``reflection``, ``reflection_error``: Root of the energy ratio over the band, and its standard error over the
+    #: segments.
     reflection_error: float
+    #: 4 sqrt(m0) over the band [m].
     incident_height: float
+    #: 4 sqrt(m0) over the band [m].
     reflected_height: float
     degrees_of_freedom: float
     segments: int
@@ -293,24 +284,17 @@ def wave_series(
 
 @dataclass(frozen=True, eq=False)
 class Transmission:
-    """Transmission past a structure: root of the energy ratio, with its standard error.
-
-    Parameters
-    ----------
-    coefficient, error : float
-    height : float
-        4 sqrt(m0) of the transmitted waves [m].
-    frequency, ratio : ndarray
-        Root of the ratio of the densities at each frequency [Hz], [-].
-    beach_reflection : float
-        Reflection from behind, NaN with one gauge there.
-    """
+    """Transmission past a structure: root of the energy ratio, with its standard error."""
 
     coefficient: float
     error: float
+    #: 4 sqrt(m0) of the transmitted waves [m].
     height: float
+    #: Root of the ratio of the densities at each frequency [Hz].
     frequency: Array
+    #: Root of the ratio of the densities at each frequency [-].
     ratio: Array
+    #: Reflection from behind, NaN with one gauge there.
     beach_reflection: float
 
 

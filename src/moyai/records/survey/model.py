@@ -33,19 +33,11 @@ UNITS_OF_KINDS = {
 @checks_words
 @dataclass(frozen=True)
 class ChannelUse:
-    """What a channel is and where.
-
-    Parameters
-    ----------
-    name : str
-    kind : str
-    sensor : Sensor, optional
-        For quantities of waves.
-    quality : QualityOptions
-    """
+    """What a channel is and where."""
 
     name: str
     kind: ChannelKind
+    #: For quantities of waves.
     sensor: Sensor | None
     quality: QualityOptions
 
@@ -69,47 +61,31 @@ class Directions:
 
 @dataclass(frozen=True)
 class CurrentUse:
-    """Channels of the current: velocities along x and y, or speed and direction.
+    """Channels of the current: velocities along x and y, or speed and direction."""
 
-    Parameters
-    ----------
-    x, y : str
-        Velocity channels, or speed and direction where ``polar``.
-    polar : bool
-    bearing : bool
-        Whether the direction is a compass bearing (towards which the current goes).
-    normal_heading : float
-        Heading of the structure's normal [rad], NaN where there is none.
-    """
-
+    #: ``x``, ``y``: Velocity channels, or speed and direction where ``polar``.
     x: str
+    #: ``x``, ``y``: Velocity channels, or speed and direction where ``polar``.
     y: str
     polar: bool = False
+    #: Whether the direction is a compass bearing (towards which the current goes).
     bearing: bool = False
+    #: Heading of the structure's normal [rad], NaN where there is none.
     normal_heading: float = math.nan
 
 
 @checks_words
 @dataclass(frozen=True)
 class TensionUse:
-    """A tension channel and how it is split.
-
-    Parameters
-    ----------
-    channel : str
-    group : str
-        Type of structure or of anchor it belongs to.
-    steady : {"mean", "median", "low_pass"}
-    cutoff : float
-        Period of the low pass [s].
-    snap_limit : float
-        Rise over the steady part that counts as a snap [N]; infinite counts none.
-    """
+    """A tension channel and how it is split."""
 
     channel: str
+    #: Type of structure or of anchor it belongs to.
     group: str
     steady: Literal["mean", "median", "low_pass"] = "median"
+    #: Period of the low pass [s].
     cutoff: float = 30.0
+    #: Rise over the steady part that counts as a snap [N]; infinite counts none.
     snap_limit: float = math.inf
 
 
@@ -138,62 +114,37 @@ class ResponseUse:
 
 @dataclass(frozen=True)
 class Survey:
-    """Everything that ``moyai measure records`` does.
-
-    Parameters
-    ----------
-    title : str
-    loggers : tuple of LoggerSource
-    channels : tuple of ChannelUse
-        Of all loggers.
-    block_length : float
-        [s].
-    block_start : float
-        An instant at which a block begins [s]; NaN: whole multiples of the length (dated), or the first sample.
-    water : Water, optional
-    x_axis_bearing : float
-        Compass bearing of +x [rad], NaN where unknown.
-    waves : tuple of str
-        Channels that are cut into waves.
-    wave_options : WaveOptions
-    spectral : Spectral, optional
-    directions : Directions, optional
-    current : CurrentUse, optional
-    tensions : tuple of TensionUse
-    wave_of_tensions : str
-        Wave channel whose waves the tensions are matched to.
-    tension_lag : float
-        Travel time from the gauge to the float [s].
-    largest_lag : float
-        How far the lag may be refined by correlation [s].
-    normal_heading : float
-        Heading of the structure's normal [rad].
-    reflection : ReflectionUse, optional
-    load_measure : callable, optional
-        From H1/3 [m], T1/3 [s], angle from the normal [rad] and normal current [m/s] to the squared velocity that loads
-        a curtain [m2/s2].
-    responses : ResponseUse, optional
-    case_text, case_hash : str
-    """
+    """Everything that ``moyai measure records`` does."""
 
     title: str
     loggers: tuple[LoggerSource, ...]
+    #: Of all loggers.
     channels: tuple[ChannelUse, ...]
+    #: [s].
     block_length: float
+    #: An instant at which a block begins [s]; NaN: whole multiples of the length (dated), or the first sample.
     block_start: float = math.nan
     water: Water | None = None
+    #: Compass bearing of +x [rad], NaN where unknown.
     x_axis_bearing: float = math.nan
+    #: Channels that are cut into waves.
     waves: tuple[str, ...] = ()
     wave_options: WaveOptions = field(default_factory=WaveOptions)
     spectral: Spectral | None = None
     directions: Directions | None = None
     current: CurrentUse | None = None
     tensions: tuple[TensionUse, ...] = ()
+    #: Wave channel whose waves the tensions are matched to.
     wave_of_tensions: str = ""
+    #: Travel time from the gauge to the float [s].
     tension_lag: float = 0.0
+    #: How far the lag may be refined by correlation [s].
     largest_lag: float = 0.0
+    #: Heading of the structure's normal [rad].
     normal_heading: float = math.nan
     reflection: ReflectionUse | None = None
+    #: From H1/3 [m], T1/3 [s], angle from the normal [rad] and normal current [m/s] to the squared velocity that loads
+    #: a curtain [m2/s2].
     load_measure: LoadMeasure | None = None
     responses: ResponseUse | None = None
     case_text: str = ""

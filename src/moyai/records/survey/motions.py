@@ -18,27 +18,24 @@ from moyai.series.spectra import CrossSpectra, WelchOptions, cross_spectra
 
 @dataclass(frozen=True, eq=False)
 class DecayFit:
-    """A free decay in a record.
+    """A free decay in a record."""
 
-    Parameters
-    ----------
-    decay : Decay
-        Period, damping ratio and quadratic damping.
-    rest : float
-        Position at rest [m or rad].
-    start, end : float
-        Part of the record that was used [s].
-    period_error, damping_error, quadratic_error : float
-        Standard errors, over the half cycles left out one by one.
-    notices : tuple of Notice
-    """
-
+    #: Period, damping ratio and quadratic damping.
     decay: Decay
+    #: Position at rest [m or rad].
     rest: float
+    #: Part of the record that was used [s].
     start: float
+    #: Part of the record that was used [s].
     end: float
+    #: ``period_error``, ``damping_error``, ``quadratic_error``: Standard errors, over the half cycles left out one by
+    #: one.
     period_error: float
+    #: ``period_error``, ``damping_error``, ``quadratic_error``: Standard errors, over the half cycles left out one by
+    #: one.
     damping_error: float
+    #: ``period_error``, ``damping_error``, ``quadratic_error``: Standard errors, over the half cycles left out one by
+    #: one.
     quadratic_error: float
     notices: tuple[Notice, ...] = ()
 
@@ -181,32 +178,20 @@ def _jackknife(decay: Decay, quadratic: bool) -> tuple[float, float, float]:
 
 @dataclass(frozen=True, eq=False)
 class ResponseFunction:
-    """Linear response to the waves at each frequency; equation [eq:records-response].
+    """Linear response to the waves at each frequency; equation [eq:records-response]."""
 
-    Parameters
-    ----------
-    frequency : ndarray
-        [Hz].
-    response : ndarray
-        Complex, ``Re(X exp(-i omega t))`` per unit wave amplitude; NaN outside the band or without coherence.
-    coherence : ndarray
-        Squared coherence [-].
-    error : ndarray
-        Standard error of the modulus.
-    phase_error : ndarray
-        Standard error of the phase [rad].
-    degrees_of_freedom : float
-    coherent : ndarray of bool
-        Where the coherence exceeds what chance gives in 95 of 100 records, and the limit asked for.
-    notices : tuple of Notice
-    """
-
+    #: [Hz].
     frequency: Array
+    #: Complex, ``Re(X exp(-i omega t))`` per unit wave amplitude; NaN outside the band or without coherence.
     response: ComplexArray
+    #: Squared coherence [-].
     coherence: Array
+    #: Standard error of the modulus.
     error: Array
+    #: Standard error of the phase [rad].
     phase_error: Array
     degrees_of_freedom: float
+    #: Where the coherence exceeds what chance gives in 95 of 100 records, and the limit asked for.
     coherent: NDArray[np.bool_]
     notices: tuple[Notice, ...] = ()
 
@@ -337,58 +322,19 @@ def response_of(
     )
 
 
-@dataclass(frozen=True)
-class ImagePlane:
-    """From pixels of a camera that looks along the structure to metres in the x-z plane.
-
-    Parameters
-    ----------
-    scale : float
-        Metres per pixel.
-    origin : tuple of float
-        Pixel (column, row) of x = 0, z = 0.
-    tilt : float
-        Angle by which the camera is turned about its axis: positive when the level line rises to the right in the
-        picture [rad].
-    mirrored : bool
-        Whether +x points to the left in the picture.
-    """
-
-    scale: float
-    origin: tuple[float, float] = (0.0, 0.0)
-    tilt: float = 0.0
-    mirrored: bool = False
-
-    def to_plane(self, pixels: ArrayLike) -> Array:
-        """Return x and z [m] of pixels (..., 2), columns to the right and rows downwards."""
-        p = np.asarray(pixels, dtype=float)
-        right, up = (p[..., 0] - self.origin[0]) * self.scale, (self.origin[1] - p[..., 1]) * self.scale
-        c, s = math.cos(self.tilt), math.sin(self.tilt)
-        x, z = c * right + s * up, -s * right + c * up
-        return np.stack([-x if self.mirrored else x, z], axis=-1)
-
-
 @dataclass(frozen=True, eq=False)
 class RigidMotion:
-    """Planar motion of a body from its markers; equation [eq:records-markers].
+    """Planar motion of a body from its markers; equation [eq:records-markers]."""
 
-    Parameters
-    ----------
-    sway, heave : ndarray
-        Displacement of the reference point [m].
-    roll : ndarray
-        Rotation [rad], positive about +y: moves a point above the centre towards +x.
-    residual : ndarray
-        Root mean square distance of the markers from the rigid body [m]; NaN with two markers or fewer.
-    seen : ndarray of int
-        Markers seen at each instant; with fewer than two the motion is NaN.
-    notices : tuple of Notice
-    """
-
+    #: Displacement of the reference point [m].
     sway: Array
+    #: Displacement of the reference point [m].
     heave: Array
+    #: Rotation [rad], positive about +y: moves a point above the centre towards +x.
     roll: Array
+    #: Root mean square distance of the markers from the rigid body [m]; NaN with two markers or fewer.
     residual: Array
+    #: Markers seen at each instant; with fewer than two the motion is NaN.
     seen: NDArray[np.int64]
     notices: tuple[Notice, ...] = ()
 

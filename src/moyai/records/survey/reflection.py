@@ -30,27 +30,23 @@ LARGEST_CONDITION = 6.32
 
 @dataclass(frozen=True, eq=False)
 class Separation:
-    """Incident and reflected waves at one or more frequencies; equation [eq:two-wave-model].
+    """Incident and reflected waves at one or more frequencies; equation [eq:two-wave-model]."""
 
-    Parameters
-    ----------
-    incident, reflected : ndarray, shape (frequencies,)
-        Complex amplitudes at x = 0 of waves towards +x and -x, in the unit of the gauges.
-    condition : ndarray, shape (frequencies,)
-        Condition number of the 2 x 2 problem: 1 is ideal, infinite is singular.
-    residual : ndarray, shape (frequencies,)
-        Root mean square over the gauges of what two waves leave unexplained (zero by construction for two gauges).
-    standard_error : ndarray, shape (frequencies, 2)
-        Standard error of the two complex amplitudes from the residual; NaN for two gauges, which leave none.
-    notices : tuple of Notice
-        One for each frequency that is badly conditioned.
-    """
-
+    #: ``incident``, ``reflected``: Complex amplitudes at x = 0 of waves towards +x and -x, in the unit of the gauges;
+    #: shape (frequencies,).
     incident: ComplexArray
+    #: ``incident``, ``reflected``: Complex amplitudes at x = 0 of waves towards +x and -x, in the unit of the gauges;
+    #: shape (frequencies,).
     reflected: ComplexArray
+    #: Condition number of the 2 x 2 problem: 1 is ideal, infinite is singular; shape (frequencies,).
     condition: Array
+    #: Root mean square over the gauges of what two waves leave unexplained (zero by construction for two gauges); shape
+    #: (frequencies,).
     residual: Array
+    #: Standard error of the two complex amplitudes from the residual; NaN for two gauges, which leave none; shape
+    #: (frequencies, 2).
     standard_error: Array
+    #: One for each frequency that is badly conditioned.
     notices: tuple[Notice, ...] = ()
 
     @property

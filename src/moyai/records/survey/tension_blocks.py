@@ -29,76 +29,59 @@ _SLOWEST_RATE = 10.0
 
 @dataclass(frozen=True, eq=False)
 class SingleWaves:
-    """Every wave of a campaign with the tension in its time; rows are waves.
+    """Every wave of a campaign with the tension in its time; rows are waves."""
 
-    Parameters
-    ----------
-    block : ndarray of int
-        Row of :class:`Blocks` that the wave belongs to.
-    height, period : ndarray
-        Own height [m] and period [s].
-    top : ndarray, shape (waves, lines)
-        Largest fluctuating tension, between the samples [N]; NaN where there is none.
-    """
-
+    #: Row of :class:`Blocks` that the wave belongs to.
     block: NDArray[np.int64]
+    #: ``height``, ``period``: Own height [m] and period [s].
     height: Array
+    #: ``height``, ``period``: Own height [m] and period [s].
     period: Array
+    #: Largest fluctuating tension, between the samples [N]; NaN where there is none; shape (waves, lines).
     top: Array
 
 
 @dataclass(frozen=True, eq=False)
 class Blocks:
-    """Waves, current and tensions of all blocks of a campaign; rows are blocks.
+    """Waves, current and tensions of all blocks of a campaign; rows are blocks."""
 
-    Parameters
-    ----------
-    start : ndarray
-        Of each block [s].
-    maximum_height, significant_height, significant_period : ndarray
-        H_max, H_1/3 [m], T_1/3 [s].
-    wave_count : ndarray
-        Waves.
-    angle : ndarray
-        Of the waves from the normal of the curtain [rad], folded to 0 .. pi/2; NaN where not given.
-    current_normal : ndarray
-        Mean component of the current along the normal [m/s]; NaN where not given.
-    steady : ndarray, shape (blocks, lines)
-        Mean of the steady part [N].
-    maximum, tenth, third, mean : ndarray, shape (blocks, lines)
-        Statistics of the fluctuating maxima [N].
-    matched, double : ndarray, shape (blocks, lines)
-        Waves with a maximum; with a double peak.
-    delay : ndarray, shape (blocks, lines)
-        [s].
-    noise : ndarray, shape (blocks, lines)
-        Root mean square of the samples below the steady level about it [N]: pulls only add, so what lies below is
-        noise of the gauge and slow motion.
-    waves : SingleWaves
-    steady_rule : str
-        How tensions were split.
-    notices : tuple of Notice
-        What makes the numbers doubtful.
-    """
-
+    #: Of each block [s].
     start: Array
+    #: ``maximum_height``, ``significant_height``, ``significant_period``: H_max, H_1/3 [m], T_1/3 [s].
     maximum_height: Array
+    #: ``maximum_height``, ``significant_height``, ``significant_period``: H_max, H_1/3 [m], T_1/3 [s].
     significant_height: Array
+    #: ``maximum_height``, ``significant_height``, ``significant_period``: H_max, H_1/3 [m], T_1/3 [s].
     significant_period: Array
+    #: Waves.
     wave_count: Array
+    #: Of the waves from the normal of the curtain [rad], folded to 0 .. pi/2; NaN where not given.
     angle: Array
+    #: Mean component of the current along the normal [m/s]; NaN where not given.
     current_normal: Array
+    #: Mean of the steady part [N]; shape (blocks, lines).
     steady: Array
+    #: Statistics of the fluctuating maxima [N]; shape (blocks, lines).
     maximum: Array
+    #: Statistics of the fluctuating maxima [N]; shape (blocks, lines).
     tenth: Array
+    #: Statistics of the fluctuating maxima [N]; shape (blocks, lines).
     third: Array
+    #: Statistics of the fluctuating maxima [N]; shape (blocks, lines).
     mean: Array
+    #: ``matched``, ``double``: Waves with a maximum; with a double peak; shape (blocks, lines).
     matched: Array
+    #: ``matched``, ``double``: Waves with a maximum; with a double peak; shape (blocks, lines).
     double: Array
+    #: [s]; shape (blocks, lines).
     delay: Array
+    #: Root mean square of the samples below the steady level about it [N]: pulls only add, so what lies below is noise
+    #: of the gauge and slow motion; shape (blocks, lines).
     noise: Array
     waves: SingleWaves
+    #: How tensions were split.
     steady_rule: str
+    #: What makes the numbers doubtful.
     notices: tuple[Notice, ...]
 
     def __len__(self) -> int:

@@ -27,20 +27,13 @@ _DOUBLE = 0.7
 
 @dataclass(frozen=True, eq=False)
 class SplitTension:
-    """A tension as steady plus fluctuating part.
+    """A tension as steady plus fluctuating part."""
 
-    Parameters
-    ----------
-    steady : ndarray
-        At each sample [N]; one value throughout for ``median`` and ``mean``.
-    fluctuating : ndarray
-        [N].
-    rule : {"median", "mean", "low_pass"}
-        How it was split.
-    """
-
+    #: At each sample [N]; one value throughout for ``median`` and ``mean``.
     steady: Array
+    #: [N].
     fluctuating: Array
+    #: How it was split; one of "median", "mean", "low_pass".
     rule: SteadyRule
 
     @property
@@ -87,26 +80,17 @@ def split_tension(
 
 @dataclass(frozen=True, eq=False)
 class WaveTensions:
-    """Largest fluctuating tension in the time of each wave.
+    """Largest fluctuating tension in the time of each wave."""
 
-    Parameters
-    ----------
-    maximum : ndarray
-        [N], in the order of the waves; NaN where a wave has no sample, or lacks more than a tenth of them.
-    top : ndarray
-        Top of the parabola through the largest sample and its neighbours [N]: what samples miss of a smooth pull.
-    time : ndarray
-        When [s].
-    double : ndarray of bool
-        Whether a second, separate peak comes near the first (bounces, or two lines).
-    delay : float
-        By which the windows were shifted against the waves [s].
-    """
-
+    #: [N], in the order of the waves; NaN where a wave has no sample, or lacks more than a tenth of them.
     maximum: Array
+    #: Top of the parabola through the largest sample and its neighbours [N]: what samples miss of a smooth pull.
     top: Array
+    #: When [s].
     time: Array
+    #: Whether a second, separate peak comes near the first (bounces, or two lines).
     double: NDArray[np.bool_]
+    #: By which the windows were shifted against the waves [s].
     delay: float
 
     @property
@@ -230,20 +214,17 @@ def find_delay(time: ArrayLike, elevation: ArrayLike, fluctuating: ArrayLike, *,
 
 @dataclass(frozen=True)
 class TensionStatistics:
-    """Statistics of the maxima of one block.
+    """Statistics of the maxima of one block."""
 
-    Parameters
-    ----------
-    maximum, tenth, third, mean : float
-        Largest, means of the highest tenth and third, mean of all [N].
-    count : int
-        Maxima.
-    """
-
+    #: ``maximum``, ``tenth``, ``third``, ``mean``: Largest, means of the highest tenth and third, mean of all [N].
     maximum: float
+    #: ``maximum``, ``tenth``, ``third``, ``mean``: Largest, means of the highest tenth and third, mean of all [N].
     tenth: float
+    #: ``maximum``, ``tenth``, ``third``, ``mean``: Largest, means of the highest tenth and third, mean of all [N].
     third: float
+    #: ``maximum``, ``tenth``, ``third``, ``mean``: Largest, means of the highest tenth and third, mean of all [N].
     mean: float
+    #: Maxima.
     count: int
 
 

@@ -27,60 +27,39 @@ CONSTITUENTS: Mapping[str, float] = {
 
 @dataclass(frozen=True)
 class Ellipse:
-    """Tidal ellipse of one constituent.
-
-    Parameters
-    ----------
-    name : str
-    period : float
-        [s].
-    major, minor : float
-        Semi-axes [m/s]; a negative minor axis turns clockwise.
-    heading : float
-        Of the major axis, in (-pi/2, pi/2] [rad].
-    phase : float
-        Time of the largest current along that heading after ``reference``, as an angle [rad].
-    error : float
-        Standard error of the semi-axes from the spectrum of the rest near the constituent [m/s].
-    """
+    """Tidal ellipse of one constituent."""
 
     name: str
+    #: [s].
     period: float
+    #: ``major``, ``minor``: Semi-axes [m/s]; a negative minor axis turns clockwise.
     major: float
+    #: ``major``, ``minor``: Semi-axes [m/s]; a negative minor axis turns clockwise.
     minor: float
+    #: Of the major axis, in (-pi/2, pi/2] [rad].
     heading: float
+    #: Time of the largest current along that heading after ``reference``, as an angle [rad].
     phase: float
+    #: Standard error of the semi-axes from the spectrum of the rest near the constituent [m/s].
     error: float
 
 
 @dataclass(frozen=True, eq=False)
 class TidalFit:
-    """Constituents of a current or, with ``y`` zero, of a water level; equation [eq:records-tide].
-
-    Parameters
-    ----------
-    ellipses : tuple of Ellipse
-    mean : tuple of float
-        Residual current (x, y) [m/s].
-    trend : tuple of float
-        [m/s per s].
-    explained : float
-        Share of the variance that the constituents explain [-].
-    reference : float
-        Instant of phase zero [s].
-    amplitudes : ndarray, shape (constituents, 2)
-        Complex amplitudes ``Re(X exp(-i omega (t - reference)))`` along x and y.
-    left_out : tuple of str
-        Constituents that the record is too short to tell from a larger neighbour.
-    notices : tuple of Notice
-    """
+    """Constituents of a current or, with ``y`` zero, of a water level; equation [eq:records-tide]."""
 
     ellipses: tuple[Ellipse, ...]
+    #: Residual current (x, y) [m/s].
     mean: tuple[float, float]
+    #: [m/s per s].
     trend: tuple[float, float]
+    #: Share of the variance that the constituents explain [-].
     explained: float
+    #: Instant of phase zero [s].
     reference: float
+    #: Complex amplitudes ``Re(X exp(-i omega (t - reference)))`` along x and y; shape (constituents, 2).
     amplitudes: ArrayLike
+    #: Constituents that the record is too short to tell from a larger neighbour.
     left_out: tuple[str, ...]
     notices: tuple[Notice, ...]
 

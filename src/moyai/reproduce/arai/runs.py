@@ -38,19 +38,12 @@ def speed(number: float) -> float:
 
 @dataclass(frozen=True)
 class Runs:
-    """The runs that the figures and statements read.
+    """The runs that the figures and statements read."""
 
-    Parameters
-    ----------
-    members : mapping of str to Result
-        By section.
-    cases : mapping of str to MemberProblem
-    particles : int
-        Particles on a ring.
-    """
-
+    #: By section.
     members: dict[str, Result]
     cases: dict[str, MemberProblem]
+    #: Particles on a ring.
     particles: int
 
     def sweep(self, section: str) -> xr.Dataset:

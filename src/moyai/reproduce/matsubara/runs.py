@@ -30,32 +30,25 @@ SHORE, OFFSHORE = "shore", "offshore"
 
 @dataclass(frozen=True)
 class Wave:
-    """What one wave does to the cage.
+    """What one wave does to the cage."""
 
-    Parameters
-    ----------
-    period, height : float
-        [s], [m].
-    time : ndarray
-        Of the last two periods, from 0 [s].
-    sway, heave, rotation : ndarray
-        From rest [m], [m], [rad].
-    tension : mapping of str to ndarray
-        At the cage, by side [N].
-    peak : mapping of str to float
-        Largest tension of the last ten periods, by side [N].
-    phase : float
-        Phase of sway after heave [rad].
-    """
-
+    #: [s].
     period: float
+    #: [m].
     height: float
+    #: Of the last two periods, from 0 [s].
     time: Array
+    #: From rest [m].
     sway: Array
+    #: From rest [m].
     heave: Array
+    #: From rest [rad].
     rotation: Array
+    #: At the cage, by side [N].
     tension: dict[str, Array]
+    #: Largest tension of the last ten periods, by side [N].
     peak: dict[str, float]
+    #: Phase of sway after heave [rad].
     phase: float
 
     def ratio(self, mode: str) -> float:
@@ -70,25 +63,17 @@ class Wave:
 
 @dataclass(frozen=True)
 class Runs:
-    """The runs that the figures and statements read.
+    """The runs that the figures and statements read."""
 
-    Parameters
-    ----------
-    taut, slack : tuple of Wave
-        Over the periods of the case files.
-    higher : tuple of Wave
-        Taut, over the wave heights.
-    case : RigidCageProblem
-        On taut lines.
-    results : tuple of Result
-        Taut and slack.
-    quick : bool
-    """
-
+    #: Over the periods of the case files.
     taut: tuple[Wave, ...]
+    #: Over the periods of the case files.
     slack: tuple[Wave, ...]
+    #: Taut, over the wave heights.
     higher: tuple[Wave, ...]
+    #: On taut lines.
     case: RigidCageProblem
+    #: Taut and slack.
     results: tuple[Result, Result]
     quick: bool
 

@@ -192,7 +192,7 @@ def figures(runs: Runs) -> tuple[PaperFigure, ...]:
     for number, state in states:
         out += [
             PaperFigure(f"{number}{LETTERS[i]}", _motion(runs, f"{number}{LETTERS[i]}", state, i)) for i in range(3)
-        ]  # type: ignore[arg-type]
+        ]
     out.append(PaperFigure("7", _drift(runs)))
     out += [PaperFigure(f"8{LETTERS[i]}", _stiffness(runs, f"8{LETTERS[i]}", i)) for i in range(3)]
     out += [PaperFigure(f"9{LETTERS[i]}", _motion(runs, f"9{LETTERS[i]}", "drifted", i)) for i in range(3)]

@@ -25,28 +25,29 @@ MODES = ("sway", "heave", "roll")
 
 @dataclass(frozen=True)
 class Runs:
-    """The runs that the figures and statements read.
+    """The runs that the figures and statements read."""
 
-    Parameters
-    ----------
-    undamped, damped, drifted : Result
-        Frequency domain over :data:`CURVE`: no damping beyond waves; 15 % of critical; that and the drift force.
-    undamped_time, damped_time, drifted_time : Result
-        The same in time at the periods of the paper, chains at rest at every instant.
-    moving_time : Result
-        With drift and chains in motion.
-    case : BreakwaterProblem
-        As the case file states it.
-    quick : bool
-    """
-
+    #: ``undamped``, ``damped``, ``drifted``: Frequency domain over :data:`CURVE`: no damping beyond waves; 15 % of
+    #: critical; that and the drift force.
     undamped: Result
+    #: ``undamped``, ``damped``, ``drifted``: Frequency domain over :data:`CURVE`: no damping beyond waves; 15 % of
+    #: critical; that and the drift force.
     damped: Result
+    #: ``undamped``, ``damped``, ``drifted``: Frequency domain over :data:`CURVE`: no damping beyond waves; 15 % of
+    #: critical; that and the drift force.
     drifted: Result
+    #: ``undamped_time``, ``damped_time``, ``drifted_time``: The same in time at the periods of the paper, chains at
+    #: rest at every instant.
     undamped_time: Result
+    #: ``undamped_time``, ``damped_time``, ``drifted_time``: The same in time at the periods of the paper, chains at
+    #: rest at every instant.
     damped_time: Result
+    #: ``undamped_time``, ``damped_time``, ``drifted_time``: The same in time at the periods of the paper, chains at
+    #: rest at every instant.
     drifted_time: Result
+    #: With drift and chains in motion.
     moving_time: Result
+    #: As the case file states it.
     case: BreakwaterProblem
     quick: bool
 

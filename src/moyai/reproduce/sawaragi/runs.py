@@ -36,38 +36,28 @@ TOE_MASS, SHEET_MASS, RELEASE = 0.467, 0.1, 4.5
 
 @dataclass(frozen=True)
 class Record:
-    """A release: held on the line between the supports, let go, taut, steady.
-
-    Parameters
-    ----------
-    motion : SlackTautMotion
-    taut, rise : float
-        Taut instant and time from there to the spike [s].
-    spike, plateau : float
-        Sum of both cables [N].
-    """
+    """A release: held on the line between the supports, let go, taut, steady."""
 
     motion: SlackTautMotion
+    #: ``taut``, ``rise``: Taut instant and time from there to the spike [s].
     taut: float
+    #: ``taut``, ``rise``: Taut instant and time from there to the spike [s].
     rise: float
+    #: Sum of both cables [N].
     spike: float
+    #: Sum of both cables [N].
     plateau: float
 
 
 @dataclass(frozen=True, eq=False)
 class SpanRecord:
-    """A release of the whole span: slack and gathered between the supports, picked up, steady.
+    """A release of the whole span: slack and gathered between the supports, picked up, steady."""
 
-    Parameters
-    ----------
-    time, tension : ndarray
-        [s] from release; sum of both cables at a support [N].
-    plateau : float
-        Mean of the last tenth [N].
-    """
-
+    #: [s] from release.
     time: Array
+    #: Sum of both cables at a support [N].
     tension: Array
+    #: Mean of the last tenth [N].
     plateau: float
 
     @property
@@ -98,22 +88,14 @@ class SpanRecord:
 
 @dataclass(frozen=True)
 class Runs:
-    """The span of the flume and what the figures and statements ask of it.
+    """The span of the flume and what the figures and statements ask of it."""
 
-    Parameters
-    ----------
-    span : Impact
-        With cables of fishing line.
-    case : CurtainProblem
-    points : int
-        Points on a curve.
-    cells : (int, int)
-        Of the whole span, along and down.
-    """
-
+    #: With cables of fishing line.
     span: Impact
     case: CurtainProblem
+    #: Points on a curve.
     points: int
+    #: Of the whole span, along and down.
     cells: tuple[int, int] = (24, 8)
 
     def with_stiffness(self, total: float) -> Impact:

@@ -42,24 +42,17 @@ ROPES = {"890 kN/m": 890e3, "890 kN": 890e3 / 46.0}
 
 @dataclass(frozen=True)
 class Runs:
-    """The runs that the figures and statements read.
+    """The runs that the figures and statements read."""
 
-    Parameters
-    ----------
-    data : Campaign
-        Synthetic.
-    new, conventional : Blocks
-        Both types through the chain of the paper.
-    typhoon : mapping
-        Highest tensions of an anchor rope in the typhoon, a realisation each, by the stiffness of :data:`ROPES` [N].
-    case : CurtainProblem
-        The curtain of the site.
-    """
-
+    #: Synthetic.
     data: Campaign
+    #: Both types through the chain of the paper.
     new: Blocks
+    #: Both types through the chain of the paper.
     conventional: Blocks
+    #: Highest tensions of an anchor rope in the typhoon, a realisation each, by the stiffness of :data:`ROPES` [N].
     typhoon: Mapping[str, Array]
+    #: The curtain of the site.
     case: CurtainProblem
 
     @cached_property

@@ -24,14 +24,9 @@ HEEL_LIMIT = math.radians(1.0)
 
 @dataclass(frozen=True)
 class BodyFrameLines:
-    """Lines about the centre of gravity of the unit, as the loops of :mod:`moyai.floating` ask for them.
+    """Lines about the centre of gravity of the unit, as the loops of :mod:`moyai.floating` ask for them."""
 
-    Parameters
-    ----------
-    planar : PlanarLineSystem
-        Lines whose body origin is the centre of gravity at rest.
-    """
-
+    #: Lines whose body origin is the centre of gravity at rest.
     planar: PlanarLineSystem
 
     def force(self, position: Array) -> Array:
@@ -45,51 +40,34 @@ class BodyFrameLines:
 
 @dataclass(frozen=True)
 class FloatingUnit:
-    """The unit at rest at one water level, in a frame whose z = 0 is that level.
+    """The unit at rest at one water level, in a frame whose z = 0 is that level."""
 
-    Parameters
-    ----------
-    name : str
-        Name of the water level.
-    level : float
-        Elevation above datum [m].
-    water : Water
-        With the depth at that level.
-    breakwater : Breakwater
-    section : Section
-        Wetted section at rest.
-    draught, heel : float
-        At rest [m, rad].
-    mass : float
-        Mass of the unit [kg].
-    centre : tuple of float
-        Centre of gravity (x, z) [m].
-    inertia : ndarray (3, 3)
-    statics : Hydrostatics
-    lines : tuple of LineElement
-        With fairleads relative to the centre of gravity and anchors relative to it too.
-    mooring : BodyFrameLines
-    line_pull : float
-        Downward pull of all lines at rest [N].
-    imbalance : float
-        [%] of the displacement.
-    notices : tuple of Notice
-    """
-
+    #: Name of the water level.
     name: str
+    #: Elevation above datum [m].
     level: float
+    #: With the depth at that level.
     water: Water
     breakwater: Breakwater
+    #: Wetted section at rest.
     section: Section
+    #: At rest [m, rad].
     draught: float
+    #: At rest [m, rad].
     heel: float
+    #: Mass of the unit [kg].
     mass: float
+    #: Centre of gravity (x, z) [m].
     centre: tuple[float, float]
+    #: Shape (3, 3).
     inertia: Array
     statics: Hydrostatics
+    #: With fairleads relative to the centre of gravity and anchors relative to it too.
     lines: tuple[LineElement, ...]
     mooring: BodyFrameLines
+    #: Downward pull of all lines at rest [N].
     line_pull: float
+    #: [%] of the displacement.
     imbalance: float
     notices: tuple[Notice, ...] = ()
 

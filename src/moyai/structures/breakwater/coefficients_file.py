@@ -15,12 +15,13 @@ def planar_coefficients(problem: BreakwaterProblem) -> tuple[Callable[[Any], Any
     Raises
     ------
     InputError
-        When the file cannot be read.
+        When the file cannot be read, or holds for another depth.
     """
     given = problem.breakwater.coefficients_file
     if given is None:
         return None, ()
     from moyai.interop.checks import import_notices
+    from moyai.interop.limits import match_site
     from moyai.interop.planar import to_planar
     from moyai.interop.read import read_coefficients
 
@@ -28,9 +29,15 @@ def planar_coefficients(problem: BreakwaterProblem) -> tuple[Callable[[Any], Any
     sea, origin = options.pop("sea"), options.pop("origin")
     dataset = read_coefficients(given.program, given.path, options)
 
+    notices = list(import_notices(dataset))
+    environment = problem.environment
+    for _, level in environment.water_levels:
+        notices += match_site(dataset, environment.water_at(level))[1]
+
     def of_unit(unit: Any) -> Any:
+        matched, _ = match_site(dataset, unit.water)
         return to_planar(
-            dataset, length=problem.breakwater.length, centre_of_gravity=unit.centre, sea=sea, origin=origin
+            matched, length=problem.breakwater.length, centre_of_gravity=unit.centre, sea=sea, origin=origin
         )
 
-    return of_unit, import_notices(dataset)
+    return of_unit, tuple(notices)

@@ -21,7 +21,8 @@ from moyai.floating.coefficients import Hydrodynamics
 from moyai.potential.damping_model import Start
 from moyai.potential.memory_plan import FrequencyPlan, recommend_frequencies, refine_frequencies
 from moyai.potential.modes import rigid_modes
-from moyai.potential.solver import RadiationDiffraction, solve
+from moyai.potential.solution import RadiationDiffraction
+from moyai.potential.solver import solve
 from moyai.sea.dispersion import angular_frequency, wave_number
 from moyai.structures.breakwater.assembly import FloatingUnit
 from moyai.structures.breakwater.model import BreakwaterProblem, IrregularSea, RegularSea
@@ -48,28 +49,17 @@ ENERGY_LEFT_OUT = 1e-3  # share of a spectrum beyond the highest frequency of it
 
 @dataclass(frozen=True)
 class UnitHydrodynamics:
-    """Coefficients of the unit at one water level.
+    """Coefficients of the unit at one water level."""
 
-    Parameters
-    ----------
-    per_metre : xarray.Dataset
-        In Capytaine's names, per metre of structure (or of the whole unit from a 3-D program, attribute ``length``).
-    oblique_per_metre : xarray.Dataset or None
-        The oblique headings of the case.
-    unit : Hydrodynamics
-        Of the whole unit in normal incidence, over the whole band.
-    by_heading : tuple of Hydrodynamics
-        The same, one heading each, with the radiation that belongs to that heading.
-    solution : RadiationDiffraction or None
-        Of the section; ``None`` with coefficients of another program.
-    checks : tuple of IdentityCheck
-    notices : tuple of Notice
-    """
-
+    #: In Capytaine's names, per metre of structure (or of the whole unit from a 3-D program, attribute ``length``).
     per_metre: xr.Dataset
+    #: The oblique headings of the case.
     oblique_per_metre: xr.Dataset | None
+    #: Of the whole unit in normal incidence, over the whole band.
     unit: Hydrodynamics
+    #: The same, one heading each, with the radiation that belongs to that heading.
     by_heading: tuple[Hydrodynamics, ...]
+    #: Of the section; ``None`` with coefficients of another program.
     solution: RadiationDiffraction | None
     checks: tuple[IdentityCheck, ...]
     notices: tuple[Notice, ...]

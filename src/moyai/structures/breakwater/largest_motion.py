@@ -48,25 +48,19 @@ def beyond_range(data: xr.Dataset, statics: xr.Dataset | None) -> NDArray[np.boo
 
 @dataclass(frozen=True)
 class LargestOfPeriods:
-    """The largest motions of a regular sea.
+    """The largest motions of a regular sea."""
 
-    Parameters
-    ----------
-    domain : {"time", "frequency"}
-        That governs the sea.
-    data : xarray.Dataset
-        Of that domain.
-    frequency, statics : xarray.Dataset or None
-        The same sea in the frequency domain, which stands in where the time domain is out of its range; the unit at
-        rest.
-    where : str
-        Level and sea.
-    """
-
+    #: That governs the sea; one of "time", "frequency".
     domain: str
+    #: Of that domain.
     data: xr.Dataset
+    #: ``frequency``, ``statics``: The same sea in the frequency domain, which stands in where the time domain is out of
+    #: its range; the unit at rest.
     frequency: xr.Dataset | None
+    #: ``frequency``, ``statics``: The same sea in the frequency domain, which stands in where the time domain is out of
+    #: its range; the unit at rest.
     statics: xr.Dataset | None
+    #: Level and sea.
     where: str
 
     def offset(self) -> list[Headline]:

@@ -38,22 +38,13 @@ STATE_TOLERANCE = 1e-3
 
 @dataclass(frozen=True)
 class UnitMemory:
-    """Memory of the unit and the coefficients that it was made of.
+    """Memory of the unit and the coefficients that it was made of."""
 
-    Parameters
-    ----------
-    beam_sea : Hydrodynamics
-        Of the whole unit over the wide band, normal incidence.
-    functions : MemoryFunctions
-        Per unit.
-    memory : StateSpaceMemory or ConvolutionMemory
-        What the integrator takes.
-    checks : tuple of IdentityCheck
-    notices : tuple of Notice
-    """
-
+    #: Of the whole unit over the wide band, normal incidence.
     beam_sea: Hydrodynamics
+    #: Per unit.
     functions: MemoryFunctions
+    #: What the integrator takes.
     memory: Memory
     checks: tuple[IdentityCheck, ...]
     notices: tuple[Notice, ...]

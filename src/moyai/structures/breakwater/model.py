@@ -37,76 +37,50 @@ DEFAULT_REALISATIONS = 5  # the mean of so many maxima is known to about half th
 @checks_words
 @dataclass(frozen=True)
 class Damping:
-    """Damping beyond wave radiation.
+    """Damping beyond wave radiation."""
 
-    Parameters
-    ----------
-    fraction_of_critical : float
-        zeta of P3: C_jj = 2 zeta sqrt((M + mu)_jj (K_H + K_M)_jj).
-    modes : tuple of str
-        Modes that it is applied to.
-    linear : tuple of three float
-        Additional linear damping, sway [N s/m], heave [N s/m], roll [N m s], of the whole unit.
-    roll_quadratic : float
-        Coefficient b2 of b2 |theta'| theta' [N m s2], of the whole unit.
-    viscous : bool
-        Whether damping by eddies at the edges is computed from the section (the default of a case file).
-    viscous_factor : float
-        What the computed damping is multiplied with.
-    band : tuple of two float
-        Factors on the unit's own damping that transmission and motions are given a band for.
-    """
-
+    #: zeta of P3: C_jj = 2 zeta sqrt((M + mu)_jj (K_H + K_M)_jj).
     fraction_of_critical: float = 0.0
+    #: Modes that it is applied to.
     modes: tuple[Mode, ...] = MODES
+    #: Additional linear damping, sway [N s/m], heave [N s/m], roll [N m s], of the whole unit.
     linear: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    #: Coefficient b2 of b2 |theta'| theta' [N m s2], of the whole unit.
     roll_quadratic: float = 0.0
+    #: Whether damping by eddies at the edges is computed from the section (the default of a case file).
     viscous: bool = False
+    #: What the computed damping is multiplied with.
     viscous_factor: float = 1.0
+    #: Factors on the unit's own damping that transmission and motions are given a band for.
     band: tuple[float, float] = (1.0, 1.0)
 
 
 @dataclass(frozen=True)
 class MooringLine:
-    """Identical lines between the bed and the body.
-
-    Parameters
-    ----------
-    name : str
-    count : int
-        Number of identical lines (they share one computation).
-    fairlead : tuple of three float
-        x from the centre line, y along the unit, z above the keel [m].
-    anchor : tuple of three float
-        x, y from the centre of the unit, z above the bed [m].
-    segments : tuple of Segment
-        From the anchor to the fairlead.
-    clumps : tuple of Clump
-        Weights or buoys between segments.
-    bed_friction : float
-        Coulomb coefficient of the line on the bed.
-    drag_width : float
-        Drag coefficient across the line times its drag diameter [m]; 0 leaves the drag of the line out, of a line in
-        motion in time it takes that of its segments.
-    dynamic : bool
-        Whether the line is in motion in the time domain from the start, with drag, inertia and slack.
-    bar_types : tuple of BarType
-        What each segment is made of, for a line in motion; its internal damping is chosen later. Empty where the
-        segments do not tell enough: the line then stays at rest at every instant.
-    clump_bodies : tuple of (float, float)
-        Mass [kg] and volume [m3] of each clump, for a line in motion.
-    """
+    """Identical lines between the bed and the body."""
 
     name: str
+    #: Number of identical lines (they share one computation).
     count: int
+    #: x from the centre line, y along the unit, z above the keel [m].
     fairlead: tuple[float, float, float]
+    #: x, y from the centre of the unit, z above the bed [m].
     anchor: tuple[float, float, float]
+    #: From the anchor to the fairlead.
     segments: tuple[Segment, ...]
+    #: Weights or buoys between segments.
     clumps: tuple[Clump, ...] = ()
+    #: Coulomb coefficient of the line on the bed.
     bed_friction: float = 0.0
+    #: Drag coefficient across the line times its drag diameter [m]; 0 leaves the drag of the line out, of a line in
+    #: motion in time it takes that of its segments.
     drag_width: float = 0.0
+    #: Whether the line is in motion in the time domain from the start, with drag, inertia and slack.
     dynamic: bool = False
+    #: What each segment is made of, for a line in motion; its internal damping is chosen later. Empty where the
+    #: segments do not tell enough: the line then stays at rest at every instant.
     bar_types: tuple[BarType, ...] = ()
+    #: Mass [kg] and volume [m3] of each clump, for a line in motion.
     clump_bodies: tuple[tuple[float, float], ...] = ()
 
     @property
@@ -142,40 +116,30 @@ class CoefficientsFile:
 
 @dataclass(frozen=True)
 class Breakwater:
-    """One floating unit of constant section.
+    """One floating unit of constant section."""
 
-    Parameters
-    ----------
-    hull : Hull
-        Section outline, keel to deck.
-    length : float
-        Length along the crest l [m].
-    roll_gyradius : float
-        Roll radius of gyration about the centre of gravity r [m].
-    centre_of_gravity : tuple of two float
-        x from the centre line and z above the keel [m].
-    mass : float or None
-        Mass of the unit [kg]; ``None`` when the draught is given instead.
-    draught : float or None
-        Draught d [m]; ``None`` when the mass is given instead. Both: the imbalance is reported.
-    additional_mass : tuple of three float
-        Mass that moves in one mode only (rigs of model tests): sway, heave [kg], roll [kg m2].
-    wind_drag_coefficient, current_drag_coefficient : float or None
-        On the area above and below water; needed where there is wind or current.
-    gap_damping_lid : float
-        Damping lid of the gaps between pontoons, fraction epsilon in K (1 + i epsilon).
-    """
-
+    #: Section outline, keel to deck.
     hull: Hull
+    #: Length along the crest l [m].
     length: float
+    #: Roll radius of gyration about the centre of gravity r [m].
     roll_gyradius: float
+    #: x from the centre line and z above the keel [m].
     centre_of_gravity: tuple[float, float]
+    #: Mass of the unit [kg]; ``None`` when the draught is given instead.
     mass: float | None = None
+    #: Draught d [m]; ``None`` when the mass is given instead. Both: the imbalance is reported.
     draught: float | None = None
     damping: Damping = field(default_factory=Damping)
+    #: Mass that moves in one mode only (rigs of model tests): sway, heave [kg], roll [kg m2].
     additional_mass: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    #: ``wind_drag_coefficient``, ``current_drag_coefficient``: On the area above and below water; needed where there is
+    #: wind or current.
     wind_drag_coefficient: float | None = None
+    #: ``wind_drag_coefficient``, ``current_drag_coefficient``: On the area above and below water; needed where there is
+    #: wind or current.
     current_drag_coefficient: float | None = None
+    #: Damping lid of the gaps between pontoons, fraction epsilon in K (1 + i epsilon).
     gap_damping_lid: float = 0.0
     lines: tuple[MooringLine | MooringSpring, ...] = ()
     coefficients_file: CoefficientsFile | None = None
@@ -188,69 +152,48 @@ class Breakwater:
 @checks_words
 @dataclass(frozen=True)
 class LineDynamics:
-    """How lines in motion are cut and what the bed and the material take; ``None``: chosen from the line.
+    """How lines in motion are cut and what the bed and the material take; ``None``: chosen from the line."""
 
-    Parameters
-    ----------
-    bars : int
-        Straight bars that one line is cut into.
-    damping_ratio : float
-        Internal damping of a bar, BA = ratio times bar length times sqrt(EA m).
-    bed_stiffness, bed_damping : float or None
-        Of the bed per contact area [Pa/m], [Pa s/m].
-    slack_fraction : float
-        Tension over that at rest under which a line counts as slack.
-    snap_fraction : float
-        Peak over the tension at rest above which a contact counts as a snap.
-    sensitivity : bool
-        Whether every run is repeated with twice the bars, half the step and twice the internal damping.
-    mode : {"auto", "quasi_static", "dynamic"}
-        Whether lines that are not in motion from the start are set in motion around the events of the line that
-        governs an irregular sea, and where their peaks pass the range of lines at rest (``auto``), never, or from the
-        start.
-    """
-
+    #: Straight bars that one line is cut into.
     bars: int = 30
+    #: Internal damping of a bar, BA = ratio times bar length times sqrt(EA m).
     damping_ratio: float = 0.1
+    #: Of the bed per contact area [Pa/m].
     bed_stiffness: float | None = None
+    #: Of the bed per contact area [Pa s/m].
     bed_damping: float | None = None
+    #: Tension over that at rest under which a line counts as slack.
     slack_fraction: float = 0.05
+    #: Peak over the tension at rest above which a contact counts as a snap.
     snap_fraction: float = 3.0
+    #: Whether every run is repeated with twice the bars, half the step and twice the internal damping.
     sensitivity: bool = False
+    #: Whether lines that are not in motion from the start are set in motion around the events of the line that governs
+    #: an irregular sea, and where their peaks pass the range of lines at rest (``auto``), never, or from the start; one
+    #: of "auto", "quasi_static", "dynamic".
     mode: LineMode = "auto"
 
 
 @checks_words
 @dataclass(frozen=True)
 class TimeSettings:
-    """How the time domain is run; ``None`` means that the program chooses and says why.
+    """How the time domain is run; ``None`` means that the program chooses and says why."""
 
-    Parameters
-    ----------
-    duration : float or None
-        Simulated time of regular waves [s] (irregular seas carry their own).
-    ramp : float or None
-        Length of the cosine ramp [s].
-    time_step : float or None
-    analysed_periods : int
-        Whole periods at the end that are analysed in regular waves.
-    drift : {"auto", "ramped", "pulsating", "newman", "none"}
-        ``auto``: the mean under the ramp in regular waves, slow drift by Newman's approximation in irregular seas.
-    memory : {"state_space", "convolution"}
-    lines : LineDynamics
-        For lines that are in motion.
-    realisations : int or None
-        Realisations of every irregular sea; ``None``: :data:`DEFAULT_REALISATIONS`, or one where lines are in motion
-        from the start.
-    """
-
+    #: Simulated time of regular waves [s] (irregular seas carry their own).
     duration: float | None = None
+    #: Length of the cosine ramp [s].
     ramp: float | None = None
     time_step: float | None = None
+    #: Whole periods at the end that are analysed in regular waves.
     analysed_periods: int = 10
+    #: ``auto``: the mean under the ramp in regular waves, slow drift by Newman's approximation in irregular seas; one
+    #: of "auto", "ramped", "pulsating", "newman", "none".
     drift: DriftLaw = "auto"
     memory: Literal["state_space", "convolution"] = "state_space"
+    #: For lines that are in motion.
     lines: LineDynamics = field(default_factory=LineDynamics)
+    #: Realisations of every irregular sea; ``None``: :data:`DEFAULT_REALISATIONS`, or one where lines are in motion
+    #: from the start.
     realisations: int | None = None
 
 

@@ -52,36 +52,25 @@ def force_spectrum(omega: Array, directional: Array, drift: Array, difference: A
 
 @dataclass(frozen=True)
 class SlowDrift:
-    """Slow sway of a sea; a mooring without stiffness in sway has none.
+    """Slow sway of a sea; a mooring without stiffness in sway has none."""
 
-    Parameters
-    ----------
-    deviation : ndarray (3,)
-        Standard deviation of sway, heave [m], roll [rad].
-    crossing_period : float
-        Mean zero-crossing period of the slow sway [s].
-    natural_period : float
-        Of sway with the stiffness of the mean offset [s].
-    damping_ratio : float
-        All linear and linearised damping over critical at that period: radiation, lines, what the case gives.
-    half_damping, double_damping : float
-        Standard deviation of sway [m] with half and twice that damping.
-    difference : ndarray (k,)
-        [rad/s]
-    force : ndarray (k,)
-        Spectrum of the force [N2 s/rad].
-    transfer : ndarray (k, 3)
-        Complex motion per unit force in sway [m/N, rad/N].
-    """
-
+    #: Standard deviation of sway, heave [m], roll [rad]; shape (3,).
     deviation: Array
+    #: Mean zero-crossing period of the slow sway [s].
     crossing_period: float
+    #: Of sway with the stiffness of the mean offset [s].
     natural_period: float
+    #: All linear and linearised damping over critical at that period: radiation, lines, what the case gives.
     damping_ratio: float
+    #: ``half_damping``, ``double_damping``: Standard deviation of sway [m] with half and twice that damping.
     half_damping: float
+    #: ``half_damping``, ``double_damping``: Standard deviation of sway [m] with half and twice that damping.
     double_damping: float
+    #: [rad/s]; shape (k,)
     difference: Array
+    #: Spectrum of the force [N2 s/rad]; shape (k,).
     force: Array
+    #: Complex motion per unit force in sway [m/N, rad/N]; shape (k, 3).
     transfer: ComplexArray
 
     def probable_factor(self, duration: float) -> float:
@@ -156,22 +145,17 @@ def slow_drift(
 
 @dataclass(frozen=True)
 class CombinedExtremes:
-    """Largest of each line, mean, slow drift and waves together, the line on its exact shape.
+    """Largest of each line, mean, slow drift and waves together, the line on its exact shape."""
 
-    Parameters
-    ----------
-    tension, anchor_vertical, anchor_horizontal : ndarray (lines,)
-        [N].
-    grounded : ndarray (lines,)
-        Length on the bed at that instant [m].
-    offset : float
-        Largest sway from rest [m].
-    """
-
+    #: [N]; shape (lines,).
     tension: Array
+    #: [N]; shape (lines,).
     anchor_vertical: Array
+    #: [N]; shape (lines,).
     anchor_horizontal: Array
+    #: Length on the bed at that instant [m]; shape (lines,).
     grounded: Array
+    #: Largest sway from rest [m].
     offset: float
 
 

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.validity import Notice
-from moyai.floating.drift import mean_offset
 from moyai.floating.modes import NaturalModes, natural_modes
+from moyai.floating.offset import mean_offset
 from moyai.mooring.lines import LineElement
 from moyai.mooring.shape import element_shape
 from moyai.structures.breakwater.assembly import FloatingUnit
@@ -46,7 +46,7 @@ def statics_dataset(
     offset = mean_offset(unit.mooring, statics.stiffness, steady)
     matrix = ("influenced_dof", "radiating_dof")
     outline_x, outline_z = _outline(unit)
-    out: dict = {
+    out: dict[str, Any] = {
         "draught": ((), -unit.section.keel),
         "body_mass": ((), unit.mass),
         "displaced_mass": ((), statics.displaced_mass),
@@ -95,7 +95,7 @@ def statics_dataset(
     return labelled(xr.Dataset(out, coords=coords)), tuple(notices)
 
 
-def _modes(moored: NaturalModes, free: NaturalModes) -> dict:
+def _modes(moored: NaturalModes, free: NaturalModes) -> dict[str, Any]:
     return {
         "natural_period": ("mode", moored.period),
         "natural_period_without_lines": ("mode", free.period),
@@ -117,7 +117,7 @@ def _outline(unit: FloatingUnit) -> tuple[Array, Array]:
     return every[:, 0], every[:, 1]
 
 
-def _lines(unit: FloatingUnit) -> dict:
+def _lines(unit: FloatingUnit) -> dict[str, Any]:
     """Return what is known of the lines at rest, one entry a kind; shapes in site axes."""
     kinds = len(unit.lines)
     if not kinds:
@@ -132,7 +132,7 @@ def _lines(unit: FloatingUnit) -> dict:
         "anchor_vertical_tension": "vertical_tension_anchor",
         "grounded_length": "grounded_length",
     }
-    out: dict = {
+    out: dict[str, Any] = {
         ours: ("line", np.array([getattr(state, theirs)[0] for state in states.values()]))
         for ours, theirs in names.items()
     }

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -140,7 +140,7 @@ def natural_added_mass(model: FrequencyModel, hydro: Hydrodynamics) -> Array:
 
 def equivalent_variables(
     dims: tuple[str, ...], damping: Array, inertia: Array, added_mass: Array, stiffness: Array
-) -> dict:
+) -> dict[str, Any]:
     """Return equivalent linear damping of each mode beyond radiation, and its fraction of critical.
 
     Parameters

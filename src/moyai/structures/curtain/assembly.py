@@ -24,32 +24,21 @@ _FASTEST = 10.0
 
 @dataclass(frozen=True)
 class LevelCurtain:
-    """A curtain at one water level.
+    """A curtain at one water level."""
 
-    Parameters
-    ----------
-    name : str
-        Of the water level.
-    level : float
-        Above datum [m].
-    water : Water
-        At this level.
-    curtain : Curtain
-        As the case file has it.
-    hanging : HangingCurtain
-        For the solvers.
-    site : Site
-        Water and the currents of the profile at any surface speed.
-    surface_speed : float
-        Of the current of the case [m/s]; 0 without one.
-    """
-
+    #: Of the water level.
     name: str
+    #: Above datum [m].
     level: float
+    #: At this level.
     water: Water
+    #: As the case file has it.
     curtain: Curtain
+    #: For the solvers.
     hanging: HangingCurtain
+    #: Water and the currents of the profile at any surface speed.
     site: Site
+    #: Of the current of the case [m/s]; 0 without one.
     surface_speed: float
 
     @property

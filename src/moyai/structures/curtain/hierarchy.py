@@ -37,27 +37,20 @@ STRAIGHT = 0.9
 @checks_words
 @dataclass(frozen=True)
 class ModelRole:
-    """What one model counts for.
+    """What one model counts for."""
 
-    Parameters
-    ----------
-    model : str
-        One of the names of this module.
-    role : {"governs", "bound", "comparison", "out of range"}
-        ``bound``: the load is at most this; ``comparison``: shown, and counted nowhere.
-    of : str
-        What it gives.
-    reason : str
-        Why, with the number and the limit that decide.
-    value, limit : float
-        That number and that limit; NaN where the kind of curtain decides.
-    """
-
+    #: One of the names of this module.
     model: str
+    #: ``bound``: the load is at most this; ``comparison``: shown, and counted nowhere; one of "governs", "bound",
+    #: "comparison", "out of range".
     role: Role
+    #: What it gives.
     of: str
+    #: Why, with the number and the limit that decide.
     reason: str
+    #: ``value``, ``limit``: That number and that limit; NaN where the kind of curtain decides.
     value: float = float("nan")
+    #: ``value``, ``limit``: That number and that limit; NaN where the kind of curtain decides.
     limit: float = float("nan")
 
 

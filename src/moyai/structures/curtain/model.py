@@ -37,23 +37,15 @@ UNJUDGED = Strength(math.inf, 1.0)
 
 @dataclass(frozen=True)
 class AnchorLines:
-    """Lines that hold the supports; without them the supports are fixed.
+    """Lines that hold the supports; without them the supports are fixed."""
 
-    Parameters
-    ----------
-    length : float
-        Of one line [m].
-    slope : float or None
-        Angle from the horizontal at the float [rad]; None: straight from the surface to the bed.
-    stiffness : float
-        K = EA/L of a line [N/m]; NaN where it is not known.
-    pretension : float or None
-        Steady tension for the anchor loads [N]; None: that of the statics.
-    """
-
+    #: Of one line [m].
     length: float
+    #: Angle from the horizontal at the float [rad]; None: straight from the surface to the bed.
     slope: float | None
+    #: K = EA/L of a line [N/m]; NaN where it is not known.
     stiffness: float
+    #: Steady tension for the anchor loads [N]; None: that of the statics.
     pretension: float | None = None
 
     def slope_in(self, depth: float) -> float:
@@ -84,181 +76,144 @@ class AnchorLines:
 
 @dataclass(frozen=True)
 class Strengths:
-    """What the components bear; :data:`UNJUDGED` where the case says nothing.
+    """What the components bear; :data:`UNJUDGED` where the case says nothing."""
 
-    Parameters
-    ----------
-    upper_cable, lower_cable, sheet, joint, anchor_line, anchor : Strength
-        Cables, joint, line, holding force of the anchor [N]; sheet [N/m].
-    least_reserve : float
-        Share of the buoyancy that must be left [-].
-    least_depth : float
-        Effective depth that must be kept [m].
-    """
-
+    #: ``upper_cable``, ``lower_cable``, ``sheet``, ``joint``, ``anchor_line``, ``anchor``: Cables, joint, line, holding
+    #: force of the anchor [N]; sheet [N/m].
     upper_cable: Strength = UNJUDGED
+    #: ``upper_cable``, ``lower_cable``, ``sheet``, ``joint``, ``anchor_line``, ``anchor``: Cables, joint, line, holding
+    #: force of the anchor [N]; sheet [N/m].
     lower_cable: Strength = UNJUDGED
+    #: ``upper_cable``, ``lower_cable``, ``sheet``, ``joint``, ``anchor_line``, ``anchor``: Cables, joint, line, holding
+    #: force of the anchor [N]; sheet [N/m].
     sheet: Strength = UNJUDGED
+    #: ``upper_cable``, ``lower_cable``, ``sheet``, ``joint``, ``anchor_line``, ``anchor``: Cables, joint, line, holding
+    #: force of the anchor [N]; sheet [N/m].
     joint: Strength = UNJUDGED
+    #: ``upper_cable``, ``lower_cable``, ``sheet``, ``joint``, ``anchor_line``, ``anchor``: Cables, joint, line, holding
+    #: force of the anchor [N]; sheet [N/m].
     anchor_line: Strength = UNJUDGED
+    #: ``upper_cable``, ``lower_cable``, ``sheet``, ``joint``, ``anchor_line``, ``anchor``: Cables, joint, line, holding
+    #: force of the anchor [N]; sheet [N/m].
     anchor: Strength = UNJUDGED
+    #: Share of the buoyancy that must be left [-].
     least_reserve: float = 0.0
+    #: Effective depth that must be kept [m].
     least_depth: float = 0.0
 
 
 @checks_words
 @dataclass(frozen=True)
 class Curtain:
-    """One span of a hanging curtain between two supports, its neighbours alike.
+    """One span of a hanging curtain between two supports, its neighbours alike."""
 
-    Parameters
-    ----------
-    span, length : float
-        Distance of the supports and unstretched length of curtain between them [m].
-    normal : float
-        Heading of the downstream normal of the span [rad].
-    skirt : Skirt
-        Sheet with its toe load.
-    toe : {"free", "held"}
-        Whether a lower cable as long as the upper one keeps the toe under the top.
-    toe_chain : float
-        Mass of the toe chain per length [kg/m], for the classes; NaN where the toe is given by its weight.
-    floats : FloatLine
-        What carries it.
-    upper_stiffness, lower_stiffness : float
-        EA of the cables [N]; the lower one 0 where there is none.
-    drag : DragLaw
-        Coefficient with range and blockage.
-    law : {"normal_velocity", "uniform_normal", "free_streamline"}
-        Load law of the section.
-    passing_fraction : float
-        Share of the held flow that goes under the toe [-].
-    may_lie_on_bed : bool
-        Whether the skirt may be longer than the water is deep.
-    joint_distance : float
-        Length of one curtain unit [m].
-    anchors : AnchorLines or None
-        None: fixed supports.
-    strengths : Strengths
-        Of the components.
-    curtain_class : str
-        Class of the tables that is claimed; empty for none.
-    toe_range : tuple of float
-        Factors (low, high) on the toe's weight that bound what is known.
-    """
-
+    #: ``span``, ``length``: Distance of the supports and unstretched length of curtain between them [m].
     span: float
+    #: ``span``, ``length``: Distance of the supports and unstretched length of curtain between them [m].
     length: float
+    #: Heading of the downstream normal of the span [rad].
     normal: float
+    #: Sheet with its toe load.
     skirt: Skirt
+    #: Whether a lower cable as long as the upper one keeps the toe under the top.
     toe: Literal["free", "held"]
+    #: Mass of the toe chain per length [kg/m], for the classes; NaN where the toe is given by its weight.
     toe_chain: float
+    #: What carries it.
     floats: FloatLine
+    #: ``upper_stiffness``, ``lower_stiffness``: EA of the cables [N]; the lower one 0 where there is none.
     upper_stiffness: float
+    #: ``upper_stiffness``, ``lower_stiffness``: EA of the cables [N]; the lower one 0 where there is none.
     lower_stiffness: float
+    #: Coefficient with range and blockage.
     drag: DragLaw
+    #: Load law of the section; one of "normal_velocity", "uniform_normal", "free_streamline".
     law: LoadLaw
+    #: Share of the held flow that goes under the toe [-].
     passing_fraction: float
+    #: Whether the skirt may be longer than the water is deep.
     may_lie_on_bed: bool
+    #: Length of one curtain unit [m].
     joint_distance: float
+    #: None: fixed supports.
     anchors: AnchorLines | None
+    #: Of the components.
     strengths: Strengths
+    #: Class of the tables that is claimed; empty for none.
     curtain_class: str
+    #: Factors (low, high) on the toe's weight that bound what is known.
     toe_range: tuple[float, float] = (0.9, 1.1)
 
 
 @checks_words
 @dataclass(frozen=True)
 class ImpactSettings:
-    """How the impact is computed.
+    """How the impact is computed."""
 
-    Parameters
-    ----------
-    start : {"current", "slack_phase"}
-        Speed at the taut instant: the current's depth mean (the paper), or that of the drift from release.
-    start_speed : float or None
-        That speed itself [m/s].
-    release_position : float
-        Of mid-span when the curtain is let go [m], downstream of the line between the supports.
-    draught : float or None
-        Of the equivalent flat plate [m]; None: the skirt's length.
-    chord : float or None
-        Straight distance of the skirt's edges when it becomes taut [m], for models whose skirt stretches; None: that of
-        the statics with a held toe, and none with a free one.
-    cables : {"sum", "one"}
-        Whether EA of model A is the sum of both cables or that of one.
-    time_step : float or None
-        Of the paper's marching [s]; None: omega dt = 0.01.
-    """
-
+    #: Speed at the taut instant: the current's depth mean (the paper), or that of the drift from release.
     start: Literal["current", "slack_phase"] = "current"
+    #: That speed itself [m/s].
     start_speed: float | None = None
+    #: Of mid-span when the curtain is let go [m], downstream of the line between the supports.
     release_position: float = 0.0
+    #: Of the equivalent flat plate [m]; None: the skirt's length.
     draught: float | None = None
+    #: Straight distance of the skirt's edges when it becomes taut [m], for models whose skirt stretches; None: that of
+    #: the statics with a held toe, and none with a free one.
     chord: float | None = None
+    #: Whether EA of model A is the sum of both cables or that of one.
     cables: Literal["sum", "one"] = "sum"
+    #: Of the paper's marching [s]; None: omega dt = 0.01.
     time_step: float | None = None
 
 
 @checks_words
 @dataclass(frozen=True)
 class WaveSettings:
-    """How slack and taut cycles are computed.
+    """How slack and taut cycles are computed."""
 
-    Parameters
-    ----------
-    settled_periods, analysed_periods : int
-        Periods of regular waves that are left out at least (more until periods repeat), and those analysed at least.
-    realisations : int
-        Of an irregular sea, with the seeds that follow that of the case; the mean of their largest tensions counts.
-    time_step : float or None
-        [s]; None: chosen by the program.
-    velocity : {"skirt_mean", "surface", "wheeler"}
-        Water that moves the curtain.
-    slowest : float
-        Speed at the taut instant below which a contact does not count as a snap [m/s].
-    law : {"weibull", "pareto"}
-        Law of the exceedance of snaps in an irregular sea.
-    hours : float
-        Time that the most probable largest snap is given for [h].
-    """
-
+    #: ``settled_periods``, ``analysed_periods``: Periods of regular waves that are left out at least (more until
+    #: periods repeat), and those analysed at least.
     settled_periods: int = 4
+    #: ``settled_periods``, ``analysed_periods``: Periods of regular waves that are left out at least (more until
+    #: periods repeat), and those analysed at least.
     analysed_periods: int = 20
+    #: [s]; None: chosen by the program.
     time_step: float | None = None
+    #: Water that moves the curtain; one of "skirt_mean", "surface", "wheeler".
     velocity: SkirtVelocity = "skirt_mean"
+    #: Speed at the taut instant below which a contact does not count as a snap [m/s].
     slowest: float = 0.0
+    #: Law of the exceedance of snaps in an irregular sea; one of "weibull", "pareto".
     law: SnapLaw = "weibull"
+    #: Time that the most probable largest snap is given for [h].
     hours: float = 3.0
+    #: Of an irregular sea, with the seeds that follow that of the case; the mean of their largest tensions counts.
     realisations: int = 5
 
 
 @checks_words
 @dataclass(frozen=True)
 class AnchorLoadSettings:
-    """Anchor loads in waves by the energy model.
+    """Anchor loads in waves by the energy model."""
 
-    Parameters
-    ----------
-    energy_factor, float_mass, orbital_factor : float
-        M [-], m_B [kg] per anchor rope, alpha [-].
-    wire_factor, new_type_factor : float
-        Tension of the wire over that of the rope, and of the new type over the conventional one [-].
-    height_ratio : float
-        H_max over H_1/3 [-].
-    rule : {"paper", "normal", "none"}
-        Direction rule.
-    pretension : bool
-        Whether the steady tension counts; the paper leaves it out.
-    """
-
+    #: M [-].
     energy_factor: float
+    #: m_B [kg] per anchor rope.
     float_mass: float
+    #: Alpha [-].
     orbital_factor: float = 2.0
+    #: ``wire_factor``, ``new_type_factor``: Tension of the wire over that of the rope, and of the new type over the
+    #: conventional one [-].
     wire_factor: float = 0.6
+    #: ``wire_factor``, ``new_type_factor``: Tension of the wire over that of the rope, and of the new type over the
+    #: conventional one [-].
     new_type_factor: float = 0.7
+    #: H_max over H_1/3 [-].
     height_ratio: float = 1.8
+    #: Direction rule; one of "paper", "normal", "none".
     rule: DirectionRule = "paper"
+    #: Whether the steady tension counts; the paper leaves it out.
     pretension: bool = True
 
     def model(self, rope_stiffness: float, line_factor: float = 1.0) -> EnergyModel:
@@ -270,34 +225,27 @@ class AnchorLoadSettings:
 
 @dataclass(frozen=True)
 class LimitSettings:
-    """The operating-limit table.
+    """The operating-limit table."""
 
-    Parameters
-    ----------
-    speeds, heights : tuple of float or None
-        Surface speeds [m/s] and significant heights [m] of the table; None: chosen by the program.
-    highest_speed, highest_height : float
-        Up to which limits are sought [m/s], [m].
-    period_factor : float
-        T = factor sqrt(H) [s/sqrt(m)] where ``period`` is None.
-    period : float or None
-        One period for all heights [s].
-    wave_angle : float
-        Of the waves from the normal [rad].
-    impact : bool
-        Whether the impact counts, where it was asked for.
-    rose_step : float or None
-        Step of headings and orientations of the limit rose [rad]; None: no rose.
-    """
-
+    #: ``speeds``, ``heights``: Surface speeds [m/s] and significant heights [m] of the table; None: chosen by the
+    #: program.
     speeds: tuple[float, ...] | None = None
+    #: ``speeds``, ``heights``: Surface speeds [m/s] and significant heights [m] of the table; None: chosen by the
+    #: program.
     heights: tuple[float, ...] | None = None
+    #: Up to which limits are sought [m/s].
     highest_speed: float = 3.0
+    #: Up to which limits are sought [m].
     highest_height: float = 5.0
+    #: T = factor sqrt(H) [s/sqrt(m)] where ``period`` is None.
     period_factor: float = 3.86
+    #: One period for all heights [s].
     period: float | None = None
+    #: Of the waves from the normal [rad].
     wave_angle: float = 0.0
+    #: Whether the impact counts, where it was asked for.
     impact: bool = True
+    #: Step of headings and orientations of the limit rose [rad]; None: no rose.
     rose_step: float | None = None
 
     def period_of(self, height: float) -> float:
@@ -341,36 +289,29 @@ class RecordedCable:
 
 @dataclass(frozen=True, eq=False)
 class RecordedSnap:
-    """A flume record and what was found in it.
+    """A flume record and what was found in it."""
 
-    Parameters
-    ----------
-    file : str
-        Where it came from.
-    release_time, taut_time, peak_time, plateau_start : float
-        [s]; the release may be NaN.
-    cables : tuple of RecordedCable
-        Each cable.
-    total : RecordedCable
-        Their sum.
-    peak_missed : float
-        Largest share of the peak that the sampling may have missed [-].
-    time, tension : ndarray
-        Record without offset and drift: (n,) [s], (cables, n) [N].
-    notices : tuple of Notice
-        What makes the numbers doubtful.
-    """
-
+    #: Where it came from.
     file: str
+    #: ``release_time``, ``taut_time``, ``peak_time``, ``plateau_start``: [s]; the release may be NaN.
     release_time: float
+    #: ``release_time``, ``taut_time``, ``peak_time``, ``plateau_start``: [s]; the release may be NaN.
     taut_time: float
+    #: ``release_time``, ``taut_time``, ``peak_time``, ``plateau_start``: [s]; the release may be NaN.
     peak_time: float
+    #: ``release_time``, ``taut_time``, ``peak_time``, ``plateau_start``: [s]; the release may be NaN.
     plateau_start: float
+    #: Each cable.
     cables: tuple[RecordedCable, ...]
+    #: Their sum.
     total: RecordedCable
+    #: Largest share of the peak that the sampling may have missed [-].
     peak_missed: float
+    #: Record without offset and drift: (n,) [s].
     time: NDArray[np.float64]
+    #: (cables, n) [N].
     tension: NDArray[np.float64]
+    #: What makes the numbers doubtful.
     notices: tuple[Notice, ...]
 
     @property

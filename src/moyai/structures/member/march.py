@@ -25,39 +25,28 @@ _BLOCK = 2_000_000
 
 @dataclass(frozen=True, eq=False)
 class WaveForces:
-    """Forces of one wave.
+    """Forces of one wave."""
 
-    Parameters
-    ----------
-    time, elevation : ndarray, shape (times,)
-        [s], surface above the middle of the member [m].
-    force : ndarray, shape (causes, times, 3)
-        Whole member by cause, along x, y, z [N].
-    moment : ndarray, shape (times, 3)
-        Of all forces about the middle of the member [N m].
-    held : ndarray, shape (causes, times, 2 + stations, 2)
-        Forces at start and end [N] and bending moments at the stations [N m], by cause, along the axes of the section.
-    circulation : ndarray, shape (times,)
-        At the governing strip [m2/s].
-    strip : dict of str to ndarray, shape (strips, ...)
-        ``velocity_first``, ``velocity_second`` [m/s], ``keulegan_carpenter`` of the waves and, with the current,
-        ``coefficient_keulegan_carpenter``, ``reynolds``, ``beta``, ``frequency`` [rad/s], ``orbit_ratio`` smaller over
-        larger axis of the orbit, ``inertia``, ``effective_inertia`` and, without the circulation, ``plain_inertia``
-        (strips, 2), ``drag`` (strips, 2), ``force`` (strips, 2)
-        largest force per length along both axes [N/m], ``wet`` mean wetted share, ``circulation`` and
-        ``settled_circulation`` mean [m2/s].
-    governing : int
-        Strip of the largest Keulegan-Carpenter number among those that are wet.
-    notices : tuple of Notice
-    """
-
+    #: [s]; shape (times,).
     time: Array
+    #: Surface above the middle of the member [m]; shape (times,).
     elevation: Array
+    #: Whole member by cause, along x, y, z [N]; shape (causes, times, 3).
     force: Array
+    #: Of all forces about the middle of the member [N m]; shape (times, 3).
     moment: Array
+    #: Forces at start and end [N] and bending moments at the stations [N m], by cause, along the axes of the section;
+    #: shape (causes, times, 2 + stations, 2).
     held: Array
+    #: At the governing strip [m2/s]; shape (times,).
     circulation: Array
+    #: ``velocity_first``, ``velocity_second`` [m/s], ``keulegan_carpenter`` of the waves and, with the current,
+    #: ``coefficient_keulegan_carpenter``, ``reynolds``, ``beta``, ``frequency`` [rad/s], ``orbit_ratio`` smaller over
+    #: larger axis of the orbit, ``inertia``, ``effective_inertia`` and, without the circulation, ``plain_inertia``
+    #: (strips, 2), ``drag`` (strips, 2), ``force`` (strips, 2) largest force per length along both axes [N/m], ``wet``
+    #: mean wetted share, ``circulation`` and ``settled_circulation`` mean [m2/s]; shape (strips, ...).
     strip: dict[str, Array]
+    #: Strip of the largest Keulegan-Carpenter number among those that are wet.
     governing: int
     notices: tuple[Notice, ...]
 
@@ -139,7 +128,8 @@ def _shown_time(problem: MemberProblem, wave: Wave) -> Array:
         calm = law.counted and law.start == "calm"
         periods = max(1, math.ceil(8.0 * law.relaxation_periods)) if calm else 1
     steps = wave.time.size - 1
-    return np.arange(periods * steps + 1) * (wave.time[1] - wave.time[0])
+    values: Array = np.arange(periods * steps + 1) * (wave.time[1] - wave.time[0])
+    return values
 
 
 def _repeated(values: Array, time: Array, wave: Wave) -> Array:

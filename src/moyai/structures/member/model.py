@@ -27,24 +27,18 @@ WaveTheory = Literal["automatic", "linear", "stokes", "stream_function"]
 @checks_words
 @dataclass(frozen=True)
 class RegularWaves:
-    """Regular waves: every height with every period.
+    """Regular waves: every height with every period."""
 
-    Parameters
-    ----------
-    name : str
-        Label of the sea state.
-    heights, periods : tuple of float
-        Wave heights H [m], periods T in the fixed frame [s].
-    heading : float
-        Direction of travel [rad].
-    theory : {"automatic", "linear", "stokes", "stream_function"}
-        ``automatic``: linear where it neglects harmonics below one per cent of the first, else the stream function.
-    """
-
+    #: Label of the sea state.
     name: str
+    #: Wave heights H [m].
     heights: tuple[float, ...]
+    #: Periods T in the fixed frame [s].
     periods: tuple[float, ...]
+    #: Direction of travel [rad].
     heading: float = 0.0
+    #: ``automatic``: linear where it neglects harmonics below one per cent of the first, else the stream function; one
+    #: of "automatic", "linear", "stokes", "stream_function".
     theory: WaveTheory = "automatic"
 
     def waves(self) -> tuple[tuple[float, float], ...]:
@@ -57,20 +51,13 @@ MemberSea = RegularWaves | IrregularSea
 
 @dataclass(frozen=True)
 class Motion:
-    """A harmonic translation of the whole member, Re(amplitude e^{i phase} e^{-i omega t}).
+    """A harmonic translation of the whole member, Re(amplitude e^{i phase} e^{-i omega t})."""
 
-    Parameters
-    ----------
-    amplitude : tuple of three float
-        Along x, y, z [m].
-    phase : tuple of three float
-        [rad].
-    period : float or None
-        [s]; ``None`` moves with the period of each regular wave.
-    """
-
+    #: Along x, y, z [m].
     amplitude: tuple[float, float, float]
+    #: [rad].
     phase: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    #: [s]; ``None`` moves with the period of each regular wave.
     period: float | None = None
 
     def derivatives(self, time: np.ndarray, omega: float) -> tuple[np.ndarray, np.ndarray]:
@@ -83,72 +70,46 @@ class Motion:
 @checks_words
 @dataclass(frozen=True)
 class Settings:
-    """How the analyses are run.
+    """How the analyses are run."""
 
-    Parameters
-    ----------
-    analyses : tuple of str
-        ``sweep`` over KC, ``forces`` in the seas, ``surface``: what the free surface changes.
-    strips : int
-        Strips along the member.
-    stretching : {"wheeler", "linear", "constant"}
-        Linear kinematics above still water.
-    steps_per_period : int
-        Time steps in a period of regular waves.
-    irregular_steps : int
-        Time steps in the peak period of an irregular sea.
-    realisations : int
-        Realisations of an irregular sea; largest forces are means over them.
-    periods : int or None
-        Periods shown of regular waves; ``None``: one when the circulation is settled, eight relaxation times from calm.
-    """
-
+    #: ``sweep`` over KC, ``forces`` in the seas, ``surface``: what the free surface changes.
     analyses: tuple[Analysis, ...] = ("sweep", "forces", "surface")
+    #: Strips along the member.
     strips: int = 40
+    #: Linear kinematics above still water; one of "wheeler", "linear", "constant".
     stretching: Stretching = "wheeler"
+    #: Time steps in a period of regular waves.
     steps_per_period: int = 200
+    #: Time steps in the peak period of an irregular sea.
     irregular_steps: int = 40
+    #: Realisations of an irregular sea; largest forces are means over them.
     realisations: int = 5
+    #: Periods shown of regular waves; ``None``: one when the circulation is settled, eight relaxation times from calm.
     periods: int | None = None
 
 
 @checks_words
 @dataclass(frozen=True)
 class MemberProblem:
-    """The whole problem as the case file states it.
-
-    Parameters
-    ----------
-    title : str
-    member : StraightMember
-        z above datum.
-    rule : CoefficientRule
-        Where the coefficients come from.
-    kinematic_viscosity : float
-        nu [m2/s].
-    environment : Environment
-        Water, levels, current; its sea states are those of ``seas``.
-    seas : tuple of RegularWaves or IrregularSea
-    circulation : CirculationLaw
-    form : {"component", "vector"}
-        Drag by component or with the common speed.
-    roughness : float
-        Height of the roughness k [m].
-    motion : Motion or None
-    support : {"both_ends", "start", "end"}
-        Where it is held: simply at both ends, or fixed at one.
-    """
+    """The whole problem as the case file states it."""
 
     title: str
+    #: z above datum.
     member: StraightMember
+    #: Where the coefficients come from.
     rule: CoefficientRule
+    #: nu [m2/s].
     kinematic_viscosity: float
+    #: Water, levels, current; its sea states are those of ``seas``.
     environment: Environment
     seas: tuple[MemberSea, ...] = ()
     circulation: CirculationLaw = field(default_factory=CirculationLaw)
+    #: Drag by component or with the common speed; one of "component", "vector".
     form: DragForm = "component"
+    #: Height of the roughness k [m].
     roughness: float = 0.0
     motion: Motion | None = None
+    #: Where it is held: simply at both ends, or fixed at one; one of "both_ends", "start", "end".
     support: Support = "both_ends"
     settings: Settings = field(default_factory=Settings)
     case_text: str = ""

@@ -27,26 +27,18 @@ LARGEST_HEADING = math.radians(60.0)
 
 @dataclass(frozen=True, eq=False)
 class SurfaceEffect:
-    """Inertia under the free surface against ideal fluid without one.
+    """Inertia under the free surface against ideal fluid without one."""
 
-    Parameters
-    ----------
-    period : ndarray, shape (periods,)
-        [s].
-    inertia : ndarray, shape (periods, 2)
-        |wave force| over rho A |acceleration| along both axes: inertia coefficient with surface and bed.
-    change : ndarray, shape (periods, 2)
-        Its departure from the ideal one, relative.
-    radiation : ndarray, shape (periods, 2)
-        Wave damping over omega rho A.
-    checks : tuple of IdentityCheck
-        Of the potential solution.
-    """
-
+    #: [s]; shape (periods,).
     period: Array
+    #: |wave force| over rho A |acceleration| along both axes: inertia coefficient with surface and bed; shape (periods,
+    #: 2).
     inertia: Array
+    #: Its departure from the ideal one, relative; shape (periods, 2).
     change: Array
+    #: Wave damping over omega rho A; shape (periods, 2).
     radiation: Array
+    #: Of the potential solution.
     checks: tuple[IdentityCheck, ...]
 
 

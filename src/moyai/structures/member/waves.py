@@ -24,37 +24,25 @@ from moyai.structures.member.model import MemberProblem, RegularWaves
 
 @dataclass(frozen=True, eq=False)
 class Wave:
-    """One wave or irregular sea, ready to be run.
+    """One wave or irregular sea, ready to be run."""
 
-    Parameters
-    ----------
-    name : str
-        Of its run.
-    flow : Flow
-    height, period : float
-        H and T, or significant height and peak period [m], [s].
-    wave_number : float
-        Of that period [1/m].
-    heading : float
-        [rad].
-    time : ndarray
-        Uniform grid [s]; one whole period for regular waves (the last point repeats the first).
-    regular : bool
-    current : CurrentProfile or None
-        That of the case at the water level of the wave.
-    theory : str
-        In words.
-    """
-
+    #: Of its run.
     name: str
     flow: Flow
+    #: H and T, or significant height and peak period [m].
     height: float
+    #: H and T, or significant height and peak period [s].
     period: float
+    #: Of that period [1/m].
     wave_number: float
+    #: [rad].
     heading: float
+    #: Uniform grid [s]; one whole period for regular waves (the last point repeats the first).
     time: Array
     regular: bool
+    #: That of the case at the water level of the wave.
     current: CurrentProfile | None = None
+    #: In words.
     theory: str = "linear waves"
 
 

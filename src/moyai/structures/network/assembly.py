@@ -31,26 +31,17 @@ from moyai.structures.network.model import (
 
 @dataclass(frozen=True, eq=False)
 class Assembly:
-    """A network with what the reports need to know about it.
+    """A network with what the reports need to know about it."""
 
-    Parameters
-    ----------
-    network : Network
-        z above the still water of its level.
-    lines : mapping of str to Strand
-        The lines of the case, whole.
-    nets : mapping of str to ndarray of int, shape (rows, columns)
-        Nodes of the nets.
-    net_bars : mapping of str to ndarray of int
-        Bars of the nets.
-    sheets : tuple of str
-        Names of the sheets.
-    """
-
+    #: z above the still water of its level.
     network: Network
+    #: The lines of the case, whole.
     lines: Mapping[str, Strand]
+    #: Nodes of the nets; shape (rows, columns).
     nets: Mapping[str, NDArray[np.int64]]
+    #: Bars of the nets.
     net_bars: Mapping[str, NDArray[np.int64]]
+    #: Names of the sheets.
     sheets: tuple[str, ...] = ()
 
 

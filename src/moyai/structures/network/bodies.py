@@ -37,61 +37,41 @@ Triple = tuple[float, float, float]
 @checks_words
 @dataclass(frozen=True)
 class BodyPlan:
-    """A box, an upright cylinder (their axes start at the middle), or an assembly of rods and volumes in its axes.
-
-    Parameters
-    ----------
-    name : str
-    shape : {"box", "cylinder", "assembly"}
-    size : tuple of float
-        Along its axes; of a cylinder diameter, diameter, height [m].
-    mass : float
-        Of an assembly without its parts [kg].
-    inertia : tuple of float
-        About the centre of gravity, roll, pitch, yaw [kg m2].
-    centre_of_gravity : tuple of float
-        From the middle [m].
-    position : tuple of float
-        Of the middle at the start, z above still water [m].
-    rotation : tuple of float
-        Roll, pitch, yaw at the start [rad].
-    points : mapping of str to tuple
-        Points that lines meet, from the middle [m].
-    drag, added_mass : tuple of float
-        Coefficients along its axes [-].
-    linear_damping : tuple of float
-        Along and about its axes [N s/m, N m s].
-    free : tuple of bool
-        Surge, sway, heave, roll, pitch, yaw.
-    parts : tuple of RodPart or VolumePart
-        Of an assembly.
-    pin : tuple of float, optional
-        Place in its axes that stays where it is at the start [m].
-    turning_drag : tuple of float
-        Drag coefficient times area times arm squared about its axes [m5].
-    coefficients : BodyCoefficients, optional
-        File with the loads of the waves on it in place of ``added_mass``.
-    loads : WaveLoads, optional
-        What was read from there.
-    """
+    """A box, an upright cylinder (their axes start at the middle), or an assembly of rods and volumes in its axes."""
 
     name: str
     shape: Literal["box", "cylinder", "assembly"]
+    #: Along its axes; of a cylinder diameter, diameter, height [m].
     size: Triple
+    #: Of an assembly without its parts [kg].
     mass: float
+    #: About the centre of gravity, roll, pitch, yaw [kg m2].
     inertia: Triple
+    #: From the middle [m].
     centre_of_gravity: Triple
+    #: Of the middle at the start, z above still water [m].
     position: Triple
+    #: Roll, pitch, yaw at the start [rad].
     rotation: Triple
+    #: Points that lines meet, from the middle [m].
     points: Mapping[str, Triple]
+    #: Coefficients along its axes [-].
     drag: Triple
+    #: Coefficients along its axes [-].
     added_mass: Triple
+    #: Along and about its axes [N s/m, N m s].
     linear_damping: tuple[float, ...] = (0.0,) * 6
+    #: Surge, sway, heave, roll, pitch, yaw.
     free: tuple[bool, ...] = (True,) * 6
+    #: Of an assembly.
     parts: tuple[RodPart | VolumePart, ...] = ()
+    #: Place in its axes that stays where it is at the start [m].
     pin: Triple | None = None
+    #: Drag coefficient times area times arm squared about its axes [m5].
     turning_drag: Triple = (0.0, 0.0, 0.0)
+    #: File with the loads of the waves on it in place of ``added_mass``.
     coefficients: BodyCoefficients | None = None
+    #: What was read from there.
     loads: WaveLoads | None = None
 
     def body(self, water: Water) -> RigidBody:
@@ -178,22 +158,14 @@ def rest_of(problem: NetworkProblem, network: Network, flow: Flow) -> CoupledRes
 
 @dataclass(frozen=True, eq=False)
 class CoupledRun:
-    """A run of bodies and network.
+    """A run of bodies and network."""
 
-    Parameters
-    ----------
-    history : History
-        Of the network, as that of any network.
-    bodies : mapping of str to BodyHistory
-    ends : mapping of str to BodyState
-        Where the bodies end.
-    step : float
-        Of the bodies [s].
-    """
-
+    #: Of the network, as that of any network.
     history: History
     bodies: Mapping[str, BodyHistory]
+    #: Where the bodies end.
     ends: Mapping[str, BodyState]
+    #: Of the bodies [s].
     step: float
 
 

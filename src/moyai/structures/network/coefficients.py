@@ -34,28 +34,18 @@ SMALL_BODY = 0.2
 @checks_words
 @dataclass(frozen=True)
 class BodyCoefficients:
-    """Where the loads of the waves on a body are.
-
-    Parameters
-    ----------
-    program : {"capytaine", "wamit", "nemoh"}
-    path : Path
-        File or folder.
-    draught : float
-        Of the upright body that they were computed for [m].
-    origin : tuple of float
-        Origin of the axes of the file, x and y from the middle of the body [m].
-    memory : bool
-        Whether the damping becomes a memory.
-    options : mapping
-        Of the reader.
-    """
+    """Where the loads of the waves on a body are."""
 
     program: Literal["capytaine", "wamit", "nemoh"]
+    #: File or folder.
     path: Path
+    #: Of the upright body that they were computed for [m].
     draught: float
+    #: Origin of the axes of the file, x and y from the middle of the body [m].
     origin: tuple[float, float] = (0.0, 0.0)
+    #: Whether the damping becomes a memory.
     memory: bool = True
+    #: Of the reader.
     options: Mapping[str, Any] = field(default_factory=dict)
 
 

@@ -11,12 +11,13 @@ import numpy as np
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import IdentityCheck, Notice
+from moyai.coupled.rest import CoupledRest
 from moyai.flexible.result import History, State
 from moyai.flexible.sensitivity import PeakSensitivity, peak_sensitivity
 from moyai.flexible.simulation import simulate
 from moyai.series.snaps import SnapRecord
 from moyai.structures.network.assembly import Assembly
-from moyai.structures.network.bodies import CoupledRest, CoupledRun, coupled_sensitivity, run_coupled
+from moyai.structures.network.bodies import CoupledRun, coupled_sensitivity, run_coupled
 from moyai.structures.network.model import NetworkProblem
 from moyai.structures.network.refinement import affordable, check_event, check_peak, doubt, not_converged, unchecked
 from moyai.structures.network.resume import Earlier, joined, last_good_state, with_ends
@@ -30,37 +31,27 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Run:
-    """A run and what is reported of it.
-
-    Parameters
-    ----------
-    plan : RunPlan
-    history : History
-    series, frames : xarray.Dataset
-        Time series of lines and points; places of all nodes and tensions of all bars at fewer times.
-    snaps : mapping of str to SnapRecord
-        By line.
-    sensitivity : PeakSensitivity or None
-        Of the line with the highest tension.
-    governing : str
-        That line.
-    notices, checks : tuple
-    doubt : str
-        Why the peak may hang on mesh and step; empty where nothing says so.
-    failure : str
-        Why the peak is not converged; empty where it is, or was not checked.
-    """
+    """A run and what is reported of it."""
 
     plan: RunPlan
     history: History
+    #: ``series``, ``frames``: Time series of lines and points; places of all nodes and tensions of all bars at fewer
+    #: times.
     series: xr.Dataset
+    #: ``series``, ``frames``: Time series of lines and points; places of all nodes and tensions of all bars at fewer
+    #: times.
     frames: xr.Dataset
+    #: By line.
     snaps: Mapping[str, SnapRecord]
+    #: Of the line with the highest tension.
     sensitivity: PeakSensitivity | None
+    #: That line.
     governing: str
     notices: tuple[Notice, ...]
     checks: tuple[IdentityCheck, ...]
+    #: Why the peak may hang on mesh and step; empty where nothing says so.
     doubt: str = ""
+    #: Why the peak is not converged; empty where it is, or was not checked.
     failure: str = ""
 
 

@@ -24,7 +24,7 @@ from moyai.structures.network.variables import labelled
 if TYPE_CHECKING:
     import xarray as xr
 
-    from moyai.structures.network.bodies import CoupledRest
+    from moyai.coupled.rest import CoupledRest
 
 AXES = ["x", "y", "z"]
 TURNS = ["roll", "pitch", "yaw"]

@@ -24,62 +24,41 @@ Start = Literal["rest", "rest_in_current", "as_built"]
 
 @dataclass(frozen=True)
 class Attached:
-    """What a point carries.
+    """What a point carries."""
 
-    Parameters
-    ----------
-    mass, volume : float
-        [kg], [m3].
-    height : float
-        Vertical extent for partial immersion [m]; 0: always wet.
-    form : int
-        ``BOX`` or ``SPHERE``.
-    drag_area : float
-        Drag coefficient times area [m2].
-    added_mass_coefficient : float
-        On the volume [-].
-    contact_area : float
-        With the bed [m2].
-    """
-
+    #: [kg].
     mass: float = 0.0
+    #: [m3].
     volume: float = 0.0
+    #: Vertical extent for partial immersion [m]; 0: always wet.
     height: float = 0.0
+    #: ``BOX`` or ``SPHERE``.
     form: int = BOX
+    #: Drag coefficient times area [m2].
     drag_area: float = 0.0
+    #: On the volume [-].
     added_mass_coefficient: float = 0.0
+    #: With the bed [m2].
     contact_area: float = 0.0
 
 
 @checks_words
 @dataclass(frozen=True)
 class PointPlan:
-    """A named point.
-
-    Parameters
-    ----------
-    name : str
-    kind : {"fixed", "driven", "free"}
-    position : tuple of float
-        z above datum, or above still water [m]; NaN: on the bed.
-    motion : str
-        Name of the motion of a driven point, empty: held still.
-    floats : bool
-        Whether z counts from the still water of each water level.
-    attached : Attached
-    held : tuple of bool
-        Components that do not move.
-    diameter : float
-        For drawing [m].
-    """
+    """A named point."""
 
     name: str
     kind: Literal["fixed", "driven", "free"]
+    #: z above datum, or above still water [m]; NaN: on the bed.
     position: Place
+    #: Name of the motion of a driven point, empty: held still.
     motion: str = ""
+    #: Whether z counts from the still water of each water level.
     floats: bool = False
     attached: Attached = field(default_factory=Attached)
+    #: Components that do not move.
     held: tuple[bool, bool, bool] = (False, False, False)
+    #: For drawing [m].
     diameter: float = 0.0
 
 
@@ -103,30 +82,19 @@ class RowPlan:
 @checks_words
 @dataclass(frozen=True)
 class LinePlan:
-    """A line between two points: parts from start to end, with bodies between (one shorter) and along it.
-
-    Parameters
-    ----------
-    name, start, end : str
-    parts : tuple of PartPlan
-    between : tuple of Attached or None
-        What hangs between part k and part k + 1.
-    along : tuple of RowPlan
-    shape : {"catenary", "straight"}
-    flow_factor : float
-        Factor on the water velocity.
-    breaking_load : float
-        Least of its parts, NaN where not known [N].
-    """
+    """A line between two points: parts from start to end, with bodies between (one shorter) and along it."""
 
     name: str
     start: str
     end: str
     parts: tuple[PartPlan, ...]
+    #: What hangs between part k and part k + 1.
     between: tuple[Attached | None, ...] = ()
     along: tuple[RowPlan, ...] = ()
     shape: Literal["catenary", "straight"] = "catenary"
+    #: Factor on the water velocity.
     flow_factor: float = 1.0
+    #: Least of its parts, NaN where not known [N].
     breaking_load: float = math.nan
 
     @property
@@ -138,69 +106,49 @@ class LinePlan:
 @checks_words
 @dataclass(frozen=True)
 class NetPlan:
-    """A net between four corners.
-
-    Parameters
-    ----------
-    name : str
-    corners : tuple of four places
-        Once around: start and end of the first row, end and start of the last.
-    rows, columns : int
-        Knots.
-    along, across : tuple of BarType
-        Materials of inner and edge bars of the rows, and of the columns.
-    hanging_ratio : float
-        Distance of the knots at the start over their unstretched distance [-].
-    first_row : {"fixed", "driven", "free"}
-    motion : str
-        Of a driven first row, empty: held still.
-    ballast : float
-        Submerged mass per length of the last row [kg/m].
-    flow_factor : float
-    floats : bool
-        Whether z counts from still water.
-    """
+    """A net between four corners."""
 
     name: str
+    #: Once around: start and end of the first row, end and start of the last.
     corners: tuple[Place, Place, Place, Place]
+    #: Knots.
     rows: int
+    #: Knots.
     columns: int
+    #: ``along``, ``across``: Materials of inner and edge bars of the rows, and of the columns.
     along: tuple[BarType, BarType]
+    #: ``along``, ``across``: Materials of inner and edge bars of the rows, and of the columns.
     across: tuple[BarType, BarType]
+    #: Distance of the knots at the start over their unstretched distance [-].
     hanging_ratio: float = 1.0
     first_row: Literal["fixed", "driven", "free"] = "fixed"
+    #: Of a driven first row, empty: held still.
     motion: str = ""
+    #: Submerged mass per length of the last row [kg/m].
     ballast: float = 0.0
     flow_factor: float = 1.0
+    #: Whether z counts from still water.
     floats: bool = False
 
 
 @checks_words
 @dataclass(frozen=True)
 class SheetPlan:
-    """A sheet between four corners, as :class:`NetPlan`; warp runs from row to row, weft along the rows.
-
-    Parameters
-    ----------
-    name : str
-    corners : tuple of four places
-    rows, columns : int
-    properties : mapping
-        Arguments of :class:`moyai.flexible.sheets.Sheets`.
-    fullness : float
-        Unstretched length over the distance of the corners [-].
-    first_row, motion, floats
-        As in :class:`NetPlan`.
-    """
+    """A sheet between four corners, as :class:`NetPlan`; warp runs from row to row, weft along the rows."""
 
     name: str
     corners: tuple[Place, Place, Place, Place]
     rows: int
     columns: int
+    #: Arguments of :class:`moyai.flexible.sheets.Sheets`.
     properties: Mapping[str, float]
+    #: Unstretched length over the distance of the corners [-].
     fullness: float = 1.0
+    #: As in :class:`NetPlan`.
     first_row: Literal["fixed", "driven", "free"] = "free"
+    #: As in :class:`NetPlan`.
     motion: str = ""
+    #: As in :class:`NetPlan`.
     floats: bool = False
 
 
@@ -307,21 +255,7 @@ class Settings:
 
 @dataclass(frozen=True, eq=False)
 class NetworkProblem:
-    """The whole problem as the case file states it.
-
-    Parameters
-    ----------
-    title : str
-    points, lines, nets : tuple
-    bed : BedPlan or None
-    motions : mapping of str to MotionPlan
-    environment : Environment
-        Water, levels, seas, current.
-    settings : Settings
-    bodies : tuple of BodyPlan
-    sheets : tuple of SheetPlan
-    case_text, case_hash : str
-    """
+    """The whole problem as the case file states it."""
 
     title: str
     points: tuple[PointPlan, ...]
@@ -329,6 +263,7 @@ class NetworkProblem:
     nets: tuple[NetPlan, ...]
     bed: BedPlan | None
     motions: Mapping[str, MotionPlan]
+    #: Water, levels, seas, current.
     environment: Environment
     settings: Settings = field(default_factory=Settings)
     bodies: tuple[BodyPlan, ...] = ()

@@ -73,19 +73,12 @@ def affordable(history: History, doubtful: bool, share: float = 1.0) -> bool:
 
 @dataclass(frozen=True, eq=False)
 class Window:
-    """The part of a run that holds its highest tension, from a state of the run itself.
-
-    Parameters
-    ----------
-    begin : State
-    duration : float
-        [s].
-    lead : float
-        Time before the peak in which the start fades [s].
-    """
+    """The part of a run that holds its highest tension, from a state of the run itself."""
 
     begin: State
+    #: [s].
     duration: float
+    #: Time before the peak in which the start fades [s].
     lead: float
 
 

@@ -24,21 +24,15 @@ FAR = 20.0
 
 @dataclass(frozen=True, eq=False)
 class Earlier:
-    """What an earlier result holds of a run.
+    """What an earlier result holds of a run."""
 
-    Parameters
-    ----------
-    state : State
-        Its last good state.
-    series, frames : xarray.Dataset
-        Its rows.
-    bodies : mapping of str to BodyState
-        Where its bodies were then.
-    """
-
+    #: Its last good state.
     state: State
+    #: Its rows.
     series: xr.Dataset
+    #: Its rows.
     frames: xr.Dataset
+    #: Where its bodies were then.
     bodies: Mapping[str, BodyState] = field(default_factory=dict)
 
 

@@ -13,12 +13,13 @@ from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
 from moyai.core.validity import IdentityCheck, Notice
+from moyai.coupled.rest import CoupledRest
 from moyai.flexible.flow import Flow
 from moyai.flexible.network import DRIVEN, FIXED
 from moyai.flexible.result import State
 from moyai.flexible.statics import Equilibrium, solve_equilibrium
 from moyai.structures.network.assembly import Assembly, assemble
-from moyai.structures.network.bodies import CoupledRest, drawn_parts, rest_of
+from moyai.structures.network.bodies import drawn_parts, rest_of
 from moyai.structures.network.coefficients import loads_on_time, with_coefficients
 from moyai.structures.network.dynamics import Run
 from moyai.structures.network.dynamics import run as run_through_time

@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from moyai.core.validity import Notice
 from moyai.core.wording import spoken
@@ -85,7 +86,8 @@ def _turned_cloth(history: History) -> list[Notice]:
         for corner in range(3):
             np.add.at(around, triangles[:, corner], faces)
         smooth = around[triangles].sum(axis=1)
-        return smooth / np.maximum(np.linalg.norm(smooth, axis=1), 1e-300)[:, None]
+        values: NDArray[Any] = smooth / np.maximum(np.linalg.norm(smooth, axis=1), 1e-300)[:, None]
+        return values
 
     built = across(history.network.nodes.position)
     rows = history.position[:: max(1, len(history.position) // 50)]

@@ -26,42 +26,28 @@ PERIODS, ROWS_PER_PERIOD, COMPONENTS = 20, 100, 150
 
 @dataclass(frozen=True, eq=False)
 class RunPlan:
-    """One run through time.
+    """One run through time."""
 
-    Parameters
-    ----------
-    name : str
-        Of its group in the results.
-    flow : Flow
-    duration, output_step : float
-        [s].
-    period : float
-        That the eye follows: of the waves, else of the motions; NaN without either [s].
-    waves : WaveComponents or None
-    wave_height : float
-        H or significant height [m], NaN without waves.
-    heading : float
-        Of the waves [rad].
-    irregular : bool
-    seed : int
-        -1 without one.
-    skip : float
-        Beginning that peaks and statistics leave out [s].
-    skip_rule : str
-        Why so much; empty where all counts.
-    """
-
+    #: Of its group in the results.
     name: str
     flow: Flow
+    #: [s].
     duration: float
+    #: [s].
     output_step: float
+    #: That the eye follows: of the waves, else of the motions; NaN without either [s].
     period: float
     waves: WaveComponents | None = None
+    #: H or significant height [m], NaN without waves.
     wave_height: float = math.nan
+    #: Of the waves [rad].
     heading: float = math.nan
     irregular: bool = False
+    #: -1 without one.
     seed: int = -1
+    #: Beginning that peaks and statistics leave out [s].
     skip: float = 0.0
+    #: Why so much; empty where all counts.
     skip_rule: str = ""
 
 

@@ -144,7 +144,8 @@ def _point_summary(item: Run, names: list[str], rest: Array | None) -> dict[str,
 
 def lean_of(angles: Array) -> Array:
     """Return the angle between the axis of a body and the vertical [rad] from its roll, pitch and yaw (..., 3)."""
-    return np.arccos(np.clip(np.cos(angles[..., 0]) * np.cos(angles[..., 1]), -1.0, 1.0))
+    values: Array = np.arccos(np.clip(np.cos(angles[..., 0]) * np.cos(angles[..., 1]), -1.0, 1.0))
+    return values
 
 
 def _solid_summary(item: Run, rest: Array | None) -> dict[str, Array]:

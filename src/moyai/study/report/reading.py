@@ -17,62 +17,38 @@ from moyai.study.responses import in_stated_unit, picked, split_response
 
 @dataclass(frozen=True)
 class AxisLabels:
-    """An axis of the study.
-
-    Parameters
-    ----------
-    name : str
-    labels : tuple of str
-        Of its points, as the study file names them.
-    values : ndarray or None
-        Numbers of its points in ``unit``, ``None`` where they are no numbers.
-    unit : str
-    """
+    """An axis of the study."""
 
     name: str
+    #: Of its points, as the study file names them.
     labels: tuple[str, ...]
+    #: Numbers of its points in ``unit``, ``None`` where they are no numbers.
     values: Array | None
     unit: str
 
 
 @dataclass(frozen=True)
 class GoverningCase:
-    """The case that governs a component.
-
-    Parameters
-    ----------
-    component : str
-    index : int
-        Number of the case.
-    value : float
-        Utilisation, or the watched response.
-    folder : str
-        Where its own report lies, relative to that of the study; empty where there is none.
-    """
+    """The case that governs a component."""
 
     component: str
+    #: Number of the case.
     index: int
+    #: Utilisation, or the watched response.
     value: float
+    #: Where its own report lies, relative to that of the study; empty where there is none.
     folder: str
 
 
 @dataclass(frozen=True)
 class StudyPages:
-    """A study's result, made ready for tables and figures.
-
-    Parameters
-    ----------
-    result : Result
-    axes : tuple of AxisLabels
-    status, message : ndarray of object
-        Of every case, flat.
-    governing : tuple of GoverningCase
-    watch : str
-    """
+    """A study's result, made ready for tables and figures."""
 
     result: Result
     axes: tuple[AxisLabels, ...]
+    #: ``status``, ``message``: Of every case, flat.
     status: NDArray[Any]
+    #: ``status``, ``message``: Of every case, flat.
     message: NDArray[Any]
     governing: tuple[GoverningCase, ...]
     watch: str

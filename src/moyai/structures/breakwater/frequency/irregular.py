@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -12,7 +12,6 @@ from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
 from moyai.floating.coefficients import Hydrodynamics
 from moyai.floating.damping import LinearDamping
-from moyai.floating.drift import mean_offset
 from moyai.floating.far_field import drift_force_per_amplitude_squared, far_field
 from moyai.floating.frequency import Motions
 from moyai.floating.irregular import (
@@ -22,6 +21,7 @@ from moyai.floating.irregular import (
     linearised_in_sea,
     response_statistics,
 )
+from moyai.floating.offset import mean_offset
 from moyai.structures.breakwater.assembly import FloatingUnit
 from moyai.structures.breakwater.frequency.model import (
     FrequencyModel,
@@ -74,7 +74,7 @@ def irregular_sea(
     duration = sea.duration
     slow = _slow(model, hydros, settled, directional)
     height = float(waves.significant[0])
-    out: dict = {
+    out: dict[str, Any] = {
         "wave_spectrum": ("omega", density),
         "response_spectrum": (("omega", "dof"), statistics.spectrum),
         "significant_height": ((), height),
@@ -168,7 +168,7 @@ def _peak_factors(statistics: ResponseStatistics, duration: float) -> Array:
     return np.asarray(statistics.most_probable_maximum(duration) / np.where(deviation > 0.0, deviation, 1.0))
 
 
-def _slow_variables(slow: SlowDrift | None) -> dict:
+def _slow_variables(slow: SlowDrift | None) -> dict[str, Any]:
     if slow is None:
         return {}
     return {
@@ -231,7 +231,7 @@ def _settle(model: FrequencyModel, hydros: list[Hydrodynamics], headings: Array,
 
 def _band(
     model: FrequencyModel, hydros: list[Hydrodynamics], headings: Array, directional: Array, settled: _Settled
-) -> dict:
+) -> dict[str, Any]:
     """Return transmission and motion with the damping of the unit at both ends of its band, nominal included."""
     omega = hydros[0].omega
     answers = [settled]
@@ -239,7 +239,7 @@ def _band(
     motion = np.array(
         [response_statistics(omega, item.motions.displacement, directional).significant for item in answers]
     )
-    out: dict = {
+    out: dict[str, Any] = {
         "significant_motion_low": ("dof", motion.min(axis=0)),
         "significant_motion_high": ("dof", motion.max(axis=0)),
     }

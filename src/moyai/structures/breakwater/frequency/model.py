@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -12,9 +12,10 @@ from moyai.core.progress import Progress
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.floating.coefficients import Hydrodynamics
 from moyai.floating.damping import LinearDamping, QuadraticDamping
-from moyai.floating.drift import DriftedMotions, DriftProblem, mean_offset, solve_with_drift
+from moyai.floating.drift import DriftedMotions, DriftProblem, solve_with_drift
 from moyai.floating.far_field import FarField, drift_force_per_amplitude_squared, energy_check
 from moyai.floating.frequency import Motions, solve_motions
+from moyai.floating.offset import mean_offset
 from moyai.structures.breakwater.assembly import FloatingUnit
 from moyai.structures.breakwater.hydrodynamics import UnitHydrodynamics
 from moyai.structures.breakwater.lines.drag import line_drag_rows, line_inertia
@@ -30,30 +31,18 @@ COEFFICIENT_ACCURACY = 1e-3  # of the solve of the section
 
 @dataclass(frozen=True)
 class FrequencyModel:
-    """The unit as the frequency domain sees it.
-
-    Parameters
-    ----------
-    unit : FloatingUnit
-    hydro : UnitHydrodynamics
-    damping : LinearDamping
-    quadratic : QuadraticDamping or None
-    steady : ndarray (3,)
-        Wind and current [N, N, N m].
-    with_drift : bool
-    rows_of_lines : int
-        How many of the first rows of ``quadratic`` are drag of lines; the others are the unit's own.
-    line_inertia : ndarray (3, 3)
-        Of lines that are in motion in time, which bring their inertia themselves there.
-    """
+    """The unit as the frequency domain sees it."""
 
     unit: FloatingUnit
     hydro: UnitHydrodynamics
     damping: LinearDamping
     quadratic: QuadraticDamping | None
+    #: Wind and current [N, N, N m]; shape (3,).
     steady: Array
     with_drift: bool
+    #: How many of the first rows of ``quadratic`` are drag of lines; the others are the unit's own.
     rows_of_lines: int = 0
+    #: Of lines that are in motion in time, which bring their inertia themselves there; shape (3, 3).
     line_inertia: Array = field(default_factory=lambda: np.zeros((3, 3)))
 
     @property
@@ -167,7 +156,9 @@ def energy_identity(
     return (replace(found, name=f"{where}: energy of the moving body"),)
 
 
-def far_field_variables(far: FarField, hydro: Hydrodynamics, unit: FloatingUnit, dims: tuple[str, ...]) -> dict:
+def far_field_variables(
+    far: FarField, hydro: Hydrodynamics, unit: FloatingUnit, dims: tuple[str, ...]
+) -> dict[str, Any]:
     """Return magnitudes of reflection and transmission, and the drift [eq:breakwater-drift-coefficient]."""
     drift = drift_force_per_amplitude_squared(far, hydro.omega, hydro.heading, unit.water, hydro.length)
     return {

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -57,7 +57,7 @@ def operators(model: FrequencyModel, omega: Array, heading: float, seas: tuple[S
     hydro = model.hydro.at(omega, heading)
     motions, linearised = motions_about_rest(model, hydro, seas)
     rao = motions.displacement[:, 0, :]
-    out: dict = {"rao": (("omega", "dof"), rao)}
+    out: dict[str, Any] = {"rao": (("omega", "dof"), rao)}
     checks: tuple[IdentityCheck, ...] = ()
     if hydro.has_far_field:
         far = far_field(hydro, motions.displacement)
@@ -86,13 +86,13 @@ def operators(model: FrequencyModel, omega: Array, heading: float, seas: tuple[S
     return FrequencyResult(labelled(data), checks, tuple(motions.notices))
 
 
-def _band(model: FrequencyModel, hydro: Hydrodynamics, amplitude: Array, solved: DriftedMotions) -> dict:
+def _band(model: FrequencyModel, hydro: Hydrodynamics, amplitude: Array, solved: DriftedMotions) -> dict[str, Any]:
     """Return transmission and motion with the damping of the unit at both ends of its band, nominal included."""
     answers = [solved]
     for factor in band_factors(model):
         answers.append(solve_about_offset(scaled_damping(model, factor), hydro, amplitude, silent))
     motion = np.array([np.abs(item.motions.displacement[:, 0, :]) * amplitude[:, None] for item in answers])
-    out: dict = {
+    out: dict[str, Any] = {
         "motion_amplitude_low": (("period", "dof"), motion.min(axis=0)),
         "motion_amplitude_high": (("period", "dof"), motion.max(axis=0)),
     }

@@ -96,4 +96,5 @@ def _segment_at(given: MooringLine, length: Array) -> NDArray[np.int64]:
     """Return the segment (n,) that each point of a line belongs to, from the lengths (n,) of its pieces."""
     ends = np.cumsum([segment.length for segment in given.segments])
     middle = np.cumsum(length) - 0.5 * length
-    return np.searchsorted(ends[:-1], middle * ends[-1] / float(np.sum(length)))
+    values: NDArray[np.int64] = np.searchsorted(ends[:-1], middle * ends[-1] / float(np.sum(length)))
+    return values

@@ -68,25 +68,16 @@ def out_of_range(unit: FloatingUnit, largest: Array, mean: Array) -> NDArray[np.
 
 @dataclass(frozen=True)
 class EventSettings:
-    """What the reruns of a sea share.
-
-    Parameters
-    ----------
-    model : FrequencyModel
-    cummins : CumminsModel
-    expected : ndarray (3,)
-    settings : TimeSettings
-    peak_period : float
-        [s].
-    slow_period : float
-        Natural period of sway [s]; 0 where it is not known.
-    """
+    """What the reruns of a sea share."""
 
     model: FrequencyModel
     cummins: CumminsModel
+    #: Shape (3,).
     expected: Array
     settings: TimeSettings
+    #: [s].
     peak_period: float
+    #: Natural period of sway [s]; 0 where it is not known.
     slow_period: float
 
     @property

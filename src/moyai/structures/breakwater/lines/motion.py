@@ -41,45 +41,34 @@ KEPT_PERIODS, SHAPES_PER_PERIOD = 12.0, 40
 
 @dataclass(frozen=True, eq=False)
 class LinesInMotion:
-    """What lines in motion add to a simulation; columns follow the lines of the unit, NaN for lines at rest.
+    """What lines in motion add to a simulation; columns follow the lines of the unit, NaN for lines at rest."""
 
-    Parameters
-    ----------
-    peak : ndarray (n, lines)
-        Highest tension at the fairlead since the row before, taken at every step of the network [N].
-    anchor : ndarray (n, lines)
-        Tension of the bar at the anchor [N].
-    uplift : ndarray (n, lines)
-        Its vertical component, upward on the anchor [N].
-    grounded : ndarray (n, lines)
-        Length whose nodes touch the bed [m].
-    snaps : mapping of str to SnapRecord
-        Slack intervals, contacts and snaps of each line in motion.
-    position : ndarray (k, nodes, 3)
-        Nodes of all lines in motion around the governing peak [m].
-    shape_time : ndarray (k,)
-        [s].
-    nodes : mapping of str to ndarray of int
-        Nodes of each line from anchor to fairlead.
-    sensitivity : mapping of str to ndarray (lines,)
-        Change of the largest tension over it, by variation.
-    network_step, body_step, passes : float
-        Steps of network and body [s], runs of the network per step of the body.
-    nodes_in_all : int
-    checks, notices : tuple
-    """
-
+    #: Highest tension at the fairlead since the row before, taken at every step of the network [N]; shape (n, lines).
     peak: Array
+    #: Tension of the bar at the anchor [N]; shape (n, lines).
     anchor: Array
+    #: Its vertical component, upward on the anchor [N]; shape (n, lines).
     uplift: Array
+    #: Length whose nodes touch the bed [m]; shape (n, lines).
     grounded: Array
+    #: Slack intervals, contacts and snaps of each line in motion.
     snaps: dict[str, SnapRecord]
+    #: Nodes of all lines in motion around the governing peak [m]; shape (k, nodes, 3).
     position: Array
+    #: [s]; shape (k,).
     shape_time: Array
+    #: Nodes of each line from anchor to fairlead.
     nodes: dict[str, NDArray[np.int64]]
+    #: Change of the largest tension over it, by variation; shape (lines,).
     sensitivity: dict[str, Array]
+    #: ``network_step``, ``body_step``, ``passes``: Steps of network and body [s], runs of the network per step of the
+    #: body.
     network_step: float
+    #: ``network_step``, ``body_step``, ``passes``: Steps of network and body [s], runs of the network per step of the
+    #: body.
     body_step: float
+    #: ``network_step``, ``body_step``, ``passes``: Steps of network and body [s], runs of the network per step of the
+    #: body.
     passes: float
     nodes_in_all: int
     checks: tuple[IdentityCheck, ...] = ()
@@ -150,18 +139,13 @@ class LinesInMotion:
 
 @dataclass(frozen=True, eq=False)
 class BodyStart:
-    """Motion of the unit that a run starts from.
+    """Motion of the unit that a run starts from."""
 
-    Parameters
-    ----------
-    position, velocity : ndarray (3,)
-        Relative to rest.
-    memory : ndarray (poles,)
-        States of the memory of the water.
-    """
-
+    #: Relative to rest; shape (3,).
     position: Array
+    #: Relative to rest; shape (3,).
     velocity: Array
+    #: States of the memory of the water; shape (poles,).
     memory: NDArray[np.complex128]
 
 

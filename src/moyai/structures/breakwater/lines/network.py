@@ -30,26 +30,17 @@ STATIC_TOLERANCE = 0.02
 
 @dataclass(frozen=True, eq=False)
 class LineNetwork:
-    """Lines in motion.
+    """Lines in motion."""
 
-    Parameters
-    ----------
-    network : Network
-        In site axes; every fairlead is a driven point with the name of its line.
-    rest : Equilibrium
-        With the body at rest.
-    lines : tuple of Line
-        The exact lines, about the centre of gravity.
-    index : tuple of int
-        Which lines of the unit these are.
-    pulls : ndarray (lines, 3)
-        Force of one copy on the body at rest [N].
-    """
-
+    #: In site axes; every fairlead is a driven point with the name of its line.
     network: Network
+    #: With the body at rest.
     rest: Equilibrium
+    #: The exact lines, about the centre of gravity.
     lines: tuple[Line, ...]
+    #: Which lines of the unit these are.
     index: tuple[int, ...]
+    #: Force of one copy on the body at rest [N]; shape (lines, 3).
     pulls: Array
 
     @property

@@ -42,24 +42,17 @@ class Realisation:
 
 @dataclass(frozen=True)
 class EventsInMotion:
-    """What the reruns of one realisation give for one line.
+    """What the reruns of one realisation give for one line."""
 
-    Parameters
-    ----------
-    run : TimeRun
-        The rerun with the largest tension.
-    numbers : mapping of str to ndarray (lines,)
-        Over all reruns: largest of what is largest, least of what is least; slack and snap of the largest event.
-    count : int
-        Reruns.
-    bound : float
-        Tension of the line that no event passes, if none multiplies its tension with lines at rest by more than
-        the largest ratio found [N].
-    """
-
+    #: The rerun with the largest tension.
     run: TimeRun
+    #: Over all reruns: largest of what is largest, least of what is least; slack and snap of the largest event; shape
+    #: (lines,).
     numbers: dict[str, Array]
+    #: Reruns.
     count: int
+    #: Tension of the line that no event passes, if none multiplies its tension with lines at rest by more than the
+    #: largest ratio found [N].
     bound: float
 
 

@@ -14,7 +14,7 @@ from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.flexible.flow import Flow
 from moyai.sea.components import WaveComponents
-from moyai.sea.time_sum import sum_over_time
+from moyai.sea.time_sum import sum_rows_over_time
 
 if TYPE_CHECKING:
     from moyai.flexible.flow import Current
@@ -33,16 +33,11 @@ class TabulatedFlow(Flow):
 
     The lines of a breakwater move by metres where the waves are tens of metres long: k times the motion is the error of
     the phase.
-
-    Parameters
-    ----------
-    table : ndarray (7, nodes, times)
-        Velocity, acceleration and elevation of the waves.
-    table_step : float
-        [s].
     """
 
+    #: Velocity, acceleration and elevation of the waves; shape (7, nodes, times).
     table: NDArray[np.float32] | None = None
+    #: [s].
     table_step: float = 1.0
 
     @property
@@ -137,5 +132,5 @@ def _table(waves: WaveComponents, nodes: Array, count: int, step: float) -> NDAr
         flow = intrinsic * turn * along
         rows = np.stack([flow * cosine, flow * sine, -1j * intrinsic * turn * up])
         rows = np.concatenate([rows, -1j * intrinsic * rows, turn[None]])
-        out[:, number] = np.moveaxis(sum_over_time(waves.omega, rows, time, waves.frequency_step), -1, 0)
+        out[:, number] = sum_rows_over_time(waves.omega, rows, time, waves.frequency_step)
     return out

@@ -6,8 +6,9 @@ import math
 
 from moyai.report.document import Column, Table
 from moyai.report.reading import Group
+from moyai.structures.breakwater.report.figures import key
 from moyai.structures.breakwater.report.reading import MODES, Level, Sea
-from moyai.structures.breakwater.report.tables import key, useful_table
+from moyai.structures.breakwater.report.tables import useful_table
 
 
 def damping_table(level: Level, sea: Sea) -> Table | None:

@@ -11,12 +11,12 @@ from moyai.report.document import (
     Choice,
     Document,
     Option,
-    Paragraph,
     Section,
 )
 from moyai.report.drawing import SectionGeometry, mooring_elevation, section_detail
 from moyai.report.formatting import MINUS, format_quantity
 from moyai.report.general_page import case_listing, closing_section, provenance, report_title
+from moyai.report.levels import at_each_level
 from moyai.report.reading import Group, root_of
 from moyai.structures.breakwater.report import damping, figures, sea_figures, tables
 from moyai.structures.breakwater.report.reading import (
@@ -39,7 +39,6 @@ from moyai.structures.breakwater.report.time import (
     run_blocks,
 )
 
-LEVEL_GROUP = "water-level"
 MOST_ANIMATIONS = 24
 POINTS_OF_ALL_RECORDS = 40000  # thinned samples outside the windows, over all runs
 
@@ -63,16 +62,8 @@ def compose(result: Result) -> Document:
     default = next((n for n, level in enumerate(levels) if decides is not None and level.name == decides.level), 0)
     measured = root.child("measured")
 
-    def at_each_level(compose_level: Callable[[Level], Sequence[Block | None]]) -> tuple[Block, ...]:
-        options = []
-        for level in levels:
-            blocks = tuple(block for block in compose_level(level) if block is not None)
-            options.append(
-                Option(_level_words(level), blocks or (Paragraph("Not run at this water level.", quiet=True),))
-            )
-        if not any(not isinstance(option.blocks[0], Paragraph) for option in options):
-            return ()
-        return (Choice(LEVEL_GROUP, "Water level", tuple(options), default),)
+    def each_level(compose_level: Callable[[Level], Sequence[Block | None]]) -> tuple[Block, ...]:
+        return at_each_level(levels, compose_level, words=_level_words, default=default)
 
     sections = [
         Section(
@@ -80,15 +71,15 @@ def compose(result: Result) -> Document:
             "Summary",
             (
                 *summary_blocks(result, numbers, decides),
-                *at_each_level(lambda level: [sea_figures.tension_bars(level)]),
+                *each_level(lambda level: [sea_figures.tension_bars(level)]),
             ),
         ),
-        Section("input", "Input", (*_input(root, levels), *at_each_level(_drawings))),
-        Section("rest", "At rest", at_each_level(_at_rest)),
-        Section("response", "Response to waves", at_each_level(_response)),
-        Section("seas", "Sea states", at_each_level(lambda level: _seas(level, measured, decides))),
-        Section("time", "Time domain", at_each_level(_time_section(levels, decides))),
-        Section("sensitivity", "Sensitivity", at_each_level(_sensitivity)),
+        Section("input", "Input", (*_input(root, levels), *each_level(_drawings))),
+        Section("rest", "At rest", each_level(_at_rest)),
+        Section("response", "Response to waves", each_level(_response)),
+        Section("seas", "Sea states", each_level(lambda level: _seas(level, measured, decides))),
+        Section("time", "Time domain", each_level(_time_section(levels, decides))),
+        Section("sensitivity", "Sensitivity", each_level(_sensitivity)),
     ]
     return Document(
         title=report_title(result),

@@ -30,43 +30,31 @@ from moyai.structures.breakwater.report.lines import in_motion, line_blocks, mov
 from moyai.structures.breakwater.report.reading import MODES, Level, Sea, attribute_number
 
 WINDOW_PERIODS = 12.0
+#: Periods before and after the window that the player shows: a storm of hours would fill the page with them.
+WAVES_AROUND = 30.0
 
 
 @dataclass(frozen=True)
 class Record:
-    """A run as arrays.
-
-    Parameters
-    ----------
-    run : Group
-    time : ndarray, shape (samples,)
-        [s].
-    pose : ndarray, shape (samples, 3)
-        Sway, heave [m], roll [rad].
-    tension : ndarray, shape (samples, lines)
-        [N]; no columns where tensions are absent.
-    lines : tuple of str
-    elevation : ndarray or None
-        Incident wave at x = 0 [m].
-    period : float
-        Wave period of the run or mean crossing period [s].
-    begin : int
-        First sample that counts in statistics.
-    at : int
-        Sample of the governing maximum.
-    governing_line : int
-        Line of it, -1 where there are no tensions.
-    """
+    """A run as arrays."""
 
     run: Group
+    #: [s]; shape (samples,).
     time: Array
+    #: Sway, heave [m], roll [rad]; shape (samples, 3).
     pose: Array
+    #: [N]; no columns where tensions are absent; shape (samples, lines).
     tension: Array
     lines: tuple[str, ...]
+    #: Incident wave at x = 0 [m].
     elevation: Array | None
+    #: Wave period of the run or mean crossing period [s].
     period: float
+    #: First sample that counts in statistics.
     begin: int
+    #: Sample of the governing maximum.
     at: int
+    #: Line of it, -1 where there are no tensions.
     governing_line: int
 
 
@@ -296,7 +284,7 @@ def animation(level: Level, sea: Sea, record: Record) -> Animation | None:
     pivot_x, pivot_z = centre_of_gravity(level)
     pivot = (pivot_x if math.isfinite(pivot_x) else 0.0, pivot_z if math.isfinite(pivot_z) else 0.0)
     window, moment = window_of(record), float(record.time[record.at])
-    times = frame_times(record.time, window, record.period, (moment,))
+    times = frame_times(record.time, window, record.period, (moment,), around=WAVES_AROUND)
     pose = np.column_stack([np.interp(times, record.time, record.pose[:, n]) for n in range(3)])
     bed = -level.depth if math.isfinite(level.depth) else None
     lines = _moving_lines(level, record, times, pose, pivot, bed)
@@ -329,6 +317,8 @@ def animation(level: Level, sea: Sea, record: Record) -> Animation | None:
     caption = (
         f"To scale; opened at the governing maximum, t = {moment:.2f} s. The cross is the centre of gravity at rest."
     )
+    if times[0] > record.time[0] or times[-1] < record.time[-1]:
+        caption += f" Shown from {times[0]:.0f} s to {times[-1]:.0f} s."
     if moving:
         caption += " Lines: in motion, as their nodes were."
     elif lines and level.group.child("statics").variable("line_shape_x") is None:

@@ -23,24 +23,16 @@ HIGHER = tuple(range(2, HARMONICS + 1))
 
 @dataclass(frozen=True)
 class EnergyOfPeriod:
-    """Where the energy of a regular wave goes in time, over the incident energy flux [eq:breakwater-time-energy].
+    """Where the energy of a regular wave goes in time, over the incident energy flux [eq:breakwater-time-energy]."""
 
-    Parameters
-    ----------
-    loss : float
-        1 - |R|^2 - |T|^2 of the first harmonic.
-    damping : float
-        Work of all damping on the first harmonic: linear, quadratic less what moving water drives, and what the lines
-        lose in all harmonics.
-    passed_on : float
-        Energy that the lines carry from the first harmonic into others.
-    radiated : ndarray (2,)
-        Radiated by the second and third harmonic.
-    """
-
+    #: 1 - |R|^2 - |T|^2 of the first harmonic.
     loss: float
+    #: Work of all damping on the first harmonic: linear, quadratic less what moving water drives, and what the lines
+    #: lose in all harmonics.
     damping: float
+    #: Energy that the lines carry from the first harmonic into others.
     passed_on: float
+    #: Radiated by the second and third harmonic; shape (2,).
     radiated: Array
 
     @classmethod

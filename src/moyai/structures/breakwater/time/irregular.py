@@ -426,7 +426,7 @@ def _irregular_summary(
     run = whole.simulation
     keep = run.time >= ramp
     position, tension = run.position[keep], run.tension[keep]
-    out: dict = {}
+    out: dict[str, Any] = {}
     if keep.sum() > 100:
         mean = position.mean(axis=0)
         vertical, horizontal, grounded = anchor_loads(unit, position, tension)
@@ -479,7 +479,8 @@ def _transmission(model: FrequencyModel, run: Simulation, sea: IrregularSea, ram
 
     def spectrum(series: Array) -> NDArray[np.complex128]:
         # The convention is exp(-i omega t): the conjugate of the transform
-        return np.asarray(np.conj(np.fft.rfft(series * window)))[band]
+        values: NDArray[np.complex128] = np.asarray(np.conj(np.fft.rfft(series * window)))[band]
+        return values
 
     wave = spectrum(run.elevation[keep])
     at = hydro.at(omega[band])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -33,24 +33,15 @@ MOST_ROWS = 120_000  # rows of a stored time series
 
 @dataclass(frozen=True)
 class TimeRun:
-    """One simulation with what it was made for.
+    """One simulation with what it was made for."""
 
-    Parameters
-    ----------
-    name : str
-        Name of its group in the result.
-    simulation : Simulation
-    attributes : dict
-    lines : LinesInMotion or None
-        Of lines that are in motion.
-    at_rest : Simulation or None
-        The same with lines at rest at every instant, next to lines in motion.
-    """
-
+    #: Name of its group in the result.
     name: str
     simulation: Simulation
-    attributes: dict
+    attributes: dict[str, Any]
+    #: Of lines that are in motion.
     lines: LinesInMotion | None = None
+    #: The same with lines at rest at every instant, next to lines in motion.
     at_rest: Simulation | None = None
 
     def dataset(self, unit: FloatingUnit) -> xr.Dataset:
@@ -80,7 +71,7 @@ class TimeRun:
             data = data.assign(self._compared(data.time.values))
         return labelled(data)
 
-    def _compared(self, time: Array) -> dict:
+    def _compared(self, time: Array) -> dict[str, Any]:
         """Return position and tension of the run with lines at rest, at the times of this run."""
         other = self.at_rest
         assert other is not None
@@ -139,26 +130,21 @@ def linear_damping(model: FrequencyModel, added_mass: Array, stiffness: Array) -
 
 @dataclass(frozen=True)
 class SeaOfRun:
-    """What a run needs to know of its sea next to the forces on the unit.
-
-    Parameters
-    ----------
-    waves : WaveComponents or None
-    current : profile or None
-    ramp, begin, period : float
-        Ramp, begin of the analysis, typical wave period [s].
-    """
+    """What a run needs to know of its sea next to the forces on the unit."""
 
     waves: WaveComponents | None
     current: Current | None
+    #: ``ramp``, ``begin``, ``period``: Ramp, begin of the analysis, typical wave period [s].
     ramp: float
+    #: ``ramp``, ``begin``, ``period``: Ramp, begin of the analysis, typical wave period [s].
     begin: float
+    #: ``ramp``, ``begin``, ``period``: Ramp, begin of the analysis, typical wave period [s].
     period: float
 
 
 def run_with_lines(
     name: str,
-    attributes: dict,
+    attributes: dict[str, Any],
     model: FrequencyModel,
     cummins: CumminsModel,
     forcing: Forcing,

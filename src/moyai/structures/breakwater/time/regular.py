@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -141,7 +141,7 @@ def regular_sea(
         | dict.fromkeys((*names[3:10], *motion), "line")
         | {"harmonic_radiation": "harmonic"}
     )
-    out: dict = {
+    out: dict[str, Any] = {
         name: (("period", dims[name]) if name in dims else ("period",), np.array(values))
         for name, values in rows.items()
         if values
@@ -305,7 +305,8 @@ def _harmonics(run: Simulation, period: float, settings: TimeSettings) -> Harmon
 
 def _analysed(run: Simulation, period: float, settings: TimeSettings) -> NDArray[np.bool_]:
     """Which rows the analysed periods at the end hold."""
-    return run.time > run.time[-1] - settings.analysed_periods * period
+    values: NDArray[np.bool_] = run.time > run.time[-1] - settings.analysed_periods * period
+    return values
 
 
 def _summary(

@@ -29,6 +29,7 @@ def _check_ropes(unit: FlexibleCageStructure, findings: Findings) -> None:
 
 def check(model: schema.CageCase, findings: Findings, folder: Path) -> None:
     """Record every fault and warning of a flexible cage case in ``findings``."""
+    from moyai.morison.net_fouling import check_fouling
     from moyai.morison.net_law_names import available_net_laws, known_net_law
     from moyai.structures.cage.case.build_flexible import build_problem
     from moyai.structures.cage.flexible.checks import problem_notices
@@ -72,6 +73,10 @@ def check(model: schema.CageCase, findings: Findings, folder: Path) -> None:
     except InputError as error:
         findings.raised(error, ("structure",))
         return
+    growth = unit.net.growth
+    if growth is not None and growth.standard is not None:
+        for notice in check_fouling(growth.standard):
+            findings.warn(("structure", "net", "growth", "standard"), notice.message, remedy=notice.remedy)
     for notice in problem_notices(problem):
         if notice.severity == "information":
             continue

@@ -15,38 +15,31 @@ from moyai.core.errors import InputError
 class Pipe:
     """A round pipe.
 
-    Parameters
-    ----------
-    diameter, wall_thickness : float
-        Outer diameter and wall [m].
-    density : float
-        Of the wall [kg/m3].
-    youngs_modulus : float
-        [Pa].
-    poisson_ratio : float
-        [-].
-    drag_normal, drag_tangential, added_mass : float
-        On the outer diameter, on the displaced volume [-].
-    extra_mass_per_length : float
-        What the pipe carries or holds: brackets, walkway, ballast, water inside [kg/m].
-    flooded : bool
-        Whether water fills it: only the wall displaces water then, and the water inside moves with it.
-
     Raises
     ------
     InputError
         For measures that are no pipe.
     """
 
+    #: ``diameter``, ``wall_thickness``: Outer diameter and wall [m].
     diameter: float
+    #: ``diameter``, ``wall_thickness``: Outer diameter and wall [m].
     wall_thickness: float
+    #: Of the wall [kg/m3].
     density: float
+    #: [Pa].
     youngs_modulus: float
+    #: [-].
     poisson_ratio: float
+    #: ``drag_normal``, ``drag_tangential``, ``added_mass``: On the outer diameter, on the displaced volume [-].
     drag_normal: float
+    #: ``drag_normal``, ``drag_tangential``, ``added_mass``: On the outer diameter, on the displaced volume [-].
     drag_tangential: float
+    #: ``drag_normal``, ``drag_tangential``, ``added_mass``: On the outer diameter, on the displaced volume [-].
     added_mass: float
+    #: What the pipe carries or holds: brackets, walkway, ballast, water inside [kg/m].
     extra_mass_per_length: float = 0.0
+    #: Whether water fills it: only the wall displaces water then, and the water inside moves with it.
     flooded: bool = False
 
     def __post_init__(self) -> None:
@@ -120,23 +113,15 @@ class Pipe:
 
 @dataclass(frozen=True)
 class Collar:
-    """The floating collar: one pipe, or two concentric ones held apart by brackets.
+    """The floating collar: one pipe, or two concentric ones held apart by brackets."""
 
-    Parameters
-    ----------
-    pipe : Pipe
-        Of each ring.
-    rings : {1, 2}
-        Number of rings; the net hangs from the inner one, bridles hold the outer one.
-    spacing : float
-        Between the axes of two rings [m].
-    rigid : bool
-        A collar that hardly deforms: bending and torsion :data:`RIGID_FACTOR` times as stiff. Its stress is left out.
-    """
-
+    #: Of each ring.
     pipe: Pipe
+    #: Number of rings; the net hangs from the inner one, bridles hold the outer one; one of 1, 2.
     rings: int = 1
+    #: Between the axes of two rings [m].
     spacing: float = 0.0
+    #: A collar that hardly deforms: bending and torsion :data:`RIGID_FACTOR` times as stiff. Its stress is left out.
     rigid: bool = False
 
     def __post_init__(self) -> None:

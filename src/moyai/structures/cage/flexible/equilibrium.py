@@ -34,29 +34,18 @@ SETTLE_TIME = 15.0
 
 @dataclass(frozen=True, eq=False)
 class CageRest:
-    """A cage at rest.
-
-    Parameters
-    ----------
-    built : CageNetwork
-    network : Network
-        With the shelter of its current.
-    current : Current or None
-    state : State
-    tension : ndarray
-        Of every bar [N].
-    residual : float
-        Largest force left on a node over the largest tension.
-    steps : int
-        Of the relaxation.
-    """
+    """A cage at rest."""
 
     built: CageNetwork
+    #: With the shelter of its current.
     network: Network
     current: Current | None
     state: State
+    #: Of every bar [N].
     tension: Array
+    #: Largest force left on a node over the largest tension.
     residual: float
+    #: Of the relaxation.
     steps: int
 
 

@@ -12,20 +12,13 @@ from moyai.tables.lines import LineProperties
 
 @dataclass(frozen=True)
 class Buoy:
-    """A spherical buoy over a corner of the frame.
+    """A spherical buoy over a corner of the frame."""
 
-    Parameters
-    ----------
-    diameter : float
-        [m].
-    mass : float
-        [kg].
-    drag : float
-        C_d on the section of the sphere [-].
-    """
-
+    #: [m].
     diameter: float
+    #: [kg].
     mass: float
+    #: C_d on the section of the sphere [-].
     drag: float
 
     def __post_init__(self) -> None:
@@ -44,50 +37,35 @@ class Buoy:
 class GridMooring:
     """A square frame under water, one bay a cage, held by lines to anchors on the bed.
 
-    Parameters
-    ----------
-    spacing : float
-        Side of a bay [m].
-    depth : float
-        Of the frame under still water [m].
-    frame_rope : LineProperties
-        Ropes of the frame, and from its corners to the buoys.
-    buoy : Buoy
-        Over every corner of the frame.
-    bridle_rope : LineProperties
-        From corners of the frame to the collar.
-    bridles_per_corner : int
-        Bridles from every corner of a bay to its cage.
-    bridle_slack : float
-        Length of a bridle over the straight way from corner to collar, less 1 [-].
-    bridle_length : float, optional
-        Unstretched length of every bridle [m], instead of ``bridle_slack``.
-    anchor_segments : tuple of (LineProperties, float)
-        Rope and chain of an anchor line from the frame to the anchor, with lengths [m].
-    anchor_distance : float
-        Horizontally from the corner of the frame to its anchor [m].
-    lines_per_corner : {1, 2}
-        Anchor lines at the outer corners: one along the diagonal, or two in line with the frame.
-    damping : float
-        Damping ratio of elastic waves in the ropes on the mesh [-].
-
     Raises
     ------
     InputError
         For lengths that are not positive and lines that cannot reach.
     """
 
+    #: Side of a bay [m].
     spacing: float
+    #: Of the frame under still water [m].
     depth: float
+    #: Ropes of the frame, and from its corners to the buoys.
     frame_rope: LineProperties
+    #: Over every corner of the frame.
     buoy: Buoy
+    #: From corners of the frame to the collar.
     bridle_rope: LineProperties
+    #: Bridles from every corner of a bay to its cage.
     bridles_per_corner: int
+    #: Rope and chain of an anchor line from the frame to the anchor, with lengths [m].
     anchor_segments: tuple[tuple[LineProperties, float], ...]
+    #: Horizontally from the corner of the frame to its anchor [m].
     anchor_distance: float
+    #: Anchor lines at the outer corners: one along the diagonal, or two in line with the frame; one of 1, 2.
     lines_per_corner: int = 1
+    #: Length of a bridle over the straight way from corner to collar, less 1 [-].
     bridle_slack: float = 0.0
+    #: Unstretched length of every bridle [m], instead of ``bridle_slack``.
     bridle_length: float | None = None
+    #: Damping ratio of elastic waves in the ropes on the mesh [-].
     damping: float = 0.1
 
     def __post_init__(self) -> None:

@@ -32,45 +32,31 @@ def _not_negative(value: float, path: str, unit: str) -> None:
 @checks_words
 @dataclass(frozen=True)
 class CageNet:
-    """The net of a cage.
+    """The net of a cage."""
 
-    Parameters
-    ----------
-    net : Net
-        Twine and mesh, with their growth where there is any.
-    law : NetLaw
-        Law of the forces of its panels.
-    wake : {"none", "loland", "cheng"}
-        Law of the shelter behind it.
-    wall_depth : float
-        Height of the wall from the collar down, unstretched [m].
-    bottom : {"none", "flat", "cone"}
-        Net that closes it below.
-    cone_depth : float
-        How far the middle of the bottom lies under its rim [m].
-    density, youngs_modulus : float
-        Of the twine's material [kg/m3], [Pa].
-    added_mass : float
-        C_a of a twine across it [-].
-    clean_diameter : float, optional
-        Twine that bears, without growth [m]; that of ``net`` when left out.
-    growth_density : float
-        Of the growth between the clean twine and the twine of ``net`` [kg/m3].
-    damping : float
-        Damping ratio of the net's elastic waves on the mesh [-]: it calms the mesh and hardly touches the motion.
-    """
-
+    #: Twine and mesh, with their growth where there is any.
     net: Net
+    #: Law of the forces of its panels.
     law: NetLaw
+    #: Law of the shelter behind it; one of "none", "loland", "cheng".
     wake: WakeName
+    #: Height of the wall from the collar down, unstretched [m].
     wall_depth: float
+    #: Net that closes it below; one of "none", "flat", "cone".
     bottom: Bottom
+    #: Of the twine's material [kg/m3].
     density: float
+    #: Of the twine's material [Pa].
     youngs_modulus: float
+    #: How far the middle of the bottom lies under its rim [m].
     cone_depth: float = 0.0
+    #: C_a of a twine across it [-].
     added_mass: float = 1.0
+    #: Twine that bears, without growth [m]; that of ``net`` when left out.
     clean_diameter: float | None = None
+    #: Of the growth between the clean twine and the twine of ``net`` [kg/m3].
     growth_density: float = 0.0
+    #: Damping ratio of the net's elastic waves on the mesh [-]: it calms the mesh and hardly touches the motion.
     damping: float = 0.1
 
     def __post_init__(self) -> None:
@@ -111,26 +97,17 @@ class CageNet:
 
 @dataclass(frozen=True)
 class Sinkers:
-    """Equal weights, evenly around the lower rim of the net.
+    """Equal weights, evenly around the lower rim of the net."""
 
-    Parameters
-    ----------
-    count : int
-        How many.
-    mass : float
-        In air, each [kg].
-    volume : float
-        Displaced, each [m3].
-    drag_area : float
-        C_d A of each [m2].
-    added_mass : float
-        Of each [kg].
-    """
-
+    #: How many.
     count: int
+    #: In air, each [kg].
     mass: float
+    #: Displaced, each [m3].
     volume: float
+    #: C_d A of each [m2].
     drag_area: float = 0.0
+    #: Of each [kg].
     added_mass: float = 0.0
 
     def __post_init__(self) -> None:
@@ -144,29 +121,18 @@ class Sinkers:
 @checks_words
 @dataclass(frozen=True)
 class CageDesign:
-    """One cage.
+    """One cage."""
 
-    Parameters
-    ----------
-    shape : {"circular", "square"}
-        Outline of the net at the collar.
-    size : float
-        Diameter, or side of a square [m].
-    collar : Collar
-    net : CageNet
-    sinkers : Sinkers, optional
-    bottom_ring : Pipe, optional
-        Sinker tube along the lower rim.
-    centre_weight : float
-        Mass less displaced water at the middle of the bottom [kg].
-    """
-
+    #: Outline of the net at the collar; one of "circular", "square".
     shape: Shape
+    #: Diameter, or side of a square [m].
     size: float
     collar: Collar
     net: CageNet
     sinkers: Sinkers | None = None
+    #: Sinker tube along the lower rim.
     bottom_ring: Pipe | None = None
+    #: Mass less displaced water at the middle of the bottom [kg].
     centre_weight: float = 0.0
 
     def __post_init__(self) -> None:
@@ -191,23 +157,15 @@ class CageDesign:
 
 @dataclass(frozen=True)
 class CageMesh:
-    """How fine a cage is resolved.
+    """How fine a cage is resolved."""
 
-    Parameters
-    ----------
-    around : int
-        Knots around the net; a multiple of 4.
-    down : int
-        Meshes of the wall from the collar down.
-    bottom : int
-        Rings of meshes from the rim of the bottom to its middle.
-    rope_length : float
-        Length of a bar of the ropes, at most [m].
-    """
-
+    #: Knots around the net; a multiple of 4.
     around: int
+    #: Meshes of the wall from the collar down.
     down: int
+    #: Rings of meshes from the rim of the bottom to its middle.
     bottom: int
+    #: Length of a bar of the ropes, at most [m].
     rope_length: float
 
     def __post_init__(self) -> None:
@@ -230,32 +188,21 @@ class FixedCollar:
 
 @dataclass(frozen=True)
 class FlexibleCage:
-    """One cage, or several in rows and columns, with what holds them.
+    """One cage, or several in rows and columns, with what holds them."""
 
-    Parameters
-    ----------
-    design : CageDesign
-        The same for all.
-    mooring : GridMooring or FixedCollar
-    water : Water
-    bed : Bed
-    mesh : CageMesh
-    kinematic_viscosity : float
-        [m2/s].
-    rows, columns : int
-        Cages along y and along x.
-    array_wake : bool
-        Whether cages shelter those downstream of them.
-    """
-
+    #: The same for all.
     design: CageDesign
     mooring: GridMooring | FixedCollar
     water: Water
     bed: Bed
     mesh: CageMesh
+    #: [m2/s].
     kinematic_viscosity: float
+    #: ``rows``, ``columns``: Cages along y and along x.
     rows: int = 1
+    #: ``rows``, ``columns``: Cages along y and along x.
     columns: int = 1
+    #: Whether cages shelter those downstream of them.
     array_wake: bool = True
 
     def __post_init__(self) -> None:

@@ -12,47 +12,32 @@ from moyai.flexible.network import Network
 
 @dataclass(frozen=True, eq=False)
 class CageParts:
-    """One cage in the network.
-
-    Parameters
-    ----------
-    name : str
-    centre : tuple of float
-        Where its middle stands as built (x, y) [m].
-    wall : ndarray of int, shape (down + 1, around)
-        Nodes of the wall, the first row on the collar.
-    bottom : tuple of ndarray of int
-        Rings of nodes of the bottom inside its rim.
-    hub : int
-        Node in the middle of the bottom; -1 without bottom net.
-    collar : tuple of ndarray of int
-        Nodes of the collar's rings, the inner first.
-    collar_bars : tuple of ndarray of int
-        Bars of each ring; bar k goes from node k to the next. Empty for a collar that is held.
-    ring_bars : ndarray of int
-        Bars of the sinker tube.
-    wall_panels, bottom_panels : ndarray of int
-        Panels.
-    net_bars : ndarray of int
-        Bars of grouped twines.
-    corners : ndarray of int, shape (p, 4)
-        Corners of its panels.
-    rest_volume : float
-        Inside the net as built [m3].
-    """
+    """One cage in the network."""
 
     name: str
+    #: Where its middle stands as built (x, y) [m].
     centre: tuple[float, float]
+    #: Nodes of the wall, the first row on the collar; shape (down + 1, around).
     wall: IntArray
+    #: Rings of nodes of the bottom inside its rim.
     bottom: tuple[IntArray, ...]
+    #: Node in the middle of the bottom; -1 without bottom net.
     hub: int
+    #: Nodes of the collar's rings, the inner first.
     collar: tuple[IntArray, ...]
+    #: Bars of each ring; bar k goes from node k to the next. Empty for a collar that is held.
     collar_bars: tuple[IntArray, ...]
+    #: Bars of the sinker tube.
     ring_bars: IntArray
+    #: Panels.
     wall_panels: IntArray
+    #: Panels.
     bottom_panels: IntArray
+    #: Bars of grouped twines.
     net_bars: IntArray
+    #: Corners of its panels; shape (p, 4).
     corners: IntArray
+    #: Inside the net as built [m3].
     rest_volume: float
 
     def volume(self, position: Array) -> Array:
@@ -68,44 +53,30 @@ class CageParts:
 
 @dataclass(frozen=True)
 class LinePart:
-    """One rope or line.
+    """One rope or line."""
 
-    Parameters
-    ----------
-    name, kind : str
-        Kind: ``anchor``, ``bridle``, ``frame`` or ``buoy``.
-    strand : int
-        Index into the strands of the network, from the anchor, frame corner or lower end upwards.
-    breaking_load : float
-        The smallest of its segments [N].
-    """
-
+    #: ``name``, ``kind``: Kind: ``anchor``, ``bridle``, ``frame`` or ``buoy``.
     name: str
+    #: ``name``, ``kind``: Kind: ``anchor``, ``bridle``, ``frame`` or ``buoy``.
     kind: str
+    #: Index into the strands of the network, from the anchor, frame corner or lower end upwards.
     strand: int
+    #: The smallest of its segments [N].
     breaking_load: float
 
 
 @dataclass(frozen=True, eq=False)
 class CageNetwork:
-    """A cage, or several, as a network.
-
-    Parameters
-    ----------
-    network : Network
-    cages : tuple of CageParts
-    lines : tuple of LinePart
-    anchors : ndarray of int
-        Nodes of the anchors.
-    buoys, sinkers : ndarray of int
-        Nodes.
-    """
+    """A cage, or several, as a network."""
 
     network: Network
     cages: tuple[CageParts, ...]
     lines: tuple[LinePart, ...]
+    #: Nodes of the anchors.
     anchors: IntArray
+    #: Nodes.
     buoys: IntArray
+    #: Nodes.
     sinkers: IntArray
 
 

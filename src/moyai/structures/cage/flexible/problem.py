@@ -19,64 +19,45 @@ from moyai.structures.cage.rigid.model import RegularWaves
 @checks_words
 @dataclass(frozen=True)
 class FlexibleSettings:
-    """How a flexible cage is computed.
+    """How a flexible cage is computed."""
 
-    Parameters
-    ----------
-    analyses : tuple of str
-        ``statics`` (rest in each current), ``time`` (each sea), ``sensitivity`` (step, mesh and damping behind peaks).
-    current_speeds : tuple of float
-        Speeds at the surface that the profile of the current is scaled to for ``statics`` [m/s]; the current as it is
-        when empty.
-    periods : int
-        Wave periods that are run in regular waves after the ramp.
-    ramp_periods : float
-        Periods over which the waves grow.
-    rows_per_period : int
-        Rows of the result in a wave period (the peak period of a spectrum).
-    frames : int
-        Pictures kept of a run, twelve a wave period or more about its governing moment.
-    stretching : str
-        Kinematics above still water.
-    slack_share, snap_factor : float
-        A line counts as slack below this share of its mean tension, and a peak after slack as a snap above this
-        multiple of it.
-    """
-
+    #: ``statics`` (rest in each current), ``time`` (each sea), ``sensitivity`` (step, mesh and damping behind peaks).
     analyses: tuple[str, ...]
+    #: Speeds at the surface that the profile of the current is scaled to for ``statics`` [m/s]; the current as it is
+    #: when empty.
     current_speeds: tuple[float, ...] = ()
+    #: Wave periods that are run in regular waves after the ramp.
     periods: int = 8
+    #: Periods over which the waves grow.
     ramp_periods: float = 3.0
+    #: Rows of the result in a wave period (the peak period of a spectrum).
     rows_per_period: int = 40
+    #: Pictures kept of a run, twelve a wave period or more about its governing moment.
     frames: int = 120
+    #: Kinematics above still water.
     stretching: Stretching = "wheeler"
+    #: ``slack_share``, ``snap_factor``: A line counts as slack below this share of its mean tension, and a peak after
+    #: slack as a snap above this multiple of it.
     slack_share: float = 0.05
+    #: ``slack_share``, ``snap_factor``: A line counts as slack below this share of its mean tension, and a peak after
+    #: slack as a snap above this multiple of it.
     snap_factor: float = 2.0
 
 
 @dataclass(frozen=True, eq=False)
 class FlexibleCageProblem:
-    """A flexible cage with its site, seas and settings.
-
-    Parameters
-    ----------
-    title : str
-    cage : FlexibleCage
-        At the depth of the chart datum; :meth:`at_level` moves it.
-    environment : Environment
-        Water levels and current.
-    seas : tuple of RegularWaves or IrregularSea
-    settings : FlexibleSettings
-    case_text, case_hash : str
-        Kept with the result.
-    """
+    """A flexible cage with its site, seas and settings."""
 
     title: str
+    #: At the depth of the chart datum; :meth:`at_level` moves it.
     cage: FlexibleCage
+    #: Water levels and current.
     environment: Environment
     seas: tuple[RegularWaves | IrregularSea, ...]
     settings: FlexibleSettings
+    #: Kept with the result.
     case_text: str = ""
+    #: Kept with the result.
     case_hash: str = ""
     criteria: tuple[Criterion, ...] = ()
     model: ClassVar[str] = "flexible"

@@ -31,22 +31,13 @@ _DRAG_ROWS, _PICTURES_PER_PERIOD = 200, 12
 
 @dataclass(frozen=True, eq=False)
 class CageRun:
-    """A run through time.
-
-    Parameters
-    ----------
-    wave : Wave
-    rest : CageRest
-        Where it started.
-    flow : Flow
-    ramp : float
-        Until which the waves grew [s].
-    history : History
-    """
+    """A run through time."""
 
     wave: Wave
+    #: Where it started.
     rest: CageRest
     flow: Flow
+    #: Until which the waves grew [s].
     ramp: float
     history: History
 

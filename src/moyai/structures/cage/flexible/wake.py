@@ -102,17 +102,11 @@ def sheltered(model: FlexibleCage, built: CageNetwork, current: Current | None) 
 
 @dataclass(frozen=True)
 class ScaledCurrent:
-    """A current profile times a factor.
+    """A current profile times a factor."""
 
-    Parameters
-    ----------
-    profile : Current
-        What is scaled.
-    factor : float
-        [-].
-    """
-
+    #: What is scaled.
     profile: Current
+    #: [-].
     factor: float
 
     def velocity(self, z: ArrayLike) -> Array:

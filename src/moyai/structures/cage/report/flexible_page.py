@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from moyai.core.results import Result
-from moyai.report.document import Block, Choice, Document, Option, Paragraph, Section
+from moyai.report.document import Block, Choice, Document, Option, Section
 from moyai.report.formatting import format_quantity
 from moyai.report.general_page import case_listing, closing_section, notice_blocks, provenance, report_title
 from moyai.report.headlines import headline_figures
+from moyai.report.levels import at_each_level
 from moyai.report.reading import Group, root_of
 from moyai.structures.cage.report import flexible_figures as figures
 from moyai.structures.cage.report import flexible_tables as tables
@@ -31,26 +32,16 @@ def compose(result: Result) -> Document:
     root = root_of(result)
     levels = levels_of(root)
 
-    def at_each_level(compose_level: Callable[[Level], Sequence[Block | None]]) -> tuple[Block, ...]:
-        options = []
-        for level in levels:
-            blocks = tuple(block for block in compose_level(level) if block is not None)
-            options.append(Option(level.name, blocks or (Paragraph("Not run at this water level.", quiet=True),)))
-        if all(isinstance(option.blocks[0], Paragraph) for option in options):
-            return ()
-        if len(options) == 1:
-            return options[0].blocks
-        return (Choice("water-level", "Water level", tuple(options)),)
+    def each_level(compose_level: Callable[[Level], Sequence[Block | None]]) -> tuple[Block, ...]:
+        return at_each_level(levels, compose_level, choice_of_one=False)
 
     sections = [
         Section("summary", "Summary", (*_summary(result), *notice_blocks(result))),
-        Section(
-            "shape", "Shape at rest", at_each_level(lambda level: [rest_views(level), figures.volume_figure(level)])
-        ),
+        Section("shape", "Shape at rest", each_level(lambda level: [rest_views(level), figures.volume_figure(level)])),
         Section(
             "loads",
             "Drag and loads at rest",
-            at_each_level(
+            each_level(
                 lambda level: [
                     figures.drag_figure(level),
                     tables.law_table(level),
@@ -60,9 +51,9 @@ def compose(result: Result) -> Document:
                 ]
             ),
         ),
-        Section("collar", "Collar", at_each_level(lambda level: [figures.collar_figure(level)])),
-        Section("time", "In waves", at_each_level(_time)),
-        Section("cage", "The cage", at_each_level(lambda level: [tables.cage_table(level)])),
+        Section("collar", "Collar", each_level(lambda level: [figures.collar_figure(level)])),
+        Section("time", "In waves", each_level(_time)),
+        Section("cage", "The cage", each_level(lambda level: [tables.cage_table(level)])),
         Section("input", "Input", (case_listing(root),)),
     ]
     return Document(

@@ -12,6 +12,7 @@ from moyai.report.document import Block, Choice, Document, Option, Paragraph, Se
 from moyai.report.formatting import format_quantity
 from moyai.report.general_page import case_listing, closing_section, notice_blocks, provenance, report_title
 from moyai.report.headlines import headline_figures
+from moyai.report.levels import at_each_level
 from moyai.report.reading import Group, root_of
 from moyai.structures.cage.report import rigid_figures as figures
 from moyai.structures.cage.report import rigid_tables as tables
@@ -39,25 +40,17 @@ def compose(result: Result) -> Document:
     root = root_of(result)
     levels = levels_of(root)
 
-    def at_each_level(compose_level: Callable[[Level], Sequence[Block | None]]) -> tuple[Block, ...]:
-        options = []
-        for level in levels:
-            blocks = tuple(block for block in compose_level(level) if block is not None)
-            options.append(Option(level.name, blocks or (Paragraph("Not run at this water level.", quiet=True),)))
-        if all(isinstance(option.blocks[0], Paragraph) for option in options):
-            return ()
-        if len(options) == 1:
-            return options[0].blocks
-        return (Choice("water-level", "Water level", tuple(options)),)
+    def each_level(compose_level: Callable[[Level], Sequence[Block | None]]) -> tuple[Block, ...]:
+        return at_each_level(levels, compose_level, choice_of_one=False)
 
     literal = str(root.attributes.get("equations", "")) == "literal"
     sections = [
         Section("summary", "Summary", (*_summary(result, literal), *notice_blocks(result))),
-        Section("cage", "Cage and mooring", at_each_level(_cage)),
-        Section("motions", "Motions", at_each_level(_motions)),
-        Section("tensions", "Line tensions", at_each_level(_tensions)),
-        Section("stiffness", "Line stiffness", at_each_level(_stiffness)),
-        Section("time", "Motion over time", at_each_level(_time)),
+        Section("cage", "Cage and mooring", each_level(_cage)),
+        Section("motions", "Motions", each_level(_motions)),
+        Section("tensions", "Line tensions", each_level(_tensions)),
+        Section("stiffness", "Line stiffness", each_level(_stiffness)),
+        Section("time", "Motion over time", each_level(_time)),
         Section("input", "Input", (case_listing(root),)),
     ]
     return Document(

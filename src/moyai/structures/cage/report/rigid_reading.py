@@ -44,41 +44,26 @@ def key(level: Level, *parts: str) -> str:
 
 @dataclass(frozen=True)
 class Record:
-    """A run as arrays.
-
-    Parameters
-    ----------
-    run : Group
-    time : ndarray
-        [s].
-    pose : ndarray, shape (rows, 3)
-        Sway, heave [m], roll [rad] of the centre of gravity from rest.
-    tension : ndarray, shape (rows, lines, 2)
-        At cage and anchor [N].
-    peak : ndarray, shape (rows, lines)
-        Largest tension around the row [N].
-    lines : tuple of str
-    elevation : ndarray
-        [m].
-    period, height, wavelength : float
-    window : tuple of float
-        Part shown at first [s].
-    at : int
-        Row of the largest tension, of the largest rotation without lines.
-    regular : bool
-    """
+    """A run as arrays."""
 
     run: Group
+    #: [s].
     time: Array
+    #: Sway, heave [m], roll [rad] of the centre of gravity from rest; shape (rows, 3).
     pose: Array
+    #: At cage and anchor [N]; shape (rows, lines, 2).
     tension: Array
+    #: Largest tension around the row [N]; shape (rows, lines).
     peak: Array
     lines: tuple[str, ...]
+    #: [m].
     elevation: Array
     period: float
     height: float
     wavelength: float
+    #: Part shown at first [s].
     window: tuple[float, float]
+    #: Row of the largest tension, of the largest rotation without lines.
     at: int
     regular: bool
 
@@ -142,29 +127,19 @@ def read_record(run: Group) -> Record | None:
 
 @dataclass(frozen=True)
 class Section:
-    """The section of the moored cage at rest, in site axes [m].
+    """The section of the moored cage at rest, in site axes [m]."""
 
-    Parameters
-    ----------
-    outline : ndarray, shape (4, 2)
-        Net from the upper left corner down and around.
-    floats : ndarray, shape (n, 2)
-        Centres.
-    diameter : float
-        Of a float.
-    centre : tuple of float
-        Centre of gravity.
-    lines : tuple of (str, ndarray)
-        Name, anchor and attachment.
-    lengths : tuple of float
-        Unstretched.
-    """
-
+    #: Net from the upper left corner down and around; shape (4, 2).
     outline: Array
+    #: Centres; shape (n, 2).
     floats: Array
+    #: Of a float.
     diameter: float
+    #: Centre of gravity.
     centre: tuple[float, float]
+    #: Name, anchor and attachment.
     lines: tuple[tuple[str, Array], ...]
+    #: Unstretched.
     lengths: tuple[float, ...]
 
 

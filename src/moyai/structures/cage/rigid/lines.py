@@ -15,24 +15,6 @@ from moyai.core.errors import InputError
 class CageLine:
     """A straight line that pulls and never pushes [eq:cage-line].
 
-    Parameters
-    ----------
-    name : str
-    attachment : tuple of float
-        Point of the cage x, z from its middle [m].
-    anchor : tuple of float
-        Anchor x, z; x from the middle of the cage at rest, z above still water [m].
-    length : float
-        Unstretched length [m].
-    stiffness : float
-        Of line and gauge together [N/m].
-    damping : float
-        Force over speed of lengthening of a taut line [N s/m].
-    submerged_weight : float
-        Weight in water per length [N/m]; parts the tensions of both ends, nothing else.
-    breaking_load : float or None
-        [N].
-
     Raises
     ------
     InputError
@@ -40,12 +22,19 @@ class CageLine:
     """
 
     name: str
+    #: Point of the cage x, z from its middle [m].
     attachment: tuple[float, float]
+    #: Anchor x, z; x from the middle of the cage at rest, z above still water [m].
     anchor: tuple[float, float]
+    #: Unstretched length [m].
     length: float
+    #: Of line and gauge together [N/m].
     stiffness: float
+    #: Force over speed of lengthening of a taut line [N s/m].
     damping: float = 0.0
+    #: Weight in water per length [N/m]; parts the tensions of both ends, nothing else.
     submerged_weight: float = 0.0
+    #: [N].
     breaking_load: float | None = None
 
     def __post_init__(self) -> None:

@@ -10,8 +10,8 @@ from typing import Literal
 import numpy as np
 
 from moyai.sea.water import Water
-from moyai.structures.cage.rigid.kernel import Packed
 from moyai.structures.cage.rigid.parts import RigidCage
+from moyai.structures.cage.rigid.water_kernel import Packed
 
 Fault = Literal[
     "submerged_mass",

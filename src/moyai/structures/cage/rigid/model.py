@@ -21,41 +21,31 @@ Setting = Literal["pull_down", "pretension", "slack", "length"]
 @checks_words
 @dataclass(frozen=True)
 class LinePlan:
-    """A line before its length is known.
-
-    Parameters
-    ----------
-    name : str
-    attachment : tuple of float
-        x, z from the middle of the cage [m].
-    anchor_x, anchor_above_bed : float
-        [m].
-    setting : {"pull_down", "pretension", "slack", "length"}
-        What fixes the length, with ``value``: how far the lines pull the cage under [m], tension at rest [N], length
-        beyond the span of the freely floating cage [m], unstretched length [m]. Lines of ``pull_down`` share one
-        tension.
-    value : float
-    stiffness : float or None
-        Of line and gauge together [N/m]; ``None``: from EA.
-    axial_stiffness, gauge_stiffness : float or None
-        EA [N]; [N/m], rigid when absent.
-    damping, submerged_weight : float
-        [N s/m], [N/m].
-    breaking_load : float or None
-        [N].
-    """
+    """A line before its length is known."""
 
     name: str
+    #: x, z from the middle of the cage [m].
     attachment: tuple[float, float]
+    #: [m].
     anchor_x: float
+    #: [m].
     anchor_above_bed: float
+    #: What fixes the length, with ``value``: how far the lines pull the cage under [m], tension at rest [N], length
+    #: beyond the span of the freely floating cage [m], unstretched length [m]. Lines of ``pull_down`` share one
+    #: tension. One of "pull_down", "pretension", "slack", "length".
     setting: Setting
     value: float
+    #: Of line and gauge together [N/m]; ``None``: from EA.
     stiffness: float | None
+    #: EA [N].
     axial_stiffness: float | None = None
+    #: [N/m], rigid when absent.
     gauge_stiffness: float | None = None
+    #: [N s/m].
     damping: float = 0.0
+    #: [N/m].
     submerged_weight: float = 0.0
+    #: [N].
     breaking_load: float | None = None
 
 
@@ -79,35 +69,27 @@ CageSea = RegularWaves | IrregularSea
 @checks_words
 @dataclass(frozen=True)
 class Settings:
-    """How a rigid cage is computed.
-
-    Parameters
-    ----------
-    analyses : tuple of str
-    periods, settled_periods : int
-        Wave periods that are run, and the last ones that numbers are taken from.
-    ramp_periods : float
-        Periods over which the waves grow.
-    samples_per_period : int
-        Rows written in a wave period (peak period of irregular seas).
-    stretching : {"constant", "wheeler"}
-    tolerance : float
-        Local error of a step.
-    fixed_step : float or None
-        Step of the fourth-order method [s] that takes the place of the adaptive one.
-    stiffness_factors, stiffnesses : tuple of float
-        Line stiffnesses of ``sensitivity``: multiples, or values [N/m] that take their place.
-    """
+    """How a rigid cage is computed."""
 
     analyses: tuple[Analysis, ...] = ("statics", "time", "sensitivity")
+    #: ``periods``, ``settled_periods``: Wave periods that are run, and the last ones that numbers are taken from.
     periods: int = 40
+    #: ``periods``, ``settled_periods``: Wave periods that are run, and the last ones that numbers are taken from.
     settled_periods: int = 20
+    #: Periods over which the waves grow.
     ramp_periods: float = 5.0
+    #: Rows written in a wave period (peak period of irregular seas).
     samples_per_period: int = 100
     stretching: Literal["constant", "wheeler"] = "constant"
+    #: Local error of a step.
     tolerance: float = 1e-6
+    #: Step of the fourth-order method [s] that takes the place of the adaptive one.
     fixed_step: float | None = None
+    #: ``stiffness_factors``, ``stiffnesses``: Line stiffnesses of ``sensitivity``: multiples, or values [N/m] that take
+    #: their place.
     stiffness_factors: tuple[float, ...] = (1.0 / 3.0, 1.0, 10.0 / 3.0, 10.0)
+    #: ``stiffness_factors``, ``stiffnesses``: Line stiffnesses of ``sensitivity``: multiples, or values [N/m] that take
+    #: their place.
     stiffnesses: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
@@ -123,30 +105,19 @@ class Settings:
 @checks_words
 @dataclass(frozen=True)
 class RigidCageProblem:
-    """The whole problem as the case file states it.
-
-    Parameters
-    ----------
-    title : str
-    cage : RigidCage
-    plans : tuple of LinePlan
-    kinematic_viscosity : float
-        [m2/s].
-    environment : Environment
-        Water, levels, current; its sea states are those of ``seas``.
-    seas : tuple
-    equations : {"sound", "literal"}
-    settings : Settings
-    """
+    """The whole problem as the case file states it."""
 
     model: ClassVar[str] = "rigid"
 
     title: str
     cage: RigidCage
     plans: tuple[LinePlan, ...]
+    #: [m2/s].
     kinematic_viscosity: float
+    #: Water, levels, current; its sea states are those of ``seas``.
     environment: Environment
     seas: tuple[CageSea, ...] = ()
+    #: One of "sound", "literal".
     equations: Equations = "sound"
     settings: Settings = field(default_factory=Settings)
     case_text: str = ""

@@ -7,16 +7,16 @@ import math
 import numpy as np
 
 from moyai.core.arrays import Array
-from moyai.structures.cage.rigid import kernel
-from moyai.structures.cage.rigid.kernel import Packed
+from moyai.structures.cage.rigid import load_kernel
 from moyai.structures.cage.rigid.statics import Rest
+from moyai.structures.cage.rigid.water_kernel import Packed
 
 
 def mass_matrix(packed: Packed, place: Array) -> Array:
     """Return mass with added mass at a place in still water, 3 x 3 [kg], [kg m], [kg m2] [eq:cage-added-mass]."""
     force, mass, work = np.empty(3), np.empty((3, 3)), np.empty(6)
     taut = np.full(len(packed.lines), -1.0)
-    kernel.loads(packed, 0.0, np.concatenate([place, np.zeros(3)]), taut, force, mass, work)
+    load_kernel.loads(packed, 0.0, np.concatenate([place, np.zeros(3)]), taut, force, mass, work)
     return mass
 
 

@@ -12,10 +12,10 @@ from moyai.sea.components import WaveComponents
 from moyai.sea.current import CurrentProfile
 from moyai.sea.kinematics import stretching_code
 from moyai.sea.water import Water
-from moyai.structures.cage.rigid.kernel import Packed
 from moyai.structures.cage.rigid.lines import CageLine
 from moyai.structures.cage.rigid.parts import RigidCage
 from moyai.structures.cage.rigid.wake import shelter
+from moyai.structures.cage.rigid.water_kernel import Packed
 
 SPHERE_COLUMNS = ("r_x", "r_z", "radius", "count", "drag", "fluid_factor", "body_factor")
 PATCH_COLUMNS = (

@@ -31,22 +31,17 @@ def _not_negative(owner: object, *names: str) -> None:
 
 @dataclass(frozen=True, eq=False)
 class Floats:
-    """Equal spheres.
+    """Equal spheres."""
 
-    Parameters
-    ----------
-    points : array_like, shape (n, 3)
-        Centres from the middle of the cage [m].
-    diameter, mass : float
-        Of one sphere [m], [kg].
-    drag, added_mass : float
-        C_d on the disc of the sphere, C_a on its volume [-].
-    """
-
+    #: Centres from the middle of the cage [m]; shape (n, 3).
     points: Array
+    #: Of one sphere [m].
     diameter: float
+    #: Of one sphere [kg].
     mass: float
+    #: ``drag``, ``added_mass``: C_d on the disc of the sphere, C_a on its volume [-].
     drag: float
+    #: ``drag``, ``added_mass``: C_d on the disc of the sphere, C_a on its volume [-].
     added_mass: float
 
     def __post_init__(self) -> None:
@@ -63,24 +58,17 @@ class Floats:
 
 @dataclass(frozen=True, eq=False)
 class Patches:
-    """Small plane pieces of net.
+    """Small plane pieces of net."""
 
-    Parameters
-    ----------
-    points, normals : ndarray, shape (n, 3)
-        Middles from the middle of the cage [m]; unit normals, either side.
-    areas : ndarray, shape (n,)
-        Outline areas [m2].
-    halves : ndarray, shape (n,)
-        Half extent in the panel along its line of steepest slope [m].
-    spread : ndarray, shape (n,)
-        Mean of (x^2 + z^2) over the patch about its own middle [m2].
-    """
-
+    #: ``points``, ``normals``: Middles from the middle of the cage [m]; unit normals, either side; shape (n, 3).
     points: Array
+    #: ``points``, ``normals``: Middles from the middle of the cage [m]; unit normals, either side; shape (n, 3).
     normals: Array
+    #: Outline areas [m2]; shape (n,).
     areas: Array
+    #: Half extent in the panel along its line of steepest slope [m]; shape (n,).
     halves: Array
+    #: Mean of (x^2 + z^2) over the patch about its own middle [m2]; shape (n,).
     spread: Array
 
     @property
@@ -171,19 +159,15 @@ def disc(radius: float, level: float, count: int) -> Patches:
 
 @dataclass(frozen=True)
 class Rod:
-    """A round rod.
+    """A round rod."""
 
-    Parameters
-    ----------
-    start, end : tuple of three float
-        From the middle of the cage [m].
-    diameter, mass : float
-        [m], [kg].
-    """
-
+    #: From the middle of the cage [m].
     start: tuple[float, float, float]
+    #: From the middle of the cage [m].
     end: tuple[float, float, float]
+    #: [m].
     diameter: float
+    #: [kg].
     mass: float
 
     @property
@@ -199,54 +183,24 @@ class Rod:
 
 @dataclass(frozen=True)
 class PointWeight:
-    """A weight (or buoy, where it displaces more) at a point.
-
-    Parameters
-    ----------
-    name : str
-    point : tuple of three float
-        From the middle of the cage [m].
-    mass, volume : float
-        [kg], [m3].
-    drag, added_mass : float
-        C_d and C_a of a sphere of that volume [-].
-    """
+    """A weight (or buoy, where it displaces more) at a point."""
 
     name: str
+    #: From the middle of the cage [m].
     point: tuple[float, float, float]
+    #: [kg].
     mass: float
+    #: [m3].
     volume: float
+    #: ``drag``, ``added_mass``: C_d and C_a of a sphere of that volume [-].
     drag: float
+    #: ``drag``, ``added_mass``: C_d and C_a of a sphere of that volume [-].
     added_mass: float
 
 
 @dataclass(frozen=True, eq=False)
 class RigidCage:
     """A rigid cage, symmetric about the plane y = 0.
-
-    Parameters
-    ----------
-    floats : Floats
-    patches : Patches
-        Its net.
-    net : Net
-        Twine and mesh.
-    law : NetLaw
-        Drag of the net.
-    net_mass, net_volume : float
-        Mass and solid volume per outline area [kg/m2], [m].
-    net_added_mass : float
-        C_a of twine [-].
-    rods : tuple of Rod
-    rod_drag, rod_added_mass : float
-        [-].
-    weights : tuple of PointWeight
-    extent : tuple of float
-        Length along x, width and height, for drawings and attachment points [m].
-    outline : str
-        ``box`` or ``cylinder``.
-    wake : {"none", "loland", "cheng"}
-        Law by which the upstream wall shelters the net behind it from the current.
 
     Raises
     ------
@@ -255,18 +209,29 @@ class RigidCage:
     """
 
     floats: Floats
+    #: Its net.
     patches: Patches
+    #: Twine and mesh.
     net: Net
+    #: Drag of the net.
     law: NetLaw
+    #: Mass and solid volume per outline area [kg/m2].
     net_mass: float
+    #: Mass and solid volume per outline area [m].
     net_volume: float
+    #: C_a of twine [-].
     net_added_mass: float
     rods: tuple[Rod, ...]
+    #: [-].
     rod_drag: float
+    #: [-].
     rod_added_mass: float
+    #: Length along x, width and height, for drawings and attachment points [m].
     extent: tuple[float, float, float]
     weights: tuple[PointWeight, ...] = ()
+    #: ``box`` or ``cylinder``.
     outline: str = "box"
+    #: Law by which the upstream wall shelters the net behind it from the current; one of "none", "loland", "cheng".
     wake: str = "none"
 
     def __post_init__(self) -> None:

@@ -138,7 +138,8 @@ def _balance(
 
     def residual(unknown: Array) -> Array:
         place, tension = unpack(unknown)
-        return (force_at(still, place) + pull_of(place, tension)) / np.array([weight, weight, weight * size])
+        values: Array = (force_at(still, place) + pull_of(place, tension)) / np.array([weight, weight, weight * size])
+        return values
 
     if depth is None:
         _require_carried(cage, drafts, water, free, given)

@@ -11,11 +11,11 @@ from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.sea.current import CurrentProfile
 from moyai.sea.water import Water
-from moyai.structures.cage.rigid import kernel
-from moyai.structures.cage.rigid.kernel import Packed
+from moyai.structures.cage.rigid import load_kernel, march_kernel
 from moyai.structures.cage.rigid.lines import CageLine
 from moyai.structures.cage.rigid.pack import pack
 from moyai.structures.cage.rigid.parts import RigidCage
+from moyai.structures.cage.rigid.water_kernel import Packed
 
 #: Largest step of Newton's method: share of the size of the cage, and radians
 _LARGEST_MOVE = 0.05
@@ -23,31 +23,23 @@ _LARGEST_MOVE = 0.05
 
 @dataclass(frozen=True, eq=False)
 class Rest:
-    """A position of rest.
+    """A position of rest."""
 
-    Parameters
-    ----------
-    x, z, theta : float
-        Centre of gravity [m] above still water, rotation [rad].
-    tension : ndarray, shape (lines,)
-        At the attachment [N].
-    immersion : float
-        Share of the volume of the floats under water [-].
-    residual : float
-        Largest unbalanced force over the weight in air [-].
-    stiffness : ndarray, shape (3, 3)
-        -d(force)/d(x, z, theta) [N/m], [N], [N m/rad].
-    middle_z : float
-        Middle of the cage above still water [m].
-    """
-
+    #: ``x``, ``z``, ``theta``: Centre of gravity [m] above still water, rotation [rad].
     x: float
+    #: ``x``, ``z``, ``theta``: Centre of gravity [m] above still water, rotation [rad].
     z: float
+    #: ``x``, ``z``, ``theta``: Centre of gravity [m] above still water, rotation [rad].
     theta: float
+    #: At the attachment [N]; shape (lines,).
     tension: Array
+    #: Share of the volume of the floats under water [-].
     immersion: float
+    #: Largest unbalanced force over the weight in air [-].
     residual: float
+    #: -d(force)/d(x, z, theta) [N/m], [N], [N m/rad]; shape (3, 3).
     stiffness: Array
+    #: Middle of the cage above still water [m].
     middle_z: float
 
     @property
@@ -61,7 +53,7 @@ def force_at(packed: Packed, place: Array) -> Array:
     force, mass, work = np.empty(3), np.empty((3, 3)), np.empty(6)
     taut = np.full(len(packed.lines), -1.0)
     state = np.concatenate([place, np.zeros(3)])
-    kernel.loads(packed, 0.0, state, taut, force, mass, work)
+    load_kernel.loads(packed, 0.0, state, taut, force, mass, work)
     return force
 
 
@@ -213,7 +205,7 @@ def rest_of(packed: Packed, cage: RigidCage, place: Array, held: tuple[int, ...]
         )
     work = np.empty(6)
     state = np.concatenate([found, np.zeros(3)])
-    tension = np.array([kernel.tension_of(packed, i, state, work) for i in range(len(packed.lines))])
+    tension = np.array([load_kernel.tension_of(packed, i, state, work) for i in range(len(packed.lines))])
     middle = found[1] + math.sin(found[2]) * cage.centre[0] - math.cos(found[2]) * cage.centre[1]
     return Rest(
         float(found[0]),
@@ -247,7 +239,7 @@ def _settle(packed: Packed, place: Array, size: float, held: tuple[int, ...], we
     best, least = state[:3].copy(), math.inf
     for turn in range(60):
         span = 20.0 / rate
-        _, step = kernel.march(
+        _, step = march_kernel.march(
             damped, turn * span, (turn + 1) * span, state, step, 1.0 / rate, 1.0 / rate, 1e-7, scale, 0.0, 1e12, rows,
             tension, peak, counts,
         )  # fmt: skip

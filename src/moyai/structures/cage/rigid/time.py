@@ -10,8 +10,8 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
-from moyai.structures.cage.rigid import kernel
-from moyai.structures.cage.rigid.kernel import Packed
+from moyai.structures.cage.rigid import load_kernel, march_kernel
+from moyai.structures.cage.rigid.water_kernel import Packed
 
 #: Rows between two calls of the compiled marcher: progress and interruption
 _CHUNK = 4000
@@ -19,32 +19,25 @@ _CHUNK = 4000
 
 @dataclass(frozen=True, eq=False)
 class March:
-    """Motion of a cage over time.
+    """Motion of a cage over time."""
 
-    Parameters
-    ----------
-    time : ndarray, shape (rows,)
-        [s].
-    state : ndarray, shape (rows, 6)
-        x, z of the centre of gravity [m], rotation [rad], and their rates.
-    tension : ndarray, shape (rows, lines)
-        At the attachment, at the time of the row [N].
-    tension_peak : ndarray, shape (rows, lines)
-        Largest tension around the row, found within the steps [N].
-    steps, refused, events, evaluations : int
-        What it took.
-    status : str
-        ``converged``, ``not_converged`` or ``interrupted``.
-    """
-
+    #: [s]; shape (rows,).
     time: Array
+    #: x, z of the centre of gravity [m], rotation [rad], and their rates; shape (rows, 6).
     state: Array
+    #: At the attachment, at the time of the row [N]; shape (rows, lines).
     tension: Array
+    #: Largest tension around the row, found within the steps [N]; shape (rows, lines).
     tension_peak: Array
+    #: What it took.
     steps: int
+    #: What it took.
     refused: int
+    #: What it took.
     events: int
+    #: What it took.
     evaluations: int
+    #: ``converged``, ``not_converged`` or ``interrupted``.
     status: str
 
 
@@ -64,7 +57,7 @@ def longest_steps(packed: Packed, state: Array, period: float) -> tuple[float, f
     if not len(packed.lines):
         return longest, longest
     force, mass, work = np.empty(3), np.empty((3, 3)), np.empty(6)
-    kernel.loads(packed, 0.0, state, np.full(len(packed.lines), -1.0), force, mass, work)
+    load_kernel.loads(packed, 0.0, state, np.full(len(packed.lines), -1.0), force, mass, work)
     elastic = np.zeros((3, 3))
     cosine, sine = math.cos(state[2]), math.sin(state[2])
     for line in packed.lines:
@@ -135,7 +128,7 @@ def march(
             end = min(first + _CHUNK, count - 1) * spacing
             if end <= now:
                 break
-            now, step = kernel.march(
+            now, step = march_kernel.march(
                 packed, now, end, state, step, slack, taut, tolerance, scale, 0.0, spacing, rows, tension, peak, counts
             )
             if now < end * (1.0 - 1e-12) or not np.isfinite(state).all():
@@ -148,7 +141,7 @@ def march(
     keep = slice(0, max(kept, 1))
     work = np.empty(6)
     for i in range(lines):
-        tension[0, i] = kernel.tension_of(packed, i, np.array(start, dtype=float), work)
+        tension[0, i] = load_kernel.tension_of(packed, i, np.array(start, dtype=float), work)
     steps, refused, events, evaluations = (int(value) for value in counts)
     time: Array = np.asarray(np.arange(count)[keep] * spacing, dtype=np.float64)
     peaks = np.maximum(peak[keep], tension[keep])
@@ -171,7 +164,7 @@ def march_fixed(packed: Packed, start: Array, *, duration: float, step: float, e
     size, lines = count // every + 1, len(packed.lines)
     rows, tension, peak = np.full((size, 6), np.nan), np.zeros((size, lines)), np.zeros((size, lines))
     state = np.array(start, dtype=float)
-    written = kernel.march_fixed(packed, 0.0, state, step, count, every, rows, tension, peak)
+    written = march_kernel.march_fixed(packed, 0.0, state, step, count, every, rows, tension, peak)
     keep = slice(0, abs(written))
     time: Array = np.asarray(np.arange(size)[keep] * step * every, dtype=np.float64)
     status = "converged" if written > 0 else "not_converged"

@@ -21,30 +21,20 @@ COMPONENTS = 200
 
 @dataclass(frozen=True, eq=False)
 class Wave:
-    """One wave or irregular sea, ready to be run.
-
-    Parameters
-    ----------
-    name : str
-    components : WaveComponents
-    height, period : float
-        H and T, or significant height and peak period [m], [s].
-    wavelength : float
-        Of that period [m].
-    duration : float
-        [s].
-    regular : bool
-    seed : int or None
-        Of the phases of an irregular sea.
-    """
+    """One wave or irregular sea, ready to be run."""
 
     name: str
     components: WaveComponents
+    #: H and T, or significant height and peak period [m].
     height: float
+    #: H and T, or significant height and peak period [s].
     period: float
+    #: Of that period [m].
     wavelength: float
+    #: [s].
     duration: float
     regular: bool
+    #: Of the phases of an irregular sea.
     seed: int | None = None
 
 

@@ -29,58 +29,39 @@ MESH_CHANGE = 0.2
 
 @dataclass(frozen=True)
 class Sample:
-    """One run of an event, on a mesh and with a realisation of its sea.
+    """One run of an event, on a mesh and with a realisation of its sea."""
 
-    Parameters
-    ----------
-    event : str
-        What is run: a sea, a period of regular waves, the snap.
-    run : str
-        Name of the run whose series are kept of this event and mesh.
-    mesh : tuple of int
-        Cells along and down.
-    seed : int
-        Of the sea; 0 where there is no chance in it.
-    peaks : mapping
-        Highest tension by component [N, N/m].
-    """
-
+    #: What is run: a sea, a period of regular waves, the snap.
     event: str
+    #: Name of the run whose series are kept of this event and mesh.
     run: str
+    #: Cells along and down.
     mesh: tuple[int, int]
+    #: Of the sea; 0 where there is no chance in it.
     seed: int
+    #: Highest tension by component [N, N/m].
     peaks: Mapping[str, float]
 
 
 @dataclass(frozen=True)
 class EventPeak:
-    """Highest tension of a component in an event.
+    """Highest tension of a component in an event."""
 
-    Parameters
-    ----------
-    value : float
-        Larger of the means over the realisations on each mesh [N, N/m].
-    low, high : float
-        Lowest and highest of all runs.
-    judged : float
-        Upper end of the one-sided 95 % interval of the mean (Student); the value where there is one realisation.
-    run : str
-        Run of which series are kept, of the mesh that counts.
-    change : float
-        From one mesh to the other with the same realisations, over the larger mean; 0 with one mesh.
-    finer_is_more : bool
-        Whether the finer mesh gives the larger mean.
-    means : tuple of float
-        Of both meshes with the same realisations, the coarser first; empty with one mesh.
-    """
-
+    #: Larger of the means over the realisations on each mesh [N, N/m].
     value: float
+    #: ``low``, ``high``: Lowest and highest of all runs.
     low: float
+    #: ``low``, ``high``: Lowest and highest of all runs.
     high: float
+    #: Upper end of the one-sided 95 % interval of the mean (Student); the value where there is one realisation.
     judged: float
+    #: Run of which series are kept, of the mesh that counts.
     run: str
+    #: From one mesh to the other with the same realisations, over the larger mean; 0 with one mesh.
     change: float = 0.0
+    #: Whether the finer mesh gives the larger mean.
     finer_is_more: bool = False
+    #: Of both meshes with the same realisations, the coarser first; empty with one mesh.
     means: tuple[float, ...] = ()
 
     @property

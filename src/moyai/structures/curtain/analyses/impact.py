@@ -26,33 +26,22 @@ _DEEPEST = 0.98
 
 @dataclass(frozen=True, eq=False)
 class ImpactAnswer:
-    """What the impact analysis of a level found.
+    """What the impact analysis of a level found."""
 
-    Parameters
-    ----------
-    impact : Impact
-        The span, with its start speed.
-    comparison : Comparison
-        All models.
-    edges : EdgeImpact
-        Model A2, for the shares of the cables.
-    design_model : str
-        Whose tension the load table takes.
-    design_tension : float
-        Of both cables together [N].
-    half_angle : float
-        Of the just-taut arc of the skirt [rad]; NaN where no chord is known.
-    uncertainty : tuple of float
-        Ends of the band of the tension over ``design_tension`` [-]: the lowest of the models that count with the start
-        speed of low drag, and the design model with that of high drag [eq:impact-band].
-    """
-
+    #: The span, with its start speed.
     impact: Impact
+    #: All models.
     comparison: Comparison
+    #: Model A2, for the shares of the cables.
     edges: EdgeImpact
+    #: Whose tension the load table takes.
     design_model: str
+    #: Of both cables together [N].
     design_tension: float
+    #: Of the just-taut arc of the skirt [rad]; NaN where no chord is known.
     half_angle: float
+    #: Ends of the band of the tension over ``design_tension`` [-]: the lowest of the models that count with the start
+    #: speed of low drag, and the design model with that of high drag [eq:impact-band].
     uncertainty: tuple[float, float]
 
     @property
@@ -221,7 +210,7 @@ def line_load(answer: ImpactAnswer, tension: float) -> float:
     """Return the load per length of curtain [N/m] that goes with a sum of cable tensions [N], T/a just taut."""
     impact = answer.impact
     b = taut_shape(impact.span_ratio)
-    return 2.0 * b * tension / impact.span
+    return float(2.0 * b * tension / impact.span)
 
 
 def impact_notices(unit: LevelCurtain, settings: ImpactSettings, answer: ImpactAnswer) -> tuple[Notice, ...]:
@@ -293,6 +282,6 @@ def _work(impact: Impact, displacement: float) -> float:
     places = 0.5 * displacement * (nodes + 1.0)
 
     def load(x: float) -> float:
-        return spring(x, impact.span, impact.span_ratio, taut, impact.stiffness)[0]
+        return float(spring(x, impact.span, impact.span_ratio, taut, impact.stiffness)[0])
 
     return float(0.5 * displacement * sum(w * load(x) for x, w in zip(places, weights)))

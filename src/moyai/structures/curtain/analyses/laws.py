@@ -74,10 +74,14 @@ def _plan_points(law: PlanLaw, along: Array, line_load: float) -> Array:
     if law.name == "rigid" or law.tension == 0.0:
         return np.zeros_like(along)
     centred = along - 0.5 * span
+    values: Array
     if law.name == "circular":
         radius = law.tension / line_load
-        return np.sqrt(np.maximum(radius**2 - centred**2, 0.0)) - (radius - law.sag)
+        values = np.sqrt(np.maximum(radius**2 - centred**2, 0.0)) - (radius - law.sag)
+        return values
     if law.name == "small sag":
-        return law.sag * (1.0 - (2.0 * centred / span) ** 2)
+        values = law.sag * (1.0 - (2.0 * centred / span) ** 2)
+        return values
     a = law.tension / line_load
-    return 2.0 * a * np.sinh(0.5 * (0.5 * span + centred) / a) * np.sinh(0.5 * (0.5 * span - centred) / a)
+    values = 2.0 * a * np.sinh(0.5 * (0.5 * span + centred) / a) * np.sinh(0.5 * (0.5 * span - centred) / a)
+    return values

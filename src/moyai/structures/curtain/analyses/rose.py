@@ -58,19 +58,12 @@ def turned_to(unit: LevelCurtain, normal: float) -> LevelCurtain:
 
 @dataclass(frozen=True, eq=False)
 class RoseLimits:
-    """Limits of a curtain in any orientation and waves of any heading; what is alike is solved once.
+    """Limits of a curtain in any orientation and waves of any heading; what is alike is solved once."""
 
-    Parameters
-    ----------
-    unit : LevelCurtain
-        As it lies.
-    settings : Settings
-    curve : DragCurve
-        Loads at rest over the speed of the water along the normal.
-    """
-
+    #: As it lies.
     unit: LevelCurtain
     settings: Settings
+    #: Loads at rest over the speed of the water along the normal.
     curve: DragCurve
     _units: dict[float, tuple[LevelCurtain, ImpactAnswer | None]] = field(default_factory=dict, repr=False)
     _found: dict[tuple[float, float], Held] = field(default_factory=dict, repr=False)

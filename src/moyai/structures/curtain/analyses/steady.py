@@ -19,21 +19,14 @@ _DIRECTIONS = np.radians(np.arange(0.0, 76.0, 15.0))
 
 @dataclass(frozen=True)
 class ComparedLoad:
-    """A steady load of another model next to the governing one.
-
-    Parameters
-    ----------
-    name : str
-    line_load : float
-        Per length of curtain [N/m]; NaN where the model has no solution.
-    standing : {"governs", "upper bound", "other law", "out of range", "planning"}
-    why : str
-        Why it differs.
-    """
+    """A steady load of another model next to the governing one."""
 
     name: str
+    #: Per length of curtain [N/m]; NaN where the model has no solution.
     line_load: float
+    #: One of "governs", "upper bound", "other law", "out of range", "planning".
     standing: str
+    #: Why it differs.
     why: str
 
 

@@ -41,19 +41,15 @@ _NO_SPEED = 1.0
 
 @dataclass(frozen=True)
 class WaveAnswer:
-    """Groups of one sea state, the largest tension in it, and what must be reported.
+    """Groups of one sea state, the largest tension in it, and what must be reported."""
 
-    Parameters
-    ----------
-    groups : dict
-        Name under the sea's group ("" is that group itself) and dataset.
-    maximum_tension, highest_tension : float
-        Of both cables together [N]: the number of the sea, and the upper end of its scatter.
-    notices : tuple of Notice
-    """
-
+    #: Name under the sea's group ("" is that group itself) and dataset.
     groups: dict[str, xr.Dataset]
+    #: ``maximum_tension``, ``highest_tension``: Of both cables together [N]: the number of the sea, and the upper end
+    #: of its scatter.
     maximum_tension: float
+    #: ``maximum_tension``, ``highest_tension``: Of both cables together [N]: the number of the sea, and the upper end
+    #: of its scatter.
     highest_tension: float
     notices: tuple[Notice, ...]
 
@@ -340,7 +336,7 @@ def _realisation(
 
 def _largest(snaps: SeaSnaps, transient: float) -> float:
     after = snaps.motion.time >= transient
-    return max([float(snaps.motion.tension[after].max()), *snaps.tension.tolist()])
+    return float(max([float(snaps.motion.tension[after].max()), *snaps.tension.tolist()]))
 
 
 def _oblique(unit: LevelCurtain, sea: IrregularSea) -> bool:

@@ -21,20 +21,13 @@ from moyai.structures.curtain.impact.kernels import taut_shape
 
 @dataclass(frozen=True)
 class CablePeak:
-    """Peak of the dynamic cable, which stands for both.
+    """Peak of the dynamic cable, which stands for both."""
 
-    Parameters
-    ----------
-    tension : float
-        Highest anywhere along the cable [N].
-    time : float
-        When [s].
-    energy_drift : float
-        Largest change of kinetic and elastic energy over that of the start [-]; viscosity takes its part.
-    """
-
+    #: Highest anywhere along the cable [N].
     tension: float
+    #: When [s].
     time: float
+    #: Largest change of kinetic and elastic energy over that of the start [-]; viscosity takes its part.
     energy_drift: float
 
 

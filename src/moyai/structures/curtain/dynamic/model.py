@@ -27,23 +27,17 @@ class AnchoredSupport:
     """What holds both ends of the span when they are buoys: an anchor line upstream and one downstream of each.
 
     The neighbours of the span are alike, so that each buoy and its lines belong to two spans by halves.
-
-    Parameters
-    ----------
-    line_length, slope : float
-        Of one straight line [m], angle from the horizontal [rad].
-    stiffness : float
-        EA of a line [N].
-    pretension : float
-        Of both lines in still water [N].
-    mass : float
-        Of the buoy with its added mass [kg].
     """
 
+    #: Of one straight line [m].
     line_length: float
+    #: Angle from the horizontal [rad].
     slope: float
+    #: EA of a line [N].
     stiffness: float
+    #: Of both lines in still water [N].
     pretension: float
+    #: Of the buoy with its added mass [kg].
     mass: float
 
 
@@ -52,58 +46,57 @@ class AnchoredSupport:
 class CurtainSpan:
     """One span of a curtain for dynamics.
 
-    Parameters
-    ----------
-    span, length : float
-        Distance of the supports and unstretched length of cables and skirt between them [m].
-    skirt_length : float
-        Of the skirt along itself, unstretched [m].
-    chord : float
-        Straight distance of its edges when the cables come taut [m]; ``skirt_length`` for a flat one.
-    upper_stiffness, lower_stiffness : float
-        EA [N]; 0 for no lower cable.
-    upper_mass, lower_mass : float
-        Per length, of the upper cable with floats and fittings and of the lower one with ballast [kg/m].
-    lower_volume : float
-        Displaced by lower cable and ballast per length [m2].
-    sheet_stiffness, span_stiffness, shear_stiffness : float
-        Of the sheet along its depth, along the span and in shear [N/m]; the last two 0 for a sheet that is slack along
-        the span (a ten-thousandth of the first then keeps its columns in order).
-    sheet_mass, sheet_volume : float
-        Per area [kg/m2], [m].
-    drag_coefficient : float
-        On the normal velocity.
-    float_volume, float_height : float
-        Of the floats per length [m2], and their height [m]; 0 volume: the upper edge stays at its level.
-    edges : {"held", "risen", "free"}
-        Whether the lower cable is held at its level, may rise but ends at the supports, or ends freely.
-    support : AnchoredSupport or None
-        None: fixed.
-
     Raises
     ------
     InputError
         For numbers that are not positive, a curtain without slack, or a skirt that does not bulge.
     """
 
+    #: ``span``, ``length``: Distance of the supports and unstretched length of cables and skirt between them [m].
     span: float
+    #: ``span``, ``length``: Distance of the supports and unstretched length of cables and skirt between them [m].
     length: float
+    #: Of the skirt along itself, unstretched [m].
     skirt_length: float
+    #: Straight distance of its edges when the cables come taut [m]; ``skirt_length`` for a flat one.
     chord: float
+    #: ``upper_stiffness``, ``lower_stiffness``: EA [N]; 0 for no lower cable.
     upper_stiffness: float
+    #: ``upper_stiffness``, ``lower_stiffness``: EA [N]; 0 for no lower cable.
     lower_stiffness: float
+    #: ``upper_mass``, ``lower_mass``: Per length, of the upper cable with floats and fittings and of the lower one with
+    #: ballast [kg/m].
     upper_mass: float
+    #: ``upper_mass``, ``lower_mass``: Per length, of the upper cable with floats and fittings and of the lower one with
+    #: ballast [kg/m].
     lower_mass: float
+    #: ``sheet_stiffness``, ``span_stiffness``, ``shear_stiffness``: Of the sheet along its depth, along the span and in
+    #: shear [N/m]; the last two 0 for a sheet that is slack along the span (a ten-thousandth of the first then keeps
+    #: its columns in order).
     sheet_stiffness: float
+    #: Per area [kg/m2].
     sheet_mass: float
+    #: Displaced by lower cable and ballast per length [m2].
     lower_volume: float = 0.0
+    #: ``sheet_stiffness``, ``span_stiffness``, ``shear_stiffness``: Of the sheet along its depth, along the span and in
+    #: shear [N/m]; the last two 0 for a sheet that is slack along the span (a ten-thousandth of the first then keeps
+    #: its columns in order).
     span_stiffness: float = 0.0
+    #: ``sheet_stiffness``, ``span_stiffness``, ``shear_stiffness``: Of the sheet along its depth, along the span and in
+    #: shear [N/m]; the last two 0 for a sheet that is slack along the span (a ten-thousandth of the first then keeps
+    #: its columns in order).
     shear_stiffness: float = 0.0
+    #: Per area [m].
     sheet_volume: float = 0.0
+    #: On the normal velocity.
     drag_coefficient: float = 0.0
+    #: Of the floats per length [m2].
     float_volume: float = 0.0
+    #: Their height [m]; 0 volume: the upper edge stays at its level.
     float_height: float = 0.0
+    #: Whether the lower cable is held at its level, may rise but ends at the supports, or ends freely.
     edges: Literal["held", "risen", "free"] = "held"
+    #: None: fixed.
     support: AnchoredSupport | None = None
 
     def __post_init__(self) -> None:
@@ -146,31 +139,23 @@ class CurtainSpan:
 
 @dataclass(frozen=True)
 class Mesh:
-    """Cells along the span and over the skirt, and the viscosity.
+    """Cells along the span and over the skirt, and the viscosity."""
 
-    Parameters
-    ----------
-    along, down : int
-        Cells.
-    cable_viscosity : float or None
-        BA of the cables [N s]; None: 5 % of critical on the mesh.
-    skirt_damping_time : float or None
-        [s]; None: the same of the skirt.
-    convective : bool
-        Whether turning and stretching sections keep the energy of the water (:class:`MassBlocks`). In waves the cloth
-        gathers, and these forces, which act on the light cloth itself, blow it up unless ``normal_reach`` spans its
-        folds.
-    normal_reach : float
-        Distance along the cable, to either side of a section, over which its normal is taken [m]; 0: to the neighbours.
-        Folds shorter than a part of the draught move no water of their own, but they turn the normals between
-        neighbours at every step, and with them the added mass.
-    """
-
+    #: Cells.
     along: int
+    #: Cells.
     down: int
+    #: BA of the cables [N s]; None: 5 % of critical on the mesh.
     cable_viscosity: float | None = None
+    #: [s]; None: the same of the skirt.
     skirt_damping_time: float | None = None
+    #: Whether turning and stretching sections keep the energy of the water (:class:`MassBlocks`). In waves the cloth
+    #: gathers, and these forces, which act on the light cloth itself, blow it up unless ``normal_reach`` spans its
+    #: folds.
     convective: bool = True
+    #: Distance along the cable, to either side of a section, over which its normal is taken [m]; 0: to the neighbours.
+    #: Folds shorter than a part of the draught move no water of their own, but they turn the normals between neighbours
+    #: at every step, and with them the added mass.
     normal_reach: float = 0.0
     turning: bool = True
 
@@ -191,27 +176,17 @@ class Mesh:
 
 @dataclass(frozen=True, eq=False)
 class CurtainNetwork:
-    """A span ready to run.
-
-    Parameters
-    ----------
-    span : CurtainSpan
-    mesh : Mesh
-    network : Network
-        Strands ``upper cable``, ``lower cable`` and ``anchor line ...``.
-    state : State
-        Where it starts.
-    grid : ndarray of int, shape (along + 1, down + 1)
-        Nodes, from support to support and from top to toe.
-    section : SectionMesh
-        The skirt's section.
-    """
+    """A span ready to run."""
 
     span: CurtainSpan
     mesh: Mesh
+    #: Strands ``upper cable``, ``lower cable`` and ``anchor line ...``.
     network: Network
+    #: Where it starts.
     state: State
+    #: Nodes, from support to support and from top to toe; shape (along + 1, down + 1).
     grid: IntArray
+    #: The skirt's section.
     section: SectionMesh
 
     def bars(self, name: str) -> IntArray:

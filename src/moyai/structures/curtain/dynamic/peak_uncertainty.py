@@ -25,22 +25,20 @@ BOTH = "both"
 
 @dataclass(frozen=True)
 class PeakWorth:
-    """The peak of one cable or line, and what it becomes in other runs [N]; NaN for a run that was not made or stopped.
+    """The peak of one cable or line, and what it is in other runs [N]; NaN for a run that was not made or stopped."""
 
-    Parameters
-    ----------
-    peak : float
-        Of the run itself.
-    half_step, half_mesh, double_viscosity : float
-        With half the step, half as many cells both ways, twice the viscosity of cables and skirt.
-    held_normals : float
-        In waves: with sections of added mass that keep the normals of the just-taut span.
-    """
-
+    #: Of the run itself.
     peak: float
+    #: ``half_step``, ``half_mesh``, ``double_viscosity``: With half the step, half as many cells both ways, twice the
+    #: viscosity of cables and skirt.
     half_step: float = math.nan
+    #: ``half_step``, ``half_mesh``, ``double_viscosity``: With half the step, half as many cells both ways, twice the
+    #: viscosity of cables and skirt.
     half_mesh: float = math.nan
+    #: ``half_step``, ``half_mesh``, ``double_viscosity``: With half the step, half as many cells both ways, twice the
+    #: viscosity of cables and skirt.
     double_viscosity: float = math.nan
+    #: In waves: with sections of added mass that keep the normals of the just-taut span.
     held_normals: float = math.nan
 
     @property
@@ -66,17 +64,11 @@ class PeakWorth:
 
 @dataclass(frozen=True)
 class Worth:
-    """What every peak of a run is worth.
+    """What every peak of a run is worth."""
 
-    Parameters
-    ----------
-    of : dict of str to PeakWorth
-        By the names of the cables and lines, and ``both``.
-    stopped : tuple of str
-        What is to be said of runs that had to stop.
-    """
-
+    #: By the names of the cables and lines, and ``both``.
     of: dict[str, PeakWorth]
+    #: What is to be said of runs that had to stop.
     stopped: tuple[str, ...] = ()
 
     def notices(self, place: str, limit: float = LIMIT) -> tuple[Notice, ...]:

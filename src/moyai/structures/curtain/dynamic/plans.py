@@ -49,25 +49,16 @@ class _Across:
 
 @dataclass(frozen=True)
 class Plan:
-    """One run of a span.
-
-    Parameters
-    ----------
-    name : str
-    arguments : dict
-        Of :func:`moyai.structures.curtain.dynamic.runs.run_span`.
-    period : float
-        Of the waves, of their peak, or the rise of model A [s].
-    regular : bool
-        Whether it runs through regular waves.
-    open : bool
-        Whether the run may be made longer until the tension is past its peak.
-    """
+    """One run of a span."""
 
     name: str
+    #: Of :func:`moyai.structures.curtain.dynamic.runs.run_span`.
     arguments: dict[str, Any]
+    #: Of the waves, of their peak, or the rise of model A [s].
     period: float
+    #: Whether it runs through regular waves.
     regular: bool = False
+    #: Whether the run may be made longer until the tension is past its peak.
     open: bool = False
 
 

@@ -30,79 +30,59 @@ _SLACK_SHARE, _SNAP_FACTOR = 0.01, 2.0
 @checks_words
 @dataclass(frozen=True)
 class DynamicSettings:
-    """How the dynamic analysis of a case is run.
-
-    Parameters
-    ----------
-    mesh : Mesh
-    sheet_mass : float or None
-        Mass per area of the sheet [kg/m2]; None: as the case gives it elsewhere.
-    sheet_volume : float
-        Displaced volume per area [m]; NaN: from mass and weight in water.
-    span_stiffness, shear_stiffness : float
-        Of the sheet along the span and in shear [N/m].
-    ballast_density : float
-        Of lower cable and ballast [kg/m3].
-    float_height : float or None
-        [m]; None: of a round float with the buoyancy given.
-    support_mass : float or None
-        Of a buoy at a support with its added mass [kg]; needed with anchors.
-    profile : {"uniform", "sag"}
-        Speed of a drifting start over the span.
-    settled_periods, analysed_periods : int
-        Periods left out after the ramp of one period, and periods of regular waves that count.
-    wave_count : int
-        Peak periods that count around the highest crest of an irregular sea.
-    duration : float or None
-        Of the run in a current alone [s]; None: four rises of model A, longer while its highest tension stands in the
-        later half.
-    start : {"auto", "at_rest", "drifting", "released"}
-        Curtain at rest in water that begins to move, drifting and just taut, or let go slack and at rest in the
-        current; auto: at rest in waves, else drifting.
-    sensitivity : bool
-        Whether runs with half the step, a mesh of half as many cells and twice the viscosity follow.
-    slack_level, threshold : float or None
-        Of the snap statistics [N]; None: 1 % of the highest tension, twice the mean of the taut times.
-    by_default : bool
-        Whether peaks are taken from the span where it is not asked for and an upright plate only bounds them.
-    """
+    """How the dynamic analysis of a case is run."""
 
     mesh: Mesh
+    #: Mass per area of the sheet [kg/m2]; None: as the case gives it elsewhere.
     sheet_mass: float | None = None
+    #: Displaced volume per area [m]; NaN: from mass and weight in water.
     sheet_volume: float = math.nan
+    #: ``span_stiffness``, ``shear_stiffness``: Of the sheet along the span and in shear [N/m].
     span_stiffness: float = 0.0
+    #: ``span_stiffness``, ``shear_stiffness``: Of the sheet along the span and in shear [N/m].
     shear_stiffness: float = 0.0
+    #: Of lower cable and ballast [kg/m3].
     ballast_density: float = 7850.0
+    #: [m]; None: of a round float with the buoyancy given.
     float_height: float | None = None
+    #: Of a buoy at a support with its added mass [kg]; needed with anchors.
     support_mass: float | None = None
+    #: Speed of a drifting start over the span.
     profile: Literal["uniform", "sag"] = "uniform"
+    #: ``settled_periods``, ``analysed_periods``: Periods left out after the ramp of one period, and periods of regular
+    #: waves that count.
     settled_periods: int = 6
+    #: ``settled_periods``, ``analysed_periods``: Periods left out after the ramp of one period, and periods of regular
+    #: waves that count.
     analysed_periods: int = 10
+    #: Peak periods that count around the highest crest of an irregular sea.
     wave_count: int = 8
+    #: Of the run in a current alone [s]; None: four rises of model A, longer while its highest tension stands in the
+    #: later half.
     duration: float | None = None
+    #: Curtain at rest in water that begins to move, drifting and just taut, or let go slack and at rest in the current;
+    #: auto: at rest in waves, else drifting.
     start: Literal["auto", "at_rest", "drifting", "released"] = "auto"
+    #: Whether runs with half the step, a mesh of half as many cells and twice the viscosity follow.
     sensitivity: bool = True
+    #: ``slack_level``, ``threshold``: Of the snap statistics [N]; None: 1 % of the highest tension, twice the mean of
+    #: the taut times.
     slack_level: float | None = None
+    #: ``slack_level``, ``threshold``: Of the snap statistics [N]; None: 1 % of the highest tension, twice the mean of
+    #: the taut times.
     threshold: float | None = None
+    #: Whether peaks are taken from the span where it is not asked for and an upright plate only bounds them.
     by_default: bool = True
 
 
 @dataclass(frozen=True, eq=False)
 class DynamicRun:
-    """One run of a span.
-
-    Parameters
-    ----------
-    built : CurtainNetwork
-    history : History
-    flow : Flow
-    from_time : float
-        Peaks before this are not counted [s].
-    """
+    """One run of a span."""
 
     built: CurtainNetwork
     history: History
     flow: Flow
+    #: Peaks before this are not counted [s].
     from_time: float = 0.0
 
     @property

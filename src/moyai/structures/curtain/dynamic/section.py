@@ -17,18 +17,13 @@ from moyai.structures.curtain.statics.closed_forms import arc_half_angle
 
 @dataclass(frozen=True, eq=False)
 class SectionMesh:
-    """Nodes of a skirt's section and what they feel of each other through the water.
+    """Nodes of a skirt's section and what they feel of each other through the water."""
 
-    Parameters
-    ----------
-    x, z : ndarray, shape (k,)
-        Places from the upper edge down, downstream and up [m].
-    added_mass : ndarray, shape (2 k, 2 k)
-        Per metre of span: normal (downstream) unknowns first, then vertical ones [kg/m].
-    """
-
+    #: ``x``, ``z``: Places from the upper edge down, downstream and up [m]; shape (k,).
     x: Array
+    #: ``x``, ``z``: Places from the upper edge down, downstream and up [m]; shape (k,).
     z: Array
+    #: Per metre of span: normal (downstream) unknowns first, then vertical ones [kg/m]; shape (2 k, 2 k).
     added_mass: Array
 
     @property

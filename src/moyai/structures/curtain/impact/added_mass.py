@@ -21,16 +21,13 @@ _TERMS = 20
 
 @dataclass(frozen=True)
 class PlateMass:
-    """Added mass of a flat skirt per metre of span and its parts by linear edge shapes [kg/m].
+    """Added mass of a flat skirt per metre of span and its parts by linear edge shapes [kg/m]."""
 
-    Parameters
-    ----------
-    upper, cross, lower : float
-        M_uu, M_ul, M_ll: force on an edge per acceleration of an edge.
-    """
-
+    #: ``upper``, ``cross``, ``lower``: M_uu, M_ul, M_ll: force on an edge per acceleration of an edge.
     upper: float
+    #: ``upper``, ``cross``, ``lower``: M_uu, M_ul, M_ll: force on an edge per acceleration of an edge.
     cross: float
+    #: ``upper``, ``cross``, ``lower``: M_uu, M_ul, M_ll: force on an edge per acceleration of an edge.
     lower: float
 
     @property
@@ -71,16 +68,11 @@ class ArcMass:
     """Added mass of a skirt curved to a circular arc between held edges, as a function of its sagitta f.
 
     The skirt moves as a whole (x) or stretches (f: its middle moves at unit speed, the edges stay) [eq:impact-stretch].
-
-    Parameters
-    ----------
-    chord : float
-        Straight distance d0 of the edges [m].
-    coefficients : ndarray, shape (3, n)
-        Chebyshev coefficients of M_xx, M_xf, M_ff [kg/m] over 0 <= f <= 0.44 d0.
     """
 
+    #: Straight distance d0 of the edges [m].
     chord: float
+    #: Chebyshev coefficients of M_xx, M_xf, M_ff [kg/m] over 0 <= f <= 0.44 d0; shape (3, n).
     coefficients: Array
 
     def at(self, sagitta: ArrayLike) -> Array:

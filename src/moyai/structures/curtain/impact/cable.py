@@ -29,33 +29,25 @@ _LARGEST_STRAIN = 0.02
 class Impact:
     """One span of a curtain that becomes taut while it drifts with the current.
 
-    Parameters
-    ----------
-    span : float
-        Distance B of the supports [m].
-    length : float
-        Unstretched length l >= B of cables and skirt along the span [m].
-    draught : float
-        Depth d of the skirt as a flat plate [m].
-    upper_stiffness, lower_stiffness : float
-        EA of the upper and the lower cable [N]; model A takes their sum.
-    speed : float
-        Speed U0 of the curtain when it becomes taut [m/s].
-    water : Water
-        Depth, density, gravity.
-
     Raises
     ------
     InputError
         When a number is not positive, the cable is shorter than the span, or the skirt is deeper than the water.
     """
 
+    #: Distance B of the supports [m].
     span: float
+    #: Unstretched length l >= B of cables and skirt along the span [m].
     length: float
+    #: Depth d of the skirt as a flat plate [m].
     draught: float
+    #: ``upper_stiffness``, ``lower_stiffness``: EA of the upper and the lower cable [N]; model A takes their sum.
     upper_stiffness: float
+    #: ``upper_stiffness``, ``lower_stiffness``: EA of the upper and the lower cable [N]; model A takes their sum.
     lower_stiffness: float
+    #: Speed U0 of the curtain when it becomes taut [m/s].
     speed: float
+    #: Depth, density, gravity.
     water: Water
 
     def __post_init__(self) -> None:
@@ -95,20 +87,13 @@ class Impact:
 
 @dataclass(frozen=True)
 class ImpactPeak:
-    """The spike of the tension.
+    """The spike of the tension."""
 
-    Parameters
-    ----------
-    tension : float
-        Sum of the tensions of both cables [N].
-    displacement : float
-        Of mid-span from the just-taut shape [m].
-    time : float
-        From the taut instant to the peak [s].
-    """
-
+    #: Sum of the tensions of both cables [N].
     tension: float
+    #: Of mid-span from the just-taut shape [m].
     displacement: float
+    #: From the taut instant to the peak [s].
     time: float
 
 
@@ -258,21 +243,15 @@ def energy_bound(impact: Impact, mass: float | None = None) -> float:
 
 @dataclass(frozen=True, eq=False)
 class EdgeImpact:
-    """Model A2: both cables apart.
+    """Model A2: both cables apart."""
 
-    Parameters
-    ----------
-    time : ndarray
-        [s].
-    upper_tension, lower_tension : ndarray
-        [N].
-    energy_error : float
-        Largest relative change of kinetic energy plus work of the springs.
-    """
-
+    #: [s].
     time: Array
+    #: [N].
     upper_tension: Array
+    #: [N].
     lower_tension: Array
+    #: Largest relative change of kinetic energy plus work of the springs.
     energy_error: float
 
     @property
@@ -344,16 +323,16 @@ def edge_impact(
 
 @dataclass(frozen=True)
 class ImpactNumbers:
-    """Dimensionless numbers of an impact, equation (7) of the paper [eq:impact-numbers].
+    """Dimensionless numbers of an impact, equation (7) of the paper [eq:impact-numbers]."""
 
-    Parameters
-    ----------
-    tension_coefficient, cauchy_number, froude_number : float
-        C_T = T/(rho U^2 B d/2), C_E = sqrt(EA/rho)/(h sqrt(gh)), Fr = U/sqrt(gh).
-    """
-
+    #: ``tension_coefficient``, ``cauchy_number``, ``froude_number``: C_T = T/(rho U^2 B d/2), C_E = sqrt(EA/rho)/(h
+    #: sqrt(gh)), Fr = U/sqrt(gh).
     tension_coefficient: float
+    #: ``tension_coefficient``, ``cauchy_number``, ``froude_number``: C_T = T/(rho U^2 B d/2), C_E = sqrt(EA/rho)/(h
+    #: sqrt(gh)), Fr = U/sqrt(gh).
     cauchy_number: float
+    #: ``tension_coefficient``, ``cauchy_number``, ``froude_number``: C_T = T/(rho U^2 B d/2), C_E = sqrt(EA/rho)/(h
+    #: sqrt(gh)), Fr = U/sqrt(gh).
     froude_number: float
 
 

@@ -30,49 +30,35 @@ _STRAIN = 0.05
 
 @dataclass(frozen=True)
 class ModelTension:
-    """One line of the comparison.
+    """One line of the comparison."""
 
-    Parameters
-    ----------
-    model : str
-        Name of the model.
-    tension : float
-        Largest sum of the cable tensions [N].
-    time : float
-        From the taut instant to the peak [s]; NaN where the model gives none.
-    assumption : str
-        What the model takes for granted.
-    upper_tension, lower_tension : float
-        Largest tension of each cable [N]; NaN where the model does not tell them apart.
-    skirt_tension : float
-        Largest tension of the skirt [N/m]; NaN where the model has none.
-    counts : bool
-        Whether it counts in the spread: not model B with the start that is known to be wrong.
-    """
-
+    #: Name of the model.
     model: str
+    #: Largest sum of the cable tensions [N].
     tension: float
+    #: From the taut instant to the peak [s]; NaN where the model gives none.
     time: float
+    #: What the model takes for granted.
     assumption: str
+    #: ``upper_tension``, ``lower_tension``: Largest tension of each cable [N]; NaN where the model does not tell them
+    #: apart.
     upper_tension: float = math.nan
+    #: ``upper_tension``, ``lower_tension``: Largest tension of each cable [N]; NaN where the model does not tell them
+    #: apart.
     lower_tension: float = math.nan
+    #: Largest tension of the skirt [N/m]; NaN where the model has none.
     skirt_tension: float = math.nan
+    #: Whether it counts in the spread: not model B with the start that is known to be wrong.
     counts: bool = True
 
 
 @dataclass(frozen=True)
 class Comparison:
-    """All models on one span.
+    """All models on one span."""
 
-    Parameters
-    ----------
-    models : tuple of ModelTension
-        One line each.
-    notices : tuple of Notice
-        Where models leave their range.
-    """
-
+    #: One line each.
     models: tuple[ModelTension, ...]
+    #: Where models leave their range.
     notices: tuple[Notice, ...]
 
     @property

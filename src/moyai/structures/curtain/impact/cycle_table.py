@@ -21,32 +21,21 @@ _SETTLED, _ANALYSED = 4, 10
 
 @dataclass(frozen=True, eq=False)
 class CycleTable:
-    """Tensions in regular waves as high as the highest of a sea, at the period that goes with its height.
+    """Tensions in regular waves as high as the highest of a sea, at the period that goes with its height."""
 
-    Parameters
-    ----------
-    impact : Impact
-        The span; its speed does not enter.
-    drag_coefficient : float
-        C_D of the flat skirt [-].
-    depth : float
-        Of the skirt, over which the water's speed is averaged [m].
-    normal_ratio : float
-        Mean speed of the current along the normal per surface speed [-].
-    acting_height : callable
-        Height [m] that acts, of a significant height [m]: highest wave and direction rule.
-    period : callable
-        [s] of a significant height [m].
-    highest : float
-        Significant height up to which tensions are wanted [m].
-    """
-
+    #: The span; its speed does not enter.
     impact: Impact
+    #: C_D of the flat skirt [-].
     drag_coefficient: float
+    #: Of the skirt, over which the water's speed is averaged [m].
     depth: float
+    #: Mean speed of the current along the normal per surface speed [-].
     normal_ratio: float
+    #: Height [m] that acts, of a significant height [m]: highest wave and direction rule.
     acting_height: Callable[[float], float]
+    #: [s] of a significant height [m].
     period: Callable[[float], float]
+    #: Significant height up to which tensions are wanted [m].
     highest: float
     _rows: dict[float, tuple[Array, Array]] = field(default_factory=dict)
 

@@ -21,31 +21,24 @@ _TABLE_ROWS = 3000
 
 @dataclass(frozen=True)
 class Contact:
-    """One time that the cable is taut.
+    """One time that the cable is taut."""
 
-    Parameters
-    ----------
-    time : float
-        When it becomes taut [s].
-    speed : float
-        Speed of mid-span at that instant [m/s].
-    tension : float
-        Largest tension until it is slack again, both cables together [N].
-    side : int
-        1 on the downstream side, -1 upstream.
-    first : bool
-        Whether it is the first on its side since the other side was taut or the water turned towards this one (about
-        its mean speed); later ones are bounces.
-    peak_time, end : float
-        When the tension is largest, and when the cable is slack again [s]; NaN where the series stops before.
-    """
-
+    #: When it becomes taut [s].
     time: float
+    #: Speed of mid-span at that instant [m/s].
     speed: float
+    #: Largest tension until it is slack again, both cables together [N].
     tension: float
+    #: 1 on the downstream side, -1 upstream.
     side: int
+    #: Whether it is the first on its side since the other side was taut or the water turned towards this one (about its
+    #: mean speed); later ones are bounces.
     first: bool
+    #: ``peak_time``, ``end``: When the tension is largest, and when the cable is slack again [s]; NaN where the series
+    #: stops before.
     peak_time: float
+    #: ``peak_time``, ``end``: When the tension is largest, and when the cable is slack again [s]; NaN where the series
+    #: stops before.
     end: float
 
     @property
@@ -56,26 +49,23 @@ class Contact:
 
 @dataclass(frozen=True, eq=False)
 class SlackTautMotion:
-    """Time series of the oscillator.
+    """Time series of the oscillator."""
 
-    Parameters
-    ----------
-    time, position, speed, tension : ndarray
-        [s], position of mid-span downstream of the line between the supports [m], [m/s], sum of both cables [N].
-    contacts : tuple of Contact
-        In the order of time; one that has begun before the series is left out.
-    """
-
+    #: [s].
     time: Array
+    #: Position of mid-span downstream of the line between the supports [m].
     position: Array
+    #: [m/s].
     speed: Array
+    #: Sum of both cables [N].
     tension: Array
+    #: In the order of time; one that has begun before the series is left out.
     contacts: tuple[Contact, ...]
 
 
 def slack_sag(impact: Impact) -> float:
     """Return the sag of the just-taut cable [m]: nothing is taut while mid-span is nearer than this."""
-    return 0.5 * impact.span * sag_ratio(taut_shape(impact.span_ratio))
+    return float(0.5 * impact.span * sag_ratio(taut_shape(impact.span_ratio)))
 
 
 def rise_time(impact: Impact) -> float:

@@ -19,24 +19,21 @@ _MOST_STEPS = 10_000_000
 
 @dataclass(frozen=True, eq=False)
 class MarchedImpact:
-    """Time series of the paper's marching scheme.
+    """Time series of the paper's marching scheme."""
 
-    Parameters
-    ----------
-    time, displacement, speed, load, tension : ndarray
-        [s], [m], [m/s], [N/m], [N] at the ends of the steps.
-    relative_step : float
-        omega dt with omega the frequency of the just-taut spring.
-    notices : tuple of Notice
-        A warning where the step is too coarse.
-    """
-
+    #: [s] at the ends of the steps.
     time: Array
+    #: [m] at the ends of the steps.
     displacement: Array
+    #: [m/s] at the ends of the steps.
     speed: Array
+    #: [N/m] at the ends of the steps.
     load: Array
+    #: [N] at the ends of the steps.
     tension: Array
+    #: omega dt with omega the frequency of the just-taut spring.
     relative_step: float
+    #: A warning where the step is too coarse.
     notices: tuple[Notice, ...]
 
     @property
@@ -101,20 +98,13 @@ def march_impact(impact: Impact, *, time_step: float, duration: float, mass: flo
 
 @dataclass(frozen=True)
 class IterationResult:
-    """How one of the paper's iterations behaved in the first step.
+    """How one of the paper's iterations behaved in the first step."""
 
-    Parameters
-    ----------
-    converged : bool
-        Whether it met the tolerance.
-    sweeps : int
-        Sweeps used.
-    displacement : float
-        The last displacement increment [m].
-    """
-
+    #: Whether it met the tolerance.
     converged: bool
+    #: Sweeps used.
     sweeps: int
+    #: The last displacement increment [m].
     displacement: float
 
 

@@ -31,33 +31,27 @@ _POINTS = 1601
 
 @dataclass(frozen=True, eq=False)
 class MemoryImpact:
-    """Time series of model A with memory, to just beyond the peak.
+    """Time series of model A with memory, to just beyond the peak."""
 
-    Parameters
-    ----------
-    time, displacement, speed, load, tension : ndarray
-        [s], mid-span from the just-taut shape [m], [m/s], [N/m], sum of both cables [N].
-    memory_force : ndarray
-        Force of the waves made since the cable became taut, in the direction of the current [N/m].
-    peak : ImpactPeak
-        Extrapolated from this step and its double.
-    ratio : float
-        Peak over that of model A with the same mass.
-    rise_ratio : float
-        Time of the peak over sqrt(d/g).
-    step_error : float
-        Relative change of the peak by the extrapolation: a bound of its error.
-    """
-
+    #: [s].
     time: Array
+    #: Mid-span from the just-taut shape [m].
     displacement: Array
+    #: [m/s].
     speed: Array
+    #: [N/m].
     load: Array
+    #: Sum of both cables [N].
     tension: Array
+    #: Force of the waves made since the cable became taut, in the direction of the current [N/m].
     memory_force: Array
+    #: Extrapolated from this step and its double.
     peak: ImpactPeak
+    #: Peak over that of model A with the same mass.
     ratio: float
+    #: Time of the peak over sqrt(d/g).
     rise_ratio: float
+    #: Relative change of the peak by the extrapolation: a bound of its error.
     step_error: float
 
 

@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
@@ -20,22 +19,17 @@ from moyai.structures.curtain.impact.release import snap_in_current
 
 @dataclass(frozen=True)
 class ModelError:
-    """A model against a record.
+    """A model against a record."""
 
-    Parameters
-    ----------
-    model : str
-        Name.
-    tension, observed_tension : float
-        Impact tension of the model and of the record [N].
-    time, observed_time : float
-        Rise times [s]; NaN where there is none.
-    """
-
+    #: Name.
     model: str
+    #: ``tension``, ``observed_tension``: Impact tension of the model and of the record [N].
     tension: float
+    #: ``tension``, ``observed_tension``: Impact tension of the model and of the record [N].
     observed_tension: float
+    #: ``time``, ``observed_time``: Rise times [s]; NaN where there is none.
     time: float
+    #: ``time``, ``observed_time``: Rise times [s]; NaN where there is none.
     observed_time: float
 
     @property
@@ -51,17 +45,11 @@ class ModelError:
 
 @dataclass(frozen=True)
 class RecordComparison:
-    """All models against a record.
+    """All models against a record."""
 
-    Parameters
-    ----------
-    lines : tuple of ModelError
-        In the order of the comparison; the cables of A2 as ``A2 upper`` and ``A2 lower`` where they were measured.
-    notices : tuple of Notice
-        What makes the comparison doubtful.
-    """
-
+    #: In the order of the comparison; the cables of A2 as ``A2 upper`` and ``A2 lower`` where they were measured.
     lines: tuple[ModelError, ...]
+    #: What makes the comparison doubtful.
     notices: tuple[Notice, ...]
 
     @property
@@ -138,20 +126,13 @@ def compare_record(
 
 @dataclass(frozen=True, eq=False)
 class ModelSeries:
-    """Tension of a model from its taut instant on.
+    """Tension of a model from its taut instant on."""
 
-    Parameters
-    ----------
-    model : str
-        Name.
-    time : ndarray
-        [s], 0 when the cable becomes taut.
-    tension : ndarray
-        Sum of both cables [N].
-    """
-
+    #: Name.
     model: str
+    #: [s], 0 when the cable becomes taut.
     time: Array
+    #: Sum of both cables [N].
     tension: Array
 
 
@@ -198,21 +179,3 @@ def _just_slack(impact: Impact) -> float:
     from moyai.structures.curtain.impact.cycles import slack_sag
 
     return slack_sag(impact) * (1.0 - 1e-9)
-
-
-def residual_against(series: ModelSeries, time: ArrayLike, tension: ArrayLike) -> float:
-    """Return the root mean square difference of a model from a record over the record's largest tension.
-
-    Parameters
-    ----------
-    series : ModelSeries
-        The model.
-    time, tension : array_like
-        Record with time 0 at the taut instant [s], plateau not taken off [N]; only times within the series count.
-    """
-    t, row = np.asarray(time, dtype=np.float64), np.asarray(tension, dtype=np.float64)
-    inside = (t >= series.time[0]) & (t <= series.time[-1])
-    if t.shape != row.shape or not inside.any():
-        raise InputError("the record and the model share no time", path="time", allowed="0 at the taut instant")
-    model = np.interp(t[inside], series.time, series.tension)
-    return float(np.sqrt(np.mean((model - row[inside]) ** 2)) / np.abs(row).max())

@@ -16,27 +16,21 @@ from moyai.structures.curtain.statics.closed_forms import solve_cable
 
 @dataclass(frozen=True)
 class SlackPhase:
-    """Drift of a slack curtain from its release until it is taut.
+    """Drift of a slack curtain from its release until it is taut."""
 
-    Parameters
-    ----------
-    position, speed_at_release : float
-        Where mid-span was let go [m], downstream of the line between the supports, and how fast [m/s].
-    duration : float
-        From release to the taut instant [s].
-    speed : float
-        Of mid-span when it becomes taut, positive downstream [m/s].
-    side : int
-        1 when it becomes taut downstream, -1 upstream.
-    share : float
-        Speed over that of the water [-]; infinite in water at rest.
-    """
-
+    #: ``position``, ``speed_at_release``: Where mid-span was let go [m], downstream of the line between the supports,
+    #: and how fast [m/s].
     position: float
+    #: ``position``, ``speed_at_release``: Where mid-span was let go [m], downstream of the line between the supports,
+    #: and how fast [m/s].
     speed_at_release: float
+    #: From release to the taut instant [s].
     duration: float
+    #: Of mid-span when it becomes taut, positive downstream [m/s].
     speed: float
+    #: 1 when it becomes taut downstream, -1 upstream.
     side: int
+    #: Speed over that of the water [-]; infinite in water at rest.
     share: float
 
     def started(self, impact: Impact) -> Impact:
@@ -139,28 +133,21 @@ def _phase(time: float, found: float, position: float, speed: float, current: fl
 
 @dataclass(frozen=True, eq=False)
 class Snap:
-    """A snap from release to plateau.
+    """A snap from release to plateau."""
 
-    Parameters
-    ----------
-    motion : SlackTautMotion
-        Series with drag.
-    taut_time, peak_time : float
-        When the cable becomes taut and when its tension is largest [s].
-    start_speed : float
-        At the taut instant [m/s].
-    peak_tension, plateau_tension : float
-        Largest tension and that of the steady current [N], sums of both cables.
-    notices : tuple of Notice
-        A warning where the series ends before the plateau.
-    """
-
+    #: Series with drag.
     motion: SlackTautMotion
+    #: ``taut_time``, ``peak_time``: When the cable becomes taut and when its tension is largest [s].
     taut_time: float
+    #: ``taut_time``, ``peak_time``: When the cable becomes taut and when its tension is largest [s].
     peak_time: float
+    #: At the taut instant [m/s].
     start_speed: float
+    #: ``peak_tension``, ``plateau_tension``: Largest tension and that of the steady current [N], sums of both cables.
     peak_tension: float
+    #: ``peak_tension``, ``plateau_tension``: Largest tension and that of the steady current [N], sums of both cables.
     plateau_tension: float
+    #: A warning where the series ends before the plateau.
     notices: tuple[Notice, ...]
 
     @property

@@ -37,30 +37,22 @@ _STEADY = 3.0
 @checks_words
 @dataclass(frozen=True, eq=False)
 class SettledCycles:
-    """A motion in regular waves and the part of it that counts.
+    """A motion in regular waves and the part of it that counts."""
 
-    Parameters
-    ----------
-    motion : SlackTautMotion
-        From the start on.
-    period : float
-        Of the waves [s].
-    kind : {"repeating", "chaotic", "not steady"}
-        ``chaotic``: no repetition, but steady in the mean; ``not steady``: neither.
-    multiple : int
-        Periods after which it repeats; 0 where it does not.
-    first, count : int
-        Periods left out, and periods that count.
-    peaks : ndarray
-        Largest tension of each period that counts, both cables together [N].
-    """
-
+    #: From the start on.
     motion: SlackTautMotion
+    #: Of the waves [s].
     period: float
+    #: ``chaotic``: no repetition, but steady in the mean; ``not steady``: neither; one of "repeating", "chaotic", "not
+    #: steady".
     kind: Kind
+    #: Periods after which it repeats; 0 where it does not.
     multiple: int
+    #: ``first``, ``count``: Periods left out, and periods that count.
     first: int
+    #: ``first``, ``count``: Periods left out, and periods that count.
     count: int
+    #: Largest tension of each period that counts, both cables together [N].
     peaks: Array
 
     @property

@@ -33,23 +33,17 @@ LEAST_CHORD = math.sin(_WIDEST_HALF_ANGLE) / _WIDEST_HALF_ANGLE
 class Skirt:
     """A skirt that bulges to an arc between its edges.
 
-    Parameters
-    ----------
-    length : float
-        Unstretched depth-wise length d [m].
-    chord : float
-        Straight distance d0 of the edges when it becomes taut [m], less than ``length``.
-    stiffness : float
-        E_s A_s, Young's modulus times thickness [N/m].
-
     Raises
     ------
     InputError
         When a number is not positive or the chord does not leave an arc within the range of the added mass.
     """
 
+    #: Unstretched depth-wise length d [m].
     length: float
+    #: Straight distance d0 of the edges when it becomes taut [m], less than ``length``.
     chord: float
+    #: E_s A_s, Young's modulus times thickness [N/m].
     stiffness: float
 
     def __post_init__(self) -> None:
@@ -91,23 +85,15 @@ class Skirt:
 
 @dataclass(frozen=True)
 class SkirtPeak:
-    """Peak of model B.
+    """Peak of model B."""
 
-    Parameters
-    ----------
-    edge_load : float
-        F_c on each cable [N/m].
-    tension : float
-        Sum of the tensions of both cables [N].
-    time : float
-        From the taut instant [s].
-    skirt_tension : float
-        T_s [N/m].
-    """
-
+    #: F_c on each cable [N/m].
     edge_load: float
+    #: Sum of the tensions of both cables [N].
     tension: float
+    #: From the taut instant [s].
     time: float
+    #: T_s [N/m].
     skirt_tension: float
 
 
@@ -118,7 +104,7 @@ def _arc_mass(impact: Impact, skirt: Skirt, finite_depth: bool) -> ArcMass:
 def shape_of_displacement(impact: Impact, displacement: float) -> float:
     """Return the shape number b of the cable at a displacement of its middle from just taut [m]."""
     taut = taut_shape(impact.span_ratio)
-    return shape_of_sag(sag_ratio(taut) + 2.0 * displacement / impact.span, taut)
+    return float(shape_of_sag(sag_ratio(taut) + 2.0 * displacement / impact.span, taut))
 
 
 def curved_impact(impact: Impact, skirt: Skirt, *, finite_depth: bool = False) -> ImpactPeak:
@@ -210,23 +196,15 @@ def skirt_impact(
 
 @dataclass(frozen=True)
 class JointPeak(ImpactPeak):
-    """Peak of model AB: of the sum of the cable tensions, and of the skirt.
+    """Peak of model AB: of the sum of the cable tensions, and of the skirt."""
 
-    Parameters
-    ----------
-    skirt_tension : float
-        Largest tension of the skirt [N/m].
-    sagitta_increment : float
-        How far the skirt's middle moves against its edges [m].
-    frequency_ratio : float
-        Frequency of the skirt over that of the cable, both just taut.
-    notices : tuple of Notice
-        Where the model leaves its range.
-    """
-
+    #: Largest tension of the skirt [N/m].
     skirt_tension: float
+    #: How far the skirt's middle moves against its edges [m].
     sagitta_increment: float
+    #: Frequency of the skirt over that of the cable, both just taut.
     frequency_ratio: float
+    #: Where the model leaves its range.
     notices: tuple[Notice, ...]
 
 

@@ -15,27 +15,18 @@ _PLACES = 24
 
 @dataclass(frozen=True)
 class Limit:
-    """A limit and what sets it.
+    """A limit and what sets it."""
 
-    Parameters
-    ----------
-    value : float
-        Largest speed [m/s], significant height [m] or span [m] up to which everything holds; 0 when even the smallest
-        is too much, the end of the range where nothing in it is.
-    governing : str
-        Component at its limit, ``no equilibrium``, ``breaking`` or ``not reached``.
-    crossings : tuple of float
-        All places of the range where holding begins or ends; more than one where it is not one stretch.
-    highest : float
-        End of the range that was searched.
-    ratio : float
-        Utilisation just beyond the limit [-], at 0 where that is too much; NaN where no limit was found.
-    """
-
+    #: Largest speed [m/s], significant height [m] or span [m] up to which everything holds; 0 when even the smallest is
+    #: too much, the end of the range where nothing in it is.
     value: float
+    #: Component at its limit, ``no equilibrium``, ``breaking`` or ``not reached``.
     governing: str
+    #: All places of the range where holding begins or ends; more than one where it is not one stretch.
     crossings: tuple[float, ...] = ()
+    #: End of the range that was searched.
     highest: float = math.nan
+    #: Utilisation just beyond the limit [-], at 0 where that is too much; NaN where no limit was found.
     ratio: float = math.nan
 
     @property

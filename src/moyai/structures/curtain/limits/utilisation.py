@@ -36,17 +36,11 @@ _LEAST = 1e-4
 
 @dataclass(frozen=True)
 class Strength:
-    """What a component bears, and the safety factor asked of it.
+    """What a component bears, and the safety factor asked of it."""
 
-    Parameters
-    ----------
-    capacity : float
-        Breaking load [N], of the sheet per width [N/m]; infinite where it is not judged.
-    safety_factor : float
-        [-].
-    """
-
+    #: Breaking load [N], of the sheet per width [N/m]; infinite where it is not judged.
     capacity: float
+    #: [-].
     safety_factor: float
 
     def __post_init__(self) -> None:
@@ -64,30 +58,30 @@ class Strength:
 
 @dataclass(frozen=True)
 class Requirements:
-    """Strengths of the components and what the curtain must keep.
+    """Strengths of the components and what the curtain must keep."""
 
-    Parameters
-    ----------
-    upper_cable, lower_cable, sheet, anchor_line, anchor : Strength
-        Cables [N], sheet [N/m], line [N], horizontal holding force of the anchor [N].
-    least_reserve : float
-        Share of the buoyancy that must be left [-].
-    least_depth : float
-        Effective depth that must be kept [m].
-    joint : Strength, optional
-        Connection of the curtain units [N], which hands on what its unit collects; left out, joints are not judged.
-    joint_distance : float
-        Length of a unit [m].
-    """
-
+    #: ``upper_cable``, ``lower_cable``, ``sheet``, ``anchor_line``, ``anchor``: Cables [N], sheet [N/m], line [N],
+    #: horizontal holding force of the anchor [N].
     upper_cable: Strength
+    #: ``upper_cable``, ``lower_cable``, ``sheet``, ``anchor_line``, ``anchor``: Cables [N], sheet [N/m], line [N],
+    #: horizontal holding force of the anchor [N].
     lower_cable: Strength
+    #: ``upper_cable``, ``lower_cable``, ``sheet``, ``anchor_line``, ``anchor``: Cables [N], sheet [N/m], line [N],
+    #: horizontal holding force of the anchor [N].
     sheet: Strength
+    #: ``upper_cable``, ``lower_cable``, ``sheet``, ``anchor_line``, ``anchor``: Cables [N], sheet [N/m], line [N],
+    #: horizontal holding force of the anchor [N].
     anchor_line: Strength
+    #: ``upper_cable``, ``lower_cable``, ``sheet``, ``anchor_line``, ``anchor``: Cables [N], sheet [N/m], line [N],
+    #: horizontal holding force of the anchor [N].
     anchor: Strength
+    #: Share of the buoyancy that must be left [-].
     least_reserve: float
+    #: Effective depth that must be kept [m].
     least_depth: float
+    #: Connection of the curtain units [N], which hands on what its unit collects; left out, joints are not judged.
     joint: Strength | None = None
+    #: Length of a unit [m].
     joint_distance: float = 0.0
 
     def __post_init__(self) -> None:
@@ -101,24 +95,17 @@ class Requirements:
 
 @dataclass(frozen=True)
 class AddedLoads:
-    """What waves or an impact add to the steady loads.
+    """What waves or an impact add to the steady loads."""
 
-    Parameters
-    ----------
-    upper_cable, lower_cable : float
-        Tension [N].
-    sheet : float
-        Tension of the skirt per width [N/m].
-    anchor_line : float
-        Tension of the anchor line [N].
-    line_load : float
-        Load per length of curtain [N/m], which the joints hand on.
-    """
-
+    #: Tension [N].
     upper_cable: float = 0.0
+    #: Tension [N].
     lower_cable: float = 0.0
+    #: Tension of the skirt per width [N/m].
     sheet: float = 0.0
+    #: Tension of the anchor line [N].
     anchor_line: float = 0.0
+    #: Load per length of curtain [N/m], which the joints hand on.
     line_load: float = 0.0
 
     def larger(self, other: AddedLoads) -> AddedLoads:
@@ -178,29 +165,22 @@ def utilisation(
 class Site:
     """Where the curtain hangs, with a family of currents.
 
-    Parameters
-    ----------
-    water : Water
-        Depth and density.
-    current : callable
-        Profile of a given surface speed [m/s].
-    flow_heading, chord_normal : float
-        Of the flow and of the downstream normal of the span [rad].
-    passing_fraction : float
-        Share of the held flow that goes under the toe [-].
-    on_bed : bool
-        Whether the skirt may lie on the bed (:mod:`moyai.structures.curtain.statics.on_bed`).
-
     Notes
     -----
     What was solved is kept in ``solved`` and ``loaded``; both are empty again in a site that :func:`replace` makes.
     """
 
+    #: Depth and density.
     water: Water
+    #: Profile of a given surface speed [m/s].
     current: Callable[[float], CurrentProfile]
+    #: ``flow_heading``, ``chord_normal``: Of the flow and of the downstream normal of the span [rad].
     flow_heading: float
+    #: ``flow_heading``, ``chord_normal``: Of the flow and of the downstream normal of the span [rad].
     chord_normal: float
+    #: Share of the held flow that goes under the toe [-].
     passing_fraction: float
+    #: Whether the skirt may lie on the bed (:mod:`moyai.structures.curtain.statics.on_bed`).
     on_bed: bool = False
     solved: dict[tuple[HangingCurtain, float], CurtainStatics] = field(
         default_factory=dict, init=False, repr=False, compare=False
@@ -250,26 +230,17 @@ class WaveLoading(Protocol):
 @checks_words
 @dataclass(frozen=True)
 class WaveLoad:
-    """Wave part of the anchor load.
+    """Wave part of the anchor load."""
 
-    Parameters
-    ----------
-    model : EnergyModel
-        With M, m_B, K.
-    period : callable
-        Period [s] of a significant height [m].
-    angle : float
-        Of the waves from the normal of the curtain [rad].
-    rule : {"paper", "normal", "none"}
-        Direction rule.
-    height_ratio : float
-        H_max / H_1/3 [-].
-    """
-
+    #: With M, m_B, K.
     model: EnergyModel
+    #: Period [s] of a significant height [m].
     period: Callable[[float], float]
+    #: Of the waves from the normal of the curtain [rad].
     angle: float
+    #: Direction rule; one of "paper", "normal", "none".
     rule: DirectionRule
+    #: H_max / H_1/3 [-].
     height_ratio: float
 
     def tension(self, significant_height: float, speed: float, pretension: float, water: Water) -> float:

@@ -6,9 +6,10 @@ import math
 from collections.abc import Callable, Sequence
 
 from moyai.core.results import Result
-from moyai.report.document import Block, Choice, Document, Option, Paragraph, Section
+from moyai.report.document import Block, Choice, Document, Option, Section
 from moyai.report.formatting import MINUS, format_quantity
 from moyai.report.general_page import case_listing, closing_section, provenance, report_title
+from moyai.report.levels import at_each_level
 from moyai.report.reading import Group, root_of
 from moyai.structures.curtain.report import figures, limits, sea_figures, sea_tables, tables
 from moyai.structures.curtain.report.drawing import drawings
@@ -18,8 +19,6 @@ from moyai.structures.curtain.report.rose import rose_blocks
 from moyai.structures.curtain.report.snap import snap_animation
 from moyai.structures.curtain.report.steady import site_table, steady_tables
 from moyai.structures.curtain.report.summary import summary_blocks
-
-LEVEL_GROUP = "water-level"
 
 
 def compose(result: Result) -> Document:
@@ -39,15 +38,8 @@ def compose(result: Result) -> Document:
     worst = governing_component(levels)
     default = next((n for n, level in enumerate(levels) if worst is not None and level.name == worst[0].name), 0)
 
-    def at_each_level(compose_level: Callable[[CurtainLevel], Sequence[Block | None]]) -> tuple[Block, ...]:
-        options = []
-        for level in levels:
-            blocks = tuple(block for block in compose_level(level) if block is not None)
-            absent = Paragraph("Not run at this water level.", quiet=True)
-            options.append(Option(_level_words(level), blocks or (absent,)))
-        if not any(not isinstance(option.blocks[0], Paragraph) for option in options):
-            return ()
-        return (Choice(LEVEL_GROUP, "Water level", tuple(options), default),)
+    def each_level(compose_level: Callable[[CurtainLevel], Sequence[Block | None]]) -> tuple[Block, ...]:
+        return at_each_level(levels, compose_level, words=_level_words, default=default)
 
     record = [figures.flume_record(root), *tables.record_tables(root)]
     sections = [
@@ -56,22 +48,22 @@ def compose(result: Result) -> Document:
             "Summary",
             (
                 *summary_blocks(result, levels),
-                *at_each_level(lambda level: [figures.utilisation_bars(level), limits.operating_map(level)]),
+                *each_level(lambda level: [figures.utilisation_bars(level), limits.operating_map(level)]),
             ),
         ),
-        Section("input", "Input", (case_listing(root), *at_each_level(lambda level: [site_table(level)]))),
-        Section("shape", "Shape", at_each_level(drawings)),
-        Section("loads", "Loads", at_each_level(tables.load_tables)),
-        Section("rest", "At rest in the current", at_each_level(_at_rest)),
+        Section("input", "Input", (case_listing(root), *each_level(lambda level: [site_table(level)]))),
+        Section("shape", "Shape", each_level(drawings)),
+        Section("loads", "Loads", each_level(tables.load_tables)),
+        Section("rest", "At rest in the current", each_level(_at_rest)),
         Section(
             "impact",
             "Impact when it snaps taut",
-            (*at_each_level(lambda level: _impact(level, root)), *(block for block in record if block is not None)),
+            (*each_level(lambda level: _impact(level, root)), *(block for block in record if block is not None)),
         ),
-        Section("waves", "Waves: slack and taut", at_each_level(_waves)),
-        Section("dynamic", "The whole span through time", at_each_level(dynamic_blocks)),
-        Section("anchors", "Anchor loads", at_each_level(_anchors)),
-        Section("limits", "Operating limits", at_each_level(_limits)),
+        Section("waves", "Waves: slack and taut", each_level(_waves)),
+        Section("dynamic", "The whole span through time", each_level(dynamic_blocks)),
+        Section("anchors", "Anchor loads", each_level(_anchors)),
+        Section("limits", "Operating limits", each_level(_limits)),
     ]
     return Document(
         title=report_title(result),

@@ -79,33 +79,22 @@ class CurtainLevel:
 
 @dataclass(frozen=True)
 class Component:
-    """One component with its loads, in ``unit``; NaN where not known.
-
-    Parameters
-    ----------
-    name : str
-    loads : dict
-        ``steady``, and what ``wave`` and ``impact`` add to it; ``dynamic`` is that of the whole span through time;
-        ``governing`` is the dynamic one where it was run, else the steady load with the larger of what is added.
-    unit : str
-        ``N`` or ``N/m``.
-    capacity, safety_factor, utilisation : float
-    governing : str
-        Words for what governs.
-    sources : tuple of str
-        Where wave and impact come from, and the run of the whole span.
-    bound : str
-        ``at most`` where the governing load is only a bound.
-    """
+    """One component with its loads, in ``unit``; NaN where not known."""
 
     name: str
+    #: ``steady``, and what ``wave`` and ``impact`` add to it; ``dynamic`` is that of the whole span through time;
+    #: ``governing`` is the dynamic one where it was run, else the steady load with the larger of what is added.
     loads: dict[str, float]
+    #: ``N`` or ``N/m``.
     unit: str
     capacity: float
     safety_factor: float
     utilisation: float
+    #: Words for what governs.
     governing: str
+    #: Where wave and impact come from, and the run of the whole span.
     sources: tuple[str, str, str]
+    #: ``at most`` where the governing load is only a bound.
     bound: str = ""
 
     def share(self, part: str) -> float:

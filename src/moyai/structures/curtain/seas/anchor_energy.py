@@ -29,29 +29,19 @@ _SOURCE = "Tabata et al., equations (3) to (5)"
 
 @dataclass(frozen=True)
 class EnergyModel:
-    """Float on an anchor rope that turns its speed into stretch.
+    """Float on an anchor rope that turns its speed into stretch."""
 
-    Parameters
-    ----------
-    energy_factor : float
-        M [-]: 0.2 fitted the field, 0.5 the flume.
-    float_mass : float
-        m_B per anchor rope [kg]; the paper does not give it.
-    rope_stiffness : float
-        K = EA/L [N/m].
-    orbital_factor : float
-        alpha [-] on the wave's velocity; 2 in the paper.
-    line_factor : float
-        Tension of the member over that of the rope [-]: 1 for the anchor rope, 0.6 for the tension wire.
-    type_factor : float
-        Over the tension of the type that M was fitted to [-]: 1 for the same, 0.7 from conventional to new type.
-    """
-
+    #: M [-]: 0.2 fitted the field, 0.5 the flume.
     energy_factor: float
+    #: m_B per anchor rope [kg]; the paper does not give it.
     float_mass: float
+    #: K = EA/L [N/m].
     rope_stiffness: float
+    #: alpha [-] on the wave's velocity; 2 in the paper.
     orbital_factor: float
+    #: Tension of the member over that of the rope [-]: 1 for the anchor rope, 0.6 for the tension wire.
     line_factor: float
+    #: Over the tension of the type that M was fitted to [-]: 1 for the same, 0.7 from conventional to new type.
     type_factor: float
 
     def __post_init__(self) -> None:
@@ -85,7 +75,8 @@ class EnergyModel:
 
     def float_speed(self, height: ArrayLike, period: ArrayLike, current: ArrayLike, water: Water) -> Array:
         """Return U_max = alpha u_max + U [m/s], waves already reduced for their direction [eq:curtain-float-speed]."""
-        return self.orbital_factor * surface_speed(height, period, water) + np.asarray(current)
+        values: Array = self.orbital_factor * surface_speed(height, period, water) + np.asarray(current)
+        return values
 
     def fluctuating_tension(self, float_speed: ArrayLike, pretension: ArrayLike) -> Array:
         """Return the wave part of the tension [N] for float speeds [m/s] [eq:curtain-energy].
@@ -117,33 +108,28 @@ def product_needed(tension: ArrayLike, float_speed: ArrayLike, pretension: Array
     With a steady tension the same rise takes more energy, T_e (T_e + 2 T) [eq:curtain-energy].
     """
     rise = np.asarray(tension, dtype=np.float64)
-    return rise * (rise + 2.0 * np.asarray(pretension)) / np.asarray(float_speed) ** 2
+    values: Array = rise * (rise + 2.0 * np.asarray(pretension)) / np.asarray(float_speed) ** 2
+    return values
 
 
 @checks_words
 @dataclass(frozen=True, eq=False)
 class Calibration:
-    """M m_B K from observed tensions, by one rule.
+    """M m_B K from observed tensions, by one rule."""
 
-    Parameters
-    ----------
-    rule : str
-        ``mean_zero``, ``least_relative_error`` or ``least_squares``.
-    product : float
-        M m_B K [kg N/m].
-    standard_error : float
-        Of the product [kg N/m], by leaving out one observation at a time.
-    interval : tuple of float
-        Bounds of 95 % [kg N/m], Student's t on the root of the product.
-    calculated, observed : ndarray
-        Amplitudes sqrt(T_e (T_e + 2 T)) of the rope [N], which is T_e where there is no pretension.
-    """
-
+    #: ``mean_zero``, ``least_relative_error`` or ``least_squares``.
     rule: FittingRule
+    #: M m_B K [kg N/m].
     product: float
+    #: Of the product [kg N/m], by leaving out one observation at a time.
     standard_error: float
+    #: Bounds of 95 % [kg N/m], Student's t on the root of the product.
     interval: tuple[float, float]
+    #: ``calculated``, ``observed``: Amplitudes sqrt(T_e (T_e + 2 T)) of the rope [N], which is T_e where there is no
+    #: pretension.
     calculated: Array
+    #: ``calculated``, ``observed``: Amplitudes sqrt(T_e (T_e + 2 T)) of the rope [N], which is T_e where there is no
+    #: pretension.
     observed: Array
 
     @property

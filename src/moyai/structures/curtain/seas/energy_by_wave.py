@@ -22,29 +22,19 @@ _ABOVE_NOISE = 40.0
 
 @dataclass(frozen=True, eq=False)
 class WaveCalibration:
-    """M m_B K from single waves.
+    """M m_B K from single waves."""
 
-    Parameters
-    ----------
-    product : float
-        M m_B K [kg N/m].
-    interval : tuple of float
-        Bounds of 95 % [kg N/m]: Student's t over blocks, each left out in turn.
-    floor : float
-        What noise and the steady level add to every maximum [N].
-    scatter : float
-        Standard deviation of a pull over its expected value [-].
-    chosen : ndarray of bool
-        Waves whose expected pull stands clear of the noise.
-    blocks : int
-        Blocks that hold such waves.
-    """
-
+    #: M m_B K [kg N/m].
     product: float
+    #: Bounds of 95 % [kg N/m]: Student's t over blocks, each left out in turn.
     interval: tuple[float, float]
+    #: What noise and the steady level add to every maximum [N].
     floor: float
+    #: Standard deviation of a pull over its expected value [-].
     scatter: float
+    #: Waves whose expected pull stands clear of the noise.
     chosen: NDArray[np.bool_]
+    #: Blocks that hold such waves.
     blocks: int
 
     def energy_factor(self, float_mass: float, rope_stiffness: float) -> tuple[float, float, float]:

@@ -32,17 +32,11 @@ _CURVE_POINTS = 31
 
 @dataclass(frozen=True, eq=False)
 class DragCurve:
-    """Loads of the curtain at rest against the speed of the water along its normal.
+    """Loads of the curtain at rest against the speed of the water along its normal."""
 
-    Parameters
-    ----------
-    speed : ndarray
-        Root mean square over the skirt along the normal [m/s], rising from 0; up to where there is equilibrium.
-    loads : ndarray, shape (speed, 5)
-        Upper cable, lower cable [N], skirt [N/m], anchor line [N], line load [N/m].
-    """
-
+    #: Root mean square over the skirt along the normal [m/s], rising from 0; up to where there is equilibrium.
     speed: Array
+    #: Upper cable, lower cable [N], skirt [N/m], anchor line [N], line load [N/m]; shape (speed, 5).
     loads: Array
 
     def at(self, speed: float) -> AddedLoads:
@@ -114,32 +108,21 @@ def increase(whole: AddedLoads, statics: CurtainStatics) -> AddedLoads:
 
 @dataclass(frozen=True)
 class ImpactLoad:
-    """Loads of an impact at any start speed, in the proportions of the case.
+    """Loads of an impact at any start speed, in the proportions of the case."""
 
-    Parameters
-    ----------
-    impact : Impact
-        The span.
-    factor : float
-        Tension of the design model over that of model A [-].
-    shares : tuple of float
-        Of the upper and of the lower cable in the sum [-].
-    start_ratio : float
-        Start speed over the speed of the water [-].
-    half_angle : float
-        Of the skirt's arc [rad]; NaN: the skirt's share is not known and left out.
-    anchor_slope : float
-        Of the anchor line [rad].
-    uncertainty : tuple of float
-        Ends of the band of the tension over its value [-] [eq:impact-band].
-    """
-
+    #: The span.
     impact: Impact
+    #: Tension of the design model over that of model A [-].
     factor: float
+    #: Of the upper and of the lower cable in the sum [-].
     shares: tuple[float, float]
+    #: Start speed over the speed of the water [-].
     start_ratio: float
+    #: Of the skirt's arc [rad]; NaN: the skirt's share is not known and left out.
     half_angle: float
+    #: Of the anchor line [rad].
     anchor_slope: float
+    #: Ends of the band of the tension over its value [-] [eq:impact-band].
     uncertainty: tuple[float, float] = (1.0, 1.0)
 
     def at(self, speed: float) -> AddedLoads:
@@ -167,46 +150,30 @@ class ImpactLoad:
 @checks_words
 @dataclass(frozen=True)
 class SeaLoads:
-    """What a significant height in a current adds to the steady loads, by all models that the case has data for.
+    """What a significant height in a current adds to the steady loads, by all models that the case has data for."""
 
-    Parameters
-    ----------
-    period : callable
-        [s] of a significant height [m].
-    angle : float
-        Of the waves from the normal [rad].
-    rule : {"paper", "normal", "none"}
-        Direction rule.
-    height_ratio : float
-        H_max/H_1/3 [-].
-    depth : float
-        Of the skirt [m].
-    normal_ratio : float
-        Speed of the water along the normal, root mean square over the skirt, per surface speed of the current [-].
-    drag : DragCurve
-    energy : EnergyModel or None
-        Anchor lines.
-    pretension : float or None
-        Steady tension that the energy model takes [N]; None: that of the statics.
-    steady : float
-        Tension that the anchor line has at least [N], where the case gives a pretension.
-    impact : ImpactLoad or None
-        An impact in the current, without waves.
-    snaps : (CycleTable, ImpactLoad) or None
-        Slack and taut cycles, and how their tension goes to the components.
-    """
-
+    #: [s] of a significant height [m].
     period: Callable[[float], float]
+    #: Of the waves from the normal [rad].
     angle: float
+    #: Direction rule; one of "paper", "normal", "none".
     rule: DirectionRule
+    #: H_max/H_1/3 [-].
     height_ratio: float
+    #: Of the skirt [m].
     depth: float
+    #: Speed of the water along the normal, root mean square over the skirt, per surface speed of the current [-].
     normal_ratio: float
     drag: DragCurve
+    #: Anchor lines.
     energy: EnergyModel | None = None
+    #: Steady tension that the energy model takes [N]; None: that of the statics.
     pretension: float | None = None
+    #: Tension that the anchor line has at least [N], where the case gives a pretension.
     steady: float = 0.0
+    #: An impact in the current, without waves.
     impact: ImpactLoad | None = None
+    #: Slack and taut cycles, and how their tension goes to the components.
     snaps: tuple[CycleTable, ImpactLoad] | None = None
 
     def water_speed(self, significant_height: float, speed: float, water: Water) -> float:

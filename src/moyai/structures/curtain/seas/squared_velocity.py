@@ -69,7 +69,8 @@ def effective_height(
         raise InputError(f"wave height is {np.min(height):g} m", path="significant_height", allowed="at least 0 m")
     if not (math.isfinite(height_ratio) and height_ratio > 0.0):
         raise InputError(f"height ratio is {height_ratio:g}", path="height_ratio", allowed="greater than 0")
-    return height_ratio * height * np.maximum(np.cos(beta), 0.0) ** _RULES[rule]
+    values: Array = height_ratio * height * np.maximum(np.cos(beta), 0.0) ** _RULES[rule]
+    return values
 
 
 def _factors(period: ArrayLike, curtain_depth: ArrayLike, water: Water) -> tuple[Array, Array, Array, Array]:
@@ -132,7 +133,8 @@ def squared_velocity(
         raise InputError(f"height is {np.min(high):g} m", path="height", allowed="at least 0 m")
     omega, squared, single, _ = _factors(period, curtain_depth, water)
     speed, u = 0.5 * high * omega, np.asarray(current)
-    return speed**2 * squared + 2.0 * u * speed * single + u**2
+    values: Array = speed**2 * squared + 2.0 * u * speed * single + u**2
+    return values
 
 
 def mean_squared_velocity(
@@ -143,7 +145,8 @@ def mean_squared_velocity(
     Half of the wave part, no cross part [eq:curtain-squared-velocity-mean]; arguments as :func:`squared_velocity`.
     """
     omega, squared, _, _ = _factors(period, curtain_depth, water)
-    return 0.5 * (0.5 * np.asarray(height) * omega) ** 2 * squared + np.asarray(current) ** 2
+    values: Array = 0.5 * (0.5 * np.asarray(height) * omega) ** 2 * squared + np.asarray(current) ** 2
+    return values
 
 
 def surface_speed(height: ArrayLike, period: ArrayLike, water: Water) -> Array:
@@ -155,20 +158,13 @@ def surface_speed(height: ArrayLike, period: ArrayLike, water: Water) -> Array:
 
 @dataclass(frozen=True)
 class ProportionalFit:
-    """Tension in proportion to the squared velocity, T = c u2.
+    """Tension in proportion to the squared velocity, T = c u2."""
 
-    Parameters
-    ----------
-    factor : float
-        c [N s2/m2].
-    standard_error : float
-        Of the factor [N s2/m2].
-    determination : float
-        R^2 about the mean [-]; negative when a constant would fit better.
-    """
-
+    #: c [N s2/m2].
     factor: float
+    #: Of the factor [N s2/m2].
     standard_error: float
+    #: R^2 about the mean [-]; negative when a constant would fit better.
     determination: float
 
 

@@ -12,26 +12,17 @@ from moyai.structures.curtain.seas.squared_velocity import DirectionRule, effect
 
 @dataclass(frozen=True)
 class DesignWave:
-    """One wave that a sea state stands for.
+    """One wave that a sea state stands for."""
 
-    Parameters
-    ----------
-    name : str
-        Of the sea state, with the period where it has several.
-    significant_height : float
-        H_1/3 of an irregular sea, the height of a regular one [m].
-    period : float
-        T_1/3 or the regular period [s].
-    angle : float
-        Direction of travel from the normal of the span [rad].
-    irregular : bool
-        Whether the highest wave of the sea counts, ratio times H_1/3.
-    """
-
+    #: Of the sea state, with the period where it has several.
     name: str
+    #: H_1/3 of an irregular sea, the height of a regular one [m].
     significant_height: float
+    #: T_1/3 or the regular period [s].
     period: float
+    #: Direction of travel from the normal of the span [rad].
     angle: float
+    #: Whether the highest wave of the sea counts, ratio times H_1/3.
     irregular: bool
 
     def effective_height(self, rule: DirectionRule, height_ratio: float) -> float:

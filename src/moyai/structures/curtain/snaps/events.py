@@ -23,38 +23,29 @@ _SHORT_RISE = 0.6
 
 @dataclass(frozen=True, eq=False)
 class SeaSnaps:
-    """Contacts of a curtain in a sea, after the start has died out.
+    """Contacts of a curtain in a sea, after the start has died out."""
 
-    Parameters
-    ----------
-    motion : SlackTautMotion
-        The whole series.
-    time, speed, tension, rise_time : ndarray
-        Of each contact: taut instant [s], speed there [m/s], largest tension [N], time to it [s].
-    side : ndarray
-        1 downstream, -1 upstream.
-    first : ndarray of bool
-        First contact of its half wave; the others are bounces.
-    fast : ndarray of bool
-        Whether the speed reaches the slowest that counts.
-    duration : float
-        Of the analysed part [s].
-    slowest : float
-        Speed below which a contact does not count as a snap [m/s].
-    notices : tuple of Notice
-        Where the model leaves its range.
-    """
-
+    #: The whole series.
     motion: SlackTautMotion
+    #: Of each contact: taut instant [s].
     time: Array
+    #: Speed there [m/s].
     speed: Array
+    #: Largest tension [N].
     tension: Array
+    #: Time to it [s].
     rise_time: Array
+    #: 1 downstream, -1 upstream.
     side: NDArray[np.int64]
+    #: First contact of its half wave; the others are bounces.
     first: Flags
+    #: Whether the speed reaches the slowest that counts.
     fast: Flags
+    #: Of the analysed part [s].
     duration: float
+    #: Speed below which a contact does not count as a snap [m/s].
     slowest: float
+    #: Where the model leaves its range.
     notices: tuple[Notice, ...]
 
     @property
@@ -206,20 +197,15 @@ class StepError:
 
     A stiff cable throws the skirt back, and small differences grow from bounce to bounce: two runs of one sea part
     after some contacts, however fine the steps. Then single snaps mean nothing, and counts, means and fitted laws do.
-
-    Parameters
-    ----------
-    count_change : int
-        Of the number of snaps; slow contacts about the limit come and go.
-    largest_change, mean_change : float
-        Relative changes of the largest tension and of the mean of all snaps.
-    parted : float
-        When the runs part: first contact that is off by more than half of its rise [s]; infinite where they do not.
     """
 
+    #: Of the number of snaps; slow contacts about the limit come and go.
     count_change: int
+    #: ``largest_change``, ``mean_change``: Relative changes of the largest tension and of the mean of all snaps.
     largest_change: float
+    #: ``largest_change``, ``mean_change``: Relative changes of the largest tension and of the mean of all snaps.
     mean_change: float
+    #: When the runs part: first contact that is off by more than half of its rise [s]; infinite where they do not.
     parted: float
 
 

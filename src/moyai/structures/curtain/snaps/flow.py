@@ -44,24 +44,17 @@ def check_samples(duration: float, time_step: float) -> None:
 
 @dataclass(frozen=True, eq=False)
 class SkirtFlow:
-    """Water along the normal of a curtain on a uniform grid of times.
+    """Water along the normal of a curtain on a uniform grid of times."""
 
-    Parameters
-    ----------
-    time : ndarray
-        [s], from 0.
-    speed, acceleration : ndarray
-        Of waves and current [m/s], [m/s2].
-    elevation : ndarray
-        Of the surface at the middle of the span [m].
-    current : float
-        Part of the current in the speed [m/s].
-    """
-
+    #: [s], from 0.
     time: Array
+    #: Of waves and current [m/s].
     speed: Array
+    #: Of waves and current [m/s2].
     acceleration: Array
+    #: Of the surface at the middle of the span [m].
     elevation: Array
+    #: Part of the current in the speed [m/s].
     current: float
 
     @property

@@ -214,33 +214,26 @@ def arc_tension_ratio(chord_ratio: ArrayLike, stiffness_ratio: ArrayLike = np.in
 
 @dataclass(frozen=True, eq=False)
 class CableSolution:
-    """A cable at rest under the load sigma cos^2 of its slope; arrays of one shape.
+    """A cable at rest under the load sigma cos^2 of its slope; arrays of one shape."""
 
-    Parameters
-    ----------
-    span, length : ndarray
-        Distance of the supports B and unstretched length l [m].
-    line_load : ndarray
-        sigma [N/m], load per length where the cable lies across the current.
-    axial_stiffness : ndarray
-        EA [N].
-    tension : ndarray
-        T [N], the same everywhere along the cable.
-    shape_number : ndarray
-        b [-].
-    """
-
+    #: ``span``, ``length``: Distance of the supports B and unstretched length l [m].
     span: Array
+    #: ``span``, ``length``: Distance of the supports B and unstretched length l [m].
     length: Array
+    #: sigma [N/m], load per length where the cable lies across the current.
     line_load: Array
+    #: EA [N].
     axial_stiffness: Array
+    #: T [N], the same everywhere along the cable.
     tension: Array
+    #: b [-].
     shape_number: Array
 
     @property
     def sag(self) -> Array:
         """Deflection at mid-span, downstream of the line between the supports [m] [eq:curtain-cable-shape]."""
-        return self.span / self.shape_number * np.sinh(0.5 * self.shape_number) ** 2
+        values: Array = self.span / self.shape_number * np.sinh(0.5 * self.shape_number) ** 2
+        return values
 
     @property
     def stretched_length(self) -> Array:
@@ -314,27 +307,19 @@ def solve_cable(
 
 @dataclass(frozen=True, eq=False)
 class SkirtArc:
-    """A skirt between two held edges under uniform normal pressure: an arc of a circle; arrays of one shape.
+    """A skirt between two held edges under uniform normal pressure: an arc of a circle; arrays of one shape."""
 
-    Parameters
-    ----------
-    chord, length : ndarray
-        Straight distance of the edges d0 and unstretched length d [m].
-    pressure : ndarray
-        sigma_s [N/m2].
-    stiffness : ndarray
-        E_s A_s per span [N/m].
-    tension : ndarray
-        T_s per span [N/m].
-    half_angle : ndarray
-        alpha [rad].
-    """
-
+    #: ``chord``, ``length``: Straight distance of the edges d0 and unstretched length d [m].
     chord: Array
+    #: ``chord``, ``length``: Straight distance of the edges d0 and unstretched length d [m].
     length: Array
+    #: sigma_s [N/m2].
     pressure: Array
+    #: E_s A_s per span [N/m].
     stiffness: Array
+    #: T_s per span [N/m].
     tension: Array
+    #: alpha [rad].
     half_angle: Array
 
     @property
@@ -345,7 +330,8 @@ class SkirtArc:
     @property
     def sagitta(self) -> Array:
         """Deflection at mid-depth from the chord [m]."""
-        return self.radius * 2.0 * np.sin(0.5 * self.half_angle) ** 2
+        values: Array = self.radius * 2.0 * np.sin(0.5 * self.half_angle) ** 2
+        return values
 
     @property
     def edge_load(self) -> Array:

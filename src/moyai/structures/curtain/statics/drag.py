@@ -17,27 +17,21 @@ from moyai.sea.water import Water
 
 @dataclass(frozen=True)
 class DragLaw:
-    """Drag coefficient of a curtain against its blockage, with a range.
+    """Drag coefficient of a curtain against its blockage, with a range."""
 
-    Parameters
-    ----------
-    name : str
-        What the law is.
-    blockage, coefficients : tuple of float
-        Points of C_D [-] over the blockage d/h [-], increasing; linear between, constant outside.
-    range : tuple of float
-        Multipliers (low, high) of the coefficient that bound what is known, for instance (0.8, 1.4).
-    source : str
-        Where it comes from.
-    given_blockage : float
-        Blockage that the case gives, at which the one coefficient was taken [-]; NaN where it follows from the shape.
-    """
-
+    #: What the law is.
     name: str
+    #: ``blockage``, ``coefficients``: Points of C_D [-] over the blockage d/h [-], increasing; linear between, constant
+    #: outside.
     blockage: tuple[float, ...]
+    #: ``blockage``, ``coefficients``: Points of C_D [-] over the blockage d/h [-], increasing; linear between, constant
+    #: outside.
     coefficients: tuple[float, ...]
+    #: Multipliers (low, high) of the coefficient that bound what is known, for instance (0.8, 1.4).
     range: tuple[float, float]
+    #: Where it comes from.
     source: str
+    #: Blockage that the case gives, at which the one coefficient was taken [-]; NaN where it follows from the shape.
     given_blockage: float = math.nan
 
     def __post_init__(self) -> None:
@@ -155,7 +149,8 @@ def under_toe_flow(
 def sample_pressure(current: CurrentProfile, heading: float, z: ArrayLike, density: float) -> Array:
     """Return rho/2 u|u| [N/m2] of the component along ``heading`` [rad] at heights ``z`` [m]."""
     u = current.component(z, heading)
-    return 0.5 * density * u * np.abs(u)
+    values: Array = 0.5 * density * u * np.abs(u)
+    return values
 
 
 def check_drag(law: DragLaw, blockage: float) -> tuple[Notice, ...]:

@@ -19,21 +19,14 @@ from moyai.structures.curtain.statics.section import LoadLaw, SectionShape, Skir
 
 @dataclass(frozen=True)
 class FloatLine:
-    """Floats, top cable and fittings per length of curtain.
+    """Floats, top cable and fittings per length of curtain."""
 
-    Parameters
-    ----------
-    buoyancy : float
-        Upward force of the wholly submerged floats, before their weight [N/m].
-    weight : float
-        Of floats, top cable and fittings in air [N/m].
-    flooded_buoyancy : float
-        Upward force that is left when the floats are flooded (float-and-sink type) [N/m]; equal to ``buoyancy`` for
-        floats that cannot be flooded.
-    """
-
+    #: Upward force of the wholly submerged floats, before their weight [N/m].
     buoyancy: float
+    #: Of floats, top cable and fittings in air [N/m].
     weight: float
+    #: Upward force that is left when the floats are flooded (float-and-sink type) [N/m]; equal to ``buoyancy`` for
+    #: floats that cannot be flooded.
     flooded_buoyancy: float
 
     def __post_init__(self) -> None:
@@ -48,40 +41,31 @@ class FloatLine:
 @checks_words
 @dataclass(frozen=True)
 class HangingCurtain:
-    """One span of a curtain between two anchored supports, its neighbours alike.
+    """One span of a curtain between two anchored supports, its neighbours alike."""
 
-    Parameters
-    ----------
-    span, length : float
-        Distance of the supports and unstretched length of curtain between them [m].
-    skirt : Skirt
-        Section.
-    floats : FloatLine
-        What carries it.
-    upper_stiffness, lower_stiffness : float
-        EA of the cables at top and toe [N]; the lower one counts only for a held toe.
-    toe : {"free", "held"}
-        Whether a lower cable as long as the upper one keeps the toe under the top.
-    anchor_slope : float
-        Angle of the anchor lines from the horizontal at the float [rad]; straight taut lines are assumed.
-    drag : DragLaw
-        Coefficient with range and blockage.
-    law : {"normal_velocity", "uniform_normal", "free_streamline"}
-        Load law of the section.
-    friction : float
-        Coefficient of the load along the sheet, both faces together [-].
-    """
-
+    #: ``span``, ``length``: Distance of the supports and unstretched length of curtain between them [m].
     span: float
+    #: ``span``, ``length``: Distance of the supports and unstretched length of curtain between them [m].
     length: float
+    #: Section.
     skirt: Skirt
+    #: What carries it.
     floats: FloatLine
+    #: ``upper_stiffness``, ``lower_stiffness``: EA of the cables at top and toe [N]; the lower one counts only for a
+    #: held toe.
     upper_stiffness: float
+    #: ``upper_stiffness``, ``lower_stiffness``: EA of the cables at top and toe [N]; the lower one counts only for a
+    #: held toe.
     lower_stiffness: float
+    #: Whether a lower cable as long as the upper one keeps the toe under the top.
     toe: Literal["free", "held"]
+    #: Angle of the anchor lines from the horizontal at the float [rad]; straight taut lines are assumed.
     anchor_slope: float
+    #: Coefficient with range and blockage.
     drag: DragLaw
+    #: Load law of the section; one of "normal_velocity", "uniform_normal", "free_streamline".
     law: LoadLaw
+    #: Coefficient of the load along the sheet, both faces together [-].
     friction: float = 0.0
 
     def __post_init__(self) -> None:
@@ -103,48 +87,33 @@ class HangingCurtain:
 
 @dataclass(frozen=True, eq=False)
 class CurtainStatics:
-    """A curtain at rest in a current.
+    """A curtain at rest in a current."""
 
-    Parameters
-    ----------
-    curtain : HangingCurtain
-        What was solved.
-    section : SectionShape
-        Where the curtain faces the current most: at the middle of the span in a current along its normal.
-    section_heading : float
-        Of the curtain's normal at that section [rad].
-    plan : PlanShape
-        Between the supports.
-    toe_gap : float
-        Clearance between toe and bed [m].
-    toe_speed : float
-        Mean speed under the toe [m/s], what flows along the curtain included; NaN in infinite depth.
-    toe_speed_ratio : float
-        Over that of the undisturbed current there [-]; NaN in infinite depth, or where nothing flows there.
-    upper_tension, lower_tension : float
-        Of the two cables [N].
-    anchor_force : float
-        Horizontal force on the anchor of an inner support, with an equal span on its other side [N].
-    end_anchor_force : float
-        Horizontal force on the more loaded support of a lone span [N].
-    anchor_line_tension : float
-        Of a straight line at the given slope that carries ``anchor_force`` [N].
-    float_reserve : float
-        Buoyancy left per length after weight, pull of the skirt and of the inner anchor lines [N/m]; negative drowns.
-    """
-
+    #: What was solved.
     curtain: HangingCurtain
+    #: Where the curtain faces the current most: at the middle of the span in a current along its normal.
     section: SectionShape
+    #: Of the curtain's normal at that section [rad].
     section_heading: float
+    #: Between the supports.
     plan: PlanShape
+    #: Clearance between toe and bed [m].
     toe_gap: float
+    #: Mean speed under the toe [m/s], what flows along the curtain included; NaN in infinite depth.
     toe_speed: float
+    #: Over that of the undisturbed current there [-]; NaN in infinite depth, or where nothing flows there.
     toe_speed_ratio: float
+    #: Of the two cables [N].
     upper_tension: float
+    #: Of the two cables [N].
     lower_tension: float
+    #: Horizontal force on the anchor of an inner support, with an equal span on its other side [N].
     anchor_force: float
+    #: Horizontal force on the more loaded support of a lone span [N].
     end_anchor_force: float
+    #: Of a straight line at the given slope that carries ``anchor_force`` [N].
     anchor_line_tension: float
+    #: Buoyancy left per length after weight, pull of the skirt and of the inner anchor lines [N/m]; negative drowns.
     float_reserve: float
 
     @property
@@ -291,23 +260,15 @@ def drag_range(
 
 @dataclass(frozen=True)
 class SubmergedState:
-    """A float-and-sink curtain with flooded floats.
+    """A float-and-sink curtain with flooded floats."""
 
-    Parameters
-    ----------
-    net_weight : float
-        Force towards the bed per length [N/m]; negative when the flooded curtain still floats.
-    sinks : bool
-        Whether it goes to the bed by itself.
-    air_to_surface : float
-        Volume of air per length that lifts it again [m3/m], without suction of the bed.
-    holding_buoyancy : float
-        Upward force per length of buoys or legs that hold it off the bed [N/m].
-    """
-
+    #: Force towards the bed per length [N/m]; negative when the flooded curtain still floats.
     net_weight: float
+    #: Whether it goes to the bed by itself.
     sinks: bool
+    #: Volume of air per length that lifts it again [m3/m], without suction of the bed.
     air_to_surface: float
+    #: Upward force per length of buoys or legs that hold it off the bed [N/m].
     holding_buoyancy: float
 
 

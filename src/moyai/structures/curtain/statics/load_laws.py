@@ -20,27 +20,21 @@ _DOMAIN = "closed forms of curtain statics, recomputed independently"
 
 @dataclass(frozen=True)
 class SectionLaw:
-    """Shape of a weightless skirt that hangs from its top with a toe load, under one load law.
+    """Shape of a weightless skirt that hangs from its top with a toe load, under one load law."""
 
-    Parameters
-    ----------
-    name : str
-        ``catenary``, ``circular``, ``rigid`` or ``elastic``.
-    effective_depth, flare : float
-        Vertical reach and downstream reach of the toe [m]; NaN where the law has no solution.
-    top_tension : float
-        Force per span along the skirt at its top [N/m].
-    horizontal_load : float
-        Downstream force per span on the top [N/m].
-    top_angle : float
-        Angle of the skirt at its top from the vertical [rad].
-    """
-
+    #: ``catenary``, ``circular``, ``rigid`` or ``elastic``.
     name: str
+    #: ``effective_depth``, ``flare``: Vertical reach and downstream reach of the toe [m]; NaN where the law has no
+    #: solution.
     effective_depth: float
+    #: ``effective_depth``, ``flare``: Vertical reach and downstream reach of the toe [m]; NaN where the law has no
+    #: solution.
     flare: float
+    #: Force per span along the skirt at its top [N/m].
     top_tension: float
+    #: Downstream force per span on the top [N/m].
     horizontal_load: float
+    #: Angle of the skirt at its top from the vertical [rad].
     top_angle: float
 
 
@@ -115,24 +109,17 @@ def section_laws(
 
 @dataclass(frozen=True)
 class PlanLaw:
-    """Shape and forces of a curtain between two supports in plan, under one load law.
+    """Shape and forces of a curtain between two supports in plan, under one load law."""
 
-    Parameters
-    ----------
-    name : str
-        ``catenary``, ``circular``, ``rigid``, ``elastic`` or ``small sag``.
-    tension : float
-        Tension of the cables together [N]; 0 for a rigid curtain, which carries its load by bending.
-    sag : float
-        Deflection at mid-span [m].
-    downstream_end_force, inward_end_force : float
-        Force on each support, downstream and along the span [N].
-    """
-
+    #: ``catenary``, ``circular``, ``rigid``, ``elastic`` or ``small sag``.
     name: str
+    #: Tension of the cables together [N]; 0 for a rigid curtain, which carries its load by bending.
     tension: float
+    #: Deflection at mid-span [m].
     sag: float
+    #: ``downstream_end_force``, ``inward_end_force``: Force on each support, downstream and along the span [N].
     downstream_end_force: float
+    #: ``downstream_end_force``, ``inward_end_force``: Force on each support, downstream and along the span [N].
     inward_end_force: float
 
 

@@ -32,22 +32,17 @@ _WEIGHTS = np.tile(_SHARES / _PIECES, _PIECES)
 
 @dataclass(frozen=True, eq=False)
 class PlanLoad:
-    """Load normal to a curtain per length against its local angle to the flow.
+    """Load normal to a curtain per length against its local angle to the flow."""
 
-    Parameters
-    ----------
-    across : float
-        Load where the curtain lies across the flow P [N/m].
-    flow_angle : float
-        Angle of the flow from the normal of the line between the supports, positive towards the second support [rad].
-    angle, ratio : ndarray
-        Points of c in p = P c cos^2 over the local angle from across the flow [rad]; a smooth curve between, constant
-        outside. A single point means a constant c.
-    """
-
+    #: Load where the curtain lies across the flow P [N/m].
     across: float
+    #: Angle of the flow from the normal of the line between the supports, positive towards the second support [rad].
     flow_angle: float
+    #: ``angle``, ``ratio``: Points of c in p = P c cos^2 over the local angle from across the flow [rad]; a smooth
+    #: curve between, constant outside. A single point means a constant c.
     angle: Array
+    #: ``angle``, ``ratio``: Points of c in p = P c cos^2 over the local angle from across the flow [rad]; a smooth
+    #: curve between, constant outside. A single point means a constant c.
     ratio: Array
 
     def __post_init__(self) -> None:
@@ -118,13 +113,15 @@ def section_load(
     angle = np.linspace(-_WIDEST, _WIDEST, count)
 
     def loads(turns: Array) -> Array:
-        settings = {"law": law, "toe": toe, "top_depth": top_depth, "below_bed": below_bed, "friction": friction}
-        return np.array(
-            [
-                solve_section(skirt, current, flow_heading - turn, water, drag, **settings).load  # type: ignore[arg-type]
-                for turn in turns
-            ]
-        )
+        found: list[float] = []
+        near = None
+        for turn in turns:
+            near = solve_section(
+                skirt, current, flow_heading - turn, water, drag, law=law, toe=toe, top_depth=top_depth,
+                below_bed=below_bed, friction=friction, near=near,
+            )  # fmt: skip
+            found.append(near.load)
+        return np.array(found)
 
     heights = np.linspace(-min(water.depth, top_depth + 2.0 * skirt.length), -top_depth, 60)
     if np.max(np.abs(current.component(heights, flow_heading + 0.5 * math.pi))) <= 1e-12 * np.max(
@@ -142,29 +139,23 @@ def section_load(
 
 @dataclass(frozen=True, eq=False)
 class PlanShape:
-    """A curtain at rest in plan.
+    """A curtain at rest in plan."""
 
-    Parameters
-    ----------
-    span, length, axial_stiffness : float
-        Distance of the supports [m], unstretched length [m], EA of all cables together [N].
-    y, x : ndarray
-        Along the span from the first support and downstream of the line between the supports [m].
-    arc : ndarray
-        Stretched length from the first support [m].
-    angle : ndarray
-        Between curtain and span [rad].
-    tension : float
-        Of all cables together [N].
-    """
-
+    #: Distance of the supports [m].
     span: float
+    #: Unstretched length [m].
     length: float
+    #: EA of all cables together [N].
     axial_stiffness: float
+    #: ``y``, ``x``: Along the span from the first support and downstream of the line between the supports [m].
     y: Array
+    #: ``y``, ``x``: Along the span from the first support and downstream of the line between the supports [m].
     x: Array
+    #: Stretched length from the first support [m].
     arc: Array
+    #: Between curtain and span [rad].
     angle: Array
+    #: Of all cables together [N].
     tension: float
 
     @property

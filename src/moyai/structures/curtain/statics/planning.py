@@ -12,26 +12,17 @@ _KILOGRAM_FORCE = 9.80665
 
 @dataclass(frozen=True)
 class PlanningLoad:
-    """Load of one planning formula.
+    """Load of one planning formula."""
 
-    Parameters
-    ----------
-    name : str
-        Whose formula.
-    force : float
-        On the whole area [N].
-    drag_coefficient : float
-        Coefficient on rho/2 A U^2 that gives the same force [-].
-    confirmed : bool
-        Whether the formula was read in its source.
-    source : str
-        Where it comes from.
-    """
-
+    #: Whose formula.
     name: str
+    #: On the whole area [N].
     force: float
+    #: Coefficient on rho/2 A U^2 that gives the same force [-].
     drag_coefficient: float
+    #: Whether the formula was read in its source.
     confirmed: bool
+    #: Where it comes from.
     source: str
 
 
@@ -91,23 +82,15 @@ def tow_trial_load(span: float, significant_height: float, draught: float, speed
 
 @dataclass(frozen=True)
 class CurrentRule:
-    """A speed beyond which practice expects failure.
+    """A speed beyond which practice expects failure."""
 
-    Parameters
-    ----------
-    name : str
-        What fails.
-    speed : float
-        [m/s].
-    confirmed : bool
-        Whether it was read in the source (abstract or text).
-    source : str
-        Where it comes from.
-    """
-
+    #: What fails.
     name: str
+    #: [m/s].
     speed: float
+    #: Whether it was read in the source (abstract or text).
     confirmed: bool
+    #: Where it comes from.
     source: str
 
 

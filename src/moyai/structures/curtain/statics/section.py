@@ -9,6 +9,7 @@ special cases and its tests.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
@@ -106,10 +107,28 @@ def _hang(
     pressure: Array,
     data: Array,
     path: Array,
+    guess: float,
 ) -> float:
-    """Find the height of the toe whose skirt ends at ``top_height``; returns the miss [m], NaN without a solution."""
+    """Find the height of the toe whose skirt ends at ``top_height``; returns the miss [m], NaN without a solution.
+
+    ``guess`` is the height in a load nearby, or NaN.
+    """
     a, b = top_height - reach, top_height
     length = nodes[nodes.size - 1]
+    if a < guess < b:
+        # secants from nearby take a third of the climbs; what they do not find is left to the bracket
+        c, last, old = guess, math.nan, math.nan
+        for _ in range(8):
+            _climb(c, hold, toe_load, nodes, low, step, pressure, data, path)
+            f = path[-1, 1] - top_height
+            if abs(f) <= 1e-13 * length:
+                return f
+            # the top moves with the toe where nothing else is known
+            move = -f if math.isnan(old) else -f * (c - last) / (f - old)
+            last, old = c, f
+            c += move
+            if not a < c < b:
+                break
     _climb(a, hold, toe_load, nodes, low, step, pressure, data, path)
     fa = path[-1, 1] - top_height
     _climb(b, hold, toe_load, nodes, low, step, pressure, data, path)
@@ -142,23 +161,15 @@ def _hang(
 
 @dataclass(frozen=True)
 class Skirt:
-    """The sheet of a curtain per length of span.
+    """The sheet of a curtain per length of span."""
 
-    Parameters
-    ----------
-    length : float
-        Unstretched, from the top load line to the toe [m].
-    submerged_weight : float
-        Per area of sheet in water [N/m2]; may be negative (buoyant film).
-    toe_load : float
-        Submerged weight of chain, ballast and lower cable per span [N/m].
-    stiffness : float
-        Modulus times thickness per span [N/m]; infinite for a sheet that does not stretch.
-    """
-
+    #: Unstretched, from the top load line to the toe [m].
     length: float
+    #: Per area of sheet in water [N/m2]; may be negative (buoyant film).
     submerged_weight: float
+    #: Submerged weight of chain, ballast and lower cable per span [N/m].
     toe_load: float
+    #: Modulus times thickness per span [N/m]; infinite for a sheet that does not stretch.
     stiffness: float
 
     def __post_init__(self) -> None:
@@ -186,42 +197,36 @@ class Skirt:
 
 @dataclass(frozen=True, eq=False)
 class SectionShape:
-    """A section at rest; arrays run from the top to the toe.
+    """A section at rest; arrays run from the top to the toe."""
 
-    Parameters
-    ----------
-    skirt : Skirt
-        What hangs.
-    arc : ndarray
-        Unstretched length of skirt from the top [m].
-    x, z : ndarray
-        Downstream of the top and height above still water [m].
-    tension : ndarray
-        Along the skirt per span [N/m].
-    angle : ndarray
-        Of the skirt from the vertical [rad], positive where it leads downstream.
-    top_load, toe_hold : float
-        Horizontal force per span of the current on the top and on the lower cable [N/m]; the latter 0 for a free toe.
-    top_pull : float
-        Vertical force per span by which the skirt pulls its floats down [N/m].
-    drag_coefficient, blockage : float
-        In use [-]; no blockage in infinite depth.
-    residual : float
-        Miss of the top over the length [-].
-    """
-
+    #: What hangs.
     skirt: Skirt
+    #: Unstretched length of skirt from the top [m].
     arc: Array
+    #: ``x``, ``z``: Downstream of the top and height above still water [m].
     x: Array
+    #: ``x``, ``z``: Downstream of the top and height above still water [m].
     z: Array
+    #: Along the skirt per span [N/m].
     tension: Array
+    #: Of the skirt from the vertical [rad], positive where it leads downstream.
     angle: Array
+    #: ``top_load``, ``toe_hold``: Horizontal force per span of the current on the top and on the lower cable [N/m]; the
+    #: latter 0 for a free toe.
     top_load: float
+    #: ``top_load``, ``toe_hold``: Horizontal force per span of the current on the top and on the lower cable [N/m]; the
+    #: latter 0 for a free toe.
     toe_hold: float
+    #: Vertical force per span by which the skirt pulls its floats down [N/m].
     top_pull: float
+    #: ``drag_coefficient``, ``blockage``: In use [-]; no blockage in infinite depth.
     drag_coefficient: float
+    #: ``drag_coefficient``, ``blockage``: In use [-]; no blockage in infinite depth.
     blockage: float
+    #: Miss of the top over the length [-].
     residual: float
+    #: Hold of the toe over that of a straight sheet [-], NaN for a free toe.
+    hold_share: float = math.nan
 
     @property
     def effective_depth(self) -> float:
@@ -289,13 +294,18 @@ class _Problem:
         law: LoadLaw,
         top_depth: float,
         friction: float,
+        share: float = math.nan,
     ) -> None:
         self.skirt, self.top, self.friction = skirt, -top_depth, friction
+        #: Hold of the toe over that of a straight sheet, as guessed and then as found.
+        self.share = share
         self.law = LAW_CODES[law]
         most = skirt.toe_load + max(skirt.submerged_weight, 0.0) * skirt.length
         low = max(-water.depth, self.top - skirt.length * (1.0 + 2.0 * most / skirt.stiffness))
         self.pressure = _sample(current, heading, low, self.top, water.density)
         self.largest = float(np.max(np.abs(self.pressure.values)))
+        #: Height of the toe found last, NaN before; rise of the lean with the hold, at first of a toe load alone.
+        self._toe, self._slope = math.nan, skirt.length / skirt.toe_load
 
     def nodes(self, drag: float) -> Array:
         """Return the steps of a solution, from the toe."""
@@ -323,7 +333,9 @@ class _Problem:
             pressure.values,
             data,
             path,
+            self._toe,
         )
+        self._toe = float(path[0, 1]) if math.isfinite(miss) else math.nan
         return path, miss
 
     def held(self, drag: float) -> tuple[Array, float, float]:
@@ -334,24 +346,69 @@ class _Problem:
         # a straight sheet needs this much by moments about its top; too far from it the sheet may have no shape at all
         z = np.linspace(self.top - self.skirt.length, self.top, 200)
         values = np.interp(z, self.pressure.low + self.pressure.step * np.arange(_SAMPLES), self.pressure.values)
-        straight = hold = drag * float(np.mean(values * (self.top - z)))
-        a, b, lean_a, lean_b = straight - limit, straight + limit, math.nan, math.nan
-        for _ in range(100):
-            path, miss = self.solve(drag, hold)
+        straight = drag * float(np.mean(values * (self.top - z)))
+        found: list[tuple[Array, float]] = []
+
+        def lean(hold: float) -> float:
+            found[:] = [self.solve(drag, hold)]
+            path, miss = found[0]
             # the top lies at path[-1, 0] from the toe: upstream of it (negative) while the hold is too small
-            lean = float(path[-1, 0]) if math.isfinite(miss) else math.copysign(math.inf, hold - straight)
-            if lean > 0.0:
-                b, lean_b = hold, lean
-            else:
-                a, lean_a = hold, lean
-            if abs(lean) <= 1e-12 * self.skirt.length or b - a <= 1e-14 * limit:
-                break
-            hold = 0.5 * (a + b)
-            if math.isfinite(lean_a) and math.isfinite(lean_b):
-                # secant between the ends, each kept off them so that both sides close in
-                share = min(max(lean_a / (lean_a - lean_b), 0.02), 0.98) if lean_a != 0.0 else 0.5
-                hold = a + share * (b - a)
+            return float(path[-1, 0]) if math.isfinite(miss) else math.copysign(math.inf, hold - straight)
+
+        start = straight * self.share if math.isfinite(self.share) else straight
+        low, high = straight - limit, straight + limit
+        start = min(max(start, low), high)
+        hold, slope = _crossing(lean, low, high, start, self._slope, 1e-12 * self.skirt.length, 1e-14 * limit)
+        path, miss = found[0]
+        if math.isfinite(miss) and slope > 0.0:
+            self._slope = slope
+            self.share = hold / straight if straight != 0.0 else math.nan
         return path, miss, hold
+
+
+def _crossing(
+    value: Callable[[float], float],
+    low: float,
+    high: float,
+    start: float,
+    slope: float,
+    tolerance: float,
+    width: float,
+) -> tuple[float, float]:
+    """Return where a rising function crosses zero and its slope there, by secants that a bracket keeps safe.
+
+    Parameters
+    ----------
+    value : callable
+        May be infinite where no more than its sign is known. Its last call is the one whose place is returned.
+    low, high : float
+        Ends of the bracket.
+    start, slope : float
+        First place, and slope there, NaN where not known.
+    tolerance, width : float
+        Value, and width of bracket or step, at which the search ends.
+    """
+    place, last, known = start, math.nan, math.nan
+    wide, since = high - low, 0
+    for _ in range(100):
+        found = value(place)
+        low, high = (low, place) if found > 0.0 else (place, high)
+        if not math.isnan(known) and math.isfinite(found - known) and place != last:
+            slope = (found - known) / (place - last)
+        if abs(found) <= tolerance or high - low <= width:
+            break
+        last, known = place, found
+        then = place - found / slope if slope > 0.0 and math.isfinite(found) else math.nan
+        if abs(then - place) <= width:
+            break
+        since += 1
+        if high - low <= 0.5 * wide:
+            wide, since = high - low, 0
+        # secants that come from one side leave the bracket wide: they are quick or they are cut short
+        place = then if low < then < high and since < 6 else 0.5 * (low + high)
+        if since >= 6:
+            since = 0
+    return place, slope
 
 
 @checks_words
@@ -367,6 +424,7 @@ def solve_section(
     top_depth: float = 0.0,
     below_bed: bool = False,
     friction: float = 0.0,
+    near: SectionShape | None = None,
 ) -> SectionShape:
     """Return the section of a hanging skirt at rest in a current.
 
@@ -395,6 +453,8 @@ def solve_section(
         (:mod:`moyai.structures.curtain.statics.on_bed`).
     friction : float
         Coefficient of the load along the sheet from the velocity along it, both faces together [-]; 0 leaves it out.
+    near : SectionShape, optional
+        The same skirt in a current nearby, from which the search starts; the solution is the same to its tolerance.
 
     Raises
     ------
@@ -415,7 +475,8 @@ def solve_section(
             allowed=f"at most {room:g} m",
             remedy="shorten the skirt, or let it lie on the bed",
         )
-    problem = _Problem(skirt, current, heading, water, law, top_depth, friction)
+    share = near.hold_share if near is not None else math.nan
+    problem = _Problem(skirt, current, heading, water, law, top_depth, friction, share)
 
     def solve(coefficient: float) -> tuple[Array, float, float]:
         if toe == "held":
@@ -429,21 +490,17 @@ def solve_section(
     path, miss, hold = solve(coefficient)
     if finite and len(drag.blockage) > 1:
         # a deeper curtain is loaded more and reaches less deep: one crossing
-        lean_low, lean_high = high, math.nan
-        for _ in range(60):
-            blockage = 0.5 * (low + high)
-            if math.isfinite(lean_high):
-                share = lean_low / (lean_low - lean_high)
-                blockage = low + min(max(share, 0.02), 0.98) * (high - low)
+        found: list[tuple[float, Array, float, float]] = []
+
+        def surplus(blockage: float) -> float:
             coefficient = drag.coefficient(blockage)
             path, miss, hold = solve(coefficient)
-            reached = (path[-1, 1] - path[0, 1]) / water.depth if math.isfinite(miss) else 0.0
-            if reached > blockage:
-                low, lean_low = blockage, reached - blockage
-            else:
-                high, lean_high = blockage, reached - blockage
-            if abs(reached - blockage) < 1e-13 or high - low < 1e-13:
-                break
+            found[:] = [(coefficient, path, miss, hold)]
+            return blockage - ((path[-1, 1] - path[0, 1]) / water.depth if math.isfinite(miss) else 0.0)
+
+        reached = (path[-1, 1] - path[0, 1]) / water.depth if math.isfinite(miss) else 0.5 * high
+        _crossing(surplus, low, high, min(max(reached, low), high), 1.0, 1e-13, 1e-13)
+        coefficient, path, miss, hold = found[0]
     down = path[::-1]
     angle = np.unwrap(np.arctan2(-down[::-1, 2], down[::-1, 3]))[::-1]
     if math.isnan(miss) or np.max(np.abs(angle)) >= math.pi:
@@ -477,4 +534,5 @@ def solve_section(
         drag_coefficient=coefficient,
         blockage=depth / water.depth if finite else 0.0,
         residual=abs(miss) / skirt.length,
+        hold_share=problem.share if toe == "held" else math.nan,
     )

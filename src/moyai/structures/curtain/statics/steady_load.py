@@ -53,22 +53,14 @@ QUANTITIES: tuple[tuple[str, str, str], ...] = (
 
 @dataclass(frozen=True, eq=False)
 class SteadyState:
-    """The curtain at rest under one assumption.
+    """The curtain at rest under one assumption."""
 
-    Parameters
-    ----------
-    name : str
-        What was assumed.
-    statics : CurtainStatics
-    extra : float
-        Load per length of curtain beyond that of the section, which the float line takes [N/m].
-    scale : float
-        Factor on every force of the statics [-].
-    """
-
+    #: What was assumed.
     name: str
     statics: CurtainStatics
+    #: Load per length of curtain beyond that of the section, which the float line takes [N/m].
     extra: float = 0.0
+    #: Factor on every force of the statics [-].
     scale: float = 1.0
 
     def quantity(self, name: str) -> float:
@@ -109,28 +101,20 @@ def _borne(statics: CurtainStatics) -> float:
 
 @dataclass(frozen=True, eq=False)
 class SteadyLoad:
-    """The steady load of a curtain with its band.
+    """The steady load of a curtain with its band."""
 
-    Parameters
-    ----------
-    governing : SteadyState
-        Of the model that governs, everything as the case gives it.
-    causes : tuple of SteadyState
-        One thing varied in each.
-    lowest, highest : SteadyState
-        Everything together that lowers, and that raises, the load.
-    bound : float
-        Largest load per length that loads normal to the sheet can put on a skirt whose toe swings [N/m]; infinite where
-        the toe is held.
-    left_out : tuple of str
-        What could not be varied, and why.
-    """
-
+    #: Of the model that governs, everything as the case gives it.
     governing: SteadyState
+    #: One thing varied in each.
     causes: tuple[SteadyState, ...]
+    #: ``lowest``, ``highest``: Everything together that lowers, and that raises, the load.
     lowest: SteadyState
+    #: ``lowest``, ``highest``: Everything together that lowers, and that raises, the load.
     highest: SteadyState
+    #: Largest load per length that loads normal to the sheet can put on a skirt whose toe swings [N/m]; infinite where
+    #: the toe is held.
     bound: float
+    #: What could not be varied, and why.
     left_out: tuple[str, ...] = ()
 
     def band(self, name: str) -> tuple[float, float]:

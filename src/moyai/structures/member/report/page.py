@@ -17,6 +17,7 @@ from moyai.report.document import (
 from moyai.report.formatting import format_quantity
 from moyai.report.general_page import case_listing, closing_section, notice_blocks, provenance, report_title
 from moyai.report.headlines import headline_figures
+from moyai.report.levels import at_each_level
 from moyai.report.reading import Group, root_of
 from moyai.structures.member.report import figures
 
@@ -38,23 +39,17 @@ def compose(result: Result) -> Document:
     root = root_of(result)
     levels = tuple(child for child in root.children() if "water_depth" in child.attributes)
 
-    def at_each_level(compose_level: Callable[[Group], Sequence[Block | None]]) -> tuple[Block, ...]:
-        options = []
-        for level in levels:
-            blocks = tuple(block for block in compose_level(level) if block is not None)
-            options.append(Option(level.name, blocks or (Paragraph("Not run at this water level.", quiet=True),)))
-        if not any(not isinstance(option.blocks[0], Paragraph) for option in options):
-            return ()
-        return (Choice("water-level", "Water level", tuple(options)),)
+    def each_level(compose_level: Callable[[Group], Sequence[Block | None]]) -> tuple[Block, ...]:
+        return at_each_level(levels, compose_level)
 
     purpose = str(root.attributes.get("purpose", ""))
     sections = [
         Section("summary", "Summary", (*_summary(result, purpose), *notice_blocks(result))),
-        Section("input", "Input", (case_listing(root), *at_each_level(_input))),
-        Section("law", "Inertia and circulation over KC", at_each_level(figures.over_keulegan_carpenter)),
-        Section("seas", "Sea states", at_each_level(_seas)),
-        Section("surface", "Free surface", at_each_level(lambda level: [figures.surface_table(level)])),
-        Section("time", "Forces over time", at_each_level(_time)),
+        Section("input", "Input", (case_listing(root), *each_level(_input))),
+        Section("law", "Inertia and circulation over KC", each_level(figures.over_keulegan_carpenter)),
+        Section("seas", "Sea states", each_level(_seas)),
+        Section("surface", "Free surface", each_level(lambda level: [figures.surface_table(level)])),
+        Section("time", "Forces over time", each_level(_time)),
     ]
     return Document(
         title=report_title(result),

@@ -100,7 +100,7 @@ def _places(unit: Any, site: Any) -> dict[str, tuple[Place, tuple[KeyPath, ...]]
             if any(body.rotation_deg):
                 continue
             place = tuple(a + b for a, b in zip(body.position, shift))
-            places[key] = place, ((*base, "position"), (*base, "points", key))  # type: ignore[assignment]
+            places[key] = place, ((*base, "position"), (*base, "points", key))
     return places
 
 

@@ -10,6 +10,7 @@ from moyai.report.document import Block, Choice, Document, Option, Paragraph, Se
 from moyai.report.formatting import format_quantity
 from moyai.report.general_page import case_listing, closing_section, notice_blocks, provenance, report_title
 from moyai.report.headlines import headline_figures
+from moyai.report.levels import at_each_level
 from moyai.report.reading import root_of
 from moyai.structures.network.report import figures, tables
 from moyai.structures.network.report.reading import Governing, NetworkLevel, attribute, governing_of, levels_of
@@ -34,28 +35,22 @@ def compose(result: Result) -> Document:
     governing = governing_of(levels)
     default = next((n for n, level in enumerate(levels) if governing and level.name == governing.level.name), 0)
 
-    def at_each_level(compose_level: Callable[[NetworkLevel], Sequence[Block | None]]) -> tuple[Block, ...]:
-        options = []
-        for level in levels:
-            blocks = tuple(block for block in compose_level(level) if block is not None)
-            options.append(Option(level.name, blocks or (Paragraph("Not run at this water level.", quiet=True),)))
-        if not any(not isinstance(option.blocks[0], Paragraph) for option in options):
-            return ()
-        return (Choice("water-level", "Water level", tuple(options), default),)
+    def each_level(compose_level: Callable[[NetworkLevel], Sequence[Block | None]]) -> tuple[Block, ...]:
+        return at_each_level(levels, compose_level, default=default)
 
     def runs(level: NetworkLevel) -> Sequence[Block | None]:
         return _of_runs(level, governing)
 
     sections = [
         Section("summary", "Summary", (*_summary(result, governing), *notice_blocks(result))),
-        Section("view", "In motion", at_each_level(lambda level: [_views(level, governing)])),
-        Section("runs", "Runs through time", at_each_level(runs)),
-        Section("rest", "At rest", at_each_level(_at_rest)),
+        Section("view", "In motion", each_level(lambda level: [_views(level, governing)])),
+        Section("runs", "Runs through time", each_level(runs)),
+        Section("rest", "At rest", each_level(_at_rest)),
         Section(
             "modes", "Natural modes",
-            at_each_level(lambda level: [tables.mode_table(level), mode_animations(level)]),
+            each_level(lambda level: [tables.mode_table(level), mode_animations(level)]),
         ),
-        Section("input", "Input", (case_listing(root), *at_each_level(lambda level: [tables.line_table(level)]))),
+        Section("input", "Input", (case_listing(root), *each_level(lambda level: [tables.line_table(level)]))),
     ]  # fmt: skip
     return Document(
         title=report_title(result),
