@@ -24,22 +24,14 @@ _IN_TEXT = "change it in the text"
 
 @dataclass(frozen=True)
 class Entry:
-    """A value as it is written, with its key.
+    """A value as it is written, with its key."""
 
-    Parameters
-    ----------
-    parent : yaml.Node
-        Mapping or list that holds it.
-    key : yaml.Node or None
-        None for entries of a list.
-    value : yaml.Node
-    place : int
-        Number among the entries of its parent.
-    """
-
+    #: Mapping or list that holds it.
     parent: yaml.CollectionNode
+    #: None for entries of a list.
     key: yaml.Node | None
     value: yaml.Node
+    #: Number among the entries of its parent.
     place: int
 
 
