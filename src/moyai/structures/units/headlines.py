@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from moyai.core.arrays import Array
-from moyai.core.headline import Headline
+from moyai.core.headline import Bound, Headline
 from moyai.core.wording import spoken
 
 if TYPE_CHECKING:
@@ -76,6 +76,16 @@ def _greatest(
     return best
 
 
+#: Groups of waves move a row on chains slowly and far about its mean place; a single unit with it has several times the
+#: tension. Without it tensions and offsets of an irregular sea prove no strength.
+_WITHOUT_DRIFT = "; slow drift about the mean is not computed and adds to it, on chains several times over"
+
+
+def _bound(data: xr.Dataset) -> Bound:
+    """Return ``at least`` for an irregular sea, whose slow drift is left out."""
+    return "at least" if "significant_motion" in data else ""
+
+
 def _connectors(groups: Mapping[str, xr.Dataset], seas: list[tuple[str, xr.Dataset]]) -> Iterator[Headline]:
     found = _greatest(seas, "connector_resultant_largest")
     if found is None:
@@ -116,8 +126,8 @@ def _lines(groups: Mapping[str, xr.Dataset], seas: list[tuple[str, xr.Dataset]])
     value, where, (path, data, index) = found
     mean = float(data["line_tension_mean"].values[index])
     yield Headline(
-        "line_tension", "Largest tension of a line", value, "N", where, AT_REST, mean=mean,
-        detail=f"mean {spoken(mean, 'N', 3)}",
+        "line_tension", "Largest tension of a line", value, "N", where, AT_REST, mean=mean, bound=_bound(data),
+        detail=f"mean {spoken(mean, 'N', 3)}" + _WITHOUT_DRIFT * bool(_bound(data)),
         analysis="quasi_static",
     )  # fmt: skip
     load = np.asarray(groups[f"/{path.split('/')[1]}/statics"]["breaking_load"].values, dtype=float)
@@ -128,15 +138,17 @@ def _lines(groups: Mapping[str, xr.Dataset], seas: list[tuple[str, xr.Dataset]])
             part = float(other["line_tension_mean"].values[place] / load[place[-1]])
             yield Headline(
                 "line_utilisation", "Tension over breaking load of a line", share[0], "1", share[1], AT_REST, mean=part,
-                analysis="quasi_static",
+                bound=_bound(other), analysis="quasi_static",
             )  # fmt: skip
 
 
 def _motions(seas: list[tuple[str, xr.Dataset]]) -> Iterator[Headline]:
     offset = _greatest(seas, "largest_offset")
     if offset is not None:
-        yield Headline("offset", "Largest sway of a unit from rest", offset[0], "m", offset[1], MODEL,
-                       detail="mean and waves; slow drift about the mean is not computed")  # fmt: skip
+        yield Headline(
+            "offset", "Largest sway of a unit from rest", offset[0], "m", offset[1], MODEL,
+            bound=_bound(offset[2][1]), detail="mean and waves" + _WITHOUT_DRIFT * bool(_bound(offset[2][1])),
+        )  # fmt: skip
     rolls = []
     for path, data in seas:
         name = "significant_motion" if "significant_motion" in data else "motion_amplitude"
