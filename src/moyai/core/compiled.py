@@ -124,19 +124,25 @@ class _Kernel(CPUDispatcher):  # type: ignore[misc]
         return self._parts[tuple(arguments)][1]
 
 
+#: Versions of numba whose dispatchers are known to take kernels in as parts; with others kernels are compiled as numba
+#: does it by itself, which takes longer and gives the same.
+_KNOWN = numba.__version__.split(".")[:2] == ["0", "68"]
+
+
 def njit(*, pointer: bool = False, **options: Any) -> Callable[[Callable[..., Any]], Any]:
     """Return numba's decorator of the same name; ``cache=True`` sees the kernels that a kernel calls.
 
     ``pointer`` says that another kernel takes this one as an argument.
     """
     cached = options.pop("cache", False)
-    if not pointer:
+    if _KNOWN and not pointer:
         options["no_cfunc_wrapper"] = True
 
     def compiled(function: Callable[..., Any]) -> Any:
         if numba.config.DISABLE_JIT:
             return function
-        kernel = _Kernel(py_func=function, targetoptions={"nopython": True, "boundscheck": None, **options})
+        kind = _Kernel if _KNOWN else CPUDispatcher
+        kernel = kind(py_func=function, targetoptions={"nopython": True, "boundscheck": None, **options})
         if cached:
             kernel._cache = _Cache(function)
         return kernel

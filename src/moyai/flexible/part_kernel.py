@@ -263,7 +263,7 @@ def _loads_over_place(
     """Add central differences of the loads of the water on one triangle over the places of its corners."""
     place, speed, flow = np.empty(9), np.empty(9), np.empty(21)
     pull = np.empty((2, 9))
-    one, light = np.arange(3).reshape(1, 3), np.zeros((4, 3))
+    one, light = np.array([[0, 1, 2]]), np.zeros((4, 3))
     for corner in range(3):
         node = triangles[t, corner]
         for row in range(7):
@@ -324,7 +324,9 @@ def ring_stiffness(x: Any, rings: Any, r: int, width: float, matrix: Any) -> Non
     """
     nodes, first, rows = rings
     a, count = first[r], first[r + 1] - first[r]
-    own, bounds = np.arange(count), np.array([0, count])
+    own, bounds = np.zeros(count, np.int64), np.array([0, count])
+    for number in range(count):
+        own[number] = number
     system = (own, bounds, rows[a : a + count])
     place, pull, moments = np.empty((3, count)), np.zeros((2, 3, count)), np.empty((count, 3))
     for k in range(count):
