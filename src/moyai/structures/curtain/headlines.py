@@ -485,8 +485,7 @@ def _deep_enough(groups: Groups, level: str) -> bool:
 def _limits(groups: Groups, levels: Sequence[str], loads: Sequence[_Load]) -> Iterator[Headline]:
     """Return up to which current without waves, and up to which wave height in its own current, a curtain holds.
 
-    Where the plate that gives the limits is only a bound and the whole span holds in the state of the case, the state
-    of the case is the limit from below if it is the larger one.
+    Where the plate is only a bound, the state of the case is the limit from below if the whole span holds in it.
     """
     for name, label, unit, where, value, key in (
         ("limit_current", "Holds up to a current of", "m/s", "no waves", "speed_limit", "speed_limit"),
@@ -527,14 +526,16 @@ def _limits(groups: Groups, levels: Sequence[str], loads: Sequence[_Load]) -> It
             details.append("no snap is counted: add 'waves' or 'dynamic' to 'analyses'")
         if key == "speed_limit" and math.isfinite(ratio := _number(table, "speed_limit_ratio")) and not said:
             details.append(f"{ratio:.2f} of the current of the case, {float(table['surface_speed']):.3g} m/s")
-        lost = float(table.attrs.get("lost_depth", 1.0))
-        if governing == "effective depth" and lost > 1.0:
-            details.append(f"depth at the lower end of its band, where {lost:.3g} times as much is lost")
         if governing != "effective depth" and float(table.attrs.get("least_effective_depth", 1.0)) == 0.0:
             details.append("no depth is asked for: 'least_effective_depth' of 'criteria' has no default")
         if jump := str(table.attrs.get("limit_jump", "")) if key == "design_limit" else "":
             details.append(jump)
-        band = _limit_band(table) if key == "speed_limit" else None
+        band = _limit_band(table, limit) if key == "speed_limit" else None
+        if key != "speed_limit" and limit > 0.0 and not _deep_enough(groups, level):
+            limit, details = (
+                0.0,
+                ["the depth that is asked for is not kept in the current of the case, at its lower end"],
+            )
         if limit <= 0.0 and bound == "at least":
             # a bound that fails proves nothing about the curtain
             words = f"the load of an upright plate, a bound, is already too much for the {governing} without waves"
@@ -556,9 +557,7 @@ def _limits(groups: Groups, levels: Sequence[str], loads: Sequence[_Load]) -> It
 def weaker_currents(groups: Groups, found: Sequence[Headline]) -> tuple[Criterion, ...]:
     """Return the criterion that fails where the curtain gives way in a current weaker than that of the case.
 
-    Weaker currents come with every stronger one, twice a tide. Where the plate is a value in the weaker current and
-    only a bound in that of the case, the loads of the case alone would leave the design open. Nothing is asked where
-    the limit is a bound or the curtain holds.
+    Weaker currents come with every stronger one, twice a tide. Nothing is asked where the limit is a bound or holds.
     """
     limit = next((item for item in found if item.name == "limit_current"), None)
     if limit is None or limit.bound or not math.isfinite(limit.value):
@@ -584,10 +583,15 @@ def _number(table: xr.Dataset, name: str) -> float:
     return float(table[name]) if name in table else math.nan
 
 
-def _limit_band(table: xr.Dataset) -> Band | None:
-    """Return the band of the largest current over the drag coefficient or over the impact."""
+def _limit_band(table: xr.Dataset, value: float) -> Band | None:
+    """Return the band of the largest current over the drag coefficient or over the impact, and over the depth kept."""
     low, high = _number(table, "speed_limit_low"), _number(table, "speed_limit_high")
-    return Band(low, high, str(table.attrs.get("speed_limit_band_of", ""))) if low < high else None
+    band = Band(low, high, str(table.attrs.get("speed_limit_band_of", ""))) if low < high else None
+    least = float(table.attrs.get("speed_limit_of_least_depth", math.nan))
+    if not least < (value if band is None else band.low):
+        return band
+    of = "; ".join(filter(None, ("" if band is None else band.of, "depth at the lower end of its band")))
+    return Band(least, value if band is None else band.high, of)
 
 
 def _kilo(value: float, unit: str = "N") -> str:

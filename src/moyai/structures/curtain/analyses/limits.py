@@ -56,15 +56,9 @@ def limits_dataset(
     progress : Progress
         An interrupt is handed on.
     lost_depth : float
-        Depth that the skirt loses at the lower end of the band over what it loses, in the current of the case: limits
-        ask for the depth at that end, as the criterion does.
+        Depth that the skirt loses at the lower end of the band over what it loses, in the current of the case: the
+        largest current is searched once more with the depth asked for at that end, as the criterion does.
     """
-    strengths = unit.curtain.strengths
-    asked = strengths.least_depth
-    if 0.0 < asked < unit.depth and lost_depth > 1.0:
-        # d - f (d - z) is at least what is asked where z is at least this
-        strengths = replace(strengths, least_depth=unit.depth - (unit.depth - asked) / lost_depth)
-        unit = replace(unit, curtain=replace(unit.curtain, strengths=strengths))
     loads = sea_loads(unit, settings, answer, curve)
     counted = CountedLimits(unit, settings, loads)
     most, most_bound = counted.speed()
@@ -77,7 +71,21 @@ def limits_dataset(
     heights = _heights(settings, max((row.value for row, _ in rows), default=0.0))
     parts = _grid(unit, [counted.loads_in(speed) for speed in speeds], speeds, heights)
     group = _limits_group(unit, settings, counted, _Found(most, most_bound, speeds, tuple(rows)), heights, parts)
-    return group.assign_attrs(least_effective_depth=asked, lost_depth=lost_depth)
+    return group.assign_attrs(speed_limit_of_least_depth=_speed_of_least_depth(counted, lost_depth))
+
+
+def _speed_of_least_depth(counted: CountedLimits, lost_depth: float) -> float:
+    """Return the largest current in which the depth is kept at the lower end of its band too [m/s]; NaN without one."""
+    unit = counted.unit
+    strengths = unit.curtain.strengths
+    asked = strengths.least_depth
+    if not (0.0 < asked < unit.depth and lost_depth > 1.0):
+        return math.nan
+    # d - f (d - z) is at least what is asked where z is at least this
+    strict = replace(strengths, least_depth=unit.depth - (unit.depth - asked) / lost_depth)
+    other = replace(unit, curtain=replace(unit.curtain, strengths=strict))
+    found, _ = replace(counted, unit=other).speed()
+    return found.value
 
 
 @dataclass(frozen=True)
@@ -210,6 +218,7 @@ def _limits_group(
                 "speed_limit_band_of": band_of,
                 "limit_not_monotone": _not_monotone(found, alone, alone[source]),
                 "limit_jump": _jump(unit, counted, found),
+                "least_effective_depth": unit.requirements.least_depth,
                 "wave_angle": limits.wave_angle,
                 "with_impact": int(loads.impact is not None),
                 "with_snaps": int(loads.snaps is not None),
