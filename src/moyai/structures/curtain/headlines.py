@@ -505,7 +505,6 @@ def _limits(groups: Groups, levels: Sequence[str], loads: Sequence[_Load]) -> It
             continue
         limit, level, table = min(found, key=lambda item: item[0])
         governing = str(table.attrs.get(f"{key}_governing", ""))
-        # the words for no limit at all, or for one of 0
         said = str(table.attrs.get("speed_limit_text" if key == "speed_limit" else "design_limit_note", ""))
         bound = str(table.attrs.get(f"{key}_bound", ""))
         held = _span_holds(loads, level) and _deep_enough(groups, level)
