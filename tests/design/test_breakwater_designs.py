@@ -122,7 +122,9 @@ def test_first_page_in_all_defaults(design, tmp_path):
         assert tension.value <= 5.0 * float(time.line_tension_mean.max())
     anchor = headline(result, "anchor_horizontal_load").value
     assert anchor <= tension.value
-    assert headline(result, "anchor_capacity_required").value == pytest.approx(1.5 * anchor)
+    # 1.5 of drag anchors while a line lies on the bed, 1.6 of anchors that hold by weight where it is lifted
+    factor = 1.5 if headline(result, "anchor_uplift").text == "none" else 1.6
+    assert headline(result, "anchor_capacity_required").value == pytest.approx(factor * anchor)
 
 
 def test_slow_drift_of_both_domains_is_one(tmp_path):

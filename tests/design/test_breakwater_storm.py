@@ -121,30 +121,71 @@ def test_steady_load_and_its_parts_by_hand(tmp_path):
     assert "one line lost" in headline(result, "not_judged").text
 
 
-@pytest.mark.slow  # ten minutes of sea with lines in motion all along: half a minute
+MARINA = """
+moyai: 1
+title: Marina pontoon 30 x 5 m
+site:
+  water_depth: 15 m
+  water_levels: {HWL: 2 m}
+  density: 1025 kg/m3
+  gravity: 9.81 m/s2
+waves:
+  - name: design
+    kind: jonswap
+    significant_height: 0.9 m
+    peak_period: 3.6 s
+    peak_enhancement: 3.3
+    heading_deg: 20
+    duration: 15 min
+    seed: 7
+wind: {speed: 22 m/s, heading_deg: 0, density: 1.225 kg/m3}
+current: {speed: 0.4 m/s, heading_deg: 0}
+structure:
+  kind: breakwater
+  length: 30 m
+  section: {shape: rectangle, beam: 5 m, height: 1.8 m}
+  draught: 1.2 m
+  centre_of_gravity_above_keel: 0.85 m
+  roll_gyradius: 1.6 m
+  wind_drag_coefficient: 1.2
+  current_drag_coefficient: 1.5
+lines:
+  - name: seaward
+    count: 3
+    fairlead: {x: -2.5 m, above_keel: 0.2 m}
+    anchor: {x: -62 m}
+    segments:
+      - {catalogue: studless_chain_R3, diameter: 36 mm, length: 66 m}
+  - name: shoreward
+    count: 3
+    fairlead: {x: 2.5 m, above_keel: 0.2 m}
+    anchor: {x: 62 m}
+    segments:
+      - {catalogue: studless_chain_R3, diameter: 36 mm, length: 66 m}
+analyses: [statics, mooring, frequency, time]
+criteria:
+  greatest_transmission: {design: 0.5}
+  greatest_offset: 3 m
+  least_freeboard: 0.5 m
+"""
+
+
+@pytest.mark.slow  # a quarter of an hour of sea with lines in motion all along: a minute
 def test_events_in_motion_stand_for_the_whole_sea_in_motion(tmp_path):
-    """A slack chain, within the range of lines at rest, whose drag adds a fifth to the tension of every wave.
+    """A slack chain, within the range of lines at rest, whose drag adds a fourth to the tension of the waves.
 
     The number of the first page comes from reruns of the largest events; the whole sea with lines in motion from the
     start is the check.
     """
-    design = replace(
-        STORM, beam=5.0, hull=1.8, draught=1.2, length=30.0, depth=15.0, height=0.9, period=3.6, chain=36, line=66.0,
-        anchor=62.0, wind=22.0, current=0.4, count=3,
-    )  # fmt: skip
-    two = "realisations: 2"
-    events = result_of(tmp_path, design, duration=600.0, settings=f"settings: {{time: {{{two}}}}}")
-    whole = result_of(
-        tmp_path, design, duration=600.0, settings=f"settings: {{time: {{{two}, lines: {{mode: dynamic}}}}}}"
-    )
-    still = result_of(
-        tmp_path, design, duration=600.0, settings=f"settings: {{time: {{{two}, lines: {{mode: quasi_static}}}}}}"
-    )
-    found, dynamic, rest = (headline(item, "line_tension") for item in (events, whole, still))
-    assert found.model == "time domain, lines in motion"
-    assert float(still.tree["SWL/time/storm"].to_dataset().line_tension_maximum.max()) < 5.0 * float(
-        still.tree["SWL/time/storm"].to_dataset().line_tension_mean.max()
-    )
-    # 7 %: the slow sway before an event is that of lines at rest
-    assert found.value == pytest.approx(dynamic.value, rel=0.07)
-    assert dynamic.value > 1.1 * rest.value
+    from moyai.case.reader import case_of
+    from moyai.case.yaml_reader import parse_yaml
+
+    def tension(mode):
+        text = f"{MARINA}settings: {{time: {{realisations: 5, lines: {{mode: {mode}}}}}}}\n"
+        return headline(run(build(case_of(parse_yaml(text, "marina.yaml"), tmp_path / "marina.yaml"))), "line_tension")
+
+    found, dynamic, rest = (tension(mode) for mode in ("auto", "dynamic", "quasi_static"))
+    assert found.model == dynamic.model == "time domain, lines in motion"
+    # 10 %: the slow sway before an event is that of lines at rest
+    assert found.value == pytest.approx(dynamic.value, rel=0.1)
+    assert dynamic.value > 1.15 * rest.value and found.value > 1.1 * rest.value
