@@ -153,7 +153,7 @@ def test_random_moves_of_sliders_give_the_numbers_of_fresh_runs(
             continue
         drawn_count += 1
         fresh = run(case_of(stages_of(parse_yaml(text), kind)[-1], tmp_path / "case.yaml"))
-        found = [(item["name"], repr(item["value"])) for item in further[-1]["headlines"]]
+        found = [(item["name"], repr(float(item["value"]))) for item in further[-1]["headlines"]]
         assert found == [(item.name, repr(float(item.value))) for item in fresh.headlines]
     assert drawn_count > 0.7 * count
     assert [line.partition("#")[2] for line in text.splitlines()] == [
