@@ -107,6 +107,17 @@ def test_a_heap_of_hdf5_that_the_library_does_not_come_back_from(tmp_path, kind,
         KINDS[kind].read(tmp_path)
 
 
+def test_an_attribute_of_a_result_whose_type_is_damaged(tmp_path):
+    """A word that is neither text nor sequence takes the HDF5 library down, where no checksum stands before it."""
+    (file,) = KINDS["result"].write(tmp_path)
+    raw = file.read_bytes()
+    place = raw.index(b"verdict") + len("verdict")
+    begins = place + raw[place : place + 8].index(0x19)  # class 9, variable length, version 1
+    file.write_bytes(raw[: begins + 1] + bytes([raw[begins + 1] | 8]) + raw[begins + 2 :])
+    with pytest.raises(InputError, match="cannot be read as a result"):
+        KINDS["result"].read(tmp_path)
+
+
 def test_a_line_longer_than_the_csv_module_takes(tmp_path):
     for kind in ("flume", "measured_points", "scatter", "study_rows", "csv"):
         (file,) = KINDS[kind].write(tmp_path)

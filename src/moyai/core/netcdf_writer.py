@@ -40,7 +40,8 @@ def write_tree(tree: xr.DataTree, path: Path) -> None:
     OSError
         When the file cannot be written.
     """
-    with h5py.File(path, "w") as file:
+    # Creation order is part of the NetCDF 4 format; it also makes HDF5 guard the header of the root by a checksum
+    with h5py.File(path, "w", track_order=True) as file:
         _Writer(file).write(tree)
 
 
