@@ -1,0 +1,271 @@
+"""The memory of the water between all motions of all units: a rational function with common poles, passive.
+
+Coefficients of three-dimensional programs are known over a band of frequencies only. Poles and residues meet them there
+together with the added mass at infinite frequency; between and beyond them damping may nowhere be negative. The
+conditions are linear in the residues and bear on few vectors, so that their cost does not grow with the row.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import nnls
+
+from moyai.core.arrays import Array, ComplexArray
+from moyai.core.errors import ConvergenceError, InputError
+from moyai.core.validity import IdentityCheck
+from moyai.potential.vector_fitting import fit_poles, partial_fractions, starting_poles
+
+#: Accepted error of the fit and accepted negative damping, over the largest response of a pair of motions
+FIT, PASSIVE = 0.05, 1e-5
+#: Error at which no further poles are tried
+GOAL = 0.01
+#: Real states of one motion, at first and at most
+FEWEST, MOST = 6, 32
+_COLUMNS = 24
+_KEPT = 1e-4
+_ROUNDS = 40
+_MARGIN = 3e-5
+_BEYOND = 30.0
+
+
+@dataclass(frozen=True, eq=False)
+class RowMemory:
+    """Memory force ``-Re(sum_k R_k z_k)`` with ``z_k' = p_k z_k + v`` [eq:units-memory].
+
+    Parameters
+    ----------
+    poles : ndarray (k,)
+        One of each conjugate pair, real parts negative [1/s].
+    residues : ndarray (k, m, m)
+        Symmetric; the partner of a complex pole is in.
+    infinite_added_mass : ndarray (m, m)
+        That goes with them.
+    error : float
+        Largest error over the band, over the largest response of the pair of motions.
+    least_damping : float
+        Smallest eigenvalue of the damping over all frequencies, in the same measure.
+    """
+
+    poles: ComplexArray
+    residues: ComplexArray
+    infinite_added_mass: Array
+    error: float
+    least_damping: float
+
+    @property
+    def checks(self) -> tuple[IdentityCheck, ...]:
+        """Accuracy and passivity."""
+        return (
+            IdentityCheck(
+                "memory meets added mass and damping", self.error, FIT,
+                "B - i omega (A - A_inf) over the band, over the largest of the pair",
+            ),
+            IdentityCheck(
+                "memory is passive", max(-self.least_damping, 0.0), PASSIVE, "least eigenvalue of the damping"
+            ),
+        )  # fmt: skip
+
+    def kernel(self, time: Array) -> Array:
+        """Return K(t) (n, m, m)."""
+        growth = np.exp(self.poles[None, :] * np.asarray(time, dtype=float)[:, None])
+        return np.asarray(np.einsum("tk,kij->tij", growth, self.residues).real)
+
+    def coefficients(self, omega: Array) -> tuple[Array, Array]:
+        """Return added mass and damping (n, m, m) at frequencies [rad/s]."""
+        s = -1j * np.asarray(omega, dtype=float)[:, None]
+        half = 0.5 * (1.0 / (s - self.poles))
+        other = 0.5 * (1.0 / (s - self.poles.conj()))
+        response = np.einsum("tk,kij->tij", half, self.residues) + np.einsum(
+            "tk,kij->tij", other, self.residues.conj()
+        )
+        excess = -response.imag / np.asarray(omega, dtype=float)[:, None, None]
+        return np.asarray(self.infinite_added_mass + excess), np.asarray(response.real)
+
+
+@dataclass(frozen=True, eq=False)
+class _Basis:
+    """Partial fractions that vanish at zero frequency, with the slope of the added mass."""
+
+    poles: ComplexArray
+    null: Array
+
+    @classmethod
+    def of(cls, poles: ComplexArray) -> _Basis:
+        at_zero = partial_fractions(np.zeros(1, dtype=complex), poles).real
+        return cls(poles, np.asarray(np.linalg.svd(at_zero)[2][1:].T))
+
+    def at(self, s: ComplexArray) -> ComplexArray:
+        return np.asarray(partial_fractions(s, self.poles) @ self.null)
+
+    def damping(self, omega: Array) -> Array:
+        """Real parts (n, b), of every frequency over the size of its row: what is negative stays so."""
+        rows = self.at(-1j * omega).real
+        return np.asarray(rows / np.linalg.norm(rows, axis=1, keepdims=True))
+
+    def watched(self, top: float) -> Array:
+        """Frequencies at which the damping is looked at: the band, beyond it, and around every pole."""
+        around = [
+            abs(pole.imag) + abs(pole.real) * np.linspace(-4.0, 4.0, 33) for pole in self.poles if pole.imag != 0.0
+        ]
+        every = np.concatenate([np.linspace(0.0, 1.5 * top, 501)[1:], np.geomspace(1.5, _BEYOND, 80) * top, *around])
+        return np.unique(every[(every > 1e-3 * top) & (every <= _BEYOND * top)])
+
+
+def fit_row_memory(omega: Array, added_mass: Array, damping: Array, *, most: int = MOST) -> RowMemory:
+    """Fit poles, residues and the added mass at infinite frequency to coefficients over a band.
+
+    Parameters
+    ----------
+    omega : ndarray (f,)
+        Increasing [rad/s].
+    added_mass, damping : ndarray (f, m, m)
+        Symmetric.
+    most : int
+        Largest number of real states of one motion.
+
+    Raises
+    ------
+    InputError
+        When there are too few frequencies.
+    ConvergenceError
+        When the added mass at infinite frequency is such that the row would have no mass to move.
+    """
+    if len(omega) < FEWEST:
+        raise InputError(
+            f"{len(omega)} frequencies are too few for the memory of the water",
+            path="settings.frequencies", allowed=f"at least {FEWEST}",
+        )  # fmt: skip
+    middle = float(np.sqrt(omega[0] * omega[-1]))
+    s = -1j * omega / middle
+    size = np.sqrt(np.maximum(np.abs(damping).max(axis=0).diagonal(), 1e-300))
+    size = np.maximum(size, 1e-3 * np.sqrt(middle * np.abs(added_mass).max(axis=0).diagonal()))
+    given = (damping + s[:, None, None] * middle * added_mass) / np.outer(size, size)
+    rows, columns = np.triu_indices(len(size))
+    shapes = _compressed(given[:, rows, columns])
+    best: tuple[float, _Basis, Array, Array] | None = None
+    for order in range(FEWEST, min(most, int(1.2 * len(omega))) + 1, 2):
+        start = starting_poles(omega[0] / middle, omega[-1] / middle, order)
+        poles = fit_poles(s, shapes, np.ones(len(s)), start, slope=True)
+        basis = _Basis.of(poles)
+        found, slope, error = _residues(basis, s, given)
+        if best is None or error < 0.9 * best[0]:
+            best = error, basis, found, slope
+        if error < GOAL:
+            break
+    assert best is not None
+    _, basis, found, slope = best
+    found, slope, least = _passive(basis, s, found, slope)
+    misfit = np.einsum("fb,bij->fij", basis.at(s), found) + s[:, None, None] * slope - given
+    own = np.einsum("fb,bij->fij", basis.at(s), found)
+    residues = _complex_residues(basis, found) * middle * np.outer(size, size)
+    infinite = slope * np.outer(size, size) / middle
+    return RowMemory(
+        basis.poles * middle, residues, 0.5 * (infinite + infinite.T), float(np.max(np.abs(misfit) / _measure(own))),
+        least,
+    )  # fmt: skip
+
+
+def _measure(response: ComplexArray) -> Array:
+    top = np.abs(response).max(axis=0)
+    return np.maximum(np.sqrt(np.outer(top.diagonal(), top.diagonal())), 1e-300)
+
+
+def _compressed(entries: ComplexArray) -> ComplexArray:
+    """Return the few columns (f, c) that all entries (f, e) are sums of."""
+    stacked = np.concatenate([entries.real, entries.imag])
+    left, values, _ = np.linalg.svd(stacked, full_matrices=False)
+    keep = int(min(_COLUMNS, (values > _KEPT * values[0]).sum()))
+    scaled = left[:, :keep] * values[:keep]
+    half = len(entries)
+    return np.asarray(scaled[:half] + 1j * scaled[half:])
+
+
+def _stacked(basis: _Basis, s: ComplexArray) -> Array:
+    rows = np.column_stack([basis.at(s), s])
+    return np.concatenate([rows.real, rows.imag])
+
+
+def _residues(basis: _Basis, s: ComplexArray, given: ComplexArray) -> tuple[Array, Array, float]:
+    """Return coefficients (b, m, m), slope (m, m) and the largest error of the best fit with these poles."""
+    count, m = given.shape[0], given.shape[1]
+    flat = given.reshape(count, -1)
+    solved = np.linalg.lstsq(_stacked(basis, s), np.concatenate([flat.real, flat.imag]), rcond=1e-12)[0]
+    found, slope = solved[:-1].reshape(-1, m, m), solved[-1].reshape(m, m)
+    own = np.einsum("fb,bij->fij", basis.at(s), found)
+    apart = np.abs(own + s[:, None, None] * slope - given)
+    return found, slope, float(np.max(apart / _measure(own)))
+
+
+def _passive(basis: _Basis, s: ComplexArray, found: Array, slope: Array) -> tuple[Array, Array, float]:
+    """Move the residues as little as can be until damping is nowhere negative [eq:units-passive].
+
+    Least squares over the band under conditions u^T Re H(omega) u >= 0, added where an eigenvalue is negative. The dual
+    problem has one number a condition: products of the rows of the basis, times the square of the products of vectors.
+    """
+    triangle = np.linalg.qr(_stacked(basis, s), mode="r")
+    top = float(np.abs(s).max())
+    watched = basis.watched(top)
+    damping = basis.damping(watched)
+    scale = float(np.linalg.norm(np.einsum("wb,bij->wij", damping, found), axis=(1, 2)).max())
+    rows = np.zeros((0, found.shape[0] + 1))
+    vectors = np.zeros((0, found.shape[1]))
+    bound = np.zeros(0)
+    now, now_slope = found, slope
+    for _ in range(_ROUNDS):
+        values, directions = np.linalg.eigh(np.einsum("wb,bij->wij", damping, now))
+        low = values[:, 0]
+        if low.min() >= -0.1 * PASSIVE * scale:
+            break
+        left, right = np.r_[np.inf, low[:-1]], np.r_[low[1:], np.inf]
+        worst = np.flatnonzero((low < 0.0) & (low <= left) & (low <= right))
+        new_rows, new_vectors = [], []
+        for place in worst:
+            for number in np.flatnonzero(values[place] < 0.0):
+                new_rows.append(np.append(damping[place], 0.0))
+                new_vectors.append(directions[place][:, number])
+        rows = np.concatenate([rows, np.array(new_rows)])
+        vectors = np.concatenate([vectors, np.array(new_vectors)])
+        first = np.einsum("ab,bij,ai,aj->a", rows[:, :-1], found, vectors, vectors)
+        bound = _MARGIN * scale - first
+        turned = np.linalg.solve(triangle.T, rows.T).T
+        products = (turned @ turned.T) * (vectors @ vectors.T) ** 2
+        products += 1e-12 * np.trace(products) / len(products) * np.eye(len(products))
+        factor = np.linalg.cholesky(products)
+        weights = nnls(factor.T, np.linalg.solve(factor, bound), maxiter=100 * len(bound))[0]
+        moved = np.linalg.solve(triangle, turned.T)
+        change = np.einsum("ba,a,ai,aj->bij", moved, weights, vectors, vectors)
+        now, now_slope = found + change[:-1], slope + change[-1]
+    every = np.einsum("wb,bij->wij", basis.at(-1j * watched).real, now)
+    largest = np.abs(np.einsum("fb,bij->fij", basis.at(s), now)).max()
+    return now, now_slope, float(np.linalg.eigvalsh(every)[:, 0].min() / largest)
+
+
+def _complex_residues(basis: _Basis, found: Array) -> ComplexArray:
+    """Return residues (k, m, m), doubled for poles that stand for a pair."""
+    real = np.einsum("nb,bij->nij", basis.null, found)
+    out = np.empty((len(basis.poles), *found.shape[1:]), dtype=complex)
+    row = 0
+    for number, pole in enumerate(basis.poles):
+        if pole.imag == 0.0:
+            out[number] = real[row]
+            row += 1
+        else:
+            out[number] = 2.0 * (real[row] + 1j * real[row + 1])
+            row += 2
+    return out
+
+
+def check_mass(inertia: Array, memory: RowMemory) -> None:
+    """Refuse a memory whose added mass leaves the row without mass.
+
+    Raises
+    ------
+    ConvergenceError
+    """
+    if float(np.linalg.eigvalsh(inertia + memory.infinite_added_mass)[0]) <= 0.0:
+        raise ConvergenceError(
+            "the memory of the water leaves the row without mass",
+            remedy="give more frequencies (settings.time.memory_frequencies) or smaller panels",
+        )
