@@ -54,6 +54,25 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "relative_motion_largest": ("m", "largest relative motion of the ends of a connector"),
     "relative_turn_largest": ("rad", "largest relative turn of the ends of a connector"),
     "tension_amplitude": ("N", "amplitude of the tension at the fairlead, linear"),
+    "maximum_motion": ("m", "largest motion about the mean, axes of the unit (pitch, roll, yaw: rad)"),
+    "connector_moment_resultant_largest": ("N m", "largest resultant moment in a connector"),
+    "gap_motion_largest": ("m", "largest opening or closing of a gap at a connector, about its mean"),
+    "connector_damage": ("1/h", "share of the life of a connector that an hour of the sea takes"),
+    "connector_resultant_largest_of_realisation": ("N", "largest force in a connector in each realisation"),
+    "connector_moment_resultant_largest_of_realisation": ("N m", "largest moment in a connector in each realisation"),
+    "gap_motion_largest_of_realisation": ("m", "largest opening or closing of a gap in each realisation"),
+    "connector_damage_of_realisation": ("1/h", "share of the life of a connector an hour, by each realisation"),
+    "line_tension_maximum_of_realisation": ("N", "largest tension of the line in each realisation"),
+    "largest_offset_of_realisation": ("m", "largest sway of a unit from rest in each realisation"),
+    "seed_of_realisation": ("1", "seed of each realisation"),
+    "position": ("m", "motion from rest, axes of the unit (pitch, roll, yaw: rad)"),
+    "connector_force": ("N", "force in a connector, axes of the unit before it"),
+    "connector_moment": ("N m", "moment in a connector, axes of the unit before it"),
+    "tension": ("N", "tension at the fairlead"),
+    "surface_elevation": ("m", "elevation of the incident waves at the origin of the row"),
+    "memory_pole": ("1/s", "pole of the memory of the water, one of each pair"),
+    "memory_residue": ("kg/s2", "residue of a pole, its partner in (with turns: kg m/s2, kg m2/s2)"),
+    "infinite_frequency_added_mass": ("kg", "added mass at infinite frequency, row axes (with turns: kg m, kg m2)"),
     "significant_height": ("m", "significant height of the incident waves"),
     "peak_period": ("s", "peak period of the sea"),
     "significant_motion": ("m", "significant double amplitude of the motion (pitch, roll, yaw: rad)"),
@@ -86,6 +105,8 @@ LABELS: dict[str, str] = {
     "point": "named point",
     "station": "point of the line behind",
     "section_dof": "motion of the section",
+    "member": "realisation",
+    "pole": "pole of the memory",
 }
 
 # Names that a group holds whenever its analysis was run
@@ -93,6 +114,8 @@ ALWAYS: dict[str, tuple[str, ...]] = {
     "/[^/]+/statics": ("draught", "freeboard", "unit_x", "plan_x"),
     "/[^/]+/frequency/[^/]+": ("mean_offset", "mean_drift"),
     "/[^/]+/map/[^/]+": ("wave_height_ratio",),
+    "/[^/]+/time/[^/]+": ("mean_offset", "connector_resultant_largest", "line_tension_maximum"),
+    "/[^/]+/time/[^/]+/[^/]+": ("position", "tension"),
 }
 
 VOCABULARY = Vocabulary.of("units", VARIABLES, labels=LABELS, always=ALWAYS)

@@ -12,6 +12,7 @@ from moyai.case.build_lines import line_parts
 from moyai.case.build_sea import environment_of
 from moyai.case.criteria import criteria_of
 from moyai.core.errors import InputError
+from moyai.design.fatigue import EnduranceCurve
 from moyai.sea.dispersion import wave_number
 from moyai.sea.environment import Environment
 from moyai.sea.water import Water
@@ -25,6 +26,7 @@ from moyai.structures.units.model import (
     MapArea,
     Placement,
     Settings,
+    TimeSettings,
     UnitLine,
     UnitsProblem,
     straight_row,
@@ -129,6 +131,7 @@ def connector_of(entry: Any, count: int) -> Connector:
     base: dict[str, Any] = {
         "name": entry.name, "kind": entry.kind, "pairs": pairs, "x": entry.x, "above_keel": entry.above_keel,
         "breaking_load": math.inf if entry.breaking_load is None else entry.breaking_load,
+        "endurance": _endurance(entry.endurance),
     }  # fmt: skip
     if isinstance(entry, joints.HingeConnector):
         return Connector(**base, axis=_axis(entry.axis))
@@ -147,6 +150,13 @@ def connector_of(entry: Any, count: int) -> Connector:
         reach = entry.clearance + _REACH
         curve = Curve((-reach, -entry.clearance, reach), (-entry.stiffness * _REACH, 0.0, 0.0))
     return Connector(**base, axis=_axis(entry.direction), curve=curve, linear_damping=entry.damping)
+
+
+def _endurance(given: joints.Endurance | None) -> EnduranceCurve | None:
+    if given is None:
+        return None
+    capacity = given.cycles * given.range**given.exponent
+    return EnduranceCurve("of the case", given.exponent, capacity, "N", True, "case file")
 
 
 def line_of(entry: Any, index: int, water: Water, count: int) -> UnitLine:
@@ -189,6 +199,7 @@ def settings_of(model: schema.UnitsCase, row: FloatingRow, environment: Environm
         frequency_count=given.frequency_count,
         drift=given.drift,
         section_compare=given.compare_with_section,
+        time=TimeSettings(**given.time.model_dump()),
     )
     if given.panel_size is not None:
         return settings

@@ -275,7 +275,7 @@ def _check_lines_at_rest(problem: UnitsProblem, at: RowAtLevel, findings: Findin
 def _check_problem(problem: UnitsProblem, findings: Findings) -> None:
     from moyai.structures.units.assembly import assemble, level_notices, steady_load, steady_position
     from moyai.structures.units.bem import check_memory
-    from moyai.structures.units.run import check_resolution, row_panels
+    from moyai.structures.units.run import WITH_WAVES, check_resolution, highest_frequency, row_panels
     from moyai.structures.units.seas import frequencies_of
 
     environment = problem.environment
@@ -289,8 +289,8 @@ def _check_problem(problem: UnitsProblem, findings: Findings) -> None:
                 return
             wind, current = steady_load(at, environment)
             steady_position(at, wind + current)
-            if {"frequency", "map"} & set(problem.settings.analyses) and omega.size:
-                panels = row_panels(at, problem.settings, float(omega.max()))
+            if WITH_WAVES & set(problem.settings.analyses) and omega.size:
+                panels = row_panels(at, problem.settings, highest_frequency(omega, problem.settings))
                 check_memory(panels)
                 notices += check_resolution(at, panels, omega)
         except InputError as error:

@@ -13,7 +13,7 @@ from moyai.structures.units.assembly import RowAtLevel, assemble
 from moyai.structures.units.bem import memory_needed
 from moyai.structures.units.field import LINE_POINTS
 from moyai.structures.units.model import UnitsProblem
-from moyai.structures.units.run import irregular_frequency, row_panels
+from moyai.structures.units.run import WITH_WAVES, highest_frequency, irregular_frequency, row_panels
 from moyai.structures.units.seas import frequencies_of, headings_of
 
 #: Processor time of the Green function of two panels in finite depth [s], and of one operation of the solver [s]
@@ -44,9 +44,9 @@ def _unit_numbers(level: str, at: RowAtLevel) -> Iterator[Number]:
 
 def _panel_numbers(level: str, at: RowAtLevel, problem: UnitsProblem) -> Iterator[Number]:
     omega = frequencies_of(problem.environment, problem.settings)
-    if not omega.size or not {"frequency", "map"} & set(problem.settings.analyses):
+    if not omega.size or not WITH_WAVES & set(problem.settings.analyses):
         return
-    panels = row_panels(at, problem.settings, float(omega.max()))
+    panels = row_panels(at, problem.settings, highest_frequency(omega, problem.settings))
     group, mesh = "Panels", panels.mesh
     mirrors = len(panels.symmetry.mirrors)
     shortest = 2.0 * math.pi / float(wave_number(float(omega.max()), at.water.depth, at.water.gravity))

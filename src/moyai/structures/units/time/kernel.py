@@ -22,8 +22,8 @@ _SETTLED = 1e-8
 def joint_force(elongation: float, rate: float, x: Any, f: Any, dashpot: float, side: float) -> tuple[float, float]:
     """Return force [N] and tangent [N/m] of a connector with a curve and its dashpot; the tangent leaves the rate out.
 
-    ``side`` is 1 of what only pulls, -1 of what only pushes, 0 of what does both: the former two bear nothing, and their
-    dashpots neither, until they are tight.
+    ``side`` is 1 of what only pulls, -1 of what only pushes, 0 of what does both: the former two bear nothing until
+    they are tight, and their dashpots neither.
     """
     last = x.size - 1
     place = 0
@@ -47,8 +47,8 @@ def _solve_joints(
 ) -> bool:
     """Find accelerations ``alpha`` and forces of all connectors with a curve at the end of the step.
 
-    alpha = start - compliance force(reach + step^2/4 alpha, speed + step/2 alpha). Newton; where it does not settle, one
-    connector after the other, each by halving: the problem is one of a convex energy.
+    alpha = start - compliance force(reach + step^2/4 alpha, speed + step/2 alpha). Newton; where it does not settle,
+    one connector after the other, each by halving: the problem is one of a convex energy.
     """
     x, f, ends, dashpots, sides = joints
     count = start.size
@@ -182,7 +182,7 @@ def march(
                 rate += along[i, n] * v_p[n]
             reach[i], speed[i] = total, rate
         settled = False
-        for turn in range(_PASSES):
+        for _ in range(_PASSES):
             for i in range(r):
                 total = 0.0
                 for n in range(r):

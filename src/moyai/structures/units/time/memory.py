@@ -28,6 +28,7 @@ _KEPT = 1e-4
 _ROUNDS = 40
 _MARGIN = 3e-5
 _BEYOND = 30.0
+_OUTSIDE = 0.3
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,6 +47,8 @@ class RowMemory:
         Largest error over the band, over the largest response of the pair of motions.
     least_damping : float
         Smallest eigenvalue of the damping over all frequencies, in the same measure.
+    error_outside : float
+        As ``error``, outside of the band of the waves as well.
     """
 
     poles: ComplexArray
@@ -53,6 +56,7 @@ class RowMemory:
     infinite_added_mass: Array
     error: float
     least_damping: float
+    error_outside: float
 
     @property
     def checks(self) -> tuple[IdentityCheck, ...]:
@@ -77,9 +81,7 @@ class RowMemory:
         s = -1j * np.asarray(omega, dtype=float)[:, None]
         half = 0.5 * (1.0 / (s - self.poles))
         other = 0.5 * (1.0 / (s - self.poles.conj()))
-        response = np.einsum("tk,kij->tij", half, self.residues) + np.einsum(
-            "tk,kij->tij", other, self.residues.conj()
-        )
+        response = np.einsum("tk,kij->tij", half, self.residues) + np.einsum("tk,kij->tij", other, self.residues.conj())
         excess = -response.imag / np.asarray(omega, dtype=float)[:, None, None]
         return np.asarray(self.infinite_added_mass + excess), np.asarray(response.real)
 
@@ -101,7 +103,7 @@ class _Basis:
 
     def damping(self, omega: Array) -> Array:
         """Real parts (n, b), of every frequency over the size of its row: what is negative stays so."""
-        rows = self.at(-1j * omega).real
+        rows = self.at(np.asarray(-1j * omega, dtype=complex)).real
         return np.asarray(rows / np.linalg.norm(rows, axis=1, keepdims=True))
 
     def watched(self, top: float) -> Array:
@@ -113,7 +115,9 @@ class _Basis:
         return np.unique(every[(every > 1e-3 * top) & (every <= _BEYOND * top)])
 
 
-def fit_row_memory(omega: Array, added_mass: Array, damping: Array, *, most: int = MOST) -> RowMemory:
+def fit_row_memory(
+    omega: Array, added_mass: Array, damping: Array, *, band: tuple[float, float] | None = None, most: int = MOST
+) -> RowMemory:
     """Fit poles, residues and the added mass at infinite frequency to coefficients over a band.
 
     Parameters
@@ -122,6 +126,8 @@ def fit_row_memory(omega: Array, added_mass: Array, damping: Array, *, most: int
         Increasing [rad/s].
     added_mass, damping : ndarray (f, m, m)
         Symmetric.
+    band : (float, float) or None
+        Frequencies of the waves [rad/s], where the fit is held to its data; those outside weigh a third.
     most : int
         Largest number of real states of one motion.
 
@@ -138,32 +144,37 @@ def fit_row_memory(omega: Array, added_mass: Array, damping: Array, *, most: int
             path="settings.frequencies", allowed=f"at least {FEWEST}",
         )  # fmt: skip
     middle = float(np.sqrt(omega[0] * omega[-1]))
-    s = -1j * omega / middle
+    s: ComplexArray = np.asarray(-1j * omega / middle, dtype=complex)
     size = np.sqrt(np.maximum(np.abs(damping).max(axis=0).diagonal(), 1e-300))
     size = np.maximum(size, 1e-3 * np.sqrt(middle * np.abs(added_mass).max(axis=0).diagonal()))
-    given = (damping + s[:, None, None] * middle * added_mass) / np.outer(size, size)
+    given: ComplexArray = np.asarray(
+        (damping + s[:, None, None] * middle * added_mass) / np.outer(size, size), dtype=complex
+    )
     rows, columns = np.triu_indices(len(size))
     shapes = _compressed(given[:, rows, columns])
+    low, high = band or (0.0, np.inf)
+    inside = (omega >= low * (1.0 - 1e-9)) & (omega <= high * (1.0 + 1e-9))
+    weight = np.where(inside, 1.0, _OUTSIDE)
     best: tuple[float, _Basis, Array, Array] | None = None
     for order in range(FEWEST, min(most, int(1.2 * len(omega))) + 1, 2):
         start = starting_poles(omega[0] / middle, omega[-1] / middle, order)
-        poles = fit_poles(s, shapes, np.ones(len(s)), start, slope=True)
+        poles = fit_poles(s, shapes, weight, start, slope=True)
         basis = _Basis.of(poles)
-        found, slope, error = _residues(basis, s, given)
+        found, slope = _residues(basis, s, weight, given)
+        error = float(_misfit(basis, s, given, found, slope)[inside].max())
         if best is None or error < 0.9 * best[0]:
             best = error, basis, found, slope
         if error < GOAL:
             break
     assert best is not None
     _, basis, found, slope = best
-    found, slope, least = _passive(basis, s, found, slope)
-    misfit = np.einsum("fb,bij->fij", basis.at(s), found) + s[:, None, None] * slope - given
-    own = np.einsum("fb,bij->fij", basis.at(s), found)
+    found, slope, least = _passive(basis, s, weight, found, slope)
+    misfit = _misfit(basis, s, given, found, slope)
     residues = _complex_residues(basis, found) * middle * np.outer(size, size)
     infinite = slope * np.outer(size, size) / middle
     return RowMemory(
-        basis.poles * middle, residues, 0.5 * (infinite + infinite.T), float(np.max(np.abs(misfit) / _measure(own))),
-        least,
+        basis.poles * middle, residues, 0.5 * (infinite + infinite.T), float(misfit[inside].max()), least,
+        float(misfit.max()),
     )  # fmt: skip
 
 
@@ -182,29 +193,32 @@ def _compressed(entries: ComplexArray) -> ComplexArray:
     return np.asarray(scaled[:half] + 1j * scaled[half:])
 
 
-def _stacked(basis: _Basis, s: ComplexArray) -> Array:
-    rows = np.column_stack([basis.at(s), s])
+def _stacked(basis: _Basis, s: ComplexArray, weight: Array) -> Array:
+    rows = weight[:, None] * np.column_stack([basis.at(s), s])
     return np.concatenate([rows.real, rows.imag])
 
 
-def _residues(basis: _Basis, s: ComplexArray, given: ComplexArray) -> tuple[Array, Array, float]:
-    """Return coefficients (b, m, m), slope (m, m) and the largest error of the best fit with these poles."""
+def _residues(basis: _Basis, s: ComplexArray, weight: Array, given: ComplexArray) -> tuple[Array, Array]:
+    """Return coefficients (b, m, m) and slope (m, m) of the best fit with these poles."""
     count, m = given.shape[0], given.shape[1]
-    flat = given.reshape(count, -1)
-    solved = np.linalg.lstsq(_stacked(basis, s), np.concatenate([flat.real, flat.imag]), rcond=1e-12)[0]
-    found, slope = solved[:-1].reshape(-1, m, m), solved[-1].reshape(m, m)
+    flat = weight[:, None] * given.reshape(count, -1)
+    solved = np.linalg.lstsq(_stacked(basis, s, weight), np.concatenate([flat.real, flat.imag]), rcond=1e-12)[0]
+    return solved[:-1].reshape(-1, m, m), solved[-1].reshape(m, m)
+
+
+def _misfit(basis: _Basis, s: ComplexArray, given: ComplexArray, found: Array, slope: Array) -> Array:
+    """Return the error (f, m, m) over the largest response of each pair of motions."""
     own = np.einsum("fb,bij->fij", basis.at(s), found)
-    apart = np.abs(own + s[:, None, None] * slope - given)
-    return found, slope, float(np.max(apart / _measure(own)))
+    return np.asarray(np.abs(own + s[:, None, None] * slope - given) / _measure(own))
 
 
-def _passive(basis: _Basis, s: ComplexArray, found: Array, slope: Array) -> tuple[Array, Array, float]:
+def _passive(basis: _Basis, s: ComplexArray, weight: Array, found: Array, slope: Array) -> tuple[Array, Array, float]:
     """Move the residues as little as can be until damping is nowhere negative [eq:units-passive].
 
     Least squares over the band under conditions u^T Re H(omega) u >= 0, added where an eigenvalue is negative. The dual
     problem has one number a condition: products of the rows of the basis, times the square of the products of vectors.
     """
-    triangle = np.linalg.qr(_stacked(basis, s), mode="r")
+    triangle: Array = np.asarray(np.linalg.qr(_stacked(basis, s, weight), mode="r"), dtype=float)
     top = float(np.abs(s).max())
     watched = basis.watched(top)
     damping = basis.damping(watched)
@@ -237,7 +251,8 @@ def _passive(basis: _Basis, s: ComplexArray, found: Array, slope: Array) -> tupl
         moved = np.linalg.solve(triangle, turned.T)
         change = np.einsum("ba,a,ai,aj->bij", moved, weights, vectors, vectors)
         now, now_slope = found + change[:-1], slope + change[-1]
-    every = np.einsum("wb,bij->wij", basis.at(-1j * watched).real, now)
+    rows = basis.at(np.asarray(-1j * watched, dtype=complex)).real
+    every = np.einsum("wb,bij->wij", rows, now)
     largest = np.abs(np.einsum("fb,bij->fij", basis.at(s), now)).max()
     return now, now_slope, float(np.linalg.eigvalsh(every)[:, 0].min() / largest)
 

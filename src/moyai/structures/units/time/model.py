@@ -174,8 +174,12 @@ class RowInTime:
             lambda first, steps: kernel.march(y, v, a, z, first, steps, step, *arguments), count - 1, step, progress,
             name,
         )  # fmt: skip
-        return RowRun(self, step * np.arange(done + 1), load[: done + 1], *(item[: done + 1] for item in saved),
-                      time_step=step, status=status, message=message)  # fmt: skip
+        end = done + 1
+        y_s, v_s, a_s, memory_s, line_s, tension_s, joint_s = (item[:end] for item in saved)
+        return RowRun(
+            self, np.asarray(step * np.arange(end), dtype=float), load[:end], y_s, v_s, a_s, memory_s, line_s,
+            tension_s, joint_s, step, status, message,
+        )  # fmt: skip
 
     def _first(self, load: Array, y: Array, mass: Array, saved: tuple[Array, ...]) -> None:
         """Write position, acceleration, lines and connectors at the start; the row lies still."""
@@ -202,7 +206,9 @@ def step_weights(poles: ComplexArray, step: float) -> tuple[ComplexArray, Comple
     safe = np.where(small, 1.0, q)
     one = np.where(small, 1.0 + q / 2.0 + q**2 / 6.0, (decay - 1.0) / safe)
     two = np.where(small, 0.5 + q / 6.0 + q**2 / 24.0, (decay - 1.0 - q) / safe**2)
-    return decay, step * (one - two), step * two
+    weights = (decay, step * (one - two), step * two)
+    first, second, third = (np.asarray(item, dtype=complex) for item in weights)
+    return first, second, third
 
 
 def _driven(advance: Any, steps: int, step: float, progress: Progress, name: str) -> tuple[int, Status, str]:

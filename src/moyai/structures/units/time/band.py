@@ -1,0 +1,56 @@
+"""Frequencies that the memory of the water is fitted to, and their coefficients."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from moyai.core.arrays import Array
+from moyai.core.progress import Progress, silent
+from moyai.core.store import DatasetStore
+from moyai.sea.dispersion import angular_frequency
+from moyai.sea.water import Water
+from moyai.structures.units.bem import LEAST_DEPTH, Panels
+from moyai.structures.units.hydrodynamics import RowHydrodynamics, solve_row
+
+#: Ends of the band over the lowest and the highest frequency of the seas
+BELOW, ABOVE = 0.35, 1.6
+#: Shortest wave over the longest side of a panel
+LEAST_PANELS = 4.0
+
+
+def memory_band(omega: Array, panels: Panels, water: Water) -> tuple[float, float]:
+    """Return the ends [rad/s] of the band: as far beyond the seas as the Green function and the panels reach."""
+    lowest = 0.0
+    if math.isfinite(water.depth):
+        lowest = float(angular_frequency(1.02 * LEAST_DEPTH / water.depth, water.depth, water.gravity))
+    k = 2.0 * math.pi / (LEAST_PANELS * panels.mesh.longest_side)
+    highest = float(angular_frequency(k, water.depth, water.gravity))
+    low = max(BELOW * float(omega.min()), lowest)
+    return min(low, float(omega.min())), max(min(ABOVE * float(omega.max()), highest), float(omega.max()))
+
+
+def further_frequencies(omega: Array, low: float, high: float, count: int) -> Array:
+    """Return frequencies [rad/s] that fill a band evenly next to those that are there."""
+    step = (high - low) / max(count - 1, 1)
+    even = np.round(np.linspace(low, high, max(count, 2)), 9)
+    apart = np.abs(even[:, None] - omega[None, :]).min(axis=1)
+    return np.asarray(even[apart > 0.5 * step])
+
+
+def wide_coefficients(
+    hydro: RowHydrodynamics, count: int, *, store: DatasetStore | None = None, progress: Progress = silent
+) -> RowHydrodynamics:
+    """Return coefficients over the band of the memory: those of the seas and further ones between and beyond."""
+    low, high = memory_band(hydro.omega, hydro.panels, hydro.water)
+    further = further_frequencies(hydro.omega, low, high, count)
+    if not len(further):
+        return hydro
+    added = solve_row(hydro.panels, hydro.water, hydro.centres, further, hydro.headings, store=store, progress=progress)
+    every = sorted((*hydro.solutions, *added.solutions), key=lambda item: item.omega)
+    return replace(hydro, solutions=tuple(every))
+
+
+__all__ = ["further_frequencies", "memory_band", "wide_coefficients"]
