@@ -116,7 +116,13 @@ class _Basis:
 
 
 def fit_row_memory(
-    omega: Array, added_mass: Array, damping: Array, *, band: tuple[float, float] | None = None, most: int = MOST
+    omega: Array,
+    added_mass: Array,
+    damping: Array,
+    *,
+    band: tuple[float, float] | None = None,
+    most: int = MOST,
+    goal: float = GOAL,
 ) -> RowMemory:
     """Fit poles, residues and the added mass at infinite frequency to coefficients over a band.
 
@@ -130,6 +136,8 @@ def fit_row_memory(
         Frequencies of the waves [rad/s], where the fit is held to its data; those outside weigh a third.
     most : int
         Largest number of real states of one motion.
+    goal : float
+        Error at which no further poles are tried.
 
     Raises
     ------
@@ -164,7 +172,7 @@ def fit_row_memory(
         error = float(_misfit(basis, s, given, found, slope)[inside].max())
         if best is None or error < 0.9 * best[0]:
             best = error, basis, found, slope
-        if error < GOAL:
+        if error < goal:
             break
     assert best is not None
     _, basis, found, slope = best
