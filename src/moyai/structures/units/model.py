@@ -23,6 +23,8 @@ from moyai.sea.environment import Environment
 
 #: Along x, y, z and about x, y, z of the unit.
 DOFS = ("sway", "surge", "heave", "pitch", "roll", "yaw")
+#: Largest tension over the mean up to which a line at rest at every instant serves
+SNAP_RATIO = 5.0
 ConnectorKind = Literal["rigid", "hinge", "ball", "spring", "rubber", "chain", "fender"]
 Analysis = Literal["statics", "frequency", "map", "time"]
 
@@ -299,6 +301,6 @@ def straight_row(count: int, length: float, gap: float) -> tuple[Placement, ...]
 
 
 __all__ = [
-    "DOFS", "Analysis", "Connector", "ConnectorKind", "Curve", "FloatingRow", "MapArea", "Placement",
+    "DOFS", "SNAP_RATIO", "Analysis", "Connector", "ConnectorKind", "Curve", "FloatingRow", "MapArea", "Placement",
     "Settings", "TimeSettings", "UnitLine", "UnitsProblem", "straight_row",
 ]  # fmt: skip

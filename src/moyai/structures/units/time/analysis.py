@@ -15,7 +15,7 @@ from moyai.core.validity import IdentityCheck, Notice
 from moyai.sea.states import IrregularSea, RegularSea
 from moyai.structures.units.assembly import RowAtLevel
 from moyai.structures.units.hydrodynamics import RowHydrodynamics
-from moyai.structures.units.model import Settings
+from moyai.structures.units.model import SNAP_RATIO, Settings
 from moyai.structures.units.seas import SeaAnswer
 from moyai.structures.units.time.band import wide_coefficients
 from moyai.structures.units.time.datasets import (
@@ -32,8 +32,6 @@ from moyai.structures.units.time.seas import Water3D, irregular_run, regular_run
 if TYPE_CHECKING:
     import xarray as xr
 
-#: Largest tension over the mean up to which a line at rest at every instant serves
-SNAP_RATIO = 5.0
 #: Peak periods in a record, below which its largest values say nothing of the sea state
 LEAST_WAVES = 10.0
 #: Error of the memory that is told, of the largest response

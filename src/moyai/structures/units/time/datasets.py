@@ -26,7 +26,7 @@ MOST_ROWS = 20_000
 #: Of a mean that is taken over realisations: also kept one by one
 _SCATTER = (
     "connector_resultant_largest", "connector_moment_resultant_largest", "line_tension_maximum", "largest_offset",
-    "gap_motion_largest", "connector_damage",
+    "gap_motion_largest", "connector_damage_rate",
 )  # fmt: skip
 _LOWEST = ("elongation_lowest",)
 _HIGHEST = ("elongation_highest",)
@@ -88,7 +88,7 @@ def run_numbers(given: TimeRun) -> dict[str, tuple[tuple[str, ...], Array]]:
         "connector_moment_largest": (_COMPONENT, most[:, 3:]),
         "connector_resultant_largest": (_CONNECTOR, np.linalg.norm(loads[..., :3], axis=2).max(axis=0)),
         "connector_moment_resultant_largest": (_CONNECTOR, np.linalg.norm(loads[..., 3:], axis=2).max(axis=0)),
-        "connector_damage": (_CONNECTOR, _damage(at, run.time[part], loads)),
+        "connector_damage_rate": (_CONNECTOR, _damage(at, run.time[part], loads)),
         "elongation_lowest": (_CONNECTOR, low),
         "elongation_highest": (_CONNECTOR, high),
         "relative_motion_largest": (_COMPONENT, moved[:, :3]),
@@ -109,12 +109,11 @@ def run_numbers(given: TimeRun) -> dict[str, tuple[tuple[str, ...], Array]]:
 
 
 def _damage(at: RowAtLevel, time: Array, loads: Array) -> Array:
-    """Return the share of life (joints,) that an hour of the run takes; NaN of connectors without a curve of endurance.
+    """Return the share of life (joints,) that a second of the run takes; NaN of connectors without endurance.
 
     Cycles of the component of force that varies most.
     """
     out = np.full(len(at.joints), np.nan)
-    hours = (time[-1] - time[0]) / 3600.0
     for number, joint in enumerate(at.joints):
         curve = joint.connector.endurance
         if curve is None:
@@ -122,7 +121,7 @@ def _damage(at: RowAtLevel, time: Array, loads: Array) -> Array:
         varied = loads[:, number, :3] - loads[:, number, :3].mean(axis=0)
         direction = np.linalg.eigh(varied.T @ varied)[1][:, -1]
         ranges, _, counts = count_cycles(loads[:, number, :3] @ direction)
-        out[number] = damage(ranges, counts, curve) / hours
+        out[number] = damage(ranges, counts, curve) / (time[-1] - time[0])
     return out
 
 
