@@ -60,6 +60,9 @@ def statics_dataset(at: RowAtLevel, wind: Array, current: Array) -> xr.Dataset:
         "anchor_y": ("line", anchor[:, 1]),
         "fairlead_x": ("line", fairlead[:, 0]),
         "fairlead_y": ("line", fairlead[:, 1]),
+        "anchor_z": ("line", anchor[:, 2]),
+        "fairlead_z": ("line", fairlead[:, 2]),
+        "unit_centre_z": ("unit", at.centres[:, 2]),
         "breaking_load": ("line", _known(at.breaking_load)),
         "line_tension_mean": ("line", at.tensions(rest.position)),
         "connector_x": ("connector", places[:, 0]),
@@ -72,7 +75,11 @@ def statics_dataset(at: RowAtLevel, wind: Array, current: Array) -> xr.Dataset:
     }
     coords = coords_of(at) | {"corner": np.arange(1, 5)}
     kinds = [joint.connector.kind for joint in at.joints]
-    return labelled(xr.Dataset(out, coords=coords).assign_attrs(length=row.length, connector_kinds=kinds))
+    return labelled(
+        xr.Dataset(out, coords=coords).assign_attrs(
+            length=row.length, beam=row.hull.beam, height=row.hull.height, connector_kinds=kinds
+        )
+    )
 
 
 def _known(values: Array) -> Array:

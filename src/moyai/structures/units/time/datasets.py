@@ -226,10 +226,15 @@ def series_dataset(at: RowAtLevel, given: TimeRun) -> xr.Dataset:
                 "connector_moment": (("time", "connector", "component"), loads[..., 3:]),
                 "tension": (("time", "line"), run.tension[kept]),
                 "surface_elevation": ("time", given.elevation[kept]),
+                "wave_amplitude": ("wave", given.waves.amplitude),
+                "wave_omega": ("wave", given.waves.omega),
+                "wave_number": ("wave", given.waves.wave_number),
+                "wave_heading": ("wave", given.waves.heading),
+                "wave_phase": ("wave", given.waves.phase),
             },
             coords=coords_of(at) | {"time": run.time[kept]},
         )
     )
     data.attrs |= {"time_step": run.time_step, "status": run.status, "message": run.message, "seed": given.seed,
-                   "analysis_start": given.begin}  # fmt: skip
+                   "analysis_start": given.begin, "ramp": given.ramp}  # fmt: skip
     return data

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -65,8 +65,12 @@ class TimeRun:
     Parameters
     ----------
     run : RowRun
+    waves : WaveComponents
+        Incident waves.
     elevation : ndarray (n,)
-        Of the incident waves at the origin of the row [m].
+        Theirs at the origin of the row [m].
+    ramp : float
+        Length of their ramp [s].
     begin : float
         Of the analysis [s].
     omega : float
@@ -78,7 +82,9 @@ class TimeRun:
     """
 
     run: RowRun
+    waves: WaveComponents
     elevation: Array
+    ramp: float
     begin: float
     omega: float
     seed: int = -1
@@ -126,7 +132,11 @@ def regular_run(
     wave = cosine_ramp(time, ramp) * 0.5 * sea.height * np.exp(-1j * omega * time)
     load = (wave[:, None] * excitation).real + water.steady + share_drift(at, answer.drift)
     run = model.run(load, step, progress=progress, name=f", {at.name}, {sea.name}, {period:.3g} s")
-    return TimeRun(run, wave.real[: len(run.time)], float(time[-1] - analysed), omega, contacts=resolved)
+    one = WaveComponents(
+        np.array([omega]), np.array([0.5 * sea.height]), np.zeros(1), np.array([sea.heading]), k, at.water
+    )
+    begin = float(time[-1] - analysed)
+    return TimeRun(run, one, wave.real[: len(run.time)], ramp, begin, omega, contacts=resolved)
 
 
 def irregular_run(
@@ -139,7 +149,7 @@ def irregular_run(
     ramp = RAMP * 2.0 * math.pi / peak if settings.ramp is None else settings.ramp
     duration = sea.duration + ramp
     seed = realisation_seed(sea.seed, number)
-    forcing = forcing_of(water, sea, answer, seed, ramp, duration)
+    waves, forcing = forcing_of(water, sea, answer, seed, ramp, duration)
     step, resolved = time_step(settings.time_step, forcing.shortest_period, model)
     step = forcing.fitted_step(step)
     count = math.ceil(duration / step) + 1
@@ -148,20 +158,22 @@ def irregular_run(
     shape = cosine_ramp(step * np.arange(count), ramp)
     load += water.steady + (1.0 - shape)[:, None] * mean
     run = model.run(load, step, progress=progress, name=f", {at.name}, {sea.name}, seed {seed}")
-    return TimeRun(run, elevation[: len(run.time)], ramp, peak, seed, resolved)
+    return TimeRun(run, waves, elevation[: len(run.time)], ramp, ramp, peak, seed, resolved)
 
 
 def forcing_of(
     water: Water3D, sea: IrregularSea, answer: SeaAnswer, seed: int, ramp: float, duration: float
-) -> IrregularForcing:
-    """Return the forces of one realisation on all motions; a component travels along the nearest heading solved."""
+) -> tuple[WaveComponents, IrregularForcing]:
+    """Return the waves of a realisation and their forces; a component travels along the nearest heading solved."""
     at, hydro = water.at, water.hydro
     low, high = choose_band(sea.spectrum, None, None)
     components: WaveComponents = synthesise(
         sea.spectrum, at.water, duration=duration, seed=seed, heading=sea.heading, spreading=sea.spreading,
         lower_omega=max(low, float(hydro.omega[0])), upper_omega=min(high, float(hydro.omega[-1])),
     )  # fmt: skip
-    own = np.abs(np.angle(np.exp(1j * (components.heading[:, None] - answer.headings[None, :])))).argmin(axis=1)
+    apart = np.abs(np.angle(np.exp(1j * (components.heading[:, None] - answer.headings[None, :]))))
+    own = apart.argmin(axis=1)
+    components = replace(components, heading=answer.headings[own])
     column = columns_of(hydro, answer.headings)[own]
     every = hydro.at(components.omega, components.wave_number)[2]
     excitation = every[np.arange(len(column)), column]
@@ -179,7 +191,7 @@ def forcing_of(
         per_square = table[own, :, np.arange(len(own))]
         unit = np.array([share_drift(at, row) for row in np.eye(3)])
         drift = per_square @ unit
-    return IrregularForcing(
+    return components, IrregularForcing(
         omega=components.omega, amplitude=components.complex_amplitude, excitation=excitation, drift=drift,
         steady=np.zeros(at.size), drift_law=law, ramp=ramp,
     )  # fmt: skip
