@@ -46,10 +46,13 @@ def _check_needs(model: schema.UnitsCase, findings: Findings) -> None:
         findings.fault(("analyses",), f"the analysis '{sorted(waves)[0]}' needs 'waves'", remedy="give a sea state")
     if "map" in model.analyses and model.map is None:
         findings.fault(("analyses",), "the analysis 'map' needs 'map'", remedy="say where: map: {x: ..., y: ...}")
-    if "map" in model.analyses and "frequency" not in model.analyses:
-        findings.fault(
-            ("analyses",), "the analysis 'map' needs 'frequency'", remedy="the units move in the waves: ask for both"
-        )
+    for name in ("map", "time"):
+        if name in model.analyses and "frequency" not in model.analyses:
+            findings.fault(
+                ("analyses",), f"the analysis '{name}' needs 'frequency'",
+                remedy="the units move in the waves: ask for both",
+            )  # fmt: skip
+    _check_time(model, findings)
     pushed = model.settings.drift or model.wind is not None or model.current is not None
     if not model.lines and pushed and model.waves and waves:
         findings.fault(
@@ -59,6 +62,28 @@ def _check_needs(model: schema.UnitsCase, findings: Findings) -> None:
         )
     if unit.gap_damping_lid > 0.0 and len(_places(model)) < 2:
         findings.warn(("structure", "gap_damping_lid"), "a single unit has no gap; the lid does nothing")
+
+
+def _check_time(model: schema.UnitsCase, findings: Findings) -> None:
+    for index, entry in enumerate(model.structure.connectors):
+        if entry.endurance is not None and "time" not in model.analyses:
+            findings.warn(
+                ("structure", "connectors", index, "endurance"),
+                f"the fatigue of connector '{entry.name}' is counted in the time domain alone",
+                remedy="add 'time' to 'analyses'",
+            )
+    step = model.settings.time.time_step
+    periods: list[float] = []
+    for sea in model.waves:
+        given = sea.periods if sea.kind == "regular" else (getattr(sea, "peak_period", None),)
+        periods += [float(period) for period in given if period is not None]
+    if step is not None and periods and step > 0.1 * min(periods):
+        findings.fault(
+            ("settings", "time", "time_step"),
+            f"the step of {step:g} s is more than a tenth of the shortest period, {min(periods):g} s",
+            allowed=f"up to {0.1 * min(periods):.3g} s",
+            remedy="leave it out: auto takes a fortieth",
+        )
 
 
 def _places(model: schema.UnitsCase) -> tuple[Any, ...]:

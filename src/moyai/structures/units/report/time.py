@@ -85,7 +85,7 @@ def _figure(level: Group, sea: Group, record: _Record) -> Figure:
             series.append(Series(f"unit {unit}", along, factor * record.motion[keep, number, dof], panel, number))
     marks = []
     for label, values, names in (
-        ("force in connectors", record.force, run.labels("connector")), ("tension", record.tension, run.labels("line"))
+        ("connectors", record.force, run.labels("connector")), ("tension", record.tension, run.labels("line"))
     ):  # fmt: skip
         if not values.shape[1]:
             continue
