@@ -11,6 +11,7 @@ from moyai.case.faults import did_you_mean
 from moyai.case.findings import Findings, duplicates
 from moyai.case.yaml_reader import KeyPath
 from moyai.core.errors import ConvergenceError, InputError
+from moyai.sea.states import RegularSea
 from moyai.structures.units.case import schema
 
 if TYPE_CHECKING:
@@ -72,18 +73,6 @@ def _check_time(model: schema.UnitsCase, findings: Findings) -> None:
                 f"the fatigue of connector '{entry.name}' is counted in the time domain alone",
                 remedy="add 'time' to 'analyses'",
             )
-    step = model.settings.time.time_step
-    periods: list[float] = []
-    for sea in model.waves:
-        given = sea.periods if sea.kind == "regular" else (getattr(sea, "peak_period", None),)
-        periods += [float(period) for period in given if period is not None]
-    if step is not None and periods and step > 0.1 * min(periods):
-        findings.fault(
-            ("settings", "time", "time_step"),
-            f"the step of {step:g} s is more than a tenth of the shortest period, {min(periods):g} s",
-            allowed=f"up to {0.1 * min(periods):.3g} s",
-            remedy="leave it out: auto takes a fortieth",
-        )
 
 
 def _places(model: schema.UnitsCase) -> tuple[Any, ...]:
@@ -260,6 +249,7 @@ def _check_by_building(model: schema.UnitsCase, findings: Findings, folder: Path
         return
     check_waves(model, problem.environment, findings, lambda *_: None)
     if not findings.faults:
+        _check_step(problem, findings)
         _check_problem(problem, findings)
 
 
@@ -295,6 +285,23 @@ def _check_lines_at_rest(problem: UnitsProblem, at: RowAtLevel, findings: Findin
             record = findings.fault if notice.severity == "error" else findings.warn
             record(path, f"line '{line}' of unit {number + 1}: {message}", remedy=notice.remedy)
     return bool(findings.faults)
+
+
+def _check_step(problem: UnitsProblem, findings: Findings) -> None:
+    step = problem.settings.time.time_step
+    if step is None or "time" not in problem.settings.analyses:
+        return
+    periods = [
+        min(sea.periods) if isinstance(sea, RegularSea) else 2.0 * math.pi / float(sea.spectrum.peak_omega)
+        for sea in problem.environment.sea_states
+    ]
+    if periods and step > 0.1 * min(periods):
+        findings.fault(
+            ("settings", "time", "time_step"),
+            f"the step of {step:g} s is more than a tenth of the shortest period, {min(periods):.3g} s",
+            allowed=f"up to {0.1 * min(periods):.3g} s",
+            remedy="leave it out: auto takes a fortieth",
+        )
 
 
 def _check_problem(problem: UnitsProblem, findings: Findings) -> None:
