@@ -7,9 +7,11 @@ import pytest
 
 pytest.importorskip("capytaine", reason="Capytaine is not installed")
 
+from moyai.flexible import BarType
 from moyai.mooring import Line, LineSystem, LineType, Segment, SpringLine
 from moyai.mooring.space_kernel import space_line_force
 from moyai.mooring.table import compile_lines
+from moyai.sea.components import WaveComponents
 from moyai.sea.environment import Environment
 from moyai.structures.units.assembly import assemble
 from moyai.structures.units.bem import panels_of
@@ -18,6 +20,7 @@ from moyai.structures.units.mesh import row_mesh
 from moyai.structures.units.model import Connector, Curve, UnitLine
 from moyai.structures.units.response import RowModel, respond
 from moyai.structures.units.time.kernel import joint_force
+from moyai.structures.units.time.lines import Carried, events_of, moving_line, rerun, rerun_events
 from moyai.structures.units.time.memory import fit_row_memory
 from moyai.structures.units.time.model import RowInTime, step_weights
 from moyai.validation.units import WATER, row
@@ -266,3 +269,52 @@ def test_compiled_lines_in_space_are_the_lines():
         assert np.all(force[:6] == 0.0)
         assert np.allclose(force[6:], exact, rtol=1e-6, atol=1e-6 * np.abs(exact).max())
         assert np.allclose(tension, system.tensions(position[6:]), rtol=1e-6)
+
+
+CHAIN = LineType("chain", submerged_weight=280.0, axial_stiffness=3e7, breaking_load=1e6)
+BAR = BarType(
+    "chain", 32.0, 3e7, 0.04, drag_normal=1.2, drag_tangential=0.3, added_mass_normal=1.0,
+    volume_per_length=(32.0 - 280.0 / 9.81) / 1025.0,
+)  # fmt: skip
+
+
+def moored():
+    lines = [
+        UnitLine(name, 1, (0, 1), (x, 0.0, 0.7), (10.0 * x, 0.0, 0.0), (Segment(CHAIN, 46.9),), bar_types=(BAR,))
+        for name, x in (("west", -5.0), ("east", 5.0))
+    ]
+    return at_rest(HINGE, lines=lines)
+
+
+def swaying(at, period, amplitude):
+    time = 0.05 * np.arange(round(14.0 * period / 0.05))
+    position, velocity = np.zeros((len(time), at.size)), np.zeros((len(time), at.size))
+    for unit in (0, 6):
+        position[:, unit] = amplitude * np.sin(2.0 * np.pi * time / period)
+        velocity[:, unit] = amplitude * 2.0 * np.pi / period * np.cos(2.0 * np.pi * time / period)
+    tension = np.concatenate([system.tensions(position[:, :6]) for system in at.systems], axis=1)
+    still = WaveComponents(*(np.array([value]) for value in (1.0, 0.0, 0.0, 0.0, 0.12)), WATER)
+    return Carried(time, position, velocity, tension, still, 6.0 * period, period)
+
+
+def test_a_line_moved_slowly_has_the_tension_of_the_line_at_rest():
+    at = moored()
+    given = swaying(at, 40.0, 1.0)
+    moving = moving_line(at, 0)
+    event, expected = events_of(given, 0)[0]
+    assert rerun(at, moving, given, event) == pytest.approx(expected, rel=0.04)
+
+
+def test_events_of_a_snapping_line_are_rerun_and_the_largest_is_kept():
+    at = moored()
+    given = swaying(at, 6.0, 1.7)
+    mean, largest = given.tension.mean(axis=0), given.tension.max(axis=0)
+    assert (largest > 5.0 * mean).all()
+    found = rerun_events(at, [given], lambda *_: None, "")
+    assert found is not None
+    first = int(np.argmax(largest))
+    assert np.isfinite(found.tension[0, first])
+    # the inertia of the chain is in it, in either direction
+    assert 0.5 * largest[first] < found.tension[0, first] < 3.0 * largest[first]
+    assert found.bound[0, first] >= found.tension[0, first]
+    assert rerun_events(at, [swaying(at, 40.0, 0.1)], lambda *_: None, "") is None

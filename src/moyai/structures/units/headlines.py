@@ -25,6 +25,7 @@ MODEL = "linear, three dimensions"
 AT_REST = "linear, lines at rest at every instant"
 TIME = "time domain, three dimensions"
 TIME_AT_REST = "time domain, lines at rest at every instant"
+IN_MOTION = "time domain, lines in motion around events"
 Seas = list[tuple[str, "xr.Dataset"]]
 
 
@@ -68,12 +69,21 @@ def _not_judged(seas: Seas) -> Headline:
     if len(timed) < len(seas) or not seas:
         words.append("time domain, slow drift")
         detail.append("no impacts and snaps in time, no slow drift about the mean")
-    words.append("lines in motion")
-    detail.append("no snaps of lines")
+    if any(_snaps(data) for data in timed):
+        words.append("lines in motion")
+        detail.append("no snaps of lines")
     if not any(np.isfinite(data["connector_damage_rate"].values).any() for data in timed):
         words.append("fatigue")
         detail.append("no fatigue of connectors and lines")
+    words.append("one line lost")
+    detail.append("no row with a line or a connector lost")
     return Headline("not_judged", "Not judged", math.nan, "1", text=", ".join(words), detail="; ".join(detail))
+
+
+def _snaps(data: xr.Dataset) -> bool:
+    """Whether lines at rest are pulled beyond their range, and none was set in motion."""
+    beyond = data["line_tension_maximum"].values > SNAP_RATIO * data["line_tension_mean"].values
+    return bool(beyond.any()) and "lines_in_motion" not in data
 
 
 def _in_time(path: str) -> bool:
@@ -210,27 +220,69 @@ def _lines(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Headline]:
     bound, words = _of_line(found, mean)
     yield Headline(
         "line_tension", "Largest tension of a line", found.value, "N", found.where, _line_model(found), mean=mean,
-        bound=bound, band=found.band, detail=f"mean {spoken(mean, 'N', 3)}{words}", analysis="quasi_static",
+        bound=bound, band=_line_band(found), detail=f"mean {spoken(mean, 'N', 3)}{words}", analysis=_analysis(found),
     )  # fmt: skip
     load = np.asarray(groups[f"/{found.path.split('/')[1]}/statics"]["breaking_load"].values, dtype=float)
     share = _largest(seas, "line_tension_maximum", over=load) if np.isfinite(load).any() else None
-    if share is not None:
-        own = float(share.data["line_tension_mean"].values[share.index])
-        yield Headline(
-            "line_utilisation", "Tension over breaking load of a line", share.value, "1", share.where,
-            _line_model(share), mean=own / share.scale, bound=_of_line(share, own)[0], band=share.band,
-            analysis="quasi_static",
-        )  # fmt: skip
+    if share is None:
+        return
+    yield _utilisation(share, True)
+    if _moved(share):
+        # codes ask another factor of lines at rest: the highest of them is judged too
+        still = [(path, _at_rest(data)) for path, data in seas]
+        other = _largest(still, "line_tension_maximum", over=load)
+        if other is not None:
+            yield _utilisation(other, False)
+
+
+def _utilisation(share: _Largest, shown: bool) -> Headline:
+    own = float(share.data["line_tension_mean"].values[share.index])
+    return Headline(
+        "line_utilisation", "Tension over breaking load of a line", share.value, "1", share.where, _line_model(share),
+        mean=own / share.scale, bound=_of_line(share, own)[0], band=_line_band(share), analysis=_analysis(share),
+        shown=shown,
+    )  # fmt: skip
+
+
+def _at_rest(data: xr.Dataset) -> xr.Dataset:
+    """Return a sea without the lines in motion, and without those that were found to stay under them."""
+    if "lines_in_motion" not in data:
+        return data
+    tension, mean = data["line_tension_maximum"].values, data["line_tension_mean"].values
+    kept = (data["lines_in_motion"].values == 0) & (tension <= SNAP_RATIO * mean)
+    return data.assign(line_tension_maximum=("line", np.where(kept, tension, np.nan)))
+
+
+def _moved(found: _Largest) -> bool:
+    return "lines_in_motion" in found.data and bool(found.data["lines_in_motion"].values[found.index[-1]])
+
+
+def _line_band(found: _Largest) -> Band | None:
+    """Return the band of realisations, judged at what events that were not rerun leave open."""
+    if not _moved(found):
+        return found.band
+    line = found.index[-1]
+    scatter, bound = (
+        found.data[f"line_tension_{name}_of_realisation"].values[:, line] / found.scale for name in ("maximum", "bound")
+    )
+    return seeds(scatter, bound)
 
 
 def _line_model(found: _Largest) -> str:
-    return TIME_AT_REST if found.timed else AT_REST
+    return IN_MOTION if _moved(found) else TIME_AT_REST if found.timed else AT_REST
+
+
+def _analysis(found: _Largest) -> str:
+    return "dynamic" if _moved(found) else "quasi_static"
 
 
 def _of_line(found: _Largest, mean: float) -> tuple[Bound, str]:
     """Return the bound of a tension and its reason: slow drift left out, or snaps that lines at rest do not see."""
     if found.without_drift:
         return "at least", _WITHOUT_DRIFT
+    if _moved(found):
+        still = float(found.data["line_tension_maximum_lines_at_rest"].values[found.index[-1]])
+        return "", f"; {spoken(still, 'N', 3)} with lines at rest at every instant"
     snapped = found.timed and found.value * found.scale > SNAP_RATIO * mean
     return ("at least", _SNAPS) if snapped else ("", "")
 

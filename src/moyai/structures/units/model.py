@@ -17,6 +17,7 @@ from moyai.core.arrays import Array
 from moyai.core.headline import Criterion
 from moyai.core.options import checks_words
 from moyai.design.fatigue import EnduranceCurve
+from moyai.flexible.network import BarType
 from moyai.mooring.lines import Clump, Segment
 from moyai.potential.sections import Hull
 from moyai.sea.environment import Environment
@@ -138,6 +139,10 @@ class UnitLine:
         As of :class:`moyai.mooring.Line`.
     stiffness, pretension : float
         Of a spring [N/m], [N].
+    bar_types : tuple of BarType
+        What the segments are made of, for a line in motion; empty where a segment does not tell enough.
+    clump_bodies : tuple of (float, float)
+        Mass [kg] and volume [m3] of the clumps.
     """
 
     name: str
@@ -150,6 +155,8 @@ class UnitLine:
     bed_friction: float = 0.0
     stiffness: float = 0.0
     pretension: float = 0.0
+    bar_types: tuple[BarType, ...] = ()
+    clump_bodies: tuple[tuple[float, float], ...] = ()
 
 
 @dataclass(frozen=True, eq=False)

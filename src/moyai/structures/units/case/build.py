@@ -8,9 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from moyai.case.build_lines import line_parts
+from moyai.case.build_lines import bar_type_of, line_parts
 from moyai.case.build_sea import environment_of
 from moyai.case.criteria import criteria_of
+from moyai.case.schema_lines import ClumpEntry
 from moyai.core.errors import InputError
 from moyai.design.fatigue import EnduranceCurve
 from moyai.sea.dispersion import wave_number
@@ -170,7 +171,17 @@ def line_of(entry: Any, index: int, water: Water, count: int) -> UnitLine:
         )
     segments, clumps = line_parts(entry, f"lines[{index}]", water)
     anchor = (entry.anchor.x, entry.anchor.y, entry.anchor.above_bed)
-    return UnitLine(entry.name, entry.count, units, fairlead, anchor, segments, clumps, entry.bed_friction)
+    materials = [
+        bar_type_of(part, f"lines[{index}].segments[{number}]", entry, water, needed=False)
+        for number, part in enumerate(entry.segments)
+        if not isinstance(part, ClumpEntry)
+    ]
+    kinds = tuple(kind for kind in materials if kind is not None)
+    bodies = tuple((part.clump.mass, part.clump.volume) for part in entry.segments if isinstance(part, ClumpEntry))
+    return UnitLine(
+        entry.name, entry.count, units, fairlead, anchor, segments, clumps, entry.bed_friction,
+        bar_types=kinds if len(kinds) == len(materials) else (), clump_bodies=bodies,
+    )  # fmt: skip
 
 
 def map_of(block: schema.MapBlock | None) -> MapArea:

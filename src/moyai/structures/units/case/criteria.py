@@ -89,7 +89,7 @@ def criteria(model: Any, given: Any) -> Iterator[Criterion]:
     yield from line_criteria(
         given,
         DEFAULT_CODE if moored and computed else "",
-        "quasi_static",
+        "" if "time" in model.analyses else "quasi_static",
         [getattr(part, "catalogue", None) for line in moored for part in line.segments if not hasattr(part, "clump")],
     )
     factor = given.connector_safety_factor
