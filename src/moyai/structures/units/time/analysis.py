@@ -18,7 +18,7 @@ from moyai.structures.units.assembly import RowAtLevel
 from moyai.structures.units.hydrodynamics import RowHydrodynamics
 from moyai.structures.units.model import SNAP_RATIO, Settings
 from moyai.structures.units.seas import SeaAnswer
-from moyai.structures.units.time.band import wide_coefficients
+from moyai.structures.units.time.band import dense_coefficients, wide_coefficients
 from moyai.structures.units.time.datasets import (
     Kept,
     irregular_time_dataset,
@@ -68,7 +68,7 @@ def water_in_time(
     """Solve the band of the memory and fit it; return also its dataset, identities and notices."""
     wide = wide_coefficients(hydro, settings.time.memory_frequencies, store=store, progress=progress)
     band = float(hydro.omega[0]), float(hydro.omega[-1])
-    memory: RowMemory = fit_row_memory(wide.omega, wide.added_mass, wide.damping, band=band)
+    memory: RowMemory = fit_row_memory(*dense_coefficients(wide), band=band)
     checks = [replace(item, name=f"{at.name}: {item.name}") for item in memory.checks]
     notices = [
         Notice(

@@ -10,13 +10,15 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.core.progress import Progress, silent
 from moyai.core.store import DatasetStore
-from moyai.sea.dispersion import angular_frequency
+from moyai.sea.dispersion import angular_frequency, group_velocity, wave_number
 from moyai.sea.water import Water
 from moyai.structures.units.bem import LEAST_DEPTH, Panels
 from moyai.structures.units.hydrodynamics import RowHydrodynamics, solve_row
 
 #: Ends of the band over the lowest and the highest frequency of the seas
 BELOW, ABOVE = 0.35, 1.6
+#: Frequencies of half a swing of the coefficients of two units, and most frequencies of the fit
+STEPS_OF_A_SWING, MOST_FREQUENCIES = 3.0, 160
 #: Shortest wave over the longest side of a panel
 LEAST_PANELS = 4.0
 
@@ -53,4 +55,23 @@ def wide_coefficients(
     return replace(hydro, solutions=tuple(every))
 
 
-__all__ = ["further_frequencies", "memory_band", "wide_coefficients"]
+def dense_coefficients(hydro: RowHydrodynamics) -> tuple[Array, Array, Array]:
+    """Return frequencies, added mass and damping as close as waves along the whole row ask for.
+
+    Coefficients of two units swing once while a wave from the one to the other takes up a further period: a fit would
+    do as it likes between frequencies that do not resolve this.
+    """
+    omega, water = hydro.omega, hydro.water
+    longest = float(hydro.reach.max())
+    speed = float(group_velocity(float(np.sqrt(omega[0] * omega[-1])), water.depth, water.gravity))
+    step = math.pi / (STEPS_OF_A_SWING * longest / speed) if longest > 0.0 else math.inf
+    count = min(math.ceil((omega[-1] - omega[0]) / step) + 1, MOST_FREQUENCIES)
+    if count <= len(omega):
+        return omega, hydro.added_mass, hydro.damping
+    every = np.sort(np.concatenate([omega, further_frequencies(omega, float(omega[0]), float(omega[-1]), count)]))
+    k = np.array([float(wave_number(value, water.depth, water.gravity)) for value in every])
+    added, damping, _ = hydro.at(every, k)
+    return every, added, damping
+
+
+__all__ = ["dense_coefficients", "further_frequencies", "memory_band", "wide_coefficients"]

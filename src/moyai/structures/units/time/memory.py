@@ -1,8 +1,7 @@
 """The memory of the water between all motions of all units: a rational function with common poles, passive.
 
 Coefficients of three-dimensional programs are known over a band of frequencies only. Poles and residues meet them there
-together with the added mass at infinite frequency; between and beyond them damping may nowhere be negative. The
-conditions are linear in the residues and bear on few vectors, so that their cost does not grow with the row.
+together with the added mass at infinite frequency; between and beyond them damping may nowhere be negative.
 """
 
 from __future__ import annotations
@@ -21,14 +20,18 @@ from moyai.potential.vector_fitting import fit_poles, partial_fractions, startin
 FIT, PASSIVE = 0.05, 1e-5
 #: Error at which no further poles are tried
 GOAL = 0.01
-#: Real states of one motion, at first and at most
-FEWEST, MOST = 6, 32
-_COLUMNS = 24
+#: Fewest frequencies; real states of one motion that are tried, and the most of them
+FEWEST, MOST = 6, 60
+ORDERS = (6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 28, 32, 38, 44, 52, 60)
+_COLUMNS = 48
 _KEPT = 1e-4
-_ROUNDS = 40
+#: Rounds of the search for a passive fit, and the weight of the nearest passive damping in it over that of the data
+_ROUNDS, _PULL = 80, 3.0
 _MARGIN = 3e-5
 _BEYOND = 30.0
 _OUTSIDE = 0.3
+#: Least real part of a pole over the step of the frequencies about it
+_SHARPEST = 0.3
 
 
 @dataclass(frozen=True, eq=False)
@@ -164,9 +167,9 @@ def fit_row_memory(
     inside = (omega >= low * (1.0 - 1e-9)) & (omega <= high * (1.0 + 1e-9))
     weight = np.where(inside, 1.0, _OUTSIDE)
     best: tuple[float, _Basis, Array, Array] | None = None
-    for order in range(FEWEST, min(most, int(1.2 * len(omega))) + 1, 2):
+    for order in [count for count in ORDERS if count <= min(most, 0.9 * len(omega))]:
         start = starting_poles(omega[0] / middle, omega[-1] / middle, order)
-        poles = fit_poles(s, shapes, weight, start, slope=True)
+        poles = _resolved(fit_poles(s, shapes, weight, start, slope=True), omega / middle)
         basis = _Basis.of(poles)
         found, slope = _residues(basis, s, weight, given)
         error = float(_misfit(basis, s, given, found, slope)[inside].max())
@@ -189,6 +192,12 @@ def fit_row_memory(
 def _measure(response: ComplexArray) -> Array:
     top = np.abs(response).max(axis=0)
     return np.maximum(np.sqrt(np.outer(top.diagonal(), top.diagonal())), 1e-300)
+
+
+def _resolved(poles: ComplexArray, omega: Array) -> ComplexArray:
+    """Return the poles, none of them sharper than the frequencies about it resolve."""
+    step = np.interp(np.abs(poles.imag), 0.5 * (omega[1:] + omega[:-1]), np.diff(omega))
+    return np.asarray(np.minimum(poles.real, -_SHARPEST * step) + 1j * poles.imag)
 
 
 def _compressed(entries: ComplexArray) -> ComplexArray:
@@ -217,52 +226,56 @@ def _residues(basis: _Basis, s: ComplexArray, weight: Array, given: ComplexArray
 def _misfit(basis: _Basis, s: ComplexArray, given: ComplexArray, found: Array, slope: Array) -> Array:
     """Return the error (f, m, m) over the largest response of each pair of motions."""
     own = np.einsum("fb,bij->fij", basis.at(s), found)
-    return np.asarray(np.abs(own + s[:, None, None] * slope - given) / _measure(own))
+    wanted = given - s[:, None, None] * slope
+    return np.asarray(np.abs(own - wanted) / _measure(wanted))
 
 
 def _passive(basis: _Basis, s: ComplexArray, weight: Array, found: Array, slope: Array) -> tuple[Array, Array, float]:
     """Move the residues as little as can be until damping is nowhere negative [eq:units-passive].
 
-    Least squares over the band under conditions u^T Re H(omega) u >= 0, added where an eigenvalue is negative. The dual
-    problem has one number a condition: products of the rows of the basis, times the square of the products of vectors.
+    Least squares over the band and the nearest damping without negative eigenvalues at every watched frequency by turns
+    (alternating directions of multipliers); what is left then is lifted alike in all motions.
     """
-    triangle: Array = np.asarray(np.linalg.qr(_stacked(basis, s, weight), mode="r"), dtype=float)
-    top = float(np.abs(s).max())
-    watched = basis.watched(top)
+    design = _stacked(basis, s, weight)
+    watched = basis.watched(float(np.abs(s).max()))
     damping = basis.damping(watched)
     scale = float(np.linalg.norm(np.einsum("wb,bij->wij", damping, found), axis=(1, 2)).max())
-    rows = np.zeros((0, found.shape[0] + 1))
-    vectors = np.zeros((0, found.shape[1]))
-    bound = np.zeros(0)
-    now, now_slope = found, slope
+    size = found.shape[1]
+    rows = np.column_stack([damping, np.zeros(len(damping))])
+    first = np.concatenate([found, slope[None]]).reshape(-1, size * size)
+    normal = design.T @ design
+    pull = _PULL * np.trace(normal) / np.trace(rows.T @ rows)
+    inverse = np.linalg.inv(normal + pull * rows.T @ rows)
+    now, held = first, np.zeros((len(rows), size * size))
     for _ in range(_ROUNDS):
-        values, directions = np.linalg.eigh(np.einsum("wb,bij->wij", damping, now))
-        low = values[:, 0]
-        if low.min() >= -0.1 * PASSIVE * scale:
+        own = (rows @ now).reshape(-1, size, size)
+        if float(np.linalg.eigvalsh(own)[:, 0].min()) >= 0.0:
             break
-        left, right = np.r_[np.inf, low[:-1]], np.r_[low[1:], np.inf]
-        worst = np.flatnonzero((low < 0.0) & (low <= left) & (low <= right))
-        new_rows, new_vectors = [], []
-        for place in worst:
-            for number in np.flatnonzero(values[place] < 0.0):
-                new_rows.append(np.append(damping[place], 0.0))
-                new_vectors.append(directions[place][:, number])
-        rows = np.concatenate([rows, np.array(new_rows)])
-        vectors = np.concatenate([vectors, np.array(new_vectors)])
-        first = np.einsum("ab,bij,ai,aj->a", rows[:, :-1], found, vectors, vectors)
-        bound = _MARGIN * scale - first
-        turned = np.linalg.solve(triangle.T, rows.T).T
-        products = (turned @ turned.T) * (vectors @ vectors.T) ** 2
-        products += 1e-12 * np.trace(products) / len(products) * np.eye(len(products))
-        factor = np.linalg.cholesky(products)
-        weights = nnls(factor.T, np.linalg.solve(factor, bound), maxiter=100 * len(bound))[0]
-        moved = np.linalg.solve(triangle, turned.T)
-        change = np.einsum("ba,a,ai,aj->bij", moved, weights, vectors, vectors)
-        now, now_slope = found + change[:-1], slope + change[-1]
-    rows = basis.at(np.asarray(-1j * watched, dtype=complex)).real
-    every = np.einsum("wb,bij->wij", rows, now)
-    largest = np.abs(np.einsum("fb,bij->fij", basis.at(s), now)).max()
-    return now, now_slope, float(np.linalg.eigvalsh(every)[:, 0].min() / largest)
+        values, vectors = np.linalg.eigh(own + held.reshape(-1, size, size))
+        nearest = (vectors * np.maximum(values, _MARGIN * scale)[:, None, :]) @ vectors.swapaxes(1, 2)
+        held = held + (own - nearest).reshape(len(rows), -1)
+        now = inverse @ (normal @ first + pull * rows.T @ (nearest.reshape(len(rows), -1) - held))
+    short = float(np.linalg.eigvalsh((rows @ now).reshape(-1, size, size))[:, 0].min())
+    if short < 0.0:
+        triangle: Array = np.asarray(np.linalg.qr(design, mode="r"), dtype=float)
+        lift = -1.01 * short * _passive_function(damping, triangle)
+        now = now + lift[:, None] * np.eye(size).ravel()
+    moved = now.reshape(-1, size, size)
+    moved = 0.5 * (moved + moved.swapaxes(1, 2))
+    every = np.einsum("wb,bij->wij", basis.at(np.asarray(-1j * watched, dtype=complex)).real, moved[:-1])
+    largest = np.abs(np.einsum("fb,bij->fij", basis.at(s), moved[:-1])).max()
+    return moved[:-1], moved[-1], float(np.linalg.eigvalsh(every)[:, 0].min() / largest)
+
+
+def _passive_function(damping: Array, triangle: Array) -> Array:
+    """Return coefficients and slope (b + 1,) of the smallest function whose damping is 1 or more in every row."""
+    turned = np.linalg.solve(triangle.T, np.column_stack([damping, np.zeros(len(damping))]).T)
+    # least distance (Lawson and Hanson): min |y| with y turned >= 1
+    stack = np.vstack([turned, np.ones(len(damping))])
+    unit = np.zeros(len(stack))
+    unit[-1] = 1.0
+    rest = stack @ nnls(stack, unit, maxiter=100 * stack.shape[1])[0] - unit
+    return np.asarray(np.linalg.solve(triangle, -rest[:-1] / rest[-1]))
 
 
 def _complex_residues(basis: _Basis, found: Array) -> ComplexArray:
