@@ -82,6 +82,8 @@ class Headline:
     #: Whether it is what the other numbers were found in (a current, the height of a sea, the start of a run) and not
     #: an answer: no limit is looked for.
     condition: bool = False
+    #: What alone a criterion is judged on where more is uncertain, for instance ``the band of damping alone``.
+    judged_on: str = ""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "label", self.label[:1].upper() + self.label[1:])
@@ -182,6 +184,8 @@ class Judgement:
     outcome: Outcome
     reason: str = ""
     bound: Bound = ""
+    #: See :attr:`Headline.judged_on`.
+    judged_on: str = ""
 
     @property
     def shown_bound(self) -> Bound:
@@ -203,8 +207,9 @@ class Judgement:
         given = record["criterion"]
         criterion = Criterion(**{**given, "limit": float(given["limit"])})
         return cls(
-            criterion, float(record["value"]), record["outcome"], record.get("reason", ""), record.get("bound", "")
-        )
+            criterion, float(record["value"]), record["outcome"], record.get("reason", ""), record.get("bound", ""),
+            record.get("judged_on", ""),
+        )  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -274,7 +279,7 @@ def judge(headlines: Iterable[Headline], criteria: Iterable[Criterion], *, compu
             reasons.setdefault(item.reason, []).append(item.criterion.words)
         message = "; ".join(f"{', '.join(names)}: {reason}" for reason, names in reasons.items())
         return Verdict("not judged", message, judgements)
-    return Verdict("holds", _holding([item.criterion for item in found]), judgements)
+    return Verdict("holds", _holding([item.criterion for item in found]) + _narrow(found), judgements)
 
 
 def _holding(criteria: list[Criterion]) -> str:
@@ -288,6 +293,12 @@ def _holding(criteria: list[Criterion]) -> str:
     if any(UNCONFIRMED in item.source for item in criteria):
         words += "; factors of a standard that were not confirmed against it"
     return words
+
+
+def _narrow(found: list[Judgement]) -> str:
+    """Return which criteria were judged on a part of what is uncertain."""
+    kept = dict.fromkeys((item.criterion.words, item.judged_on) for item in found if item.judged_on)
+    return "".join(f"; {words} judged on {on}" for words, on in kept)
 
 
 def without_computation(verdict: Verdict) -> Verdict:
@@ -346,7 +357,8 @@ def _judge_one(criterion: Criterion, headline: Headline) -> Judgement:
     if not proves:
         reason = f"only a bound is known ({headline.bound} this value)"
         return Judgement(criterion, value, "not judged", reason, headline.bound)
-    return Judgement(criterion, value, "holds" if good else "does not hold", headline.where, headline.bound)
+    outcome: Outcome = "holds" if good else "does not hold"
+    return Judgement(criterion, value, outcome, headline.where, headline.bound, headline.judged_on)
 
 
 def _judge_parts(criterion: Criterion, headline: Headline, value: float) -> Judgement:

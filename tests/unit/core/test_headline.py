@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 
 from moyai.core.collected import Collected
-from moyai.core.headline import Band, Criterion, Headline, judge
+from moyai.core.headline import Band, Criterion, Headline, Verdict, judge
 from moyai.core.results import read_result
 from moyai.core.vocabulary import Vocabulary
 
@@ -50,6 +50,13 @@ def test_what_was_not_run_and_what_did_not_converge_is_not_judged() -> None:
     assert judge([transmission(0.4)], [MOST], computed=False).outcome == "not judged"
     assert judge([transmission(0.4)], [], computed=True).outcome == "not judged"
     assert judge([transmission(0.6)], [MOST], computed=False).outcome == "does not hold"
+
+
+def test_what_a_criterion_is_judged_on_stands_in_the_verdict(tmp_path: Path) -> None:
+    narrow = transmission(0.4, band=Band(0.3, 0.45, "damping"), judged_on="the band of damping alone")
+    verdict = judge([narrow], [MOST], computed=True)
+    assert verdict.message == "the criterion holds; transmission judged on the band of damping alone"
+    assert Verdict.from_dict(verdict.as_dict()) == verdict
 
 
 def test_headlines_and_verdict_survive_the_file(tmp_path: Path) -> None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -39,6 +40,7 @@ if TYPE_CHECKING:
 
 
 STEADY = "wind and current at rest, mean drift of the frequency domain"
+DAMPING_ALONE = "the band of damping alone, without waves round the ends or over the deck"
 MUCH_OVERTOPPING = 0.05  # share of waves over the deck from which linear transmission is qualified
 
 
@@ -90,7 +92,7 @@ def _transmission(groups: Mapping[str, xr.Dataset], levels: list[str]) -> list[H
                 model, at = (FIRST_ORDER, row) if regular else (FREQUENCY, None)
                 named[sea] = Headline(
                     "transmission", label, float(values[row]), "1", place(level, sea, period), model,
-                    band=_damping_band(data, at), sea=sea, shown=False,
+                    band=_damping_band(data, at), sea=sea, shown=False, judged_on=DAMPING_ALONE,
                 )  # fmt: skip
             rows.append(
                 (not regular, float(values[row]), place(level, sea, period), data, row if regular else None, other)
@@ -109,7 +111,8 @@ def _transmission(groups: Mapping[str, xr.Dataset], levels: list[str]) -> list[H
         detail += f"; without the water that up to {100.0 * over:.0f} % of the waves bring over the deck"
     return [
         Headline("transmission", label, value, "1", where,
-                 FREQUENCY if irregular else FIRST_ORDER, band=_damping_band(data, at), detail=detail),
+                 FREQUENCY if irregular else FIRST_ORDER, band=_damping_band(data, at), detail=detail,
+                 judged_on=DAMPING_ALONE),
         *named.values(),
     ]  # fmt: skip
 
@@ -214,10 +217,15 @@ def _offset(domain: str, data: xr.Dataset, level: str, sea: str, frequency: xr.D
     if "maximum_excursion" in data:
         value = float(data["maximum_excursion"].values[0])
         scatter = np.asarray(data["maximum_excursion_of_realisation"].values[:, 0], dtype=float)
-        band = seeds(scatter)
+        band, motion = seeds(scatter), _in_motion(data)
+        if motion > 1.0:
+            # what lines in motion add to the offset of lines at rest in the same events
+            band = band or Band(value, value, "lines in motion in the events rerun")
+            ends = None if band.judged is None else (band.judged[0], band.judged[1] * motion)
+            band = replace(band, high=band.high * motion, judged=ends)
         within = float(data.attrs.get("duration", math.nan))
         detail = f"largest in {storm_words(within)}; " if math.isfinite(within) else ""
-        detail += _slow_words(frequency)
+        detail += "; ".join(filter(None, (_motion_words(data), _slow_words(frequency))))
     elif "largest_offset" in data:
         value = float(data["largest_offset"])
         detail = _slow_words(data)
@@ -225,6 +233,20 @@ def _offset(domain: str, data: xr.Dataset, level: str, sea: str, frequency: xr.D
         return []
     words = "; ".join(part for part in (f"mean {mean[0]:.3g} m", detail) if part)
     return [Headline("offset", "Largest offset in sway", value, "m", place(level, sea), model, band, detail=words)]
+
+
+def _in_motion(data: xr.Dataset) -> float:
+    """Return the largest offset in the events with lines in motion over that with lines at rest, 1 without events."""
+    if "event_offset" not in data:
+        return 1.0
+    return float(data["event_offset"].values[0] / data["event_offset_lines_at_rest"].values[0])
+
+
+def _motion_words(data: xr.Dataset) -> str:
+    if "event_offset" not in data:
+        return ""
+    moving, still = (float(data[name].values[0]) for name in ("event_offset", "event_offset_lines_at_rest"))
+    return f"in the events rerun with lines in motion {moving:.3g} m, with lines at rest {still:.3g} m"
 
 
 def _motion_model(domain: str, data: xr.Dataset) -> str:

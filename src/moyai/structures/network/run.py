@@ -37,7 +37,7 @@ from moyai.structures.network.headlines import headlines_of, mesh_checked
 from moyai.structures.network.model import NetworkProblem
 from moyai.structures.network.resume import earlier_run, read_earlier
 from moyai.structures.network.run_notices import OVER, overturned
-from moyai.structures.network.runs import run_plans, steady_flow
+from moyai.structures.network.runs import run_plans, steady_flow, theory_limit
 from moyai.structures.network.summary import contacts_dataset, lean_of, summary_dataset
 from moyai.structures.network.variables import VOCABULARY, labelled
 
@@ -337,6 +337,7 @@ def _dynamic(
     runs: list[Run] = []
     earlier = None if problem.settings.resume is None else read_earlier(problem.settings.resume)
     for plan in run_plans(problem, water):
+        collected.notices.extend(theory_limit(problem, plan))
         before = None if earlier is None else earlier_run(earlier, root[1:], plan.name, len(assembly.network.nodes))
         start_of_run = begin if before is None else before.state
         if before is not None and before.state.time >= plan.duration * (1.0 - 1e-9):
