@@ -405,7 +405,7 @@ def _steady(groups: Groups, levels: Sequence[str]) -> Iterator[Headline]:
     line = _at_rest(statics, "line_load" if "steady_line_load" in statics else "section_load")
     yield Headline(
         "steady_load", "Steady load of one span", value, "N", where=level, model=STATICS,
-        band=_statics_band(statics, name), detail=f"{_kilo(line, 'N/m')} of length",
+        band=_statics_band(statics, name), detail=f"{_kilo(line, 'N/m')} where the curtain faces the current",
     )  # fmt: skip
 
 
