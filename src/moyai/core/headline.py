@@ -107,25 +107,34 @@ class Headline:
         return cls(**{**record, "value": float(record["value"]), "band": band})
 
 
-def unfavourable(headline: Headline) -> float:
-    """Return the upper end at which a limit "at most" is judged: that of the band, or of the interval of a mean."""
-    band = headline.band
+def unfavourable(headline: Headline, sense: Sense = "at most") -> float:
+    """Return the end at which a limit is judged: of the band, of the interval of a mean, or the value itself."""
+    band, value = headline.band, headline.value
     if band is None:
-        return headline.value
-    end = band.high if band.decides or band.judged is None else band.judged[1]
-    return end if math.isnan(headline.value) else max(headline.value, end)
+        return value
+    given = (band.low, band.high) if band.decides else (band.judged or ())
+    ends = [end for end in (value, *given) if not math.isnan(end)]
+    return (max if sense == "at most" else min)(ends, default=value)
 
 
-def governing(candidates: Iterable[Headline]) -> list[Headline]:
-    """Return the largest of one number over seas and places, and, not shown, the one whose upper end is the largest.
+def governing(candidates: Iterable[Headline], sense: Sense = "at most") -> list[Headline]:
+    """Return the worst of one number over seas, levels and places, and, not shown, the one whose judged end is worst.
 
-    A smaller value with a wider band may pass a limit that the largest value keeps: both are judged.
+    Another value with a wider band may pass a limit that the worst value keeps: both are judged.
+
+    Parameters
+    ----------
+    candidates : iterable of Headline
+    sense : {"at most", "at least"}
+        Of the limits that it is held against: the largest counts, or the least.
     """
     items = list(candidates)
     if not items:
         return []
-    shown, widest = max(items, key=lambda item: item.value), max(items, key=unfavourable)
-    if not unfavourable(widest) > unfavourable(shown):
+    sign = 1.0 if sense == "at most" else -1.0
+    shown = max(items, key=lambda item: sign * item.value)
+    widest = max(items, key=lambda item: sign * unfavourable(item, sense))
+    if not sign * unfavourable(widest, sense) > sign * unfavourable(shown, sense):
         return [shown]
     return [shown, replace(widest, shown=False, sea="")]
 
@@ -345,10 +354,7 @@ def _judge_one(criterion: Criterion, headline: Headline) -> Judgement:
         )
     upward = criterion.sense == "at most"
     if headline.band is not None:
-        band = headline.band
-        given = (band.low, band.high) if band.decides else (band.judged or ())
-        ends = [end for end in (value, *given) if not math.isnan(end)]
-        value = max(ends) if upward else min(ends)
+        value = unfavourable(replace(headline, value=value), criterion.sense)
     if criterion.mean_weight != 1.0:
         return _judge_parts(criterion, headline, value)
     good = value <= criterion.limit if upward else value >= criterion.limit

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from moyai.core.headline import Band, Headline, unfavourable
+from moyai.core.headline import Band, Headline, governing, unfavourable
 from moyai.structures.breakwater.largest_motion import LargestOfPeriods
 from moyai.structures.breakwater.lines.headlines import (
     AT_REST,
@@ -211,7 +211,7 @@ def _motion_headlines(groups: Mapping[str, xr.Dataset], levels: list[str]) -> li
             elif chosen is not None:
                 offsets += _offset(*chosen, level, sea, frequency)
                 rolls += _roll(*chosen, level, sea, frequency)
-    found = [max(items, key=lambda item: abs(item.value)) for items in (offsets, rolls) if items]
+    found = [*governing(offsets), *governing(rolls)]
     if not found and (rest := _steady_offset(groups, levels)) is not None:
         found = [rest]
     return found

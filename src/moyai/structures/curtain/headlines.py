@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from moyai.core.headline import Band, Bound, Criterion, Headline, judge
+from moyai.core.headline import Band, Bound, Criterion, Headline, governing, judge
 from moyai.core.wording import spoken
 from moyai.structures.curtain.analyses.event_peaks import event_band
 from moyai.structures.curtain.governing import model_of
@@ -397,16 +397,16 @@ def _steady(groups: Groups, levels: Sequence[str]) -> Iterator[Headline]:
             continue
         name = "span_load" if "steady_span_load" in statics else "anchor_force"
         value = _at_rest(statics, name)
+        line = _at_rest(statics, "line_load" if "steady_line_load" in statics else "section_load")
         if math.isfinite(value):
-            found.append((value, level, statics, name))
-    if not found:
-        return
-    value, level, statics, name = max(found, key=lambda item: item[0])
-    line = _at_rest(statics, "line_load" if "steady_line_load" in statics else "section_load")
-    yield Headline(
-        "steady_load", "Steady load of one span", value, "N", where=level, model=STATICS,
-        band=_statics_band(statics, name), detail=f"{_kilo(line, 'N/m')} where the curtain faces the current",
-    )  # fmt: skip
+            found.append(
+                Headline(
+                    "steady_load", "Steady load of one span", value, "N", where=level, model=STATICS,
+                    band=_statics_band(statics, name),
+                    detail=f"{_kilo(line, 'N/m')} where the curtain faces the current",
+                )
+            )  # fmt: skip
+    yield from governing(found)
 
 
 def _depths(groups: Groups, levels: Sequence[str]) -> Iterator[Headline]:
@@ -420,20 +420,16 @@ def _depths(groups: Groups, levels: Sequence[str]) -> Iterator[Headline]:
         for level in levels:
             statics = groups.get(f"/{level}/statics")
             value = math.nan if statics is None else _at_rest(statics, key)
-            if statics is not None and math.isfinite(value):
-                found.append((value, level, statics))
-        if not found:
-            continue
-        value, level, statics = min(found, key=lambda item: item[0])
-        band, detail = _statics_band(statics, key), _beside(name, statics, value)
-        slack = float(statics[f"slack_{key}"]) if f"slack_{key}" in statics else math.nan
-        if slack < value:
-            # a curtain hangs lower and heavier at slack water than in its current
-            detail = f"at slack water; {_plain(value, unit)} in the current" + (f", {detail}" if detail else "")
-            value, band = slack, None
-        yield Headline(
-            name, label, value, unit, where=level, model=STATICS, band=band, detail=detail
-        )  # fmt: skip
+            if statics is None or not math.isfinite(value):
+                continue
+            band, detail = _statics_band(statics, key), _beside(name, statics, value)
+            slack = float(statics[f"slack_{key}"]) if f"slack_{key}" in statics else math.nan
+            if slack < value:
+                # a curtain hangs lower and heavier at slack water than in its current
+                detail = f"at slack water; {_plain(value, unit)} in the current" + (f", {detail}" if detail else "")
+                value, band = slack, None
+            found.append(Headline(name, label, value, unit, where=level, model=STATICS, band=band, detail=detail))
+        yield from governing(found, "at least")
 
 
 def _plain(value: float, unit: str) -> str:
