@@ -18,6 +18,8 @@ Sense = Literal["at most", "at least"]
 Outcome = Literal["holds", "does not hold", "not judged"]
 UNCONFIRMED = "not confirmed against the standard"
 """What the source of a criterion says of values that nobody has yet held against the standard itself."""
+SEAS_LEFT_OUT = "the seas of the case were not run"
+"""What a run says that has seas and no analysis that runs them."""
 NONE = "none"
 """Text of a headline whose number is zero."""
 
@@ -84,6 +86,8 @@ class Headline:
     condition: bool = False
     #: What alone a criterion is judged on where more is uncertain, for instance ``the band of damping alone``.
     judged_on: str = ""
+    #: Whether waves are no part of it, as stability at rest: it is judged where no sea was run.
+    without_waves: bool = False
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "label", self.label[:1].upper() + self.label[1:])
@@ -247,7 +251,9 @@ class Verdict:
         return cls(record.get("outcome", "not judged"), record.get("message", ""), judgements)
 
 
-def judge(headlines: Iterable[Headline], criteria: Iterable[Criterion], *, computed: bool) -> Verdict:
+def judge(
+    headlines: Iterable[Headline], criteria: Iterable[Criterion], *, computed: bool, left_out: str = ""
+) -> Verdict:
     """Judge headlines against criteria.
 
     Parameters
@@ -259,6 +265,9 @@ def judge(headlines: Iterable[Headline], criteria: Iterable[Criterion], *, compu
         lies on the other; else it says nothing.
     computed : bool
         Whether the computation can be judged at all (it converged inside its range); nothing holds otherwise.
+    left_out : str
+        What the case names and was not run, for instance ``the seas of the case were not run``: numbers that it would
+        change prove only that a limit is broken.
     """
     numbers = tuple(headlines)
     found: list[Judgement] = []
@@ -271,7 +280,7 @@ def judge(headlines: Iterable[Headline], criteria: Iterable[Criterion], *, compu
             members = given
         if not members:
             found.append(Judgement(criterion, math.nan, "not judged", _absent(criterion)))
-        found.extend(_judge_one(criterion, member) for member in members)
+        found.extend(_judge_part(criterion, member, left_out) for member in members)
     judgements = tuple(found)
     failing = [item for item in found if item.outcome == "does not hold"]
     if failing:
@@ -341,6 +350,14 @@ def _judged_by(criterion: Criterion, numbers: tuple[Headline, ...]) -> list[Head
 def _absent(criterion: Criterion) -> str:
     where = f" in {criterion.sea}" if criterion.sea else ""
     return f"nothing that was run gives this number{where}"
+
+
+def _judge_part(criterion: Criterion, headline: Headline, left_out: str) -> Judgement:
+    """Judge a number of which a part may be left out: it can but come nearer to its limit."""
+    if not left_out or headline.without_waves or headline.bound:
+        return _judge_one(criterion, headline)
+    found = _judge_one(criterion, replace(headline, bound="at least" if criterion.sense == "at most" else "at most"))
+    return replace(found, reason=left_out) if found.outcome == "not judged" else found
 
 
 def _judge_one(criterion: Criterion, headline: Headline) -> Judgement:

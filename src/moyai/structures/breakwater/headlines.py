@@ -318,7 +318,7 @@ def _rest_headlines(groups: Mapping[str, xr.Dataset], levels: list[str]) -> list
     freeboard, level = least("freeboard")
     out.append(
         Headline("freeboard", "Freeboard", freeboard, "m", level, STILL,
-                 detail=f"draught {float(statics[level]['draught']):.3g} m")
+                 detail=f"draught {float(statics[level]['draught']):.3g} m", without_waves=True)
     )  # fmt: skip
     shares = [
         (float(data["overtopping_share"]), place(name, sea))
@@ -334,7 +334,7 @@ def _rest_headlines(groups: Mapping[str, xr.Dataset], levels: list[str]) -> list
                             "waves not counted")
         )  # fmt: skip
     height, level = least("metacentric_height")
-    out.append(Headline("metacentric_height", "Metacentric height GM", height, "m", level, STILL))
+    out.append(Headline("metacentric_height", "Metacentric height GM", height, "m", level, STILL, without_waves=True))
     return out
 
 

@@ -428,7 +428,11 @@ def _depths(groups: Groups, levels: Sequence[str]) -> Iterator[Headline]:
                 # a curtain hangs lower and heavier at slack water than in its current
                 detail = f"at slack water; {_plain(value, unit)} in the current" + (f", {detail}" if detail else "")
                 value, band = slack, None
-            found.append(Headline(name, label, value, unit, where=level, model=STATICS, band=band, detail=detail))
+            found.append(
+                Headline(
+                    name, label, value, unit, where=level, model=STATICS, band=band, detail=detail, without_waves=True
+                )
+            )
         yield from governing(found, "at least")
 
 

@@ -222,6 +222,9 @@ def _lost_depth(statics: xr.Dataset | None, depth: float) -> float:
     return (depth - low) / (depth - value) if low < value < depth else 1.0
 
 
+_NOT_MOVED = "neither the impact nor the whole span in the seas of the case was run"
+
+
 def _result(problem: CurtainProblem, collected: _Collected) -> Result:
     attributes = {
         "structure": "curtain",
@@ -231,6 +234,7 @@ def _result(problem: CurtainProblem, collected: _Collected) -> Result:
     }
     levels = [name for name, _ in problem.environment.water_levels]
     found = curtain_headlines(collected.groups, levels, problem.criteria)
+    ran = set(problem.settings.analyses)
     more = weaker_currents(collected.groups, found) if problem.criteria else ()
     fulfilled = "all identities hold" if collected.checks else "done; these analyses have no identity to hold"
     if any(notice.code == "span-mesh" for notice in collected.notices):
@@ -243,6 +247,7 @@ def _result(problem: CurtainProblem, collected: _Collected) -> Result:
         headlines=found,
         fulfilled=fulfilled,
         criteria=(*problem.criteria, *more),
+        left_out=_NOT_MOVED if problem.environment.sea_states and not {"impact", "dynamic"} & ran else "",
     )
 
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from moyai.core.collected import STOPPED, Collected
 from moyai.core.errors import ConvergenceError, InputError
+from moyai.core.headline import SEAS_LEFT_OUT
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
 from moyai.core.validity import Notice
@@ -207,4 +208,5 @@ def _result(problem: FlexibleCageProblem, collected: Collected) -> Result:
         fulfilled="all identities hold" + ("; mesh not checked" if waved and not checked else ""),
         headlines=flexible_headlines(problem, collected.groups),
         criteria=problem.criteria,
+        left_out=SEAS_LEFT_OUT if problem.seas and "time" not in problem.settings.analyses else "",
     )
