@@ -23,8 +23,9 @@ from moyai.structures.curtain.analyses.span_peaks import peaks_wanted, span_peak
 from moyai.structures.curtain.analyses.statics import require_current, statics_checks, statics_groups, statics_notices
 from moyai.structures.curtain.analyses.waves import wave_answer
 from moyai.structures.curtain.assembly import LevelCurtain, assemble
-from moyai.structures.curtain.headlines import curtain_headlines, weaker_currents
+from moyai.structures.curtain.headlines import curtain_headlines
 from moyai.structures.curtain.hierarchy import CYCLES, hierarchy, hierarchy_dataset, role_of
+from moyai.structures.curtain.limit_headlines import weaker_currents
 from moyai.structures.curtain.model import CurtainProblem
 from moyai.structures.curtain.seas.loads import drag_curve
 from moyai.structures.curtain.seas.states import DesignWave, design_waves, significant_height
