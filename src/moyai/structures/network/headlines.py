@@ -252,8 +252,9 @@ def _band(groups: Mapping[str, xr.Dataset], peak: _Peak) -> tuple[Band | None, l
     if found is None:
         return band, details
     low, high, of = (peak.value, peak.value, "") if band is None else (band.low, band.high, band.of)
-    of = "; ".join(filter(None, (of, f"one seed, scatter of its maximum from {found.blocks} blocks of the record")))
-    return Band(min(low, found.mean - found.deviation), max(high, found.mean + found.deviation), of), details
+    of = "; ".join(filter(None, (of, f"90 of 100 seeds, estimated from {found.blocks} blocks of the record of one")))
+    least, most = found.range
+    return Band(max(min(low, least), 0.0), max(high, most), of), details
 
 
 def mesh_checked(groups: Mapping[str, xr.Dataset]) -> bool:
