@@ -87,6 +87,10 @@ class StructureKind(Kind):
         """Return :meth:`schema`: all templates of a structure are case files."""
         return self.schema()
 
+    def keys(self) -> Mapping[str, str]:
+        """Return where parameters of the physics stand in the case file (:data:`moyai.case.findings.KEYS`)."""
+        return {}
+
     def criteria(self, model: Any, given: Any) -> Any:
         """Yield what the headlines are judged against (:class:`moyai.core.headline.Criterion`); nothing by default."""
         return ()

@@ -67,7 +67,7 @@ class PlanarBody:
         if not isinstance(self.model.memory, StateSpaceMemory):
             raise InputError(
                 "lines in motion need the memory of the water as states, not as a convolution",
-                path="analyses.time.memory",
+                parameter="model.memory",
                 allowed="state_space",
                 remedy="give memory: state_space, or leave the lines quasi-static",
             )

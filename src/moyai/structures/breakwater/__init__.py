@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -27,6 +28,11 @@ class BreakwaterKind(StructureKind):
         from moyai.structures.breakwater.case.sizes import add_sizes
 
         add_sizes(model, sizes)
+
+    def keys(self) -> Mapping[str, str]:
+        from moyai.structures.breakwater.case.keys import KEYS
+
+        return KEYS
 
     def criteria(self, model: Any, given: Any) -> Any:
         from moyai.structures.breakwater.case.criteria import criteria

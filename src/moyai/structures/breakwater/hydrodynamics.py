@@ -145,7 +145,7 @@ def spread_headings(sea: IrregularSea, omega: Array, count: int = 15) -> tuple[A
     if not low < high:
         raise InputError(
             f"{sea.name}: hardly any wave of this sea travels within 75 degrees of the normal of the unit",
-            path="waves.heading_deg",
+            parameter="waves.heading",
             remedy="turn the sea towards the unit or leave it out",
         )
     edges = np.linspace(low, high, count + 1)
@@ -261,7 +261,7 @@ def _given(data: xr.Dataset, unit: FloatingUnit, problem: BreakwaterProblem) -> 
         if np.min(np.abs(known - heading)) > HEADING_TOLERANCE:
             raise InputError(
                 f"the coefficients hold no heading of {math.degrees(heading):.4g} degrees to the normal of the unit",
-                path="structure.coefficients_file",
+                parameter="coefficients_file",
                 allowed=", ".join(f"{math.degrees(value):.4g}" for value in np.sort(known)),
                 remedy="compute that heading, or change that of the waves",
             )

@@ -146,7 +146,7 @@ class Breakwater:
 
     def __post_init__(self) -> None:
         if self.mass is None and self.draught is None:
-            raise InputError("neither mass nor draught is given", path="structure", remedy="give one of them")
+            raise InputError("neither mass nor draught is given", parameter="draught", remedy="give one of them")
 
 
 @checks_words

@@ -115,7 +115,7 @@ def with_count(problem: BreakwaterProblem, unit: FloatingUnit, count: float) -> 
     if any(abs(share - round(share)) > 1e-9 or round(share) < 1 for share in shares):
         raise InputError(
             f"{count:g} lines cannot be shared among the {len(lines)} kinds in their proportion",
-            path="settings.sensitivity.line_counts",
+            parameter="settings.sensitivity.line_counts",
             allowed="multiples that keep the proportion",
         )
     return replace(

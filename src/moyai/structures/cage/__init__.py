@@ -32,6 +32,11 @@ class CageKind(StructureKind):
 
         add_sizes(model, sizes)
 
+    def keys(self) -> Mapping[str, str]:
+        from moyai.structures.cage.case.keys import KEYS
+
+        return KEYS
+
     def criteria(self, model: Any, given: Any) -> Any:
         from moyai.structures.cage.case.criteria import criteria
 

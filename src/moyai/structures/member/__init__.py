@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -27,6 +28,11 @@ class MemberKind(StructureKind):
         from moyai.structures.member.case.sizes import add_sizes
 
         add_sizes(model, sizes)
+
+    def keys(self) -> Mapping[str, str]:
+        from moyai.structures.member.case.keys import KEYS
+
+        return KEYS
 
     def criteria(self, model: Any, given: Any) -> Any:
         from moyai.structures.member.case.criteria import criteria

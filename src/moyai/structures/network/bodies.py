@@ -201,7 +201,7 @@ def run_coupled(
         if set(states) != set(bodies):
             raise InputError(
                 f"the earlier result has the bodies {', '.join(states) or 'none'}, this network "
-                f"{', '.join(bodies)}", path="settings.resume", allowed="a result of the same network",
+                f"{', '.join(bodies)}", parameter="settings.resume", allowed="a result of the same network",
             )  # fmt: skip
         flow = options.get("flow") or Flow()
         options["carriers"] = {

@@ -75,12 +75,9 @@ def breakwater_of(model: schema.BreakwaterCase, water: Water, folder: Path) -> B
     try:
         hull = unit.section.hull()
     except InputError as error:
-        fault = error.fault
-        key = fault.path.split(".")[-1]
+        key = error.fault.path.split(".")[-1]
         inner = f".{key}" if key in type(unit.section).model_fields else ""
-        raise InputError(
-            fault.message, path=f"structure.section{inner}", allowed=fault.allowed, remedy=fault.remedy
-        ) from None
+        raise error.at(f"structure.section{inner}") from None
     gyradius = unit.roll_gyradius
     if gyradius is None:
         if unit.mass is None or unit.roll_inertia is None:

@@ -374,9 +374,7 @@ def _rest(problem: BreakwaterProblem) -> tuple[InputError | None, tuple[Notice, 
             if problem.breakwater.coefficients_file is None:
                 count_panels(unit)
         except (InputError, ConvergenceError) as error:
-            fault = error.fault
-            again = InputError(fault.message, path=fault.path, allowed=fault.allowed, remedy=fault.remedy)
-            return again, tuple(said.values())
+            return InputError.of(error.fault), tuple(said.values())
         for notice in unit.notices:
             if notice.severity != "information":
                 said.setdefault(notice.code, notice)

@@ -102,7 +102,7 @@ class LineNetwork:
             found = solve_equilibrium(moved, start=State(0.0, guess, np.zeros_like(guess)))
         except ConvergenceError as error:
             raise InputError(
-                f"the lines in motion find no rest: {error.fault.message}", path="lines", remedy=error.fault.remedy
+                f"the lines in motion find no rest: {error.fault.message}", parameter="lines", remedy=error.fault.remedy
             ) from error
         return State(0.0, found.state.position, np.zeros_like(guess))
 
@@ -135,7 +135,7 @@ def bed_of(unit: FloatingUnit, lines: list[MooringLine], dynamics: LineDynamics)
     if len(frictions) > 1:
         raise InputError(
             f"lines in motion have a friction of {', '.join(f'{value:g}' for value in sorted(frictions))} on the bed",
-            path="lines.bed_friction",
+            parameter="lines.bed_friction",
             allowed="one value for all lines in motion",
         )
     kinds = [kind for line in lines for kind in line.bar_types]
@@ -174,7 +174,7 @@ def line_network(unit: FloatingUnit, dynamics: LineDynamics) -> LineNetwork | No
         rest = solve_equilibrium(network)
     except ConvergenceError as error:
         raise InputError(
-            f"the lines in motion find no rest: {error.fault.message}", path="lines", remedy=error.fault.remedy
+            f"the lines in motion find no rest: {error.fault.message}", parameter="lines", remedy=error.fault.remedy
         ) from error
     names = [line.name for _, line, _ in chosen]
     return LineNetwork(

@@ -82,10 +82,9 @@ def build_problem(
 
 def _at(path: str, error: InputError, known: Any = None) -> InputError:
     """Return an error of another package with the path of the case file before its key."""
-    fault = error.fault
-    key = fault.path.split(".")[-1]
+    key = error.fault.path.split(".")[-1]
     inner = f".{key}" if known is not None and key in type(known).model_fields else ""
-    return InputError(fault.message, path=f"{path}{inner}", allowed=fault.allowed, remedy=fault.remedy)
+    return error.at(f"{path}{inner}")
 
 
 def net_of(entry: parts.RigidNet) -> Net:

@@ -175,7 +175,7 @@ def _hang(span: CurtainSpan, section: SectionMesh, water: Water, weight: bool) -
     if lift <= whole:
         raise InputError(
             f"the floats lift {lift:g} N/m, curtain and ballast weigh {whole:g} N/m",
-            path="structure.floats.buoyancy",
+            parameter="floats.buoyancy",
             allowed=f"more than {whole:g} N/m",
             remedy="give larger floats or a lighter toe",
         )

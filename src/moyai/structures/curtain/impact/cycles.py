@@ -119,7 +119,7 @@ def slack_taut_motion(
             f"velocity_amplitude is {velocity_amplitude:g}", path="velocity_amplitude", allowed="0 or more"
         )
     if not math.isfinite(current):
-        raise InputError("current is not finite", path="current", allowed="a number")
+        raise InputError("current is not finite", parameter="current", allowed="a number")
     step = min(period / 400.0, _TAUT_SHARE * rise_time(impact)) if time_step is None else time_step
     check_samples(duration, step)
     omega = 2.0 * math.pi / period

@@ -110,7 +110,7 @@ def slack_phase(
             break
     raise InputError(
         "the curtain never becomes taut: neither current nor release carries it there",
-        path="current",
+        parameter="current",
         allowed="not 0, or a release fast enough",
         remedy="give a current, or the speed at the taut instant",
     )
@@ -182,7 +182,9 @@ def snap_in_current(
         impact, drag_coefficient=drag_coefficient, current=current, position=position, speed=speed, mass=mass
     )
     if not (current != 0.0 and drag_coefficient > 0.0):
-        raise InputError("a plateau needs current and drag", path="current", allowed="not 0, with drag_coefficient > 0")
+        raise InputError(
+            "a plateau needs current and drag", parameter="current", allowed="not 0, with drag_coefficient > 0"
+        )
     rise = rise_time(phase.started(impact))
     step = 0.04 * rise if time_step is None else time_step
     last = phase.duration + 40.0 * rise if duration is None else duration

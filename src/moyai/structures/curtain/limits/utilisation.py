@@ -297,7 +297,7 @@ def speed_limit(
                 known[speed] = None
         statics = known[speed]
         if statics is None:
-            raise InputError(f"no equilibrium in {speed:g} m/s", path="current")
+            raise InputError(f"no equilibrium in {speed:g} m/s", parameter="current")
         return statics
 
     def worst(speed: float) -> tuple[float, str]:

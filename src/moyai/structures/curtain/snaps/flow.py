@@ -169,7 +169,7 @@ def _steady(current: CurrentProfile | float, draught: float, normal_heading: flo
         part = np.asarray(mean, dtype=np.float64).reshape(-1)
         return float(part[0] * math.cos(normal_heading) + part[1] * math.sin(normal_heading))
     if not math.isfinite(current):
-        raise InputError(f"current is {current:g} m/s", path="current", allowed="a number or a profile")
+        raise InputError(f"current is {current:g} m/s", parameter="current", allowed="a number or a profile")
     return float(current)
 
 

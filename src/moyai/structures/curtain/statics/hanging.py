@@ -219,7 +219,7 @@ def loaded_section(
     if section.load <= 0.0:
         raise InputError(
             f"the current loads the curtain with {section.load:g} N/m along its heading",
-            path="current",
+            parameter="current",
             remedy="give a current, and the heading in which it flows",
         )
     return section, section_load(curtain.skirt, current, flow_heading, chord_normal, water, curtain.drag, **settings)

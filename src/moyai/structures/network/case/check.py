@@ -69,18 +69,8 @@ def _raised(error: InputError, findings: Findings) -> None:
             if len(path) == 3 and path[:2] == ("structure", kind) and f"'{path[2]}'" in fault.message:
                 findings.fault(path, fault.message, allowed=fault.allowed, remedy=fault.remedy)
                 return
-    path = findings.path_of(fault.path) or _longest(fault.path, findings)
+    path = findings.path_of(fault.path) or ("structure",)
     findings.fault(path, fault.message, allowed=fault.allowed, remedy=fault.remedy)
-
-
-def _longest(text: str, findings: Findings) -> tuple[str | int, ...]:
-    """Return the longest path of the document that a dotted text begins with; names may hold dots and blanks."""
-    best: tuple[str | int, ...] = ("structure",)
-    for path in findings.document.values:
-        words = ".".join(str(step) for step in path)
-        if (text == words or text.startswith((words + ".", words + "["))) and len(path) > len(best):
-            best = path
-    return best
 
 
 def _check_names(model: NetworkCase, findings: Findings) -> None:
@@ -284,12 +274,8 @@ def _check_runs(problem: NetworkProblem, findings: Findings) -> None:
                     )  # fmt: skip
         except InputError as error:
             fault = error.fault
-            path = findings.path_of(fault.path)
-            path = path if path in findings.document.values else _longest(fault.path, findings)
-            if fault.path == "current_along_wave":
-                path = ("current",)
-            elif path == ("structure",):
-                path = ("settings",) if ("settings",) in findings.document.values else ("analyses",)
+            settings = ("settings",) if ("settings",) in findings.document.values else ("analyses",)
+            path = ("current",) if fault.path == "current_along_wave" else findings.path_of(fault.path) or settings
             findings.fault(path, fault.message, allowed=fault.allowed, remedy=fault.remedy)
             return
 
