@@ -6,7 +6,7 @@ import difflib
 import math
 import re
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import (
     BaseModel,
@@ -238,6 +238,10 @@ class Block(BaseModel):
     exactly_one: ClassVar[KeyGroups] = ()
     at_least_one: ClassVar[KeyGroups] = ()
     at_most_one: ClassVar[KeyGroups] = ()
+
+    def changed(self, **values: Any) -> Self:
+        """Return the block with other values, which are not checked."""
+        return self.model_copy(update=values)
 
     @classmethod
     def key_names(cls) -> tuple[str, ...]:

@@ -20,7 +20,8 @@ from moyai.flexible.statics import Equilibrium, solve_equilibrium
 from moyai.mooring.lines import Line
 from moyai.mooring.shape import line_shape
 from moyai.structures.breakwater.assembly import FloatingUnit
-from moyai.structures.breakwater.model import LineDynamics, MooringLine
+from moyai.structures.breakwater.model import MooringLine
+from moyai.structures.breakwater.settings import LineDynamics
 
 #: Depth to which a line sinks into the bed at rest, over its diameter, where no stiffness is given.
 SINKING = 0.02
@@ -254,7 +255,7 @@ def resolved(unit: FloatingUnit, dynamics: LineDynamics) -> LineDynamics:
     dynamics : LineDynamics
     """
     for factor in (1, 2, 4):
-        finer = replace(dynamics, bars=factor * dynamics.bars)
+        finer = dynamics.changed(bars=factor * dynamics.bars)
         lines = line_network(unit, finer)
         if lines is None or static_check(unit, lines).passed:
             break
