@@ -12,9 +12,11 @@ from pydantic import (
     BaseModel,
     BeforeValidator,
     ConfigDict,
+    Discriminator,
     Field,
     GetCoreSchemaHandler,
     GetJsonSchemaHandler,
+    Tag,
     ValidationInfo,
     model_validator,
 )
@@ -186,6 +188,12 @@ def _name(value: Any) -> Any:
 
 Name = Annotated[str, BeforeValidator(_name), Field(min_length=1, max_length=80)]
 """A label that also names a group of the results, so it holds no slash."""
+
+LevelNames = Annotated[
+    Annotated[Literal["all"], Tag("<word>")] | Annotated[tuple[Name, ...], Field(min_length=1), Tag("<list>")],
+    Discriminator(lambda value: "<word>" if isinstance(value, str) else "<list>"),
+]
+LEVEL_NAMES = "Water levels to run: all, or a list of names."
 
 FileName = Annotated[str, Field(min_length=1)]
 """A path, relative to the folder of the case file."""

@@ -86,6 +86,22 @@ class Hydrodynamics:
         """Whether reflection, transmission and radiated waves are known."""
         return not (self.reflection is None or self.transmission is None or self.radiated_wave is None)
 
+    @classmethod
+    def of_headings(cls, dataset: xr.Dataset) -> tuple[Hydrodynamics, ...]:
+        """Take a dataset of one metre apart by heading, each with its own radiation where the dataset tells it."""
+        out = []
+        for index in range(dataset.sizes["wave_direction"]):
+            one = dataset.isel(wave_direction=[index])
+            if "oblique_added_mass" in dataset:
+                own = one.isel(wave_direction=0)
+                one = one.assign(
+                    added_mass=own.oblique_added_mass,
+                    radiation_damping=own.oblique_radiation_damping,
+                    radiated_wave=own.oblique_radiated_wave,
+                )
+            out.append(cls.from_dataset(one))
+        return tuple(out)
+
     def scaled_to(self, length: float) -> Hydrodynamics:
         """Return the coefficients of ``length`` [m] of structure; those of the far field stay."""
         factor = length / self.length

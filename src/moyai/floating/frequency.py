@@ -291,11 +291,3 @@ def relative_elevation(
     """
     vertical = motions.displacement[..., 1] - motions.displacement[..., 2] * (point[0] - centre[0])
     return wave_elevation - vertical
-
-
-def point_motion(motions: Motions, point: tuple[float, float], centre: tuple[float, float]) -> ComplexArray:
-    """Return the complex motion (n, h, 2) in x and z of a point of a planar body, for instance a fairlead [m/m]."""
-    roll = motions.displacement[..., 2]
-    horizontal = motions.displacement[..., 0] + roll * (point[1] - centre[1])
-    vertical = motions.displacement[..., 1] - roll * (point[0] - centre[0])
-    return np.stack([horizontal, vertical], axis=-1)

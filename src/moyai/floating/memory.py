@@ -185,15 +185,6 @@ class ConvolutionMemory:
         """Number of modes."""
         return int(self.dashpot.shape[0])
 
-    def tail_length(self, share: float = 1e-3) -> float:
-        """Return the time after which no entry exceeds ``share`` of the largest of its modes [s]."""
-        largest = np.max(np.abs(self.velocity_kernel), axis=0)
-        own = np.sqrt(np.abs(np.outer(np.diag(largest), np.diag(largest))))
-        reference = np.where(own > 0.0, own, np.maximum(largest, 1e-300))
-        over = np.any(np.abs(self.velocity_kernel) > share * reference, axis=(1, 2))
-        last = int(np.flatnonzero(over)[-1]) if np.any(over) else 0
-        return float(self.time[min(last + 1, len(self.time) - 1)])
-
     def truncated(self, length: float, steady_dashpot: ArrayLike | None = None) -> ConvolutionMemory:
         """Return the memory up to ``length`` [s].
 

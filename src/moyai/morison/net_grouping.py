@@ -80,33 +80,3 @@ def group_twines(
         volume_per_length=material if mass_per_area is None else mass / density,
         axial_stiffness=modulus * material,
     )
-
-
-def panel_bars(
-    net: Net, width: float, height: float, columns: int, rows: int, *, density: float, modulus: float
-) -> tuple[tuple[GroupedTwine, int, float], ...]:
-    """Return the bars of a rectangular panel cut into columns and rows: bar, how many, length of each [m].
-
-    Parameters
-    ----------
-    net : Net
-    width, height : float
-        Of the panel [m].
-    columns, rows : int
-        Grouped meshes across and up.
-    density, modulus : float
-        Of the twine [kg/m3], [Pa].
-    """
-    if columns < 1 or rows < 1:
-        raise InputError(f"{columns} columns and {rows} rows", path="columns", allowed="at least 1 of each")
-    across, up = width / columns, height / rows
-
-    def bar(spacing: float) -> GroupedTwine:
-        return group_twines(net, spacing, density=density, modulus=modulus)
-
-    return (
-        (bar(across), (columns - 1) * rows, up),
-        (bar(0.5 * across), 2 * rows, up),
-        (bar(up), (rows - 1) * columns, across),
-        (bar(0.5 * up), 2 * columns, across),
-    )

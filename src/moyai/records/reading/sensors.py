@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -106,18 +106,7 @@ class Sensor:
         return np.asarray(self.magnitude(omega, k, water)[:, None] * cosine**power_x * sine**power_y * phase)
 
 
-QUANTITIES = (
-    "elevation",
-    "pressure",
-    "velocity_x",
-    "velocity_y",
-    "velocity_z",
-    "slope_x",
-    "slope_y",
-    "displacement_x",
-    "displacement_y",
-    "acceleration_z",
-)
+QUANTITIES = get_args(Quantity)
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,13 +8,14 @@ import numpy as np
 from pydantic import AfterValidator, Discriminator, Field, Tag
 
 from moyai.case.schema_types import (
+    LEVEL_NAMES,
     AngularFrequency,
     Auto,
     AutoDuration,
     Block,
     Fraction,
     Length,
-    Name,
+    LevelNames,
     NonNegativeNumber,
     PositiveNumber,
     Range,
@@ -138,7 +139,7 @@ class Sensitivity(Block):
 
 
 class Settings(Block):
-    """How the analyses are run; where a value is ``auto``, the program chooses and says why."""
+    """How the analyses are run."""
 
     drift: Truth = Field(default=True, description="Whether the mean drift force acts. Default: true.")
     frequencies: Annotated[
@@ -157,10 +158,7 @@ class Settings(Block):
     sensitivity: Sensitivity = Field(
         default_factory=Sensitivity, description="Variations that are run in addition to the case."
     )
-    water_levels: Annotated[
-        Annotated[Literal["all"], Tag("<word>")] | Annotated[tuple[Name, ...], Field(min_length=1), Tag("<list>")],
-        Discriminator(_form),
-    ] = Field(default="all", description="Water levels to run: all, or a list of names.")
+    water_levels: LevelNames = Field(default="all", description=LEVEL_NAMES)
 
     def angular_frequencies(self) -> Array | None:
         """Return the user's angular frequencies [rad/s], or ``None``."""

@@ -7,6 +7,7 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 
 from moyai.case.schema_app import APP, App
+from moyai.case.schema_coefficients import OfCapytaine, OfNemoh, OfWamit
 from moyai.case.schema_criteria import CRITERIA
 from moyai.case.schema_display import DISPLAY, Display
 from moyai.case.schema_environment import Current, SeaState, Site, Wind, refuse_no_seas
@@ -105,33 +106,16 @@ class _Coefficients(Block):
     )
 
 
-class CapytaineCoefficients(_Coefficients):
+class CapytaineCoefficients(OfCapytaine, _Coefficients):
     """Coefficients computed by Capytaine."""
 
-    program: Literal["capytaine"] = Field(description="NetCDF written by Capytaine.")
-    reference_point: tuple[Length, Length, Length] | None = Field(
-        default=None, description="Rotation centre [x, y, z] where the file does not say it."
-    )
-    body: str | None = Field(default=None, description="Body to take from a file with several.")
 
-
-class WamitCoefficients(_Coefficients):
+class WamitCoefficients(OfWamit, _Coefficients):
     """Coefficients computed by WAMIT or written in its form."""
 
-    program: Literal["wamit"] = Field(description="WAMIT .1 and .3 files (HAMS writes them too).")
-    reference_point: tuple[Length, Length, Length] | None = Field(
-        default=None, description="Origin of the body axes [x, y, z]; from the .pot file when absent."
-    )
-    length_scale: PositiveLength | None = Field(default=None, description="ULEN; from the .gdf file when absent.")
-    first_column: Literal["period", "angular_frequency", "wave_number"] | None = Field(
-        default=None, description="Meaning of the first column; must be given for HAMS."
-    )
 
-
-class NemohCoefficients(_Coefficients):
+class NemohCoefficients(OfNemoh, _Coefficients):
     """Coefficients computed by NEMOH."""
-
-    program: Literal["nemoh"] = Field(description="Folder with Nemoh.cal and Results.")
 
 
 CoefficientsFile = Annotated[

@@ -10,7 +10,7 @@ from typing import Any
 from moyai.case.build_sea import current_of, sea_state_of
 from moyai.case.criteria import criteria_of
 from moyai.case.headings import heading_of
-from moyai.case.schema_environment import sea_names
+from moyai.case.schema_environment import RegularWavesOfHeights, sea_names
 from moyai.core.errors import InputError
 from moyai.morison.net_law_names import Net, NetLaw, net_law
 from moyai.sea.environment import Environment
@@ -300,7 +300,7 @@ def seas_of(model: schema.CageCase, water: Water, folder: Path) -> tuple[CageSea
     names = sea_names(model.waves)
     found: list[CageSea] = []
     for index, state in enumerate(model.waves):
-        if isinstance(state, schema.CageRegularWaves):
+        if isinstance(state, RegularWavesOfHeights):
             heading = heading_of(state, bearing, f"waves[{index}]")
             found.append(RegularWaves(names[index], state.all_heights(), state.all_periods(), _straight(heading)))
             continue

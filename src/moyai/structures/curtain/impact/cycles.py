@@ -128,40 +128,6 @@ def slack_taut_motion(
     return simulate_in_flow(impact, drag_coefficient, flow, step, start, mass=mass, mean_speed=current)
 
 
-def slack_taut_in_flow(
-    impact: Impact, drag_coefficient: float, flow: ArrayLike, time_step: float, start: tuple[float, float]
-) -> SlackTautMotion:
-    """Solve the same in a flow given at every half step of the series.
-
-    Parameters
-    ----------
-    impact, drag_coefficient, start
-        As in :func:`slack_taut_motion`.
-    flow : array_like, shape (2 n + 1, 2)
-        Velocity [m/s] and acceleration [m/s2] of the water at every half step.
-    time_step : float
-        [s].
-
-    Raises
-    ------
-    InputError
-        When the flow has another shape or is not finite.
-    """
-    given = np.asarray(flow, dtype=float)
-    if given.ndim != 2 or given.shape[1] != 2 or len(given) % 2 == 0 or not np.isfinite(given).all():
-        raise InputError(
-            f"flow has shape {given.shape} or is not finite", path="flow", allowed="(2 n + 1, 2): every half step"
-        )
-    fine = simulate_in_flow(impact, drag_coefficient, given, 0.5 * time_step, start)
-    return SlackTautMotion(
-        fine.time[::2].copy(),
-        fine.position[::2].copy(),
-        fine.speed[::2].copy(),
-        fine.tension[::2].copy(),
-        fine.contacts,
-    )
-
-
 def simulate_in_flow(
     impact: Impact,
     drag_coefficient: float,

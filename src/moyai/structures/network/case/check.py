@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from moyai.case.check_catalogue import check_catalogue
-from moyai.case.check_sea import check_file, check_surroundings, check_waves
+from moyai.case.check_sea import check_file, check_level_names, check_surroundings, check_waves
 from moyai.case.faults import did_you_mean
-from moyai.case.findings import Findings, duplicates
+from moyai.case.findings import Findings
 from moyai.core.errors import InputError
 from moyai.structures.network.case import schema_parts as parts
 from moyai.structures.network.case.check_parts import check_bodies, check_corners, check_floats, check_sheets
@@ -211,15 +211,7 @@ def _check_files(model: NetworkCase, findings: Findings, folder: Path) -> None:
 
 def _check_settings(model: NetworkCase, findings: Findings, folder: Path) -> None:
     settings = model.settings
-    if not isinstance(settings.water_levels, str):
-        for index, name in enumerate(settings.water_levels):
-            if name not in model.site.water_levels:
-                findings.fault(
-                    ("settings", "water_levels", index), f"there is no water level '{name}'",
-                    allowed=", ".join(model.site.water_levels), remedy=did_you_mean(name, model.site.water_levels),
-                )  # fmt: skip
-        for index in duplicates(settings.water_levels):
-            findings.fault(("settings", "water_levels", index), "it stands twice", remedy="remove one")
+    check_level_names(model, findings)
     if settings.wave_front and settings.method not in ("auto", "explicit"):
         findings.fault(("settings", "wave_front"), "only explicit steps go at the pace of the wave",
                        remedy="set method: explicit")  # fmt: skip
