@@ -17,6 +17,7 @@ from moyai.case.schema_environment import (
     RegularWavesOfHeights,
     Site,
     SpectrumFile,
+    SteepRegularWaves,
     Tma,
     refuse_no_seas,
 )
@@ -80,8 +81,12 @@ class RigidCageStructure(Block):
 CageStructure = Annotated[RigidCageStructure | FlexibleCageStructure, Field(discriminator="model")]
 
 
+class CageRegularWaves(RegularWavesOfHeights, SteepRegularWaves):
+    """Regular waves: every height with every period."""
+
+
 CageSeaState = Annotated[
-    RegularWavesOfHeights | Jonswap | PiersonMoskowitz | BretschneiderMitsuyasu | Tma | SpectrumFile,
+    CageRegularWaves | Jonswap | PiersonMoskowitz | BretschneiderMitsuyasu | Tma | SpectrumFile,
     Field(discriminator="kind"),
 ]
 
