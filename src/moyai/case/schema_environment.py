@@ -147,15 +147,17 @@ class RegularWavesOfHeights(RegularWaves):
         return max(self.all_heights())
 
 
+SteepTheory = Literal["automatic", "linear", "stream_function"]
+STEEP_THEORY = (
+    "Wave theory: linear or stream function; automatic takes linear waves where their second harmonic is below 1 % of "
+    "the first, else the stream function. Bodies with coefficients and rigid cages know linear waves only."
+)
+
+
 class SteepRegularWaves(RegularWaves):
     """Regular waves for structures whose loads know waves of finite height."""
 
-    theory: Literal["automatic", "linear", "stream_function"] = Field(  # type: ignore[assignment]
-        default="automatic",
-        description="Wave theory: linear or stream function; automatic takes linear waves where their second harmonic "
-        "is below 1 % of the first, else the stream function. Bodies with coefficients and rigid cages know linear "
-        "waves only.",
-    )
+    theory: SteepTheory = Field(default="automatic", description=STEEP_THEORY)  # type: ignore[assignment]
 
 
 class CosineTwoS(Block):

@@ -10,6 +10,7 @@ from moyai.case.schema_app import APP, App
 from moyai.case.schema_criteria import CRITERIA
 from moyai.case.schema_display import DISPLAY, Display
 from moyai.case.schema_environment import (
+    STEEP_THEORY,
     BretschneiderMitsuyasu,
     Current,
     Jonswap,
@@ -17,7 +18,7 @@ from moyai.case.schema_environment import (
     RegularWavesOfHeights,
     Site,
     SpectrumFile,
-    SteepRegularWaves,
+    SteepTheory,
     Tma,
     refuse_no_seas,
 )
@@ -81,8 +82,10 @@ class RigidCageStructure(Block):
 CageStructure = Annotated[RigidCageStructure | FlexibleCageStructure, Field(discriminator="model")]
 
 
-class CageRegularWaves(RegularWavesOfHeights, SteepRegularWaves):
+class CageRegularWaves(RegularWavesOfHeights):
     """Regular waves: every height with every period."""
+
+    theory: SteepTheory = Field(default="automatic", description=STEEP_THEORY)  # type: ignore[assignment]
 
 
 CageSeaState = Annotated[
