@@ -62,7 +62,9 @@ class PlanarBody:
     def __post_init__(self) -> None:
         if len(self.model.modes) != 3:
             raise InputError(
-                f"body {self.name!r} has {len(self.model.modes)} modes", path=f"bodies.{self.name}", allowed="three"
+                f"body {self.name!r} has {len(self.model.modes)} modes",
+                parameter=f"bodies.{self.name}",
+                allowed="three",
             )
         if not isinstance(self.model.memory, StateSpaceMemory):
             raise InputError(

@@ -160,7 +160,7 @@ def solve_motions(
     constant = np.broadcast_to(constant[:, None], (count, headings, size, size))
     iterated = quadratic is not None or line_damping is not None
     if iterated and wave_amplitude is None:
-        raise InputError("quadratic damping needs the wave amplitude", path="wave_amplitude")
+        raise InputError("quadratic damping needs the wave amplitude", parameter="wave_amplitude")
     amplitude = np.zeros((count, headings)) + (0.0 if wave_amplitude is None else np.asarray(wave_amplitude, float))
     omega = np.broadcast_to(hydrodynamics.omega[:, None], (count, headings))
     mass = (inertia + hydrodynamics.added_mass)[:, None]

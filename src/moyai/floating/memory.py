@@ -48,14 +48,14 @@ class StateSpaceMemory:
         n, m = len(self.poles), self.dashpot.shape[0]
         if self.inputs.shape != (n, m) or self.outputs.shape != (m, n):
             raise InputError(
-                f"{n} poles with inputs {self.inputs.shape} and outputs {self.outputs.shape}", path="memory"
+                f"{n} poles with inputs {self.inputs.shape} and outputs {self.outputs.shape}", parameter="memory"
             )
         for name in ("poles", "inputs", "outputs", "dashpot"):
             finite(getattr(self, name), name)
         if n and float(np.max(self.poles.real)) > 0.0:
             raise InputError(
                 f"a memory pole grows in time (real part {np.max(self.poles.real):.3g} 1/s)",
-                path="memory.poles",
+                parameter="memory.poles",
                 allowed="real parts not above 0",
                 remedy="fit the memory again with fewer states",
             )
@@ -177,7 +177,7 @@ class ConvolutionMemory:
     def __post_init__(self) -> None:
         increasing(self.time, "time")
         if self.time[0] != 0.0:
-            raise InputError(f"the memory starts at {self.time[0]:g} s", path="time", allowed="0")
+            raise InputError(f"the memory starts at {self.time[0]:g} s", parameter="time", allowed="0")
         finite(self.velocity_kernel, "velocity_kernel")
 
     @property

@@ -157,7 +157,7 @@ def edge_damping(
     """
     for name, value in (("density", density), ("length", length)):
         if not value > 0.0:
-            raise InputError(f"{name} is {value}", path=name, allowed="greater than 0")
+            raise InputError(f"{name} is {value}", parameter=name, allowed="greater than 0")
     found = measures(corners, plates)
     rows = np.array([item.row(centre) for item in found]).reshape(-1, 3)
     return QuadraticDamping(rows, density * length * np.array([item.coefficient for item in found]))

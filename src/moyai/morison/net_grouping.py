@@ -64,9 +64,11 @@ def group_twines(
     """
     for name, value in (("spacing", spacing), ("density", density), ("modulus", modulus)):
         if not (math.isfinite(value) and value > 0.0):
-            raise InputError(f"{name} is {value:g}", path=name, allowed="greater than 0")
+            raise InputError(f"{name} is {value:g}", parameter=name, allowed="greater than 0")
     if mass_per_area is not None and not (math.isfinite(mass_per_area) and mass_per_area > 0.0):
-        raise InputError(f"mass_per_area is {mass_per_area:g} kg/m2", path="mass_per_area", allowed="greater than 0")
+        raise InputError(
+            f"mass_per_area is {mass_per_area:g} kg/m2", parameter="mass_per_area", allowed="greater than 0"
+        )
     count = spacing / net.mesh_pitch
     section = math.pi / 4.0 * net.twine_diameter**2
     material = count * section

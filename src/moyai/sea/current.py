@@ -83,7 +83,9 @@ class CurrentProfile(ABC):
 def _check_range(z_bottom: float, z_top: float) -> None:
     if not (math.isfinite(z_bottom) and math.isfinite(z_top) and z_bottom < z_top):
         raise InputError(
-            f"range of heights {z_bottom:g} to {z_top:g} m", path="z_bottom", allowed="z_bottom below z_top, finite"
+            f"range of heights {z_bottom:g} to {z_top:g} m",
+            parameter="z_bottom",
+            allowed="z_bottom below z_top, finite",
         )
 
 
@@ -186,7 +188,7 @@ class TabulatedCurrent(CurrentProfile):
 def _check_above_bed(z: Array, bed: float) -> None:
     lowest = float(np.min(z)) if z.size else bed
     if lowest < bed * (1.0 + 1e-12):
-        raise InputError(f"height z = {lowest:g} m is below the bed", path="z", allowed=f"at least {bed:g} m")
+        raise InputError(f"height z = {lowest:g} m is below the bed", parameter="z", allowed=f"at least {bed:g} m")
 
 
 def _check_finite(**values: float) -> None:

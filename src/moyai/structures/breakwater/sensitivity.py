@@ -101,7 +101,7 @@ def with_slack(problem: BreakwaterProblem, unit: FloatingUnit, slack: float) -> 
         length = chord + slack - others
         if length <= 0.0:
             raise InputError(
-                f"line {line.name!r} has no upper segment left at a slack of {slack:g} m", path="line_slacks"
+                f"line {line.name!r} has no upper segment left at a slack of {slack:g} m", parameter="line_slacks"
             )
         lines.append(replace(line, segments=(*line.segments[:-1], replace(line.segments[-1], length=length))))
     return replace(problem.breakwater, lines=tuple(lines))

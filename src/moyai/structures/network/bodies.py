@@ -262,7 +262,7 @@ def coupled_sensitivity(
         if found.status == "interrupted":
             raise KeyboardInterrupt
         if found.status != "converged":
-            raise ConvergenceError(f"run with {which}: {found.message}", path="sensitivity")
+            raise ConvergenceError(f"run with {which}: {found.message}", parameter="sensitivity")
         late = found.time >= found.time[0] + after
         peaks.append(float(np.max(found.network.tension_peak[: found.time.size][late, 0])))
     progress("sensitivity", 5, 5)

@@ -113,10 +113,10 @@ def slack_taut_motion(
     numbers = {"period": period, "duration": duration, "time_step": 1.0 if time_step is None else time_step}
     for name, value in numbers.items():
         if not (math.isfinite(value) and value > 0.0):
-            raise InputError(f"{name} is {value:g} s", path=name, allowed="greater than 0")
+            raise InputError(f"{name} is {value:g} s", parameter=name, allowed="greater than 0")
     if not (math.isfinite(velocity_amplitude) and velocity_amplitude >= 0.0):
         raise InputError(
-            f"velocity_amplitude is {velocity_amplitude:g}", path="velocity_amplitude", allowed="0 or more"
+            f"velocity_amplitude is {velocity_amplitude:g}", parameter="velocity_amplitude", allowed="0 or more"
         )
     if not math.isfinite(current):
         raise InputError("current is not finite", parameter="current", allowed="a number")
@@ -167,16 +167,18 @@ def simulate_in_flow(
     """
     given = np.ascontiguousarray(flow, dtype=float)
     if given.ndim != 2 or given.shape[1:] != (2,) or len(given) < 2 or not np.isfinite(given).all():
-        raise InputError(f"flow has shape {given.shape} or is not finite", path="flow", allowed="(n + 1, 2), finite")
+        raise InputError(
+            f"flow has shape {given.shape} or is not finite", parameter="flow", allowed="(n + 1, 2), finite"
+        )
     longest = _TAUT_SHARE * rise_time(impact) if taut_step is None else taut_step
     moved = impact.deep_mass if mass is None else float(mass)
     for name, value in {"time_step": time_step, "taut_step": longest, "mass": moved}.items():
         if not (math.isfinite(value) and value > 0.0):
-            raise InputError(f"{name} is {value:g}", path=name, allowed="greater than 0")
+            raise InputError(f"{name} is {value:g}", parameter=name, allowed="greater than 0")
     if not (math.isfinite(drag_coefficient) and drag_coefficient >= 0.0):
-        raise InputError(f"drag_coefficient is {drag_coefficient:g}", path="drag_coefficient", allowed="0 or more")
+        raise InputError(f"drag_coefficient is {drag_coefficient:g}", parameter="drag_coefficient", allowed="0 or more")
     if not (math.isfinite(start[0]) and math.isfinite(start[1])):
-        raise InputError("start is not finite", path="start", allowed="position [m] and speed [m/s]")
+        raise InputError("start is not finite", parameter="start", allowed="position [m] and speed [m/s]")
     taut = taut_shape(impact.span_ratio)
     cable = np.array([impact.span, impact.span_ratio, taut, impact.stiffness, slack_sag(impact)])
     drag = 0.5 * impact.water.density * drag_coefficient * impact.draught

@@ -33,7 +33,7 @@ class FloatLine:
         if not 0.0 <= self.flooded_buoyancy <= self.buoyancy < math.inf or not 0.0 <= self.weight < math.inf:
             raise InputError(
                 f"buoyancy {self.buoyancy:g}, flooded {self.flooded_buoyancy:g}, weight {self.weight:g} N/m",
-                path="floats",
+                parameter="floats",
                 allowed="0 <= flooded <= buoyancy, weight at least 0",
             )
 
@@ -71,7 +71,9 @@ class HangingCurtain:
     def __post_init__(self) -> None:
         if not 0.0 <= self.anchor_slope < 0.5 * math.pi:
             raise InputError(
-                f"anchor slope is {math.degrees(self.anchor_slope):.4g} degrees", path="anchor_slope", allowed="0 to 90"
+                f"anchor slope is {math.degrees(self.anchor_slope):.4g} degrees",
+                parameter="anchor_slope",
+                allowed="0 to 90",
             )
 
     @property
