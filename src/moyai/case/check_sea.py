@@ -5,11 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from moyai.case.faults import did_you_mean
 from moyai.case.findings import Findings, duplicates
 from moyai.case.schema_environment import PowerLaw, RegularWaves, SpectrumFile, SpeedTable, Tma, sea_names
 from moyai.case.yaml_reader import KeyPath
+
+if TYPE_CHECKING:
+    from moyai.core.validity import Notice
+    from moyai.sea.states import RegularSea
+    from moyai.sea.water import Water
 
 #: Beyond it waves run along the structure and reflection and transmission lose their meaning
 LARGEST_HEADING_DEG = 89.5
@@ -48,6 +54,23 @@ def check_surroundings(model: Any, findings: Findings, folder: Path) -> None:
         speed = getattr(entry, "speed", None)
         if speed is not None and abs(speed) > LARGEST_SPEED[key]:
             findings.warn((key, "speed"), f"{speed:g} m/s is more than has been measured")
+
+
+def check_level_names(model: Any, findings: Findings) -> None:
+    """Check that the site has the water levels that ``settings.water_levels`` names, each once."""
+    chosen = model.settings.water_levels
+    if isinstance(chosen, str):
+        return
+    for index, name in enumerate(chosen):
+        if name not in model.site.water_levels:
+            findings.fault(
+                ("settings", "water_levels", index),
+                f"there is no water level '{name}'",
+                allowed=", ".join(model.site.water_levels),
+                remedy=did_you_mean(name, model.site.water_levels),
+            )
+    for index in duplicates(chosen):
+        findings.fault(("settings", "water_levels", index), f"'{chosen[index]}' stands twice", remedy="remove one")
 
 
 def _check_name(path: KeyPath, name: str, findings: Findings) -> None:
@@ -162,6 +185,15 @@ def _check_heading(state: Any, heading: float, path: KeyPath, findings: Findings
     )
 
 
+def _of_theory(sea: RegularSea, period: float, water: Water) -> tuple[Notice, ...]:
+    """Hold a regular wave against breaking and against the theory that it is run in."""
+    from moyai.sea.regular_theory import theory_of
+    from moyai.sea.validity import check_wave
+
+    linear = theory_of(sea.theory, sea.height, period, water) == "linear"
+    return check_wave(sea.height, period, water, theory="airy" if linear else "stream_function")
+
+
 def check_waves(
     model: Any,
     environment: Any,
@@ -190,7 +222,7 @@ def check_waves(
         for name, level in environment.water_levels:
             water = environment.water_at(level)
             if isinstance(state, RegularWaves):
-                pairs = [("height", check_wave(sea.height, period, water)) for period in sea.periods]
+                pairs = [("height", _of_theory(sea, period, water)) for period in sea.periods]
             elif isinstance(sea, ComponentSea):
                 judge = check_wave if sea.omega.size == 1 else check_sea_state
                 pairs = [("kind", judge(sea.height, sea.peak_period, water))]

@@ -190,6 +190,6 @@ def carried_along(network: Network, rest: State, places: Mapping[str, Array]) ->
         found = solve_equilibrium(moved, start=State(0.0, guess, np.zeros_like(guess)))
     except ConvergenceError as error:
         raise InputError(
-            f"the lines in motion find no rest: {error.fault.message}", path="lines", remedy=error.fault.remedy
+            f"the lines in motion find no rest: {error.fault.message}", parameter="lines", remedy=error.fault.remedy
         ) from error
     return State(0.0, found.state.position, np.zeros_like(guess))

@@ -10,9 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
+from moyai.sea.regular_theory import RegularTheory
 from moyai.sea.spectrum import Spectrum
 
 
+@checks_words
 @dataclass(frozen=True)
 class RegularSea:
     """Regular waves of one height and one or more periods."""
@@ -25,12 +28,14 @@ class RegularSea:
     periods: tuple[float, ...]
     #: Direction of travel [rad], 0 along +x (normal to the breakwater).
     heading: float = 0.0
+    #: Of structures that know more than linear waves.
+    theory: RegularTheory = "linear"
 
     def __post_init__(self) -> None:
         if not self.periods:
-            raise InputError("no wave period given", path="waves.periods", allowed="at least one period")
+            raise InputError("no wave period given", parameter="periods", allowed="at least one period")
         if self.height < 0.0 or not all(period > 0.0 for period in self.periods):
-            raise InputError("wave height and periods must be positive", path="waves")
+            raise InputError("wave height and periods must be positive", parameter="waves")
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,7 @@ from moyai.sea.water import Water
 from moyai.structures.breakwater.assembly import assemble
 from moyai.structures.breakwater.case.build import build_problem
 from moyai.structures.breakwater.lines.network import line_network
-from moyai.structures.breakwater.model import LineDynamics
+from moyai.structures.breakwater.settings import LineDynamics
 
 CASE = """
 moyai: 1

@@ -218,7 +218,7 @@ class MotionPlan:
             raise InputError(
                 f"the motion '{self.name}' covers {self.table.start:g} to {self.table.end:g} s, the run 0 to "
                 f"{duration:g} s",
-                path=f"structure.motions.{self.name}",
+                parameter=f"motions.{self.name}",
                 allowed="a table over the whole run",
                 remedy="let its times begin at 0 s"
                 if self.table.start > 1e-9
@@ -271,6 +271,11 @@ class NetworkProblem:
     case_text: str = ""
     case_hash: str = ""
     criteria: tuple[Criterion, ...] = ()
+
+    @property
+    def linear_waves_only(self) -> bool:
+        """Whether a body has coefficients of a program, which answer linear waves."""
+        return any(body.coefficients is not None or body.loads is not None for body in self.bodies)
 
 
 #: Name of the motion of driven points that are held still.

@@ -21,8 +21,9 @@ from moyai.floating.time import CumminsModel, Simulation
 from moyai.structures.breakwater.assembly import FloatingUnit
 from moyai.structures.breakwater.frequency.model import FrequencyModel
 from moyai.structures.breakwater.lines.motion import BodyStart, run_on_lines
-from moyai.structures.breakwater.model import MooringLine, TimeSettings
+from moyai.structures.breakwater.model import MooringLine
 from moyai.structures.breakwater.responses import SNAP_RATIO
+from moyai.structures.breakwater.settings import TimeSettings
 from moyai.structures.breakwater.time.lines import lines_at_rest, motion_summary
 from moyai.structures.breakwater.time.model import SeaOfRun, TimeRun, compiled_lines
 from moyai.structures.breakwater.viscous_damping import in_moving_water
@@ -168,6 +169,14 @@ def event_numbers(model: FrequencyModel, run: TimeRun) -> dict[str, Array]:
         "maximum_anchor_horizontal_tension": level.max(axis=0),
         **motion_summary(unit, run, window, begin),
     }
+
+
+def event_offsets(run: TimeRun) -> Array:
+    """Return the largest offset in the part of an event that counts, lines in motion and at rest, (2, dof)."""
+    begin = float(run.attributes["analysis_start"])
+    assert run.at_rest is not None
+    pair = (run.simulation, run.at_rest)
+    return np.array([np.abs(one.position[one.time >= begin]).max(axis=0) for one in pair])
 
 
 def _part(whole: Simulation, start: float, duration: float) -> Simulation:

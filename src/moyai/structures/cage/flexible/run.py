@@ -11,10 +11,12 @@ import numpy as np
 
 from moyai.core.collected import STOPPED, Collected
 from moyai.core.errors import ConvergenceError, InputError
+from moyai.core.headline import SEAS_LEFT_OUT
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
 from moyai.core.validity import Notice
 from moyai.flexible.flow import Current
+from moyai.sea.irregular import components_of_run
 from moyai.sea.states import IrregularSea
 from moyai.sea.water import Water
 from moyai.structures.cage.conditions import height_notices
@@ -31,7 +33,7 @@ from moyai.structures.cage.flexible.variables import VOCABULARY
 from moyai.structures.cage.flexible.wake import ScaledCurrent
 from moyai.structures.cage.headlines import flexible_headlines
 from moyai.structures.cage.rigid.model import RegularWaves
-from moyai.structures.cage.rigid.waves import Wave, regular_wave, sea_components
+from moyai.structures.cage.rigid.waves import COMPONENTS, Wave, theory_limit, wave_of
 
 if TYPE_CHECKING:
     pass
@@ -73,6 +75,9 @@ def surface_current(current: Current | None) -> tuple[float, float]:
     return math.hypot(east, north), math.atan2(north, east) if east or north else 0.0
 
 
+_AUTOMATIC = "use 'theory: automatic' of regular waves, which takes the stream function here"
+
+
 def waves_of(problem: FlexibleCageProblem, sea: RegularWaves | IrregularSea, water: Water) -> tuple[Wave, ...]:
     """Return every wave of a sea state at a water depth, on the current of the site."""
     current = problem.environment.current
@@ -81,11 +86,11 @@ def waves_of(problem: FlexibleCageProblem, sea: RegularWaves | IrregularSea, wat
     if isinstance(sea, RegularWaves):
         along = float(mean @ [math.cos(sea.heading), math.sin(sea.heading)])
         return tuple(
-            regular_wave(height, period, sea.heading, water, along, problem.settings.periods)
+            wave_of(sea.theory, height, period, sea.heading, water, along, problem.settings.periods)
             for height, period in sea.waves()
         )
     period = float(sea.spectrum.peak_period)
-    parts = sea_components(sea, water, (float(mean[0]), float(mean[1])))
+    parts = components_of_run(sea, water, (float(mean[0]), float(mean[1])), COMPONENTS)
     number = float(np.interp(2.0 * math.pi / period, np.sort(parts.omega), parts.wave_number[np.argsort(parts.omega)]))
     height = float(sea.spectrum.significant_height)
     return (Wave("sea", parts, height, period, 2.0 * math.pi / number, sea.duration, False, sea.seed),)
@@ -165,6 +170,7 @@ def _sea_steps(
             if found.history.status == "not_converged":
                 collected.failures.append(f"{sea.name}, {wave.name}: {found.history.message}")
             collected.notices.extend(height_notices(sea.name, series))
+            collected.notices.extend(theory_limit(wave, _AUTOMATIC))
             used = float(series["utilisation"].max()) if "utilisation" in series else 0.0
             if found.history.status == "converged" and (governing is None or used > governing[0]):
                 governing = used, found
@@ -203,4 +209,5 @@ def _result(problem: FlexibleCageProblem, collected: Collected) -> Result:
         fulfilled="all identities hold" + ("; mesh not checked" if waved and not checked else ""),
         headlines=flexible_headlines(problem, collected.groups),
         criteria=problem.criteria,
+        left_out=SEAS_LEFT_OUT if problem.seas and "time" not in problem.settings.analyses else "",
     )

@@ -116,7 +116,7 @@ def moving_line(at: RowAtLevel, number: int) -> MovingLine:
             rest = solve_equilibrium(network)
         except ConvergenceError as error:
             raise InputError(
-                f"line '{line.name}' in motion finds no rest: {error.fault.message}", path="lines",
+                f"line '{line.name}' in motion finds no rest: {error.fault.message}", parameter="lines",
                 remedy=error.fault.remedy,
             ) from error  # fmt: skip
         found = float(end_tensions(network, line.name, rest.state.position[None], rest.tension[None])[0][0])

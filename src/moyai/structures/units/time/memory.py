@@ -26,8 +26,8 @@ ORDERS = (6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 28, 32, 38, 44, 52, 60)
 _COLUMNS = 48
 _KEPT = 1e-4
 #: Rounds of the search for a passive fit, and the weight of the nearest passive damping in it over that of the data
-_ROUNDS, _PULL = 80, 3.0
-_MARGIN = 3e-5
+_ROUNDS, _PULL = 50, 3.0
+_MARGIN = 1e-7
 _BEYOND = 30.0
 _OUTSIDE = 0.3
 #: Least real part of a pole over the step of the frequencies about it
@@ -152,7 +152,7 @@ def fit_row_memory(
     if len(omega) < FEWEST:
         raise InputError(
             f"{len(omega)} frequencies are too few for the memory of the water",
-            path="settings.frequencies", allowed=f"at least {FEWEST}",
+            parameter="omega", allowed=f"at least {FEWEST}",
         )  # fmt: skip
     middle = float(np.sqrt(omega[0] * omega[-1]))
     s: ComplexArray = np.asarray(-1j * omega / middle, dtype=complex)
@@ -249,7 +249,7 @@ def _passive(basis: _Basis, s: ComplexArray, weight: Array, found: Array, slope:
     now, held = first, np.zeros((len(rows), size * size))
     for _ in range(_ROUNDS):
         own = (rows @ now).reshape(-1, size, size)
-        if float(np.linalg.eigvalsh(own)[:, 0].min()) >= 0.0:
+        if float(np.linalg.eigvalsh(own)[:, 0].min()) >= -0.1 * PASSIVE * scale:
             break
         values, vectors = np.linalg.eigh(own + held.reshape(-1, size, size))
         nearest = (vectors * np.maximum(values, _MARGIN * scale)[:, None, :]) @ vectors.swapaxes(1, 2)
