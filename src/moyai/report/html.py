@@ -12,6 +12,7 @@ from importlib import resources
 from typing import Any
 
 from moyai.core.validity import IdentityCheck, Notice
+from moyai.language import said
 from moyai.report.document import (
     Animation,
     Badge,
@@ -34,13 +35,15 @@ from moyai.report.encoding import column_unit, figure_specification, page_json, 
 from moyai.report.first_page import COMPUTATION
 from moyai.report.formatting import DASH, column_decimals, format_fixed, format_number, pretty_unit, trimmed
 from moyai.report.notices import grouped
-from moyai.report.systems import in_its_units
+from moyai.report.language import for_its_reader
 
 STATUS_WORDS = {status: word for status, (word, _) in COMPUTATION.items()}
 LEAST_LETTER = 9.0
 _ONE_LINE = 24  # letters of a cell that is not broken
 _HYPHENATED = re.compile(r"(?<![\w-])(?=[\w.-]{3,40}(?![\w.-]))\w[\w.]*(?:-[\w.]+)+")
 """Height of the smallest letters of a drawing on a narrow screen [CSS px]; the drawing moves sideways there."""
+_PASTE = "Copy the data, ready to paste into a spreadsheet"
+_NO_SCRIPT = "Figures and the animation need JavaScript; tables and text are complete without it."
 SCRIPTS = ("report.js", "figures.js", "curtain.js", "scene_3d.js", "scene_3d_paint.js", "player.js")
 
 
@@ -49,7 +52,7 @@ def asset(name: str) -> str:
     return (resources.files("moyai.report") / "assets" / name).read_text(encoding="utf-8")
 
 
-@in_its_units
+@for_its_reader
 def render_parts(document: Document) -> tuple[str, dict[str, Any]]:
     """Return the inner part of the page and its data, for a page that has styles and scripts of the report already.
 
@@ -78,7 +81,7 @@ def packed_plotly() -> str:
     return base64.b64encode(gzip.compress(get_plotlyjs().encode("utf-8"), 9, mtime=0)).decode("ascii")
 
 
-@in_its_units
+@for_its_reader
 def render_html(document: Document) -> str:
     """Return the report as one HTML page.
 
@@ -100,7 +103,7 @@ def render_html(document: Document) -> str:
     scripts = "\n".join(f"<script>\n{asset(name)}</script>" for name in SCRIPTS)
     data = page_json({"figures": page.figures, "scenes": page.scenes, "tables": page.tables})
     return f"""<!DOCTYPE html>
-<html lang="en">
+<html lang="{document.language}">
 <head>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
@@ -112,7 +115,7 @@ def render_html(document: Document) -> str:
 {asset("report.css")}</style>
 </head>
 <body>
-<a class="skip" href="#content">To the content</a>
+<a class="skip" href="#content">{escape(said("To the content"))}</a>
 <header class="masthead">
 <div>
 <h1>{escape(document.title)}</h1>
@@ -121,12 +124,11 @@ def render_html(document: Document) -> str:
 {_badges(document)}
 </header>
 <div class="frame">
-<nav aria-label="Contents"><ol>
+<nav aria-label="{escape(said("Contents"))}"><ol>
 {contents}
 </ol></nav>
 <main id="content">
-<noscript><p class="notice warning">Figures and the animation need JavaScript; tables and text are complete without
-it.</p></noscript>
+<noscript><p class="notice warning">{escape(said(_NO_SCRIPT))}</p></noscript>
 {sections}
 </main>
 </div>
@@ -162,7 +164,7 @@ def foot_text(document: Document) -> str:
     for key, label in (("moyai_version", "moyai"), ("created", ""), ("case_hash", "case")):
         value = str(document.provenance.get(key, ""))
         if value:
-            parts.append(f"{label} {value[:25]}".strip())
+            parts.append(f"{said(label)} {value[:25]}".strip())
     return " · ".join(parts)
 
 
@@ -187,7 +189,7 @@ def column_texts(column: Column) -> list[str]:
         if isinstance(value, str):
             return value
         if isinstance(value, bool):
-            return "yes" if value else "no"
+            return said("yes" if value else "no")
         number = float(value) * factor
         shown = format_number(number, column.digits) if decimals is None else format_fixed(number, decimals)
         return trimmed(shown) if column.trim else shown
@@ -263,9 +265,9 @@ class _Page:
                 f"{escape(a.label)}</button>"
                 for i, a in enumerate(figure.abscissae)
             )
-            switch = f'<span class="segmented" role="group" aria-label="Plot against">{buttons}</span>'
+            switch = f'<span class="segmented" role="group" aria-label="{said("Plot against")}">{buttons}</span>'
         overview = (
-            '<canvas class="overview" tabindex="0" role="slider" aria-label="Shown part of the record"></canvas>'
+            f'<canvas class="overview" tabindex="0" role="slider" aria-label="{said("Shown part of the record")}"></canvas>'
             if figure.slider
             else ""
         )
@@ -273,8 +275,8 @@ class _Page:
 <figcaption><h3>{words(figure.title)}</h3>{_caption(figure.caption)}{hint}</figcaption>
 <div class="plot" style="height:{figure.height}px" role="img" aria-label="{escape(figure.title)}"></div>{overview}
 <div class="tools">{switch}<span class="spring"></span>
-<button type="button" data-do="csv" title="Download the data of this figure">CSV</button>
-<button type="button" data-do="copy" title="Copy the data, ready to paste into a spreadsheet">Copy data</button>
+<button type="button" data-do="csv" title="{said("Download the data of this figure")}">CSV</button>
+<button type="button" data-do="copy" title="{said(_PASTE)}">{said("Copy data")}</button>
 <button type="button" data-do="svg">SVG</button><button type="button" data-do="png">PNG</button></div>
 </figure>"""
 
@@ -303,7 +305,7 @@ class _Page:
 <thead><tr>{"".join(heads)}</tr></thead>
 <tbody>{"".join(rows)}</tbody></table></div>
 <div class="tools">{_caption(table.note)}<span class="spring"></span>
-<button type="button" data-do="csv">CSV</button><button type="button" data-do="copy">Copy data</button></div>"""
+<button type="button" data-do="csv">CSV</button><button type="button" data-do="copy">{said("Copy data")}</button></div>"""
         if table.collapsed:
             return (
                 f'<details class="table" id="{name}" data-table="{name}"><summary>{words(table.title)}</summary>'
@@ -422,7 +424,8 @@ def notice_items(block: NoticeBlock) -> list[tuple[str, str, str]]:
     block : NoticeBlock
     """
     items = [("error", *check_text(check)) for check in block.failed_checks]
-    return items + [(group.severity, *notice_text(group.notice, group.where)) for group in grouped(block.notices)]
+    items += [(group.severity, *notice_text(group.notice, group.where)) for group in grouped(block.notices)]
+    return [(severity, said(first), said(second)) for severity, first, second in items]
 
 
 def check_text(check: IdentityCheck) -> tuple[str, str]:
@@ -439,7 +442,7 @@ def _notices(block: NoticeBlock) -> str:
     return (
         '<ul class="notices">'
         + "".join(
-            f'<li class="notice {severity}"><strong>{kinds.get(severity, severity)}</strong><span>{words(first)}'
+            f'<li class="notice {severity}"><strong>{said(kinds.get(severity, severity))}</strong><span>{words(first)}'
             + (f"<small>{words(second)}</small>" if second else "")
             + "</span></li>"
             for severity, first, second in items

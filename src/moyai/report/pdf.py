@@ -7,6 +7,7 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
+from moyai.language import said
 from moyai.report.document import (
     Animation,
     Block,
@@ -31,7 +32,7 @@ from moyai.report.html import (
     is_text_column,
     notice_items,
 )
-from moyai.report.systems import in_its_units
+from moyai.report.language import for_its_reader
 
 TEXT_FONTS = ("Noto Sans", "Segoe UI", "Helvetica Neue", "Arial", "Liberation Sans", "Noto Sans CJK JP", "DejaVu Sans")
 JAPANESE_FONTS = (
@@ -47,7 +48,7 @@ MONO_FONTS = ("DejaVu Sans Mono", "Consolas", "Menlo")
 LONG_TEXT = 24  # a column with longer texts than this may break its lines
 
 
-@in_its_units
+@for_its_reader
 def render_pdf(document: Document) -> bytes:
     """Return the report as PDF.
 
@@ -81,6 +82,7 @@ def render_pdf(document: Document) -> bytes:
             "foot": foot_text(document),
             "fonts": _choose(TEXT_FONTS, present)[:1] + _choose(JAPANESE_FONTS, present)[:1],
             "mono": _choose(MONO_FONTS, present)[:1] + _choose(JAPANESE_FONTS, present)[:1],
+            "language": document.language,
             "sections": sections,
         }
         (folder / "data.json").write_text(json.dumps(data, ensure_ascii=False, allow_nan=False), encoding="utf-8")
@@ -123,7 +125,7 @@ class _Writer:
                 if not block.still:
                     return []
                 return [
-                    self._picture(f"{block.title}: the governing moment", block.caption, block.still.encode("utf-8"))
+                    self._picture(f"{block.title}: {said('the governing moment')}", block.caption, block.still.encode("utf-8"))
                 ]
             case Table():
                 return [_table(block)]
@@ -160,7 +162,7 @@ class _Writer:
             items += [item for block in option.blocks for item in self.block(block)]
         if not choice.print_all:
             others = ", ".join(option.label for option in choice.options if option is not options[0])
-            items.append({"type": "text", "text": f"Also in the interactive report: {others}.", "quiet": True})
+            items.append({"type": "text", "text": said(f"Also in the interactive report: {others}."), "quiet": True})
         return items
 
     def _picture(self, title: str, caption: str, svg: bytes) -> dict[str, Any]:
@@ -184,4 +186,7 @@ def _table(table: Table) -> dict[str, Any]:
 
 
 def _notices(block: NoticeBlock) -> list[dict[str, str]]:
-    return [{"kind": kind, "first": first, "second": second} for kind, first, second in notice_items(block)]
+    return [
+        {"kind": kind, "word": said(kind.capitalize()), "first": first, "second": second}
+        for kind, first, second in notice_items(block)
+    ]

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from moyai.core.errors import InputError
+from moyai.language import said
 from moyai.report.document import (
     Animation,
     Block,
@@ -29,13 +30,13 @@ from moyai.report.encoding import column_unit
 from moyai.report.figures_static import draw_figure
 from moyai.report.formatting import pretty_unit
 from moyai.report.html import badges_of, column_texts, foot_text, is_text_column, notice_items
-from moyai.report.systems import in_its_units
+from moyai.report.language import for_its_reader
 
 WIDTH = 16.0  # of images and tables [cm], on a page that is no wider than A4
 _DOTS = 160  # per inch
 
 
-@in_its_units
+@for_its_reader
 def render_docx(document: Document, template: Path | None = None) -> bytes:
     """Return the report as DOCX.
 
@@ -91,7 +92,7 @@ class _Writer:
             line = paper.add_paragraph()
             line.add_run(f"{badge.label}: {badge.word}".removeprefix(": ")).bold = True
             line.add_run(f". {badge.message}" if badge.message else "")
-        _field(paper.add_paragraph(), r'TOC \o "1-2" \h', "Contents: press F9 to fill in")
+        _field(paper.add_paragraph(), r'TOC \o "1-2" \h', said("Contents: press F9 to fill in"))
         for section in document.sections:
             self._heading(section.title, 1)
             for block in section.blocks:
@@ -116,12 +117,12 @@ class _Writer:
                 self._picture(block.title, block.caption, _rasterised(block.fixed_svg))
             case Animation():
                 if block.still:
-                    self._picture(f"{block.title}: the governing moment", block.caption, _rasterised(block.still))
+                    self._picture(f"{block.title}: {said('the governing moment')}", block.caption, _rasterised(block.still))
             case Table():
                 self._table(block)
             case KeyFigures():
                 rows = [(item.label[:1].upper() + item.label[1:], item.text, item.detail) for item in block.items]
-                self._grid((("Governing number", "Value", "Where, model and band"), *rows), widths=(0.3, 0.2, 0.5))
+                self._grid((tuple(map(said, ("Governing number", "Value", "Where, model and band"))), *rows), widths=(0.3, 0.2, 0.5))
             case Paragraph():
                 self._text(block.text)
             case Listing():
@@ -130,7 +131,7 @@ class _Writer:
             case NoticeBlock():
                 for severity, first, second in notice_items(block):
                     line = self._paper.add_paragraph()
-                    line.add_run(f"{severity.capitalize()}: ").bold = True
+                    line.add_run(f"{said(severity.capitalize())}: ").bold = True
                     line.add_run(f"{first}. {second}".strip().removesuffix(" "))
             case Choice():
                 self._choice(block, level)
@@ -145,12 +146,12 @@ class _Writer:
                 self._block(block, level + several)
         if len(options) < len(choice.options):
             others = ", ".join(option.label for option in choice.options if option is not options[0])
-            self._text(f"Also in the interactive report: {others}.")
+            self._text(said(f"Also in the interactive report: {others}."))
 
     def _caption(self, kind: str, text: str, keep: bool = False) -> None:
         """Write a caption with a number that Word counts and can refer to."""
         self._count[kind] += 1
-        line = self._text(f"{kind} ", "Caption")
+        line = self._text(f"{said(kind)} ", "Caption")
         line.paragraph_format.keep_with_next = keep
         _field(line, f"SEQ {kind} \\* ARABIC", str(self._count[kind]))
         line.add_run(f". {text}")

@@ -1,0 +1,186 @@
+"""Finished English sentences put into another language: found among the templates of a catalogue, numbers untouched.
+
+The source writes its sentences with the numbers in them. A finished text is held against the templates: those whose
+fixed parts it has, in their order, are tried, what stands between the parts is translated in turn, and the reading
+that leaves the fewest English words is taken. So nothing in the source has to be marked, and a number can only be
+copied.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache
+
+from moyai.language.catalogue import catalogue, literals
+from moyai.language.words import latin_words
+
+_LETTERS = re.compile(r"[A-Za-z]+")
+_LONGEST = 12_000  # a text that is longer is no sentence
+_GLUED = 160  # characters of a phrase that is taken apart at its prepositions
+_READINGS = 24  # ways that a template fits a text
+_NAME = 3  # words that may stay English between translated ones: a name that the user gave
+
+
+@dataclass(frozen=True)
+class _Template:
+    source: tuple[str, ...]
+    order: tuple[int, ...]
+    target: tuple[str, ...]
+    target_order: tuple[int, ...]
+    words: frozenset[str]
+
+    @property
+    def weight(self) -> int:
+        """Letters that are fixed: the more, the surer is the reading."""
+        return sum(map(len, self.source))
+
+    @property
+    def is_glue(self) -> bool:
+        """Whether it holds no words of its own but one or two short ones (of, in, to)."""
+        return all(len(word) < 6 for word in self.words) and len(self.words) < 2
+
+    def filled(self, values: dict[int, str]) -> str:
+        found = [self.target[0]]
+        for number, part in zip(self.target_order, self.target[1:], strict=True):
+            found += [values[number], part]
+        return "".join(found)
+
+
+class Translator:
+    """Puts texts into one language.
+
+    Parameters
+    ----------
+    messages : dict of str to str
+        Templates in English and in the language, with the same places ``{0}``.
+    """
+
+    def __init__(self, messages: dict[str, str]) -> None:
+        self._whole = {source: target for source, target in messages.items() if "{0}" not in source}
+        self._by_word: dict[str, list[_Template]] = {}
+        templates = [_template(source, target) for source, target in messages.items() if "{0}" in source]
+        count: dict[str, int] = {}
+        for template in templates:
+            for word in template.words:
+                count[word] = count.get(word, 0) + 1
+        for template in templates:
+            rarest = min(template.words, key=lambda word: (count[word], word), default="")
+            self._by_word.setdefault(rarest, []).append(template)
+        self._known: dict[str, tuple[str, int]] = {}
+
+    def text(self, text: str) -> str:
+        """Return a text in the language; what is not known stays English."""
+        if len(text) > _LONGEST:
+            return text
+        lines = text.split("\n")
+        return "\n".join(self._line(line) for line in lines) if len(lines) > 1 else self._line(text)
+
+    def _line(self, text: str) -> str:
+        inner = text.strip()
+        if not inner:
+            return text
+        start = text.index(inner)
+        return text[:start] + self._best(inner)[0] + text[start + len(inner) :]
+
+    def _best(self, text: str) -> tuple[str, int]:
+        """Return the best reading of a text and how many English words it leaves."""
+        if text in self._known:
+            return self._known[text]
+        if (exact := self._exact(text)) is not None:
+            found = exact, 0
+        elif left := len(latin_words(text)):
+            found = self._read(text, left)
+        else:
+            found = text, 0
+        self._known[text] = found
+        return found
+
+    def _exact(self, text: str) -> str | None:
+        for form in (text, text[:1].lower() + text[1:], text[:1].upper() + text[1:]):
+            if form in self._whole:
+                return self._whole[form]
+        return None
+
+    def _read(self, text: str, left: int) -> tuple[str, int]:
+        best = text, left
+        words = {word.lower() for word in _LETTERS.findall(text)}
+        found = [t for word in (*words, "") for t in self._by_word.get(word, ()) if t.words <= words]
+        for template in sorted(found, key=lambda item: -item.weight):
+            if template.is_glue and template.words and len(text) > _GLUED:
+                continue
+            for values in template_readings(template.source, template.order, text):
+                read = {number: self._best(value) for number, value in values.items()}
+                rest = sum(cost for _, cost in read.values())
+                if rest >= best[1] or (template.is_glue and template.words and not _are_whole(values, read)):
+                    continue
+                best = template.filled({number: said for number, (said, _) in read.items()}), rest
+                if rest == 0:
+                    return best
+        return best
+
+
+def _are_whole(values: dict[int, str], read: dict[int, tuple[str, int]]) -> bool:
+    """Whether each part of a phrase was read wholly, or is a name that stays as it is."""
+    return all(cost == 0 or (cost <= _NAME and said == values[number]) for number, (said, cost) in read.items())
+
+
+def template_readings(parts: tuple[str, ...], order: tuple[int, ...], text: str) -> Iterator[dict[int, str]]:
+    """Give every way in which the fixed parts stand in a text, with what stands in the places between them.
+
+    Parameters
+    ----------
+    parts, order : tuple
+        Of a template, as :func:`~moyai.language.catalogue.literals` gives them.
+    text : str
+        The first letter of the template may be a capital in it or not.
+    """
+    first, last = parts[0], parts[-1]
+    if first and text[: len(first)] != first and text[:1].lower() + text[1 : len(first)] != first[:1].lower() + first[1:]:
+        return
+    if last and not text.endswith(last):
+        return
+    stop = len(text) - len(last)
+    count = 0
+
+    def fill(number: int, start: int) -> Iterator[list[str]]:
+        if number == len(order) - 1:
+            if stop > start:
+                yield [text[start:stop]]
+            return
+        part = parts[number + 1]
+        at = text.find(part, start + 1, stop)
+        while at >= 0:
+            for rest in fill(number + 1, at + len(part)):
+                yield [text[start:at], *rest]
+            at = text.find(part, at + 1, stop)
+
+    for values in fill(0, len(first)):
+        if any(value != value.strip() for value in values):
+            continue
+        read = dict(zip(order, values, strict=True))
+        if all(read[number] == value for number, value in zip(order, values, strict=True)):
+            yield read
+            count += 1
+            if count >= _READINGS:
+                return
+
+
+def _template(source: str, target: str) -> _Template:
+    parts, order = literals(source)
+    said, said_order = literals(target)
+    words = frozenset(word.lower() for part in parts for word in _LETTERS.findall(part))
+    return _Template(parts, order, said, said_order, words)
+
+
+@cache
+def translator(language: str) -> Translator:
+    """Return the translator of a language.
+
+    Parameters
+    ----------
+    language : str
+        One of :data:`~moyai.language.catalogue.LANGUAGES`.
+    """
+    return Translator(catalogue(language))
