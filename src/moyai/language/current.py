@@ -37,6 +37,11 @@ def spoken_in(language: str) -> Iterator[str]:
         _language.reset(mark)
 
 
+def speak(language: str) -> None:
+    """Let :func:`said` speak a language until the :func:`spoken_in` around it ends."""
+    _language.set(require_language(language))
+
+
 def spoken_language() -> str:
     """Return the language in force."""
     return _language.get()

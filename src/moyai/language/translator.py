@@ -20,6 +20,7 @@ _LETTERS = re.compile(r"[A-Za-z]+")
 _LONGEST = 12_000  # a text that is longer is no sentence
 _GLUED = 160  # characters of a phrase that is taken apart at its prepositions
 _READINGS = 24  # ways that a template fits a text
+_ENDS, _GLUE_ENDS = (". ", "; "), (". ", "; ", ": ", ", ")
 _NAME = 3  # words that may stay English between translated ones: a name that the user gave
 
 
@@ -37,9 +38,29 @@ class _Template:
         return sum(map(len, self.source))
 
     @property
+    def is_separator(self) -> bool:
+        """Whether it holds no words: a full stop, a colon, brackets between clauses that stand alone."""
+        return not self.words
+
+    @property
     def is_glue(self) -> bool:
-        """Whether it holds no words of its own but one or two short ones (of, in, to)."""
-        return all(len(word) < 6 for word in self.words) and len(self.words) < 2
+        """Whether it holds but one or two words (of, at rest, largest): what it joins has to be a phrase."""
+        return 0 < len(self.words) <= 2
+
+    @property
+    def rank(self) -> tuple[int, int]:
+        """Place in the order of trial: sentences, separators, prepositions, adjectives; the longest first."""
+        if self.is_glue:
+            return (2 if len(self.order) > 1 else 3, -self.weight)
+        return (int(self.is_separator), -self.weight)
+
+    def holds(self, value: str) -> bool:
+        """Whether a part of a text may stand in a place: no end of a sentence or half a bracket in a phrase."""
+        if value.count("(") != value.count(")") or value != value.strip():
+            return False
+        if self.is_separator:
+            return True
+        return not any(mark in value for mark in (_GLUE_ENDS if self.is_glue else _ENDS))
 
     def filled(self, values: dict[int, str]) -> str:
         found = [self.target[0]]
@@ -58,6 +79,7 @@ class Translator:
     """
 
     def __init__(self, messages: dict[str, str]) -> None:
+        messages = dict(_without_stop(source, target) for source, target in messages.items())
         self._whole = {source: target for source, target in messages.items() if "{0}" not in source}
         self._by_word: dict[str, list[_Template]] = {}
         templates = [_template(source, target) for source, target in messages.items() if "{0}" in source]
@@ -107,23 +129,20 @@ class Translator:
         best = text, left
         words = {word.lower() for word in _LETTERS.findall(text)}
         found = [t for word in (*words, "") for t in self._by_word.get(word, ()) if t.words <= words]
-        for template in sorted(found, key=lambda item: -item.weight):
-            if template.is_glue and template.words and len(text) > _GLUED:
+        for template in sorted(found, key=lambda item: item.rank):
+            if template.is_glue and len(text) > _GLUED:
                 continue
             for values in template_readings(template.source, template.order, text):
+                if not all(map(template.holds, values.values())):
+                    continue
                 read = {number: self._best(value) for number, value in values.items()}
                 rest = sum(cost for _, cost in read.values())
-                if rest >= best[1] or (template.is_glue and template.words and not _are_whole(values, read)):
+                if rest >= best[1] or (rest > _NAME and not template.is_separator):
                     continue
                 best = template.filled({number: said for number, (said, _) in read.items()}), rest
                 if rest == 0:
                     return best
         return best
-
-
-def _are_whole(values: dict[int, str], read: dict[int, tuple[str, int]]) -> bool:
-    """Whether each part of a phrase was read wholly, or is a name that stays as it is."""
-    return all(cost == 0 or (cost <= _NAME and said == values[number]) for number, (said, cost) in read.items())
 
 
 def template_readings(parts: tuple[str, ...], order: tuple[int, ...], text: str) -> Iterator[dict[int, str]]:
@@ -157,14 +176,19 @@ def template_readings(parts: tuple[str, ...], order: tuple[int, ...], text: str)
             at = text.find(part, at + 1, stop)
 
     for values in fill(0, len(first)):
-        if any(value != value.strip() for value in values):
-            continue
         read = dict(zip(order, values, strict=True))
         if all(read[number] == value for number, value in zip(order, values, strict=True)):
             yield read
             count += 1
             if count >= _READINGS:
                 return
+
+
+def _without_stop(source: str, target: str) -> tuple[str, str]:
+    """Return a sentence without its full stop, which is a separator of its own."""
+    if len(source) > 4 and source.endswith(".") and not source.endswith("..") and target.endswith("。"):
+        return source[:-1], target[:-1]
+    return source, target
 
 
 def _template(source: str, target: str) -> _Template:

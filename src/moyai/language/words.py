@@ -21,11 +21,15 @@ NAMES = frozenset(
     JavaScript JONSWAP Ochi-Hubble Pierson-Moskowitz Bretschneider-Mitsuyasu Keulegan-Carpenter Morison's Airy's
     Palmgren-Miner Kato Yoshida Iwata Mizutani Hirayama Kaihatsu Nagasaki Ohtsuka Tanizawa Wake Oppenheim Wilson Le
     Mehaute Méhauté Zhan Klebert Lader Fredheim Berstad Huang Tang Kitamura Rudi Aarsnes Haritos He Gui NaN inf pip
+    Kouwen Ontario Otsuka Ikeda Ruol ITOPF Linux Windows Darwin numpy scipy numba xarray raschii loland milne aarsnes
+    balash neob fl ed omega lambda rho beta theta sigma pi PV int dx dt Legendre Magnus Weibull Intel aarch
     netCDF NetCDF github Fredriksson Chen Gudmestad DeCew Tsukrov Swift Celikkol Endresen Enerhaug Moe Sintef
     Hs Tp Tz Ts Re Fr Kc Cd Cm Ct Cr Ca Cl Sn Ur Fn St Ma Ka Uw Ux Uz Mx My Mz Fx Fy Fz GM KG KB BM GZ HWL LWL MWL CSV
     SVG PNG PDF HTML DOCX XLSX DXF VTK JSON SI EA EI sin cos tan exp log ln sqrt min max std rms Hz""".split()
 )
 """Names of people, programs, formats and symbols that stay in Latin letters."""
+_SHORT = frozenset("of in at by to on or is as it no up an if be do so us we he me my am go".split())
+"""Words of two letters that are no symbols."""
 _CODE = re.compile(r"[_/\\]|\w\.\w|^--?\w|^\.|\d|\w\(\)|[A-Z]{2,}|^[A-Za-z]\w?$|^[a-z]+[A-Z]|@")
 
 
@@ -37,9 +41,10 @@ def latin_words(text: str) -> list[str]:
     text : str
     """
     found = []
-    quoted = re.sub(r"'[^'\s]+'|`[^`]*`", " ", text)  # keys and values of files, as typed
+    quoted = re.sub(r"\[eq:[^\]]*\]|'[^'\s]+'|'\w+: \w+'|`[^`]*`", " ", text)  # keys and values of files, as typed
     for token in _TOKEN.findall(quoted):
-        if token.isascii() and _CODE.search(token.strip("'.,!?")):
+        plain = token.strip("'.!?")
+        if token.isascii() and plain.lower() not in _SHORT and _CODE.search(plain):
             continue
         for word in _WORD.findall(token):
             if len(word) > 1 and word not in UNITS and word not in NAMES and not word.isupper():

@@ -33,6 +33,7 @@ from moyai.report.document import (
 )
 from moyai.report.encoding import column_unit, figure_specification, page_json, slug, table_csv
 from moyai.report.first_page import COMPUTATION
+from moyai.report.fonts import embedded_style
 from moyai.report.formatting import DASH, column_decimals, format_fixed, format_number, pretty_unit, trimmed
 from moyai.report.notices import grouped
 from moyai.report.language import for_its_reader
@@ -42,6 +43,21 @@ LEAST_LETTER = 9.0
 _ONE_LINE = 24  # letters of a cell that is not broken
 _HYPHENATED = re.compile(r"(?<![\w-])(?=[\w.-]{3,40}(?![\w.-]))\w[\w.]*(?:-[\w.]+)+")
 """Height of the smallest letters of a drawing on a narrow screen [CSS px]; the drawing moves sideways there."""
+_JAPANESE_FACES = (
+    '"Segoe UI","Helvetica Neue",Helvetica,Arial,"Hiragino Sans","Yu Gothic",Meiryo,"Noto Sans CJK JP","moyai-ja",sans-serif'
+)
+SCRIPT_WORDS = (
+    "Copied", "Refused", "maximum", "max", "Maximum", "sway, heave, roll", "Play", "Pause", "Space", "Time",
+    "Speed (plus, minus)", "Save this picture", "Show window", "Whole record", "tension", "slack", "plan", "to",
+    "section at mid-span", "tension of both cables", "tension, both cables", "View (V)", "Farther", "Nearer", "waves",
+    "current", "grid", "bar",
+    "Animation. Space plays, arrows step, M jumps to the maximum, V changes the view, W the span, plus and minus the "
+    "speed.",
+    "Drag to turn, shift-drag to move, click and scroll to zoom, double-click to return.",
+    "Drag to turn, shift-drag to move, click and scroll to zoom, double-click to return; click the trace to go to a time.",
+    "The figure could not be drawn; its data are in the CSV. A browser of 2023 or newer is needed.",
+)  # fmt: skip
+"""What the scripts of the page say of themselves."""
 _PASTE = "Copy the data, ready to paste into a spreadsheet"
 _NO_SCRIPT = "Figures and the animation need JavaScript; tables and text are complete without it."
 SCRIPTS = ("report.js", "figures.js", "curtain.js", "scene_3d.js", "scene_3d_paint.js", "player.js")
@@ -69,7 +85,7 @@ def render_parts(document: Document) -> tuple[str, dict[str, Any]]:
     """
     page = _Page()
     sections = "\n".join(page.section(section) for section in document.sections)
-    data = {"figures": page.figures, "scenes": page.scenes, "tables": page.tables}
+    data = page.data()
     return f"{_badges(document)}\n{sections}", data
 
 
@@ -101,7 +117,12 @@ def render_html(document: Document) -> str:
     )
     plotly = f'<script type="text/plain" id="packed-plotly">{packed_plotly()}</script>' if page.figures else ""
     scripts = "\n".join(f"<script>\n{asset(name)}</script>" for name in SCRIPTS)
-    data = page_json({"figures": page.figures, "scenes": page.scenes, "tables": page.tables})
+    data = page_json(page.data())
+    badges = _badges(document)
+    style = ""
+    if document.language == "ja":
+        style = embedded_style("".join((document.title, document.subtitle, badges, contents, sections, data)))
+        style += f"body{{font-family:{_JAPANESE_FACES}}}\n"
     return f"""<!DOCTYPE html>
 <html lang="{document.language}">
 <head>
@@ -112,7 +133,7 @@ def render_html(document: Document) -> str:
 <link rel="icon" href="data:,">
 <title>{escape(document.title)}</title>
 <style>
-{asset("report.css")}</style>
+{asset("report.css")}{style}</style>
 </head>
 <body>
 <a class="skip" href="#content">{escape(said("To the content"))}</a>
@@ -121,7 +142,7 @@ def render_html(document: Document) -> str:
 <h1>{escape(document.title)}</h1>
 <p class="subtitle">{escape(document.subtitle)}</p>
 </div>
-{_badges(document)}
+{badges}
 </header>
 <div class="frame">
 <nav aria-label="{escape(said("Contents"))}"><ol>
@@ -216,6 +237,15 @@ class _Page:
         self.tables: dict[str, str] = {}
         self._used: set[str] = set()
         self._choices = 0
+
+    def data(self) -> dict[str, Any]:
+        """Return what the scripts read: figures, scenes, tables and, in another language, their words."""
+        found: dict[str, Any] = {"figures": self.figures, "scenes": self.scenes, "tables": self.tables}
+        views = [view for scene in self.scenes.values() for view in scene.get("extents", {})]
+        spoken = {text: said(text) for text in (*SCRIPT_WORDS, *views)}
+        if words := {text: told for text, told in spoken.items() if told != text}:
+            found["words"] = words
+        return found
 
     def _unique(self, key: str) -> str:
         name, count = slug(key), 2

@@ -58,7 +58,7 @@ _TEXTS: dict[type, tuple[str, ...]] = {
 }
 """Texts of each record that a person reads. The title of a report is the user's own; notices are read in English first,
 for their places, and translated by :func:`moyai.report.html.notice_items`."""
-_SCENE_TEXTS = ("name", "label", "title", "words")
+_SCENE_TEXTS = ("name", "names", "label", "title", "words")
 _SVG_TEXT = re.compile(r"(<(?:text|title|tspan)\b[^>]*>)([^<]+)(?=<)")
 
 
@@ -113,11 +113,17 @@ def _svg(text: str) -> str:
     return _SVG_TEXT.sub(lambda match: match[1] + escape(said(unescape(match[2])), quote=False), text)
 
 
+def _named(value: Any) -> Any:
+    if isinstance(value, list | tuple):
+        return [_named(entry) for entry in value]
+    return said(value) if isinstance(value, str) else _scene(value)
+
+
 def _scene(value: Any) -> Any:
     """Return a scene with its names and labels translated, wherever they stand."""
     if isinstance(value, Mapping):
         return {
-            key: said(entry) if key in _SCENE_TEXTS and isinstance(entry, str) else _scene(entry)
+            key: _named(entry) if key in _SCENE_TEXTS else _scene(entry)
             for key, entry in value.items()
         }
     return [_scene(entry) for entry in value] if isinstance(value, list | tuple) else value

@@ -28,11 +28,13 @@ from moyai.report.document import (
 )
 from moyai.report.encoding import column_unit
 from moyai.report.figures_static import draw_figure
+from moyai.report.fonts import font_folders
 from moyai.report.formatting import pretty_unit
 from moyai.report.html import badges_of, column_texts, foot_text, is_text_column, notice_items
 from moyai.report.language import for_its_reader
 
 WIDTH = 16.0  # of images and tables [cm], on a page that is no wider than A4
+_JAPANESE_FACE = "Yu Gothic"
 _DOTS = 160  # per inch
 
 
@@ -84,6 +86,8 @@ class _Writer:
     def write(self, document: Document) -> None:
         """Write title, badges, sections and foot."""
         paper = self._paper
+        if document.language == "ja":
+            _name_japanese_face(paper)
         paper.core_properties.title = document.title
         self._text(document.title, "Title")
         if document.subtitle:
@@ -224,6 +228,15 @@ def _field(paragraph: Any, code: str, shown: str) -> None:
     paragraph.add_run()._r.append(part("end"))
 
 
+def _name_japanese_face(paper: Any) -> None:
+    """Name the face of Japanese letters where the template names none; a reader without it takes another."""
+    from docx.oxml.ns import qn
+
+    fonts = paper.styles["Normal"].element.get_or_add_rPr().get_or_add_rFonts()
+    if fonts.get(qn("w:eastAsia")) is None:
+        fonts.set(qn("w:eastAsia"), _JAPANESE_FACE)
+
+
 def _rasterised(svg: str) -> bytes:
     """Return a drawing as PNG."""
     import typst
@@ -235,5 +248,5 @@ def _rasterised(svg: str) -> bytes:
             f'#set page(width: auto, height: auto, margin: 0pt)\n#image("drawing.svg", width: {WIDTH}cm)\n',
             encoding="utf-8",
         )
-        found = typst.compile(str(folder / "drawing.typ"), root=name, format="png", ppi=float(_DOTS))
+        found = typst.compile(str(folder / "drawing.typ"), root=name, format="png", ppi=float(_DOTS), font_paths=font_folders())
         return bytes(found if isinstance(found, bytes) else found[0])

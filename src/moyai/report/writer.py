@@ -12,7 +12,7 @@ from moyai.core.files import write_whole
 from moyai.core.kinds import kind_of_result
 from moyai.core.results import Result
 from moyai.core.vocabulary import MEASURED_GROUP
-from moyai.language import require_language, spoken_in
+from moyai.language import require_language, spoken_in, spoken_language
 from moyai.report.document import Document
 from moyai.report.encoding import slug, table_csv, unique_slugs
 from moyai.report.first_page import units_of, with_first_page
@@ -29,7 +29,7 @@ def compose_document(result: Result, units: str | None = None, language: str | N
     units : {"SI", "tf"}, optional
         System of units of the document; that of the case when left out, else SI.
     language : {"en", "ja"}, optional
-        Language that the document is shown in; that of the case when left out, else English.
+        Language that the document is shown in; that of the case when left out, else the one in force, English.
 
     Returns
     -------
@@ -44,7 +44,7 @@ def compose_document(result: Result, units: str | None = None, language: str | N
     if units is not None:
         result = replace(result, provenance={**result.provenance, "display_units": units})
     with displayed_in(units_of(result)) as units:
-        language = require_language(language or str(result.provenance.get("display_language", "en")))
+        language = require_language(language or str(result.provenance.get("display_language") or spoken_language()))
         document = replace(_composed(result), units=units, language=language)
         if MEASURED_GROUP.strip("/") in result.tree.children:
             from moyai.report.overlay import with_measured_points
