@@ -1,4 +1,4 @@
-"""Catalogues: message files (PO) of gettext, one a language, read as pairs of templates."""
+"""Catalogues: message files (PO) of gettext, a folder a language, read as pairs of templates."""
 
 from __future__ import annotations
 
@@ -24,8 +24,9 @@ def catalogue(language: str) -> dict[str, str]:
     """
     if language == "en":
         return {}
-    text = (resources.files("moyai.language") / f"{language}.po").read_text(encoding="utf-8")
-    return {source: target for source, target in entries(text) if source and target}
+    files = (file for file in (resources.files("moyai.language") / language).iterdir() if file.name.endswith(".po"))
+    texts = (file.read_text(encoding="utf-8") for file in sorted(files, key=lambda file: file.name))
+    return {source: target for text in texts for source, target in entries(text) if source and target}
 
 
 def entries(text: str) -> Iterator[tuple[str, str]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 
 from moyai.language.current import said, spoken_language
 
@@ -21,6 +22,27 @@ def with_comments(text: str) -> str:
     if spoken_language() == "en":
         return text
     return _COMMENT.sub(_translated, text)
+
+
+def comments(text: str) -> Iterator[str]:
+    """Give the comments of a YAML text that are sentences or words, as they are translated one by one.
+
+    Parameters
+    ----------
+    text : str
+    """
+    for match in _COMMENT.finditer(text):
+        yield from _parts(match.group(4))
+
+
+def _parts(comment: str) -> Iterator[str]:
+    code, mark, remark = comment.partition("  #")
+    if mark:
+        yield remark.strip()
+    elif not _CODE.match(comment):
+        yield comment
+    elif comment.startswith("moyai ") and (words := _command(comment)[2]):
+        yield words
 
 
 def _translated(match: re.Match[str]) -> str:

@@ -17,10 +17,13 @@ from moyai.language.catalogue import catalogue, literals
 from moyai.language.words import latin_words
 
 _LETTERS = re.compile(r"[A-Za-z]+")
+_JAPANESE = "[\u3040-\u30ff\u3400-\u9fff]"
+_SCRIPTS = re.compile(f"{_JAPANESE}[A-Za-z0-9]|[A-Za-z0-9%°]{_JAPANESE}")
+_JAPANESE_JOINT = re.compile(f"{_JAPANESE} {_JAPANESE}")
 _LONGEST = 12_000  # a text that is longer is no sentence
 _GLUED = 160  # characters of a phrase that is taken apart at its prepositions
 _READINGS = 24  # ways that a template fits a text
-_ENDS, _GLUE_ENDS = (". ", "; "), (". ", "; ", ": ", ", ")
+_ENDS, _GLUE_ENDS = (". ", "; ", ": "), (". ", "; ", ": ", ", ")
 _NAME = 3  # words that may stay English between translated ones: a name that the user gave
 
 
@@ -51,22 +54,29 @@ class _Template:
     def rank(self) -> tuple[int, int]:
         """Place in the order of trial: sentences, separators, prepositions, adjectives; the longest first."""
         if self.is_glue:
-            return (2 if len(self.order) > 1 else 3, -self.weight)
+            return (3 if len(self.order) == 1 and self.source[0] else 2, -self.weight)
         return (int(self.is_separator), -self.weight)
 
-    def holds(self, value: str) -> bool:
+    def holds(self, number: int, value: str) -> bool:
         """Whether a part of a text may stand in a place: no end of a sentence or half a bracket in a phrase."""
         if value.count("(") != value.count(")") or value != value.strip():
             return False
         if self.is_separator:
             return True
-        return not any(mark in value for mark in (_GLUE_ENDS if self.is_glue else _ENDS))
+        first = not self.source[0] and number == self.order[0]  # what stands before a colon is the place of the sentence
+        return not any(mark in value for mark in (_GLUE_ENDS if self.is_glue else _ENDS[: 3 if first else 2]))
 
     def filled(self, values: dict[int, str]) -> str:
-        found = [self.target[0]]
+        """Return the target with its places filled; a blank parts the letters of both scripts."""
+        found = self.target[0]
         for number, part in zip(self.target_order, self.target[1:], strict=True):
-            found += [values[number], part]
-        return "".join(found)
+            for piece in (values[number], part):
+                joint = found[-1:] + piece[:1]
+                if _JAPANESE_JOINT.fullmatch(found[-2:] + piece[:1]):
+                    found = found[:-1]
+                found += f" {piece}" if _SCRIPTS.fullmatch(joint) else piece
+        return found
+
 
 
 class Translator:
@@ -90,6 +100,7 @@ class Translator:
         for template in templates:
             rarest = min(template.words, key=lambda word: (count[word], word), default="")
             self._by_word.setdefault(rarest, []).append(template)
+        self._stop = messages.get("{0}.", "{0}.").removeprefix("{0}")
         self._known: dict[str, tuple[str, int]] = {}
 
     def text(self, text: str) -> str:
@@ -113,11 +124,16 @@ class Translator:
         if (exact := self._exact(text)) is not None:
             found = exact, 0
         elif left := len(latin_words(text)):
-            found = self._read(text, left)
+            found = self._sentence(text, left) if text.endswith(".") else self._read(text, left)
         else:
             found = text, 0
         self._known[text] = found
         return found
+
+    def _sentence(self, text: str, left: int) -> tuple[str, int]:
+        """Return the best reading of a text that ends with a full stop."""
+        read, cost = self._best(text[:-1])
+        return (f"{read}{self._stop}", cost) if cost < left else (text, left)
 
     def _exact(self, text: str) -> str | None:
         for form in (text, text[:1].lower() + text[1:], text[:1].upper() + text[1:]):
@@ -133,7 +149,7 @@ class Translator:
             if template.is_glue and len(text) > _GLUED:
                 continue
             for values in template_readings(template.source, template.order, text):
-                if not all(map(template.holds, values.values())):
+                if not all(template.holds(*item) for item in values.items()):
                     continue
                 read = {number: self._best(value) for number, value in values.items()}
                 rest = sum(cost for _, cost in read.values())
