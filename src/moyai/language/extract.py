@@ -25,7 +25,7 @@ _SHOWN = frozenset(
 _KEYS = frozenset("key name path code group belongs_to style dash tone severity structure unit".split())
 _TEXT = re.compile(r"[A-Za-z]{2,}[ ,:;.-]+(?:[a-z]|\{)|\{\d+\} [a-z]{2,}|^[A-Z][a-z]+$")
 _NO_TEXT = re.compile(
-    r"^[\w./*\\{}\[\]=\"'<>:-]*$|^<|^\s*[.#][\w-]+\{|[{};]\s*--|</|^(?:%|r?/|\$)|^https?:|^data:|::|^@|\(\?|\\[dwsb]"
+    r"^[\w./*\\{}\[\]=\"'<>:-]*$|^<|^\s*[.#][\w-]+\{|[{};]\s*--|</|->|^(?:dash|solid|line\+points)$|^(?:%|r?/|\$)|^https?:|^data:|::|^@|\(\?|\\[dwsb]"
 )
 FOLDERS = {
     "case": "errors and checks of files", "cli": "command line", "report": "reports, common", "core": "common",

@@ -19,7 +19,7 @@ from moyai.language.words import latin_words
 _LETTERS = re.compile(r"[A-Za-z]+")
 _JAPANESE = "[\u3040-\u30ff\u3400-\u9fff]"
 _SCRIPTS = re.compile(f"{_JAPANESE}[A-Za-z0-9]|[A-Za-z0-9%°]{_JAPANESE}")
-_JAPANESE_JOINT = re.compile(f"{_JAPANESE} {_JAPANESE}")
+_PARTICLE = re.compile("(?<=[\u3040-\u309f]) (?=\\{)|(?<=\\}) (?=[\u3040-\u309f])")
 _LONGEST = 12_000  # a text that is longer is no sentence
 _GLUED = 160  # characters of a phrase that is taken apart at its prepositions
 _READINGS = 24  # ways that a template fits a text
@@ -72,8 +72,6 @@ class _Template:
         for number, part in zip(self.target_order, self.target[1:], strict=True):
             for piece in (values[number], part):
                 joint = found[-1:] + piece[:1]
-                if _JAPANESE_JOINT.fullmatch(found[-2:] + piece[:1]):
-                    found = found[:-1]
                 found += f" {piece}" if _SCRIPTS.fullmatch(joint) else piece
         return found
 
@@ -209,7 +207,8 @@ def _without_stop(source: str, target: str) -> tuple[str, str]:
 
 def _template(source: str, target: str) -> _Template:
     parts, order = literals(source)
-    said, said_order = literals(target)
+    # a blank next to a particle comes back where what is filled in is Latin
+    said, said_order = literals(_PARTICLE.sub("", target))
     words = frozenset(word.lower() for part in parts for word in _LETTERS.findall(part))
     return _Template(parts, order, said, said_order, words)
 

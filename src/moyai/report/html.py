@@ -121,7 +121,7 @@ def render_html(document: Document) -> str:
     badges = _badges(document)
     style = ""
     if document.language == "ja":
-        style = embedded_style("".join((document.title, document.subtitle, badges, contents, sections, data)))
+        style = embedded_style("".join((document.title, document.subtitle, badges, contents, sections, data, said(_NO_SCRIPT))))
         style += f"body{{font-family:{_JAPANESE_FACES}}}\n"
     return f"""<!DOCTYPE html>
 <html lang="{document.language}">
