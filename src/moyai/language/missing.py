@@ -47,7 +47,7 @@ def is_translated(template: str, language: str) -> bool:
     template : str
     language : str
     """
-    sample = template
+    sample = template.strip(" ,;.")  # a part of a sentence stands behind the mark that joins it
     for number in range(template.count("{")):
         sample = sample.replace(f"{{{number}}}", f"{number + 1}")
     return not latin_words(translator(language).text(sample))
