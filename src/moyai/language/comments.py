@@ -32,14 +32,14 @@ def comments(text: str) -> Iterator[str]:
     text : str
     """
     for match in _COMMENT.finditer(text):
-        yield from _parts(match.group(4))
+        yield from _parts(match.group(4), alone=not match.group(1).strip())
 
 
-def _parts(comment: str) -> Iterator[str]:
-    code, mark, remark = comment.partition("  #")
+def _parts(comment: str, alone: bool) -> Iterator[str]:
+    _, mark, remark = comment.partition("  #")
     if mark:
         yield remark.strip()
-    elif not _CODE.match(comment):
+    elif not (alone and _CODE.match(comment)):
         yield comment
     elif comment.startswith("moyai ") and (words := _command(comment)[2]):
         yield words
@@ -50,7 +50,7 @@ def _translated(match: re.Match[str]) -> str:
     code, mark, remark = comment.partition("  #")
     if mark:
         comment = f"{code}  #{_spaced(remark)}"
-    elif not _CODE.match(comment):
+    elif before.strip() or not _CODE.match(comment):
         comment = said(comment)
     elif comment.startswith("moyai "):
         command, gap_within, words = _command(comment)

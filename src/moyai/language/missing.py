@@ -16,7 +16,6 @@ from moyai.language.comments import comments
 from moyai.language.current import require_language
 from moyai.language.extract import Text, texts
 from moyai.language.translator import translator
-from moyai.language.words import latin_words
 
 COMMENTS = "comments of moyai new"
 
@@ -50,7 +49,7 @@ def is_translated(template: str, language: str) -> bool:
     sample = template.strip(" ,;.")  # a part of a sentence stands behind the mark that joins it
     for number in range(template.count("{")):
         sample = sample.replace(f"{{{number}}}", f"{number + 1}")
-    return not latin_words(translator(language).text(sample))
+    return translator(language).left(sample) == 0
 
 
 def coverage(found: Iterable[Text], language: str) -> tuple[list[Coverage], list[Text]]:

@@ -108,6 +108,10 @@ class Translator:
         lines = text.split("\n")
         return "\n".join(self._line(line) for line in lines) if len(lines) > 1 else self._line(text)
 
+    def left(self, text: str) -> int:
+        """Return how many English words of a text no message knows."""
+        return sum(self._best(line.strip())[1] for line in text.split("\n"))
+
     def _line(self, text: str) -> str:
         inner = text.strip()
         if not inner:

@@ -28,6 +28,7 @@ NAMES = frozenset(
     SVG PNG PDF HTML DOCX XLSX DXF VTK JSON SI EA EI sin cos tan exp log ln sqrt min max std rms Hz""".split()
 )
 """Names of people, programs, formats and symbols that stay in Latin letters."""
+_JAPANESE = re.compile("[\u3040-\u30ff\u4e00-\u9fff]")
 _SHORT = frozenset("of in at by to on or is as it no up an if be do so us we he me my am go".split())
 """Words of two letters that are no symbols."""
 _CODE = re.compile(r"[_/\\]|\w\.\w|^--?\w|^\.|\d|\w\(\)|[A-Z]{2,}|^[A-Za-z]\w?$|^[a-z]+[A-Z]|@")
@@ -40,6 +41,8 @@ def latin_words(text: str) -> list[str]:
     ----------
     text : str
     """
+    if _JAPANESE.search(text):  # a plain colon stands in code alone: `dynamic: false`
+        text = re.sub(r"\b[A-Za-z_]+: [A-Za-z_]+", " ", text)
     found = []
     quoted = re.sub(r"\[eq:[^\]]*\]|'[^'\s]+'|'\w+: \w+'|`[^`]*`", " ", text)  # keys and values of files, as typed
     for token in _TOKEN.findall(quoted):
