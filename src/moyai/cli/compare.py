@@ -9,7 +9,7 @@ from typing import Annotated, Any
 
 import typer
 
-from moyai.cli.console import OK, guard, print_json, progress_bars, put, rich_console, say
+from moyai.cli.console import OK, guard, print_json, progress_bars, put, rich_console
 from moyai.cli.files import decimal_sign
 from moyai.core.errors import InputError
 

@@ -60,7 +60,10 @@ def print_table(console: Console, table: ReportTable) -> None:
     for number in range(table.row_count):
         cells = [(column.values[number], column.digits) for column in table.columns]
         shown.add_row(
-            *(format_number(float(v), digits) if isinstance(v, int | float) else said(str(v or "")) for v, digits in cells)
+            *(
+                format_number(float(v), digits) if isinstance(v, int | float) else said(str(v or ""))
+                for v, digits in cells
+            )
         )
     console.print(shown)
 

@@ -37,7 +37,8 @@ def entries(text: str) -> Iterator[tuple[str, str]]:
     text : str
         Without contexts and plural forms, which the catalogues do not have.
     """
-    source, parts = "", []  # type: tuple[str, list[str]] | tuple[str, list[str]]
+    source = ""
+    parts: list[str] = []
     for line in [*text.splitlines(), 'msgid ""']:
         keyword, quote, rest = line.partition('"')
         if line.startswith("#") or not quote:

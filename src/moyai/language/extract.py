@@ -16,13 +16,17 @@ from pathlib import Path
 from moyai.language.words import latin_words
 
 #: What shows the texts it is given, by the name it is called by.
-_SHOWN = frozenset(
-    """Abscissa Animation Badge Choice Column Criterion Drawing Fault Figure Headline IdentityCheck InputError KeyFigure
-    Listing Mark Notice Option Panel Paragraph Section Series Table column number said tell say Number Band
-    ConvergenceError _column""".split()
-)
+_SHOWN = frozenset((
+    "Abscissa", "Animation", "Badge", "Choice", "Column", "Criterion", "Drawing", "Fault", "Figure",
+    "Headline", "IdentityCheck", "InputError", "KeyFigure", "Listing", "Mark", "Notice", "Option", "Panel",
+    "Paragraph", "Section", "Series", "Table", "column", "number", "said", "tell", "say", "Number", "Band",
+    "ConvergenceError", "_column",
+))  # fmt: skip
 #: Arguments of such calls that are keys.
-_KEYS = frozenset("key name path code group belongs_to style dash tone severity structure unit".split())
+_KEYS = frozenset((
+    "key", "name", "path", "code", "group", "belongs_to", "style", "dash", "tone", "severity", "structure",
+    "unit",
+))  # fmt: skip
 _TEXT = re.compile(r"[A-Za-z]{2,}[ ,:;.-]+(?:[a-z]|\{)|\{\d+\} [a-z]{2,}|^[A-Z][a-z]+$")
 _NO_TEXT = re.compile(
     r"^[\w./*\\{}\[\]=\"'<>:-]*$|^<|^\s*[.#][\w-]+\{|[{};]\s*--|</|->|^(?:dash|solid|line\+points)$|^(?:%|r?/|\$)|^https?:|^data:|::|^@|\(\?|\\[dwsb]"
@@ -85,7 +89,7 @@ def templates(source: str) -> Iterator[tuple[str, int]]:
 
 
 def _is_text(text: str, shown: bool) -> bool:
-    if not latin_words(text) or _NO_TEXT.search(text) and not (shown and re.fullmatch(r"[A-Za-z][a-z-]+", text)):
+    if not latin_words(text) or (_NO_TEXT.search(text) and not (shown and re.fullmatch(r"[A-Za-z][a-z-]+", text))):
         return False
     return shown or _TEXT.search(text) is not None
 

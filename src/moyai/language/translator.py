@@ -63,7 +63,9 @@ class _Template:
             return False
         if self.is_separator:
             return True
-        first = not self.source[0] and number == self.order[0]  # what stands before a colon is the place of the sentence
+        first = (
+            not self.source[0] and number == self.order[0]
+        )  # what stands before a colon is the place of the sentence
         return not any(mark in value for mark in (_GLUE_ENDS if self.is_glue else _ENDS[: 3 if first else 2]))
 
     def filled(self, values: dict[int, str]) -> str:
@@ -74,7 +76,6 @@ class _Template:
                 joint = found[-1:] + piece[:1]
                 found += f" {piece}" if _SCRIPTS.fullmatch(joint) else piece
         return found
-
 
 
 class Translator:
@@ -174,7 +175,11 @@ def template_readings(parts: tuple[str, ...], order: tuple[int, ...], text: str)
         The first letter of the template may be a capital in it or not.
     """
     first, last = parts[0], parts[-1]
-    if first and text[: len(first)] != first and text[:1].lower() + text[1 : len(first)] != first[:1].lower() + first[1:]:
+    if (
+        first
+        and text[: len(first)] != first
+        and text[:1].lower() + text[1 : len(first)] != first[:1].lower() + first[1:]
+    ):
         return
     if last and not text.endswith(last):
         return

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from moyai.report.document import Figure, Mark, Series
 from moyai.language import spoken_language
+from moyai.report.document import Figure, Mark, Series
 from moyai.report.fonts import matplotlib_families, require_japanese
 from moyai.report.formatting import pretty_unit, subscripted
 

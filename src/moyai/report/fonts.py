@@ -1,4 +1,4 @@
-"""Fonts with Japanese letters for figures, PDF and pages: those of the machine, else the one of the extra ``moyai[ja]``.
+"""Fonts with Japanese letters for figures, PDF and pages: those of the machine, else that of ``moyai[ja]``.
 
 The extra installs IPAex Gothic (IPA Font License 1.0) as the data of the package ``matplotlib-fontja``; nothing of the
 package itself is imported.
@@ -42,10 +42,10 @@ def packaged_font() -> Path | None:
     return None
 
 
-def font_folders() -> list[Path]:
+def font_folders() -> list[str]:
     """Return the folders of fonts that typst searches besides the machine's."""
     file = packaged_font()
-    return [] if file is None else [file.parent]
+    return [] if file is None else [str(file.parent)]
 
 
 @cache
@@ -80,7 +80,7 @@ def require_japanese(families: Any, path: str = "--language") -> None:
         raise InputError(
             "no font with Japanese letters was found, and a PDF or a figure would show empty boxes",
             path=path,
-            remedy="pip install \"moyai[ja]\" brings one (IPAex Gothic); the page report.html needs none",
+            remedy='pip install "moyai[ja]" brings one (IPAex Gothic); the page report.html needs none',
         )
 
 

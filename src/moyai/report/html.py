@@ -35,8 +35,8 @@ from moyai.report.encoding import column_unit, figure_specification, page_json, 
 from moyai.report.first_page import COMPUTATION
 from moyai.report.fonts import embedded_style
 from moyai.report.formatting import DASH, column_decimals, format_fixed, format_number, pretty_unit, trimmed
-from moyai.report.notices import grouped
 from moyai.report.language import for_its_reader
+from moyai.report.notices import grouped
 
 STATUS_WORDS = {status: word for status, (word, _) in COMPUTATION.items()}
 LEAST_LETTER = 9.0
@@ -44,8 +44,9 @@ _ONE_LINE = 24  # letters of a cell that is not broken
 _HYPHENATED = re.compile(r"(?<![\w-])(?=[\w.-]{3,40}(?![\w.-]))\w[\w.]*(?:-[\w.]+)+")
 """Height of the smallest letters of a drawing on a narrow screen [CSS px]; the drawing moves sideways there."""
 _JAPANESE_FACES = (
-    '"Segoe UI","Helvetica Neue",Helvetica,Arial,"Hiragino Sans","Yu Gothic",Meiryo,"Noto Sans CJK JP","moyai-ja",sans-serif'
-)
+    '"Segoe UI","Helvetica Neue",Helvetica,Arial,"Hiragino Sans","Yu Gothic",Meiryo,'
+    '"Noto Sans CJK JP","moyai-ja",sans-serif'
+)  # fmt: skip
 SCRIPT_WORDS = (
     "Copied", "Refused", "maximum", "max", "Maximum", "sway, heave, roll", "Play", "Pause", "Space", "Time",
     "Speed (plus, minus)", "Save this picture", "Show window", "Whole record", "tension", "slack", "plan", "to",
@@ -54,7 +55,8 @@ SCRIPT_WORDS = (
     "Animation. Space plays, arrows step, M jumps to the maximum, V changes the view, W the span, plus and minus the "
     "speed.",
     "Drag to turn, shift-drag to move, click and scroll to zoom, double-click to return.",
-    "Drag to turn, shift-drag to move, click and scroll to zoom, double-click to return; click the trace to go to a time.",
+    "Drag to turn, shift-drag to move, click and scroll to zoom, double-click to return; click the trace to go to a "
+    "time.",
     "The figure could not be drawn; its data are in the CSV. A browser of 2023 or newer is needed.",
 )  # fmt: skip
 """What the scripts of the page say of themselves."""
@@ -118,12 +120,7 @@ def render_html(document: Document) -> str:
     plotly = f'<script type="text/plain" id="packed-plotly">{packed_plotly()}</script>' if page.figures else ""
     scripts = "\n".join(f"<script>\n{asset(name)}</script>" for name in SCRIPTS)
     data = page_json(page.data())
-    badges = _badges(document)
-    style = ""
-    if document.language == "ja":
-        style = embedded_style("".join((document.title, document.subtitle, badges, contents, sections, data, said(_NO_SCRIPT))))
-        style += f"body{{font-family:{_JAPANESE_FACES}}}\n"
-    return f"""<!DOCTYPE html>
+    page_text = f"""<!DOCTYPE html>
 <html lang="{document.language}">
 <head>
 <meta charset="utf-8">
@@ -133,7 +130,7 @@ def render_html(document: Document) -> str:
 <link rel="icon" href="data:,">
 <title>{escape(document.title)}</title>
 <style>
-{asset("report.css")}{style}</style>
+{asset("report.css")}</style>
 </head>
 <body>
 <a class="skip" href="#content">{escape(said("To the content"))}</a>
@@ -142,7 +139,7 @@ def render_html(document: Document) -> str:
 <h1>{escape(document.title)}</h1>
 <p class="subtitle">{escape(document.subtitle)}</p>
 </div>
-{badges}
+{_badges(document)}
 </header>
 <div class="frame">
 <nav aria-label="{escape(said("Contents"))}"><ol>
@@ -160,6 +157,10 @@ def render_html(document: Document) -> str:
 </body>
 </html>
 """
+    if document.language != "ja":
+        return page_text
+    faces = f"{embedded_style(page_text)}body{{font-family:{_JAPANESE_FACES}}}\n"
+    return page_text.replace("</style>", f"{faces}</style>", 1)
 
 
 def badges_of(document: Document) -> tuple[Badge, ...]:
@@ -296,8 +297,9 @@ class _Page:
                 for i, a in enumerate(figure.abscissae)
             )
             switch = f'<span class="segmented" role="group" aria-label="{said("Plot against")}">{buttons}</span>'
+        shown = said("Shown part of the record")
         overview = (
-            f'<canvas class="overview" tabindex="0" role="slider" aria-label="{said("Shown part of the record")}"></canvas>'
+            f'<canvas class="overview" tabindex="0" role="slider" aria-label="{shown}"></canvas>'
             if figure.slider
             else ""
         )
@@ -331,11 +333,12 @@ class _Page:
                     kind, shown = _unbroken(shown_texts[row], shown)
                 cells.append(f"<td{kind}>" + (f'<a href="{escape(link)}">{shown}</a>' if link else shown) + "</td>")
             rows.append(f'<tr class="{" ".join(kinds)}">' + "".join(cells) + "</tr>")
+        copy = said("Copy data")
         body = f"""<div class="scroll" tabindex="0" role="region" aria-label="{escape(table.title)}"><table>
 <thead><tr>{"".join(heads)}</tr></thead>
 <tbody>{"".join(rows)}</tbody></table></div>
 <div class="tools">{_caption(table.note)}<span class="spring"></span>
-<button type="button" data-do="csv">CSV</button><button type="button" data-do="copy">{said("Copy data")}</button></div>"""
+<button type="button" data-do="csv">CSV</button><button type="button" data-do="copy">{copy}</button></div>"""
         if table.collapsed:
             return (
                 f'<details class="table" id="{name}" data-table="{name}"><summary>{words(table.title)}</summary>'

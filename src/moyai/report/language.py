@@ -122,8 +122,5 @@ def _named(value: Any) -> Any:
 def _scene(value: Any) -> Any:
     """Return a scene with its names and labels translated, wherever they stand."""
     if isinstance(value, Mapping):
-        return {
-            key: _named(entry) if key in _SCENE_TEXTS else _scene(entry)
-            for key, entry in value.items()
-        }
+        return {key: _named(entry) if key in _SCENE_TEXTS else _scene(entry) for key, entry in value.items()}
     return [_scene(entry) for entry in value] if isinstance(value, list | tuple) else value

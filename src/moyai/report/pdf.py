@@ -124,7 +124,9 @@ class _Writer:
                 if not block.still:
                     return []
                 return [
-                    self._picture(f"{block.title}: {said('the governing moment')}", block.caption, block.still.encode("utf-8"))
+                    self._picture(
+                        f"{block.title}: {said('the governing moment')}", block.caption, block.still.encode("utf-8")
+                    )
                 ]
             case Table():
                 return [_table(block)]

@@ -121,12 +121,17 @@ class _Writer:
                 self._picture(block.title, block.caption, _rasterised(block.fixed_svg))
             case Animation():
                 if block.still:
-                    self._picture(f"{block.title}: {said('the governing moment')}", block.caption, _rasterised(block.still))
+                    self._picture(
+                        f"{block.title}: {said('the governing moment')}", block.caption, _rasterised(block.still)
+                    )
             case Table():
                 self._table(block)
             case KeyFigures():
                 rows = [(item.label[:1].upper() + item.label[1:], item.text, item.detail) for item in block.items]
-                self._grid((tuple(map(said, ("Governing number", "Value", "Where, model and band"))), *rows), widths=(0.3, 0.2, 0.5))
+                self._grid(
+                    (tuple(map(said, ("Governing number", "Value", "Where, model and band"))), *rows),
+                    widths=(0.3, 0.2, 0.5),
+                )
             case Paragraph():
                 self._text(block.text)
             case Listing():
@@ -248,5 +253,7 @@ def _rasterised(svg: str) -> bytes:
             f'#set page(width: auto, height: auto, margin: 0pt)\n#image("drawing.svg", width: {WIDTH}cm)\n',
             encoding="utf-8",
         )
-        found = typst.compile(str(folder / "drawing.typ"), root=name, format="png", ppi=float(_DOTS), font_paths=font_folders())
+        found = typst.compile(
+            str(folder / "drawing.typ"), root=name, format="png", ppi=float(_DOTS), font_paths=font_folders()
+        )
         return bytes(found if isinstance(found, bytes) else found[0])

@@ -60,7 +60,11 @@ def terms() -> list[tuple[str, list[str]]]:
 
 def test_the_catalogue_takes_the_terms_of_the_glossary() -> None:
     known = {source.lower(): target for source, target in catalogue("ja").items()}
-    wrong = [f"{name}: {known.get(name.lower())}, not {words}" for name, words in terms() if known.get(name.lower()) not in words]
+    wrong = [
+        f"{name}: {known.get(name.lower())}, not {words}"
+        for name, words in terms()
+        if known.get(name.lower()) not in words
+    ]
     assert len(terms()) > 80
     assert not wrong, "\n".join(wrong)
 
@@ -70,7 +74,9 @@ def test_the_share_that_is_translated_does_not_fall() -> None:
     share = {group.group: group.translated / group.total for group in groups}
     assert len(missing) == sum(group.total - group.translated for group in groups)
     for name, least in LEAST.items():
-        assert share[name] >= least, f"{name}: {share[name]:.3f}; python -m moyai.language.missing lists what is missing"
+        assert share[name] >= least, (
+            f"{name}: {share[name]:.3f}; python -m moyai.language.missing lists what is missing"
+        )
 
 
 LEAST = {COMMENTS: 0.0}

@@ -63,7 +63,8 @@ def test_words_and_symbols_are_told_apart() -> None:
 
 
 def test_message_files_are_read_with_continued_lines() -> None:
-    text = '# note\nmsgid ""\nmsgstr ""\n"Language: ja\\n"\n\nmsgid "a "\n"b"\nmsgstr "い"\n"ろ"\n\nmsgid "\\"c\\""\nmsgstr "は"\n'
+    text = '# note\nmsgid ""\nmsgstr ""\n"Language: ja\\n"\n\nmsgid "a "\n"b"\nmsgstr "い"\n"ろ"\n\n'
+    text += 'msgid "\\"c\\""\nmsgstr "は"\n'
     assert list(entries(text)) == [("", "Language: ja\n"), ("a b", "いろ"), ('"c"', "は")]
 
 

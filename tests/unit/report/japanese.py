@@ -19,9 +19,10 @@ from moyai.report.language import in_the_language
 from moyai.report.writer import compose_document
 
 _SVG_TEXT = re.compile(r"<(?:text|title|tspan)\b[^>]*>([^<]+)<")
-_KEYS = frozenset(
-    "key group anchor style dash tone severity units language status unit file judgement links x y svg_class".split()
-)
+_KEYS = frozenset((
+    "key", "group", "anchor", "style", "dash", "tone", "severity", "units", "language", "status", "unit",
+    "file", "judgement", "links", "x", "y", "svg_class",
+))  # fmt: skip
 
 
 def pairs(english: Any, japanese: Any, name: str = "") -> Iterator[tuple[str, str]]:
