@@ -61,7 +61,7 @@ def sea_state_of(
     name = surroundings.sea_names(states)[index]
     heading = heading_of(state, bearing, path)
     if isinstance(state, surroundings.RegularWaves):
-        return RegularSea(name, state.height, state.all_periods(), heading)
+        return RegularSea(name, state.height, state.all_periods(), heading, state.theory)
     spectrum = spectrum_of(state, water, folder, path)
     spreading = None if state.spreading is None else _spreading(state.spreading, spectrum)
     return IrregularSea(name, spectrum, heading, spreading, state.duration, state.seed)

@@ -5,11 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from moyai.case.findings import Findings, duplicates
 from moyai.case.schema_environment import PowerLaw, RegularWaves, SpectrumFile, SpeedTable, Tma, sea_names
 from moyai.case.yaml_reader import KeyPath
+
+if TYPE_CHECKING:
+    from moyai.core.validity import Notice
+    from moyai.sea.states import RegularSea
+    from moyai.sea.water import Water
 
 #: Beyond it waves run along the structure and reflection and transmission lose their meaning
 LARGEST_HEADING_DEG = 89.5
@@ -162,6 +167,15 @@ def _check_heading(state: Any, heading: float, path: KeyPath, findings: Findings
     )
 
 
+def _of_theory(sea: RegularSea, period: float, water: Water) -> tuple[Notice, ...]:
+    """Hold a regular wave against breaking and against the theory that it is run in."""
+    from moyai.sea.regular_theory import theory_of
+    from moyai.sea.validity import check_wave
+
+    linear = theory_of(sea.theory, sea.height, period, water) == "linear"
+    return check_wave(sea.height, period, water, theory="airy" if linear else "stream_function")
+
+
 def check_waves(
     model: Any,
     environment: Any,
@@ -190,7 +204,7 @@ def check_waves(
         for name, level in environment.water_levels:
             water = environment.water_at(level)
             if isinstance(state, RegularWaves):
-                pairs = [("height", check_wave(sea.height, period, water)) for period in sea.periods]
+                pairs = [("height", _of_theory(sea, period, water)) for period in sea.periods]
             elif isinstance(sea, ComponentSea):
                 judge = check_wave if sea.omega.size == 1 else check_sea_state
                 pairs = [("kind", judge(sea.height, sea.peak_period, water))]

@@ -126,6 +126,17 @@ class RegularWaves(_SeaState):
         return self.periods.values() if isinstance(self.periods, PeriodRange) else tuple(self.periods or ())
 
 
+class SteepRegularWaves(RegularWaves):
+    """Regular waves for structures whose loads know waves of finite height."""
+
+    theory: Literal["automatic", "linear", "stream_function"] = Field(  # type: ignore[assignment]
+        default="automatic",
+        description="Wave theory: linear or stream function; automatic takes linear waves where their second harmonic "
+        "is below 1 % of the first, else the stream function. Bodies with coefficients and rigid cages know linear "
+        "waves only.",
+    )
+
+
 class CosineTwoS(Block):
     """cos^(2s) spreading, the same at every frequency."""
 

@@ -14,6 +14,7 @@ from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.sea.components import WaveComponents
 from moyai.sea.kinematics import Stretching, linear_velocity_acceleration, stretching_code
+from moyai.sea.permanent_wave import NonlinearWave
 
 
 class Current(Protocol):
@@ -42,10 +43,12 @@ class Flow:
     ramp: float = 0.0
     #: Linear waves; they need their ``water``.
     waves: WaveComponents | None = None
-    #: Kinematics above still water; one of "wheeler", "linear", "constant".
+    #: A wave of finite height in their place: the waves are then the harmonics of its elevation.
+    steep: NonlinearWave | None = None
+    #: Kinematics of linear waves above still water; one of "wheeler", "linear", "constant".
     stretching: Stretching = "wheeler"
-    #: Time between two evaluations, joined linearly [s]; a fiftieth of the shortest wave period that carries energy
-    #: when left out.
+    #: Time between two evaluations, joined linearly [s]; when left out a fiftieth of the shortest wave period that
+    #: carries energy, a hundredth of that of a wave of finite height, whose crest is shorter.
     interval: float | None = None
     #: Time over which the waves alone grow from zero, while the current stands [s].
     wave_ramp: float = 0.0
@@ -80,6 +83,8 @@ class Flow:
         """Time between two evaluations [s]."""
         if self.interval is not None:
             return self.interval
+        if self.steep is not None:
+            return self.steep.period / 100.0
         if self.waves is not None:
             order = np.argsort(self.waves.omega)
             share = np.cumsum(self.waves.amplitude[order] ** 2)
@@ -122,25 +127,7 @@ class Flow:
         grown, rate = self.growth(time)
         out[:3] = self.steady_velocity(position)
         if self.waves is not None and self.waves.water is not None:
-            sea = self.waves
-            elevation, velocity, acceleration = np.empty(count), np.empty((count, 3)), np.empty((count, 3))
-            linear_velocity_acceleration(
-                sea.omega,
-                np.asarray(sea.intrinsic_omega),
-                sea.amplitude,
-                sea.phase,
-                sea.heading,
-                sea.wave_number,
-                float(self.waves.water.depth),
-                np.ascontiguousarray(position[0]),
-                np.ascontiguousarray(position[1]),
-                np.ascontiguousarray(position[2]),
-                time,
-                stretching_code(self.stretching),
-                elevation,
-                velocity,
-                acceleration,
-            )
+            elevation, velocity, acceleration = self._orbital_motion(self.waves, time, position)
             swell, pace = 1.0, 0.0
             if self.wave_ramp > 0.0 and time < self.wave_ramp:
                 angle = math.pi * max(time, 0.0) / self.wave_ramp
@@ -153,3 +140,19 @@ class Flow:
             out[:3] *= grown
             out[6] *= grown
         return out
+
+    def _orbital_motion(self, sea: WaveComponents, time: float, position: Array) -> tuple[Array, Array, Array]:
+        if self.steep is not None:
+            return self.steep.orbital_motion(time, *position)
+        count = position.shape[1]
+        elevation, velocity, acceleration = np.empty(count), np.empty((count, 3)), np.empty((count, 3))
+        linear_velocity_acceleration(
+            *sea.kernel_arguments(),
+            *(np.ascontiguousarray(row) for row in position),
+            time,
+            stretching_code(self.stretching),
+            elevation,
+            velocity,
+            acceleration,
+        )
+        return elevation, velocity, acceleration

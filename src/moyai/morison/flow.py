@@ -105,8 +105,4 @@ class NonlinearFlow:
     def sample(self, time: Array, points: Array) -> FlowSample:
         """Return the motion at times [s] at points (n, 3) [m]."""
         x, y, z = np.asarray(points, dtype=float).T
-        velocity = self.wave.velocity(time, x, y, z)
-        current = self.wave.current_along_wave
-        velocity[..., 0] -= current * math.cos(self.wave.heading)
-        velocity[..., 1] -= current * math.sin(self.wave.heading)
-        return FlowSample(self.wave.elevation(time, x, y), velocity, self.wave.acceleration(time, x, y, z))
+        return FlowSample(*self.wave.orbital_motion(time, x, y, z))

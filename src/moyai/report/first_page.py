@@ -121,13 +121,17 @@ def criteria_table(result: Result) -> Table | None:
             Column("Criterion", [sentence(item.criterion.words) for item in items]),
             Column("Limit", list(limits)),
             Column("Found", list(found)),
-            Column("Where", [item.reason or DASH for item in items]),
+            Column("Where", [_place(item) for item in items]),
             Column("Outcome", [item.outcome for item in items]),
             Column("Source", [item.criterion.source for item in items]),
         ),
         note=" ".join(filter(None, (criteria_note(items), without_limit(result)))),
         failed=tuple(row for row, item in enumerate(items) if item.outcome == "does not hold"),
     )
+
+
+def _place(item: Judgement) -> str:
+    return "; judged on ".join(filter(None, (item.reason, item.judged_on))) or DASH
 
 
 def criteria_note(items: Iterable[Judgement]) -> str:

@@ -185,6 +185,16 @@ class NonlinearWave:
         fourier_wave_kernel(self.wave_number * along, eta, *self.kernel_arguments(), out)
         return out[0], out[1]
 
+    def orbital_motion(self, time: ArrayLike, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> tuple[Array, Array, Array]:
+        """Return elevation, velocity without the current, and acceleration of water particles at points.
+
+        Shapes (*time.shape, *points.shape) and (*time.shape, *points.shape, 3).
+        """
+        velocity = self.velocity(time, x, y, z)
+        velocity[..., 0] -= self.current_along_wave * math.cos(self.heading)
+        velocity[..., 1] -= self.current_along_wave * math.sin(self.heading)
+        return self.elevation(time, x, y), velocity, self.acceleration(time, x, y, z)
+
     def dynamic_pressure(self, time: ArrayLike, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> Array:
         """Return the pressure above the still-water hydrostatic one [Pa], shape (*time.shape, *points.shape).
 

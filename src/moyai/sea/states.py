@@ -10,9 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
+from moyai.sea.regular_theory import RegularTheory
 from moyai.sea.spectrum import Spectrum
 
 
+@checks_words
 @dataclass(frozen=True)
 class RegularSea:
     """Regular waves of one height and one or more periods."""
@@ -25,6 +28,8 @@ class RegularSea:
     periods: tuple[float, ...]
     #: Direction of travel [rad], 0 along +x (normal to the breakwater).
     heading: float = 0.0
+    #: Of structures that know more than linear waves.
+    theory: RegularTheory = "linear"
 
     def __post_init__(self) -> None:
         if not self.periods:

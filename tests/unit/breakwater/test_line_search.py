@@ -33,6 +33,7 @@ def search(monkeypatch, realisations, in_motion, floor=0.0):
     monkeypatch.setattr(
         line_search, "event_numbers", lambda model, run: {"line_tension_maximum": np.array([run.tension])}
     )
+    monkeypatch.setattr(line_search, "event_offsets", lambda run: np.full((2, 3), run.tension))
     members = [
         SimpleNamespace(run=SimpleNamespace(simulation=record(peaks)), forcing=None,
                         around=SimpleNamespace(begin=0.0))
@@ -66,6 +67,7 @@ def test_a_ratio_of_one_realisation_holds_for_all(monkeypatch):
     found, called = search(monkeypatch, [[600.0, 500.0], [200.0, 90.0]], tensions.get)
     assert 500.0 in called and 90.0 not in called
     assert [item.numbers["line_tension_maximum"][0] for item in found] == [510.0, 300.0]
+    assert [item.offsets[:, 0, 0].tolist() for item in found] == [[510.0, 480.0], [300.0]]
 
 
 def test_what_the_limit_on_events_leaves_open_is_a_bound(monkeypatch):

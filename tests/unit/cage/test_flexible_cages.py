@@ -29,7 +29,7 @@ from moyai.structures.cage.flexible.parts import enclosed_volume
 from moyai.structures.cage.flexible.problem import FlexibleSettings
 from moyai.structures.cage.flexible.time import run_cage, time_dataset
 from moyai.structures.cage.flexible.wake import flow_factors
-from moyai.structures.cage.rigid.waves import regular_wave
+from moyai.structures.cage.rigid.waves import wave_of
 from moyai.tables.lines import line_type
 
 FRESH = Water(3.0, 1000.0, 9.81)
@@ -304,7 +304,7 @@ def test_shelter_is_that_of_the_law() -> None:
 
 def test_waves_of_no_height_leave_the_cage_at_rest() -> None:
     model, rest = at_sea(0.3)
-    wave = regular_wave(1e-9, 5.0, 0.0, SEA, 0.3, 1)
+    wave = wave_of("linear", 1e-9, 5.0, 0.0, SEA, 0.3, 1)
     settings = FlexibleSettings(("time",), periods=1, ramp_periods=0.5, rows_per_period=10)
     run = run_cage(model, rest, wave, settings)
     assert run.history.status == "converged"
@@ -315,7 +315,7 @@ def test_waves_of_no_height_leave_the_cage_at_rest() -> None:
 
 def test_waves_move_the_cage_and_energy_does_not_appear() -> None:
     model, rest = at_sea(0.3)
-    wave = regular_wave(1.2, 5.0, 0.0, SEA, 0.3, 3)
+    wave = wave_of("linear", 1.2, 5.0, 0.0, SEA, 0.3, 3)
     run = run_cage(model, rest, wave, FlexibleSettings(("time",), ramp_periods=2.0, rows_per_period=20))
     history = run.history
     assert history.status == "converged" and history.checks[0].passed
@@ -331,7 +331,7 @@ def test_waves_move_the_cage_and_energy_does_not_appear() -> None:
 
 def test_pictures_of_a_long_run_play_what_was_computed_about_the_governing_moment() -> None:
     model, rest = at_sea(0.3)
-    wave = replace(regular_wave(1.2, 5.0, 0.0, SEA, 0.3, 12), regular=False)
+    wave = replace(wave_of("linear", 1.2, 5.0, 0.0, SEA, 0.3, 12), regular=False)
     settings = FlexibleSettings(("time",), ramp_periods=2.0, rows_per_period=24, frames=60)
     record = time_dataset(model, run_cage(model, rest, wave, settings), settings)
     shown, time = record["frame_time"].values, record["time"].values

@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 
 from moyai.core.collected import Collected
-from moyai.core.headline import Band, Criterion, Headline, judge
+from moyai.core.headline import Band, Criterion, Headline, Verdict, governing, judge
 from moyai.core.results import read_result
 from moyai.core.vocabulary import Vocabulary
 
@@ -50,6 +50,13 @@ def test_what_was_not_run_and_what_did_not_converge_is_not_judged() -> None:
     assert judge([transmission(0.4)], [MOST], computed=False).outcome == "not judged"
     assert judge([transmission(0.4)], [], computed=True).outcome == "not judged"
     assert judge([transmission(0.6)], [MOST], computed=False).outcome == "does not hold"
+
+
+def test_what_a_criterion_is_judged_on_stands_in_the_verdict(tmp_path: Path) -> None:
+    narrow = transmission(0.4, band=Band(0.3, 0.45, "damping"), judged_on="the band of damping alone")
+    verdict = judge([narrow], [MOST], computed=True)
+    assert verdict.message == "the criterion holds; transmission judged on the band of damping alone"
+    assert Verdict.from_dict(verdict.as_dict()) == verdict
 
 
 def test_headlines_and_verdict_survive_the_file(tmp_path: Path) -> None:
@@ -94,3 +101,19 @@ def test_a_bound_of_a_load_turns_over_with_its_factor_of_safety() -> None:
     used = Headline("used", "Anchors", 1.5, "1", bound="at most")
     (found,) = judge([used], [least], computed=True).judgements
     assert (found.outcome, found.bound, found.shown_bound) == ("not judged", "at most", "at least")
+
+
+def test_of_one_number_the_worst_end_is_judged_in_either_sense() -> None:
+    shallow, deep = (
+        Headline("effective_depth", "depth", value, "m", where, band=Band(low, 6.0, "drag"))
+        for value, low, where in ((5.0, 4.6, "HWL"), (5.2, 3.9, "LWL"))
+    )
+    shown, behind = governing([shallow, deep], "at least")
+    assert (shown.where, behind.where, behind.shown) == ("HWL", "LWL", False)
+    assert judge([shallow], [LEAST], computed=True).outcome == "holds"
+    verdict = judge([shown, behind], [LEAST], computed=True)
+    assert verdict.outcome == "does not hold"
+    assert governing([deep], "at least") == [deep]
+    # scatter that does not decide is judged at its interval alone
+    mean = transmission(0.4, band=Band(0.3, 0.9, "5 seeds", decides=False))
+    assert governing([mean, transmission(0.45)]) == [transmission(0.45)]

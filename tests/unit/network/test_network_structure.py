@@ -12,10 +12,11 @@ from moyai.core.errors import InputError
 from moyai.core.results import read_result
 from moyai.flexible.network import BarType
 from moyai.flexible.statics import solve_equilibrium
+from moyai.sea import nonlinear_wave
 from moyai.structures.network.assembly import assemble, mesh_bars
 from moyai.structures.network.resume import last_good_state
 from moyai.structures.network.run import run
-from moyai.structures.network.runs import run_plans
+from moyai.structures.network.runs import run_plans, theory_limit
 
 SITE = "moyai: 1\ntitle: Test\nsite: {water_depth: 30 m, density: 1025 kg/m3, gravity: 9.81 m/s2}\n"
 ROPE = (
@@ -255,7 +256,7 @@ settings: {{duration: 5 s}}
 
 def test_runs_follow_seas_periods_and_currents(tmp_path):
     more = (
-        "waves:\n  - {kind: regular, name: swell, height: 1 m, periods: [6, 9], heading_deg: 30}\n"
+        "waves:\n  - {kind: regular, name: swell, height: 1 m, periods: [6, 9], heading_deg: 30, theory: linear}\n"
         "  - {kind: jonswap, name: storm, significant_height: 1 m, peak_period: 5 s, peak_enhancement: 3.3, "
         "heading_deg: 0, duration: 60 s, seed: 2}\ncurrent: {speed: 0.5 m/s, heading_deg: 30}\n"
     )
@@ -270,6 +271,28 @@ def test_runs_follow_seas_periods_and_currents(tmp_path):
         assert intrinsic**2 == pytest.approx(9.81 * number * math.tanh(30.0 * number), rel=1e-9)
         velocity = plan.flow.at(1e4, np.array([[0.0], [0.0], [-31.0]]))[:3, 0]
         assert np.isfinite(velocity).all()  # a node that sank into the bed still knows its current
+
+
+STEEP = "waves: {{kind: regular, name: swell, height: 2 m, period: 9 s, heading_deg: 0{}}}\n"
+
+
+@pytest.mark.parametrize(
+    ("asked", "theory", "severity"), [("", "stream function", ""), (", theory: linear", "linear waves", "error")]
+)
+def test_steep_waves_are_run_in_the_stream_function_unless_the_case_says_linear(tmp_path, asked, theory, severity):
+    text = line_case(more=STEEP.format(asked), analyses="[dynamic]").replace("water_depth: 30 m", "water_depth: 9 m")
+    problem = problem_of(text.replace("-12 m", "-8 m"), tmp_path)
+    water = problem.environment.water_at(0.0)
+    assert water.depth == 9.0
+    (plan,) = run_plans(problem, water)
+    assert plan.theory == theory
+    assert [notice.severity for notice in theory_limit(problem, plan)] == ([severity] if severity else [])
+    at_crest = plan.flow.at(1e3 * 9.0, np.array([[0.0], [0.0], [0.0]]))
+    exact = nonlinear_wave("stream_function", height=2.0, water=water, period=9.0)
+    same = np.allclose(at_crest[6], exact.crest, rtol=1e-9) and np.allclose(
+        at_crest[:3, 0], exact.velocity(0.0, 0.0, 0.0, 0.0), atol=1e-9
+    )
+    assert same == (theory == "stream function")
 
 
 def test_the_last_good_state_of_a_sound_run_is_its_end(tmp_path):

@@ -8,12 +8,13 @@ same range. What is out of its range never governs: the number is then said to b
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from moyai.core.headline import Band, Headline
+from moyai.core.headline import Band, Headline, governing, unfavourable
 from moyai.structures.breakwater.largest_motion import LargestOfPeriods
 from moyai.structures.breakwater.lines.headlines import (
     AT_REST,
@@ -39,6 +40,7 @@ if TYPE_CHECKING:
 
 
 STEADY = "wind and current at rest, mean drift of the frequency domain"
+DAMPING_ALONE = "the band of damping alone, without waves round the ends or over the deck"
 MUCH_OVERTOPPING = 0.05  # share of waves over the deck from which linear transmission is qualified
 
 
@@ -62,56 +64,64 @@ def headlines(groups: Mapping[str, xr.Dataset]) -> tuple[Headline, ...]:
     return (*found, *_rest_headlines(groups, levels), *([_not_judged()] if peaks else []))
 
 
+@dataclass(frozen=True, eq=False)
+class _Passed:
+    """The largest transmission of one sea at one water level."""
+
+    item: Headline
+    sea: str
+    irregular: bool
+    data: xr.Dataset
+    row: int | None
+    in_time: float
+
+
 def _transmission(groups: Mapping[str, xr.Dataset], levels: list[str]) -> list[Headline]:
     """Return the largest transmission: of irregular seas where there are any, by the consistent frequency domain.
 
-    Behind it stands, not shown, that of every sea for criteria at a named one.
+    Behind it stand, not shown, that of every sea for criteria at a named one, and the one whose upper end is the
+    largest of all: a limit without a sea holds in every sea and period.
     """
-    rows: list[tuple[bool, float, str, xr.Dataset, int | None, float]] = []
-    named: dict[str, Headline] = {}
-    label = "Wave transmission K_T of a long structure"
-    for level in levels:
-        for sea in seas_of(groups, level):
-            data = groups.get(f"/{level}/frequency/{sea}")
-            if data is None or "transmission_coefficient" not in data:
-                continue
-            values = np.atleast_1d(data["transmission_coefficient"].values)
-            if not np.isfinite(values).any():
-                continue
-            row = int(np.nanargmax(values))
-            regular = "period" in data.dims
-            period = float(data["period"].values[row]) if regular else math.nan
-            time = groups.get(f"/{level}/time/{sea}")
-            other = math.nan
-            if time is not None and "transmission_coefficient" in time and not regular:
-                other = float(time["transmission_coefficient"])
-            kept = named.get(sea)
-            if kept is None or values[row] > kept.value:
-                model, at = (FIRST_ORDER, row) if regular else (FREQUENCY, None)
-                named[sea] = Headline(
-                    "transmission", label, float(values[row]), "1", place(level, sea, period), model,
-                    band=_damping_band(data, at), sea=sea, shown=False,
-                )  # fmt: skip
-            rows.append(
-                (not regular, float(values[row]), place(level, sea, period), data, row if regular else None, other)
-            )
-    if not rows:
+    found = [one for level in levels for sea in seas_of(groups, level) for one in _passed(groups, level, sea)]
+    if not found:
         return []
-    irregular, value, where, data, at, other = max(rows, key=lambda item: item[:2])
-    detail = "energy-weighted" if irregular else "largest over the periods"
-    detail += "; " + _outside_the_band(groups, where, data, at)
-    if math.isfinite(other):
-        detail += f"; {other:.3g} with the motions of the time domain"
-    highest = max(rows, key=lambda item: item[1])
-    if highest[1] > value:
-        detail += f"; up to {highest[1]:.3g} in regular waves: {highest[2]}"
-    if "overtopping_share" in data and (over := float(data["overtopping_share"])) > MUCH_OVERTOPPING:
+    chosen = max(found, key=lambda one: (one.irregular, one.item.value))
+    value, where = chosen.item.value, chosen.item.where
+    detail = "energy-weighted" if chosen.irregular else "largest over the periods"
+    detail += "; " + _outside_the_band(groups, where, chosen.data, chosen.row)
+    if math.isfinite(chosen.in_time):
+        detail += f"; {chosen.in_time:.3g} with the motions of the time domain"
+    highest = max((one.item for one in found), key=lambda item: item.value)
+    if highest.value > value:
+        detail += f"; up to {highest.value:.3g} in regular waves: {highest.where}"
+    if "overtopping_share" in chosen.data and (over := float(chosen.data["overtopping_share"])) > MUCH_OVERTOPPING:
         detail += f"; without the water that up to {100.0 * over:.0f} % of the waves bring over the deck"
-    return [
-        Headline("transmission", label, value, "1", where,
-                 FREQUENCY if irregular else FIRST_ORDER, band=_damping_band(data, at), detail=detail),
-        *named.values(),
-    ]  # fmt: skip
+    shown = replace(chosen.item, detail=detail)
+    widest = max((one.item for one in found), key=unfavourable)
+    behind = [replace(widest, shown=False)] if unfavourable(widest) > unfavourable(shown) else []
+    seas = dict.fromkeys(one.sea for one in found)
+    largest = (max((one.item for one in found if one.sea == sea), key=unfavourable) for sea in seas)
+    named = [replace(item, sea=sea, shown=False) for sea, item in zip(seas, largest, strict=True)]
+    return [shown, *behind, *named]
+
+
+def _passed(groups: Mapping[str, xr.Dataset], level: str, sea: str) -> Iterator[_Passed]:
+    data = groups.get(f"/{level}/frequency/{sea}")
+    if data is None or "transmission_coefficient" not in data:
+        return
+    values = np.atleast_1d(data["transmission_coefficient"].values)
+    if not np.isfinite(values).any():
+        return
+    regular, row = "period" in data.dims, int(np.nanargmax(values))
+    period, at = (float(data["period"].values[row]), row) if regular else (math.nan, None)
+    time: Mapping[Any, Any] = {} if regular else groups.get(f"/{level}/time/{sea}", {})
+    in_time = float(time["transmission_coefficient"]) if "transmission_coefficient" in time else math.nan
+    item = Headline(
+        "transmission", "Wave transmission K_T of a long structure", float(values[row]), "1",
+        place(level, sea, period), FIRST_ORDER if regular else FREQUENCY, band=_damping_band(data, at),
+        judged_on=DAMPING_ALONE,
+    )  # fmt: skip
+    yield _Passed(item, sea, not regular, data, at, in_time)
 
 
 def _damping_band(data: xr.Dataset, row: int | None) -> Band | None:
@@ -201,7 +211,7 @@ def _motion_headlines(groups: Mapping[str, xr.Dataset], levels: list[str]) -> li
             elif chosen is not None:
                 offsets += _offset(*chosen, level, sea, frequency)
                 rolls += _roll(*chosen, level, sea, frequency)
-    found = [max(items, key=lambda item: abs(item.value)) for items in (offsets, rolls) if items]
+    found = [*governing(offsets), *governing(rolls)]
     if not found and (rest := _steady_offset(groups, levels)) is not None:
         found = [rest]
     return found
@@ -214,10 +224,15 @@ def _offset(domain: str, data: xr.Dataset, level: str, sea: str, frequency: xr.D
     if "maximum_excursion" in data:
         value = float(data["maximum_excursion"].values[0])
         scatter = np.asarray(data["maximum_excursion_of_realisation"].values[:, 0], dtype=float)
-        band = seeds(scatter)
+        band, motion = seeds(scatter), _in_motion(data)
+        if motion > 1.0:
+            # what lines in motion add to the offset of lines at rest in the same events
+            band = band or Band(value, value, "lines in motion in the events rerun")
+            ends = None if band.judged is None else (band.judged[0], band.judged[1] * motion)
+            band = replace(band, high=band.high * motion, judged=ends)
         within = float(data.attrs.get("duration", math.nan))
         detail = f"largest in {storm_words(within)}; " if math.isfinite(within) else ""
-        detail += _slow_words(frequency)
+        detail += "; ".join(filter(None, (_motion_words(data), _slow_words(frequency))))
     elif "largest_offset" in data:
         value = float(data["largest_offset"])
         detail = _slow_words(data)
@@ -225,6 +240,20 @@ def _offset(domain: str, data: xr.Dataset, level: str, sea: str, frequency: xr.D
         return []
     words = "; ".join(part for part in (f"mean {mean[0]:.3g} m", detail) if part)
     return [Headline("offset", "Largest offset in sway", value, "m", place(level, sea), model, band, detail=words)]
+
+
+def _in_motion(data: xr.Dataset) -> float:
+    """Return the largest offset in the events with lines in motion over that with lines at rest, 1 without events."""
+    if "event_offset" not in data:
+        return 1.0
+    return float(data["event_offset"].values[0] / data["event_offset_lines_at_rest"].values[0])
+
+
+def _motion_words(data: xr.Dataset) -> str:
+    if "event_offset" not in data:
+        return ""
+    moving, still = (float(data[name].values[0]) for name in ("event_offset", "event_offset_lines_at_rest"))
+    return f"in the events rerun with lines in motion {moving:.3g} m, with lines at rest {still:.3g} m"
 
 
 def _motion_model(domain: str, data: xr.Dataset) -> str:
@@ -289,7 +318,7 @@ def _rest_headlines(groups: Mapping[str, xr.Dataset], levels: list[str]) -> list
     freeboard, level = least("freeboard")
     out.append(
         Headline("freeboard", "Freeboard", freeboard, "m", level, STILL,
-                 detail=f"draught {float(statics[level]['draught']):.3g} m")
+                 detail=f"draught {float(statics[level]['draught']):.3g} m", without_waves=True)
     )  # fmt: skip
     shares = [
         (float(data["overtopping_share"]), place(name, sea))
@@ -305,7 +334,7 @@ def _rest_headlines(groups: Mapping[str, xr.Dataset], levels: list[str]) -> list
                             "waves not counted")
         )  # fmt: skip
     height, level = least("metacentric_height")
-    out.append(Headline("metacentric_height", "Metacentric height GM", height, "m", level, STILL))
+    out.append(Headline("metacentric_height", "Metacentric height GM", height, "m", level, STILL, without_waves=True))
     return out
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from moyai.core.collected import STOPPED, Collected
+from moyai.core.headline import SEAS_LEFT_OUT
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
 from moyai.core.store import DatasetStore
@@ -247,6 +248,9 @@ def _result(problem: BreakwaterProblem, collected: Collected) -> Result:
         fulfilled="all identities hold and all iterations converged",
         headlines=headlines(collected.groups),
         criteria=problem.criteria,
+        left_out=SEAS_LEFT_OUT
+        if problem.environment.sea_states and not {"frequency", "time"} & set(problem.settings.analyses)
+        else "",
     )
 
 

@@ -146,6 +146,8 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "position_lines_at_rest": ("m", "position with lines at rest at every instant (roll: rad)"),
     "tension_lines_at_rest": ("N", "tension at the fairlead with lines at rest at every instant"),
     "events_in_motion": ("1", "events of a realisation that were rerun with lines in motion, mean over realisations"),
+    "event_offset": ("m", "largest offset in events rerun with lines in motion (roll: rad)"),
+    "event_offset_lines_at_rest": ("m", "the same in these events with lines at rest at every instant (roll: rad)"),
     "line_tension_bound": (
         "N",
         "tension that no event passes, by the largest ratio of motion over rest that was found",

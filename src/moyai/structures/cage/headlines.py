@@ -290,8 +290,8 @@ def _dynamic_tension(run: xr.Dataset, line: int, where: str, state: _State | Non
     band = _band_in_sea(state, "line_tension_maximum", run, value, series)
     name = str(run["line"].values[line])
     return Headline(
-        "line_tension", "tension of the governing line", value, "N", f"{name}, {where}", DYNAMIC, band,
-        detail="; ".join(details),
+        "line_tension", "tension of the governing line", value, "N", f"{name}, {where}",
+        f"{DYNAMIC}, {run.attrs['theory']}", band, detail="; ".join(details),
     )  # fmt: skip
 
 

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.morison.circulation import HELD_LIMIT, LAMINAR_EDGE, LAW_LIMIT
-from moyai.morison.flow import NonlinearFlow
+from moyai.morison.flow import LinearFlow, NonlinearFlow
 from moyai.morison.members import StraightMember
-from moyai.sea.validity import check_wave
+from moyai.sea.regular_theory import linear_limit
 from moyai.sea.water import Water
 from moyai.structures.member.march import WaveForces
 from moyai.structures.member.model import MemberProblem
-from moyai.structures.member.waves import Wave, mean_current
+from moyai.structures.member.waves import Wave
 
 #: Breadth over wavelength above which diffraction matters
 SLENDER_LIMIT = 0.2
@@ -135,23 +134,13 @@ def wave_notices(problem: MemberProblem, member: StraightMember, wave: Wave, fou
     return tuple(notices)
 
 
-def theory_notices(problem: MemberProblem, wave: Wave, water: Water) -> list[Notice]:
+def theory_notices(wave: Wave) -> list[Notice]:
     """Refuse to answer with linear waves that neglect more than the limit: the case asked for them by name."""
-    if isinstance(wave.flow, NonlinearFlow):
+    if not isinstance(wave.flow, LinearFlow):
         return []
-    current = mean_current(problem, water)
-    along = current[0] * math.cos(wave.heading) + current[1] * math.sin(wave.heading)
-    reported = check_wave(wave.height, wave.period, water, current_along_wave=along)
-    return [
-        replace(
-            notice,
-            message=f"{wave.name}: {notice.message}",
-            severity="error",
-            remedy="use 'theory: automatic', which takes the stream function here",
-        )
-        for notice in reported
-        if notice.code == "wave-theory" and notice.severity == "warning"
-    ]
+    return linear_limit(
+        wave.name, wave.flow.components, "use 'theory: automatic', which takes the stream function here"
+    )
 
 
 def _law_notices(problem: MemberProblem, number: float, where: str) -> list[Notice]:

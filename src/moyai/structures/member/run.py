@@ -123,7 +123,7 @@ def _sea_steps(
         runs.append((wave, found))
         collected.groups[f"{root}/time/{sea.name}/wave {number + 1}"] = time_dataset(wave, found)
         collected.groups[f"{root}/waves/{sea.name}"] = sea_dataset(problem, member, runs)
-        reported.extend([*wave_notices(problem, member, wave, found), *theory_notices(problem, wave, water)])
+        reported.extend([*wave_notices(problem, member, wave, found), *theory_notices(wave)])
         collected.checks.append(_periodicity(sea.name, wave, found))
         yield
     collected.notices.extend(

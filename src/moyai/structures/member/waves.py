@@ -4,20 +4,18 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Literal
 
 import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.morison.flow import Flow, LinearFlow, NonlinearFlow
-from moyai.sea.components import WaveComponents
 from moyai.sea.current import CurrentProfile
 from moyai.sea.dispersion import wave_number_in_current
 from moyai.sea.irregular import synthesise
 from moyai.sea.nonlinear import nonlinear_wave
-from moyai.sea.permanent_wave import Theory
+from moyai.sea.permanent_wave import NonlinearWave
+from moyai.sea.regular_theory import regular_wave
 from moyai.sea.states import IrregularSea
-from moyai.sea.validity import recommended_theory
 from moyai.sea.water import Water
 from moyai.structures.member.model import MemberProblem, RegularWaves
 
@@ -93,43 +91,21 @@ def _wave_number(period: float, water: Water, current: tuple[float, float], head
     return float(wave_number_in_current(2.0 * math.pi / period, water.depth, water.gravity, along))
 
 
-def _theory_of(
-    sea: RegularWaves, height: float, period: float, water: Water, along: float
-) -> Theory | Literal["linear"]:
-    """Return the theory of one wave; linear and the stream function are the two that ``automatic`` takes."""
-    if sea.theory != "automatic":
-        return sea.theory
-    return "linear" if recommended_theory(height, period, water, along).theory == "airy" else "stream_function"
-
-
 def _regular(
     problem: MemberProblem, sea: RegularWaves, height: float, period: float, water: Water, current: tuple[float, float]
 ) -> Wave:
-    omega = 2.0 * math.pi / period
     along = current[0] * math.cos(sea.heading) + current[1] * math.sin(sea.heading)
     time: Array = np.linspace(0.0, period, problem.settings.steps_per_period + 1)
     name = f"H {height:.4g} m, T {period:.4g} s"
-    theory = _theory_of(sea, height, period, water, along)
-    if theory != "linear":
-        wave = nonlinear_wave(
-            theory,
-            height=height,
-            water=water,
-            period=period,
-            heading=sea.heading,
-            current_along_wave=along,
+    if sea.theory == "stokes":
+        steep: NonlinearWave | None = nonlinear_wave(
+            "stokes", height=height, water=water, period=period, heading=sea.heading, current_along_wave=along
         )
-        flow: Flow = NonlinearFlow(wave)
-        words = {"stokes": "Stokes waves of fifth order", "stream_function": "stream function"}[theory]
-        return Wave(name, flow, height, period, wave.wave_number, sea.heading, time, True, theory=words)
-    number = _wave_number(period, water, current, sea.heading)
-    parts = WaveComponents(
-        omega=np.array([omega]),
-        amplitude=np.array([0.5 * height]),
-        phase=np.zeros(1),
-        heading=np.array([sea.heading]),
-        wave_number=np.array([number]),
-        water=water,
-        intrinsic_omega=np.array([omega - number * along]),
-    )
-    return Wave(name, LinearFlow(parts, problem.settings.stretching), height, period, number, sea.heading, time, True)
+    else:
+        parts, steep = regular_wave(sea.theory, height, period, sea.heading, water, along)
+    if steep is not None:
+        words = {"stokes": "Stokes waves of fifth order", "stream_function": "stream function"}[steep.theory]
+        flow: Flow = NonlinearFlow(steep)
+        return Wave(name, flow, height, period, steep.wave_number, sea.heading, time, True, theory=words)
+    flow = LinearFlow(parts, problem.settings.stretching)
+    return Wave(name, flow, height, period, float(parts.wave_number[0]), sea.heading, time, True)

@@ -122,9 +122,11 @@ def _tension(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peak: _P
         said = "; ".join(details)
         return [Headline("line_tension", "highest tension at rest", peak.value, "N", where, REST, band, detail=said)]
     summary = groups[f"/{peak.level}/dynamic"].sel(run=peak.run)
+    series = groups[f"/{peak.level}/time/{peak.run}"].attrs
+    model = f"{DYNAMIC}, {series['theory']}" if math.isfinite(float(series["wave_height"])) else DYNAMIC
     items = [
         Headline(
-            "line_tension", "highest tension", peak.value, "N", where, DYNAMIC, band,
+            "line_tension", "highest tension", peak.value, "N", where, model, band,
             detail="; ".join(part for part in details if part),
         )
     ]  # fmt: skip

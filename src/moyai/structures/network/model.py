@@ -272,6 +272,11 @@ class NetworkProblem:
     case_hash: str = ""
     criteria: tuple[Criterion, ...] = ()
 
+    @property
+    def linear_waves_only(self) -> bool:
+        """Whether a body has coefficients of a program, which answer linear waves."""
+        return any(body.coefficients is not None or body.loads is not None for body in self.bodies)
+
 
 #: Name of the motion of driven points that are held still.
 STILL = "held still"

@@ -10,6 +10,7 @@ import numpy as np
 
 from moyai.core.collected import Collected
 from moyai.core.errors import ConvergenceError, InputError
+from moyai.core.headline import SEAS_LEFT_OUT
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
 from moyai.core.validity import IdentityCheck, Notice
@@ -37,7 +38,7 @@ from moyai.structures.network.headlines import headlines_of, mesh_checked
 from moyai.structures.network.model import NetworkProblem
 from moyai.structures.network.resume import earlier_run, read_earlier
 from moyai.structures.network.run_notices import OVER, overturned
-from moyai.structures.network.runs import run_plans, steady_flow
+from moyai.structures.network.runs import run_plans, steady_flow, theory_limit
 from moyai.structures.network.summary import contacts_dataset, lean_of, summary_dataset
 from moyai.structures.network.variables import VOCABULARY, labelled
 
@@ -337,6 +338,7 @@ def _dynamic(
     runs: list[Run] = []
     earlier = None if problem.settings.resume is None else read_earlier(problem.settings.resume)
     for plan in run_plans(problem, water):
+        collected.notices.extend(theory_limit(problem, plan))
         before = None if earlier is None else earlier_run(earlier, root[1:], plan.name, len(assembly.network.nodes))
         start_of_run = begin if before is None else before.state
         if before is not None and before.state.time >= plan.duration * (1.0 - 1e-9):
@@ -373,6 +375,13 @@ def _dynamic(
         yield
 
 
+def _not_run(problem: NetworkProblem) -> str:
+    """Return what of the case only a run through time brings in; empty where there is nothing."""
+    if problem.environment.sea_states:
+        return SEAS_LEFT_OUT
+    return "the motions of the case were not run" if problem.motions else ""
+
+
 def _result(problem: NetworkProblem, collected: Collected) -> Result:
     if collected.interrupted:
         begun = any("/time/" in name for name in collected.groups)
@@ -393,6 +402,7 @@ def _result(problem: NetworkProblem, collected: Collected) -> Result:
         fulfilled="all identities hold" + ("" if checked else "; mesh of the highest tension not checked"),
         headlines=numbers,
         criteria=problem.criteria,
+        left_out="" if "dynamic" in problem.settings.analyses else _not_run(problem),
     )
 
 

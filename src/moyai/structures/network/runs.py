@@ -9,12 +9,15 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.errors import InputError
+from moyai.core.validity import Notice
 from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
 from moyai.sea.components import WaveComponents
 from moyai.sea.current import CurrentProfile
 from moyai.sea.dispersion import wave_number_in_current
 from moyai.sea.irregular import synthesise
+from moyai.sea.permanent_wave import NonlinearWave
+from moyai.sea.regular_theory import linear_limit, regular_wave
 from moyai.sea.states import ComponentSea, IrregularSea, RegularSea
 from moyai.sea.water import Water
 from moyai.structures.network.model import STILL, NetworkProblem
@@ -38,6 +41,8 @@ class RunPlan:
     #: That the eye follows: of the waves, else of the motions; NaN without either [s].
     period: float
     waves: WaveComponents | None = None
+    #: Of a regular wave, in words.
+    theory: str = "linear waves"
     #: H or significant height [m], NaN without waves.
     wave_height: float = math.nan
     #: Of the waves [rad].
@@ -129,11 +134,14 @@ def _plans(problem: NetworkProblem, water: Water) -> tuple[RunPlan, ...]:
     return (RunPlan(name, flow, duration, step, period),)
 
 
-def _flow(problem: NetworkProblem, water: Water, waves: WaveComponents | None, period: float) -> Flow:
+def _flow(
+    problem: NetworkProblem, water: Water, waves: WaveComponents | None, period: float,
+    steep: NonlinearWave | None = None,
+) -> Flow:  # fmt: skip
     ramp = problem.settings.ramp
     if ramp is None:
         ramp = period if waves is not None else 0.0
-    flow = replace(steady_flow(problem, water), waves=waves, stretching=problem.settings.stretching)
+    flow = replace(steady_flow(problem, water), waves=waves, stretching=problem.settings.stretching, steep=steep)
     if problem.settings.start == "rest_in_current" and waves is not None:
         return replace(flow, wave_ramp=ramp)
     return flow if problem.settings.start == "rest_in_current" else replace(flow, ramp=ramp)
@@ -149,23 +157,27 @@ def _output_step(problem: NetworkProblem, period: float, duration: float) -> flo
 
 
 def _regular(problem: NetworkProblem, sea: RegularSea, period: float, name: str, water: Water) -> RunPlan:
-    omega, current = 2.0 * math.pi / period, mean_current(problem, water)
+    current = mean_current(problem, water)
     along = current[0] * math.cos(sea.heading) + current[1] * math.sin(sea.heading)
-    number = float(wave_number_in_current(omega, water.depth, water.gravity, along))
-    waves = WaveComponents(
-        omega=np.array([omega]),
-        amplitude=np.array([0.5 * sea.height]),
-        phase=np.zeros(1),
-        heading=np.array([sea.heading]),
-        wave_number=np.array([number]),
-        water=water,
-        intrinsic_omega=np.array([omega - number * along]),
-    )
+    waves, steep = regular_wave(sea.theory, sea.height, period, sea.heading, water, along)
     duration = problem.settings.duration or PERIODS * period
     return RunPlan(
-        name, _flow(problem, water, waves, period), duration, _output_step(problem, period, duration), period, waves,
-        sea.height, sea.heading,
+        name, _flow(problem, water, waves, period, steep), duration, _output_step(problem, period, duration), period,
+        waves, "linear waves" if steep is None else "stream function", sea.height, sea.heading,
     )  # fmt: skip
+
+
+def theory_limit(problem: NetworkProblem, plan: RunPlan) -> list[Notice]:
+    """Say when regular waves are run as linear ones beyond the range of that theory."""
+    if plan.flow.steep is not None:
+        return list(plan.flow.steep.notices())
+    if plan.waves is None or plan.irregular:
+        return []
+    if problem.linear_waves_only:
+        # diffraction and radiation know no steeper waves: as for a breakwater the range is told, nothing else can run
+        remedy = "the coefficients of a body answer linear waves: compare with a lower or longer wave"
+        return [replace(one, severity="warning") for one in linear_limit(plan.name, plan.waves, remedy)]
+    return linear_limit(plan.name, plan.waves, "use 'theory: automatic', which takes the stream function here")
 
 
 def _irregular(problem: NetworkProblem, sea: IrregularSea, water: Water) -> RunPlan:
@@ -178,7 +190,7 @@ def _irregular(problem: NetworkProblem, sea: IrregularSea, water: Water) -> RunP
     step = problem.settings.output_step or _output_step(problem, 0.5 * period, sea.duration)
     return RunPlan(
         sea.name, _flow(problem, water, waves, period), sea.duration, step, period, waves,
-        float(sea.spectrum.significant_height), sea.heading, True, sea.seed,
+        "linear waves", float(sea.spectrum.significant_height), sea.heading, True, sea.seed,
     )  # fmt: skip
 
 
@@ -196,8 +208,8 @@ def _components(problem: NetworkProblem, sea: ComponentSea, water: Water) -> Run
     duration = problem.settings.duration or sea.duration or PERIODS * period
     step = _output_step(problem, period if single else 0.5 * period, duration)
     return RunPlan(
-        sea.name, _flow(problem, water, waves, period), duration, step, period, waves, sea.height, sea.heading,
-        not single,
+        sea.name, _flow(problem, water, waves, period), duration, step, period, waves, "linear waves", sea.height,
+        sea.heading, not single,
     )  # fmt: skip
 
 

@@ -170,6 +170,14 @@ def event_numbers(model: FrequencyModel, run: TimeRun) -> dict[str, Array]:
     }
 
 
+def event_offsets(run: TimeRun) -> Array:
+    """Return the largest offset in the part of an event that counts, lines in motion and at rest, (2, dof)."""
+    begin = float(run.attributes["analysis_start"])
+    assert run.at_rest is not None
+    pair = (run.simulation, run.at_rest)
+    return np.array([np.abs(one.position[one.time >= begin]).max(axis=0) for one in pair])
+
+
 def _part(whole: Simulation, start: float, duration: float) -> Simulation:
     rows = (whole.time >= start) & (whole.time <= start + duration)
     return replace(

@@ -19,7 +19,13 @@ from moyai.core.errors import ConvergenceError
 from moyai.core.progress import Progress, silent
 from moyai.floating.forcing import IrregularForcing
 from moyai.floating.time import Simulation
-from moyai.structures.breakwater.lines.events import PERIODS_AROUND, EventSettings, event_numbers, run_event
+from moyai.structures.breakwater.lines.events import (
+    PERIODS_AROUND,
+    EventSettings,
+    event_numbers,
+    event_offsets,
+    run_event,
+)
 from moyai.structures.breakwater.time.model import SeaOfRun, TimeRun
 
 if TYPE_CHECKING:
@@ -51,6 +57,8 @@ class EventsInMotion:
     numbers: dict[str, Array]
     #: Reruns.
     count: int
+    #: Largest offset from rest in each rerun, with its lines in motion and at rest; shape (reruns, 2, dof) [m, m, rad].
+    offsets: Array
     #: Tension of the line that no event passes, if none multiplies its tension with lines at rest by more than the
     #: largest ratio found [N].
     bound: float
@@ -180,4 +188,5 @@ def _answer(search: _Search, ratio: float) -> EventsInMotion:
             combined[name] = stack.max(axis=0)
         elif name.startswith("least_grounded"):
             combined[name] = stack.min(axis=0)
-    return EventsInMotion(search.runs[at], combined, len(search.runs), max(search.best, search.next * ratio))
+    offsets = np.array([event_offsets(run) for run in search.runs])
+    return EventsInMotion(search.runs[at], combined, len(search.runs), offsets, max(search.best, search.next * ratio))

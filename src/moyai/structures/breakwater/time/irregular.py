@@ -231,6 +231,7 @@ def _lines_in_motion(
     given = EventSettings(shared.model, shared.cummins, shared.expected, settings, shared.peak_period, period)
     shown: list[TimeRun] = []
     best, counts, still_open = -math.inf, [], 0
+    offsets: list[Array] = []
     for line in sorted(np.flatnonzero(passing), key=lambda number: -rank[number]):
         load = float(loads[line]) if math.isfinite(loads[line]) else 1.0
         try:
@@ -241,6 +242,7 @@ def _lines_in_motion(
         moved[line] = True
         members = [_with_events(shared.model, one, item, int(line)) for one, item in zip(members, found, strict=True)]
         counts += [item.count for item in found]
+        offsets += [item.offsets for item in found]
         highest = [max(float(item.numbers["line_tension_maximum"][line]), max(best, 0.0) * load) for item in found]
         still_open += sum(item.bound > value for item, value in zip(found, highest, strict=True))
         now = float(np.mean([item.bound for item in found]))
@@ -263,7 +265,14 @@ def _lines_in_motion(
             "events ended the reruns; the tension is judged at the bound that the next event leaves open"
         )
         notices.append(Notice("events-left-open", reported, value=still_open, limit=0.0))
+    largest = np.concatenate(offsets).max(axis=0)
+    members = [replace(one, summary=_with_offsets(one.summary, largest)) for one in members]
     return members, shown, moved, tuple(notices)
+
+
+def _with_offsets(summary: xr.Dataset, largest: Array) -> xr.Dataset:
+    """Put the largest offsets of all events, lines in motion and at rest (2, dof), next to those of a realisation."""
+    return summary.assign(event_offset=("dof", largest[0]), event_offset_lines_at_rest=("dof", largest[1]))
 
 
 def _with_events(model: FrequencyModel, one: Realisation, found: EventsInMotion, line: int) -> Realisation:

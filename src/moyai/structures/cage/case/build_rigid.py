@@ -303,7 +303,8 @@ def seas_of(model: schema.CageCase, water: Water, folder: Path) -> tuple[CageSea
     for index, state in enumerate(model.waves):
         if isinstance(state, schema.CageRegularWaves):
             heading = heading_of(state, bearing, f"waves[{index}]")
-            found.append(RegularWaves(names[index], state.all_heights(), state.all_periods(), _straight(heading)))
+            sizes = state.all_heights(), state.all_periods()
+            found.append(RegularWaves(names[index], *sizes, _straight(heading), state.theory))
             continue
         sea = sea_state_of(state, index, model.waves, water, folder, bearing)
         assert isinstance(sea, IrregularSea)

@@ -58,7 +58,18 @@ def _check_waves(model: schema.CageCase, findings: Findings, folder: Path) -> No
                     findings.fault(wave_path(findings, index, "periods"), "'from' and 'to' are equal")
                     break
                 key = "height" if state.height is not None else "heights"
-                pairs = [(key, check_wave(state.highest, period, water)) for period in state.all_periods()]
+                rigid = model.structure.model == "rigid"
+                if rigid and state.theory == "stream_function":
+                    findings.fault(
+                        wave_path(findings, index, "theory"), "a rigid cage knows linear waves only",
+                        allowed="automatic, linear", remedy="use 'model: flexible' for steep waves",
+                    )  # fmt: skip
+                    break
+                linear = rigid or state.theory == "linear"
+                pairs = [
+                    (key, check_wave(state.highest, period, water, theory="airy" if linear else "stream_function"))
+                    for period in state.all_periods()
+                ]
             else:
                 key = "file" if isinstance(state, SpectrumFile) else "significant_height"
                 try:

@@ -15,9 +15,9 @@ from moyai.case.schema_environment import (
     Jonswap,
     Periods,
     PiersonMoskowitz,
-    RegularWaves,
     Site,
     SpectrumFile,
+    SteepRegularWaves,
     Tma,
     refuse_no_seas,
 )
@@ -82,7 +82,7 @@ class RigidCageStructure(Block):
 CageStructure = Annotated[RigidCageStructure | FlexibleCageStructure, Field(discriminator="model")]
 
 
-class CageRegularWaves(RegularWaves):
+class CageRegularWaves(SteepRegularWaves):
     """Regular waves: every height with every period."""
 
     exactly_one: ClassVar[KeyGroups] = (

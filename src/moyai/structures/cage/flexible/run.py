@@ -11,6 +11,7 @@ import numpy as np
 
 from moyai.core.collected import STOPPED, Collected
 from moyai.core.errors import ConvergenceError, InputError
+from moyai.core.headline import SEAS_LEFT_OUT
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
 from moyai.core.validity import Notice
@@ -31,7 +32,7 @@ from moyai.structures.cage.flexible.variables import VOCABULARY
 from moyai.structures.cage.flexible.wake import ScaledCurrent
 from moyai.structures.cage.headlines import flexible_headlines
 from moyai.structures.cage.rigid.model import RegularWaves
-from moyai.structures.cage.rigid.waves import Wave, regular_wave, sea_components
+from moyai.structures.cage.rigid.waves import Wave, sea_components, theory_limit, wave_of
 
 if TYPE_CHECKING:
     pass
@@ -73,6 +74,9 @@ def surface_current(current: Current | None) -> tuple[float, float]:
     return math.hypot(east, north), math.atan2(north, east) if east or north else 0.0
 
 
+_AUTOMATIC = "use 'theory: automatic' of regular waves, which takes the stream function here"
+
+
 def waves_of(problem: FlexibleCageProblem, sea: RegularWaves | IrregularSea, water: Water) -> tuple[Wave, ...]:
     """Return every wave of a sea state at a water depth, on the current of the site."""
     current = problem.environment.current
@@ -81,7 +85,7 @@ def waves_of(problem: FlexibleCageProblem, sea: RegularWaves | IrregularSea, wat
     if isinstance(sea, RegularWaves):
         along = float(mean @ [math.cos(sea.heading), math.sin(sea.heading)])
         return tuple(
-            regular_wave(height, period, sea.heading, water, along, problem.settings.periods)
+            wave_of(sea.theory, height, period, sea.heading, water, along, problem.settings.periods)
             for height, period in sea.waves()
         )
     period = float(sea.spectrum.peak_period)
@@ -165,6 +169,7 @@ def _sea_steps(
             if found.history.status == "not_converged":
                 collected.failures.append(f"{sea.name}, {wave.name}: {found.history.message}")
             collected.notices.extend(height_notices(sea.name, series))
+            collected.notices.extend(theory_limit(wave, _AUTOMATIC))
             used = float(series["utilisation"].max()) if "utilisation" in series else 0.0
             if found.history.status == "converged" and (governing is None or used > governing[0]):
                 governing = used, found
@@ -203,4 +208,5 @@ def _result(problem: FlexibleCageProblem, collected: Collected) -> Result:
         fulfilled="all identities hold" + ("; mesh not checked" if waved and not checked else ""),
         headlines=flexible_headlines(problem, collected.groups),
         criteria=problem.criteria,
+        left_out=SEAS_LEFT_OUT if problem.seas and "time" not in problem.settings.analyses else "",
     )

@@ -64,7 +64,9 @@ def run_cage(
     progress : Progress
     """
     ramp = settings.ramp_periods * wave.period
-    flow = Flow(current=rest.current, waves=wave.components, stretching=settings.stretching, wave_ramp=ramp)
+    flow = Flow(
+        current=rest.current, waves=wave.components, stretching=settings.stretching, wave_ramp=ramp, steep=wave.steep
+    )
     history = simulate(
         rest.network,
         duration=ramp + wave.duration,
@@ -153,7 +155,8 @@ def time_dataset(model: FlexibleCage, run: CageRun, settings: FlexibleSettings) 
                 "cage": [cage.name for cage in built.cages], "line": [part.name for part in built.lines],
             },
             attrs={
-                "wave": run.wave.name, "wave_height": run.wave.height, "period": run.wave.period,
+                "wave": run.wave.name, "theory": run.wave.theory, "wave_height": run.wave.height,
+                "period": run.wave.period,
                 "wavelength": run.wave.wavelength, "ramp": run.ramp, "step": history.step, "steps": history.steps,
                 "governing_time": float(time[governing]), "status": history.status, "regular": int(run.wave.regular),
                 "realised_height": 4.0 * float(surface[steady].std()), **wave_attributes(run.wave),

@@ -15,6 +15,7 @@ from moyai.structures.cage.rigid.parts import RigidCage
 from moyai.structures.cage.rigid.runs import Run
 from moyai.structures.cage.rigid.setup import drowning_depth
 from moyai.structures.cage.rigid.statics import Rest, reserve_buoyancy
+from moyai.structures.cage.rigid.waves import current_along, theory_limit
 
 #: Size of the cage over the wavelength above which its net and floats no longer leave the wave as it is
 LARGEST_CAGE = 0.5
@@ -161,6 +162,7 @@ def run_notices(problem: RigidCageProblem, run: Run) -> tuple[Notice, ...]:
     """Hold a run against the range of its net law, the size of the cage, the bed, and breaking loads."""
     cage, wave = problem.cage, run.wave
     found = list(_law_notices(problem, run))
+    found += theory_limit(wave, "lower or lengthen the wave, or use 'model: flexible', which knows steep waves")
     size = max(cage.extent)
     if size > LARGEST_CAGE * wave.wavelength:
         found.append(
@@ -189,8 +191,6 @@ def run_notices(problem: RigidCageProblem, run: Run) -> tuple[Notice, ...]:
 
 def _law_notices(problem: RigidCageProblem, run: Run) -> tuple[Notice, ...]:
     """Hold the speeds of water past the net against the law: the relative speed at the middle of the cage."""
-    from moyai.structures.cage.rigid.waves import current_along
-
     state, wave = run.march.state, run.wave
     water = wave.components.water
     assert water is not None

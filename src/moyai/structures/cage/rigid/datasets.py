@@ -190,6 +190,7 @@ def time_dataset(problem: RigidCageProblem, run: Run, lines: tuple[CageLine, ...
                 "wave_height": run.wave.height,
                 "period": run.wave.period,
                 "wave": run.wave.name,
+                "theory": run.wave.theory,
                 "wavelength": run.wave.wavelength,
                 "rest_x": run.rest.x,
                 "rest_z": run.rest.z,

@@ -10,6 +10,7 @@ from moyai.core.errors import InputError
 from moyai.core.headline import Criterion
 from moyai.core.options import checks_words
 from moyai.sea.environment import Environment
+from moyai.sea.regular_theory import RegularTheory
 from moyai.sea.states import IrregularSea
 from moyai.structures.cage.rigid.parts import RigidCage
 
@@ -49,6 +50,7 @@ class LinePlan:
     breaking_load: float | None = None
 
 
+@checks_words
 @dataclass(frozen=True)
 class RegularWaves:
     """Regular waves along +x (heading 0) or -x (pi): every height with every period, SI."""
@@ -57,6 +59,7 @@ class RegularWaves:
     heights: tuple[float, ...]
     periods: tuple[float, ...]
     heading: float = 0.0
+    theory: RegularTheory = "linear"
 
     def waves(self) -> tuple[tuple[float, float], ...]:
         """Return every height with every period."""

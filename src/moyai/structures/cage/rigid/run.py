@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from moyai.core.collected import STOPPED, Collected, most_severe
+from moyai.core.headline import SEAS_LEFT_OUT
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
 from moyai.core.validity import Notice
@@ -222,6 +223,7 @@ def _result(problem: RigidCageProblem, collected: Collected) -> Result:
         [sea.seed for sea in problem.seas if isinstance(sea, IrregularSea)],
         headlines=rigid_headlines(collected.groups),
         criteria=problem.criteria,
+        left_out=SEAS_LEFT_OUT if problem.seas and "time" not in problem.settings.analyses else "",
     )
 
 

@@ -5,12 +5,14 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-import numpy as np
-
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
+from moyai.core.validity import Notice
 from moyai.sea.components import WaveComponents
 from moyai.sea.dispersion import wave_number_in_current
 from moyai.sea.irregular import synthesise
+from moyai.sea.permanent_wave import NonlinearWave
+from moyai.sea.regular_theory import RegularTheory, linear_limit, regular_wave
 from moyai.sea.states import IrregularSea
 from moyai.sea.water import Water
 from moyai.structures.cage.rigid.model import CageSea, RegularWaves, RigidCageProblem
@@ -36,6 +38,13 @@ class Wave:
     regular: bool
     #: Of the phases of an irregular sea.
     seed: int | None = None
+    #: Motion of the water where a regular wave is not linear; the components are then its elevation.
+    steep: NonlinearWave | None = None
+
+    @property
+    def theory(self) -> str:
+        """In words."""
+        return "linear waves" if self.steep is None else "stream function"
 
 
 def current_along(problem: RigidCageProblem, water: Water) -> float:
@@ -60,7 +69,7 @@ def waves_of(problem: RigidCageProblem, sea: CageSea, water: Water) -> tuple[Wav
     sense = 1.0 if math.cos(sea.heading) > 0.0 else -1.0
     if isinstance(sea, RegularWaves):
         return tuple(
-            regular_wave(height, period, sea.heading, water, flow * sense, problem.settings.periods)
+            wave_of("linear", height, period, sea.heading, water, flow * sense, problem.settings.periods)
             for height, period in sea.waves()
         )
     period = float(sea.spectrum.peak_period)
@@ -89,20 +98,26 @@ def sea_components(sea: IrregularSea, water: Water, current: tuple[float, float]
     )  # fmt: skip
 
 
-def regular_wave(
-    height: float, period: float, heading: float, water: Water, current_along_wave: float, periods: int
+@checks_words
+def wave_of(
+    theory: RegularTheory,
+    height: float,
+    period: float,
+    heading: float,
+    water: Water,
+    current_along_wave: float,
+    periods: int,
 ) -> Wave:
-    """Return a linear wave whose crest passes the middle of the cage at t = 0."""
-    omega = 2.0 * math.pi / period
-    number = float(wave_number_in_current(omega, water.depth, water.gravity, current_along_wave))
-    parts = WaveComponents(
-        omega=np.array([omega]),
-        amplitude=np.array([0.5 * height]),
-        phase=np.zeros(1),
-        heading=np.array([heading]),
-        wave_number=np.array([number]),
-        water=water,
-        intrinsic_omega=np.array([omega - number * current_along_wave]),
-    )
-    name = f"H {height:.4g} m, T {period:.4g} s"
-    return Wave(name, parts, height, period, 2.0 * math.pi / number, periods * period, True)
+    """Return a regular wave whose crest passes the middle of the cage at t = 0."""
+    parts, steep = regular_wave(theory, height, period, heading, water, current_along_wave)
+    name, length = f"H {height:.4g} m, T {period:.4g} s", 2.0 * math.pi / float(parts.wave_number[0])
+    return Wave(name, parts, height, period, length, periods * period, True, steep=steep)
+
+
+def theory_limit(wave: Wave, remedy: str) -> list[Notice]:
+    """Say when a regular wave is run as a linear one beyond the range of that theory."""
+    if wave.steep is not None:
+        return list(wave.steep.notices())
+    if not wave.regular:
+        return []
+    return linear_limit(wave.name, wave.components, remedy)

@@ -20,7 +20,7 @@ from moyai.flexible.motion import Motion
 from moyai.flexible.network import BarType, RopeCurve
 from moyai.sea.elevation_record import components_of_record
 from moyai.sea.environment import Environment
-from moyai.sea.states import ComponentSea, SeaState
+from moyai.sea.states import ComponentSea, RegularSea, SeaState
 from moyai.sea.water import Water
 from moyai.structures.network import model
 from moyai.structures.network.assembly import mesh_bars, sphere
@@ -70,7 +70,7 @@ def build_problem(case: NetworkCase, folder: Path, *, case_text: str = "", case_
             water_levels=tuple((name, levels[name]) for name in names),
             # a network runs any sum of waves through time: nothing else asks for its spectrum
             sea_states=tuple(
-                _sea(state, index, case.waves, water, folder, bearing)  # type: ignore[misc]
+                _sea(case, state, index, water, folder, bearing)  # type: ignore[misc]
                 for index, state in enumerate(case.waves)
             ),
             current=current_of(case.current, water, bearing),
@@ -97,9 +97,10 @@ def _settings(case: NetworkCase, folder: Path) -> model.Settings:
 
 
 def _sea(
-    state: Any, index: int, states: tuple[Any, ...], water: Water, folder: Path, bearing: float | None
+    case: NetworkCase, state: Any, index: int, water: Water, folder: Path, bearing: float | None
 ) -> SeaState | ComponentSea:
-    """Return one sea; those that only networks know are built here."""
+    """Return one sea; those that only networks know are built here. Coefficients of bodies answer linear waves."""
+    states, bodies = case.waves, case.structure.bodies.values()
     path, name = f"waves[{index}]", sea_names(states)[index]
     if isinstance(state, WavesOneByOne):
         rows = [
@@ -121,7 +122,10 @@ def _sea(
             ) from None
         heading = np.full(found.omega.size, heading_of(state, bearing, path))
         return ComponentSea(name, found.omega, found.amplitude, found.phase, heading, found.period, found.period)
-    return sea_state_of(state, index, states, water, folder, bearing)
+    sea = sea_state_of(state, index, states, water, folder, bearing)
+    if isinstance(sea, RegularSea) and any(getattr(body, "coefficients_file", None) is not None for body in bodies):
+        return replace(sea, theory="linear")
+    return sea
 
 
 def read_columns(folder: Path, name: str, count: int, path: str) -> np.ndarray:

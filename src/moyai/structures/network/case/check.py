@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from moyai.case.check_catalogue import check_catalogue
-from moyai.case.check_sea import check_file, check_surroundings, check_waves
+from moyai.case.check_sea import check_file, check_surroundings, check_waves, wave_path
 from moyai.case.faults import did_you_mean
 from moyai.case.findings import Findings, duplicates
 from moyai.core.errors import InputError
@@ -55,6 +55,13 @@ def check(model: NetworkCase, findings: Findings, folder: Path) -> None:
     except InputError as error:
         _raised(error, findings)
         return
+    if problem.linear_waves_only:
+        for index, state in enumerate(model.waves):
+            if getattr(state, "theory", "") == "stream_function":
+                findings.fault(
+                    wave_path(findings, index, "theory"), "the coefficients of a body answer linear waves only",
+                    allowed="automatic, linear", remedy="remove 'theory', or give the body added_mass in their place",
+                )  # fmt: skip
     check_waves(model, problem.environment, findings, lambda *_: None)
     _check_runs(problem, findings)
     _check_places(model, problem, findings)

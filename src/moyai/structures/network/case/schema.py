@@ -14,9 +14,9 @@ from moyai.case.schema_environment import (
     Current,
     Jonswap,
     PiersonMoskowitz,
-    RegularWaves,
     Site,
     SpectrumFile,
+    SteepRegularWaves,
     Tma,
     _FromBearing,
     refuse_no_seas,
@@ -125,7 +125,7 @@ class ElevationRecord(_FromBearing):
 
 
 NetworkSea = Annotated[
-    RegularWaves | Jonswap | PiersonMoskowitz | BretschneiderMitsuyasu | Tma | SpectrumFile | WavesOneByOne
+    SteepRegularWaves | Jonswap | PiersonMoskowitz | BretschneiderMitsuyasu | Tma | SpectrumFile | WavesOneByOne
     | ElevationRecord,
     Field(discriminator="kind"),
 ]  # fmt: skip
