@@ -31,6 +31,12 @@ class Debug:
     on = False
 
 
+class Spoken:
+    """The language that ``moyai --language`` asks of every command."""
+
+    language: str | None = None
+
+
 def prepare_streams() -> None:
     """Let the streams replace what the console's encoding cannot show; those that are closed lead to nowhere."""
     if sys.stdout is None:
@@ -110,7 +116,8 @@ def guard(as_json: bool = False, language: str | None = None) -> Iterator[None]:
     Messages are in the language given, else in that of the locale.
     """
     try:
-        spoken = spoken_in(require_language(language) if language else language_of_the_locale())
+        asked = language or Spoken.language
+        spoken = spoken_in(require_language(asked) if asked else language_of_the_locale())
     except InputError as error:
         stop([error.fault], BAD_INPUT, as_json=as_json)
     with spoken, _guarded(as_json):

@@ -28,6 +28,7 @@ from moyai.cli.console import (
     NOT_HELD,
     OK,
     Debug,
+    Spoken,
     fault_records,
     guard,
     prepare_streams,
@@ -100,8 +101,13 @@ def _options(
         bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version.")
     ] = False,
     debug: Annotated[bool, typer.Option("--debug", help="Show the traceback of an internal error.")] = False,
+    language: Annotated[
+        str | None,
+        typer.Option("--language", metavar="en|ja", help="Language of reports and messages, of any command."),
+    ] = None,
 ) -> None:
     Debug.on = Debug.on or debug
+    Spoken.language = language
 
 
 @app.command()
@@ -266,8 +272,8 @@ def run(
                     result = run_case(case, progress, keep=folder / "coefficients")
                 if units is not None:
                     result = result.shown_in(units)
-                if language is not None:
-                    result = result.said_in(language)
+                if (asked := language or Spoken.language) is not None:
+                    result = result.said_in(asked)
                 files = [result.write(staged / "results.nc")]
                 if report:
                     document, pages = _report(result, staged, others, pdf=pdf, quiet=quiet)
@@ -296,7 +302,7 @@ def run(
 def _speak_as(case: Any, language: str | None) -> None:
     """Go on in the language that a case names, unless the command names one."""
     display = getattr(case.model, "display", None)
-    if language is None and display is not None and display.language is not None:
+    if (language or Spoken.language) is None and display is not None and display.language is not None:
         speak(display.language)
 
 

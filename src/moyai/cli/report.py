@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from moyai.cli.console import OK, guard, print_json, progress_bars, rich_console
+from moyai.cli.console import OK, Spoken, guard, print_json, progress_bars, rich_console
 from moyai.core.errors import InputError
 from moyai.language import speak
 
@@ -64,8 +64,8 @@ def report(
         result = read_result(results)
         if units is not None:
             result = result.shown_in(units)
-        if language is not None:
-            result = result.said_in(language)
+        if (asked := language or Spoken.language) is not None:
+            result = result.said_in(asked)
         elif result.provenance.get("display_language"):
             speak(str(result.provenance["display_language"]))
         folder = prepare_output(output if output is not None else results.parent)
