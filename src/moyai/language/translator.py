@@ -8,6 +8,7 @@ copied.
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -21,10 +22,11 @@ _JAPANESE = "[\u3040-\u30ff\u3400-\u9fff]"
 _SCRIPTS = re.compile(f"{_JAPANESE}[A-Za-z0-9]|[A-Za-z0-9%°]{_JAPANESE}")
 _PARTICLE = re.compile("(?<=[\u3040-\u309f]) (?=\\{)|(?<=\\}) (?=[\u3040-\u309f])")
 _LONGEST = 12_000  # a text that is longer is no sentence
+_NAMELESS = frozenset(("a", "an", "the", "not", "each", "every", "all", "about", "up", "to"))
 _GLUED = 160  # characters of a phrase that is taken apart at its prepositions
 _READINGS = 24  # ways that a template fits a text
 _ENDS, _GLUE_ENDS = (". ", "; ", ": "), (". ", "; ", ": ", ", ")
-_NAME = 3  # words that may stay English between translated ones: a name that the user gave
+_NAME, _PHRASE_NAME = 3, 2  # words that may stay English between translated ones: a name that the user gave
 
 
 @dataclass(frozen=True)
@@ -49,6 +51,13 @@ class _Template:
     def is_glue(self) -> bool:
         """Whether it holds but one or two words (of, at rest, largest): what it joins has to be a phrase."""
         return 0 < len(self.words) <= 2
+
+    @property
+    def most_left(self) -> float:
+        """Words that may stay English in its places: a name that the user gave; none behind an article."""
+        if self.is_separator:
+            return math.inf
+        return 0 if self.words <= _NAMELESS else _PHRASE_NAME if self.is_glue else _NAME
 
     @property
     def rank(self) -> tuple[int, int]:
@@ -156,7 +165,7 @@ class Translator:
                     continue
                 read = {number: self._best(value) for number, value in values.items()}
                 rest = sum(cost for _, cost in read.values())
-                if rest >= best[1] or (rest > _NAME and not template.is_separator):
+                if rest >= best[1] or rest > template.most_left:
                     continue
                 best = template.filled({number: said for number, (said, _) in read.items()}), rest
                 if rest == 0:
