@@ -77,9 +77,10 @@ def main() -> None:
     language = require_language(sys.argv[1] if len(sys.argv) > 1 else "ja")
     groups, missing = coverage(all_texts(), language)
     for text in missing:
-        print(f"{text.place}: {text.template}")
+        sys.stdout.write(f"{text.place}: {text.template}\n")
     for group in (*groups, Coverage("all", sum(g.translated for g in groups), sum(g.total for g in groups))):
-        print(f"{group.group}: {group.translated} of {group.total} ({100.0 * group.translated / group.total:.0f} %)")
+        share = 100.0 * group.translated / group.total
+        sys.stdout.write(f"{group.group}: {group.translated} of {group.total} ({share:.0f} %)\n")
 
 
 if __name__ == "__main__":
