@@ -49,8 +49,8 @@ class _Template:
 
     @property
     def is_glue(self) -> bool:
-        """Whether it holds but one or two words (of, at rest, largest): what it joins has to be a phrase."""
-        return 0 < len(self.words) <= 2
+        """Whether it holds but one or two words and no colon (of, at rest, largest): it joins phrases."""
+        return 0 < len(self.words) <= 2 and not any(":" in part for part in self.source)
 
     @property
     def most_left(self) -> float:
