@@ -58,6 +58,8 @@ _TEXTS: dict[type, tuple[str, ...]] = {
 }
 """Texts of each record that a person reads. The title of a report is the user's own; notices are read in English first,
 for their places, and translated by :func:`moyai.report.html.notice_items`."""
+_OF_LINKS = {"open": "open the report"}
+"""What a word means in a cell that leads somewhere; elsewhere a statement is open."""
 _SCENE_TEXTS = ("name", "names", "label", "title", "words")
 _SVG_TEXT = re.compile(r"(<(?:text|title|tspan)\b[^>]*>)([^<]+)(?=<)")
 
@@ -99,7 +101,10 @@ def _translated(item: Any) -> Any:
         if entry.name not in changes and isinstance(value, tuple) and value and is_dataclass(value[0]):
             changes[entry.name] = _translated(value)
     if isinstance(item, Column):
-        changes["values"] = [said(value) if isinstance(value, str) else value for value in item.values]
+        meant = _OF_LINKS if item.links else {}
+        changes["values"] = [
+            said(meant.get(value, value)) if isinstance(value, str) else value for value in item.values
+        ]
     elif isinstance(item, Figure):
         changes["categories"] = tuple(map(said, item.categories))
     elif isinstance(item, Drawing):

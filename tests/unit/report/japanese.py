@@ -46,10 +46,8 @@ def pairs(english: Any, japanese: Any, name: str = "") -> Iterator[tuple[str, st
             yield from pairs(value, japanese[key], "" if key in ("name", "names", "label") else "key")
     elif is_dataclass(english):
         for entry in fields(english):
-            if (
-                not (isinstance(english, Document) and entry.name in ("title", "provenance"))
-                and entry.name != "scene_3d"
-            ):
+            own = ("title", "provenance") if isinstance(english, Document) else ("scene_3d",)
+            if entry.name not in own:
                 yield from pairs(getattr(english, entry.name), getattr(japanese, entry.name), entry.name)
     elif isinstance(english, list | tuple):
         assert len(english) == len(japanese)
