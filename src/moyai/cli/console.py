@@ -5,18 +5,19 @@ from __future__ import annotations
 import json
 import math
 import os
+import re
 import sys
 import threading
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from typing import TYPE_CHECKING, Any, NoReturn
 
 import typer
 
 from moyai.core.errors import CaseError, ConvergenceError, Fault, InputError
 from moyai.core.progress import Pace, Progress, duration_words, silent
-from moyai.language import language_of_the_locale, require_language, said, spoken_in
+from moyai.language import language_of_the_locale, require_language, said, spoken_in, spoken_language
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -82,6 +83,19 @@ def tell(text: str) -> None:
     sys.stderr.flush()
 
 
+def complain(fault: Fault, label: str = "") -> None:
+    """Print a fault on standard error, in the language in force; keys and values of files stay as they are."""
+    allowed = fault.allowed
+    if not re.fullmatch(r"[\w.-]+(, [\w.-]+)+", allowed):
+        allowed = said(allowed)
+    spoken = replace(fault, message=said(fault.message), allowed=allowed, remedy=said(fault.remedy))
+    text = str(spoken)
+    if spoken_language() != "en":
+        text = text.replace("; allowed: ", f"; {said('allowed')}: ")
+    sys.stderr.write(f"{said(label)}: {text}\n" if label else f"{text}\n")
+    sys.stderr.flush()
+
+
 def rich_console(*, to_error: bool = False) -> Console:
     """Return a rich console that keeps to plain text where the output is not a terminal."""
     from rich.console import Console
@@ -103,7 +117,7 @@ def stop(faults: Iterable[Fault], code: int, *, as_json: bool) -> NoReturn:
         print_json({"faults": fault_records(listed)})
     else:
         for fault in listed:
-            tell(str(fault))
+            complain(fault)
         if code == BAD_INPUT and len(listed) > 1:
             tell(f"{len(listed)} faults")
     raise typer.Exit(code)

@@ -29,6 +29,7 @@ from moyai.cli.console import (
     OK,
     Debug,
     Spoken,
+    complain,
     fault_records,
     guard,
     prepare_streams,
@@ -179,7 +180,7 @@ def check(file: CaseFile, language: Language = None, as_json: AsJson = False) ->
         from moyai.cli.tables import print_criteria, print_derived
 
         for warning in case.warnings:
-            tell(f"warning: {warning}")
+            complain(warning, "warning")
         print_derived(rich_console(), case.title, numbers)
         print_criteria(rich_console(), criteria)
         count = len(case.warnings)

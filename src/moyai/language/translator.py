@@ -36,6 +36,8 @@ class _Template:
     target: tuple[str, ...]
     target_order: tuple[int, ...]
     words: frozenset[str]
+    #: Places between quotation marks: keys and names, which are copied.
+    quoted: frozenset[int]
 
     @property
     def weight(self) -> int:
@@ -70,6 +72,8 @@ class _Template:
         """Whether a part of a text may stand in a place: no end of a sentence or half a bracket in a phrase."""
         if value.count("(") != value.count(")") or value != value.strip():
             return False
+        if number in self.quoted:
+            return "'" not in value
         if self.is_separator:
             return True
         first = (
@@ -163,7 +167,10 @@ class Translator:
             for values in template_readings(template.source, template.order, text):
                 if not all(template.holds(*item) for item in values.items()):
                     continue
-                read = {number: self._best(value) for number, value in values.items()}
+                read = {
+                    number: (value, 0) if number in template.quoted else self._best(value)
+                    for number, value in values.items()
+                }
                 rest = sum(cost for _, cost in read.values())
                 if rest >= best[1] or rest > template.most_left:
                     continue
@@ -228,7 +235,8 @@ def _template(source: str, target: str) -> _Template:
     # a blank next to a particle comes back where what is filled in is Latin
     said, said_order = literals(_PARTICLE.sub("", target))
     words = frozenset(word.lower() for part in parts for word in _LETTERS.findall(part))
-    return _Template(parts, order, said, said_order, words)
+    quoted = (n for n, a, b in zip(order, parts, parts[1:], strict=False) if a.endswith("'") and b.startswith("'"))
+    return _Template(parts, order, said, said_order, words, frozenset(quoted))
 
 
 @cache
