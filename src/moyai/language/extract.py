@@ -65,7 +65,7 @@ def texts(package: Path) -> Iterator[Text]:
             continue
         if path.name in ("variables.py", "vocabulary.py"):
             continue  # names of results.nc, which stays English
-        if path.name.startswith("schema"):
+        if path.name.startswith("schema") or path.name == "settings.py":
             group = "schemas"
         elif group in ("structures", "records", "studies"):
             group += ": errors and checks of files" if "case" in parts else ": reports and notices"
