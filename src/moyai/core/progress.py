@@ -70,8 +70,10 @@ class Pace:
             return math.nan
         each, waited = (stage.reported - stage.started) / (stage.done - stage.first), self._clock() - stage.reported
         # a step that takes longer than those before says that they were quick; what is not done takes some time
-        each, remaining = max(each, waited / stage.step), stage.total - stage.done
-        return max(remaining * each - waited, 0.25 * min(remaining, stage.step) * each)
+        remaining = stage.total - stage.done
+        step = min(stage.step, remaining) or 1.0
+        each = max(each, waited / step)
+        return max(remaining * each - waited, 0.25 * step * each)
 
     def line(self) -> str:
         """Return where the run stands in one line, empty before the first report."""
