@@ -40,7 +40,7 @@ STOPPED = {
     "full-width comma": ("beam: 10 m, h", "beam: 10 m，h", "a full-width sign '，' stands where YAML needs a plain one; write ',' in braces and brackets"),
     "full-width count": ("count: 2", "count: ２", "lines[0].count: expected a whole number; got '２'; write 2, without quotes and with half-width digits"),
     "beam of 10 km": ("beam: 10 m", "beam: 10 km", "structure.section.beam: the beam is 1e+04 m, which is impossible; allowed: 0.02 to 400 m"),
-    "draught of 0.1 mm": ("draught: 3 m", "draught: 0.1 mm", "structure.draught: the draught over beam is 1e-05 (structure.draught 0.1 mm, beam 10), which is impossible"),
+    "draught of 0.1 mm": ("draught: 3 m", "draught: 0.1 mm", "structure.draught: the draught over beam is 1e-05 (structure.draught 0.1 mm, structure.section.beam 10 m), which is impossible"),
     "gravity of 1e18": ("9.81 m/s2", "1e18", "site.gravity: 1e+18 m/s2 is no acceleration that a structure in water can have; allowed: 1 to 30 m/s2"),
     "length of 1e150 m": ("length: 21 m", "length: 1e150 m", "structure.length: 1e150 m is no length that a structure in water can have; allowed: 1e-09 to 200000 m"),
     "damping of 1e308": ("fraction_of_critical: 0.15", "fraction_of_critical: 1e308", "structure.damping.fraction_of_critical: 1e+308 is no number"),

@@ -26,7 +26,7 @@ class MemberKind(StructureKind):
     def add_sizes(self, model: Any, sizes: Any, periods: Any) -> None:
         from moyai.structures.member.case.sizes import add_sizes
 
-        add_sizes(model, sizes)
+        add_sizes(model, sizes, periods)
 
     def criteria(self, model: Any, given: Any) -> Any:
         from moyai.structures.member.case.criteria import criteria

@@ -19,8 +19,9 @@ def add_sizes(model: Any, sizes: Sizes) -> None:
     section: KeyPath = ("structure", "section")
     length: KeyPath = ("structure", "length")
     beam, height = _extent(unit.section)
-    sizes[("structure", "@beam")] = beam, (section,)
-    sizes[("structure", "@height")] = height, (section,)
+    for name, value in (("beam", beam), ("height", height)):
+        of_side: KeyPath = (*section, name) if hasattr(unit.section, name) else section
+        sizes[("structure", f"@{name}")] = value, (of_side,)
     sizes[("structure", "@diagonal")] = math.hypot(beam, height), (section,)
     block = site.density * beam * height * unit.length
     of = (section, length, _DENSITY)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from moyai.case.check_sea import check_surroundings, wave_path
+from moyai.case.check_sea import LARGEST_USUAL_ANGLE_DEG, along, check_surroundings, wave_path
 from moyai.case.faults import did_you_mean
 from moyai.case.findings import Findings, duplicates
 from moyai.case.schema_environment import PeriodRange, SpectrumFile
@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 _WATER_VISCOSITY = (2e-7, 3e-6)
 #: Roughness over width above which it is no roughness any more
 _LARGEST_ROUGHNESS = 0.1
+#: Slope from which a member through the surface is a pile or a brace, and up to which it lies flat [deg]
+_STEEP_DEG, _FLAT_DEG = 30.0, 20.0
 
 
 def check(model: schema.MemberCase, findings: Findings, folder: Path) -> None:
@@ -43,6 +45,7 @@ def check(model: schema.MemberCase, findings: Findings, folder: Path) -> None:
         return
     _check_place(problem, findings)
     _check_support(model, problem, findings)
+    _check_lie(model, problem, findings)
     _check_section(problem, findings)
     if findings.sound("structure"):
         _check_waves(model, problem, findings)
@@ -120,6 +123,41 @@ def _check_support(model: schema.MemberCase, problem: MemberProblem, findings: F
             "both ends",
             remedy=f"give support: {lower[0]} for a pile fixed in the bed, support: both_ends where its head is held",
         )
+
+
+def _check_lie(model: schema.MemberCase, problem: MemberProblem, findings: Findings) -> None:
+    """Warn of a flat member with one end in the air, and of waves or a current that run along a flat member."""
+    if not findings.sound("structure"):
+        return
+    member = problem.member
+    axis = np.asarray(member.end) - np.asarray(member.start)
+    flat, length = float(np.hypot(axis[0], axis[1])), float(np.linalg.norm(axis))
+    slope = math.degrees(math.asin(abs(float(axis[2])) / length))
+    levels = [level for _, level in problem.environment.water_levels]
+    low, high = sorted((float(member.start[2]), float(member.end[2])))
+    if slope < _STEEP_DEG and low < min(levels) and high > max(levels):
+        key = "start" if member.start[2] > member.end[2] else "end"
+        dry = (high - max(levels)) / (high - low)
+        findings.warn(
+            ("structure", key, "z"),
+            f"one end stands {high - max(levels):.4g} m above still water and the other {min(levels) - low:.4g} m "
+            f"below it, in a member that rises by {slope:.3g} degrees: {100.0 * dry:.2g} % of it is dry",
+            allowed=f"piles and braces rise by {_STEEP_DEG:g} degrees and more",
+            remedy="check the sign of z; heights below datum are negative",
+        )
+    if slope > _FLAT_DEG or flat == 0.0:
+        return
+    ways: list[tuple[KeyPath, str, float]] = []
+    for index, (state, sea) in enumerate(zip(model.waves, problem.seas)):
+        key = "heading_deg" if getattr(state, "heading_deg", None) is not None else "from_bearing_deg"
+        ways.append((wave_path(findings, index, key), f"waves of '{sea.name}'", float(sea.heading)))
+    if model.current is not None and getattr(model.current, "heading_deg", None) is not None:
+        ways.append((("current", "heading_deg"), "current", math.radians(model.current.heading_deg or 0.0)))
+    for path, what, heading in ways:
+        across = abs(axis[0] * math.sin(heading) - axis[1] * math.cos(heading)) / flat
+        angle = math.degrees(math.acos(min(across, 1.0)))
+        if angle > LARGEST_USUAL_ANGLE_DEG:
+            along(path, what, angle, "the member", findings)
 
 
 def _check_section(problem: MemberProblem, findings: Findings) -> None:

@@ -19,8 +19,9 @@ def add_sizes(model: Any, sizes: Sizes) -> None:
     except ValueError:
         return
     beam, height = hull.beam, hull.height
-    sizes[("structure", "@beam")] = beam, (section,)
-    sizes[("structure", "@height")] = height, (section,)
+    for name, value in (("beam", beam), ("height", height)):
+        of_side: KeyPath = (*section, name) if hasattr(unit.section, name) else section
+        sizes[("structure", f"@{name}")] = value, (of_side,)
     sizes[("structure", "@diagonal")] = math.hypot(beam, height), (section,)
     sizes[("structure", "@unit_length")] = unit.units.length, (length,)
     count = unit.units.count or max(len(unit.units.places), 1)
