@@ -27,6 +27,8 @@ _WATER_VISCOSITY = (2e-7, 3e-6)
 _LARGEST_ROUGHNESS = 0.1
 #: Slope from which a member through the surface is a pile or a brace, and up to which it lies flat [deg]
 _STEEP_DEG, _FLAT_DEG = 30.0, 20.0
+#: Share of such a member in the air that a lost sign explains better than its design
+_MUCH_DRY = 0.2
 
 
 def check(model: schema.MemberCase, findings: Findings, folder: Path) -> None:
@@ -135,9 +137,9 @@ def _check_lie(model: schema.MemberCase, problem: MemberProblem, findings: Findi
     slope = math.degrees(math.asin(abs(float(axis[2])) / length))
     levels = [level for _, level in problem.environment.water_levels]
     low, high = sorted((float(member.start[2]), float(member.end[2])))
-    if slope < _STEEP_DEG and low < min(levels) and high > max(levels):
+    dry = (high - max(levels)) / (high - low) if high > low else 0.0
+    if slope < _STEEP_DEG and low < min(levels) and dry > _MUCH_DRY:
         key = "start" if member.start[2] > member.end[2] else "end"
-        dry = (high - max(levels)) / (high - low)
         findings.warn(
             ("structure", key, "z"),
             f"one end stands {high - max(levels):.4g} m above still water and the other {min(levels) - low:.4g} m "
