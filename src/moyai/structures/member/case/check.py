@@ -12,6 +12,7 @@ import numpy as np
 from moyai.case.check_sea import LARGEST_USUAL_ANGLE_DEG, along, check_surroundings, wave_path
 from moyai.case.faults import did_you_mean
 from moyai.case.findings import Findings, duplicates
+from moyai.case.headings import heading_of
 from moyai.case.schema_environment import PeriodRange, SpectrumFile
 from moyai.case.yaml_reader import KeyPath
 from moyai.core.errors import ConvergenceError, InputError
@@ -133,8 +134,8 @@ def _check_lie(model: schema.MemberCase, problem: MemberProblem, findings: Findi
         return
     member = problem.member
     axis = np.asarray(member.end) - np.asarray(member.start)
-    flat, length = float(np.hypot(axis[0], axis[1])), float(np.linalg.norm(axis))
-    slope = math.degrees(math.asin(abs(float(axis[2])) / length))
+    flat = math.hypot(axis[0], axis[1])
+    slope = math.degrees(math.atan2(abs(axis[2]), flat))
     levels = [level for _, level in problem.environment.water_levels]
     low, high = sorted((float(member.start[2]), float(member.end[2])))
     dry = (high - max(levels)) / (high - low) if high > low else 0.0
@@ -149,17 +150,19 @@ def _check_lie(model: schema.MemberCase, problem: MemberProblem, findings: Findi
         )
     if slope > _FLAT_DEG or flat == 0.0:
         return
-    ways: list[tuple[KeyPath, str, float]] = []
-    for index, (state, sea) in enumerate(zip(model.waves, problem.seas)):
-        key = "heading_deg" if getattr(state, "heading_deg", None) is not None else "from_bearing_deg"
-        ways.append((wave_path(findings, index, key), f"waves of '{sea.name}'", float(sea.heading)))
-    if model.current is not None and getattr(model.current, "heading_deg", None) is not None:
-        ways.append((("current", "heading_deg"), "current", math.radians(model.current.heading_deg or 0.0)))
-    for path, what, heading in ways:
+    ways: list[tuple[KeyPath, str, Any]] = [
+        (wave_path(findings, index), f"waves of '{sea.name}'", state)
+        for index, (state, sea) in enumerate(zip(model.waves, problem.seas))
+    ]
+    ways += [] if model.current is None else [(("current",), "current", model.current)]
+    for path, what, entry in ways:
+        keys = ("heading_deg", "from_bearing_deg", "to_bearing_deg")
+        key = next(key for key in keys if getattr(entry, key, None) is not None)
+        heading = heading_of(entry, model.site.x_axis_bearing_deg, ".".join(map(str, path)))
         across = abs(axis[0] * math.sin(heading) - axis[1] * math.cos(heading)) / flat
         angle = math.degrees(math.acos(min(across, 1.0)))
         if angle > LARGEST_USUAL_ANGLE_DEG:
-            along(path, what, angle, "the member", findings)
+            along((*path, key), what, angle, "the member", findings)
 
 
 def _check_section(problem: MemberProblem, findings: Findings) -> None:
