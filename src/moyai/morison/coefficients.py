@@ -165,6 +165,10 @@ class CoefficientRule:
         return np.full(2, dnv_drag(flow.keulegan_carpenter, flow.relative_roughness))
 
 
+#: KC beyond which the recommended practice gives a figure for the amplification of drag.
+DNV_CREST = 12.0
+
+
 def dnv_steady_drag(relative_roughness: float) -> float:
     """Return the steady drag coefficient of a circle in post-critical flow by its roughness k/D (DNV-RP-C205, 6.7.1).
 
@@ -190,7 +194,7 @@ def dnv_drag(keulegan_carpenter: float, relative_roughness: float) -> float:
     elif keulegan_carpenter < 2.0:
         factor = level - 1.0
     else:
-        factor = level + 0.10 * (min(keulegan_carpenter, 12.0) - 12.0)
+        factor = level + 0.10 * (min(keulegan_carpenter, DNV_CREST) - 12.0)
     return steady * factor
 
 
@@ -258,13 +262,13 @@ def _range_notices(what: str, entry: DragEntry, flow: Conditions) -> list[Notice
 
 def _dnv_notices(flow: Conditions) -> list[Notice]:
     notices = _range_notices("DNV-RP-C205's drag", DragEntry(math.nan, math.nan, 1e6, math.inf, False, "D"), flow)
-    if flow.keulegan_carpenter > 12.0:
+    if flow.keulegan_carpenter > DNV_CREST:
         notices.append(
             Notice(
                 "drag-keulegan-carpenter",
                 f"the amplification of drag keeps its crest of KC = 12 at KC = {flow.keulegan_carpenter:.3g}",
                 value=flow.keulegan_carpenter,
-                limit=12.0,
+                limit=DNV_CREST,
                 severity="information",
                 source="DNV-RP-C205, 6.7.2",
             )

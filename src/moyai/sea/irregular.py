@@ -18,10 +18,11 @@ from moyai.sea import dispersion
 from moyai.sea.components import WaveComponents
 from moyai.sea.directional import Spreading, wrapped
 from moyai.sea.spectrum import Spectrum
+from moyai.sea.states import IrregularSea
 from moyai.sea.synthesis import choose_band, equal_energy_bins, fourier_bins, uniform_numbers
 from moyai.sea.water import Water
 
-__all__ = ["WaveComponents", "realisation_seed", "synthesise"]
+__all__ = ["WaveComponents", "components_of_run", "realisation_seed", "synthesise"]
 
 
 def realisation_seed(seed: int, number: int) -> int:
@@ -145,6 +146,34 @@ def synthesise(
         intrinsic_omega=omega - wave_number * along,
         frequency_step=step,
     )
+
+
+def components_of_run(sea: IrregularSea, water: Water, current: tuple[float, float], count: int) -> WaveComponents:
+    """Return the components of an irregular sea that is run through its duration on a current.
+
+    A sea of whole multiples of its lowest frequency has its significant height over its duration exactly; where that
+    would take more than twice ``count``, so many of equal energy, whose height over the duration is a chance
+    [eq:sea-equal-energy].
+
+    Parameters
+    ----------
+    sea : IrregularSea
+    water : Water
+    current : (float, float)
+        Averaged over the depth [m/s].
+    count : int
+        Components of equal energy.
+    """
+    parts = synthesise(
+        sea.spectrum, water, duration=sea.duration, seed=sea.seed, heading=sea.heading, spreading=sea.spreading,
+        current=current,
+    )  # fmt: skip
+    if parts.omega.size <= 2 * count:
+        return parts
+    return synthesise(
+        sea.spectrum, water, duration=sea.duration, seed=sea.seed, heading=sea.heading, spreading=sea.spreading,
+        method="equal_energy", count=count, current=current,
+    )  # fmt: skip
 
 
 def _check_request(

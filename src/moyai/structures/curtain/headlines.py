@@ -263,10 +263,10 @@ def _impact_band(groups: Groups, load: _Load) -> Band | None:
     # a pretension above the load of the current stays where it is
     least = part if part > current * (1.0 + 1e-9) else 0.0
     low, high = (
-        load.number(end) + max(at_rest, least)
-        for end, at_rest in (("impact_low", steady.low), ("impact_high", steady.high))
+        load.number(end) + max(still, least)
+        for end, still in (("impact_low", steady.low), ("impact_high", steady.high))
     )
-    of = f"impact: the models that count, start speed over the range of the drag; steady part: {steady.of}"
+    of = f"impact: the models that count, start speed over drag and place of release; steady part: {steady.of}"
     return Band(min(low, value), max(high, value), of)
 
 

@@ -16,7 +16,6 @@ from moyai.core.validity import Notice
 from moyai.sea.states import IrregularSea
 from moyai.sea.water import Water
 from moyai.structures.cage.conditions import height_notices
-from moyai.structures.cage.headlines import rigid_headlines
 from moyai.structures.cage.rigid.checks import (
     cage_notices,
     level_notices,
@@ -26,6 +25,7 @@ from moyai.structures.cage.rigid.checks import (
     run_notices,
 )
 from moyai.structures.cage.rigid.datasets import cage_dataset, sea_dataset, statics_dataset, time_dataset
+from moyai.structures.cage.rigid.headlines import rigid_headlines
 from moyai.structures.cage.rigid.laws import laws_dataset
 from moyai.structures.cage.rigid.lines import CageLine
 from moyai.structures.cage.rigid.model import CageSea, RegularWaves, RigidCageProblem

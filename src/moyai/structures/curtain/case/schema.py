@@ -289,9 +289,10 @@ class Impact(Block):
         description="Speed when the curtain becomes taut: the current's (the paper), or that of a drift from release.",
     )
     start_speed: PositiveSpeed | None = Field(default=None, description="That speed itself, in place of 'start'.")
-    release_position: Length = Field(
-        default=0.0,
-        description="Mid-span when the curtain is let go, downstream of the line between the supports. Default: 0.",
+    release_position: Length | None = Field(
+        default=None,
+        description="Mid-span when the curtain is let go, downstream of the line between the supports; absent: on that "
+        "line, and the band of the impact reaches up to the speed of the current.",
     )
     draught: PositiveLength | None = Field(
         default=None, description="Of the equivalent flat plate; absent: the skirt's length."
