@@ -30,7 +30,7 @@ class CageKind(StructureKind):
     def add_sizes(self, model: Any, sizes: Any, periods: Any) -> None:
         from moyai.structures.cage.case.sizes import add_sizes
 
-        add_sizes(model, sizes)
+        add_sizes(model, sizes, periods)
 
     def criteria(self, model: Any, given: Any) -> Any:
         from moyai.structures.cage.case.criteria import criteria

@@ -72,6 +72,8 @@ def check(model: NetworkCase, findings: Findings, folder: Path) -> None:
                     allowed="automatic, linear", remedy="remove 'theory', or give the body added_mass in their place",
                 )  # fmt: skip
     check_waves(model, problem.environment, findings, lambda *_: None)
+    if not findings.sound("waves"):
+        return
     _check_runs(problem, findings)
     _check_places(model, problem, findings)
 
