@@ -67,7 +67,9 @@ def check_plausibility(model: Block, findings: Findings) -> None:
             found = None if captured is None else _odd(row, first, captured, numbers)
             if found is not None:
                 odd.append(found)
-    shared = Counter(key for one in odd if len(one.paths) > 1 for key in _keys(one))
+    # Kinds of ratio: a slip in two lines alike is no slip in what both are held against
+    ratios = {(one.row.quantity, key) for one in odd if len(one.paths) > 1 for key in _keys(one)}
+    shared = Counter(key for _, key in ratios)
     told: dict[KeyPath, bool] = {}
     for one in odd:
         _tell(one, shared, told, numbers, findings)
@@ -152,8 +154,9 @@ def _odd(
 
 
 def _keys(odd: Odd) -> set[KeyPath]:
-    """Return every key of the file's model that a quantity follows from."""
-    return {key for path, entry in zip(odd.paths, odd.entries) for key in (entry.of or (path,))}
+    """Return the keys that a quantity follows from, without those of the site: many quantities share these."""
+    keys = {key for path, entry in zip(odd.paths, odd.entries) for key in (entry.of or (path,))}
+    return {key for key in keys if key[0] != "site"}
 
 
 def _tell(
@@ -165,7 +168,7 @@ def _tell(
     ----------
     odd : Odd
     shared : Counter
-        How many odd ratios a key stands in.
+        How many kinds of odd ratios a key stands in.
     told : dict of tuple to bool
         Keys that were told of, and whether as impossible; what is impossible is said of one that was only unusual.
     numbers : dict of tuple to Entry

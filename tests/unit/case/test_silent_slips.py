@@ -72,7 +72,7 @@ WARNINGS = {
     "lost sign of a height": ("member", "end: {y: 10 m, z: -5 m}", "end: {y: 10 m, z: 5 m}", "structure.end.z", "one end stands 5 m above still water and the other 5 m below it, in a member that rises by 26.6 degrees: 50 % of it is dry"),
     "drag of a cage without unit": ("cage", END, "\ncriteria: {greatest_drag: 50}\nanalyses:", "criteria.greatest_drag", "is 7.69e-05 (criteria.greatest_drag 50"),
     "moment in N m": ("member", END, "\ncriteria: {greatest_bending_moment: 250}\nanalyses:", "criteria.greatest_bending_moment", "wave moment"),
-    "line of transmission before the row": ("units", "start: [30 m, -30 m], end: [30 m, 30 m]", "start: [-30 m, -30 m], end: [-30 m, 30 m]", "map.line", "'operation' meets it 30 to 30 m before the middle of the row"),
+    "line of transmission before the row": ("units", "start: [30 m, -30 m], end: [30 m, 30 m]", "start: [-30 m, -30 m], end: [-30 m, 30 m]", "map.line", "'operation' meets it 30 to 30 m before the first unit"),
     "short line": ("network", "length: 24 m", "length: 18.4 m", "structure.lines.mooring.length", "is 0.92 (structure.lines.mooring.length 18.4 m, chord 20), which is unusual; allowed: usually 0.95 to 1.9"),
     "line of one bar": ("network", "segments: 48", "segments: 1", "structure.lines.mooring.segments", "the line 'mooring' of 24 m is one straight bar"),
 }  # fmt: skip
@@ -128,3 +128,9 @@ def test_numbers_without_their_unit_are_named_not_the_size_that_they_share():
     found = case_of(parse_yaml(text, "case.yaml"), Path("case.yaml")).warnings
     assert {"structure.anchors.holding_force", "structure.joints.strength"} <= {warning.path for warning in found}
     assert "structure.skirt.length" not in {warning.path for warning in found}
+
+
+def test_the_same_slip_in_two_lines_is_no_slip_in_the_depth():
+    with pytest.raises(CaseError) as caught:
+        case_of(parse_yaml(CASE.replace("length: 54.0 m", "length: 5.4 m"), "case.yaml"), Path("case.yaml"))
+    assert all(fault.path.startswith("lines[") for fault in caught.value.faults), caught.value

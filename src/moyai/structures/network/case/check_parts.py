@@ -13,6 +13,7 @@ from moyai.case.findings import Findings, duplicates
 from moyai.structures.network.case import schema_bodies as bodies
 from moyai.structures.network.case import schema_parts as parts
 from moyai.structures.network.case.schema import NetworkCase
+from moyai.structures.network.case.sizes import places_of
 
 #: Share of its mass by which a body may displace more or less at the draught of its coefficients.
 _FAR_FROM_AFLOAT = 0.1
@@ -109,22 +110,9 @@ def check_floats(model: NetworkCase, findings: Findings) -> None:
             )  # fmt: skip
 
 
-def _places(model: NetworkCase) -> dict[str, tuple[float, float, float]]:
-    """Return where points and points of bodies that are not turned stand, heights from datum."""
-    places: dict[str, tuple[float, float, float]] = {}
-    for name, point in model.structure.points.items():
-        x, y, z = point.position
-        places[name] = x, y, -model.site.water_depth if z is None else z
-    for body in model.structure.bodies.values():
-        if not any(body.rotation_deg):
-            for name, (x, y, z) in body.points.items():
-                places[name] = body.position[0] + x, body.position[1] + y, body.position[2] + z
-    return places
-
-
 def check_starts(model: NetworkCase, findings: Findings) -> None:
     """Refuse floats that start in the air, higher over the water than they are themselves, without a line upwards."""
-    places = _places(model)
+    places = {name: place for name, (place, _) in places_of(model.structure, model.site).items()}
     highest = max(model.site.water_levels.values(), default=0.0)
     ends = [(line.start, line.end) for line in model.structure.lines.values()]
     for name, point in model.structure.points.items():
@@ -147,7 +135,7 @@ def check_starts(model: NetworkCase, findings: Findings) -> None:
 
 def check_bars(model: NetworkCase, findings: Findings) -> None:
     """Warn of long lines of one straight bar: without sag, and with weight and drag at the ends alone."""
-    places = list(_places(model).values())
+    places = [place for place, _ in places_of(model.structure, model.site).values()]
     extent = max((math.dist(a, b) for number, a in enumerate(places) for b in places[:number]), default=0.0)
     for name, line in model.structure.lines.items():
         if line.segments == 1 and line.length is not None and line.length > _LONG_BAR * extent:

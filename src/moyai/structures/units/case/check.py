@@ -192,19 +192,19 @@ def _check_line_behind(model: schema.UnitsCase, findings: Findings) -> None:
     if line is None:
         return
     names = sea_names(model.waves)
-    x = sum(place.x for place in places) / len(places)
-    y = sum(place.y for place in places) / len(places)
     for index, state in enumerate(model.waves):
         try:
             heading = heading_of(state, model.site.x_axis_bearing_deg, f"waves[{index}]")
         except InputError:
             continue
-        behind = [(a - x) * math.cos(heading) + (b - y) * math.sin(heading) for a, b in (line.start, line.end)]
-        if max(behind) <= 0.0:
+        cos, sin = math.cos(heading), math.sin(heading)
+        row = min(place.x * cos + place.y * sin for place in places)
+        before = [row - x * cos - y * sin for x, y in (line.start, line.end)]
+        if min(before) >= 0.0:
             findings.warn(
                 ("map", "line"),
-                f"the line lies on the seaward side: '{names[index]}' meets it {-max(behind):.4g} to "
-                f"{-min(behind):.4g} m before the middle of the row; its transmission would hold reflected waves",
+                f"the line lies on the seaward side: '{names[index]}' meets it {min(before):.4g} to "
+                f"{max(before):.4g} m before the first unit; its transmission would hold reflected waves",
                 allowed="a line behind the row, as the waves travel", remedy="check the sign of its x",
             )  # fmt: skip
             return
