@@ -109,7 +109,9 @@ def plan_numbers(ratio: float) -> tuple[float, float]:
     return catenary, 0.5 / angle
 
 
-@pytest.mark.parametrize("name", FREE)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=pytest.mark.slow) if name == "class B" else name for name in FREE]
+)
 def test_depth_of_a_free_toe_is_that_of_the_closed_form(designs, name: str) -> None:
     given, result = designs(name)
     low, high = (w / pressure(given) * math.asinh(given["skirt"] * pressure(given) / w) for w in weights(given))
@@ -180,6 +182,7 @@ def drifted(drag: float, skirt: float, sag: float, current: float) -> float:
     return float(found.y_events[0][0][1])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("place", [", release_position: 0 m", ""])
 def test_an_impact_carries_the_band_of_its_models_and_of_the_drift(tmp_path: Path, place: str) -> None:
     more = str(BASE["more"]) + f"  impact: {{start: slack_phase{place}}}\n"
@@ -290,6 +293,7 @@ def test_daily_waves_do_not_count_the_release(designs, tmp_path: Path) -> None:
     assert cable.value == pytest.approx(max(seas), rel=1e-5) and "storm" in cable.where
 
 
+@pytest.mark.slow
 def test_the_whole_span_gives_the_peaks_of_a_snap_by_default(designs, tmp_path: Path) -> None:
     """A free toe in 0.5 m/s: 27 kN by meshes from 12 by 4 to 20 by 7 cells, the plate bounds it at four times that."""
     _, bound = designs("strong current")

@@ -73,11 +73,11 @@ class KeuleganCarpenterTable:
     def __post_init__(self) -> None:
         values = np.asarray(self.rows, dtype=float)
         if values.ndim != 2 or values.shape[1] != 3 or len(values) < 2:
-            raise InputError("a table over KC needs two rows or more of KC and coefficients", path="table")
+            raise InputError("a table over KC needs two rows or more of KC and coefficients", parameter="table")
         if not np.isfinite(values).all() or (values < 0.0).any():
-            raise InputError("a table over KC holds a negative value", path="table", allowed="at least 0")
+            raise InputError("a table over KC holds a negative value", parameter="table", allowed="at least 0")
         if not (np.diff(values[:, 0]) > 0.0).all():
-            raise InputError("KC does not rise in a table of coefficients", path="table", allowed="rising rows")
+            raise InputError("KC does not rise in a table of coefficients", parameter="table", allowed="rising rows")
 
     def at(self, keulegan_carpenter: float, name: str, notices: list[Notice]) -> Array:
         """Return both coefficients at a KC; outside the table its end values, with a notice."""
@@ -109,11 +109,11 @@ class CoefficientRule:
         for name, value, laws in (("drag", self.drag, DRAG_LAWS), ("inertia", self.inertia, INERTIA_LAWS)):
             if isinstance(value, str):
                 if value not in laws:
-                    raise InputError(f"unknown {name} law '{value}'", path=name, allowed=", ".join(laws))
+                    raise InputError(f"unknown {name} law '{value}'", parameter=name, allowed=", ".join(laws))
             elif not isinstance(value, KeuleganCarpenterTable) and not all(
                 math.isfinite(item) and item >= 0.0 for item in value
             ):
-                raise InputError(f"{name} coefficients are {value}", path=name, allowed="at least 0")
+                raise InputError(f"{name} coefficients are {value}", parameter=name, allowed="at least 0")
 
     def at(self, section: MemberSection, flow: Conditions) -> StripCoefficients:
         """Return the coefficients of a section in a flow.
@@ -218,7 +218,9 @@ def _steady(section: MemberSection, flow: Conditions, notices: list[Notice]) -> 
         drag = np.array([entry.drag for entry in entries])
     else:
         raise InputError(
-            f"there is no steady drag of a {section.name}", path="drag", remedy="give the two coefficients as numbers"
+            f"there is no steady drag of a {section.name}",
+            parameter="drag",
+            remedy="give the two coefficients as numbers",
         )
     if flow.keulegan_carpenter < 20.0:
         notices.append(
@@ -238,7 +240,7 @@ def _require_circle(section: MemberSection, law: str, name: str) -> None:
     if not section.is_circle:
         raise InputError(
             f"the law '{law}' speaks of circles, the section is a {section.name}",
-            path=name,
+            parameter=name,
             allowed="circle",
             remedy="use 'ideal' or give numbers" if name == "inertia" else "use 'steady' or give numbers",
         )

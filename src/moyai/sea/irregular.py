@@ -180,21 +180,21 @@ def _check_request(
     duration: float, seed: int, method: str, count: int | None, summation: str, heading_count: int, amplitudes: str
 ) -> None:
     if not (math.isfinite(duration) and duration > 0.0):
-        raise InputError(f"duration is {duration:g} s", path="duration", allowed="greater than 0 s")
+        raise InputError(f"duration is {duration:g} s", parameter="duration", allowed="greater than 0 s")
     if isinstance(seed, bool) or not isinstance(seed, int | np.integer) or seed < 0:
-        raise InputError(f"seed is {seed!r}", path="seed", allowed="a whole number, at least 0")
+        raise InputError(f"seed is {seed!r}", parameter="seed", allowed="a whole number, at least 0")
     for name, value, allowed in (
         ("method", method, ("fft", "equal_energy")),
         ("summation", summation, ("single", "double")),
         ("amplitudes", amplitudes, ("deterministic", "rayleigh")),
     ):
         if value not in allowed:
-            raise InputError(f"unknown {name} {value!r}", path=name, allowed=", ".join(allowed))
+            raise InputError(f"unknown {name} {value!r}", parameter=name, allowed=", ".join(allowed))
     if count is not None and method == "fft":
         raise InputError(
-            "count has no meaning for the fft method", path="count", remedy="duration and band give the components"
+            "count has no meaning for the fft method", parameter="count", remedy="duration and band give the components"
         )
     if count is not None and count < 1:
-        raise InputError(f"count is {count}", path="count", allowed="at least 1")
+        raise InputError(f"count is {count}", parameter="count", allowed="at least 1")
     if heading_count < 1:
-        raise InputError(f"heading_count is {heading_count}", path="heading_count", allowed="at least 1")
+        raise InputError(f"heading_count is {heading_count}", parameter="heading_count", allowed="at least 1")

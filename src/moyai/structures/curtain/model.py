@@ -61,13 +61,13 @@ class AnchorLines:
         if math.isinf(depth):
             raise InputError(
                 "anchor lines in water of infinite depth reach no bed",
-                path="site.water_depth",
+                parameter="water_depth",
                 remedy="give the depth, or 'slope_deg' of the lines",
             )
         if not self.length > depth:
             raise InputError(
                 f"an anchor line of {self.length:g} m in water of {depth:g} m",
-                path="structure.anchors.line_length",
+                parameter="anchors.length",
                 allowed=f"more than {depth:g} m",
                 remedy="lengthen the line, or give 'slope_deg'",
             )

@@ -344,7 +344,7 @@ def _dynamic(
         if before is not None and before.state.time >= plan.duration * (1.0 - 1e-9):
             raise InputError(
                 f"the run '{plan.name}' of the earlier result is complete: it reached {before.state.time:g} s",
-                path="settings.resume",
+                parameter="settings.resume",
                 remedy="lengthen settings.duration, or remove 'resume'",
             )
         item = run_through_time(

@@ -124,7 +124,7 @@ def _plans(problem: NetworkProblem, water: Water) -> tuple[RunPlan, ...]:
         else:
             raise InputError(
                 "nothing tells how long the run should be: no waves, no motion with a period",
-                path="settings.duration",
+                parameter="settings.duration",
                 remedy="give a duration",
             )
     period = min(periods, default=math.nan)

@@ -55,7 +55,7 @@ def current_along(problem: RigidCageProblem, water: Water) -> float:
     if abs(float(found[1])) > 1e-9 * max(abs(float(found[0])), 1e-300):
         raise InputError(
             "the current does not flow along x",
-            path="current.heading_deg",
+            parameter="current.heading",
             allowed="0 or 180 degrees: the rigid cage moves in one plane",
             remedy="turn the x axis, or use 'model: flexible'",
         )

@@ -104,7 +104,7 @@ def start_speed(unit: LevelCurtain, settings: ImpactSettings) -> tuple[float, st
     if not current > 0.0:
         raise InputError(
             "the start speed of the impact needs a current along the normal",
-            path="settings.impact.start",
+            parameter="settings.impact.start",
             remedy="give 'current', or 'settings.impact.start_speed'",
         )
     if settings.start == "current":

@@ -50,7 +50,7 @@ class DragCurve:
         if speed > self.speed[-1]:
             raise InputError(
                 f"the curtain has no equilibrium in water that moves with {speed:.3g} m/s",
-                path="current",
+                parameter="current",
                 allowed=f"at most {self.speed[-1]:.3g} m/s",
             )
         return AddedLoads(*(float(value) for value in self._curve(speed)))
