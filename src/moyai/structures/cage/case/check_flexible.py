@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 from moyai.case.check_catalogue import check_catalogue
@@ -14,6 +15,8 @@ from moyai.structures.cage.case.schema_flexible import FlexibleCageStructure, Gr
 
 #: Kinematic viscosity of water from boiling to freezing, salt included, with room [m2/s]
 _WATER_VISCOSITY = (2e-7, 3e-6)
+#: Share of the way that anchor lines may lack at rest; fibre ropes bear it as a pretension
+_USUAL_STRETCH = 0.02
 
 
 def _check_ropes(unit: FlexibleCageStructure, findings: Findings) -> None:
@@ -25,6 +28,36 @@ def _check_ropes(unit: FlexibleCageStructure, findings: Findings) -> None:
     for path, rope in ropes.items():
         if rope.catalogue is not None:
             check_catalogue(("structure", "mooring", *path), rope.catalogue, rope.diameter, findings)
+
+
+def _check_sinkers(model: schema.CageCase, unit: FlexibleCageStructure, findings: Findings) -> None:
+    """Refuse sinkers that are lighter than water."""
+    density = None if unit.sinkers is None else unit.sinkers.density
+    if density is not None and density <= model.site.density:
+        findings.fault(
+            ("structure", "sinkers", "density"),
+            f"sinkers of {density:g} kg/m3 float in water of {model.site.density:g} kg/m3",
+            allowed=f"more than {model.site.density:g} kg/m3",
+            remedy="steel has 7850 kg/m3, concrete 2400",
+        )
+
+
+def _check_anchor_lines(model: schema.CageCase, unit: FlexibleCageStructure, findings: Findings) -> None:
+    """Warn of anchor lines that are much shorter than the way from frame to anchor: they start pulled taut."""
+    mooring = unit.mooring
+    if not isinstance(mooring, GridEntry):
+        return
+    length = sum(part.length for part in mooring.anchor_line)
+    name, level = max(model.site.water_levels.items(), key=lambda entry: entry[1])
+    way = math.hypot(mooring.anchor_distance, model.site.water_depth + level - mooring.frame_depth)
+    if math.isfinite(way) and length < (1.0 - _USUAL_STRETCH) * way:
+        findings.warn(
+            ("structure", "mooring", "anchor_distance"),
+            f"the anchors stand farther than their lines of {length:g} m reach: {way:.4g} m from frame to anchor at "
+            f"{name}, a stretch of {100.0 * (way / length - 1.0):.3g} % before any load",
+            allowed=f"usually a way of at most {length / (1.0 - _USUAL_STRETCH):.4g} m",
+            remedy="bring the anchors nearer or lengthen the lines",
+        )
 
 
 def check(model: schema.CageCase, findings: Findings, folder: Path) -> None:
@@ -64,6 +97,8 @@ def check(model: schema.CageCase, findings: Findings, folder: Path) -> None:
             remedy="give 'current', whose profile and heading they scale",
         )
     _check_ropes(unit, findings)
+    _check_sinkers(model, unit, findings)
+    _check_anchor_lines(model, unit, findings)
     if not findings.sound("structure", "settings", "analyses", "site"):
         return
     try:
