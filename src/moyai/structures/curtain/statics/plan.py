@@ -116,11 +116,12 @@ def section_load(
         found: list[float] = []
         near = None
         for turn in turns:
-            near = solve_section(
+            section = solve_section(
                 skirt, current, flow_heading - turn, water, drag, law=law, toe=toe, top_depth=top_depth,
                 below_bed=below_bed, friction=friction, near=near,
             )  # fmt: skip
-            found.append(near.load)
+            near = section.start
+            found.append(section.load)
         return np.array(found)
 
     heights = np.linspace(-min(water.depth, top_depth + 2.0 * skirt.length), -top_depth, 60)
