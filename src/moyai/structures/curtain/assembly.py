@@ -75,9 +75,14 @@ class LevelCurtain:
         """The governing steady load in the current of the case, with its band."""
         surface = self.site.current(self.surface_speed).component(np.zeros(1), self.curtain.normal)
         hanging = self.hanging
+
+        def solve(curtain: HangingCurtain) -> CurtainStatics:
+            alike = (curtain.skirt, curtain.law, curtain.friction) == (hanging.skirt, hanging.law, hanging.friction)
+            return self.site.statics(curtain, self.surface_speed, by_curve=alike)
+
         return steady_load(
             hanging,
-            lambda curtain: self.statics if curtain is hanging else self.site.statics(curtain, self.surface_speed),
+            solve,
             self.water,
             toe_range=self.curtain.toe_range,
             passing_fraction=self.curtain.passing_fraction,

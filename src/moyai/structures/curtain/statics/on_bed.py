@@ -52,9 +52,11 @@ def solve_on_bed(
     if not lies_on_bed(curtain, current, flow_heading, water):
         return _lifted(curtain, current, flow_heading, chord_normal, water, passing_fraction)
     hanging, section = _hanging_part(curtain, current, flow_heading, water)
+    # what hangs is another skirt in every current: its curve would serve this one alone
     load = section_load(
-        hanging, current, flow_heading, chord_normal, water, curtain.drag, law=curtain.law, toe="held", below_bed=True
-    )
+        hanging, current, flow_heading, chord_normal, water, curtain.drag,
+        law=curtain.law, toe="held", below_bed=True, by_curve=False,
+    )  # fmt: skip
     # the bed keeps its share wherever the curtain stands in the flow
     share = section.top_load / section.load
     carried = PlanLoad(load.across * share, load.flow_angle, load.angle, load.ratio)

@@ -430,11 +430,11 @@ def solve_section(
             found[:] = [(coefficient, path, miss, hold)]
             return blockage - ((path[-1, 1] - path[0, 1]) / water.depth if math.isfinite(miss) else 0.0)
 
-        if near is None:
+        if near is not None and math.isfinite(near.toe_height):
+            reached = (-top_depth - near.toe_height) / water.depth
+        else:
             reached = high - surplus(high)
             reached = reached if math.isfinite(found[0][2]) else 0.5 * high
-        else:
-            reached = (-top_depth - near.toe_height) / water.depth
         _crossing(surplus, low, high, min(max(reached, low), high), 1.0, 1e-13, 1e-13)
         coefficient, path, miss, hold = found[0]
     else:

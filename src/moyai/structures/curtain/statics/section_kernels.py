@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from moyai.core.arrays import Array
 from moyai.core.compiled import njit
 
