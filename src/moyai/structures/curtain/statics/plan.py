@@ -21,7 +21,7 @@ from moyai.sea.current import CurrentProfile
 from moyai.sea.water import Water
 from moyai.structures.curtain.statics.drag import DragLaw
 from moyai.structures.curtain.statics.section import LoadLaw, Skirt, solve_section
-from moyai.structures.curtain.statics.section_curve import section_family
+from moyai.structures.curtain.statics.section_curve import current_shape, section_family
 
 _WIDEST = math.radians(85.0)
 _MOST_STEPS = 30
@@ -140,10 +140,9 @@ def section_load(
             near, found[place] = section.start, section.load
         return found
 
-    heights = np.linspace(-min(water.depth, top_depth + 2.0 * skirt.length), -top_depth, 60)
-    if np.max(np.abs(current.component(heights, flow_heading + 0.5 * math.pi))) <= 1e-12 * np.max(
-        current.speed(heights), initial=1e-300
-    ):
+    shape = current_shape(current)
+    across = math.inf if shape is None else abs(float(shape.speeds(np.array([flow_heading + 0.5 * math.pi]))[0]))
+    if shape is not None and across <= 1e-12 * math.hypot(*shape.velocity):
         # a current of one direction loads both sides alike
         half = loads(angle[count // 2 :])
         load = np.concatenate([half[:0:-1], half])
