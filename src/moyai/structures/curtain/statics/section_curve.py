@@ -151,6 +151,11 @@ class SectionCurve:
         """
         ratio = self.kind.skirt.length / self.kind.skirt.toe_load
         place = np.log2(1.0 + ratio * np.abs(pressure))
+        if np.isnan(place).any():
+            found = np.full((pressure.size, 3), math.nan)
+            known = ~np.isnan(place)
+            found[known] = self.at(pressure[known])
+            return found
         most = float(np.max(place, initial=0.0))
         if not most < _MOST:
             return np.full((pressure.size, 3), math.nan)
@@ -257,26 +262,31 @@ class SectionFamily:
 
         def surplus(blockage: Array) -> Array:
             coefficients = np.interp(blockage, drag.blockage, drag.coefficients)
-            found: Array = blockage - self.curve.at(coefficients * pressures)[:, 1] / kind.depth
-            return found
+            depth = self.curve.at(coefficients * pressures)[:, 1]
+            # so blocked the load may be too much for any section: then less of it is sought
+            return blockage - np.where(np.isnan(depth), 0.0, depth) / kind.depth
 
         # a deeper curtain is loaded more and reaches less deep: one crossing, by regula falsi of the Illinois kind
         below, above = surplus(low), surplus(high)
-        side = np.zeros(pressures.size)
-        place = high
+        place, found, side = high, above, np.zeros(pressures.size)
+        # by its stretch a skirt may reach deeper than its length: the blockage counts up to that
+        beyond = above <= 0.0
         for _ in range(_CROSSINGS):
+            if not np.any(~beyond & (np.abs(found) > 1e-14) & (high - low > 1e-14)):
+                break
             with np.errstate(invalid="ignore", divide="ignore"):
                 place = np.clip(low - below * (high - low) / (above - below), low, high)
+            place = np.where(np.isnan(place), low, place)
             found = surplus(place)
             more = found > 0.0
             high, low = np.where(more, place, high), np.where(more, low, place)
             below = np.where(more, np.where(side > 0.0, 0.5 * below, below), found)
             above = np.where(more, found, np.where(side < 0.0, 0.5 * above, above))
             side = np.where(more, 1.0, -1.0)
-            if not np.any((np.abs(found) > 1e-14) & (high - low > 1e-14)):
-                break
+        place = np.where(beyond, kind.skirt.length / kind.depth, place)
         coefficients: Array = np.interp(place, drag.blockage, drag.coefficients)
-        return coefficients
+        # where sections end, and not at a crossing, the surplus jumps
+        return np.where(beyond | (np.abs(found) <= 1e-9), coefficients, math.nan)
 
 
 def section_family(
