@@ -16,6 +16,7 @@ from typing import Literal
 import numpy as np
 
 from moyai.core.arrays import Array, IntArray
+from moyai.core.options import checks_words
 from moyai.sea.current import CurrentProfile, PowerLawCurrent, TabulatedCurrent, UniformCurrent
 from moyai.structures.curtain.statics.drag import DragLaw
 from moyai.structures.curtain.statics.section import (
@@ -90,6 +91,7 @@ def current_shape(current: CurrentProfile) -> CurrentShape | None:
     return CurrentShape((speed * math.cos(heading), speed * math.sin(heading)), unit, mark)
 
 
+@checks_words
 @dataclass(frozen=True)
 class SectionKind:
     """What a curve holds for: everything but the pressure."""
@@ -289,6 +291,7 @@ class SectionFamily:
         return np.where(beyond | (np.abs(found) <= 1e-9), coefficients, math.nan)
 
 
+@checks_words
 def section_family(
     skirt: Skirt,
     current: CurrentProfile,
