@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -47,6 +48,11 @@ class CurtainKind(StructureKind):
         from moyai.structures.curtain.case.derived import derived_numbers
 
         return derived_numbers(case)
+
+    def nominal(self, problem: Any) -> Any | None:
+        if "statics" not in problem.settings.analyses:
+            return None
+        return replace(problem, settings=replace(problem.settings, nominal=True))
 
     def run(self, problem: Any, progress: Progress, keep: Path | None) -> Result:
         from moyai.structures.curtain.run import run
