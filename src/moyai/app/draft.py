@@ -37,7 +37,7 @@ CHEAP: dict[str, tuple[tuple[str, ...], ...]] = {
 REGULAR_ONLY = ("member",)
 """Kinds whose drafts leave irregular seas out, where there are regular ones."""
 PINNED = "pinned"
-NOMINAL = "draft of nominal numbers only: no ranges, bands, other laws or other speeds; a verdict may change with the whole answer"
+NOMINAL = "nominal numbers only, without ranges, bands, other laws or speeds: the whole answer may judge otherwise"
 _TEXT_LIMIT = 2_000_000
 
 Run = Callable[..., "Result"]
