@@ -36,6 +36,7 @@ PACKAGES = [
     "structures/cage",
     "structures/network",
     "structures/member",
+    "structures/units",
     "records",
 ]
 #: Parts of packages that hold no physics
@@ -114,15 +115,15 @@ def tests_of(file: str, most: int) -> list[str]:
     return [str(path.relative_to(ROOT)) for path in found[:most]]
 
 
-def noticed(source: Path, tests: list[str], seconds: float) -> bool:
-    """Return whether a test fails with the package as it stands in ``source``."""
+def outcome(source: Path, tests: list[str], seconds: float) -> str:
+    """Return what the tests say to the package as it stands in ``source``: noticed, TOO SLOW or SURVIVED."""
     environment = {**os.environ, "PYTHONPATH": str(source.parent), "OMP_NUM_THREADS": "1"}
     command = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", *tests]
     try:
         done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, timeout=seconds, check=False)
     except subprocess.TimeoutExpired:
-        return True
-    return done.returncode != 0
+        return "TOO SLOW"
+    return "noticed" if done.returncode == 1 else "SURVIVED" if done.returncode == 0 else "NOT RUN"
 
 
 def main() -> None:
@@ -131,7 +132,7 @@ def main() -> None:
     parser.add_argument("--count", type=int, default=60)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--most", type=int, default=12, help="test files run for a change, those that import it first")
-    parser.add_argument("--seconds", type=float, default=900.0, help="after which a run counts as noticed")
+    parser.add_argument("--seconds", type=float, default=900.0, help="after which a run is given up")
     parser.add_argument("--packages", nargs="*", default=PACKAGES)
     given = parser.parse_args()
     chosen = random.Random(given.seed)
@@ -150,12 +151,11 @@ def main() -> None:
             path = source / change.file
             raw = path.read_bytes()
             path.write_bytes(raw[: change.start] + change.new.encode() + raw[change.end :])
-            found = noticed(source, tests_of(change.file, given.most), given.seconds)
+            words = outcome(source, tests_of(change.file, given.most), given.seconds)
             path.write_bytes(raw)
-            killed += found
-            words = "noticed " if found else "SURVIVED"
+            killed += words == "noticed"
             place = f"{change.file}:{change.line} {change.function}"
-            sys.stdout.write(f"{words} {place}: {change.old} -> {change.new}\n")
+            sys.stdout.write(f"{words:<8} {place}: {change.old} -> {change.new}\n")
             sys.stdout.flush()
         sys.stdout.write(f"{killed} of {len(changes)} noticed\n")
 

@@ -67,6 +67,8 @@ def test_only_the_kind_and_its_role_know_case_files_and_drawings(role):
             continue
         for module, line in imported_modules(path):
             names = module.split(".")
+            if path.name == "settings.py" and module == "moyai.case.schema_types":
+                continue  # blocks that a case fills and analyses read as they are: units of fields, no paths
             own_role = names[1:2] and names[1] in KIND_PARTS and role in names
             if own_role or names[:2] == ["moyai", role]:
                 wrong.append(f"{path.relative_to(SOURCE)}, line {line}: {module}")

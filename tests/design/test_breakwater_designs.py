@@ -127,6 +127,7 @@ def test_first_page_in_all_defaults(design, tmp_path):
     assert headline(result, "anchor_capacity_required").value == pytest.approx(factor * anchor)
 
 
+@pytest.mark.slow
 def test_slow_drift_of_both_domains_is_one(tmp_path):
     """The two models share the drift of the waves and nothing else: spectrum against records in time.
 

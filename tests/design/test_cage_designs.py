@@ -177,6 +177,7 @@ def test_the_tension_of_the_sea_governs():
     assert found.status == "converged", found.message
 
 
+@pytest.mark.slow
 def test_a_model_cage_on_taut_lines():
     """Archimedes: what the floats carry beyond net and frame, less their dry part, is what both lines pull down."""
     text = template("rigid_cage").replace("periods: [1.0, 1.2, 1.5] ", "periods: [1.2] ")

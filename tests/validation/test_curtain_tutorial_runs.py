@@ -17,6 +17,7 @@ def blocks(language: str) -> list[str]:
     return re.findall(rf"```{language}\n(.*?)```", PAGE.read_text(encoding="utf-8"), flags=re.DOTALL)
 
 
+@pytest.mark.slow
 def test_first_curtain(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     case = next(block for block in blocks("yaml") if block.startswith("moyai: 1"))

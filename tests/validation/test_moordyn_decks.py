@@ -167,6 +167,7 @@ def test_pendulum(decks):
     assert 2.0 * np.diff(times).mean() == pytest.approx(period, rel=2e-4)
 
 
+@pytest.mark.slow
 def test_lowe_and_langley_case_1(decks):
     """A flexible jumper whose top moves by 10 sin(2 pi t / 27) m, against the tension stored with the deck."""
     network = to_network(read_deck(decks / "lowe_and_langley_2006/line.txt"))

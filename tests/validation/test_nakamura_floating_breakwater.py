@@ -15,8 +15,9 @@ import pytest
 
 from moyai.case.builder import build
 from moyai.case.reader import load_case
-from moyai.structures.breakwater.model import BreakwaterProblem, Damping, RegularSea, Sensitivity
+from moyai.structures.breakwater.model import BreakwaterProblem, Damping, RegularSea
 from moyai.structures.breakwater.run import run
+from moyai.structures.breakwater.settings import Sensitivity
 
 ROOT = Path(__file__).parents[2]
 DATA = Path(__file__).parent / "data"
@@ -33,12 +34,13 @@ def problem() -> BreakwaterProblem:
 def with_periods(periods, **changes):
     base = problem()
     sea = RegularSea("waves", 0.04, tuple(float(item) for item in periods))
-    settings = replace(
-        base.settings, sensitivity=Sensitivity(), analyses=changes.pop("analyses", ("statics", "frequency"))
-    )
-    breakwater = replace(base.breakwater, **changes)
+    analyses = changes.pop("analyses", ("statics", "frequency"))
     return replace(
-        base, breakwater=breakwater, environment=replace(base.environment, sea_states=(sea,)), settings=settings
+        base,
+        breakwater=replace(base.breakwater, **changes),
+        environment=replace(base.environment, sea_states=(sea,)),
+        analyses=analyses,
+        settings=base.settings.changed(sensitivity=Sensitivity()),
     )
 
 
@@ -116,7 +118,7 @@ def roll_peak(zeta: float, modes=("sway", "heave", "roll")) -> tuple[float, floa
     """Largest roll theta B/H over a fine sweep and its L/B, without drift as the paper's damping figure."""
     base = with_periods([1.0], damping=Damping(zeta, modes))
     omega = tuple(np.linspace(2 * np.pi / 1.2, 2 * np.pi / 0.75, 121))
-    result = run(replace(base, settings=replace(base.settings, frequencies=omega)))
+    result = run(replace(base, settings=base.settings.changed(frequencies=tuple(omega))))
     data = result.tree["SWL/rao"].to_dataset()
     roll = np.abs(data.rao.sel(dof="roll").values) * 0.38 / 2
     place = int(np.argmax(roll))
@@ -166,7 +168,7 @@ def test_two_lines_make_drift_count():
     assert data.mooring_stiffness.values[1, 2, 2] < 1.39 < data.mooring_stiffness.values[0, 2, 2]
     assert data.mean_offset.values[1, 0] < 9.6e-3 < data.mean_offset.values[0, 0]
     assert float(data.motion_ratio.sel(dof="roll", period=0.95)) == pytest.approx(0.789, abs=0.001)
-    still = run(replace(few, settings=replace(few.settings, drift=False))).tree["SWL/frequency/waves"].to_dataset()
+    still = run(replace(few, settings=few.settings.changed(drift=False))).tree["SWL/frequency/waves"].to_dataset()
     assert float(still.motion_ratio.sel(dof="roll", period=0.95)) == pytest.approx(0.822, abs=0.001)
     assert float(still.mooring_stiffness.values[0, 0, 0]) == pytest.approx(149, abs=0.5)
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+import pytest
+
 PAGE = Path(__file__).parents[2] / "docs" / "tutorial" / "network.md"
 
 
@@ -12,6 +14,7 @@ def blocks(language: str) -> list[str]:
     return re.findall(rf"```{language}\n(.*?)```", PAGE.read_text(encoding="utf-8"), flags=re.DOTALL)
 
 
+@pytest.mark.slow
 def test_the_tutorial_of_networks_runs(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     case = next(block for block in blocks("yaml") if block.startswith("moyai: 1"))

@@ -44,9 +44,8 @@ def segment_of(
         try:
             properties = line_type(part.catalogue, part.diameter)
         except InputError as error:
-            fault = error.fault
-            key = "diameter" if fault.path == "diameter" else "catalogue"
-            raise InputError(fault.message, path=f"{path}.{key}", allowed=fault.allowed, remedy=fault.remedy) from None
+            key = "diameter" if error.fault.path == "diameter" else "catalogue"
+            raise error.at(f"{path}.{key}") from None
         return Segment(LineType.from_properties(properties, water.density, water.gravity), part.length)
     weight = part.submerged_weight
     if weight is None:

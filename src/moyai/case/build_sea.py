@@ -112,10 +112,13 @@ def current_of(
     if entry is None:
         return None
     heading = heading_of(entry, bearing, "current")
-    if isinstance(entry.profile, surroundings.SpeedTable):
-        heights, speeds = zip(*entry.profile.table)
-        return currents.table(heights, speeds, heading)
     speed = entry.speed or 0.0
-    if isinstance(entry.profile, surroundings.PowerLaw):
-        return currents.power_law(speed, entry.profile.power_law, heading, water)
+    try:
+        if isinstance(entry.profile, surroundings.SpeedTable):
+            heights, speeds = zip(*entry.profile.table)
+            return currents.table(heights, speeds, heading)
+        if isinstance(entry.profile, surroundings.PowerLaw):
+            return currents.power_law(speed, entry.profile.power_law, heading, water)
+    except InputError as error:
+        raise error.at("current.profile") from None
     return currents.uniform(speed, heading)

@@ -33,3 +33,22 @@ def check_catalogue(path: KeyPath, name: str, diameter: float, findings: Finding
 
 
 __all__ = ["check_catalogue"]
+
+
+#: Findings on lines that a structure's own check, or its run, states better.
+SAID_OTHERWISE = ("mooring-anchor-above-bed", "mooring-fairlead-dry", "mooring-anchor-uplift")
+_LINE_PLACES = {
+    "mooring-line-breaks": "segments",
+    "mooring-line-heap": "segments",
+    "mooring-line-unreachable": "segments",
+    "mooring-touches-between": "segments",
+    "mooring-anchor-in-body": "anchor",
+    "mooring-fairlead-below-bed": "fairlead",
+}
+
+
+def line_place(findings: Findings, index: int, code: str) -> KeyPath:
+    """Return the key of a line that a finding of :func:`moyai.mooring.checks.check_line_system` speaks of."""
+    path: KeyPath = ("lines", index)
+    inner = (*path, _LINE_PLACES.get(code, ""))
+    return inner if inner in findings.document.values else path

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from moyai.case.faults import did_you_mean
 from moyai.case.findings import Findings, duplicates
 from moyai.case.schema_environment import PowerLaw, RegularWaves, SpectrumFile, SpeedTable, Tma, sea_names
 from moyai.case.yaml_reader import KeyPath
@@ -53,6 +54,23 @@ def check_surroundings(model: Any, findings: Findings, folder: Path) -> None:
         speed = getattr(entry, "speed", None)
         if speed is not None and abs(speed) > LARGEST_SPEED[key]:
             findings.warn((key, "speed"), f"{speed:g} m/s is more than has been measured")
+
+
+def check_level_names(model: Any, findings: Findings) -> None:
+    """Check that the site has the water levels that ``settings.water_levels`` names, each once."""
+    chosen = model.settings.water_levels
+    if isinstance(chosen, str):
+        return
+    for index, name in enumerate(chosen):
+        if name not in model.site.water_levels:
+            findings.fault(
+                ("settings", "water_levels", index),
+                f"there is no water level '{name}'",
+                allowed=", ".join(model.site.water_levels),
+                remedy=did_you_mean(name, model.site.water_levels),
+            )
+    for index in duplicates(chosen):
+        findings.fault(("settings", "water_levels", index), f"'{chosen[index]}' stands twice", remedy="remove one")
 
 
 def _check_name(path: KeyPath, name: str, findings: Findings) -> None:

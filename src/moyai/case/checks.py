@@ -31,14 +31,15 @@ def check(model: Any, document: Document, folder: Path) -> Findings:
     folder : Path
         Folder that file names refer to.
     """
-    findings = Findings(document)
+    kind = structure_kind(model.structure.kind)
+    findings = Findings(document, kind.keys())
     check_plausibility(model, findings)
     faults, warnings = len(findings.faults), len(findings.warnings)
     _check_criteria(model, findings)
     # Checks that build the problem would stumble over criteria that are at fault
     sound = model if findings.sound("criteria") else model.model_copy(update={"criteria": "none"})
     # What cannot be is reported before anything is built of it: the checks build only what is sound so far
-    structure_kind(model.structure.kind).check(sound, findings, folder)
+    kind.check(sound, findings, folder)
     _check_measured(sound, findings, folder)
     check_sliders(model, findings)
     _leave_to_the_particular(findings, faults, warnings)

@@ -15,13 +15,14 @@ import numpy as np
 from pydantic import ValidationError
 
 from moyai.case.faults import Translator, did_you_mean, nearest
+from moyai.case.findings import Findings
 from moyai.case.paths import assign, resolve
 from moyai.case.schema import root_schema
 from moyai.case.schema_types import Block, Notes
 from moyai.case.templates import kind_by_keys, next_command
 from moyai.case.yaml_reader import Document, KeyPath, dotted, parse_yaml, read_yaml
 from moyai.core.errors import CaseError, Fault, InputError
-from moyai.core.kinds import structure_kinds
+from moyai.core.kinds import structure_kind, structure_kinds
 from moyai.core.units import plain_text
 
 
@@ -59,6 +60,10 @@ class Case:
     def folder(self) -> Path:
         """Folder of the file, from which it names other files."""
         return self.path.parent
+
+    def located(self, error: InputError) -> InputError:
+        """Return an error of a run with the key that its parameter came from, and the line of that key."""
+        return Findings(self.document, structure_kind(self.kind).keys()).located(error)
 
     def replace(self, path: str | Mapping[str, Any], value: Any = None) -> Case:
         """Return the case with other values, checked as a file is.

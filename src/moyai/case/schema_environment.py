@@ -27,6 +27,7 @@ from moyai.case.schema_types import (
     Speed,
     SpreadAngle,
     holds_key,
+    once_each,
     refuse,
 )
 
@@ -126,15 +127,37 @@ class RegularWaves(_SeaState):
         return self.periods.values() if isinstance(self.periods, PeriodRange) else tuple(self.periods or ())
 
 
+class RegularWavesOfHeights(RegularWaves):
+    """Regular waves: every height with every period."""
+
+    exactly_one: ClassVar[KeyGroups] = (*RegularWaves.exactly_one, ("height", "heights"))
+
+    height: PositiveLength | None = Field(default=None, description="Wave height H, crest to trough.")  # type: ignore[assignment]
+    heights: Annotated[tuple[PositiveLength, ...], Field(min_length=1, max_length=1000), AfterValidator(once_each)] = (
+        Field(default=(), description="Wave heights: a list; each is run with every period.")
+    )
+
+    def all_heights(self) -> tuple[float, ...]:
+        """Return every height [m]."""
+        return (self.height,) if self.height is not None else tuple(self.heights)
+
+    @property
+    def highest(self) -> float:
+        """Largest height [m]."""
+        return max(self.all_heights())
+
+
+SteepTheory = Literal["automatic", "linear", "stream_function"]
+STEEP_THEORY = (
+    "Wave theory: linear or stream function; automatic takes linear waves where their second harmonic is below 1 % of "
+    "the first, else the stream function. Bodies with coefficients and rigid cages know linear waves only."
+)
+
+
 class SteepRegularWaves(RegularWaves):
     """Regular waves for structures whose loads know waves of finite height."""
 
-    theory: Literal["automatic", "linear", "stream_function"] = Field(  # type: ignore[assignment]
-        default="automatic",
-        description="Wave theory: linear or stream function; automatic takes linear waves where their second harmonic "
-        "is below 1 % of the first, else the stream function. Bodies with coefficients and rigid cages know linear "
-        "waves only.",
-    )
+    theory: SteepTheory = Field(default="automatic", description=STEEP_THEORY)  # type: ignore[assignment]
 
 
 class CosineTwoS(Block):

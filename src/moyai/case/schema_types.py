@@ -6,15 +6,17 @@ import difflib
 import math
 import re
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import (
     BaseModel,
     BeforeValidator,
     ConfigDict,
+    Discriminator,
     Field,
     GetCoreSchemaHandler,
     GetJsonSchemaHandler,
+    Tag,
     ValidationInfo,
     model_validator,
 )
@@ -187,6 +189,12 @@ def _name(value: Any) -> Any:
 Name = Annotated[str, BeforeValidator(_name), Field(min_length=1, max_length=80)]
 """A label that also names a group of the results, so it holds no slash."""
 
+LevelNames = Annotated[
+    Annotated[Literal["all"], Tag("<word>")] | Annotated[tuple[Name, ...], Field(min_length=1), Tag("<list>")],
+    Discriminator(lambda value: "<word>" if isinstance(value, str) else "<list>"),
+]
+LEVEL_NAMES = "Water levels to run: all, or a list of names."
+
 FileName = Annotated[str, Field(min_length=1)]
 """A path, relative to the folder of the case file."""
 
@@ -238,6 +246,10 @@ class Block(BaseModel):
     exactly_one: ClassVar[KeyGroups] = ()
     at_least_one: ClassVar[KeyGroups] = ()
     at_most_one: ClassVar[KeyGroups] = ()
+
+    def changed(self, **values: Any) -> Self:
+        """Return the block with other values, which are not checked."""
+        return self.model_copy(update=values)
 
     @classmethod
     def key_names(cls) -> tuple[str, ...]:

@@ -39,13 +39,17 @@ def run(case: Case, progress: Progress = silent, *, keep: Path | None = None, pr
     Raises
     ------
     InputError
-        When the case is impossible.
+        When the case is impossible; it names the key and its line.
     """
     from moyai.case.builder import build
     from moyai.core.kinds import structure_kind
     from moyai.report.views import with_views
 
-    result = structure_kind(case.kind).run(build(case) if problem is None else problem, progress, keep)
+    problem = build(case) if problem is None else problem
+    try:
+        result = structure_kind(case.kind).run(problem, progress, keep)
+    except InputError as error:
+        raise case.located(error) from error
     if getattr(case.model, "measured", None):
         from moyai.case.measured import with_measured
 

@@ -71,6 +71,7 @@ class Collected:
         fulfilled: str = "all identities hold",
         headlines: Iterable[Headline] = (),
         criteria: Iterable[Criterion] = (),
+        left_out: str = "",
     ) -> Result:
         """Close the run: names, status, message, notices by their weight, provenance.
 
@@ -90,6 +91,8 @@ class Collected:
             The numbers of the first page, the governing one first.
         criteria : iterable of Criterion
             What they are judged against.
+        left_out : str
+            What the case names and was not run; see :func:`moyai.core.headline.judge`.
 
         Raises
         ------
@@ -110,7 +113,7 @@ class Collected:
             notices=by_weight(self.notices if notices is None else notices),
             provenance=make_provenance(**known, seeds=list(seeds)),
             headlines=numbers,
-            verdict=judge(numbers, criteria, computed=status == "converged"),
+            verdict=judge(numbers, criteria, computed=status == "converged", left_out=left_out),
         )
 
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Self
 
 
 @dataclass(frozen=True)
@@ -12,7 +13,7 @@ class Fault:
 
     #: What is wrong, with the value that was found.
     message: str
-    #: Dotted path of the key (``structure.section.beam``) or the name of the argument.
+    #: Dotted path of the key (``structure.section.beam``) or the name of the parameter of the call.
     path: str = ""
     #: The allowed range or form, empty when the message says it.
     allowed: str = ""
@@ -38,11 +39,35 @@ class Fault:
 
 
 class MoyaiError(Exception):
-    """Base of all errors raised on purpose: one clear message, no traceback needed."""
+    """Base of all errors raised on purpose: one clear message, no traceback needed.
 
-    def __init__(self, message: str, *, path: str = "", allowed: str = "", remedy: str = "") -> None:
-        self.fault = Fault(message=message, path=path, allowed=allowed, remedy=remedy)
+    Parameters
+    ----------
+    message, allowed, remedy : str
+        As in :class:`Fault`.
+    parameter : str
+        What a call of physics names: its own parameter, with further names behind dots (``skirt.length``). Where a case
+        file stands behind the call, :mod:`moyai.case.findings` finds the key that the parameter came from.
+    path : str
+        What a reader of files or a command names: a key, a column or an option.
+    """
+
+    def __init__(
+        self, message: str, *, parameter: str = "", path: str = "", allowed: str = "", remedy: str = ""
+    ) -> None:
+        self.fault = Fault(message=message, path=path or parameter, allowed=allowed, remedy=remedy)
         super().__init__(str(self.fault))
+
+    def at(self, path: str) -> Self:
+        """Return the error with another key or parameter."""
+        return self.of(replace(self.fault, path=path))
+
+    @classmethod
+    def of(cls, fault: Fault) -> Self:
+        """Return the error of a fault, with its place in a file."""
+        error = cls(fault.message)
+        error.fault, error.args = fault, (str(fault),)
+        return error
 
 
 class InputError(MoyaiError, ValueError):

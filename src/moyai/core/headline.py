@@ -18,6 +18,8 @@ Sense = Literal["at most", "at least"]
 Outcome = Literal["holds", "does not hold", "not judged"]
 UNCONFIRMED = "not confirmed against the standard"
 """What the source of a criterion says of values that nobody has yet held against the standard itself."""
+SEAS_LEFT_OUT = "the seas of the case were not run"
+"""What a run says that has seas and no analysis that runs them."""
 NONE = "none"
 """Text of a headline whose number is zero."""
 
@@ -84,6 +86,8 @@ class Headline:
     condition: bool = False
     #: What alone a criterion is judged on where more is uncertain, for instance ``the band of damping alone``.
     judged_on: str = ""
+    #: Whether waves are no part of it, as stability at rest: it is judged where no sea was run.
+    without_waves: bool = False
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "label", self.label[:1].upper() + self.label[1:])
@@ -107,25 +111,34 @@ class Headline:
         return cls(**{**record, "value": float(record["value"]), "band": band})
 
 
-def unfavourable(headline: Headline) -> float:
-    """Return the upper end at which a limit "at most" is judged: that of the band, or of the interval of a mean."""
-    band = headline.band
+def unfavourable(headline: Headline, sense: Sense = "at most") -> float:
+    """Return the end at which a limit is judged: of the band, of the interval of a mean, or the value itself."""
+    band, value = headline.band, headline.value
     if band is None:
-        return headline.value
-    end = band.high if band.decides or band.judged is None else band.judged[1]
-    return end if math.isnan(headline.value) else max(headline.value, end)
+        return value
+    given = (band.low, band.high) if band.decides else (band.judged or ())
+    ends = [end for end in (value, *given) if not math.isnan(end)]
+    return (max if sense == "at most" else min)(ends, default=value)
 
 
-def governing(candidates: Iterable[Headline]) -> list[Headline]:
-    """Return the largest of one number over seas and places, and, not shown, the one whose upper end is the largest.
+def governing(candidates: Iterable[Headline], sense: Sense = "at most") -> list[Headline]:
+    """Return the worst of one number over seas, levels and places, and, not shown, the one whose judged end is worst.
 
-    A smaller value with a wider band may pass a limit that the largest value keeps: both are judged.
+    Another value with a wider band may pass a limit that the worst value keeps: both are judged.
+
+    Parameters
+    ----------
+    candidates : iterable of Headline
+    sense : {"at most", "at least"}
+        Of the limits that it is held against: the largest counts, or the least.
     """
     items = list(candidates)
     if not items:
         return []
-    shown, widest = max(items, key=lambda item: item.value), max(items, key=unfavourable)
-    if not unfavourable(widest) > unfavourable(shown):
+    sign = 1.0 if sense == "at most" else -1.0
+    shown = max(items, key=lambda item: sign * item.value)
+    widest = max(items, key=lambda item: sign * unfavourable(item, sense))
+    if not sign * unfavourable(widest, sense) > sign * unfavourable(shown, sense):
         return [shown]
     return [shown, replace(widest, shown=False, sea="")]
 
@@ -238,7 +251,9 @@ class Verdict:
         return cls(record.get("outcome", "not judged"), record.get("message", ""), judgements)
 
 
-def judge(headlines: Iterable[Headline], criteria: Iterable[Criterion], *, computed: bool) -> Verdict:
+def judge(
+    headlines: Iterable[Headline], criteria: Iterable[Criterion], *, computed: bool, left_out: str = ""
+) -> Verdict:
     """Judge headlines against criteria.
 
     Parameters
@@ -250,6 +265,9 @@ def judge(headlines: Iterable[Headline], criteria: Iterable[Criterion], *, compu
         lies on the other; else it says nothing.
     computed : bool
         Whether the computation can be judged at all (it converged inside its range); nothing holds otherwise.
+    left_out : str
+        What the case names and was not run, for instance ``the seas of the case were not run``: numbers that it would
+        change prove only that a limit is broken.
     """
     numbers = tuple(headlines)
     found: list[Judgement] = []
@@ -262,7 +280,7 @@ def judge(headlines: Iterable[Headline], criteria: Iterable[Criterion], *, compu
             members = given
         if not members:
             found.append(Judgement(criterion, math.nan, "not judged", _absent(criterion)))
-        found.extend(_judge_one(criterion, member) for member in members)
+        found.extend(_judge_part(criterion, member, left_out) for member in members)
     judgements = tuple(found)
     failing = [item for item in found if item.outcome == "does not hold"]
     if failing:
@@ -334,6 +352,14 @@ def _absent(criterion: Criterion) -> str:
     return f"nothing that was run gives this number{where}"
 
 
+def _judge_part(criterion: Criterion, headline: Headline, left_out: str) -> Judgement:
+    """Judge a number of which a part may be left out: it can but come nearer to its limit."""
+    if not left_out or headline.without_waves or headline.bound:
+        return _judge_one(criterion, headline)
+    found = _judge_one(criterion, replace(headline, bound="at least" if criterion.sense == "at most" else "at most"))
+    return replace(found, reason=left_out) if found.outcome == "not judged" else found
+
+
 def _judge_one(criterion: Criterion, headline: Headline) -> Judgement:
     value = 0.0 if math.isnan(headline.value) and headline.text == NONE else headline.value
     if math.isnan(value):
@@ -345,10 +371,7 @@ def _judge_one(criterion: Criterion, headline: Headline) -> Judgement:
         )
     upward = criterion.sense == "at most"
     if headline.band is not None:
-        band = headline.band
-        given = (band.low, band.high) if band.decides else (band.judged or ())
-        ends = [end for end in (value, *given) if not math.isnan(end)]
-        value = max(ends) if upward else min(ends)
+        value = unfavourable(replace(headline, value=value), criterion.sense)
     if criterion.mean_weight != 1.0:
         return _judge_parts(criterion, headline, value)
     good = value <= criterion.limit if upward else value >= criterion.limit

@@ -87,6 +87,10 @@ class StructureKind(Kind):
         """Return :meth:`schema`: all templates of a structure are case files."""
         return self.schema()
 
+    def keys(self) -> Mapping[str, str]:
+        """Return where parameters of the physics stand in the case file (:data:`moyai.case.findings.KEYS`)."""
+        return {}
+
     def criteria(self, model: Any, given: Any) -> Any:
         """Yield what the headlines are judged against (:class:`moyai.core.headline.Criterion`); nothing by default."""
         return ()
@@ -116,6 +120,53 @@ class StructureKind(Kind):
     @abstractmethod
     def run(self, problem: Any, progress: Progress, keep: Path | None) -> Result:
         """Run all analyses of a problem; what took long is kept in the folder ``keep`` for the next run."""
+
+
+class FolderKind(StructureKind):
+    """A kind of structure in a folder of the usual shape, whose parts are imported when they are asked for.
+
+    A kind in which a part stands elsewhere, or needs more, brings its own method for it.
+    """
+
+    #: Class in ``case/schema.py``.
+    root_schema: str
+
+    def part(self, module: str, name: str) -> Any:
+        """Return what a module of the folder defines."""
+        return getattr(import_module(f"{self.package}.{module}"), name)
+
+    def vocabulary(self) -> Vocabulary:
+        found: Vocabulary = self.part("variables", "VOCABULARY")
+        return found
+
+    def compose(self, result: Result) -> Any:
+        return self.part("report.page", "compose")(result)
+
+    def schema(self) -> Any:
+        return self.part("case.schema", self.root_schema)
+
+    def keys(self) -> Mapping[str, str]:
+        found: Mapping[str, str] = self.part("case.keys", "KEYS")
+        return found
+
+    def criteria(self, model: Any, given: Any) -> Any:
+        return self.part("case.criteria", "criteria")(model, given)
+
+    def add_sizes(self, model: Any, sizes: Any, periods: Any) -> None:
+        self.part("case.sizes", "add_sizes")(model, sizes, periods)
+
+    def check(self, model: Any, findings: Any, folder: Path) -> None:
+        self.part("case.check", "check")(model, findings, folder)
+
+    def build(self, model: Any, folder: Path, *, case_text: str, case_hash: str) -> Any:
+        return self.part("case.build", "build_problem")(model, folder, case_text=case_text, case_hash=case_hash)
+
+    def derived(self, case: Any) -> Any:
+        return self.part("case.derived", "derived_numbers")(case)
+
+    def run(self, problem: Any, progress: Progress, keep: Path | None) -> Result:
+        found: Result = self.part("run", "run")(problem, progress)
+        return found
 
 
 @cache

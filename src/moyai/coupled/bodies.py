@@ -99,7 +99,7 @@ class BodyState:
             raise InputError(
                 f"body {body.name!r} was left with {self.memory.size} states of radiation, its coefficients have "
                 f"{carrier.states_of_memory.size}",
-                path=f"bodies.{body.name}", allowed="the same coefficients",
+                parameter=f"bodies.{body.name}", allowed="the same coefficients",
             )  # fmt: skip
         carrier.state[:], carrier.states_of_memory[:] = self.motion, self.memory
         return carrier
@@ -192,7 +192,7 @@ def check_points(
                 raise InputError(
                     f"the point {point!r} of body {name!r} is at ({', '.join(f'{v:.6g}' for v in place)}), "
                     f"in the network at ({', '.join(f'{v:.6g}' for v in there)})",
-                    path=f"bodies.{name}.points.{point}",
+                    parameter=f"bodies.{name}.points.{point}",
                     allowed="the same place",
                     remedy="move the point of the network or the start of the body",
                 )

@@ -47,16 +47,16 @@ class Lumps:
             if values.shape != shape or not np.isfinite(values).all():
                 raise InputError(
                     f"{name} of lumps has shape {given.shape} or is not finite",
-                    path=f"lumps.{name}",
+                    parameter=f"lumps.{name}",
                     allowed=f"{shape}",
                 )
             if name != "place" and np.any(values < 0.0):
-                raise InputError(f"{name} of lumps is {values.min():g}", path=f"lumps.{name}", allowed="0 or more")
+                raise InputError(f"{name} of lumps is {values.min():g}", parameter=f"lumps.{name}", allowed="0 or more")
             values.setflags(write=False)
             object.__setattr__(self, name, values)
         axis = np.array(np.broadcast_to(np.asarray(self.axis), (size,)))
         if not np.isin(axis, (-1, 0, 1, 2)).all():
-            raise InputError(f"axis of lumps is {self.axis}", path="lumps.axis", allowed="-1, 0, 1 or 2")
+            raise InputError(f"axis of lumps is {self.axis}", parameter="lumps.axis", allowed="-1, 0, 1 or 2")
         axis = axis.astype(np.int64)
         axis.setflags(write=False)
         object.__setattr__(self, "axis", axis)
@@ -107,7 +107,7 @@ def volume_lump(
 def _positive(values: dict[str, float]) -> None:
     for name, value in values.items():
         if not (math.isfinite(value) and value > 0.0):
-            raise InputError(f"{name} of the hull is {value:g}", path=f"hull.{name}", allowed="greater than 0")
+            raise InputError(f"{name} of the hull is {value:g}", parameter=f"hull.{name}", allowed="greater than 0")
 
 
 def box_hull(
@@ -151,9 +151,11 @@ def box_hull(
     _positive({"length": length, "width": width, "height": height})
     cd, ca = np.asarray(drag, dtype=float).reshape(3), np.asarray(added_mass, dtype=float).reshape(3)
     if np.any(ca != 0.0) and not density > 0.0:
-        raise InputError("added mass of a hull needs the density of the water", path="hull.density", allowed="above 0")
+        raise InputError(
+            "added mass of a hull needs the density of the water", parameter="hull.density", allowed="above 0"
+        )
     if min(*columns, layers) < 1:
-        raise InputError(f"{columns} columns, {layers} layers", path="hull.columns", allowed="1 or more")
+        raise InputError(f"{columns} columns, {layers} layers", parameter="hull.columns", allowed="1 or more")
     (gx, wx), (gy, wy) = (np.polynomial.legendre.leggauss(count) for count in columns)
     x, y = np.meshgrid(0.5 * length * gx, 0.5 * width * gy, indexing="ij")
     share = np.outer(0.5 * wx, 0.5 * wy).ravel()
@@ -206,9 +208,11 @@ def cylinder_hull(
     """
     _positive({"diameter": diameter, "height": height})
     if max(added_mass) > 0.0 and not density > 0.0:
-        raise InputError("added mass of a hull needs the density of the water", path="hull.density", allowed="above 0")
+        raise InputError(
+            "added mass of a hull needs the density of the water", parameter="hull.density", allowed="above 0"
+        )
     if rings < 1 or spokes < 3 or layers < 1:
-        raise InputError(f"{rings} rings, {spokes} spokes", path="hull.rings", allowed="1 ring, 3 spokes or more")
+        raise InputError(f"{rings} rings, {spokes} spokes", parameter="hull.rings", allowed="1 ring, 3 spokes or more")
     # in the square of the radius the area is uniform, and Gauss points integrate r^2 exactly
     g, w = np.polynomial.legendre.leggauss(rings)
     radius = 0.5 * diameter * np.sqrt(0.5 * (g + 1.0))

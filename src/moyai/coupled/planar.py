@@ -62,12 +62,14 @@ class PlanarBody:
     def __post_init__(self) -> None:
         if len(self.model.modes) != 3:
             raise InputError(
-                f"body {self.name!r} has {len(self.model.modes)} modes", path=f"bodies.{self.name}", allowed="three"
+                f"body {self.name!r} has {len(self.model.modes)} modes",
+                parameter=f"bodies.{self.name}",
+                allowed="three",
             )
         if not isinstance(self.model.memory, StateSpaceMemory):
             raise InputError(
                 "lines in motion need the memory of the water as states, not as a convolution",
-                path="analyses.time.memory",
+                parameter="model.memory",
                 allowed="state_space",
                 remedy="give memory: state_space, or leave the lines quasi-static",
             )

@@ -110,7 +110,7 @@ def find_rest(
     for name, body in bodies.items():
         if not isinstance(body, RigidBody):
             raise InputError(
-                f"body {name!r} is planar: its rest is known", path=f"bodies.{name}", allowed="rigid bodies"
+                f"body {name!r} is planar: its rest is known", parameter=f"bodies.{name}", allowed="rigid bodies"
             )
     calm = Flow() if flow is None else Flow(flow.velocity, flow.current)
     search = _Search(network, {name: body for name, body in bodies.items() if isinstance(body, RigidBody)}, calm)

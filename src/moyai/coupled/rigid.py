@@ -23,7 +23,7 @@ from moyai.sea.water import Water
 def _vector(value: ArrayLike, size: int, path: str) -> Array:
     given = np.array(value, dtype=np.float64)
     if given.shape != (size,) or not np.isfinite(given).all():
-        raise InputError(f"{path} is {value!r}", path=path, allowed=f"{size} finite numbers")
+        raise InputError(f"{path} is {value!r}", parameter=path, allowed=f"{size} finite numbers")
     given.setflags(write=False)
     return given
 
@@ -33,13 +33,17 @@ def _matrix(value: ArrayLike | None, size: int, path: str, *, positive: bool) ->
     if given.shape == (size,):
         given = np.diag(given)
     if given.shape != (size, size) or not np.isfinite(given).all():
-        raise InputError(f"{path} has shape {given.shape} or is not finite", path=path, allowed=f"({size}, {size})")
+        raise InputError(
+            f"{path} has shape {given.shape} or is not finite", parameter=path, allowed=f"({size}, {size})"
+        )
     if positive:
         scale = float(np.abs(given).max(initial=0.0))
         if float(np.abs(given - given.T).max(initial=0.0)) > 1e-6 * scale:
-            raise InputError(f"{path} is not symmetric", path=path, allowed="a symmetric matrix")
+            raise InputError(f"{path} is not symmetric", parameter=path, allowed="a symmetric matrix")
         if float(np.linalg.eigvalsh(0.5 * (given + given.T))[0]) < -1e-9 * scale:
-            raise InputError(f"{path} has a negative eigenvalue", path=path, allowed="0 or more in every direction")
+            raise InputError(
+                f"{path} has a negative eigenvalue", parameter=path, allowed="0 or more in every direction"
+            )
     given.setflags(write=False)
     return given
 
@@ -102,7 +106,7 @@ class RigidBody:
         path = f"bodies.{self.name}"
         if not (math.isfinite(self.mass) and self.mass > 0.0):
             raise InputError(
-                f"mass of body {self.name!r} is {self.mass:g} kg", path=f"{path}.mass", allowed="greater than 0"
+                f"mass of body {self.name!r} is {self.mass:g} kg", parameter=f"{path}.mass", allowed="greater than 0"
             )
         for name, size in (("centre_of_gravity", 3), ("position", 3), ("rotation", 3), ("force", 6)):
             object.__setattr__(self, name, _vector(getattr(self, name), size, f"{path}.{name}"))
@@ -110,7 +114,7 @@ class RigidBody:
         if np.any(quadratic < 0.0):
             raise InputError(
                 f"quadratic damping of body {self.name!r} is {quadratic.min():g}",
-                path=f"{path}.quadratic_damping",
+                parameter=f"{path}.quadratic_damping",
                 allowed="0 or more",
             )
         object.__setattr__(self, "quadratic_damping", quadratic)
@@ -120,7 +124,7 @@ class RigidBody:
             raise InputError(
                 f"principal moments of inertia of body {self.name!r} are "
                 f"{', '.join(f'{m:.4g}' for m in moments)} kg m2",
-                path=f"{path}.inertia",
+                parameter=f"{path}.inertia",
                 allowed="positive, none above the sum of the other two",
             )
         object.__setattr__(self, "inertia", inertia)
@@ -134,11 +138,11 @@ class RigidBody:
         places = {name: _vector(place, 3, f"{path}.points.{name}") for name, place in self.points.items()}
         object.__setattr__(self, "points", places)
         if len(self.free) != 6:
-            raise InputError(f"{len(self.free)} degrees of freedom", path=f"{path}.free", allowed="six")
+            raise InputError(f"{len(self.free)} degrees of freedom", parameter=f"{path}.free", allowed="six")
         if self.loads is not None and self.lumps is not None and np.any(self.lumps.volume * self.lumps.length > 0.0):
             raise InputError(
                 f"body {self.name!r} has both hydrodynamic coefficients and a hull: its buoyancy would count twice",
-                path=f"{path}.lumps",
+                parameter=f"{path}.lumps",
                 remedy="leave one of them out; lumps without volume may carry drag",
             )
 

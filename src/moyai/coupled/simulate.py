@@ -120,11 +120,11 @@ def simulate_coupled(
     """
     for name, value in (("duration", duration), ("output_step", output_step)):
         if not (math.isfinite(value) and value > 0.0):
-            raise InputError(f"{name.replace('_', ' ')} is {value:g} s", path=name, allowed="greater than 0")
+            raise InputError(f"{name.replace('_', ' ')} is {value:g} s", parameter=name, allowed="greater than 0")
     if body_step is not None and not body_step > 0.0:
-        raise InputError(f"step of the bodies is {body_step:g} s", path="body_step", allowed="greater than 0")
+        raise InputError(f"step of the bodies is {body_step:g} s", parameter="body_step", allowed="greater than 0")
     if not 0.0 < tolerance < 1.0:
-        raise InputError(f"tolerance is {tolerance:g}", path="tolerance", allowed="above 0, below 1")
+        raise InputError(f"tolerance is {tolerance:g}", parameter="tolerance", allowed="above 0, below 1")
     flow, start = flow or Flow(), start or State.at_rest(network)
     check_points(network, bodies, carriers or {}, start)
     moving = {

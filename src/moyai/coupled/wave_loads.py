@@ -101,22 +101,26 @@ class WaveLoads:
         names = [str(name) for name in dataset["radiating_dof"].values]
         if set(names) != set(DOFS):
             raise InputError(
-                f"the coefficients have {', '.join(names)}", path="loads.coefficients", allowed=", ".join(DOFS),
+                f"the coefficients have {', '.join(names)}", parameter="loads.coefficients", allowed=", ".join(DOFS),
                 remedy="compute all six rigid-body motions",
             )  # fmt: skip
         for needed in ("infinite_frequency_added_mass", "excitation_force"):
             if needed not in dataset:
                 raise InputError(
-                    f"the coefficients have no {needed.replace('_', ' ')}", path="loads.coefficients",
+                    f"the coefficients have no {needed.replace('_', ' ')}", parameter="loads.coefficients",
                     remedy="compute it, or give more frequencies so that it can be found from the damping",
                 )  # fmt: skip
         if stiffness is None and "hydrostatic_stiffness" not in dataset:
             raise InputError(
-                "the coefficients have no hydrostatic stiffness", path="loads.stiffness", remedy="give the stiffness"
+                "the coefficients have no hydrostatic stiffness",
+                parameter="loads.stiffness",
+                remedy="give the stiffness",
             )
         if not (math.isfinite(displaced_volume) and displaced_volume > 0.0):
             raise InputError(
-                f"displaced volume is {displaced_volume:g} m3", path="loads.displaced_volume", allowed="greater than 0"
+                f"displaced volume is {displaced_volume:g} m3",
+                parameter="loads.displaced_volume",
+                allowed="greater than 0",
             )
         data = dataset.sel(radiating_dof=list(DOFS), influenced_dof=list(DOFS)).sortby("wave_direction")
         infinite = 0.5 * (data["infinite_frequency_added_mass"].values + data["infinite_frequency_added_mass"].values.T)
@@ -193,7 +197,7 @@ class Excitation:
             raise InputError(
                 f"waves of {used.min():.4g} to {used.max():.4g} rad/s meet coefficients of {low:.4g} to {high:.4g} "
                 "rad/s",
-                path="loads.omega",
+                parameter="loads.omega",
                 allowed=f"{low:.4g} to {high:.4g} rad/s",
                 remedy="compute the coefficients at more frequencies",
             )
@@ -237,7 +241,7 @@ class Excitation:
             known = ", ".join(f"{math.degrees(value):.4g}" for value in self.loads.headings)
             raise InputError(
                 f"a wave meets the body at {worst:.4g} degrees, outside the headings of the coefficients",
-                path="loads.wave_direction",
+                parameter="loads.wave_direction",
                 allowed=known,
                 remedy="compute more headings",
             )
@@ -306,7 +310,7 @@ def _memory(
     if best is None or best.error > WORST_FIT:
         raise InputError(
             "no stable memory follows the radiation of the coefficients",
-            path="loads.radiation_damping",
+            parameter="loads.radiation_damping",
             remedy="give more and higher frequencies and finer panels, or leave the memory out",
         )
     reported = Notice(

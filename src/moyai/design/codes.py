@@ -101,7 +101,9 @@ def design_code(
         For an unknown code, analysis or class.
     """
     if analysis not in ("dynamic", "quasi_static", "static"):
-        raise InputError(f"unknown analysis '{analysis}'", path="analysis", allowed="dynamic, quasi_static, static")
+        raise InputError(
+            f"unknown analysis '{analysis}'", parameter="analysis", allowed="dynamic, quasi_static, static"
+        )
     rules = tuple(own) if own else code_rules(name)
     sure = set(confirmed)
     if sure:
@@ -111,7 +113,7 @@ def design_code(
         )
     classes = sorted({rule.consequence for rule in rules} - {"any"})
     if classes and consequence not in classes:
-        raise InputError(f"{name} needs a consequence class", path="consequence", allowed=", ".join(classes))
+        raise InputError(f"{name} needs a consequence class", parameter="consequence", allowed=", ".join(classes))
     return DesignCode(name, rules, analysis, consequence)
 
 
@@ -177,7 +179,7 @@ def check_line(load: LineLoad, code: DesignCode, *, corrosion: float = 0.0, diam
         known = sorted({rule.component for rule in code.rules if rule.condition in (condition, "any")})
         raise InputError(
             f"{code.name} has no value for a {load.component}, {condition.replace('_', ' ')}, {code.analysis} analysis",
-            path=f"checks.{load.line}",
+            parameter=f"checks.{load.line}",
             allowed="components: " + (", ".join(known) or "none in this condition"),
             remedy="choose another code or give values of your own",
         )
@@ -191,13 +193,13 @@ def _worn_share(corrosion: float, diameter: float) -> float:
     if not (corrosion > 0.0 and math.isfinite(diameter)):
         raise InputError(
             f"a corrosion allowance of {corrosion:g} m needs the diameter of the line",
-            path="corrosion",
+            parameter="corrosion",
             allowed="above 0",
         )
     if corrosion >= diameter:
         raise InputError(
             f"corrosion of {1000 * corrosion:g} mm eats the line of {1000 * diameter:g} mm",
-            path="corrosion",
+            parameter="corrosion",
             remedy="shorten the life or choose a thicker line",
         )
     return (1.0 - corrosion / diameter) ** 2

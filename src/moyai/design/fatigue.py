@@ -68,14 +68,14 @@ def damage(ranges: ArrayLike, counts: ArrayLike, curve: EnduranceCurve) -> float
     """
     r, n = np.asarray(ranges, dtype=float), np.asarray(counts, dtype=float)
     if np.any(r < 0.0) or np.any(n < 0.0):
-        raise InputError("ranges and numbers of cycles are zero or more", path="ranges")
+        raise InputError("ranges and numbers of cycles are zero or more", parameter="ranges")
     return float(np.sum(n * r**curve.exponent) / curve.capacity)
 
 
 def equivalent_range(ranges: ArrayLike, counts: ArrayLike, exponent: float, cycles: float) -> float:
     """Return the constant range that does the same damage in ``cycles`` cycles [eq:fatigue-equivalent]."""
     if not cycles > 0.0:
-        raise InputError(f"{cycles:g} cycles", path="cycles", allowed="above 0")
+        raise InputError(f"{cycles:g} cycles", parameter="cycles", allowed="above 0")
     r, n = np.asarray(ranges, dtype=float), np.asarray(counts, dtype=float)
     return float((np.sum(n * r**exponent) / cycles) ** (1.0 / exponent))
 
@@ -119,7 +119,7 @@ def dirlik_damage(moments: ArrayLike, duration: float, curve: EnduranceCurve) ->
     """
     m0, m1, m2, _, m4 = np.asarray(moments, dtype=float)
     if min(m0, m1, m2, m4) <= 0.0:
-        raise InputError("spectral moments are above zero", path="moments")
+        raise InputError("spectral moments are above zero", parameter="moments")
     peaks = math.sqrt(m4 / m2)
     irregularity = m2 / math.sqrt(m0 * m4)
     mean_frequency = m1 / m0 * math.sqrt(m2 / m4)
@@ -154,6 +154,6 @@ def life(damage_of_states: ArrayLike, probability: ArrayLike, duration: float) -
     """
     share = np.asarray(probability, dtype=float)
     if abs(share.sum() - 1.0) > 1e-3:
-        raise InputError(f"the probabilities sum to {share.sum():.6g}, not to 1", path="probability")
+        raise InputError(f"the probabilities sum to {share.sum():.6g}, not to 1", parameter="probability")
     rate = float(np.sum(share * np.asarray(damage_of_states, dtype=float))) / duration
     return math.inf if rate == 0.0 else 1.0 / (rate * 365.25 * 86400.0)

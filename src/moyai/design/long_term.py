@@ -50,9 +50,9 @@ def long_term_exceedance(
     """
     share = np.asarray(probability, dtype=float)
     if abs(share.sum() - 1.0) > 1e-3 or np.any(share < 0.0):
-        raise InputError(f"the probabilities sum to {share.sum():.6g}, not to 1", path="probability")
+        raise InputError(f"the probabilities sum to {share.sum():.6g}, not to 1", parameter="probability")
     if share.size != len(short_term):
-        raise InputError(f"{share.size} probabilities for {len(short_term)} sea states", path="probability")
+        raise InputError(f"{share.size} probabilities for {len(short_term)} sea states", parameter="probability")
     levels = np.atleast_1d(np.asarray(level, dtype=float))
     rate = np.zeros_like(levels)
     for weight, exceeds in zip(share, short_term):
@@ -84,7 +84,7 @@ def return_level(
         When the bracket does not hold it.
     """
     if not years > 0.0:
-        raise InputError(f"a return period of {years:g} years", path="years", allowed="above 0")
+        raise InputError(f"a return period of {years:g} years", parameter="years", allowed="above 0")
 
     def residual(level: float) -> float:
         rate = long_term_exceedance(level, probability, short_term, duration)[0]
@@ -94,7 +94,7 @@ def return_level(
     if low < 0.0 or high > 0.0:
         raise InputError(
             f"the level of {years:g} years is not between {bracket[0]:g} and {bracket[1]:g}",
-            path="bracket",
+            parameter="bracket",
             remedy="widen it",
         )
     return float(brentq(residual, *bracket, xtol=1e-12 * abs(bracket[1]), rtol=1e-12))
@@ -155,11 +155,11 @@ def environmental_contour(sea: JointSea, years: float, duration: float, count: i
 def reliability_index(years: float, duration: float) -> float:
     """Return the distance from the origin of the standard normal space that is exceeded once in ``years``."""
     if not years > 0.0 or not duration > 0.0:
-        raise InputError("return period and duration are above zero", path="years")
+        raise InputError("return period and duration are above zero", parameter="years")
     states = years * YEAR / duration
     if states <= 2.0:
         raise InputError(
-            f"{years:g} years hold only {states:.2g} sea states", path="years", allowed="more than two sea states"
+            f"{years:g} years hold only {states:.2g} sea states", parameter="years", allowed="more than two sea states"
         )
     return float(-ndtri(1.0 / states))
 
@@ -184,10 +184,12 @@ def fit_joint_sea(significant_height: ArrayLike, period: ArrayLike, *, lower_end
     height, value = (np.asarray(one, dtype=float).ravel() for one in (significant_height, period))
     if height.size != value.size or height.size < 30 * classes:
         raise InputError(
-            f"{height.size} heights and {value.size} periods", path="period", allowed=f"at least {30 * classes} pairs"
+            f"{height.size} heights and {value.size} periods",
+            parameter="period",
+            allowed=f"at least {30 * classes} pairs",
         )
     if np.any(value <= 0.0):
-        raise InputError("a period is not above zero", path="period")
+        raise InputError("a period is not above zero", parameter="period")
     order = np.argsort(height)
     groups = np.array_split(order, classes)
     middle = np.array([height[group].mean() for group in groups])

@@ -52,11 +52,13 @@ def model_need(row: ScaledQuantity, value: float, unit: str, scale: Scale, *, li
     here = parse_unit(unit) if unit else None
     if here is None or there is None or not here.dimension.same_but_angle(there.dimension):
         raise InputError(
-            f"{row.name} is at hand in '{unit}', scaled in '{row.unit}'", path=row.name, remedy="give the same kind"
+            f"{row.name} is at hand in '{unit}', scaled in '{row.unit}'",
+            parameter=row.name,
+            remedy="give the same kind",
         )
     available, wanted = here.to_si(Fraction(value)), there.to_si(Fraction(row.model))
     if not (available > 0.0 and wanted > 0.0 and math.isfinite(available)):
-        raise InputError(f"{row.name} is not positive", path=row.name, allowed="greater than 0")
+        raise InputError(f"{row.name} is not positive", parameter=row.name, allowed="greater than 0")
     dimension = (there.dimension.length, there.dimension.mass, there.dimension.time)
     if dimension == (1, 1, -2):
         remedy = _line(row.name, wanted, available, scale, line_length)
@@ -75,7 +77,7 @@ def _line(name: str, wanted: float, available: float, scale: Scale, line_length:
     if line_length is None:
         raise InputError(
             f"{name} is a stiffness EA: the spring in series depends on the length of the line",
-            path="line_length",
+            parameter="line_length",
             remedy="give the length of the line in the prototype",
         )
     length = scale.to_model(line_length, "m")

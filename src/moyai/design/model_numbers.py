@@ -27,10 +27,10 @@ class Motion:
     def __post_init__(self) -> None:
         for name, value in (("speed", self.speed), ("across", self.across)):
             if not (math.isfinite(value) and value > 0.0):
-                raise InputError(f"{name} is {value:g}", path=name, allowed="greater than 0")
+                raise InputError(f"{name} is {value:g}", parameter=name, allowed="greater than 0")
         for name, value in (("period", self.period), ("water_depth", self.water_depth)):
             if not value > 0.0:
-                raise InputError(f"{name} is {value:g}", path=name, allowed="greater than 0")
+                raise InputError(f"{name} is {value:g}", parameter=name, allowed="greater than 0")
 
 
 @dataclass(frozen=True)

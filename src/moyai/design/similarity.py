@@ -40,7 +40,7 @@ class Scale:
         for name in ("length", "density", "gravity"):
             value = getattr(self, name)
             if not (math.isfinite(value) and value > 0.0):
-                raise InputError(f"{name} ratio is {value:g}", path=f"scale.{name}", allowed="greater than 0")
+                raise InputError(f"{name} ratio is {value:g}", parameter=f"scale.{name}", allowed="greater than 0")
 
     def ratio(self, unit: str) -> float:
         """Return prototype over model [-] of a quantity in ``unit`` [eq:similarity-ratio].
@@ -145,9 +145,9 @@ def match_stretch(
     """
     for name, value in (("prototype_stiffness", prototype_stiffness), ("model_stiffness", model_stiffness)):
         if not value > 0.0:
-            raise InputError(f"{name} is {value:g} N", path=name, allowed="greater than 0")
+            raise InputError(f"{name} is {value:g} N", parameter=name, allowed="greater than 0")
     if not (math.isfinite(model_length) and model_length > 0.0):
-        raise InputError(f"model length is {model_length:g} m", path="model_length", allowed="greater than 0")
+        raise InputError(f"model length is {model_length:g} m", parameter="model_length", allowed="greater than 0")
     wanted = scale.to_model(prototype_stiffness, "N")
     if model_stiffness > wanted:
         spring = 1.0 / (model_length / wanted - model_length / model_stiffness)

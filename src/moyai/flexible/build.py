@@ -93,24 +93,26 @@ class NetworkBuilder:
         self, name: str, position: ArrayLike, kind: int, held: tuple[bool, bool, bool], motion: int, **attached: float
     ) -> None:
         if name in self._points:
-            raise InputError(f"two points are named {name!r}", path="points", allowed="different names")
+            raise InputError(f"two points are named {name!r}", parameter="points", allowed="different names")
         place = np.array(position, dtype=np.float64)
         if place.shape != (3,) or not np.isfinite(place).all():
             raise InputError(
-                f"position of {name!r} is {position!r}", path=f"points.{name}", allowed="three finite numbers"
+                f"position of {name!r} is {position!r}", parameter=f"points.{name}", allowed="three finite numbers"
             )
         values = {"mass": 0.0, "volume": 0.0, "drag_area": 0.0, "added_mass": 0.0, "contact_area": 0.0, "height": 0.0}
         if len(held) != 3 or any(part not in (True, False) for part in held):
             raise InputError(
-                f"held of {name!r} is {held!r}", path=f"points.{name}.held", allowed="three of true, false"
+                f"held of {name!r} is {held!r}", parameter=f"points.{name}.held", allowed="three of true, false"
             )
         if attached.get("form", BOX) not in (BOX, SPHERE):
             raise InputError(
-                f"form of {name!r} is {attached['form']!r}", path=f"points.{name}.form", allowed="BOX, SPHERE"
+                f"form of {name!r} is {attached['form']!r}", parameter=f"points.{name}.form", allowed="BOX, SPHERE"
             )
         for key, value in attached.items():
             if key != "form" and not (np.isfinite(value) and value >= 0.0):
-                raise InputError(f"{key} of {name!r} is {value:g}", path=f"points.{name}.{key}", allowed="0 or more")
+                raise InputError(
+                    f"{key} of {name!r} is {value:g}", parameter=f"points.{name}.{key}", allowed="0 or more"
+                )
         form = int(attached.pop("form", BOX))
         self._points[name] = _Point(place, kind, held, motion, form=form, **{**values, **attached})
 
@@ -204,7 +206,7 @@ class NetworkBuilder:
             When there is none.
         """
         if name not in self._points:
-            raise InputError(f"no point {name!r}", path="points", allowed=", ".join(self._points) or "none")
+            raise InputError(f"no point {name!r}", parameter="points", allowed=", ".join(self._points) or "none")
         return self._points[name].position
 
     def line(
@@ -244,26 +246,26 @@ class NetworkBuilder:
             For unknown points, less than one segment or a length that is not positive.
         """
         if any(run.name == name for run in self._runs):
-            raise InputError(f"two lines are named {name!r}", path="lines", allowed="different names")
+            raise InputError(f"two lines are named {name!r}", parameter="lines", allowed="different names")
         try:
             segments = whole_number(segments, "segments", least=1)
         except InputError:
             raise InputError(
-                f"line {name!r} has {segments} segments", path=f"lines.{name}.segments", allowed="1 or more, whole"
+                f"line {name!r} has {segments} segments", parameter=f"lines.{name}.segments", allowed="1 or more, whole"
             ) from None
         if not (np.isfinite(length) and length > 0.0):
             raise InputError(
-                f"line {name!r} has length {length:g} m", path=f"lines.{name}.length", allowed="greater than 0"
+                f"line {name!r} has length {length:g} m", parameter=f"lines.{name}.length", allowed="greater than 0"
             )
         a, b = self.position(start), self.position(end)
         if start == end:
             raise InputError(
-                f"line {name!r} starts and ends at {start!r}", path=f"lines.{name}.end", allowed="another point"
+                f"line {name!r} starts and ends at {start!r}", parameter=f"lines.{name}.end", allowed="another point"
             )
         fraction = np.arange(1, segments) / segments
         if isinstance(shape, str) and shape not in ("catenary", "straight"):
             raise InputError(
-                f"shape of line {name!r} is {shape!r}", path=f"lines.{name}.shape",
+                f"shape of line {name!r} is {shape!r}", parameter=f"lines.{name}.shape",
                 allowed="catenary, straight, or places of the nodes between its ends",
             )  # fmt: skip
         if isinstance(shape, str):
@@ -274,7 +276,7 @@ class NetworkBuilder:
             between = np.array(shape, dtype=np.float64)
             if between.shape != (segments - 1, 3):
                 raise InputError(
-                    f"places of the nodes of line {name!r} have shape {between.shape}", path=f"lines.{name}.shape",
+                    f"places of the nodes of line {name!r} have shape {between.shape}", parameter=f"lines.{name}.shape",
                     allowed=f"({segments - 1}, 3), one for each node between its ends",
                 )  # fmt: skip
         lengths = np.full(segments, length / segments)
@@ -318,14 +320,16 @@ class NetworkBuilder:
         if grid.ndim != 3 or grid.shape[2] != 3 or min(grid.shape[:2]) < 2:
             raise InputError(
                 f"points of net {name!r} have shape {grid.shape}",
-                path=f"nets.{name}",
+                parameter=f"nets.{name}",
                 allowed="(rows, columns, 3), two or more each",
             )
         if top not in ("free", "fixed", "driven"):
-            raise InputError(f"top of net {name!r} is {top!r}", path=f"nets.{name}.top", allowed="free, fixed, driven")
+            raise InputError(
+                f"top of net {name!r} is {top!r}", parameter=f"nets.{name}.top", allowed="free, fixed, driven"
+            )
         if np.shape(lengths) != (2,):
             raise InputError(
-                f"lengths of net {name!r} are {lengths!r}", path=f"nets.{name}.lengths",
+                f"lengths of net {name!r} are {lengths!r}", parameter=f"nets.{name}.lengths",
                 allowed="two: of bars along the rows and along the columns",
             )  # fmt: skip
         rows, columns = grid.shape[:2]
@@ -398,11 +402,13 @@ class NetworkBuilder:
         grid = np.array(points, dtype=np.float64)
         if grid.ndim != 3 or grid.shape[2] != 3:
             raise InputError(
-                f"points of sheet {name!r} have shape {grid.shape}", path=f"sheets.{name}", allowed="(rows, columns, 3)"
+                f"points of sheet {name!r} have shape {grid.shape}",
+                parameter=f"sheets.{name}",
+                allowed="(rows, columns, 3)",
             )
         if first_row not in ("free", "fixed", "driven"):
             raise InputError(
-                f"first row of sheet {name!r} is {first_row!r}", path=f"sheets.{name}.first_row",
+                f"first row of sheet {name!r} is {first_row!r}", parameter=f"sheets.{name}.first_row",
                 allowed="free, fixed, driven",
             )  # fmt: skip
         labels = [[f"{name}[{i},{j}]" for j in range(grid.shape[1])] for i in range(grid.shape[0])]
@@ -427,10 +433,10 @@ class NetworkBuilder:
         values: dict[str, list[Array]] = {key: [] for _, _, _, given in self._sheets for key in given}
         for key in values:
             if key not in usual or key in ("triangles", "rest"):
-                raise InputError(f"a sheet has no {key!r}", path="sheets", allowed=", ".join(list(usual)[2:]))
+                raise InputError(f"a sheet has no {key!r}", parameter="sheets", allowed=", ".join(list(usual)[2:]))
         for key in ("warp_stiffness", "weft_stiffness"):
             if any(key not in given for _, _, _, given in self._sheets):
-                raise InputError(f"a sheet without {key!r}", path=f"sheets.{key}", allowed="0 or more")
+                raise InputError(f"a sheet without {key!r}", parameter=f"sheets.{key}", allowed="0 or more")
         for labels, warp, weft, given in self._sheets:
             corners, places = sheet_grid([[index[label] for label in row] for row in labels], warp, weft)
             triangles.append(corners)
@@ -441,7 +447,9 @@ class NetworkBuilder:
         if "tension_field" in joined:
             if np.ptp(joined["tension_field"].astype(float)) > 0.0:
                 raise InputError(
-                    "one sheet wrinkles, another one does not", path="sheets.tension_field", allowed="the same for all"
+                    "one sheet wrinkles, another one does not",
+                    parameter="sheets.tension_field",
+                    allowed="the same for all",
                 )
             joined["tension_field"] = bool(joined["tension_field"][0])
         return Sheets(np.concatenate(triangles), np.concatenate(rest), **joined)

@@ -25,18 +25,21 @@ def whole_numbers(values: ArrayLike, path: str) -> NDArray[np.int64]:
     try:
         given = np.asarray(values)
     except ValueError:
-        raise InputError(f"{path} holds rows of unequal length", path=path, allowed="whole numbers") from None
+        raise InputError(f"{path} holds rows of unequal length", parameter=path, allowed="whole numbers") from None
     if given.dtype.kind in "iu" or given.size == 0:
         return given.astype(np.int64)
     if given.dtype.kind == "b":
         raise InputError(
-            f"{path} holds true and false", path=path, allowed="whole numbers", remedy="numpy.flatnonzero of a mask"
+            f"{path} holds true and false",
+            parameter=path,
+            allowed="whole numbers",
+            remedy="numpy.flatnonzero of a mask",
         )
     if given.dtype.kind != "f":
-        raise InputError(f"{path} holds what is no number", path=path, allowed="whole numbers")
+        raise InputError(f"{path} holds what is no number", parameter=path, allowed="whole numbers")
     wrong = ~(np.isfinite(given) & (given == np.floor(given)))
     if wrong.any():
-        raise InputError(f"{path} holds {given[wrong].flat[0]:g}", path=path, allowed="whole numbers")
+        raise InputError(f"{path} holds {given[wrong].flat[0]:g}", parameter=path, allowed="whole numbers")
     return given.astype(np.int64)
 
 
@@ -50,7 +53,7 @@ def whole_number(value: float, path: str, *, least: int) -> int:
     """
     given = whole_numbers(value, path)
     if given.shape != () or given < least:
-        raise InputError(f"{path} is {value!r}", path=path, allowed=f"a whole number, {least} or more")
+        raise InputError(f"{path} is {value!r}", parameter=path, allowed=f"a whole number, {least} or more")
     return int(given)
 
 
@@ -88,11 +91,13 @@ def check_network(network: Network) -> None:
     nodes, bars = network.nodes, network.bars
     count = len(nodes)
     if len(bars) and not (min(bars.start.min(), bars.end.min()) >= 0 and max(bars.start.max(), bars.end.max()) < count):
-        raise InputError("a bar ends at a node that does not exist", path="bars", allowed=f"nodes 0 to {count - 1}")
+        raise InputError(
+            "a bar ends at a node that does not exist", parameter="bars", allowed=f"nodes 0 to {count - 1}"
+        )
     if network.sheets is not None and network.sheets.triangles.max() >= count:
         raise InputError(
             f"a triangle of a sheet names node {int(network.sheets.triangles.max())}, which does not exist",
-            path="sheets.triangles",
+            parameter="sheets.triangles",
             allowed=f"nodes 0 to {count - 1}",
         )
     held = nodes.held.all(axis=1) | (nodes.kind != FREE)
@@ -100,7 +105,7 @@ def check_network(network: Network) -> None:
     if empty.any():
         raise InputError(
             f"{name_of_node(network, int(np.argmax(empty)))} can move but has no mass",
-            path="nodes.mass",
+            parameter="nodes.mass",
             allowed="greater than 0 for free nodes",
             remedy="give the point a mass or connect a bar to it",
         )
@@ -121,7 +126,7 @@ def check_network(network: Network) -> None:
         raise InputError(
             f"{name_of_node(network, lost)} belongs to a part of {int((part == part[lost]).sum())} nodes "
             "that nothing holds",
-            path="bars",
+            parameter="bars",
             allowed="every part connected to a fixed or driven point, or no such point at all",
             remedy="connect the part or make one of its points fixed",
         )
@@ -130,7 +135,7 @@ def check_network(network: Network) -> None:
     if wrong.any():
         raise InputError(
             f"{name_of_node(network, int(np.argmax(wrong)))} is driven but names no motion",
-            path="nodes.motion",
+            parameter="nodes.motion",
             allowed=", ".join(network.motion_names) or "a named motion",
         )
     if network.bed is not None:
@@ -143,7 +148,7 @@ def check_network(network: Network) -> None:
             raise InputError(
                 f"{name_of_node(network, worst)} starts at z = {nodes.position[worst, 2]:g} m, "
                 f"under the bed at {network.bed.level:g} m",
-                path="nodes.position",
+                parameter="nodes.position",
                 allowed="on or above the bed",
             )
 
@@ -154,7 +159,7 @@ def _check_names(network: Network) -> None:
         if strand.nodes.ndim != 1 or strand.bars.ndim != 1 or strand.nodes.size != strand.bars.size + 1:
             raise InputError(
                 f"strand {strand.name!r} has {strand.nodes.size} nodes and {strand.bars.size} bars",
-                path="strands",
+                parameter="strands",
                 allowed="one node more than bars, in order",
             )
         for what, numbers, most in (
@@ -164,13 +169,13 @@ def _check_names(network: Network) -> None:
             if numbers.size and not (numbers.min() >= 0 and numbers.max() < most):
                 raise InputError(
                     f"strand {strand.name!r} names a {what} that does not exist",
-                    path="strands",
+                    parameter="strands",
                     allowed=f"{what}s 0 to {most - 1}",
                 )
     for name, node in network.points.items():
         if not 0 <= node < len(network.nodes):
             raise InputError(
-                f"point {name!r} is node {node}", path="points", allowed=f"nodes 0 to {len(network.nodes) - 1}"
+                f"point {name!r} is node {node}", parameter="points", allowed=f"nodes 0 to {len(network.nodes) - 1}"
             )
 
 
@@ -182,7 +187,7 @@ def _check_blocks(network: Network) -> None:
     if max(blocks.nodes.max(), blocks.guides.max()) >= len(nodes) or min(blocks.nodes.min(), blocks.guides.min()) < 0:
         raise InputError(
             "a section of added mass names a node that does not exist",
-            path="blocks.nodes",
+            parameter="blocks.nodes",
             allowed=f"nodes 0 to {len(nodes) - 1}",
         )
     sheets = network.sheets
@@ -192,14 +197,14 @@ def _check_blocks(network: Network) -> None:
     ):
         raise InputError(
             "a sheet with an added mass of its own has nodes in sections of added mass: the water would count twice",
-            path="sheets.added_mass_per_area",
+            parameter="sheets.added_mass_per_area",
             allowed="0 where sections hold the added mass",
         )
     bound = blocks.nodes.ravel()[nodes.kind[blocks.nodes.ravel()] != FREE]
     if bound.size:
         raise InputError(
             f"{name_of_node(network, int(bound[0]))} of a section of added mass cannot move",
-            path="blocks.nodes",
+            parameter="blocks.nodes",
             allowed="free nodes (hold single components by 'held')",
         )
 
@@ -211,7 +216,7 @@ def _check_nets(network: Network) -> None:
         worst = int(np.argmax(network.panels.corners.max(axis=1)))
         raise InputError(
             f"net panel {worst} names node {int(network.panels.corners.max())}, which does not exist",
-            path="panels.corners",
+            parameter="panels.corners",
             allowed=f"nodes 0 to {count - 1}; -1 for the fourth corner of a triangle",
         )
     for ring in network.rings:
@@ -219,7 +224,7 @@ def _check_nets(network: Network) -> None:
         if absent.size:
             raise InputError(
                 f"ring {ring.name!r} names node {int(absent[0])}, which does not exist",
-                path=f"rings.{ring.name}.nodes",
+                parameter=f"rings.{ring.name}.nodes",
                 allowed=f"nodes 0 to {count - 1}",
             )
 
@@ -236,5 +241,5 @@ def numbers_of(values: ArrayLike, path: str) -> NDArray[np.float64]:
         return np.array(values, dtype=np.float64)
     except (TypeError, ValueError):
         raise InputError(
-            f"{path} holds what is no number, or rows of unequal length", path=path, allowed="numbers"
+            f"{path} holds what is no number, or rows of unequal length", parameter=path, allowed="numbers"
         ) from None

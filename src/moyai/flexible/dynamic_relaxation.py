@@ -90,7 +90,7 @@ def relax_network(
         raise ConvergenceError(
             f"no rest after {done} steps: {residual:.2g} of the largest tension is left at "
             f"{name_of_node(network, int(worst))}",
-            path="statics",
+            parameter="statics",
             allowed=f"at most {good_enough:g}",
             remedy="look for a part that floats away or lines that cannot reach",
         )

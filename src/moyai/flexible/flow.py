@@ -57,19 +57,21 @@ class Flow:
         given = np.array(self.velocity, dtype=np.float64)
         if given.shape != (3,) or not np.isfinite(given).all():
             raise InputError(
-                f"velocity of the flow is {self.velocity}", path="flow.velocity", allowed="three finite numbers"
+                f"velocity of the flow is {self.velocity}", parameter="flow.velocity", allowed="three finite numbers"
             )
         given.setflags(write=False)
         object.__setattr__(self, "velocity", given)
         if self.waves is not None and self.waves.water is None:
-            raise InputError("the waves do not know their water", path="flow.waves", allowed="waves with water")
+            raise InputError("the waves do not know their water", parameter="flow.waves", allowed="waves with water")
         if not (math.isfinite(self.ramp) and self.ramp >= 0.0):
-            raise InputError(f"ramp of the flow is {self.ramp:g} s", path="flow.ramp", allowed="0 or more")
+            raise InputError(f"ramp of the flow is {self.ramp:g} s", parameter="flow.ramp", allowed="0 or more")
         if not (math.isfinite(self.wave_ramp) and self.wave_ramp >= 0.0):
-            raise InputError(f"ramp of the waves is {self.wave_ramp:g} s", path="flow.wave_ramp", allowed="0 or more")
+            raise InputError(
+                f"ramp of the waves is {self.wave_ramp:g} s", parameter="flow.wave_ramp", allowed="0 or more"
+            )
         if self.interval is not None and not self.interval > 0.0:
             raise InputError(
-                f"interval of the flow is {self.interval:g} s", path="flow.interval", allowed="greater than 0"
+                f"interval of the flow is {self.interval:g} s", parameter="flow.interval", allowed="greater than 0"
             )
         stretching_code(self.stretching)
 

@@ -43,7 +43,7 @@ class ImplicitRun:
         if network.blocks is not None:
             raise InputError(
                 f"{method!r} does not march sections of added mass",
-                path="method",
+                parameter="method",
                 allowed="'explicit' for this network",
             )
         self.arrays = kernel_arrays(network)

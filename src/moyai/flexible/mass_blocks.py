@@ -44,11 +44,13 @@ class MassBlocks:
     def __post_init__(self) -> None:
         if self.convective and not self.turning:
             raise InputError(
-                "held frames know no forces of turning", path="blocks.convective", allowed="false with turning false"
+                "held frames know no forces of turning",
+                parameter="blocks.convective",
+                allowed="false with turning false",
             )
         nodes = np.array(whole_numbers(self.nodes, "blocks.nodes"))
         if nodes.ndim != 2 or nodes.size == 0:
-            raise InputError(f"groups of shape {nodes.shape}", path="blocks.nodes", allowed="(groups, nodes)")
+            raise InputError(f"groups of shape {nodes.shape}", parameter="blocks.nodes", allowed="(groups, nodes)")
         groups, count = nodes.shape
         guides = np.array(whole_numbers(self.guides, "blocks.guides"))
         added = numbers_of(self.added_mass, "blocks.added_mass")
@@ -57,22 +59,22 @@ class MassBlocks:
             ("added_mass", added, (groups, 2 * count, 2 * count)),
         ):
             if array.shape != shape:
-                raise InputError(f"{name} has shape {array.shape}", path=f"blocks.{name}", allowed=str(shape))
+                raise InputError(f"{name} has shape {array.shape}", parameter=f"blocks.{name}", allowed=str(shape))
         if np.unique(nodes).size != nodes.size:
-            raise InputError("a node belongs to two sections", path="blocks.nodes", allowed="each node once")
+            raise InputError("a node belongs to two sections", parameter="blocks.nodes", allowed="each node once")
         if np.any(guides[..., 0] == guides[..., 1]):
-            raise InputError("both guides of a node are the same", path="blocks.guides", allowed="two nodes")
+            raise InputError("both guides of a node are the same", parameter="blocks.guides", allowed="two nodes")
         finite = bool(np.isfinite(added).all())
         if not finite or np.any(
             np.abs(added - added.transpose(0, 2, 1)) > 1e-6 * np.max(np.abs(added), initial=1e-300)
         ):
-            raise InputError("an added mass is not symmetric or not finite", path="blocks.added_mass")
+            raise InputError("an added mass is not symmetric or not finite", parameter="blocks.added_mass")
         added = 0.5 * (added + added.transpose(0, 2, 1))
         least = np.linalg.eigvalsh(added)[:, 0]
         if np.any(least < -1e-6 * np.max(np.abs(added))):
             raise InputError(
                 f"the added mass of section {int(np.argmin(least))} has the negative value {least.min():.3g} kg",
-                path="blocks.added_mass",
+                parameter="blocks.added_mass",
                 allowed="not negative in any direction",
             )
         for name, array in (("nodes", nodes), ("guides", guides), ("added_mass", added)):
@@ -138,7 +140,7 @@ def pack_blocks(blocks: MassBlocks | None, place: ArrayLike, mass: Array, free: 
     way = position[:2, blocks.guides[..., 1]] - position[:2, blocks.guides[..., 0]]
     frames[..., kernel.LENGTH] = np.hypot(way[0], way[1])
     if np.any(frames[..., kernel.LENGTH] <= 0.0):
-        raise InputError("guides of a section stand in one place", path="blocks.guides", allowed="apart in plan")
+        raise InputError("guides of a section stand in one place", parameter="blocks.guides", allowed="apart in plan")
     kernel.set_frames(blocks.nodes, blocks.guides, frames, position.ravel(), 0, position.shape[1], False)
     light[2, blocks.nodes], light[3, blocks.nodes] = frames[..., kernel.SIN], -frames[..., kernel.COS]
     own = mass[blocks.nodes]

@@ -56,7 +56,7 @@ def natural_modes(network: Network, state: State, *, count: int = 6, flow: Flow 
     mass, stiffness = tangent_matrices(network, place, water)
     moves = arrays.nodes[9:12].T.ravel() > 0.0
     if not moves.any():
-        raise InputError("nothing in the network can move", path="network", allowed="a free node")
+        raise InputError("nothing in the network can move", parameter="network", allowed="a free node")
     values, vectors = _lowest(stiffness[moves][:, moves], mass[moves][:, moves], min(count, int(moves.sum())))
     shapes = np.zeros((values.size, 3 * nodes))
     shapes[:, moves] = vectors.T

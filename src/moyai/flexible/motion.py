@@ -17,7 +17,7 @@ def _three(values: ArrayLike, path: str) -> Array:
     """Return three finite numbers; one stands for all."""
     given = np.asarray(values, dtype=np.float64)
     if given.shape not in ((), (3,)) or not np.isfinite(given).all():
-        raise InputError(f"{path} is {values!r}", path=path, allowed="three finite numbers, or one for all")
+        raise InputError(f"{path} is {values!r}", parameter=path, allowed="three finite numbers, or one for all")
     return np.asarray(np.broadcast_to(given, (3,)), dtype=np.float64)
 
 
@@ -62,7 +62,7 @@ class Motion:
             if array.ndim != 2 or array.shape[1] != 3 or array.shape[0] < 2 or not np.isfinite(array).all():
                 raise InputError(
                     f"{name} of a motion has shape {array.shape}",
-                    path=f"motion.{name}",
+                    parameter=f"motion.{name}",
                     allowed="(2 or more, 3), finite",
                 )
             array.setflags(write=False)
@@ -70,11 +70,11 @@ class Motion:
         if self.displacement.shape != self.velocity.shape:
             raise InputError(
                 "displacement and velocity differ in length",
-                path="motion.velocity",
+                parameter="motion.velocity",
                 allowed=str(self.displacement.shape),
             )
         if not (self.step > 0.0 and math.isfinite(self.step) and math.isfinite(self.start)):
-            raise InputError(f"step of a motion is {self.step:g} s", path="motion.step", allowed="greater than 0")
+            raise InputError(f"step of a motion is {self.step:g} s", parameter="motion.step", allowed="greater than 0")
 
     @property
     def end(self) -> float:
@@ -97,7 +97,9 @@ class Motion:
         """
         if not (0.0 < duration < math.inf and 0.0 < step < math.inf):
             raise InputError(
-                f"a motion over {duration:g} s in steps of {step:g} s", path="motion.duration", allowed="greater than 0"
+                f"a motion over {duration:g} s in steps of {step:g} s",
+                parameter="motion.duration",
+                allowed="greater than 0",
             )
         count = math.ceil(duration / step - 1e-9) + 1
         time: Array = np.asarray(start + step * np.arange(-2, count + 2), dtype=np.float64)
@@ -105,7 +107,7 @@ class Motion:
         if values.shape != (count + 4, 3):
             raise InputError(
                 f"the function of a motion returns shape {values.shape} for {count + 4} times",
-                path="motion.displacement",
+                parameter="motion.displacement",
                 allowed=f"({count + 4}, 3)",
             )
         rate = (8.0 * (values[3:-1] - values[1:-3]) - (values[4:] - values[:-4])) / (12.0 * step)
@@ -135,7 +137,7 @@ class Motion:
         if not (0.0 < period < math.inf and 0.0 < duration < math.inf and 0.0 <= ramp < math.inf):
             raise InputError(
                 f"a harmonic motion of period {period:g} s over {duration:g} s with a ramp of {ramp:g} s",
-                path="motion.period",
+                parameter="motion.period",
                 allowed="greater than 0",
             )
         size, turn = _three(amplitude, "motion.amplitude"), _three(phase, "motion.phase")
@@ -174,18 +176,18 @@ class Motion:
         if not rising or values.shape != (given.size, 3) or not np.isfinite(given).all():
             raise InputError(
                 "a table of motion needs rising times and three displacements each",
-                path="motion.time",
+                parameter="motion.time",
                 allowed="rising",
             )
         if not np.isfinite(values).all():
             row = int(np.flatnonzero(~np.isfinite(values).all(axis=1))[0])
             raise InputError(
                 f"displacement at t = {given[row]:g} s is not finite",
-                path="motion.displacement",
+                parameter="motion.displacement",
                 allowed="finite numbers",
             )
         if step is not None and not 0.0 < step < math.inf:
-            raise InputError(f"step of a motion is {step:g} s", path="motion.step", allowed="greater than 0")
+            raise InputError(f"step of a motion is {step:g} s", parameter="motion.step", allowed="greater than 0")
         wanted = float(np.min(np.diff(given))) if step is None else step
         count = max(1, round((given[-1] - given[0]) / wanted))
         wanted = (given[-1] - given[0]) / count
@@ -235,7 +237,7 @@ class Motion:
         if t.size and not (t.min() >= self.start - slack and t.max() <= self.end + slack):
             raise InputError(
                 f"motion asked at {t.min():g} to {t.max():g} s",
-                path="motion",
+                parameter="motion",
                 allowed=f"{self.start:g} to {self.end:g} s",
                 remedy="give a longer motion or a shorter run",
             )

@@ -34,14 +34,14 @@ def _frozen(values: ArrayLike, dtype: Any, shape: tuple[int, ...], path: str) ->
     if dtype is np.int64:
         values = whole_numbers(values, path)
     if dtype is np.bool_ and not np.isin(np.asarray(values), (0, 1)).all():
-        raise InputError(f"{path} holds what is neither true nor false", path=path, allowed="true or false")
+        raise InputError(f"{path} holds what is neither true nor false", parameter=path, allowed="true or false")
     array = np.array(values, dtype=dtype)
     if array.ndim < len(shape):
         array = np.array(np.broadcast_to(array, shape))
     if array.shape != shape:
-        raise InputError(f"{path} has shape {array.shape}", path=path, allowed=str(shape))
+        raise InputError(f"{path} has shape {array.shape}", parameter=path, allowed=str(shape))
     if array.dtype.kind == "f" and not np.isfinite(array).all():
-        raise InputError(f"{path} holds a value that is not finite", path=path, allowed="finite numbers")
+        raise InputError(f"{path} holds a value that is not finite", parameter=path, allowed="finite numbers")
     array = np.ascontiguousarray(array)
     array.setflags(write=False)
     return array
@@ -49,7 +49,7 @@ def _frozen(values: ArrayLike, dtype: Any, shape: tuple[int, ...], path: str) ->
 
 def _require(ok: bool, message: str, path: str, allowed: str, remedy: str = "") -> None:
     if not ok:
-        raise InputError(message, path=path, allowed=allowed, remedy=remedy)
+        raise InputError(message, parameter=path, allowed=allowed, remedy=remedy)
 
 
 @dataclass(frozen=True, eq=False)
@@ -380,7 +380,7 @@ class Network:
             if strand.name == name:
                 return strand
         raise InputError(
-            f"no strand {name!r}", path="strand", allowed=", ".join(s.name for s in self.strands) or "none"
+            f"no strand {name!r}", parameter="strand", allowed=", ".join(s.name for s in self.strands) or "none"
         )
 
     def point(self, name: str) -> int:
@@ -392,7 +392,7 @@ class Network:
             When there is none.
         """
         if name not in self.points:
-            raise InputError(f"no point {name!r}", path="point", allowed=", ".join(self.points) or "none")
+            raise InputError(f"no point {name!r}", parameter="point", allowed=", ".join(self.points) or "none")
         return self.points[name]
 
     @property

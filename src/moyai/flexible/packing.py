@@ -71,7 +71,7 @@ def pack(arrays: KernelArrays) -> Packed:
     if max(count, bars) + 2 * _LANES > rows_of.ROW:
         raise InputError(
             f"{max(count, bars)} nodes or bars",
-            path="network",
+            parameter="network",
             allowed=f"up to {rows_of.ROW - 2 * _LANES} in the explicit scheme",
         )
     memory = _untouched(rows_of.TOTAL_ROWS * rows_of.ROW)

@@ -53,26 +53,26 @@ class PanelLaw:
         for key in ("along", "normal"):
             table = np.array(getattr(self, key), dtype=np.float64, ndmin=2)
             if not np.isfinite(table).all():
-                raise InputError(f"the law {self.name!r} has a coefficient that is not finite", path=f"law.{key}")
+                raise InputError(f"the law {self.name!r} has a coefficient that is not finite", parameter=f"law.{key}")
             table.setflags(write=False)
             object.__setattr__(self, key, table)
         if self.along.shape != self.normal.shape or self.along.shape[1] < 2:
             raise InputError(
                 f"tables of {self.along.shape} and {self.normal.shape}",
-                path="law",
+                parameter="law",
                 allowed="equal, two columns or more",
             )
         if not (math.isfinite(self.first_decade) and math.isfinite(self.per_decade) and self.per_decade > 0.0):
             raise InputError(
                 f"speeds of the law {self.name!r} start at decade {self.first_decade:g}, {self.per_decade:g} a decade",
-                path="law.per_decade",
+                parameter="law.per_decade",
                 allowed="a finite decade, more than 0 speeds in each",
             )
         drag = self.along + self.normal * np.linspace(0.0, 1.0, self.along.shape[1]) ** 2
         if np.any(drag < -1e-6 * np.max(np.abs(drag))):
             raise InputError(
                 f"the law {self.name!r} has a drag below zero",
-                path="law.along",
+                parameter="law.along",
                 allowed="drag of 0 or more at every angle and speed",
             )
 
@@ -99,7 +99,7 @@ class PanelLaw:
         if np.any(np.abs(lift[:, [0, -1]]) > 0.02 * np.max(np.abs(lift), axis=1, keepdims=True)):
             raise InputError(
                 f"the lift of the law {name!r} does not vanish along or across the flow",
-                path="law.lift",
+                parameter="law.lift",
                 allowed="0 at the angles 0 and pi/2",
             )
         normal = lift / (np.sin(angle) * inside)
@@ -255,7 +255,7 @@ def forces_on_panels(
     from moyai.flexible.panel_kernel import panel_forces
 
     if not (math.isfinite(density) and density > 0.0):
-        raise InputError(f"density is {density:g} kg/m3", path="density", allowed="greater than 0")
+        raise InputError(f"density is {density:g} kg/m3", parameter="density", allowed="greater than 0")
     force, each = np.zeros_like(position), np.zeros((len(panels), 3))
     panel_forces(
         np.ascontiguousarray(position), np.ascontiguousarray(velocity), np.ascontiguousarray(water),

@@ -66,23 +66,25 @@ def read_state(path: str | os.PathLike[str], network: Network | None = None) -> 
     try:
         with np.load(target, allow_pickle=False) as stored:
             if "kind" not in stored or str(stored["kind"]) != _KIND:
-                raise InputError(f"{target} holds no state of a network", path="state_file", allowed=_KIND)
+                raise InputError(f"{target} holds no state of a network", parameter="state_file", allowed=_KIND)
             state = State(float(stored["time"]), np.array(stored["position"]), np.array(stored["velocity"]))
     except FileNotFoundError as error:
-        raise InputError(f"no file {target}", path="state_file", allowed="a file that a run wrote") from error
+        raise InputError(f"no file {target}", parameter="state_file", allowed="a file that a run wrote") from error
     except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile) as error:
         if isinstance(error, InputError):
             raise
-        raise InputError(f"{target} is damaged or no state of a network", path="state_file", allowed=_KIND) from error
+        raise InputError(
+            f"{target} is damaged or no state of a network", parameter="state_file", allowed=_KIND
+        ) from error
     shape = state.position.shape
     if len(shape) != 2 or shape[1] != 3 or state.velocity.shape != shape:
-        raise InputError(f"{target} holds positions of shape {shape}", path="state_file", allowed="(nodes, 3)")
+        raise InputError(f"{target} holds positions of shape {shape}", parameter="state_file", allowed="(nodes, 3)")
     if network is not None and len(network.nodes) != shape[0]:
         raise InputError(
             f"{target} holds {shape[0]} nodes, the network {len(network.nodes)}",
-            path="state_file",
+            parameter="state_file",
             allowed="a state of the same network",
         )
     if not (np.isfinite(state.position).all() and np.isfinite(state.velocity).all()):
-        raise InputError(f"{target} holds values that are not finite", path="state_file", allowed="finite numbers")
+        raise InputError(f"{target} holds values that are not finite", parameter="state_file", allowed="finite numbers")
     return state

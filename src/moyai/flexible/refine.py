@@ -30,13 +30,13 @@ def refined(network: Network, factor: int, state: State | None = None) -> tuple[
     if network.blocks is not None or network.panels is not None or network.rings:
         raise InputError(
             "net panels, rings and sections of added mass are not refined here",
-            path="network",
+            parameter="network",
             allowed="bars and sheets",
             remedy="build the network again with twice the cells",
         )
     if network.sheets is not None and factor != 2:
         if factor & (factor - 1):
-            raise InputError(f"sheets refined {factor} times", path="factor", allowed="1, 2, 4, 8 ...")
+            raise InputError(f"sheets refined {factor} times", parameter="factor", allowed="1, 2, 4, 8 ...")
         if factor == 1:
             return network, state or State.at_rest(network)
         return refined(*_halved(network, factor, state))
@@ -135,7 +135,7 @@ def with_viscosity(network: Network, factor: float) -> Network:
         For a negative factor.
     """
     if not factor >= 0.0:
-        raise InputError(f"viscosity times {factor:g}", path="factor", allowed="0 or more")
+        raise InputError(f"viscosity times {factor:g}", parameter="factor", allowed="0 or more")
     types = tuple(replace(kind, viscosity=factor * kind.viscosity) for kind in network.bars.types)
     sheets = network.sheets
     if sheets is not None:

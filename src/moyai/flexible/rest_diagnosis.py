@@ -56,7 +56,7 @@ def refuse_impossible(network: Network) -> None:
             raise ConvergenceError(
                 f"no equilibrium: nothing holds the {int(own.sum())} nodes around {name_of_node(network, worst)}, they "
                 f"weigh {spoken(heavy - most, 'N')} more than the water bears and sink for ever",
-                path="statics", allowed="weight that floats, hangs or stands",
+                parameter="statics", allowed="weight that floats, hangs or stands",
                 remedy="add an anchor, a bed or buoyancy",
             )  # fmt: skip
         if least > heavy + slack:
@@ -64,7 +64,7 @@ def refuse_impossible(network: Network) -> None:
             raise ConvergenceError(
                 f"no equilibrium: the volume of {name_of_node(network, worst)} lifts all {int(own.sum())} nodes that "
                 f"hang on it by {spoken(least - heavy, 'N')}, and without a height it never leaves the water",
-                path="statics", allowed="lift that an anchor holds, or that ends at the surface",
+                parameter="statics", allowed="lift that an anchor holds, or that ends at the surface",
                 remedy="give the float its height, or add an anchor",
             )  # fmt: skip
 

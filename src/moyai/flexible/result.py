@@ -91,5 +91,5 @@ class History:
         if place.size == 0:
             from moyai.core.errors import InputError
 
-            raise InputError(f"bar {bar} was not kept", path="bar", allowed="one of the kept bars")
+            raise InputError(f"bar {bar} was not kept", parameter="bar", allowed="one of the kept bars")
         return int(place[0])

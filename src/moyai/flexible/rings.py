@@ -41,30 +41,32 @@ class Ring:
         if nodes.ndim != 1 or nodes.size < 4 or np.unique(nodes).size != nodes.size:
             raise InputError(
                 f"ring {self.name!r} goes through {nodes.size} node(s), {np.unique(nodes).size} of them different",
-                path=f"rings.{self.name}.nodes",
+                parameter=f"rings.{self.name}.nodes",
                 allowed="four or more different nodes",
             )
         if rest.shape != (nodes.size, 3) or not np.isfinite(rest).all():
             raise InputError(
                 f"rest shape of ring {self.name!r} has the shape {rest.shape}",
-                path=f"rings.{self.name}.rest",
+                parameter=f"rings.{self.name}.rest",
                 allowed=f"({nodes.size}, 3), finite",
             )
         for key in ("bending_stiffness", "torsional_stiffness"):
             value = getattr(self, key)
             if not (isinstance(value, int | float) and math.isfinite(value) and value > 0.0):
-                raise InputError(f"{key} of ring {self.name!r} is {value!r}", path=key, allowed="greater than 0")
+                raise InputError(f"{key} of ring {self.name!r} is {value!r}", parameter=key, allowed="greater than 0")
         spread = np.linalg.svd(rest - rest.mean(axis=0), compute_uv=False)
         if spread[2] > 1e-6 * spread[0]:
             raise InputError(
-                f"rest shape of ring {self.name!r} is not plane", path=f"rings.{self.name}.rest", allowed="plane points"
+                f"rest shape of ring {self.name!r} is not plane",
+                parameter=f"rings.{self.name}.rest",
+                allowed="plane points",
             )
         way = np.linalg.norm(np.roll(rest, -1, axis=0) - rest, axis=1)
         size = float(np.linalg.norm(np.sum(np.cross(rest - rest[0], np.roll(rest, -1, axis=0) - rest[0]), axis=0)))
         if way.min() <= 1e-9 * way.sum() or size <= 1e-6 * way.sum() ** 2:
             raise InputError(
                 f"rest shape of ring {self.name!r} has two neighbours in one place, or encloses nothing",
-                path=f"rings.{self.name}.rest",
+                parameter=f"rings.{self.name}.rest",
                 allowed="points apart around an area",
             )
         for key, array in (("nodes", nodes), ("rest", rest)):

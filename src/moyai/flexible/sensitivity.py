@@ -132,13 +132,13 @@ def peak_sensitivity(
     """
     bar = whole_number(bar, "bar", least=0)
     if not bar < len(network.bars):
-        raise InputError(f"bar {bar}", path="bar", allowed=f"0 to {len(network.bars) - 1}")
+        raise InputError(f"bar {bar}", parameter="bar", allowed=f"0 to {len(network.bars) - 1}")
     if not 0.0 <= after < options.get("duration", math.inf):
         raise InputError(
             f"peaks count after {after:g} s of a run of {options['duration']:g} s"
             if "duration" in options
             else f"peaks count after {after:g} s",
-            path="after",
+            parameter="after",
             allowed="0 or more, less than the duration",
         )
     last = any(strand.bars[-1] == bar and strand.bars.size > 1 for strand in network.strands)
@@ -152,7 +152,7 @@ def peak_sensitivity(
         if history.status == "interrupted":
             raise KeyboardInterrupt
         if history.status != "converged":
-            raise ConvergenceError(f"run with {which}: {history.message}", path="sensitivity")
+            raise ConvergenceError(f"run with {which}: {history.message}", parameter="sensitivity")
         chosen = history.time >= history.time[0] + after
         return float(np.max(history.tension_peak[chosen, 0])), history.step
 

@@ -73,12 +73,14 @@ class Sheets:
     def __post_init__(self) -> None:
         nodes = np.array(whole_numbers(self.triangles, "sheets.triangles"))
         if nodes.ndim != 2 or nodes.shape[1] != 3 or not len(nodes):
-            raise InputError(f"triangles of shape {nodes.shape}", path="sheets.triangles", allowed="(1 or more, 3)")
+            raise InputError(
+                f"triangles of shape {nodes.shape}", parameter="sheets.triangles", allowed="(1 or more, 3)"
+            )
         if np.any(nodes < 0) or np.any(nodes == np.roll(nodes, 1, axis=1)):
             wrong = np.any((nodes < 0) | (nodes == np.roll(nodes, 1, axis=1)), axis=1)
             raise InputError(
                 f"triangle {int(np.argmax(wrong))} names a node twice, or a negative one",
-                path="sheets.triangles",
+                parameter="sheets.triangles",
                 allowed="three different nodes",
             )
         self._keep("triangles", nodes)
@@ -86,7 +88,7 @@ class Sheets:
         if rest.shape != (len(nodes), 3, 2) or not np.isfinite(rest).all():
             raise InputError(
                 f"unstretched corners of shape {rest.shape}",
-                path="sheets.rest",
+                parameter="sheets.rest",
                 allowed=f"({len(nodes)}, 3, 2), finite",
             )
         self._keep("rest", rest)
@@ -97,7 +99,7 @@ class Sheets:
             if given.shape not in ((), (len(nodes),)):
                 raise InputError(
                     f"{entry.name} has shape {given.shape}",
-                    path=f"sheets.{entry.name}",
+                    parameter=f"sheets.{entry.name}",
                     allowed=f"() or ({len(nodes)},)",
                 )
             value = np.array(np.broadcast_to(given, (len(nodes),)))
@@ -105,13 +107,13 @@ class Sheets:
             if not np.isfinite(value).all() or np.any(value < low):
                 raise InputError(
                     f"{entry.name} of a sheet is {value[np.argmin(value)]:g}",
-                    path=f"sheets.{entry.name}",
+                    parameter=f"sheets.{entry.name}",
                     allowed="0 or more" if low == 0.0 else "finite",
                 )
             self._keep(entry.name, value)
         if not isinstance(self.tension_field, bool | np.bool_):
             raise InputError(
-                f"tension_field is {self.tension_field!r}", path="sheets.tension_field", allowed="True or False"
+                f"tension_field is {self.tension_field!r}", parameter="sheets.tension_field", allowed="True or False"
             )
         self._check_areas()
         self._check_law()
@@ -127,7 +129,7 @@ class Sheets:
         if flat.any():
             raise InputError(
                 f"triangle {int(np.argmax(flat))} has no area, or its unstretched corners run clockwise",
-                path="sheets.rest",
+                parameter="sheets.rest",
                 allowed="corners counter-clockwise over (warp, weft)",
             )
 
@@ -140,21 +142,21 @@ class Sheets:
         if np.any(bare):
             raise InputError(
                 f"a sheet without stiffness: triangle {int(np.argmax(bare))}",
-                path="sheets.warp_stiffness",
+                parameter="sheets.warp_stiffness",
                 allowed="greater than 0 along warp or weft",
             )
         threads = (warp == 0.0) | (weft == 0.0) | (shear == 0.0)
         if np.any(threads & (ratio != 0.0)):
             raise InputError(
                 "a contraction of a sheet that lacks warp, weft or shear stiffness",
-                path="sheets.contraction",
+                parameter="sheets.contraction",
                 allowed="0",
                 remedy="give the three stiffnesses, or no contraction",
             )
         if np.any(threads & (shear > 0.0)):
             raise InputError(
                 "a shear stiffness of a sheet that lacks warp or weft stiffness",
-                path="sheets.shear_stiffness",
+                parameter="sheets.shear_stiffness",
                 allowed="0",
                 remedy="give both stiffnesses: threads of one family alone cannot shear without wrinkling",
             )
@@ -162,7 +164,7 @@ class Sheets:
         if np.any(ratio[whole] ** 2 * weft[whole] >= warp[whole]):
             raise InputError(
                 f"contraction {float(np.max(np.abs(ratio))):g} gives a sheet that yields energy when it is pulled",
-                path="sheets.contraction",
+                parameter="sheets.contraction",
                 allowed="less than the root of warp over weft stiffness",
             )
 
@@ -289,11 +291,11 @@ def sheet_grid(nodes: ArrayLike, warp: ArrayLike, weft: ArrayLike) -> tuple[IntA
     if grid.ndim != 2 or min(grid.shape) < 2 or grid.shape != (along.size, across.size):
         raise InputError(
             f"a sheet of {grid.shape} nodes over {along.size} and {across.size} rows",
-            path="sheets",
+            parameter="sheets",
             allowed="two rows or more each way, as many as given",
         )
     if not (np.all(np.diff(along) > 0.0) and np.all(np.diff(across) > 0.0)):
-        raise InputError("unstretched places of a sheet do not rise", path="sheets", allowed="rising")
+        raise InputError("unstretched places of a sheet do not rise", parameter="sheets", allowed="rising")
     cells = np.stack(np.meshgrid(np.arange(along.size - 1), np.arange(across.size - 1), indexing="ij"), -1).reshape(
         -1, 2
     )

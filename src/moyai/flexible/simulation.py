@@ -35,9 +35,9 @@ LONGEST_LOOK = 1.0
 
 def _rows(duration: float, output_step: float) -> tuple[int, float]:
     if not (math.isfinite(duration) and duration > 0.0):
-        raise InputError(f"duration is {duration:g} s", path="duration", allowed="greater than 0")
+        raise InputError(f"duration is {duration:g} s", parameter="duration", allowed="greater than 0")
     if not (math.isfinite(output_step) and output_step > 0.0):
-        raise InputError(f"output step is {output_step:g} s", path="output_step", allowed="greater than 0")
+        raise InputError(f"output step is {output_step:g} s", parameter="output_step", allowed="greater than 0")
     rows = max(1, round(duration / output_step))
     return rows, duration / rows
 
@@ -47,7 +47,7 @@ def _check_motions(network: Network, motions: Mapping[str, Motion], start: float
         if name not in motions:
             raise InputError(
                 f"driven points follow the motion {name!r}, which is not given",
-                path="motions",
+                parameter="motions",
                 allowed=", ".join(network.motion_names),
             )
         motion = motions[name]
@@ -55,33 +55,35 @@ def _check_motions(network: Network, motions: Mapping[str, Motion], start: float
         if motion.start > start + slack or motion.end < end - slack:
             raise InputError(
                 f"motion {name!r} covers {motion.start:g} to {motion.end:g} s, the run {start:g} to {end:g} s",
-                path=f"motions.{name}",
+                parameter=f"motions.{name}",
                 allowed="a motion over the whole run",
                 remedy="shorten the run or lengthen the motion",
             )
     for name in motions:
         if name not in network.motion_names:
             raise InputError(
-                f"no point follows a motion {name!r}", path="motions", allowed=", ".join(network.motion_names) or "none"
+                f"no point follows a motion {name!r}",
+                parameter="motions",
+                allowed=", ".join(network.motion_names) or "none",
             )
 
 
 def _check_start(network: Network, start: State) -> None:
     if not math.isfinite(start.time):
-        raise InputError(f"time of the start is {start.time:g} s", path="start.time", allowed="a finite time")
+        raise InputError(f"time of the start is {start.time:g} s", parameter="start.time", allowed="a finite time")
     for name in ("position", "velocity"):
         values = np.asarray(getattr(start, name))
         if values.shape != (len(network.nodes), 3):
             raise InputError(
                 f"{name} of the start has shape {values.shape}",
-                path=f"start.{name}",
+                parameter=f"start.{name}",
                 allowed=f"({len(network.nodes)}, 3), a state of this network",
             )
         if not np.isfinite(values).all():
             node = int(np.flatnonzero(~np.isfinite(values).all(axis=1))[0])
             raise InputError(
                 f"{name} of {name_of_node(network, node)} at the start is not finite",
-                path=f"start.{name}",
+                parameter=f"start.{name}",
                 allowed="finite numbers",
             )
 
@@ -91,10 +93,10 @@ def _kept(given: ArrayLike | None, count: int, path: str) -> np.ndarray:
         return np.arange(count)
     kept = np.atleast_1d(whole_numbers(given, path))
     if kept.ndim != 1:
-        raise InputError(f"{path} has shape {kept.shape}", path=path, allowed="one row of numbers")
+        raise InputError(f"{path} has shape {kept.shape}", parameter=path, allowed="one row of numbers")
     wrong = kept[(kept < 0) | (kept >= count)]
     if wrong.size:
-        raise InputError(f"{path} names {int(wrong[0])} of {count}", path=path, allowed=f"0 to {count - 1}")
+        raise InputError(f"{path} names {int(wrong[0])} of {count}", parameter=path, allowed=f"0 to {count - 1}")
     return kept
 
 
@@ -187,11 +189,11 @@ def simulate(
     _check_start(network, start)
     _check_motions(network, motions or {}, start.time, start.time + duration)
     if not 0.0 < tolerance < 1.0:
-        raise InputError(f"tolerance is {tolerance:g}", path="tolerance", allowed="above 0, below 1")
+        raise InputError(f"tolerance is {tolerance:g}", parameter="tolerance", allowed="above 0, below 1")
     if step is not None and not 0.0 < step < math.inf:
-        raise InputError(f"step is {step:g} s", path="step", allowed="greater than 0")
+        raise InputError(f"step is {step:g} s", parameter="step", allowed="greater than 0")
     if safety is not None and not 0.0 < safety <= 1.0:
-        raise InputError(f"safety is {safety:g}", path="safety", allowed="above 0, at most 1")
+        raise InputError(f"safety is {safety:g}", parameter="safety", allowed="above 0, at most 1")
     load_steps = whole_number(load_steps, "load_steps", least=1)
     nodes, bars = _kept(keep_nodes, len(network.nodes), "keep_nodes"), _kept(keep_bars, len(network.bars), "keep_bars")
     run: ExplicitRun | ImplicitRun

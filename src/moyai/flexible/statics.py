@@ -149,7 +149,7 @@ def solve_equilibrium(
         raise ConvergenceError(
             f"no equilibrium after {steps} steps: {best.residual:.2g} of the largest force is left at "
             f"{name_of_node(network, best.worst)}, z = {best.place[best.worst, 2]:.4g} m{kept}",
-            path="statics",
+            parameter="statics",
             allowed=f"at most {max(tolerance, _GOOD_ENOUGH):g}",
             remedy=advice(network, best.place, calm),
         )

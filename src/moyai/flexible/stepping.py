@@ -181,14 +181,16 @@ class SteppedNetwork:
             name = network.motion_names[network.nodes.motion[node]]
             if name in self._given:
                 raise InputError(
-                    f"the point {name!r} is carried by a body and driven by a motion", path="motions", allowed="one"
+                    f"the point {name!r} is carried by a body and driven by a motion",
+                    parameter="motions",
+                    allowed="one",
                 )
             motions[name] = Motion(time, 1.0, np.zeros((2, 3)), np.zeros((2, 3)))
         for name in network.motion_names:
             if name not in motions:
                 raise InputError(
                     f"the point {name!r} is driven, but no body carries it and no motion is given for it",
-                    path="motions",
+                    parameter="motions",
                     allowed=", ".join(network.motion_names),
                 )
         return motions
@@ -395,10 +397,12 @@ def carried_nodes(network: Network, names: Sequence[str]) -> IntArray:
             raise InputError(
                 f"a body carries the point {name!r}, which "
                 + ("the network does not have" if node is None else "is not a driven point"),
-                path=f"bodies.points.{name}",
+                parameter=f"bodies.points.{name}",
                 allowed=", ".join(driven) or "driven points",
             )
         if node in nodes:
-            raise InputError(f"two bodies carry the point {name!r}", path=f"bodies.points.{name}", allowed="one body")
+            raise InputError(
+                f"two bodies carry the point {name!r}", parameter=f"bodies.points.{name}", allowed="one body"
+            )
         nodes.append(int(node))
     return np.array(nodes, dtype=np.int64)

@@ -75,7 +75,7 @@ class Hydrodynamics:
             if value is None:
                 continue
             if np.shape(value) != shape:
-                raise InputError(f"{name} has the shape {np.shape(value)}", path=name, allowed=f"{shape}")
+                raise InputError(f"{name} has the shape {np.shape(value)}", parameter=name, allowed=f"{shape}")
             finite(value, name)
 
     @property
@@ -87,6 +87,22 @@ class Hydrodynamics:
     def has_far_field(self) -> bool:
         """Whether reflection, transmission and radiated waves are known."""
         return not (self.reflection is None or self.transmission is None or self.radiated_wave is None)
+
+    @classmethod
+    def of_headings(cls, dataset: xr.Dataset) -> tuple[Hydrodynamics, ...]:
+        """Take a dataset of one metre apart by heading, each with its own radiation where the dataset tells it."""
+        out = []
+        for index in range(dataset.sizes["wave_direction"]):
+            one = dataset.isel(wave_direction=[index])
+            if "oblique_added_mass" in dataset:
+                own = one.isel(wave_direction=0)
+                one = one.assign(
+                    added_mass=own.oblique_added_mass,
+                    radiation_damping=own.oblique_radiation_damping,
+                    radiated_wave=own.oblique_radiated_wave,
+                )
+            out.append(cls.from_dataset(one))
+        return tuple(out)
 
     def scaled_to(self, length: float) -> Hydrodynamics:
         """Return the coefficients of ``length`` [m] of structure; those of the far field stay."""
@@ -122,7 +138,7 @@ class Hydrodynamics:
         if not hold and (wanted[0] < low - slack or wanted[-1] > high + slack):
             raise InputError(
                 f"frequencies {wanted[0]:.4g} to {wanted[-1]:.4g} rad/s lie outside the computed range",
-                path="omega",
+                parameter="omega",
                 allowed=f"{low:.4g} to {high:.4g} rad/s",
                 remedy="compute the hydrodynamic coefficients over a wider range",
             )
@@ -168,7 +184,7 @@ class Hydrodynamics:
             spread = CubicSpline(self.omega, self.excitation, axis=0)(frequency)
         if heading is None:
             if len(self.heading) != 1:
-                raise InputError("several headings are computed and none is named", path="heading")
+                raise InputError("several headings are computed and none is named", parameter="heading")
             return np.asarray(spread[:, 0, :], dtype=np.complex128)
         direction = np.broadcast_to(np.asarray(heading, dtype=float), frequency.shape)
         order = np.argsort(self.heading)
@@ -177,7 +193,7 @@ class Hydrodynamics:
         if np.any(direction < known[0] - 1e-9) or np.any(direction > known[-1] + 1e-9):
             raise InputError(
                 f"headings {np.min(direction):.4g} to {np.max(direction):.4g} rad lie outside the computed ones",
-                path="heading",
+                parameter="heading",
                 allowed=f"{known[0]:.4g} to {known[-1]:.4g} rad",
             )
         if len(known) == 1:

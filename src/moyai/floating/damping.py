@@ -52,7 +52,7 @@ class LinearDamping:
         finite(self.critical_fraction, "critical_fraction")
         if np.any(np.asarray(self.critical_fraction) < 0.0):
             raise InputError(
-                "a fraction of critical damping is negative", path="critical_fraction", allowed="0 or more"
+                "a fraction of critical damping is negative", parameter="critical_fraction", allowed="0 or more"
             )
 
     @classmethod
@@ -64,7 +64,7 @@ class LinearDamping:
     def of_modes(cls, *, linear: ArrayLike | None = None, critical_fraction: ArrayLike | None = None) -> LinearDamping:
         """Return damping from one number a mode."""
         if linear is None and critical_fraction is None:
-            raise InputError("neither linear damping nor a fraction of critical is given", path="damping")
+            raise InputError("neither linear damping nor a fraction of critical is given", parameter="damping")
         diagonal = np.zeros_like(np.asarray(critical_fraction, dtype=float)) if linear is None else linear
         diagonal = np.asarray(diagonal, dtype=float)
         fraction = np.zeros(len(diagonal)) if critical_fraction is None else np.asarray(critical_fraction, dtype=float)
@@ -94,10 +94,13 @@ class QuadraticDamping:
         directions, coefficients = np.asarray(self.directions, float), np.asarray(self.coefficients, float)
         if directions.ndim != 2 or coefficients.shape != directions.shape[:1]:
             raise InputError(
-                f"{coefficients.shape} coefficients for directions of the shape {directions.shape}", path="coefficients"
+                f"{coefficients.shape} coefficients for directions of the shape {directions.shape}",
+                parameter="coefficients",
             )
         if np.any(coefficients < 0.0):
-            raise InputError("a quadratic damping coefficient is negative", path="coefficients", allowed="0 or more")
+            raise InputError(
+                "a quadratic damping coefficient is negative", parameter="coefficients", allowed="0 or more"
+            )
         finite(directions, "directions")
         finite(coefficients, "coefficients")
         object.__setattr__(self, "directions", directions)

@@ -66,7 +66,7 @@ def fit_decay(
     sides = np.split(turning, np.flatnonzero(np.diff(np.sign(motion[turning])) != 0.0) + 1)
     turning = np.array([part[np.argmax(np.abs(motion[part]))] for part in sides if part.size], dtype=np.int64)
     if turning.size < 3:
-        raise InputError(f"{turning.size} extremes in the record", path="position", allowed="3 or more")
+        raise InputError(f"{turning.size} extremes in the record", parameter="position", allowed="3 or more")
     # Parabola through three rows: the extreme lies between them
     before, here, after = motion[turning - 1], motion[turning], motion[turning + 1]
     curvature = before - 2.0 * here + after
@@ -78,7 +78,7 @@ def fit_decay(
     last = int(keep[0]) if keep.size else extremes.size
     extremes, times = extremes[:last], times[:last]
     if extremes.size < 3:
-        raise InputError(f"{extremes.size} extremes above the smallest", path="smallest", allowed="3 or more")
+        raise InputError(f"{extremes.size} extremes above the smallest", parameter="smallest", allowed="3 or more")
     decrement = np.log(extremes[:-1] / extremes[1:])
     ratios = decrement / np.hypot(math.pi, decrement)
     amplitude = 0.5 * (extremes[:-1] + extremes[1:])

@@ -53,7 +53,7 @@ def far_field(hydrodynamics: Hydrodynamics, displacement: ComplexArray) -> FarFi
     if reflection is None or transmission is None or radiated is None:
         raise InputError(
             "reflection and transmission need the far field of a section",
-            path="hydrodynamics",
+            parameter="hydrodynamics",
             remedy="use coefficients of a two-dimensional section",
         )
     velocity = -1j * hydrodynamics.omega[:, None, None] * displacement

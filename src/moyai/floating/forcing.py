@@ -142,12 +142,12 @@ class IrregularForcing:
     def __post_init__(self) -> None:
         positive(float(np.min(self.omega)), "omega")
         if self.drift_law != "none" and self.drift is None:
-            raise InputError("slow drift needs the drift coefficients", path="drift", remedy='or drift_law="none"')
+            raise InputError("slow drift needs the drift coefficients", parameter="drift", remedy='or drift_law="none"')
         if self.drift_law == "newman_product" and self.drift is not None:
             low, high = np.min(self.drift, axis=0), np.max(self.drift, axis=0)
             if np.any((low < 0.0) & (high > 0.0)):
                 raise InputError(
-                    "the drift changes sign over the spectrum", path="drift", remedy='use drift_law="newman"'
+                    "the drift changes sign over the spectrum", parameter="drift", remedy='use drift_law="newman"'
                 )
         for name in ("omega", "amplitude", "excitation", "steady"):
             finite(getattr(self, name), name)
@@ -183,7 +183,7 @@ class IrregularForcing:
         amplitude = sea.complex_amplitude
         keep = np.abs(amplitude) > 0.0
         if not np.any(keep):
-            raise InputError("the sea holds no energy", path="sea")
+            raise InputError("the sea holds no energy", parameter="sea")
         omega, amplitude = sea.omega[keep], amplitude[keep]
         single = len(hydrodynamics.heading) == 1
         drift = None

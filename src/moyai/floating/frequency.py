@@ -169,7 +169,7 @@ def solve_motions(
     constant = np.broadcast_to(constant[:, None], (count, headings, size, size))
     iterated = quadratic is not None or line_damping is not None
     if iterated and wave_amplitude is None:
-        raise InputError("quadratic damping needs the wave amplitude", path="wave_amplitude")
+        raise InputError("quadratic damping needs the wave amplitude", parameter="wave_amplitude")
     amplitude = np.zeros((count, headings)) + (0.0 if wave_amplitude is None else np.asarray(wave_amplitude, float))
     omega = np.broadcast_to(hydrodynamics.omega[:, None], (count, headings))
     mass = (inertia + hydrodynamics.added_mass)[:, None]
@@ -303,11 +303,3 @@ def relative_elevation(
     """
     vertical = motions.displacement[..., 1] - motions.displacement[..., 2] * (point[0] - centre[0])
     return wave_elevation - vertical
-
-
-def point_motion(motions: Motions, point: tuple[float, float], centre: tuple[float, float]) -> ComplexArray:
-    """Return the complex motion (n, h, 2) in x and z of a point of a planar body, for instance a fairlead [m/m]."""
-    roll = motions.displacement[..., 2]
-    horizontal = motions.displacement[..., 0] + roll * (point[1] - centre[1])
-    vertical = motions.displacement[..., 1] - roll * (point[0] - centre[0])
-    return np.stack([horizontal, vertical], axis=-1)

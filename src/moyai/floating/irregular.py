@@ -19,7 +19,7 @@ def integration_weights(omega: ArrayLike) -> Array:
     """Return the weights of the trapezoidal rule on a frequency grid [rad/s]; one frequency has no width."""
     grid = np.atleast_1d(np.asarray(omega, dtype=float))
     if len(grid) < 2:
-        raise InputError("an integral over frequency needs two frequencies or more", path="omega")
+        raise InputError("an integral over frequency needs two frequencies or more", parameter="omega")
     step = np.diff(grid)
     return 0.5 * np.concatenate([step[:1], step[1:] + step[:-1], step[-1:]])
 
@@ -97,7 +97,7 @@ def energy_transmission(omega: ArrayLike, transmission: ArrayLike, density: Arra
         power, wave = power.sum(axis=1), np.broadcast_to(wave, power.shape).sum(axis=1)
     total = float(weights @ wave)
     if total <= 0.0:
-        raise InputError("the wave spectrum holds no energy", path="density")
+        raise InputError("the wave spectrum holds no energy", parameter="density")
     return math.sqrt(float(weights @ power) / total)
 
 
@@ -152,7 +152,8 @@ def linearised_in_sea(
         wave = wave[:, None]
     if wave.shape[1] != len(hydrodynamics.heading):
         raise InputError(
-            f"the spectrum has {wave.shape[1]} headings, the coefficients {len(hydrodynamics.heading)}", path="density"
+            f"the spectrum has {wave.shape[1]} headings, the coefficients {len(hydrodynamics.heading)}",
+            parameter="density",
         )
     size = hydrodynamics.size
     rows = np.eye(size) if quadratic is None else np.vstack([np.eye(size), quadratic.directions])

@@ -57,7 +57,9 @@ class PlanarMooring:
         if motion_range is not None:
             reach = np.abs(np.asarray(motion_range, dtype=float))
             if reach.shape != (3,) or not np.all(reach > 0.0):
-                raise InputError(f"motion range {motion_range}", path="motion_range", allowed="three positive numbers")
+                raise InputError(
+                    f"motion range {motion_range}", parameter="motion_range", allowed="three positive numbers"
+                )
             ends = [(float(r - m), float(r + m)) for r, m in zip(rest, reach)]
             window = (ends[0], ends[1], ends[2])
         compiled = compile_lines(shifted, window, None if window is None else tolerance)

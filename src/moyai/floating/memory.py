@@ -48,14 +48,14 @@ class StateSpaceMemory:
         n, m = len(self.poles), self.dashpot.shape[0]
         if self.inputs.shape != (n, m) or self.outputs.shape != (m, n):
             raise InputError(
-                f"{n} poles with inputs {self.inputs.shape} and outputs {self.outputs.shape}", path="memory"
+                f"{n} poles with inputs {self.inputs.shape} and outputs {self.outputs.shape}", parameter="memory"
             )
         for name in ("poles", "inputs", "outputs", "dashpot"):
             finite(getattr(self, name), name)
         if n and float(np.max(self.poles.real)) > 0.0:
             raise InputError(
                 f"a memory pole grows in time (real part {np.max(self.poles.real):.3g} 1/s)",
-                path="memory.poles",
+                parameter="memory.poles",
                 allowed="real parts not above 0",
                 remedy="fit the memory again with fewer states",
             )
@@ -177,22 +177,13 @@ class ConvolutionMemory:
     def __post_init__(self) -> None:
         increasing(self.time, "time")
         if self.time[0] != 0.0:
-            raise InputError(f"the memory starts at {self.time[0]:g} s", path="time", allowed="0")
+            raise InputError(f"the memory starts at {self.time[0]:g} s", parameter="time", allowed="0")
         finite(self.velocity_kernel, "velocity_kernel")
 
     @property
     def size(self) -> int:
         """Number of modes."""
         return int(self.dashpot.shape[0])
-
-    def tail_length(self, share: float = 1e-3) -> float:
-        """Return the time after which no entry exceeds ``share`` of the largest of its modes [s]."""
-        largest = np.max(np.abs(self.velocity_kernel), axis=0)
-        own = np.sqrt(np.abs(np.outer(np.diag(largest), np.diag(largest))))
-        reference = np.where(own > 0.0, own, np.maximum(largest, 1e-300))
-        over = np.any(np.abs(self.velocity_kernel) > share * reference, axis=(1, 2))
-        last = int(np.flatnonzero(over)[-1]) if np.any(over) else 0
-        return float(self.time[min(last + 1, len(self.time) - 1)])
 
     def truncated(self, length: float, steady_dashpot: ArrayLike | None = None) -> ConvolutionMemory:
         """Return the memory up to ``length`` [s].

@@ -75,7 +75,7 @@ def natural_modes(
     stiffness = square_matrix(stiffness, size, "stiffness")
     restoring = 0.5 * (stiffness + stiffness.T)
     if np.any(np.diag(inertia) <= 0.0):
-        raise InputError("a mode has no inertia", path="inertia", allowed="a positive diagonal")
+        raise InputError("a mode has no inertia", parameter="inertia", allowed="a positive diagonal")
     extra = np.zeros((size, size)) if damping is None else square_matrix(damping, size, "damping")
     added = added_mass_function(hydrodynamics)
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal, Protocol
 
@@ -38,30 +37,6 @@ class LinearMooring:
     def stiffness(self, position: Array) -> Array:
         """Return the constant stiffness."""
         return self.matrix
-
-
-@dataclass(frozen=True)
-class FunctionMooring:
-    """Lines given by one function ``position -> force``; the tangent by central differences (P3, section 4)."""
-
-    function: Callable[[Array], Array]
-    steps: Array
-
-    def force(self, position: Array) -> Array:
-        """Return the force of the function."""
-        return np.asarray(self.function(np.asarray(position, dtype=float)), dtype=float)
-
-    def stiffness(self, position: Array) -> Array:
-        """Return minus the central difference of the force."""
-        size = len(self.steps)
-        matrix = np.empty((size, size))
-        for column in range(size):
-            step = np.zeros(size)
-            step[column] = self.steps[column]
-            matrix[:, column] = -(self.force(position + step) - self.force(position - step)) / (
-                2.0 * self.steps[column]
-            )
-        return matrix
 
 
 @dataclass(frozen=True)

@@ -319,7 +319,7 @@ def _scale_of(hull: HullLike, draught: float) -> float:
     """Return a length for scaling: breadth of the outer waterline, or the root of the area of a submerged body."""
     section = _immersed_or_none(hull, draught, 0.0)
     if section is None:
-        raise InputError(f"the hull does not reach the water at a draught of {draught:g} m", path="draught_start")
+        raise InputError(f"the hull does not reach the water at a draught of {draught:g} m", parameter="draught_start")
     if section.waterlines:
         return section.waterlines[-1][1] - section.waterlines[0][0]
     return math.sqrt(section.area)

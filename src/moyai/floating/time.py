@@ -54,11 +54,11 @@ class CumminsModel:
             square_matrix(getattr(self, name), size, name)
         eigenvalues = np.linalg.eigvalsh(0.5 * (self.inertia + np.transpose(self.inertia)))
         if eigenvalues[0] <= 0.0:
-            raise InputError("inertia with infinite-frequency added mass is not positive definite", path="inertia")
+            raise InputError("inertia with infinite-frequency added mass is not positive definite", parameter="inertia")
         if self.memory.size != size:
-            raise InputError(f"the memory has {self.memory.size} modes", path="memory", allowed=f"{size}")
+            raise InputError(f"the memory has {self.memory.size} modes", parameter="memory", allowed=f"{size}")
         if self.mooring is not None and size < 3:
-            raise InputError(f"lines on a body of {size} modes", path="mooring", allowed="sway, heave, roll first")
+            raise InputError(f"lines on a body of {size} modes", parameter="mooring", allowed="sway, heave, roll first")
 
 
 Status = Literal["converged", "diverged", "interrupted"]
@@ -137,7 +137,9 @@ def choose_time_step(
         if value > 0.0:
             limits[name] = 2.0 * math.pi / value / STEPS_PER_NATURAL_PERIOD
     if not limits:
-        raise InputError("neither wave nor restoring sets a time scale", path="time_step", remedy="give a time step")
+        raise InputError(
+            "neither wave nor restoring sets a time scale", parameter="time_step", remedy="give a time step"
+        )
     reason = min(limits, key=lambda name: limits[name])
     convolution = isinstance(model.memory, ConvolutionMemory)
     longest = limits[reason] / (SHORTER_WITH_CONVOLUTION if convolution else 1.0)
@@ -227,14 +229,14 @@ def simulate(
     """
     size = len(model.modes)
     if not duration > 0.0 or not math.isfinite(duration):
-        raise InputError(f"duration is {duration:g} s", path="duration", allowed="greater than 0")
+        raise InputError(f"duration is {duration:g} s", parameter="duration", allowed="greater than 0")
     notices: list[Notice] = []
     if time_step is None:
         step, notice = choose_time_step(model, forcing, expected_motion)
         notices.append(notice)
     else:
         if not time_step > 0.0:
-            raise InputError(f"time step is {time_step:g} s", path="time_step", allowed="greater than 0")
+            raise InputError(f"time step is {time_step:g} s", parameter="time_step", allowed="greater than 0")
         step = forcing.fitted_step(time_step)
     steps = math.ceil(duration / step - 1e-9)
     every = 1 if save_interval is None else max(1, round(save_interval / step))

@@ -157,7 +157,7 @@ def edge_damping(
     """
     for name, value in (("density", density), ("length", length)):
         if not value > 0.0:
-            raise InputError(f"{name} is {value}", path=name, allowed="greater than 0")
+            raise InputError(f"{name} is {value}", parameter=name, allowed="greater than 0")
     found = measures(corners, plates)
     rows = np.array([item.row(centre) for item in found]).reshape(-1, 3)
     return QuadraticDamping(rows, density * length * np.array([item.coefficient for item in found]))
@@ -262,7 +262,7 @@ def eddy_coefficient(half_beam: float, radius: float) -> float:
         down = (1.0 - a1) * math.cos(psi) + a3 * math.cos(3.0 * psi)
         return scale * math.hypot(across, down)
 
-    turning = a1 * (1.0 + a3) / (4.0 * a3)
+    turning = a1 * (1.0 + a3) / (4.0 * a3) if a3 != 0.0 else math.inf  # without a3 it is an ellipse
     psi = max([0.0] + ([0.5 * math.acos(turning)] if abs(turning) <= 1.0 else []), key=distance)
     farthest = distance(psi)
     h = 1.0 + a1**2 + 9.0 * a3**2 + 2.0 * a1 * (1.0 - 3.0 * a3) * math.cos(2.0 * psi) - 6.0 * a3 * math.cos(4.0 * psi)

@@ -26,7 +26,7 @@ class Sinker:
     def __post_init__(self) -> None:
         for name in ("submerged_weight", "friction", "safety_factor"):
             if not getattr(self, name) > 0.0:
-                raise InputError(f"{name} is {getattr(self, name):g}", path=f"anchor.{name}", allowed="above 0")
+                raise InputError(f"{name} is {getattr(self, name):g}", parameter=f"anchor.{name}", allowed="above 0")
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ class DragAnchor:
     def __post_init__(self) -> None:
         for name in ("weight", "holding_power", "safety_factor"):
             if not getattr(self, name) > 0.0:
-                raise InputError(f"{name} is {getattr(self, name):g}", path=f"anchor.{name}", allowed="above 0")
+                raise InputError(f"{name} is {getattr(self, name):g}", parameter=f"anchor.{name}", allowed="above 0")
 
 
 @dataclass(frozen=True)
@@ -111,7 +111,7 @@ def check_drag_anchor(anchor: DragAnchor, horizontal: float, uplift: float) -> A
 def sinker_needed(horizontal: float, uplift: float, friction: float, safety_factor: float) -> float:
     """Return the submerged weight that a sinker needs [N]: ``SF (H / friction + V)``."""
     if not friction > 0.0:
-        raise InputError(f"friction {friction:g}", path="friction", allowed="above 0")
+        raise InputError(f"friction {friction:g}", parameter="friction", allowed="above 0")
     return safety_factor * (abs(horizontal) / friction + max(uplift, 0.0))
 
 
@@ -129,5 +129,5 @@ def gravity_anchor_weight(
     horizontal_factor, vertical_factor : float
     """
     if not friction > 0.0:
-        raise InputError(f"friction {friction:g}", path="friction", allowed="above 0")
+        raise InputError(f"friction {friction:g}", parameter="friction", allowed="above 0")
     return horizontal_factor * abs(horizontal) / friction + vertical_factor * max(uplift, 0.0)

@@ -67,7 +67,7 @@ class CatenarySolution:
 def _require(condition: NDArray[np.bool_], values: Array, path: str, allowed: str, remedy: str = "") -> None:
     if not np.all(condition):
         worst = np.extract(~condition, values)[0]
-        raise InputError(f"{path.replace('_', ' ')} is {worst:g}", path=path, allowed=allowed, remedy=remedy)
+        raise InputError(f"{path.replace('_', ' ')} is {worst:g}", parameter=path, allowed=allowed, remedy=remedy)
 
 
 def solve_catenary(

@@ -130,13 +130,13 @@ class LineElement(Protocol):
 def _number(value: float, path: str, *, positive: bool = True, infinite: bool = False) -> None:
     good = not math.isnan(value) and (infinite or math.isfinite(value)) and (value > 0.0 or not positive)
     if not good:
-        raise InputError(f"{value:g}", path=path, allowed="greater than 0" if positive else "a finite number")
+        raise InputError(f"{value:g}", parameter=path, allowed="greater than 0" if positive else "a finite number")
 
 
 def _vector(value: ArrayLike, path: str) -> Vector:
     array = np.asarray(value, dtype=float)
     if array.shape != (3,) or not np.all(np.isfinite(array)):
-        raise InputError(f"{value!r} is not a position", path=path, allowed="three finite coordinates (x, y, z)")
+        raise InputError(f"{value!r} is not a position", parameter=path, allowed="three finite coordinates (x, y, z)")
     return float(array[0]), float(array[1]), float(array[2])
 
 
@@ -172,17 +172,17 @@ class Line:
         object.__setattr__(self, "segments", tuple(self.segments))
         object.__setattr__(self, "clumps", tuple(self.clumps))
         if not self.segments:
-            raise InputError("a line needs at least one segment", path=f"{path}.segments")
+            raise InputError("a line needs at least one segment", parameter=f"{path}.segments")
         if self.count < 1:
-            raise InputError(f"{self.count} copies", path=f"{path}.count", allowed="1 or more")
+            raise InputError(f"{self.count} copies", parameter=f"{path}.count", allowed="1 or more")
         if not (math.isfinite(self.bed_friction) and self.bed_friction >= 0.0):
-            raise InputError(f"{self.bed_friction:g}", path=f"{path}.bed_friction", allowed="0 or more")
+            raise InputError(f"{self.bed_friction:g}", parameter=f"{path}.bed_friction", allowed="0 or more")
         for clump in self.clumps:
             _number(clump.submerged_weight, f"{path}.clumps", positive=False)
             if not 0 <= clump.after_segment < len(self.segments) - 1:
                 raise InputError(
                     f"clump after segment {clump.after_segment}",
-                    path=f"{path}.clumps",
+                    parameter=f"{path}.clumps",
                     allowed=f"0 to {len(self.segments) - 2} (between two segments)",
                 )
 
@@ -236,7 +236,7 @@ class Line:
         if clearance < 0.0:
             raise InputError(
                 f"the anchor lies {-clearance:g} m under the bed (z = {self.anchor[2]:g} m, depth {water_depth:g} m)",
-                path=f"lines.{self.name}.anchor",
+                parameter=f"lines.{self.name}.anchor",
                 allowed=f"z of {-water_depth:g} m or higher",
             )
         return clearance
@@ -312,9 +312,9 @@ class SpringLine:
         _number(self.stiffness, f"{path}.stiffness")
         _number(self.pretension, f"{path}.pretension", positive=False)
         if self.count < 1:
-            raise InputError(f"{self.count} copies", path=f"{path}.count", allowed="1 or more")
+            raise InputError(f"{self.count} copies", parameter=f"{path}.count", allowed="1 or more")
         if math.dist(self.anchor, self.fairlead) == 0.0:
-            raise InputError("the spring has no length", path=f"{path}.anchor", remedy="move the anchor")
+            raise InputError("the spring has no length", parameter=f"{path}.anchor", remedy="move the anchor")
 
     @property
     def natural_length(self) -> float:

@@ -115,7 +115,7 @@ def _space(planar: ArrayLike) -> Array:
     """Put (x, z, about y) into six components."""
     array = np.asarray(planar, dtype=float)
     if array.shape[-1:] != (3,):
-        raise InputError(f"shape {array.shape}", path="position", allowed="last axis of 3: sway, heave, roll")
+        raise InputError(f"shape {array.shape}", parameter="position", allowed="last axis of 3: sway, heave, roll")
     out = np.zeros((*array.shape[:-1], 6))
     out[..., _KEPT] = array
     return out

@@ -60,7 +60,7 @@ def solve_shoji(
     """
     if not (vertical_distance > 0.0 and weight > 0.0 and length > 0.0 and axial_stiffness > 0.0):
         raise InputError(
-            "the modified catenary needs a heavy line below its fairlead", path="line", allowed="Z, w, S, EA > 0"
+            "the modified catenary needs a heavy line below its fairlead", parameter="line", allowed="Z, w, S, EA > 0"
         )
 
     def state(angle: float) -> tuple[float, float, float]:
@@ -75,7 +75,9 @@ def solve_shoji(
 
     low, high = 1e-6, 300.0  # flat and slack ends; the distance falls with the angle
     if not state(high)[0] < horizontal_distance < state(low)[0]:
-        raise InputError("the line is slack or straight: outside the modified catenary", path="horizontal_distance")
+        raise InputError(
+            "the line is slack or straight: outside the modified catenary", parameter="horizontal_distance"
+        )
     for _ in range(200):
         middle = 0.5 * (low + high)
         if state(middle)[0] > horizontal_distance:
@@ -88,7 +90,7 @@ def solve_shoji(
     if suspended > length:
         raise InputError(
             "no part of the line lies on the bed: outside the modified catenary",
-            path="horizontal_distance",
+            parameter="horizontal_distance",
             remedy="use solve_catenary, which covers lifted lines",
         )
     return ShojiSolution(tension, weight * suspended, suspended, horizontal_distance - length + suspended)

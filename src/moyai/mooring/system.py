@@ -83,11 +83,13 @@ class LineSystem:
     def __post_init__(self) -> None:
         object.__setattr__(self, "lines", tuple(self.lines))
         if not self.water_depth > 0.0:
-            raise InputError(f"{self.water_depth:g} m", path="water_depth", allowed="greater than 0")
+            raise InputError(f"{self.water_depth:g} m", parameter="water_depth", allowed="greater than 0")
         names = [line.name for line in self.lines]
         for name in names:
             if names.count(name) > 1:
-                raise InputError(f"two lines are named {name!r}", path="lines", remedy="give every line its own name")
+                raise InputError(
+                    f"two lines are named {name!r}", parameter="lines", remedy="give every line its own name"
+                )
         for line in self.lines:
             clearance = getattr(line, "bed_clearance", None)
             if clearance is not None:
@@ -321,7 +323,7 @@ def newton_with_line_search(
         return position, worst, most
     raise ConvergenceError(
         f"no equilibrium of the moored body: imbalance {worst:.2e} of the largest load remains",
-        path="load",
+        parameter="load",
         remedy="check that the lines and hydrostatics can carry the load, or start nearer",
     )
 
@@ -371,19 +373,23 @@ def direction_vector(direction: str | ArrayLike, names: Sequence[str]) -> Array:
     """Return a direction given by name or by components."""
     if isinstance(direction, str):
         if direction not in names:
-            raise InputError(f"unknown direction {direction!r}", path="direction", allowed=", ".join(names))
+            raise InputError(f"unknown direction {direction!r}", parameter="direction", allowed=", ".join(names))
         values: Array = np.eye(len(names))[list(names).index(direction)]
         return values
     vector = np.asarray(direction, dtype=float)
     if vector.shape != (len(names),):
-        raise InputError(f"{vector.size} components", path="direction", allowed=f"{len(names)} components or a name")
+        raise InputError(
+            f"{vector.size} components", parameter="direction", allowed=f"{len(names)} components or a name"
+        )
     return vector
 
 
 def _positions(position: ArrayLike) -> Array:
     array = np.asarray(position, dtype=float)
     if array.shape[-1:] != (6,):
-        raise InputError(f"shape {array.shape}", path="position", allowed="last axis of 6: x, y, z, roll, pitch, yaw")
+        raise InputError(
+            f"shape {array.shape}", parameter="position", allowed="last axis of 6: x, y, z, roll, pitch, yaw"
+        )
     if not np.all(np.isfinite(array)):
-        raise InputError("position holds NaN or infinity", path="position")
+        raise InputError("position holds NaN or infinity", parameter="position")
     return array

@@ -190,11 +190,11 @@ def tabulate_line(
         For an empty window or one that reaches under the bed.
     """
     if not (0.0 <= horizontal_range[0] < horizontal_range[1] and vertical_range[0] < vertical_range[1]):
-        raise InputError(f"window {horizontal_range} x {vertical_range} m is empty", path="horizontal_range")
+        raise InputError(f"window {horizontal_range} x {vertical_range} m is empty", parameter="horizontal_range")
     if line.bed_clearance(water_depth) >= 0.0 and line.anchor[2] + vertical_range[0] < -water_depth:
-        raise InputError("the window reaches under the bed", path="vertical_range", remedy="raise its lower limit")
+        raise InputError("the window reaches under the bed", parameter="vertical_range", remedy="raise its lower limit")
     if not tolerance > 0.0:
-        raise InputError(f"{tolerance:g}", path="tolerance", allowed="greater than 0")
+        raise InputError(f"{tolerance:g}", parameter="tolerance", allowed="greater than 0")
     z = np.linspace(*vertical_range, 5)
     lift = _lift_off_distance(line, water_depth, z)
     aligned = lift is not None and bool(np.any((lift > horizontal_range[0]) & (lift < horizontal_range[1])))
@@ -308,7 +308,7 @@ def compile_lines(
         When only one of range and tolerance is given, or a line does not follow the protocol.
     """
     if (motion_range is None) != (tolerance is None):
-        raise InputError("tables need both a motion range and a tolerance", path="tolerance")
+        raise InputError("tables need both a motion range and a tolerance", parameter="tolerance")
     parameters = np.zeros((len(system.lines), 16))
     index = np.full((len(system.lines), 8), -1, dtype=np.int64)
     nodes: list[Array] = [np.zeros(1)]
@@ -325,7 +325,7 @@ def compile_lines(
             row[pk.RATE], row[pk.NATURAL], row[pk.TENSION_ONLY] = line.stiffness, line.natural_length, line.tension_only
             continue
         if not isinstance(line, Line):
-            raise InputError(f"{type(line).__name__} cannot be compiled", path=f"lines.{line.name}")
+            raise InputError(f"{type(line).__name__} cannot be compiled", parameter=f"lines.{line.name}")
         rows = line.table
         row[pk.KIND] = pk.UNIFORM if line.is_uniform else pk.SEGMENTED
         row[pk.LENGTH], row[pk.AXIAL], row[pk.WEIGHT] = line.length, rows[0, 1], rows[0, 2]
@@ -364,7 +364,7 @@ def _window(
     if line.bed_clearance(depth) >= 0.0:
         bottom = max(bottom, -depth - line.anchor[2] + 1e-9 * line.length)
     if not (high > low and top > bottom):
-        raise InputError("the motion range gives this line no room", path=f"lines.{line.name}")
+        raise InputError("the motion range gives this line no room", parameter=f"lines.{line.name}")
     wide_bottom, wide_top = _outward(bottom, top)
     floor = -math.inf if line.bed_clearance(depth) < 0.0 else -depth - line.anchor[2] + 1e-9 * line.length
     return _outward(low, high), (max(wide_bottom, floor), wide_top)

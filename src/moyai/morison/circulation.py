@@ -70,17 +70,19 @@ class CirculationLaw:
     def __post_init__(self) -> None:
         if isinstance(self.strength, str) and self.strength not in STRENGTHS:
             raise InputError(
-                f"unknown circulation '{self.strength}'", path="strength", allowed="a number, " + ", ".join(STRENGTHS)
+                f"unknown circulation '{self.strength}'",
+                parameter="strength",
+                allowed="a number, " + ", ".join(STRENGTHS),
             )
         if not 0.0 <= self.gamma() <= LAMINAR_EDGE_LAGRANGIAN:
             raise InputError(
                 f"strength is {self.gamma():g}",
-                path="strength",
+                parameter="strength",
                 allowed=f"0 to {LAMINAR_EDGE_LAGRANGIAN:g}, the laminar ceiling of particles",
             )
         if not (math.isfinite(self.relaxation_periods) and self.relaxation_periods > 0.0):
             raise InputError(
-                f"relaxation_periods is {self.relaxation_periods:g}", path="relaxation_periods", allowed="above 0"
+                f"relaxation_periods is {self.relaxation_periods:g}", parameter="relaxation_periods", allowed="above 0"
             )
         _check_rows("table", self.table, 2)
         _check_rows("beta_table", self.beta_table, 1)
@@ -88,11 +90,11 @@ class CirculationLaw:
             if not 0.0 <= gamma <= LAMINAR_EDGE_LAGRANGIAN:
                 raise InputError(
                     f"gamma is {gamma:g} at beta {beta:g}",
-                    path="beta_table",
+                    parameter="beta_table",
                     allowed=f"0 to {LAMINAR_EDGE_LAGRANGIAN:g}, the laminar ceiling of particles",
                 )
         if any(fall < 0.0 for _, fall in self.table):
-            raise InputError("table holds a reduction below 0", path="table", allowed="at least 0")
+            raise InputError("table holds a reduction below 0", parameter="table", allowed="at least 0")
 
     @property
     def counted(self) -> bool:
@@ -153,9 +155,9 @@ def _check_rows(name: str, rows: tuple[tuple[float, float], ...], least: int) ->
         return
     values = np.asarray(rows, dtype=float)
     if values.ndim != 2 or values.shape[1] != 2 or not np.isfinite(values).all():
-        raise InputError(f"{name} needs rows of two numbers", path=name)
+        raise InputError(f"{name} needs rows of two numbers", parameter=name)
     if len(values) < least or not (np.diff(values[:, 0]) > 0.0).all() or values[0, 0] <= 0.0:
-        raise InputError(f"{name} does not rise from above 0", path=name, allowed=f"at least {least} rows, rising")
+        raise InputError(f"{name} does not rise from above 0", parameter=name, allowed=f"at least {least} rows, rising")
 
 
 def settled_circulation(gamma: float, first: ArrayLike, second: ArrayLike, period: ArrayLike) -> Array:

@@ -73,11 +73,11 @@ class KeuleganCarpenterTable:
     def __post_init__(self) -> None:
         values = np.asarray(self.rows, dtype=float)
         if values.ndim != 2 or values.shape[1] != 3 or len(values) < 2:
-            raise InputError("a table over KC needs two rows or more of KC and coefficients", path="table")
+            raise InputError("a table over KC needs two rows or more of KC and coefficients", parameter="table")
         if not np.isfinite(values).all() or (values < 0.0).any():
-            raise InputError("a table over KC holds a negative value", path="table", allowed="at least 0")
+            raise InputError("a table over KC holds a negative value", parameter="table", allowed="at least 0")
         if not (np.diff(values[:, 0]) > 0.0).all():
-            raise InputError("KC does not rise in a table of coefficients", path="table", allowed="rising rows")
+            raise InputError("KC does not rise in a table of coefficients", parameter="table", allowed="rising rows")
 
     def at(self, keulegan_carpenter: float, name: str, notices: list[Notice]) -> Array:
         """Return both coefficients at a KC; outside the table its end values, with a notice."""
@@ -109,11 +109,11 @@ class CoefficientRule:
         for name, value, laws in (("drag", self.drag, DRAG_LAWS), ("inertia", self.inertia, INERTIA_LAWS)):
             if isinstance(value, str):
                 if value not in laws:
-                    raise InputError(f"unknown {name} law '{value}'", path=name, allowed=", ".join(laws))
+                    raise InputError(f"unknown {name} law '{value}'", parameter=name, allowed=", ".join(laws))
             elif not isinstance(value, KeuleganCarpenterTable) and not all(
                 math.isfinite(item) and item >= 0.0 for item in value
             ):
-                raise InputError(f"{name} coefficients are {value}", path=name, allowed="at least 0")
+                raise InputError(f"{name} coefficients are {value}", parameter=name, allowed="at least 0")
 
     def at(self, section: MemberSection, flow: Conditions) -> StripCoefficients:
         """Return the coefficients of a section in a flow.
@@ -165,6 +165,10 @@ class CoefficientRule:
         return np.full(2, dnv_drag(flow.keulegan_carpenter, flow.relative_roughness))
 
 
+#: KC beyond which the recommended practice gives a figure for the amplification of drag.
+DNV_CREST = 12.0
+
+
 def dnv_steady_drag(relative_roughness: float) -> float:
     """Return the steady drag coefficient of a circle in post-critical flow by its roughness k/D (DNV-RP-C205, 6.7.1).
 
@@ -190,7 +194,7 @@ def dnv_drag(keulegan_carpenter: float, relative_roughness: float) -> float:
     elif keulegan_carpenter < 2.0:
         factor = level - 1.0
     else:
-        factor = level + 0.10 * (min(keulegan_carpenter, 12.0) - 12.0)
+        factor = level + 0.10 * (min(keulegan_carpenter, DNV_CREST) - 12.0)
     return steady * factor
 
 
@@ -214,7 +218,9 @@ def _steady(section: MemberSection, flow: Conditions, notices: list[Notice]) -> 
         drag = np.array([entry.drag for entry in entries])
     else:
         raise InputError(
-            f"there is no steady drag of a {section.name}", path="drag", remedy="give the two coefficients as numbers"
+            f"there is no steady drag of a {section.name}",
+            parameter="drag",
+            remedy="give the two coefficients as numbers",
         )
     if flow.keulegan_carpenter < 20.0:
         notices.append(
@@ -234,7 +240,7 @@ def _require_circle(section: MemberSection, law: str, name: str) -> None:
     if not section.is_circle:
         raise InputError(
             f"the law '{law}' speaks of circles, the section is a {section.name}",
-            path=name,
+            parameter=name,
             allowed="circle",
             remedy="use 'ideal' or give numbers" if name == "inertia" else "use 'steady' or give numbers",
         )
@@ -258,13 +264,13 @@ def _range_notices(what: str, entry: DragEntry, flow: Conditions) -> list[Notice
 
 def _dnv_notices(flow: Conditions) -> list[Notice]:
     notices = _range_notices("DNV-RP-C205's drag", DragEntry(math.nan, math.nan, 1e6, math.inf, False, "D"), flow)
-    if flow.keulegan_carpenter > 12.0:
+    if flow.keulegan_carpenter > DNV_CREST:
         notices.append(
             Notice(
                 "drag-keulegan-carpenter",
                 f"the amplification of drag keeps its crest of KC = 12 at KC = {flow.keulegan_carpenter:.3g}",
                 value=flow.keulegan_carpenter,
-                limit=12.0,
+                limit=DNV_CREST,
                 severity="information",
                 source="DNV-RP-C205, 6.7.2",
             )

@@ -41,24 +41,30 @@ class Contour:
     def __post_init__(self) -> None:
         vertices = np.array(self.vertices, dtype=float)
         if vertices.ndim != 2 or vertices.shape[1] != 2:
-            raise InputError(f"corners have shape {vertices.shape}", path="points", allowed="(n, 2): x, z of each")
+            raise InputError(f"corners have shape {vertices.shape}", parameter="points", allowed="(n, 2): x, z of each")
         bulges = np.zeros(len(vertices)) if self.bulges is None else np.array(self.bulges, dtype=float)
         if bulges.shape != (len(vertices),):
-            raise InputError(f"{bulges.size} bulges for {len(vertices)} corners", path="bulges", allowed="one a corner")
+            raise InputError(
+                f"{bulges.size} bulges for {len(vertices)} corners", parameter="bulges", allowed="one a corner"
+            )
         if not (np.isfinite(vertices).all() and np.isfinite(bulges).all()):
-            raise InputError("a corner or a bulge is not a finite number", path="points")
+            raise InputError("a corner or a bulge is not a finite number", parameter="points")
         if len(vertices) > 1 and (vertices[0] == vertices[-1]).all():
             vertices, bulges = vertices[:-1], bulges[:-1]
         if len(vertices) < 2 or (len(vertices) == 2 and not bulges.any()):
-            raise InputError(f"the section has {len(vertices)} different corners", path="points", allowed="at least 3")
+            raise InputError(
+                f"the section has {len(vertices)} different corners", parameter="points", allowed="at least 3"
+            )
         size = float(np.ptp(vertices, axis=0).max())
         steps = np.hypot(*(np.roll(vertices, -1, axis=0) - vertices).T)
         if (steps <= _TOUCH * size).any():
             where = int(np.argmin(steps))
-            raise InputError(f"corners {where + 1} and {(where + 1) % len(vertices) + 1} coincide", path="points")
+            raise InputError(f"corners {where + 1} and {(where + 1) % len(vertices) + 1} coincide", parameter="points")
         area = _area(vertices, bulges)
         if abs(area) <= 1e-12 * size**2:
-            raise InputError("the section encloses no area", path="points", remedy="give the corners once around it")
+            raise InputError(
+                "the section encloses no area", parameter="points", remedy="give the corners once around it"
+            )
         if area < 0.0:
             vertices, bulges = vertices[::-1], -np.roll(bulges[::-1], -1)
         for name, values in (("vertices", vertices), ("bulges", bulges)):
@@ -79,7 +85,7 @@ class Contour:
             if meet.any():
                 raise InputError(
                     f"the section meets itself near x = {a[i].real:g} m, z = {a[i].imag:g} m",
-                    path="points",
+                    parameter="points",
                     remedy="list the corners once around the section",
                 )
 

@@ -39,7 +39,7 @@ def circle_velocity(points: ArrayLike, radius: float, stream: ArrayLike, circula
     z = place[..., 0] + 1j * place[..., 1]
     if (np.abs(z) < radius * (1.0 - 1e-12)).any():
         raise InputError(
-            "a point lies inside the circle", path="points", allowed=f"at least {radius:g} m from its axis"
+            "a point lies inside the circle", parameter="points", allowed=f"at least {radius:g} m from its axis"
         )
     u, w = (float(value) for value in np.asarray(stream, dtype=float))
     # conjugate velocity: stream, doublet, clockwise vortex

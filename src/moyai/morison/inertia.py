@@ -106,7 +106,7 @@ def _remembered(vertices: bytes, bulges: bytes, accuracy: float) -> InertiaCoeff
     if not (error < 1e-3 and skew < 1e-3):
         raise ConvergenceError(
             f"inertia coefficients of the section change by {error:.2g} on refinement",
-            path="section",
+            parameter="section",
             remedy="draw it with fewer corners or less extreme proportions",
         )
     check = IdentityCheck(

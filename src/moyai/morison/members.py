@@ -37,12 +37,12 @@ class StraightMember:
         for name in ("start", "end"):
             point = tuple(float(value) for value in getattr(self, name))
             if len(point) != 3 or not all(math.isfinite(value) for value in point):
-                raise InputError(f"{name} of the member is {point}", path=name, allowed="three finite numbers")
+                raise InputError(f"{name} of the member is {point}", parameter=name, allowed="three finite numbers")
             object.__setattr__(self, name, point)
         if self.length <= 0.0:
-            raise InputError("both ends of the member coincide", path="end")
+            raise InputError("both ends of the member coincide", parameter="end")
         if not math.isfinite(self.section_angle):
-            raise InputError(f"section_angle is {self.section_angle}", path="section_angle", allowed="finite")
+            raise InputError(f"section_angle is {self.section_angle}", parameter="section_angle", allowed="finite")
 
     @property
     def length(self) -> float:
@@ -82,7 +82,7 @@ class StraightMember:
     def strips(self, count: int) -> Strips:
         """Cut the member into equal strips."""
         if count < 1:
-            raise InputError(f"{count} strips", path="strips", allowed="at least 1")
+            raise InputError(f"{count} strips", parameter="strips", allowed="at least 1")
         share = (np.arange(count) + 0.5) / count
         start, end = np.asarray(self.start), np.asarray(self.end)
         first, second, along = self.axes

@@ -78,16 +78,18 @@ def foul(net: Net, diameter_factor: float, density: float) -> FouledNet:
     """
     if not (math.isfinite(diameter_factor) and diameter_factor >= 1.0):
         raise InputError(
-            f"diameter_factor is {diameter_factor:g}", path="diameter_factor", allowed="at least 1, which is no growth"
+            f"diameter_factor is {diameter_factor:g}",
+            parameter="diameter_factor",
+            allowed="at least 1, which is no growth",
         )
     if not (math.isfinite(density) and density > 0.0):
-        raise InputError(f"density of the growth is {density:g} kg/m3", path="density", allowed="greater than 0")
+        raise InputError(f"density of the growth is {density:g} kg/m3", parameter="density", allowed="greater than 0")
     grown = diameter_factor * net.twine_diameter
     limit = net.mesh_pitch / net.twine_diameter
     if grown >= net.mesh_pitch:
         raise InputError(
             f"growth by a factor of {diameter_factor:g} closes the meshes",
-            path="diameter_factor",
+            parameter="diameter_factor",
             allowed=f"below {limit:.4g} for this net",
             remedy="a closed net is a wall: give its drag as measured",
         )
@@ -106,7 +108,7 @@ def _raised(name: str, given: float | None, rise: float, factor: float) -> float
         return None if given is None else given * rise
     raise InputError(
         f"growth by a factor of {factor:g} raises {name} to {given * rise:.3g}",
-        path="diameter_factor",
+        parameter="diameter_factor",
         allowed="a solidity between 0 and 1",
     )
 
@@ -123,7 +125,7 @@ def foul_by_name(net: Net, name: str) -> FouledNet:
     if math.isnan(entry.diameter_factor):
         raise InputError(
             f"the growth '{name}' is given as a factor on drag",
-            path="fouling",
+            parameter="fouling",
             remedy=f"multiply the drag by {entry.drag_factor:g}, or use diameter_for_drag",
         )
     return foul(net, entry.diameter_factor, entry.density)
@@ -149,7 +151,7 @@ def diameter_for_drag(law: NetLaw, net: Net, drag_factor: float, *, speed: float
     from scipy.optimize import brentq
 
     if not (math.isfinite(drag_factor) and drag_factor >= 1.0):
-        raise InputError(f"drag_factor is {drag_factor:g}", path="drag_factor", allowed="at least 1")
+        raise InputError(f"drag_factor is {drag_factor:g}", parameter="drag_factor", allowed="at least 1")
     plain = dataclasses.replace(net, solidity_listed=None, solidity_measured=None)
     clean = float(law.coefficients(0.0, speed, plain, viscosity)[0])
     most = 1.0 + _CLOSED * (net.mesh_pitch / net.twine_diameter - 1.0)
@@ -161,7 +163,7 @@ def diameter_for_drag(law: NetLaw, net: Net, drag_factor: float, *, speed: float
     if excess(most) < 0.0:
         raise InputError(
             f"{law.name} does not reach {drag_factor:g} times the drag of {clean:.3g} before the meshes close",
-            path="drag_factor",
+            parameter="drag_factor",
             allowed=f"up to {excess(most) + drag_factor:.3g}",
         )
     return float(brentq(excess, 1.0, most, xtol=1e-12))

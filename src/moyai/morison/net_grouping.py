@@ -64,9 +64,11 @@ def group_twines(
     """
     for name, value in (("spacing", spacing), ("density", density), ("modulus", modulus)):
         if not (math.isfinite(value) and value > 0.0):
-            raise InputError(f"{name} is {value:g}", path=name, allowed="greater than 0")
+            raise InputError(f"{name} is {value:g}", parameter=name, allowed="greater than 0")
     if mass_per_area is not None and not (math.isfinite(mass_per_area) and mass_per_area > 0.0):
-        raise InputError(f"mass_per_area is {mass_per_area:g} kg/m2", path="mass_per_area", allowed="greater than 0")
+        raise InputError(
+            f"mass_per_area is {mass_per_area:g} kg/m2", parameter="mass_per_area", allowed="greater than 0"
+        )
     count = spacing / net.mesh_pitch
     section = math.pi / 4.0 * net.twine_diameter**2
     material = count * section
@@ -79,34 +81,4 @@ def group_twines(
         mass_per_length=mass,
         volume_per_length=material if mass_per_area is None else mass / density,
         axial_stiffness=modulus * material,
-    )
-
-
-def panel_bars(
-    net: Net, width: float, height: float, columns: int, rows: int, *, density: float, modulus: float
-) -> tuple[tuple[GroupedTwine, int, float], ...]:
-    """Return the bars of a rectangular panel cut into columns and rows: bar, how many, length of each [m].
-
-    Parameters
-    ----------
-    net : Net
-    width, height : float
-        Of the panel [m].
-    columns, rows : int
-        Grouped meshes across and up.
-    density, modulus : float
-        Of the twine [kg/m3], [Pa].
-    """
-    if columns < 1 or rows < 1:
-        raise InputError(f"{columns} columns and {rows} rows", path="columns", allowed="at least 1 of each")
-    across, up = width / columns, height / rows
-
-    def bar(spacing: float) -> GroupedTwine:
-        return group_twines(net, spacing, density=density, modulus=modulus)
-
-    return (
-        (bar(across), (columns - 1) * rows, up),
-        (bar(0.5 * across), 2 * rows, up),
-        (bar(up), (rows - 1) * columns, across),
-        (bar(0.5 * up), 2 * columns, across),
     )

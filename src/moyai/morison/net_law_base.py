@@ -90,12 +90,12 @@ class NetLaw(ABC):
         if not (np.isfinite(kinematic_viscosity) and kinematic_viscosity > 0.0):
             raise InputError(
                 f"kinematic_viscosity is {kinematic_viscosity:g} m2/s",
-                path="kinematic_viscosity",
+                parameter="kinematic_viscosity",
                 allowed="greater than 0 m2/s",
             )
         turned, fast = np.broadcast_arrays(np.asarray(angle, dtype=float), np.abs(np.asarray(speed, dtype=float)))
         if not (np.isfinite(turned).all() and np.isfinite(fast).all()):
-            raise InputError("angle or speed is not a finite number", path="angle")
+            raise InputError("angle or speed is not a finite number", parameter="angle")
         # fold: the cosine keeps its size, the sine too
         folded = np.arctan2(np.abs(np.sin(turned)), np.abs(np.cos(turned)))
         drag, lift = self._coefficients(folded, fast, net, kinematic_viscosity)
@@ -187,7 +187,9 @@ def panel_force(
     across = np.asarray(normal, dtype=float)
     length = float(np.linalg.norm(across))
     if not (np.isfinite(length) and length > 0.0):
-        raise InputError("the normal of the panel has no length", path="normal", allowed="a vector that is not zero")
+        raise InputError(
+            "the normal of the panel has no length", parameter="normal", allowed="a vector that is not zero"
+        )
     across = across / length
     speed = np.linalg.norm(flow, axis=-1)
     along = flow / np.where(speed > 0.0, speed, 1.0)[..., None]

@@ -69,7 +69,7 @@ def net_law(name: str, **options: object) -> NetLaw:
         near = difflib.get_close_matches(name, available_net_laws(), 1, 0.3)
         raise InputError(
             f"unknown net law '{name}'",
-            path="law",
+            parameter="law",
             allowed=", ".join(available_net_laws()),
             remedy=f"did you mean '{near[0]}'?" if near else "or a power law such as '11.4 Re^-0.40'",
         )
@@ -78,7 +78,9 @@ def net_law(name: str, **options: object) -> NetLaw:
     unknown = [key for key in options if key not in known]
     if unknown:
         raise InputError(
-            f"the net law '{name}' has no option '{unknown[0]}'", path=unknown[0], allowed=", ".join(known) or "none"
+            f"the net law '{name}' has no option '{unknown[0]}'",
+            parameter=unknown[0],
+            allowed=", ".join(known) or "none",
         )
     return law(**{**(numbers or {}), **options})
 

@@ -69,7 +69,7 @@ def wake_factor(
         For an unknown name.
     """
     if name not in WAKE_LAWS:
-        raise InputError(f"unknown wake law '{name}'", path="wake", allowed=", ".join(WAKE_LAWS))
+        raise InputError(f"unknown wake law '{name}'", parameter="wake", allowed=", ".join(WAKE_LAWS))
     return WAKE_LAWS[name](law, net, angle, speed, viscosity)
 
 
@@ -93,7 +93,7 @@ def speed_through(
         Kinematic [m2/s].
     """
     if len(nets) != len(angles):
-        raise InputError(f"{len(angles)} angles for {len(nets)} nets", path="angles", allowed="one each")
+        raise InputError(f"{len(angles)} angles for {len(nets)} nets", parameter="angles", allowed="one each")
     speeds = [float(speed)]
     for net, angle in zip(nets, angles):
         speeds.append(speeds[-1] * float(wake_factor(name, law, net, angle, speed=speeds[-1], viscosity=viscosity)))

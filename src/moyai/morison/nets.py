@@ -36,23 +36,23 @@ class Net:
         for name in ("twine_diameter", "mesh_pitch"):
             value = getattr(self, name)
             if not (math.isfinite(value) and value > 0.0):
-                raise InputError(f"{name} is {value:g} m", path=name, allowed="greater than 0 m")
+                raise InputError(f"{name} is {value:g} m", parameter=name, allowed="greater than 0 m")
         for name in ("solidity_listed", "solidity_measured"):
             value = getattr(self, name)
             if value is not None and not (math.isfinite(value) and 0.0 < value < 1.0):
                 remedy = f"a percentage is written as a share: {value / 100.0:g}" if 1.0 < value < 100.0 else ""
-                raise InputError(f"{name} is {value:g}", path=name, allowed="between 0 and 1", remedy=remedy)
+                raise InputError(f"{name} is {value:g}", parameter=name, allowed="between 0 and 1", remedy=remedy)
         if self.twine_diameter >= self.mesh_pitch:
             raise InputError(
                 f"twines of {self.twine_diameter * 1e3:.4g} mm close meshes of {self.mesh_pitch * 1e3:.4g} mm pitch",
-                path="mesh_pitch",
+                parameter="mesh_pitch",
                 allowed="greater than the twine diameter",
                 remedy="the pitch is the aperture plus the diameter, the bar length of a mesh",
             )
         if self.solidity_geometric >= 1.0:
             raise InputError(
                 f"knots of this net shade {self.solidity_geometric:.3g} of its area",
-                path="knotted",
+                parameter="knotted",
                 allowed="a solidity between 0 and 1",
                 remedy="use a thinner twine or a wider mesh",
             )
@@ -68,7 +68,7 @@ class Net:
     def from_solidity(cls, twine_diameter: float, solidity: float) -> Net:
         """Return the knotless net of a geometric solidity [-], its pitch found from it [m]."""
         if not (math.isfinite(solidity) and 0.0 < solidity < 1.0):
-            raise InputError(f"solidity is {solidity:g}", path="solidity", allowed="between 0 and 1")
+            raise InputError(f"solidity is {solidity:g}", parameter="solidity", allowed="between 0 and 1")
         return cls(twine_diameter, twine_diameter / (1.0 - math.sqrt(1.0 - solidity)))
 
     @property

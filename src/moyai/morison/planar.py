@@ -14,7 +14,9 @@ from moyai.core.errors import InputError
 def _positive(name: str, value: ArrayLike) -> Array:
     array = np.asarray(value, dtype=float)
     if not (np.isfinite(array).all() and (array > 0.0).all()):
-        raise InputError(f"{name} holds a value that is not a positive number", path=name, allowed="greater than 0")
+        raise InputError(
+            f"{name} holds a value that is not a positive number", parameter=name, allowed="greater than 0"
+        )
     return array
 
 

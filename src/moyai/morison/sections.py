@@ -65,7 +65,7 @@ class MemberSection:
 def _positive(**lengths: float) -> None:
     for name, value in lengths.items():
         if not (math.isfinite(value) and value > 0.0):
-            raise InputError(f"{name} is {value:g} m", path=name, allowed="greater than 0 m")
+            raise InputError(f"{name} is {value:g} m", parameter=name, allowed="greater than 0 m")
 
 
 def circle(diameter: float) -> MemberSection:
@@ -96,7 +96,7 @@ def rounded_rectangle(width: float, height: float, corner_radius: float) -> Memb
     _positive(width=width, height=height, corner_radius=corner_radius)
     b, h, r = 0.5 * width, 0.5 * height, corner_radius
     if not r < min(b, h):
-        raise InputError(f"corner_radius is {r:g} m", path="corner_radius", allowed=f"less than {min(b, h):g} m")
+        raise InputError(f"corner_radius is {r:g} m", parameter="corner_radius", allowed=f"less than {min(b, h):g} m")
     quarter = math.tan(math.pi / 8.0)
     points = [(-b + r, -h), (b - r, -h), (b, -h + r), (b, h - r), (b - r, h), (-b + r, h), (-b, h - r), (-b, -h + r)]
     return MemberSection(Contour(np.array(points), np.array([0.0, quarter] * 4)), "rounded rectangle")

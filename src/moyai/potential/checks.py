@@ -33,12 +33,12 @@ def check_frequencies(omega: ArrayLike) -> Array:
     """
     values = np.atleast_1d(np.asarray(omega, dtype=float))
     if values.ndim != 1 or values.size == 0:
-        raise InputError("no frequency was given", path="omega", allowed="one or more, in rad/s")
+        raise InputError("no frequency was given", parameter="omega", allowed="one or more, in rad/s")
     if not np.isfinite(values).all() or (values <= 0.0).any():
         bad = values[~(np.isfinite(values) & (values > 0.0))][0]
         raise InputError(
             f"omega contains {bad:g} rad/s",
-            path="omega",
+            parameter="omega",
             allowed="finite and greater than 0",
             remedy="the limits at zero and infinity are in the dataset under names of their own",
         )
@@ -55,12 +55,12 @@ def check_headings(heading: ArrayLike) -> Array:
     """
     values = np.atleast_1d(np.asarray(heading, dtype=float))
     if values.ndim != 1 or values.size == 0 or not np.isfinite(values).all():
-        raise InputError("heading is not a list of finite angles", path="heading", allowed="radians")
+        raise InputError("heading is not a list of finite angles", parameter="heading", allowed="radians")
     if (np.abs(values) > math.radians(89.5)).any():
         worst = float(values[np.argmax(np.abs(values))])
         raise InputError(
             f"heading contains {math.degrees(worst):g} degrees",
-            path="heading",
+            parameter="heading",
             allowed="-89.5 to 89.5 degrees from +x",
             remedy="waves from the other side meet the mirrored section: turn x round",
         )
@@ -78,7 +78,7 @@ def check_arguments(section: object, modes: object) -> None:
     if isinstance(section, Hull):
         raise InputError(
             f"{section.name} is a hull in its own frame",
-            path="section",
+            parameter="section",
             allowed="a Section",
             remedy="set it into the water: hull.immersed(draught=...)",
         )
@@ -86,7 +86,10 @@ def check_arguments(section: object, modes: object) -> None:
         if not isinstance(given, kind):
             remedy = "rigid_modes(centre) gives sway, heave and roll" if name == "modes" else "shapes make hulls"
             raise InputError(
-                f"{type(given).__name__} is no {kind.__name__}", path=name, allowed=f"a {kind.__name__}", remedy=remedy
+                f"{type(given).__name__} is no {kind.__name__}",
+                parameter=name,
+                allowed=f"a {kind.__name__}",
+                remedy=remedy,
             )
 
 
@@ -111,7 +114,7 @@ def check_section(section: Section, water: Water) -> None:
     if clearance <= 1e-6 * -low:
         raise InputError(
             f"{section.name} reaches down to z = {low:g} m in water {water.depth:g} m deep",
-            path="section",
+            parameter="section",
             allowed=f"clearance above the bed greater than 0 (found {clearance:g} m)",
             remedy="reduce the draught, shorten the plate or take a higher water level",
         )
@@ -131,7 +134,7 @@ def _check_waterline(plate: WettedPlate, name: str) -> None:
         if angle < _LEAST_ANGLE:
             raise InputError(
                 f"a plate of {name} leaves the still water at {angle:.3g} degrees",
-                path="section",
+                parameter="section",
                 allowed=f"{_LEAST_ANGLE:g} degrees or more at a finite frequency",
                 remedy="waves never come back from so thin a wedge; take another arc, or the limit of infinite "
                 "frequency (solve_plate_limit)",

@@ -83,7 +83,7 @@ class DampingModel:
         """
         w = np.atleast_1d(np.asarray(omega, dtype=float))
         if (w <= 0.0).any():
-            raise InputError("a frequency is not positive", path="omega", allowed="greater than 0")
+            raise InputError("a frequency is not positive", parameter="omega", allowed="greater than 0")
         last = self.knots[-1]
         edges = np.concatenate([self.knots, last * np.geomspace(1.0, _ASYMPTOTIC, 48)[1:]])
         half = 0.5 * np.diff(edges)
@@ -117,7 +117,7 @@ class DampingModel:
 def _times(time: ArrayLike) -> Array:
     t = np.atleast_1d(np.asarray(time, dtype=float))
     if t.ndim != 1 or not np.isfinite(t).all() or (t < 0.0).any():
-        raise InputError("time has entries that are negative or not finite", path="time", allowed="at least 0")
+        raise InputError("time has entries that are negative or not finite", parameter="time", allowed="at least 0")
     return t
 
 
@@ -155,13 +155,13 @@ def fit_damping(
     w = np.asarray(omega, dtype=float)
     b = np.asarray(radiation_damping, dtype=float)
     if w.ndim != 1 or len(w) < _FEWEST:
-        raise InputError(f"{w.size} frequencies", path="omega", allowed=f"at least {_FEWEST}, in one dimension")
+        raise InputError(f"{w.size} frequencies", parameter="omega", allowed=f"at least {_FEWEST}, in one dimension")
     if not np.isfinite(w).all() or w[0] <= 0.0 or (np.diff(w) <= 0.0).any():
-        raise InputError("omega is not finite, positive and increasing", path="omega")
+        raise InputError("omega is not finite, positive and increasing", parameter="omega")
     if b.ndim != 3 or b.shape[0] != len(w) or b.shape[1] != b.shape[2] or not np.isfinite(b).all():
         raise InputError(
             f"radiation damping has the shape {b.shape} or is not finite",
-            path="radiation_damping",
+            parameter="radiation_damping",
             allowed=f"({len(w)}, m, m)",
         )
     steady = None if steady_damping is None else np.asarray(steady_damping, dtype=float)

@@ -58,7 +58,7 @@ def _amplitudes(solution: RadiationDiffraction, motions: ComplexArray | None) ->
     values = np.asarray(motions, dtype=complex)
     if values.shape != shape or not np.isfinite(values).all():
         raise InputError(
-            f"motions have shape {values.shape} or are not finite", path="motions", allowed=f"shape {shape}"
+            f"motions have shape {values.shape} or are not finite", parameter="motions", allowed=f"shape {shape}"
         )
     return values
 
@@ -120,7 +120,7 @@ def _rigid_centre(solution: RadiationDiffraction) -> tuple[tuple[int, int, int],
     if len(found) != 3 or len(solution.modes) != 3:
         raise InputError(
             "pressure integration needs sway, heave and roll of the whole section and no other mode",
-            path="modes",
+            parameter="modes",
             remedy="solve with rigid_modes(centre); the far-field drift works with any modes",
         )
     return (found["sway"], found["heave"], found["roll"]), centre
@@ -244,7 +244,7 @@ class _Faces:
         if part.heading != 0.0:
             raise InputError(
                 "drift by pressure on thin plates is for normal incidence only",
-                path="heading",
+                parameter="heading",
                 remedy="take mean_drift_far_field, which holds for any heading",
             )
         body, omega = part.body, part.states.omega[:, None]

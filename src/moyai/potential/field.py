@@ -70,7 +70,7 @@ def potential_at(
     """
     place = np.atleast_2d(np.asarray(points, dtype=float))
     if place.ndim != 2 or place.shape[1] != 2 or not np.isfinite(place).all():
-        raise InputError(f"points have shape {place.shape} or are not finite", path="points", allowed="(n, 2)")
+        raise InputError(f"points have shape {place.shape} or are not finite", parameter="points", allowed="(n, 2)")
     part = solution.normal
     states, water = part.states, solution.water
     omega = float(states.omega[index])
@@ -78,7 +78,9 @@ def potential_at(
     if motions is not None:
         speed = -1j * omega * np.asarray(motions, dtype=complex)
         if speed.shape != (len(solution.modes),):
-            raise InputError(f"motions have shape {speed.shape}", path="motions", allowed=f"({len(solution.modes)},)")
+            raise InputError(
+                f"motions have shape {speed.shape}", parameter="motions", allowed=f"({len(solution.modes)},)"
+            )
 
     unit = -1j * water.gravity / omega * amplitude
     one = slice(index, index + 1)

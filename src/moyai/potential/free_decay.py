@@ -52,7 +52,7 @@ def decay_by_frequency(
     x0, m, c = (np.asarray(item, dtype=float) for item in (offset, mass, stiffness))
     infinite = np.asarray(infinite_frequency_added_mass, dtype=float)
     if m.shape != c.shape or m.shape != infinite.shape or x0.shape != m.shape[:1]:
-        raise InputError("offset, mass, stiffness and added mass do not belong together", path="mass")
+        raise InputError("offset, mass, stiffness and added mass do not belong together", parameter="mass")
 
     def density(frequency: Array) -> Array:
         w = frequency[:, None, None]

@@ -97,12 +97,12 @@ def memory_functions(
     if infinite.shape != model.steady.shape or not np.isfinite(infinite).all():
         raise InputError(
             f"infinite-frequency added mass has the shape {infinite.shape} or is not finite",
-            path="infinite_frequency_added_mass",
+            parameter="infinite_frequency_added_mass",
             allowed=f"{model.steady.shape}",
         )
     t = np.asarray(time, dtype=float)
     if t.ndim != 1 or len(t) < 2 or t[0] != 0.0 or (np.diff(t) <= 0.0).any():
-        raise InputError("time does not increase from 0", path="time")
+        raise InputError("time does not increase from 0", parameter="time")
     kernel = model.velocity_kernel(t)
     integral = model.acceleration_kernel(t)
     w = np.asarray(omega, dtype=float)
@@ -110,7 +110,7 @@ def memory_functions(
     if added_mass is not None:
         mass = np.asarray(added_mass, dtype=float)
         if mass.shape != (len(w), *infinite.shape):
-            raise InputError(f"added mass has the shape {mass.shape}", path="added_mass")
+            raise InputError(f"added mass has the shape {mass.shape}", parameter="added_mass")
         checks.append(kramers_kronig_check(model, w, mass, infinite))
         checks.append(_ogilvie_check(model, w, mass, infinite, t, kernel))
     return MemoryFunctions(t, kernel, integral, model.steady, infinite, model, tuple(checks))

@@ -61,9 +61,9 @@ def recommend_frequencies(
     """
     for name, value in (("breadth", breadth), ("wall_height", wall_height)):
         if not (math.isfinite(value) and value > 0.0):
-            raise InputError(f"{name} is {value:g}", path=name, allowed="greater than 0")
+            raise InputError(f"{name} is {value:g}", parameter=name, allowed="greater than 0")
     if not 1e-6 <= accuracy <= 1e-2:
-        raise InputError(f"accuracy is {accuracy:g}", path="accuracy", allowed="1e-6 to 1e-2")
+        raise InputError(f"accuracy is {accuracy:g}", parameter="accuracy", allowed="1e-6 to 1e-2")
     g = water.gravity
     # Longest waves that feel the body: kh of order 1 or, where that is longer, k breadth of order 1
     if math.isinf(water.depth):

@@ -313,7 +313,7 @@ def too_many_panels() -> InputError:
     """Return the error of a section that no reasonable number of panels resolves."""
     return InputError(
         f"the section in its water needs more than {MOST_PANELS} panels on one side",
-        path="structure.section",
+        parameter="section",
         allowed=f"at most {MOST_PANELS} panels",
         remedy="its largest length is far beyond its smallest gap, edge or draught, or beyond the shortest wave: check "
         "the units of beam, draught, points and periods",

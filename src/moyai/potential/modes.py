@@ -36,13 +36,13 @@ class Modes:
         names, functions = tuple(self.names), tuple(self.functions)
         bodies = tuple(self.bodies) or (None,) * len(names)
         if not names:
-            raise InputError("no mode was given", path="modes")
+            raise InputError("no mode was given", parameter="modes")
         if len(set(names)) != len(names):
-            raise InputError(f"names of modes repeat: {', '.join(names)}", path="modes.names")
+            raise InputError(f"names of modes repeat: {', '.join(names)}", parameter="modes.names")
         if not len(names) == len(functions) == len(bodies):
             raise InputError(
                 f"{len(names)} names, {len(functions)} functions, {len(bodies)} bodies",
-                path="modes",
+                parameter="modes",
                 allowed="equal numbers",
             )
         object.__setattr__(self, "names", names)
@@ -69,7 +69,7 @@ class Modes:
             if field.shape != points.shape or not np.isfinite(field).all():
                 raise InputError(
                     f"mode {self.names[index]} gives displacements of shape {field.shape} or not finite",
-                    path="modes.functions",
+                    parameter="modes.functions",
                     allowed=f"finite, shape {points.shape}",
                 )
             out[index] = np.einsum("ij,ij->i", field, normals)
@@ -111,7 +111,7 @@ def rigid_modes(centre: tuple[float, float], *, body: int | None = None, prefix:
     """
     x, z = float(centre[0]), float(centre[1])
     if not (np.isfinite(x) and np.isfinite(z)):
-        raise InputError(f"centre is ({x:g}, {z:g})", path="centre", allowed="finite numbers")
+        raise InputError(f"centre is ({x:g}, {z:g})", parameter="centre", allowed="finite numbers")
     kinds = ("sway", "heave", "roll")
     moved = None if body is None else (body,)
     return Modes(

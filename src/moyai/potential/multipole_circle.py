@@ -67,15 +67,15 @@ def half_immersed_circle(relative_wave_number: float, mode: str, *, multipoles: 
         When an argument is out of range.
     """
     if mode not in ("sway", "heave"):
-        raise InputError(f"mode is {mode!r}", path="mode", allowed="sway or heave")
+        raise InputError(f"mode is {mode!r}", parameter="mode", allowed="sway or heave")
     ka = float(relative_wave_number)
     if math.isinf(ka) and ka > 0.0:
         # phi = 0: heave is the flow of a dipole; the series of sway has the sum 4/pi^2
         return CircleCoefficients(1.0 if mode == "heave" else 4.0 / math.pi**2, 0.0, 0.0, 0.0)
     if not 1e-6 <= ka <= 20.0:
-        raise InputError(f"K a is {ka:g}", path="relative_wave_number", allowed="1e-6 to 20, or inf")
+        raise InputError(f"K a is {ka:g}", parameter="relative_wave_number", allowed="1e-6 to 20, or inf")
     if multipoles < 32:
-        raise InputError(f"multipoles is {multipoles}", path="multipoles", allowed="at least 32")
+        raise InputError(f"multipoles is {multipoles}", parameter="multipoles", allowed="at least 32")
     counts = [multipoles // 8 * 2**level for level in range(4)]
     levels = np.array([_half_circle(ka, mode == "heave", count) for count in counts])
     added, damping, ratio = (float(value) for value in extrapolated_limit(levels, _EXPONENT))
@@ -177,9 +177,9 @@ def submerged_circle(relative_wave_number: float, submergence: float) -> Submerg
     """
     ka, depth = float(relative_wave_number), float(submergence)
     if not 0.0 < ka <= 20.0:
-        raise InputError(f"K a is {ka:g}", path="relative_wave_number", allowed="greater than 0, at most 20")
+        raise InputError(f"K a is {ka:g}", parameter="relative_wave_number", allowed="greater than 0, at most 20")
     if not (1.02 <= depth < math.inf):
-        raise InputError(f"submergence is {depth:g} radii", path="submergence", allowed="at least 1.02")
+        raise InputError(f"submergence is {depth:g} radii", parameter="submergence", allowed="at least 1.02")
     # The coefficients fall like the inverse powers of the root of s + 1/s = 2 submergence
     decay = math.log(depth + math.sqrt(depth**2 - 1.0))
     count = min(80, 12 + int(36.0 / decay / 2.0))

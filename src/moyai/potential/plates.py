@@ -45,25 +45,29 @@ class PlateLine:
     def __post_init__(self) -> None:
         points = np.array(self.points, dtype=float)
         if points.ndim != 2 or points.shape[1] != 2 or len(points) < 2:
-            raise InputError(f"the plate has points of shape {points.shape}", path="plates", allowed="(2 or more, 2)")
+            raise InputError(
+                f"the plate has points of shape {points.shape}", parameter="plates", allowed="(2 or more, 2)"
+            )
         bulges = np.zeros(len(points) - 1) if self.bulges is None else np.array(self.bulges, dtype=float)
         if bulges.shape != (len(points) - 1,):
             raise InputError(
-                f"the plate has {bulges.size} bulges for {len(points) - 1} edges", path="plates", allowed="one per edge"
+                f"the plate has {bulges.size} bulges for {len(points) - 1} edges",
+                parameter="plates",
+                allowed="one per edge",
             )
         if not (np.isfinite(points).all() and np.isfinite(bulges).all()):
-            raise InputError("a point or a bulge of the plate is not a finite number", path="plates")
+            raise InputError("a point or a bulge of the plate is not a finite number", parameter="plates")
         steps = np.hypot(*np.diff(points, axis=0).T)
         size = float(np.ptp(points, axis=0).max())
         if size == 0.0 or (steps <= 1e-9 * size).any():
-            raise InputError("the plate, or an edge of it, has no length", path="plates", allowed="points apart")
+            raise InputError("the plate, or an edge of it, has no length", parameter="plates", allowed="points apart")
         points.flags.writeable = bulges.flags.writeable = False
         object.__setattr__(self, "points", points)
         object.__setattr__(self, "bulges", bulges)
         line = _chords(self.edges)
         first, second = np.triu_indices(len(line) - 1, 2)
         if segments_meet(line[first], line[first + 1], line[second], line[second + 1], 1e-9 * size).any():
-            raise InputError("the plate meets itself", path="plates", remedy="make several plates of it")
+            raise InputError("the plate meets itself", parameter="plates", remedy="make several plates of it")
 
     @classmethod
     def of(cls, plate: Plate) -> PlateLine:
@@ -229,7 +233,7 @@ def _refuse_loops(links: Sequence[tuple[int, int]], lines: int, hulls: int) -> N
         if group[plate] == group[other]:
             raise InputError(
                 f"plate {plate - hulls + 1} closes a ring around water",
-                path="plates",
+                parameter="plates",
                 allowed="plates that leave every part of the water open to the rest",
                 remedy="draw the enclosed part as a closed outline, or leave a gap",
             )
@@ -278,7 +282,7 @@ def check_plates(outlines: Sequence[Array], plates: Sequence[PlateLine]) -> None
             if bool(inside_polygon(as_points(inner), outline).any()) or _meets(inner, ring):
                 raise InputError(
                     f"plate {number + 1} crosses or enters outline {other + 1}",
-                    path="plates",
+                    parameter="plates",
                     allowed="plates outside the hulls; they may end on them",
                     remedy="cut the plate where it meets the hull",
                 )
@@ -286,7 +290,7 @@ def check_plates(outlines: Sequence[Array], plates: Sequence[PlateLine]) -> None
             if _meets(inner, _inner(lines[other])):
                 raise InputError(
                     f"plates {number + 1} and {other + 1} cross or lie on each other",
-                    path="plates",
+                    parameter="plates",
                     allowed="plates apart; the end of one may lie on the other",
                     remedy="cut one plate in two where they meet",
                 )

@@ -199,7 +199,7 @@ def solve_rectangle(
     k = np.atleast_1d(np.asarray(wave_number(frequencies, water.depth, water.gravity), dtype=float))
     count = _pairs(beam, draught, gap, float(k.max())) if pairs is None else int(pairs)
     if count < 2:
-        raise InputError(f"pairs is {count}", path="pairs", allowed="at least 2")
+        raise InputError(f"pairs is {count}", parameter="pairs", allowed="at least 2")
     shape = _Shape(GapBasis(count), 0.5 * beam / gap, water.depth / gap, draught / gap)
     surface = frequencies**2 / water.gravity * gap
     oblique = np.abs(np.sin(headings)) > _LEAST_SINE
@@ -266,29 +266,31 @@ def _checked(
 ) -> tuple[Array, Array]:
     for name, value in (("beam", beam), ("draught", draught)):
         if not (math.isfinite(value) and value > 0.0):
-            raise InputError(f"{name} is {value:g}", path=name, allowed="greater than 0")
+            raise InputError(f"{name} is {value:g}", parameter=name, allowed="greater than 0")
     if math.isinf(water.depth):
         raise InputError(
             "the matched rectangle needs a bed",
-            path="water.depth",
+            parameter="water.depth",
             allowed="finite",
             remedy="give a depth of many draughts and wave lengths, or use the boundary elements",
         )
     if draught >= water.depth:
         raise InputError(
             f"draught {draught:g} m reaches the bed at {water.depth:g} m",
-            path="draught",
+            parameter="draught",
             allowed="less than the water depth",
         )
     if len(centre) != 2 or not all(math.isfinite(value) for value in centre):
-        raise InputError(f"centre is {centre}", path="centre", allowed="two finite numbers")
+        raise InputError(f"centre is {centre}", parameter="centre", allowed="two finite numbers")
     frequencies = np.atleast_1d(np.asarray(omega, dtype=float))
     if frequencies.ndim != 1 or not np.isfinite(frequencies).all() or (frequencies <= 0.0).any():
-        raise InputError("omega has entries that are not finite and positive", path="omega", allowed="greater than 0")
+        raise InputError(
+            "omega has entries that are not finite and positive", parameter="omega", allowed="greater than 0"
+        )
     headings = np.atleast_1d(np.asarray(heading, dtype=float))
     if headings.ndim != 1 or not np.isfinite(headings).all() or (np.abs(np.cos(headings)) < _LEAST_COSINE).any():
         raise InputError(
-            "a heading runs along the structure or is not finite", path="heading", allowed="cos(heading) not 0"
+            "a heading runs along the structure or is not finite", parameter="heading", allowed="cos(heading) not 0"
         )
     return frequencies, headings
 

@@ -44,21 +44,21 @@ class Outline:
         vertices = np.array(self.vertices, dtype=float)
         if vertices.ndim != 2 or vertices.shape[1] != 2:
             raise InputError(
-                f"vertices have shape {vertices.shape}", path="vertices", allowed="(n, 2): x, z of each corner"
+                f"vertices have shape {vertices.shape}", parameter="vertices", allowed="(n, 2): x, z of each corner"
             )
         bulges = np.zeros(len(vertices)) if self.bulges is None else np.array(self.bulges, dtype=float)
         if bulges.shape != (len(vertices),):
             raise InputError(
-                f"{bulges.size} bulges for {len(vertices)} vertices", path="bulges", allowed="one per vertex"
+                f"{bulges.size} bulges for {len(vertices)} vertices", parameter="bulges", allowed="one per vertex"
             )
         if not (np.isfinite(vertices).all() and np.isfinite(bulges).all()):
-            raise InputError("a corner or a bulge of the outline is not a finite number", path="vertices")
+            raise InputError("a corner or a bulge of the outline is not a finite number", parameter="vertices")
         if len(vertices) > 1 and (vertices[0] == vertices[-1]).all():
             vertices, bulges = vertices[:-1], bulges[:-1]
         if len(vertices) < 2 or (len(vertices) == 2 and not bulges.any()):
             raise InputError(
                 f"the outline has {len(vertices)} different corners",
-                path="vertices",
+                parameter="vertices",
                 allowed="at least 3, or 2 with arcs",
             )
         size = float(np.ptp(vertices, axis=0).max())
@@ -66,11 +66,12 @@ class Outline:
         if size == 0.0 or (steps <= _TOUCH * size).any():
             where = int(np.argmin(steps))
             raise InputError(
-                f"corners {where + 1} and {(where + 1) % len(vertices) + 1} of the outline coincide", path="vertices"
+                f"corners {where + 1} and {(where + 1) % len(vertices) + 1} of the outline coincide",
+                parameter="vertices",
             )
         area = Edges(vertices, np.roll(vertices, -1, axis=0), bulges).moments()[0]
         if abs(area) <= 1e-12 * size**2:
-            raise InputError("the outline encloses no area", path="vertices")
+            raise InputError("the outline encloses no area", parameter="vertices")
         if area < 0.0:
             vertices, bulges = vertices[::-1], -np.roll(bulges[::-1], -1)
         edges = Edges(vertices, np.roll(vertices, -1, axis=0), bulges)
@@ -78,7 +79,7 @@ class Outline:
         if clash is not None:
             raise InputError(
                 f"the outline meets itself near x = {clash[0]:g} m, z = {clash[1]:g} m",
-                path="vertices",
+                parameter="vertices",
                 remedy="list the corners once around the section",
             )
         object.__setattr__(self, "vertices", edges.start)
@@ -132,14 +133,16 @@ class Hull:
     def __post_init__(self) -> None:
         outlines, plates = tuple(self.outlines), tuple(self.plates)
         if not outlines and not plates:
-            raise InputError("the hull has no outline", path="outlines")
+            raise InputError("the hull has no outline", parameter="outlines")
         object.__setattr__(self, "outlines", outlines)
         object.__setattr__(self, "plates", plates)
         lines = [outline.edges.polyline() for outline in outlines]
         for i in range(len(lines)):
             for j in range(i + 1, len(lines)):
                 if _overlap(lines[i], lines[j]):
-                    raise InputError(f"outlines {i + 1} and {j + 1} of {self.name} overlap or touch", path="outlines")
+                    raise InputError(
+                        f"outlines {i + 1} and {j + 1} of {self.name} overlap or touch", parameter="outlines"
+                    )
         check_plates(lines, plates)
 
     def with_plates(self, *plates: PlateLine) -> Hull:
@@ -195,7 +198,7 @@ class Hull:
         """
         for name, value in (("draught", draught), ("heel", heel), ("offset", offset)):
             if not math.isfinite(value):
-                raise InputError(f"{name} is {value}", path=name, allowed="a finite number")
+                raise InputError(f"{name} is {value}", parameter=name, allowed="a finite number")
         outlines = tuple(outline.moved((offset, -draught), heel) for outline in self.outlines)
         plates = tuple(plate.moved((offset, -draught), heel) for plate in self.plates)
         return Section(outlines, draught=draught, heel=heel, offset=offset, name=self.name, plates=plates)
@@ -251,13 +254,15 @@ class Section:
         chains = [chain for body, outline in enumerate(self.outlines) for chain in _wetted(outline, body)]
         plates = wet_plates(self.plates, len(self.outlines))
         if not chains and not plates:
-            raise InputError(f"{self.name} does not reach the water at a draught of {self.draught:g} m", path="draught")
+            raise InputError(
+                f"{self.name} does not reach the water at a draught of {self.draught:g} m", parameter="draught"
+            )
         for chain in chains:
             left, right = chain.edges.start[0, 0], chain.edges.end[-1, 0]
             if not chain.closed and right <= left:
                 raise InputError(
                     f"{self.name} holds water of its own or touches still water from below near x = {left:g} m",
-                    path="draught",
+                    parameter="draught",
                     remedy="draw the tank as a solid, or change the draught",
                 )
         if plates:

@@ -15,7 +15,7 @@ from moyai.potential.sections import Hull, Outline
 def _positive(**lengths: float) -> None:
     for name, value in lengths.items():
         if not (math.isfinite(value) and value > 0.0):
-            raise InputError(f"{name} is {value:g} m", path=name, allowed="greater than 0 m")
+            raise InputError(f"{name} is {value:g} m", parameter=name, allowed="greater than 0 m")
 
 
 def rectangle(beam: float, height: float) -> Hull:
@@ -37,7 +37,9 @@ def rounded_rectangle(beam: float, height: float, bilge_radius: float) -> Hull:
     half = 0.5 * beam
     limit = min(half, height)
     if bilge_radius > limit:
-        raise InputError(f"bilge_radius is {bilge_radius:g} m", path="bilge_radius", allowed=f"at most {limit:g} m")
+        raise InputError(
+            f"bilge_radius is {bilge_radius:g} m", parameter="bilge_radius", allowed=f"at most {limit:g} m"
+        )
     quarter = math.tan(math.pi / 8.0)
     r = bilge_radius
     corners: list[tuple[float, float, float]] = [(-half, r, quarter), (-half + r, 0.0, 0.0)]
@@ -79,7 +81,7 @@ def pi_type(beam: float, height: float, plate_depth: float, plate_thickness: flo
     half, inner, top = 0.5 * beam, 0.5 * beam - plate_thickness, plate_depth + height
     if inner <= 0.0:
         raise InputError(
-            f"plate_thickness is {plate_thickness:g} m", path="plate_thickness", allowed=f"less than {half:g} m"
+            f"plate_thickness is {plate_thickness:g} m", parameter="plate_thickness", allowed=f"less than {half:g} m"
         )
     right = [(inner, plate_depth), (inner, 0.0), (half, 0.0), (half, top)]
     left = [(-x, z) for x, z in reversed(right)]
@@ -104,7 +106,9 @@ def twin_pontoon(pontoon_beam: float, height: float, gap: float, *, deck_thickne
         box = np.array([(inner, 0.0), (outer, 0.0), (outer, height), (inner, height)])
         return Hull((Outline(box * np.array([-1.0, 1.0])), Outline(box)), name="twin pontoon")
     if not 0.0 < deck_thickness < height:
-        raise InputError(f"deck_thickness is {deck_thickness:g} m", path="deck_thickness", allowed=f"0 to {height:g} m")
+        raise InputError(
+            f"deck_thickness is {deck_thickness:g} m", parameter="deck_thickness", allowed=f"0 to {height:g} m"
+        )
     right = [(inner, height - deck_thickness), (inner, 0.0), (outer, 0.0), (outer, height)]
     left = [(-x, z) for x, z in reversed(right)]
     return Hull((Outline(np.array(right + left)),), name="twin pontoon")

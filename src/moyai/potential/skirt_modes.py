@@ -62,7 +62,7 @@ def edge_modes(plate: Plate) -> Modes:
     """
     top, bottom = plate.start[1], plate.end[1]
     if not top > bottom:
-        raise InputError("the plate does not hang: its start is not above its end", path="plate.start")
+        raise InputError("the plate does not hang: its start is not above its end", parameter="plate.start")
     return Modes(("upper", "lower"), (EdgeShape(top, bottom), EdgeShape(bottom, top)))
 
 
@@ -83,10 +83,12 @@ def stretching_modes(plate: Plate) -> Modes:
         When the plate is flat or its chord is not upright.
     """
     if plate.bulge == 0.0:
-        raise InputError("a flat skirt has no centre to move", path="plate.bulge", allowed="an arc")
+        raise InputError("a flat skirt has no centre to move", parameter="plate.bulge", allowed="an arc")
     chord = plate.start[1] - plate.end[1]
     if chord <= 0.0 or abs(plate.start[0] - plate.end[0]) > 1e-9 * chord:
-        raise InputError("the chord of the skirt is not upright", path="plate", allowed="start straight above the end")
+        raise InputError(
+            "the chord of the skirt is not upright", parameter="plate", allowed="start straight above the end"
+        )
     half_angle = 2.0 * math.atan(abs(plate.bulge))
     radius = 0.5 * chord / math.sin(half_angle)
     side = -math.copysign(1.0, plate.bulge)

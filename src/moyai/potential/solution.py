@@ -87,7 +87,9 @@ class RadiationDiffraction:
             if abs(abs(heading) - solution.heading) < 1e-12:
                 return solution
         solved = ", ".join(f"{value:g}" for value in sorted({0.0, *np.abs(self.heading)}))
-        raise InputError(f"heading {heading:g} rad was not solved", path="heading", allowed=f"one of +-{solved} rad")
+        raise InputError(
+            f"heading {heading:g} rad was not solved", parameter="heading", allowed=f"one of +-{solved} rad"
+        )
 
     @property
     def excitation_force(self) -> ComplexArray:

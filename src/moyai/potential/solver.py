@@ -103,9 +103,9 @@ def solve(
     check_section(section, water)
     damping = 0.0 if lid is None else float(lid)
     if not (math.isfinite(damping) and damping >= 0.0):
-        raise InputError(f"lid is {damping:g}", path="lid", allowed="0 or more (0.01 to 0.1 is usual)")
+        raise InputError(f"lid is {damping:g}", parameter="lid", allowed="0 or more (0.01 to 0.1 is usual)")
     if not 1e-9 <= accuracy <= 0.1:
-        raise InputError(f"accuracy is {accuracy:g}", path="accuracy", allowed="1e-9 to 0.1")
+        raise InputError(f"accuracy is {accuracy:g}", parameter="accuracy", allowed="1e-9 to 0.1")
     wave_number = np.atleast_1d(np.asarray(linear_wave_number(frequencies, water.depth, water.gravity)))
 
     resolution = Resolution.for_accuracy(accuracy)

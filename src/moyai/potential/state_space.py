@@ -210,13 +210,13 @@ def _checked(
     w, h = np.asarray(omega, dtype=float), np.asarray(response, dtype=complex)
     steady = np.asarray(steady_dashpot, dtype=float)
     if w.ndim != 1 or len(w) < 8 or (w <= 0.0).any() or (np.diff(w) <= 0.0).any() or not np.isfinite(w).all():
-        raise InputError("omega is not positive and increasing, or has fewer than 8 entries", path="omega")
+        raise InputError("omega is not positive and increasing, or has fewer than 8 entries", parameter="omega")
     if h.ndim != 3 or h.shape[0] != len(w) or h.shape[1] != h.shape[2] or not np.isfinite(h).all():
-        raise InputError(f"response has the shape {h.shape} or is not finite", path="response")
+        raise InputError(f"response has the shape {h.shape} or is not finite", parameter="response")
     if steady.shape != h.shape[1:] or not np.isfinite(steady).all():
-        raise InputError(f"steady dashpot has the shape {steady.shape} or is not finite", path="steady_dashpot")
+        raise InputError(f"steady dashpot has the shape {steady.shape} or is not finite", parameter="steady_dashpot")
     if not 1e-8 <= tolerance <= 0.2:
-        raise InputError(f"tolerance is {tolerance:g}", path="tolerance", allowed="1e-8 to 0.2")
+        raise InputError(f"tolerance is {tolerance:g}", parameter="tolerance", allowed="1e-8 to 0.2")
     return w, 0.5 * (h + np.swapaxes(h, 1, 2)), 0.5 * (steady + steady.T)
 
 
@@ -264,7 +264,7 @@ def _fit_group(
     if kept is None or best > _NEAR * tolerance:
         raise ConvergenceError(
             f"the memory is fitted to {best:.2g} of its largest response with {highest_order} poles",
-            path="tolerance",
+            parameter="tolerance",
             allowed=f"asked for {tolerance:g}",
             remedy="raise the tolerance or the highest order, or check that the frequencies resolve the damping",
         )

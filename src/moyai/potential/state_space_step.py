@@ -53,7 +53,7 @@ def discretise(state_space: StateSpace, time_step: float, *, quadratic: bool = F
         When the step is not positive.
     """
     if not (math.isfinite(time_step) and time_step > 0.0):
-        raise InputError(f"time step is {time_step:g} s", path="time_step", allowed="greater than 0")
+        raise InputError(f"time step is {time_step:g} s", parameter="time_step", allowed="greater than 0")
     q = state_space.poles * time_step
     one, two, three = (_phi(q, order) for order in (1, 2, 3))
     if quadratic:

@@ -57,16 +57,16 @@ class Plate:
     def __post_init__(self) -> None:
         values = (*self.start, *self.end, self.bulge)
         if not all(math.isfinite(value) for value in values):
-            raise InputError("the plate has coordinates that are not finite", path="plate")
+            raise InputError("the plate has coordinates that are not finite", parameter="plate")
         if self.start == self.end:
-            raise InputError("the plate has no length", path="plate", allowed="start and end apart")
+            raise InputError("the plate has no length", parameter="plate", allowed="start and end apart")
         if abs(self.bulge) > 1.0 + 1e-12:
-            raise InputError(f"bulge is {self.bulge:g}", path="plate.bulge", allowed="-1 to 1 (a half circle)")
+            raise InputError(f"bulge is {self.bulge:g}", parameter="plate.bulge", allowed="-1 to 1 (a half circle)")
         highest = float(self.position(np.linspace(0.0, 1.0, 201)[1:-1]).imag.max())
         if self.start[1] > 0.0 or self.end[1] >= 0.0 or highest > 1e-12 * self.length:
             raise InputError(
                 f"the plate reaches up to z = {max(self.start[1], self.end[1], highest):g} m",
-                path="plate",
+                parameter="plate",
                 allowed="z <= 0, and only the start at z = 0",
                 remedy="cut the plate at the still water and start there",
             )
@@ -125,9 +125,9 @@ def hanging_arc(chord: float, centre_distance: float, *, x: float = 0.0) -> Plat
         When the chord is not positive or the distance negative.
     """
     if not (math.isfinite(chord) and chord > 0.0):
-        raise InputError(f"chord is {chord:g} m", path="chord", allowed="greater than 0")
+        raise InputError(f"chord is {chord:g} m", parameter="chord", allowed="greater than 0")
     if math.isnan(centre_distance) or centre_distance < 0.0:
-        raise InputError(f"centre_distance is {centre_distance:g} m", path="centre_distance", allowed="0 or more")
+        raise InputError(f"centre_distance is {centre_distance:g} m", parameter="centre_distance", allowed="0 or more")
     half_angle = math.atan2(0.5 * chord, centre_distance)
     return Plate((x, 0.0), (x, -chord), -math.tan(0.5 * half_angle))
 
@@ -212,12 +212,12 @@ def solve_plate_limit(
     if frequency == "zero" and stands:
         raise InputError(
             "a plate that stands on the bed has no added mass at zero frequency",
-            path="plate.end",
+            parameter="plate.end",
             allowed="clear of the bed",
             remedy="lift the end, or take a frequency",
         )
     if not 0.02 <= step <= 1.0:
-        raise InputError(f"step is {step:g}", path="step", allowed="0.02 to 1")
+        raise InputError(f"step is {step:g}", parameter="step", allowed="0.02 to 1")
     mirrored = 1 if frequency == "infinite" else -1
     if plate.pierces and plate.corner < _CUSP:
         # Nodes crowd there as the inverse of the distance: a wide step is fine enough elsewhere
@@ -243,7 +243,7 @@ def _velocities_of(modes: Modes | Sequence[NormalVelocity]) -> Sequence[NormalVe
         if not callable(mode):
             raise InputError(
                 f"{mode!r} is no motion",
-                path="modes",
+                parameter="modes",
                 allowed="rigid_modes(centre), other Modes, or functions of points and normals",
             )
     return found
@@ -255,7 +255,7 @@ def _stands_on_bed(plate: Plate, water: Water) -> bool:
     if clearance < -1e-12 * plate.length or (clearance < 1e-9 * plate.length and plate.end[1] > lowest):
         raise InputError(
             f"the plate reaches down to z = {lowest:g} m in water {water.depth:g} m deep",
-            path="plate",
+            parameter="plate",
             allowed="clear of the bed, or standing on it with its end",
             remedy="shorten the plate or take deeper water",
         )
@@ -348,7 +348,7 @@ def _velocities(plate: Plate, fraction: Array, modes: Sequence[NormalVelocity]) 
         if values.shape != fraction.shape or not np.isfinite(values).all():
             raise InputError(
                 f"mode {number} gives velocities of shape {values.shape} or not finite",
-                path="modes",
+                parameter="modes",
                 allowed=f"finite, shape {fraction.shape}",
             )
         out[:, number] = values

@@ -46,7 +46,7 @@ def plate_section(*plates: Plate | PlateLine, name: str = "plates") -> Section:
         When there is none, none is under water, or they cross.
     """
     if not plates:
-        raise InputError("no plate was given", path="plates", allowed="one or more")
+        raise InputError("no plate was given", parameter="plates", allowed="one or more")
     lines = tuple(plate if isinstance(plate, PlateLine) else PlateLine.of(plate) for plate in plates)
     check_plates((), lines)
     return Section((), draught=0.0, name=name, plates=lines)
@@ -270,7 +270,7 @@ def plate_memory_functions(draught: float, water: Water, time: ArrayLike, *, acc
     if not (math.isfinite(draught) and 0.0 < draught < water.depth):
         raise InputError(
             f"draught is {draught:g} m in water {water.depth:g} m deep",
-            path="draught",
+            parameter="draught",
             allowed=f"greater than 0, less than {water.depth:g} m",
             remedy="a plate that reaches the bed leaves no gap: shorten it or take deeper water",
         )

@@ -60,11 +60,13 @@ def solve_vertical_barrier(
     """
     depth = water.depth
     if not math.isfinite(depth):
-        raise InputError("matched eigenfunctions need a finite depth", path="water.depth", allowed="a finite depth")
+        raise InputError(
+            "matched eigenfunctions need a finite depth", parameter="water.depth", allowed="a finite depth"
+        )
     if not 0.0 < draught < depth:
         raise InputError(
             f"draught is {draught:g} m in water {depth:g} m deep",
-            path="draught",
+            parameter="draught",
             allowed=f"greater than 0, less than {depth:g} m",
         )
     frequencies = np.atleast_1d(np.asarray(omega, dtype=float))

@@ -42,9 +42,13 @@ class Parameter:
 
     def __post_init__(self) -> None:
         if not self.lower < self.upper:
-            raise InputError(f"bounds {self.lower:g} and {self.upper:g}", path=self.name, allowed="lower below upper")
+            raise InputError(
+                f"bounds {self.lower:g} and {self.upper:g}", parameter=self.name, allowed="lower below upper"
+            )
         if not self.lower <= self.start <= self.upper:
-            raise InputError(f"first guess {self.start:g}", path=self.name, allowed=f"{self.lower:g} to {self.upper:g}")
+            raise InputError(
+                f"first guess {self.start:g}", parameter=self.name, allowed=f"{self.lower:g} to {self.upper:g}"
+            )
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,13 +128,14 @@ class _Fitter:
         prediction = np.asarray(self.model(np.array(values)), dtype=float).reshape(-1)
         if prediction.size != self.observed.size:
             raise InputError(
-                f"the model gives {prediction.size} predictions for {self.observed.size} observations", path="model"
+                f"the model gives {prediction.size} predictions for {self.observed.size} observations",
+                parameter="model",
             )
         if not np.isfinite(prediction).all():
             reported = ", ".join(f"{p.name} = {value:.6g}" for p, value in zip(self.parameters, values))
             raise InputError(
                 f"no number from the model for observation {int(np.argmin(np.isfinite(prediction))) + 1} at {reported}",
-                path="model",
+                parameter="model",
                 remedy="narrow the bounds, or correct the model there",
             )
         return prediction
@@ -235,17 +240,17 @@ def calibrate(
     data = np.asarray(observed, dtype=float).reshape(-1)
     count, size = data.size, len(parameters)
     if size == 0 or count < size:
-        raise InputError(f"{count} observations for {size} parameters", path="observed", allowed=f"{size} or more")
+        raise InputError(f"{count} observations for {size} parameters", parameter="observed", allowed=f"{size} or more")
     if not np.isfinite(data).all():
-        raise InputError(f"observation {int(np.argmin(np.isfinite(data))) + 1} is no number", path="observed")
+        raise InputError(f"observation {int(np.argmin(np.isfinite(data))) + 1} is no number", parameter="observed")
     weight = np.ones(count)
     if error is not None:
         sigma = np.broadcast_to(np.asarray(error, dtype=float), (count,))
         if not (np.isfinite(sigma) & (sigma > 0.0)).all():
-            raise InputError("standard errors", path="error", allowed="greater than 0")
+            raise InputError("standard errors", parameter="error", allowed="greater than 0")
         weight = 1.0 / sigma
     if groups is not None and len(groups) != count:
-        raise InputError(f"{len(groups)} groups for {count} observations", path="groups")
+        raise InputError(f"{len(groups)} groups for {count} observations", parameter="groups")
     fitter = _Fitter(model, data, weight, parameters, step)
     progress("calibration", 0, 1)
     values = fitter.solve(np.array([parameter.start for parameter in parameters]))
@@ -461,7 +466,7 @@ def profile(
     """
     names = [parameter.name for parameter in calibration.parameters]
     if name not in names:
-        raise InputError(f"no parameter '{name}'", path="name", allowed=", ".join(names))
+        raise InputError(f"no parameter '{name}'", parameter="name", allowed=", ".join(names))
     place = names.index(name)
     data = np.asarray(observed, dtype=float).reshape(-1)
     weight = np.ones(data.size) if error is None else 1.0 / np.broadcast_to(np.asarray(error, float), data.shape)

@@ -48,7 +48,7 @@ def highest_steady_wave(wavelength: float, water_depth: float) -> float:
 def linear_wavelength(period: float, water: Water, current_along_wave: float = 0.0) -> float:
     """Return the wavelength [m] of linear theory for a period [s] in the fixed frame."""
     if not (math.isfinite(period) and period > 0.0):
-        raise InputError(f"wave period is {period:g} s", path="period", allowed="greater than 0 s")
+        raise InputError(f"wave period is {period:g} s", parameter="period", allowed="greater than 0 s")
     omega = 2.0 * math.pi / period
     k = dispersion.wave_number_in_current(omega, water.depth, water.gravity, current_along_wave)
     return 2.0 * math.pi / float(k)
@@ -111,11 +111,11 @@ def require_below_breaking(height: float, period: float, water: Water, current_a
     """
     limit = breaking_limit(period, water, current_along_wave)
     if not (math.isfinite(height) and height >= 0.0):
-        raise InputError(f"wave height is {height:g} m", path="height", allowed="at least 0 m")
+        raise InputError(f"wave height is {height:g} m", parameter="height", allowed="at least 0 m")
     if height > limit.height:
         raise InputError(
             f"a wave of height {height:.4g} m and period {period:.4g} s breaks ({limit.criterion})",
-            path="height",
+            parameter="height",
             allowed=f"at most {limit.height:.4g} m",
             remedy="lower the wave, lengthen the period, or check the water depth",
         )

@@ -52,9 +52,9 @@ class WaveComponents:
             given = getattr(self, name)
             array = np.array(self.omega if given is None else given, dtype=np.float64)
             if array.ndim != 1 or array.size != size or size == 0:
-                raise InputError(f"{name} has shape {array.shape}", path=name, allowed=f"({max(size, 1)},)")
+                raise InputError(f"{name} has shape {array.shape}", parameter=name, allowed=f"({max(size, 1)},)")
             if not np.isfinite(array).all():
-                raise InputError(f"{name} holds a value that is not finite", path=name, allowed="finite")
+                raise InputError(f"{name} holds a value that is not finite", parameter=name, allowed="finite")
             array.setflags(write=False)
             object.__setattr__(self, name, array)
 
@@ -151,7 +151,7 @@ class WaveComponents:
 
     def _water(self) -> Water:
         if self.water is None:
-            raise InputError("the components know no water", path="water", remedy="give water=Water(depth, ...)")
+            raise InputError("the components know no water", parameter="water", remedy="give water=Water(depth, ...)")
         return self.water
 
     def kinematics(
@@ -216,7 +216,7 @@ class WaveComponents:
         if stretching == "wheeler":
             raise InputError(
                 "Wheeler stretching has no transfer function",
-                path="stretching",
+                parameter="stretching",
                 allowed="constant, linear",
                 remedy="use kinematics() or velocity()",
             )

@@ -83,7 +83,9 @@ class CurrentProfile(ABC):
 def _check_range(z_bottom: float, z_top: float) -> None:
     if not (math.isfinite(z_bottom) and math.isfinite(z_top) and z_bottom < z_top):
         raise InputError(
-            f"range of heights {z_bottom:g} to {z_top:g} m", path="z_bottom", allowed="z_bottom below z_top, finite"
+            f"range of heights {z_bottom:g} to {z_top:g} m",
+            parameter="z_bottom",
+            allowed="z_bottom below z_top, finite",
         )
 
 
@@ -186,13 +188,13 @@ class TabulatedCurrent(CurrentProfile):
 def _check_above_bed(z: Array, bed: float) -> None:
     lowest = float(np.min(z)) if z.size else bed
     if lowest < bed * (1.0 + 1e-12):
-        raise InputError(f"height z = {lowest:g} m is below the bed", path="z", allowed=f"at least {bed:g} m")
+        raise InputError(f"height z = {lowest:g} m is below the bed", parameter="z", allowed=f"at least {bed:g} m")
 
 
 def _check_finite(**values: float) -> None:
     for name, value in values.items():
         if not math.isfinite(value):
-            raise InputError(f"{name} is {value:g}", path=f"current.{name}", allowed="finite")
+            raise InputError(f"{name} is {value:g}", parameter=name, allowed="finite")
 
 
 def uniform(speed: float, heading: float) -> CurrentProfile:
@@ -230,12 +232,12 @@ def power_law(surface_speed: float, exponent: float, heading: float, water: Wate
     """
     _check_finite(surface_speed=surface_speed, heading=heading)
     if not (math.isfinite(exponent) and exponent > 0.0):
-        raise InputError(
-            f"exponent is {exponent:g}", path="current.exponent", allowed="greater than 0, for example 1/7"
-        )
+        raise InputError(f"exponent is {exponent:g}", parameter="exponent", allowed="greater than 0, for example 1/7")
     if math.isinf(water.depth):
         raise InputError(
-            "a power law needs a finite depth", path="current", remedy="use a uniform current or a table in deep water"
+            "a power law needs a finite depth",
+            parameter="water",
+            remedy="use a uniform current or a table in deep water",
         )
     return PowerLawCurrent(float(surface_speed), float(exponent), float(heading), water.depth)
 
@@ -264,19 +266,17 @@ def table(z: ArrayLike, speed: ArrayLike, heading: ArrayLike) -> CurrentProfile:
     if level.ndim != 1 or level.size == 0 or size.shape != level.shape or turn.shape not in ((), level.shape):
         raise InputError(
             f"current table with {level.size} heights, {size.size} speeds, {turn.size} headings",
-            path="current.table",
+            parameter="speed",
             allowed="columns of equal length, at least one row",
         )
     turn = np.broadcast_to(turn, level.shape)
     for name, values in (("z", level), ("speed", size), ("heading", turn)):
         if not np.isfinite(values).all():
             row = int(np.argmin(np.isfinite(values))) + 1
-            raise InputError(f"row {row}: {name} is not a number", path="current.table", allowed="finite")
+            raise InputError(f"row {row}: {name} is not a number", parameter=name, allowed="finite")
     if (level > 0.0).any():
         row = int(np.argmax(level > 0.0)) + 1
-        raise InputError(
-            f"row {row}: z = {level[row - 1]:g} m is above still water", path="current.table", allowed="z <= 0"
-        )
+        raise InputError(f"row {row}: z = {level[row - 1]:g} m is above still water", parameter="z", allowed="z <= 0")
     step = np.diff(level)
     rising = level[-1] > level[0] if level.size > 1 else True
     if level.size > 1 and not ((step > 0.0).all() if rising else (step < 0.0).all()):
@@ -284,7 +284,7 @@ def table(z: ArrayLike, speed: ArrayLike, heading: ArrayLike) -> CurrentProfile:
         row = int(np.argmax(wrong)) + 2
         raise InputError(
             f"row {row}: z = {level[row - 1]:g} m after {level[row - 2]:g} m",
-            path="current.table",
+            parameter="z",
             allowed="heights strictly increasing or strictly decreasing",
         )
     order = slice(None) if rising else slice(None, None, -1)

@@ -34,11 +34,11 @@ def direction_widths(directions: Array) -> Array:
     """
     angle = np.mod(np.asarray(directions, dtype=float), 360.0)
     if angle.size < 2 or not np.isfinite(angle).all():
-        raise InputError("the spectrum has fewer than two finite directions", path="file")
+        raise InputError("the spectrum has fewer than two finite directions", parameter="file")
     order = np.argsort(angle)
     steps = np.diff(np.append(angle[order], angle[order[0]] + 360.0))
     if steps.min() < 1e-6:
-        raise InputError("the spectrum has a direction twice", path="file")
+        raise InputError("the spectrum has a direction twice", parameter="file")
     usual = float(np.median(steps))
     within = steps <= 1.5 * usual
     if np.ptp(steps[within]) < _ROUNDING * usual:

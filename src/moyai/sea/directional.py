@@ -55,7 +55,7 @@ class Spreading(ABC):
 
 def _check_exponent(name: str, value: float) -> None:
     if not (math.isfinite(value) and value > 0.0):
-        raise InputError(f"{name} is {value:g}", path=name, allowed="greater than 0")
+        raise InputError(f"{name} is {value:g}", parameter=name, allowed="greater than 0")
 
 
 class _HalfAngle(Spreading):

@@ -196,7 +196,7 @@ def _check(name: str, value: ArrayLike, *, zero: bool, infinite: bool = False) -
     if bad.any():
         found = float(array[bad].flat[0])
         allowed = ("at least 0" if zero else "greater than 0") + ("" if infinite else ", finite")
-        raise InputError(f"{name} is {found:g}", path=name, allowed=allowed)
+        raise InputError(f"{name} is {found:g}", parameter=name, allowed=allowed)
     return array
 
 
@@ -318,10 +318,13 @@ def evanescent_deficits(omega: ArrayLike, water_depth: float, gravity: float, co
     g = float(_check("gravity", gravity, zero=False))
     if math.isinf(depth):
         raise InputError(
-            "water_depth is infinite", path="water_depth", allowed="finite", remedy="there are no discrete roots there"
+            "water_depth is infinite",
+            parameter="water_depth",
+            allowed="finite",
+            remedy="there are no discrete roots there",
         )
     if count < 0:
-        raise InputError(f"count is {count}", path="count", allowed="at least 0")
+        raise InputError(f"count is {count}", parameter="count", allowed="at least 0")
     shape = frequencies.shape
     flat = np.ascontiguousarray(frequencies).reshape(-1)
     out = np.empty((flat.size, count))
@@ -399,7 +402,7 @@ def wave_number_in_current(
     g = _check("gravity", gravity, zero=False)
     current = np.asarray(current_along_wave, dtype=np.float64)
     if not np.isfinite(current).all():
-        raise InputError("current_along_wave is not finite", path="current_along_wave", allowed="finite")
+        raise InputError("current_along_wave is not finite", parameter="current_along_wave", allowed="finite")
     result = _spread(_wave_numbers_in_current, frequency, depth, g, current)
     blocked = np.isnan(result)
     if np.any(blocked):
@@ -413,7 +416,7 @@ def wave_number_in_current(
         )
         raise InputError(
             f"an opposing current of {speed:.4g} m/s blocks waves of period {period:.4g} s",
-            path="current_along_wave",
+            parameter="current_along_wave",
             allowed=f"periods {longest}",
             remedy="give a weaker current, a longer period, or another heading",
         )

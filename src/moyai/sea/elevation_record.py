@@ -61,22 +61,22 @@ def components_of_record(
     """
     t, eta = np.asarray(time, dtype=float), np.asarray(elevation, dtype=float)
     if t.ndim != 1 or t.shape != eta.shape or t.size < 4:
-        raise InputError(f"a record of {t.size} rows", path="record", allowed="four rows or more")
+        raise InputError(f"a record of {t.size} rows", parameter="record", allowed="four rows or more")
     if not (np.isfinite(t).all() and np.isfinite(eta).all()):
-        raise InputError("the record holds a value that is not finite", path="record", allowed="finite numbers")
+        raise InputError("the record holds a value that is not finite", parameter="record", allowed="finite numbers")
     gaps = np.diff(t)
     if not (gaps > 0.0).all():
         row = int(np.argmin(gaps > 0.0)) + 1
-        raise InputError(f"the time {t[row]:g} s follows {t[row - 1]:g} s", path="record", allowed="rising times")
+        raise InputError(f"the time {t[row]:g} s follows {t[row - 1]:g} s", parameter="record", allowed="rising times")
     grid = float(gaps.min()) if step is None else step
     if not (math.isfinite(grid) and 0.0 < grid <= (t[-1] - t[0]) / 3.0):
         raise InputError(
-            f"the time step is {grid:g} s", path="record", allowed="above 0, a third of the record or less"
+            f"the time step is {grid:g} s", parameter="record", allowed="above 0, a third of the record or less"
         )
     count = math.floor((t[-1] - t[0]) / grid * (1.0 + 1e-12) + 1e-9) + 1
     if count > 4_000_000:
         raise InputError(
-            f"{count} steps of {grid:g} s", path="record", allowed="4 000 000 steps", remedy="a larger step"
+            f"{count} steps of {grid:g} s", parameter="record", allowed="4 000 000 steps", remedy="a larger step"
         )
     count -= count % 2
     samples = np.interp(t[0] + grid * np.arange(count), t, eta)
@@ -86,7 +86,9 @@ def components_of_record(
     omega = 2.0 * np.pi * np.arange(sums.size) / (count * grid)
     moving = amplitude[1:]
     if not moving.max() > 1e-12 * (abs(float(sums[0].real)) / count + 1e-300):
-        raise InputError("the elevation of the record does not change", path="record", remedy="leave the waves out")
+        raise InputError(
+            "the elevation of the record does not change", parameter="record", remedy="leave the waves out"
+        )
     order = np.argsort(moving)
     kept = np.sort(order[np.cumsum(moving[order] ** 2) > left_out * np.sum(moving**2)]) + 1
     # e^{+i w t} of the transform turns into e^{-i w t} of the waves

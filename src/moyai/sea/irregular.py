@@ -18,10 +18,11 @@ from moyai.sea import dispersion
 from moyai.sea.components import WaveComponents
 from moyai.sea.directional import Spreading, wrapped
 from moyai.sea.spectrum import Spectrum
+from moyai.sea.states import IrregularSea
 from moyai.sea.synthesis import choose_band, equal_energy_bins, fourier_bins, uniform_numbers
 from moyai.sea.water import Water
 
-__all__ = ["WaveComponents", "realisation_seed", "synthesise"]
+__all__ = ["WaveComponents", "components_of_run", "realisation_seed", "synthesise"]
 
 
 def realisation_seed(seed: int, number: int) -> int:
@@ -147,25 +148,53 @@ def synthesise(
     )
 
 
+def components_of_run(sea: IrregularSea, water: Water, current: tuple[float, float], count: int) -> WaveComponents:
+    """Return the components of an irregular sea that is run through its duration on a current.
+
+    A sea of whole multiples of its lowest frequency has its significant height over its duration exactly; where that
+    would take more than twice ``count``, so many of equal energy, whose height over the duration is a chance
+    [eq:sea-equal-energy].
+
+    Parameters
+    ----------
+    sea : IrregularSea
+    water : Water
+    current : (float, float)
+        Averaged over the depth [m/s].
+    count : int
+        Components of equal energy.
+    """
+    parts = synthesise(
+        sea.spectrum, water, duration=sea.duration, seed=sea.seed, heading=sea.heading, spreading=sea.spreading,
+        current=current,
+    )  # fmt: skip
+    if parts.omega.size <= 2 * count:
+        return parts
+    return synthesise(
+        sea.spectrum, water, duration=sea.duration, seed=sea.seed, heading=sea.heading, spreading=sea.spreading,
+        method="equal_energy", count=count, current=current,
+    )  # fmt: skip
+
+
 def _check_request(
     duration: float, seed: int, method: str, count: int | None, summation: str, heading_count: int, amplitudes: str
 ) -> None:
     if not (math.isfinite(duration) and duration > 0.0):
-        raise InputError(f"duration is {duration:g} s", path="duration", allowed="greater than 0 s")
+        raise InputError(f"duration is {duration:g} s", parameter="duration", allowed="greater than 0 s")
     if isinstance(seed, bool) or not isinstance(seed, int | np.integer) or seed < 0:
-        raise InputError(f"seed is {seed!r}", path="seed", allowed="a whole number, at least 0")
+        raise InputError(f"seed is {seed!r}", parameter="seed", allowed="a whole number, at least 0")
     for name, value, allowed in (
         ("method", method, ("fft", "equal_energy")),
         ("summation", summation, ("single", "double")),
         ("amplitudes", amplitudes, ("deterministic", "rayleigh")),
     ):
         if value not in allowed:
-            raise InputError(f"unknown {name} {value!r}", path=name, allowed=", ".join(allowed))
+            raise InputError(f"unknown {name} {value!r}", parameter=name, allowed=", ".join(allowed))
     if count is not None and method == "fft":
         raise InputError(
-            "count has no meaning for the fft method", path="count", remedy="duration and band give the components"
+            "count has no meaning for the fft method", parameter="count", remedy="duration and band give the components"
         )
     if count is not None and count < 1:
-        raise InputError(f"count is {count}", path="count", allowed="at least 1")
+        raise InputError(f"count is {count}", parameter="count", allowed="at least 1")
     if heading_count < 1:
-        raise InputError(f"heading_count is {heading_count}", path="heading_count", allowed="at least 1")
+        raise InputError(f"heading_count is {heading_count}", parameter="heading_count", allowed="at least 1")

@@ -36,7 +36,7 @@ def stretching_code(stretching: str) -> int:
     """
     if stretching not in STRETCHING_CODES:
         raise InputError(
-            f"unknown stretching {stretching!r}", path="stretching", allowed=", ".join(sorted(STRETCHING_CODES))
+            f"unknown stretching {stretching!r}", parameter="stretching", allowed=", ".join(sorted(STRETCHING_CODES))
         )
     return STRETCHING_CODES[stretching]
 

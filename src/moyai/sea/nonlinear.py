@@ -117,12 +117,14 @@ def _guarded(solve: Callable[[float], _Solution], length: float) -> _Solution:
             solution = solve(length)
     except failures as error:
         raise ConvergenceError(
-            f"no wave of length {length:.4g} m found: {error}", path="height", remedy="check breaking, change order"
+            f"no wave of length {length:.4g} m found: {error}",
+            parameter="height",
+            remedy="check breaking, change order",
         ) from error
     if not (math.isfinite(solution.celerity) and solution.celerity > 0.0):
         raise ConvergenceError(
             f"no wave of length {length:.4g} m found: celerity {solution.celerity:g}",
-            path="height",
+            parameter="height",
             remedy="check breaking and the Ursell number, change theory",
         )
     return solution
@@ -150,7 +152,7 @@ def _solve_length(
         if high > 4.0 * first:
             raise ConvergenceError(
                 f"no wave of period {period:g} s found up to a length of {high:.4g} m",
-                path="period",
+                parameter="period",
                 remedy=f"the highest steady wave of the linear length is {highest_steady_wave(first, depth):.4g} m",
             )
         high_value, solution = excess(high)
@@ -233,7 +235,7 @@ def nonlinear_wave(
         speed = solution.celerity + current_along_wave
         if speed <= 0.0:
             raise InputError(
-                f"the current of {current_along_wave:g} m/s carries the wave backwards", path="current_along_wave"
+                f"the current of {current_along_wave:g} m/s carries the wave backwards", parameter="current_along_wave"
             )
         for array in (solution.elevation, solution.crest_velocities):
             array.setflags(write=False)
@@ -312,14 +314,14 @@ def _raise_order(
         if max(wave.surface_residuals()) < RESIDUAL:
             break
     if wave is None:
-        raise failure or ConvergenceError("no wave found", path="height")
+        raise failure or ConvergenceError("no wave found", parameter="height")
     worst, crest_speed = max(wave.surface_residuals()), float(np.sum(wave.crest_velocities))
     if (order is None and worst > _REFUSED) or crest_speed >= wave.relative_celerity:
         limit = highest_steady_wave(wave.wavelength, water.depth)
         raise ConvergenceError(
             f"no steady wave of height {height:.4g} m found: free-surface residual {worst:.2g} of g H with "
             f"{wave.order} components",
-            path="height",
+            parameter="height",
             remedy=f"the highest steady wave of this length is about {limit:.4g} m",
         )
     return wave
@@ -335,22 +337,22 @@ def _check_arguments(
     solver: str,
 ) -> None:
     if theory not in ("airy", "stokes", "stream_function"):
-        raise InputError(f"unknown theory {theory!r}", path="theory", allowed="airy, stokes, stream_function")
+        raise InputError(f"unknown theory {theory!r}", parameter="theory", allowed="airy, stokes, stream_function")
     if not (math.isfinite(height) and height >= 0.0):
-        raise InputError(f"wave height is {height:g} m", path="height", allowed="at least 0 m")
+        raise InputError(f"wave height is {height:g} m", parameter="height", allowed="at least 0 m")
     if (period is None) == (wavelength is None):
-        raise InputError("give period or wavelength, exactly one", path="period")
+        raise InputError("give period or wavelength, exactly one", parameter="period")
     given = period if wavelength is None else wavelength
     if given is None or not (math.isfinite(given) and given > 0.0):
-        raise InputError(f"period or wavelength is {given}", path="period", allowed="greater than 0")
+        raise InputError(f"period or wavelength is {given}", parameter="period", allowed="greater than 0")
     if not math.isfinite(current):
-        raise InputError(f"current is {current:g} m/s", path="current_along_wave", allowed="finite")
+        raise InputError(f"current is {current:g} m/s", parameter="current_along_wave", allowed="finite")
     if order is not None:
         highest = {"airy": 1, "stokes": 5, "stream_function": 100}[theory]
         lowest = 3 if theory == "stream_function" else 1
         if not lowest <= order <= highest:
-            raise InputError(f"order is {order}", path="order", allowed=f"{lowest} to {highest} for {theory}")
+            raise InputError(f"order is {order}", parameter="order", allowed=f"{lowest} to {highest} for {theory}")
     if solver not in ("newton", "raschii"):
-        raise InputError(f"unknown solver {solver!r}", path="solver", allowed="newton, raschii")
+        raise InputError(f"unknown solver {solver!r}", parameter="solver", allowed="newton, raschii")
     if solver == "raschii" and theory == "stream_function" and order is None:
-        raise InputError("raschii needs an order", path="order", allowed="3 to 100")
+        raise InputError("raschii needs an order", parameter="order", allowed="3 to 100")

@@ -39,11 +39,11 @@ class RegularWave:
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.height) and self.height >= 0.0):
-            raise InputError(f"wave height is {self.height:g} m", path="height", allowed="at least 0 m")
+            raise InputError(f"wave height is {self.height:g} m", parameter="height", allowed="at least 0 m")
         if not (math.isfinite(self.period) and self.period > 0.0):
-            raise InputError(f"wave period is {self.period:g} s", path="period", allowed="greater than 0 s")
+            raise InputError(f"wave period is {self.period:g} s", parameter="period", allowed="greater than 0 s")
         if not math.isfinite(self.heading):
-            raise InputError(f"heading is {self.heading:g}", path="heading", allowed="finite")
+            raise InputError(f"heading is {self.heading:g}", parameter="heading", allowed="finite")
         _ = self.wave_number
 
     @property

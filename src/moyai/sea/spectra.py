@@ -39,7 +39,7 @@ DEFAULT_RELATIVE_FREQUENCIES = (0.3, 8.0, 771)
 
 def _positive(name: str, value: float) -> float:
     if not (math.isfinite(value) and value > 0.0):
-        raise InputError(f"{name} is {value:g}", path=name, allowed="greater than 0")
+        raise InputError(f"{name} is {value:g}", parameter=name, allowed="greater than 0")
     return float(value)
 
 
@@ -107,7 +107,9 @@ def jonswap(
     _positive("significant_height", significant_height)
     peak = 2.0 * math.pi / _positive("peak_period", peak_period)
     if not (math.isfinite(peak_enhancement) and peak_enhancement >= 1.0):
-        raise InputError(f"peak_enhancement is {peak_enhancement:g}", path="peak_enhancement", allowed="at least 1")
+        raise InputError(
+            f"peak_enhancement is {peak_enhancement:g}", parameter="peak_enhancement", allowed="at least 1"
+        )
     _positive("sigma_low", sigma_low)
     _positive("sigma_high", sigma_high)
     shape = WindSeaShape(1.0, peak, peak_enhancement, sigma_low, sigma_high)
@@ -120,7 +122,7 @@ def jonswap(
     else:
         raise InputError(
             f"unknown normalisation {normalisation!r}",
-            path="normalisation",
+            parameter="normalisation",
             allowed="quadrature, goda, goda_significant",
         )
     return _from_shape(
@@ -213,7 +215,7 @@ def bretschneider_mitsuyasu(
     _positive("significant_height", significant_height)
     _positive("significant_period", significant_period)
     if coefficients not in ("mitsuyasu", "goda"):
-        raise InputError(f"unknown coefficients {coefficients!r}", path="coefficients", allowed="mitsuyasu, goda")
+        raise InputError(f"unknown coefficients {coefficients!r}", parameter="coefficients", allowed="mitsuyasu, goda")
     factor, decay = (0.257, 1.03) if coefficients == "mitsuyasu" else (0.205, 0.75)
     turn = 2.0 * math.pi / significant_period
     # exp(-decay (T f)^-4) = exp(-5/4 (omega_p/omega)^4)
@@ -256,7 +258,7 @@ def tma(
         Whether ``significant_height`` is that of the TMA spectrum or of the JONSWAP spectrum under it.
     """
     if height_at not in ("site", "deep water"):
-        raise InputError(f"unknown height_at {height_at!r}", path="height_at", allowed="site, deep water")
+        raise InputError(f"unknown height_at {height_at!r}", parameter="height_at", allowed="site, deep water")
     deep = jonswap(significant_height, peak_period, peak_enhancement).shapes[0]
     shape = replace(deep, depth=water.depth, gravity=water.gravity)
     if height_at == "site":
@@ -283,11 +285,11 @@ def superpose(*spectra: Spectrum) -> Spectrum:
         When none is given, or formulas and tables (or band limits) are mixed.
     """
     if not spectra:
-        raise InputError("no spectrum to superpose", path="spectra")
+        raise InputError("no spectrum to superpose", parameter="spectra")
     if len({(bool(item.shapes), item.lower, item.upper) for item in spectra}) > 1:
         raise InputError(
             "spectra of formulas and of tables, or of different bands, cannot be superposed",
-            path="spectra",
+            parameter="spectra",
             remedy="make tables of all of them over the same frequencies",
         )
     omega = np.unique(np.concatenate([item.omega for item in spectra]))

@@ -102,7 +102,7 @@ class Spectrum:
         object.__setattr__(self, "parameters", MappingProxyType(dict(self.parameters)))
         if not 0.0 <= self.lower < self.upper:
             raise InputError(
-                f"spectrum band {self.lower:g} to {self.upper:g} rad/s", path="upper", allowed="0 <= lower < upper"
+                f"spectrum band {self.lower:g} to {self.upper:g} rad/s", parameter="upper", allowed="0 <= lower < upper"
             )
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -159,7 +159,7 @@ class Spectrum:
         """
         if self.shapes and order >= 4.0 and math.isinf(min(upper, self.upper)):
             raise InputError(
-                f"moment {order:g} of an omega^-5 tail diverges", path="upper", remedy="give an upper frequency"
+                f"moment {order:g} of an omega^-5 tail diverges", parameter="upper", remedy="give an upper frequency"
             )
         return self._integral(order, 1, lower, upper)
 
@@ -178,7 +178,7 @@ class Spectrum:
         """Return the frequency [rad/s] below which ``fraction`` (between 0 and 1) of the variance lies."""
         wanted = np.asarray(fraction, dtype=np.float64)
         if ((wanted < 0.0) | (wanted > 1.0) | np.isnan(wanted)).any():
-            raise InputError("fraction outside 0 to 1", path="fraction", allowed="0 to 1")
+            raise InputError("fraction outside 0 to 1", parameter="fraction", allowed="0 to 1")
         if self.shapes:
             low = max(self.lower, integrals.LOWEST * min(shape.peak_omega for shape in self.shapes))
             # energy above s peaks is below s^-4, so this bracket holds for all but the last 1e-16 of the variance

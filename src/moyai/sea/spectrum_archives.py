@@ -54,10 +54,10 @@ class SpectrumArchive:
         """
         for name, number, count in (("record", record, len(self.time)), ("place", place, len(self.place))):
             if not 0 <= number < count:
-                raise InputError(f"there is no {name} {number}", path=name, allowed=f"0 to {count - 1}")
+                raise InputError(f"there is no {name} {number}", parameter=name, allowed=f"0 to {count - 1}")
         values = self.density[record, place]
         if not np.isfinite(values).all() or not values.any():
-            raise InputError(f"record {record} ({self.time[record]}) holds no energy", path="record")
+            raise InputError(f"record {record} ({self.time[record]}) holds no energy", parameter="record")
         return from_table(self.frequency, values, f"{self.format} {self.time[record]}")
 
     def significant_height(self) -> Array:
@@ -82,7 +82,7 @@ def read_archive(path: str | Path) -> SpectrumArchive:
     """
     file = Path(path)
     if not file.is_file():
-        raise InputError(f"no such file: {file}", path="file")
+        raise InputError(f"no such file: {file}", parameter="file")
     head = file.read_bytes()[:200]
     if head[:3] == b"CDF" or head[:4] == b"\x89HDF":
         return _netcdf(file)
@@ -104,7 +104,7 @@ def read_archive(path: str | Path) -> SpectrumArchive:
     except InputError as error:
         raise InputError(
             f"{file.name} is no file of spectra that is known here (it starts with {first[:30]!r})",
-            path="file",
+            parameter="file",
             allowed="SWAN, WAVEWATCH III or NDBC; a table of two columns goes without 'record'",
             remedy="; ".join(part for part in (error.fault.message, error.fault.remedy) if part),
         ) from None
@@ -172,7 +172,7 @@ class _Lines:
             raise self.fault(f"expected a whole number, found {word!r}") from None
 
     def fault(self, message: str) -> InputError:
-        return InputError(f"{self.file.name}, line {self.at}: {message}", path="file")
+        return InputError(f"{self.file.name}, line {self.at}: {message}", parameter="file")
 
 
 def _swan(text: str, file: Path) -> SpectrumArchive:
@@ -294,7 +294,7 @@ def _netcdf(file: Path) -> SpectrumArchive:
         except InputError as other:
             raise InputError(
                 error.fault.message,
-                path="file",
+                parameter="file",
                 allowed=error.fault.allowed,
                 remedy="; ".join(part for part in (other.fault.message, other.fault.remedy) if part),
             ) from None
@@ -304,7 +304,9 @@ def _ww3_netcdf(file: Path) -> SpectrumArchive:
     with open_netcdf(file, "a file of spectra") as data:
         if "efth" not in data or "frequency" not in data or "direction" not in data:
             held = ", ".join(map(str, list(data.data_vars)[:6]))
-            raise InputError(f"{file.name} holds no WAVEWATCH III spectra (efth)", path="file", allowed=f"found {held}")
+            raise InputError(
+                f"{file.name} holds no WAVEWATCH III spectra (efth)", parameter="file", allowed=f"found {held}"
+            )
         frequency = np.asarray(data["frequency"].values, dtype=float)
         directions = np.asarray(data["direction"].values, dtype=float)
         name = "station" if "station" in data["efth"].dims else None
@@ -328,7 +330,7 @@ def _ndbc(text: str, file: Path) -> SpectrumArchive:
     if re.search(r"\b(WDIR|WSPD|WVHT|WTMP|PRES|BAR)\b", rows[0], re.IGNORECASE):
         raise InputError(
             f"{file.name} holds meteorological observations of NDBC, no spectra",
-            path="file",
+            parameter="file",
             allowed="NDBC's spectral wave density (swden, data_spec or the yearly file NNNNNwYYYY)",
             remedy="fetch the station's spectral wave density",
         )
@@ -339,7 +341,9 @@ def _ndbc(text: str, file: Path) -> SpectrumArchive:
         for number, row in enumerate(rows[1:], start=2):
             values = [float(item) for item in re.findall(r"([\d.]+)\s+\(", row)]
             if len(values) != frequency.size:
-                raise InputError(f"{file.name}, line {number}: {len(values)} values, not {frequency.size}", path="file")
+                raise InputError(
+                    f"{file.name}, line {number}: {len(values)} values, not {frequency.size}", parameter="file"
+                )
             times.append(_stamp(row.split()[:5], f"{file.name}, line {number}"))
             # 999 stands for missing
             density.append([math.nan if value >= 999.0 else value for value in values])
@@ -352,7 +356,9 @@ def _ndbc(text: str, file: Path) -> SpectrumArchive:
             if words[0].startswith("#"):
                 continue
             if len(words) != len(header):
-                raise InputError(f"{file.name}, line {number}: {len(words)} values, not {len(header)}", path="file")
+                raise InputError(
+                    f"{file.name}, line {number}: {len(words)} values, not {len(header)}", parameter="file"
+                )
             where = f"{file.name}, line {number}"
             times.append(_stamp([*words[:leading], "00"][:5], where))
             values = [_number(item, where) for item in words[leading:]]
@@ -392,7 +398,7 @@ def _number(word: str, place: str) -> float:
     try:
         return float(word)
     except ValueError:
-        raise InputError(f"{place}: {word[:40]!r} is not a number", path="file") from None
+        raise InputError(f"{place}: {word[:40]!r} is not a number", parameter="file") from None
 
 
 def _stamp(words: list[str], place: str) -> str:
@@ -402,5 +408,5 @@ def _stamp(words: list[str], place: str) -> str:
         moment = datetime(year if year > 100 else 1900 + year, month, day, hour, minute, tzinfo=UTC)
     except ValueError:
         shown = " ".join(words)[:40]
-        raise InputError(f"{place}: {shown!r} is no year, month, day, hour, minute", path="file") from None
+        raise InputError(f"{place}: {shown!r} is no year, month, day, hour, minute", parameter="file") from None
     return moment.strftime("%Y-%m-%dT%H:%M")

@@ -49,12 +49,12 @@ def spectrum_table(
     if f.ndim != 1 or s.ndim != 1 or f.size != s.size:
         raise InputError(
             f"the spectrum has {what} of shape {f.shape} and density of shape {s.shape}",
-            path=where,
+            parameter=where,
             allowed="two columns of equal length",
         )
     if f.size < 2:
         found = "is empty" if f.size == 0 else "has one row only"
-        raise InputError(f"the spectrum {found}", path=where, allowed="at least two rows")
+        raise InputError(f"the spectrum {found}", parameter=where, allowed="at least two rows")
     numbers = range(1, f.size + 1) if rows is None else rows
     falling = np.concatenate([[False], np.diff(f) <= 0.0])
     tests = (
@@ -72,12 +72,14 @@ def spectrum_table(
         more = f" ({total} faulty rows in all)" if total > 1 else ""
         raise InputError(
             f"row {numbers[place]}: {text}: {value[place]:g}{more}",
-            path=where,
+            parameter=where,
             allowed=allowed,
             remedy="sort the rows by frequency" if "increase" in text else "",
         )
     if not (s > 0.0).any():
-        raise InputError("the spectrum has no energy: every density is 0", path=where, allowed="some density above 0")
+        raise InputError(
+            "the spectrum has no energy: every density is 0", parameter=where, allowed="some density above 0"
+        )
     return f, s
 
 
@@ -100,10 +102,10 @@ def _column(wanted: int | str, header: list[str] | None, width: int, file: Path)
         names = header or []
         if wanted not in names:
             shown = ", ".join(names) if names else "none: the file has no header"
-            raise InputError(f"no column {wanted!r}", path=str(file), allowed=f"columns {shown}")
+            raise InputError(f"no column {wanted!r}", parameter=str(file), allowed=f"columns {shown}")
         return names.index(wanted)
     if not 1 <= wanted <= width:
-        raise InputError(f"no column {wanted}", path=str(file), allowed=f"1 to {width}")
+        raise InputError(f"no column {wanted}", parameter=str(file), allowed=f"1 to {width}")
     return wanted - 1
 
 
@@ -128,7 +130,7 @@ def read_spectrum_file(
         text = file.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
         reason = getattr(error, "strerror", None) or "it is not a text file"
-        raise InputError(f"cannot read the spectrum {file}: {reason}", path=str(file)) from error
+        raise InputError(f"cannot read the spectrum {file}: {reason}", parameter=str(file)) from error
     header: list[str] | None = None
     columns: tuple[int, int] | None = None
     frequency: list[float] = []
@@ -150,7 +152,7 @@ def read_spectrum_file(
         if values[0] is None or values[1] is None:
             raise InputError(
                 f"row {row}: {line.strip()[:60]!r} does not hold a frequency and a density",
-                path=str(file),
+                parameter=str(file),
                 allowed="numbers with a decimal point, frequency [Hz] and density [m2/Hz]",
             )
         frequency.append(math.nan if values[0] is None else values[0])

@@ -70,7 +70,7 @@ def read_with_wavespectra(path: str | Path) -> SpectrumArchive:
         what = f"{file.name} is a file of the kind '{kind}'; reading it" if kind else f"reading {file.name}"
         raise InputError(
             f"{what} needs the library wavespectra",
-            path="file",
+            parameter="file",
             allowed="SWAN, WAVEWATCH III and NDBC without it",
             remedy='pip install "moyai[wavespectra]"',
         ) from None
@@ -92,7 +92,7 @@ def read_with_wavespectra(path: str | Path) -> SpectrumArchive:
         if archive is not None:
             return archive
     reported = f" ({refused[:160]})" if kind else f" (tried {', '.join(several)})"
-    raise InputError(f"wavespectra finds no spectra in {file.name}{reported}", path="file")
+    raise InputError(f"wavespectra finds no spectra in {file.name}{reported}", parameter="file")
 
 
 def _archive(data: Any, name: str) -> SpectrumArchive | None:

@@ -33,9 +33,9 @@ class RegularSea:
 
     def __post_init__(self) -> None:
         if not self.periods:
-            raise InputError("no wave period given", path="waves.periods", allowed="at least one period")
+            raise InputError("no wave period given", parameter="periods", allowed="at least one period")
         if self.height < 0.0 or not all(period > 0.0 for period in self.periods):
-            raise InputError("wave height and periods must be positive", path="waves")
+            raise InputError("wave height and periods must be positive", parameter="waves")
 
 
 @dataclass(frozen=True)

@@ -291,7 +291,7 @@ def _continue(problem: StreamFunctionProblem, order: int) -> StreamFunctionSolut
                 raise ConvergenceError(
                     f"no steady wave of height {problem.height:.4g} m found with {order} components: the solution "
                     f"ends near {reached * problem.height:.4g} m",
-                    path="height",
+                    parameter="height",
                     remedy="the wave breaks before it is so high, or it needs more components",
                 )
             continue

@@ -42,12 +42,12 @@ def choose_band(spectrum: Spectrum, lower: float | None, upper: float | None) ->
         high = min(float(spectrum.omega[-1]), spectrum.upper) if upper is None else float(upper)
     if not (0.0 <= low < high and math.isfinite(high)):
         raise InputError(
-            f"band {low:g} to {high:g} rad/s", path="upper_omega", allowed="0 <= lower_omega < upper_omega"
+            f"band {low:g} to {high:g} rad/s", parameter="upper_omega", allowed="0 <= lower_omega < upper_omega"
         )
     if not spectrum.moment(0, low, high) > 0.0:
         raise InputError(
             f"the spectrum has no energy between {low:g} and {high:g} rad/s",
-            path="upper_omega",
+            parameter="upper_omega",
             remedy="widen the band",
         )
     return low, high
@@ -63,14 +63,16 @@ def fourier_bins(
         step = 2.0 * math.pi / duration
     else:
         if not (math.isfinite(time_step) and 0.0 < time_step < duration):
-            raise InputError(f"time_step is {time_step:g} s", path="time_step", allowed=f"between 0 and {duration:g} s")
+            raise InputError(
+                f"time_step is {time_step:g} s", parameter="time_step", allowed=f"between 0 and {duration:g} s"
+            )
         nyquist = math.pi / time_step
         if high >= nyquist:
             lost = 1.0 - spectrum.moment(0, low, nyquist) / spectrum.moment(0, low, high) if nyquist > low else 1.0
             if lost > 0.01:
                 raise InputError(
                     f"time_step of {time_step:g} s cannot carry {100.0 * lost:.3g} % of the wave energy",
-                    path="time_step",
+                    parameter="time_step",
                     allowed=f"shorter than {math.pi / high:.4g} s",
                 )
             high = nyquist * (1.0 - 1e-9)
@@ -81,7 +83,7 @@ def fourier_bins(
     if last < first:
         raise InputError(
             f"a duration of {duration:g} s holds no frequency of the band {low:g} to {high:g} rad/s",
-            path="duration",
+            parameter="duration",
             allowed=f"several times {2.0 * math.pi / high:.4g} s",
         )
     number = np.arange(first, last + 1)

@@ -90,7 +90,7 @@ def recommended_theory(height: float, period: float, water: Water, current_along
         Uniform current along the heading [m/s].
     """
     if not (math.isfinite(height) and height >= 0.0):
-        raise InputError(f"wave height is {height:g} m", path="height", allowed="at least 0 m")
+        raise InputError(f"wave height is {height:g} m", parameter="height", allowed="at least 0 m")
     length = linear_wavelength(period, water, current_along_wave)
     eps = math.pi * height / length
     data = stokes_coefficients(height, length, water, 5).data

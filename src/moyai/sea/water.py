@@ -31,7 +31,7 @@ class Water:
             weightless = name == "gravity" and value == 0.0
             if not (value > 0.0 or weightless) or (math.isinf(value) and name != "depth"):
                 allowed = "0 or more" if name == "gravity" else "greater than 0"
-                raise InputError(f"{name} is {value:g}", path=f"water.{name}", allowed=allowed)
+                raise InputError(f"{name} is {value:g}", parameter=f"water.{name}", allowed=allowed)
 
     def with_depth(self, depth: float) -> Water:
         """Return the same water at another depth."""

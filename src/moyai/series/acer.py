@@ -63,7 +63,9 @@ class AcerFit:
 
 def _level_of(tail: AcerFit, rate: float) -> float:
     if not 0.0 < rate < tail.q:
-        raise InputError("the number of peaks is too small for the tail", path="count", remedy="ask for a rarer level")
+        raise InputError(
+            "the number of peaks is too small for the tail", parameter="count", remedy="ask for a rarer level"
+        )
     return float(tail.b + (math.log(tail.q / rate) / tail.a) ** (1.0 / tail.c))
 
 
@@ -94,11 +96,11 @@ def exceedance_rates(realisations: list[ArrayLike], *, order: int, levels: int =
     """
     series = [np.asarray(one, dtype=float).ravel() for one in realisations]
     if order < 1:
-        raise InputError(f"the order {order} spans no peak", path="order", allowed="1 or more")
+        raise InputError(f"the order {order} spans no peak", parameter="order", allowed="1 or more")
     total = sum(one.size for one in series)
     if total < 20 or not all(np.isfinite(one).all() for one in series):
         raise InputError(
-            f"{total} peaks are too few, or not all are finite", path="realisations", allowed="at least 20"
+            f"{total} peaks are too few, or not all are finite", parameter="realisations", allowed="at least 20"
         )
     everything = np.concatenate(series)
     level = np.linspace(np.median(everything), np.max(everything), levels, endpoint=False)
@@ -150,7 +152,7 @@ def _fit(rates: ExceedanceRates, rate: Array, start: float) -> AcerFit:
     if used.sum() < 6:
         raise InputError(
             "too few levels are left for the tail",
-            path="tail_from",
+            parameter="tail_from",
             remedy="lower it, or run more seeds",
         )
     level, log = rates.level[used], np.log(rate[used])

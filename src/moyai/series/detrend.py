@@ -26,7 +26,7 @@ class Detrend:
 
     def __post_init__(self) -> None:
         if self.kind == "high_pass" and not self.cutoff > 0.0:
-            raise InputError("high_pass needs a cut-off period", path="cutoff", allowed="greater than 0 s")
+            raise InputError("high_pass needs a cut-off period", parameter="cutoff", allowed="greater than 0 s")
 
 
 def detrended(time: ArrayLike, values: ArrayLike, detrend: Detrend) -> Array:
@@ -79,12 +79,12 @@ def slow_part(time: ArrayLike, values: ArrayLike, cutoff: float) -> Array:
     """
     t, v = np.asarray(time, dtype=float), np.asarray(values, dtype=float)
     if t.size < 5:
-        raise InputError(f"{t.size} samples", path="cutoff", allowed="five or more")
+        raise InputError(f"{t.size} samples", parameter="cutoff", allowed="five or more")
     step = float(np.median(np.diff(t)))
     length = t[-1] - t[0]
     if not 4.0 * step < cutoff <= length:
         raise InputError(
-            f"cut-off period {cutoff:.4g} s", path="cutoff", allowed=f"between {4.0 * step:.4g} and {length:.4g} s"
+            f"cut-off period {cutoff:.4g} s", parameter="cutoff", allowed=f"between {4.0 * step:.4g} and {length:.4g} s"
         )
     # The slow part needs few points: bins of a fortieth of the period, then a local fit on those
     bin_length = max(step, cutoff / 40.0)

@@ -71,7 +71,7 @@ class Fit:
         """Return the level that is exceeded with the given probability."""
         p = np.asarray(exceedance, dtype=float)
         if np.any((p <= 0.0) | (p >= 1.0)):
-            raise InputError("a probability of exceedance lies between 0 and 1", path="exceedance")
+            raise InputError("a probability of exceedance lies between 0 and 1", parameter="exceedance")
         if self.family == "gumbel":
             return np.asarray(self.location - self.scale * np.log(-np.log1p(-p)))
         if self.family == "weibull":
@@ -83,7 +83,7 @@ class Fit:
     def most_probable_maximum(self, count: float) -> float:
         """Return the level that is exceeded once in ``count`` values on the average: the mode of their maximum."""
         if not count > 1.0:
-            raise InputError(f"the maximum of {count:g} values has no mode", path="count", allowed="more than 1")
+            raise InputError(f"the maximum of {count:g} values has no mode", parameter="count", allowed="more than 1")
         if self.family == "gumbel":
             return self.location + self.scale * math.log(count)
         return float(self.level(1.0 / count))
@@ -91,7 +91,7 @@ class Fit:
     def maximum_level(self, count: float, probability: float) -> float:
         """Return the level that the maximum of ``count`` values stays below with ``probability``."""
         if not 0.0 < probability < 1.0:
-            raise InputError("a probability lies between 0 and 1", path="probability")
+            raise InputError("a probability lies between 0 and 1", parameter="probability")
         # 1 - probability**(1 / count), without cancellation for many values
         return float(self.level(-math.expm1(math.log(probability) / count)))
 
@@ -142,22 +142,25 @@ def fit(values: ArrayLike, family: Family, *, location: float | None = None, thr
     """
     data = np.asarray(values, dtype=float).ravel()
     if not np.isfinite(data).all():
-        raise InputError("the values hold NaN or infinity", path="values", remedy="leave them out knowingly")
+        raise InputError("the values hold NaN or infinity", parameter="values", remedy="leave them out knowingly")
     if family == "gumbel":
         if location is not None:
-            raise InputError("the location of a Gumbel distribution is fitted", path="location", remedy="leave it out")
+            raise InputError(
+                "the location of a Gumbel distribution is fitted", parameter="location", remedy="leave it out"
+            )
         _require(data, family)
         return _gumbel(data)
     if location is None:
         raise InputError(
             f"a {family} fit needs the lower end of the values",
-            path="location",
+            parameter="location",
             remedy="give the threshold, or 0 for peaks above the mean",
         )
     if threshold is not None:
         if family != "weibull" or threshold < location:
             raise InputError(
-                "only the tail of a Weibull distribution has a threshold, no less than its location", path="threshold"
+                "only the tail of a Weibull distribution has a threshold, no less than its location",
+                parameter="threshold",
             )
         above = data[data > threshold]
         _require(above, family)
@@ -171,12 +174,12 @@ def _require(data: Array, family: Family) -> None:
     if data.size < _LEAST[family]:
         raise InputError(
             f"{data.size} values are too few for a {family} fit",
-            path="values",
+            parameter="values",
             allowed=f"at least {_LEAST[family]}",
             remedy="run more seeds or longer seas, or lower the threshold",
         )
     if np.ptp(data) <= 1e-12 * np.max(np.abs(data)):
-        raise InputError("all values are equal: there is nothing to fit", path="values")
+        raise InputError("all values are equal: there is nothing to fit", parameter="values")
 
 
 def _gumbel(data: Array) -> Fit:
@@ -223,7 +226,7 @@ def _weibull_tail(data: Array, location: float, threshold: float) -> Fit:
     if best in (0, grid.size - 1) or not math.isfinite(values[best]):
         raise ConvergenceError(
             "the likelihood of the tail of the Weibull fit has no maximum",
-            path="values",
+            parameter="values",
             remedy="fit a larger share of the peaks, or choose another family",
         )
     found = minimize_scalar(
@@ -367,7 +370,7 @@ def gumbel_of_peaks(peaks: Fit, count: float) -> Fit:
     [eq:extremes-asymptote]: mode and scale from the level and slope of the parent at exceedance ``1 / count``.
     """
     if peaks.family != "weibull":
-        raise InputError("the asymptote is given for Weibull peaks", path="peaks")
+        raise InputError("the asymptote is given for Weibull peaks", parameter="peaks")
     y = math.log(count)
     scale = peaks.scale / peaks.shape * y ** (1.0 / peaks.shape - 1.0)
     return Fit("gumbel", peaks.most_probable_maximum(count), scale, 0.0, peaks.count, math.nan)

@@ -89,7 +89,7 @@ def fit_harmonics(
     if periods < 1:
         raise InputError(
             f"the window of {last - first:.4g} s is shorter than one period of {period:.4g} s",
-            path="start, end",
+            parameter="start, end",
             remedy="widen the window or check the period",
         )
     stop = first + periods * period
@@ -129,7 +129,7 @@ def fit_last_periods(
     if whole < 1 or whole > available:
         raise InputError(
             f"{whole} whole periods of {period:.4g} s do not fit into {duration:.4g} s",
-            path="periods",
+            parameter="periods",
             allowed=f"at most {available}",
             remedy="simulate longer or analyse fewer periods",
         )
@@ -142,11 +142,13 @@ def fit_last_periods(
 def _checked(time: ArrayLike, values: ArrayLike, omega: float, count: int) -> tuple[Array, Array]:
     instants, channels = np.asarray(time, dtype=float), np.asarray(values, dtype=float)
     if instants.ndim != 1 or channels.ndim < 1 or len(channels) != instants.size:
-        raise InputError(f"values of shape {channels.shape} for {instants.size} instants", path="values")
+        raise InputError(f"values of shape {channels.shape} for {instants.size} instants", parameter="values")
     if not (math.isfinite(omega) and omega > 0.0) or count < 1:
-        raise InputError("the angular frequency and the number of harmonics must be positive", path="omega")
+        raise InputError("the angular frequency and the number of harmonics must be positive", parameter="omega")
     if instants.size < 2 or not np.all(np.diff(instants) > 0.0):
-        raise InputError("the instants must increase", path="time", remedy="sort the record or cut it at the reset")
+        raise InputError(
+            "the instants must increase", parameter="time", remedy="sort the record or cut it at the reset"
+        )
     return instants, channels
 
 
@@ -162,10 +164,10 @@ def _least_squares(
     t, y = instants[chosen], channels[chosen]
     # Twice as many samples as unknowns: with fewer the residual says nothing
     if t.size < 4 * count + 2:
-        raise InputError(f"{t.size} samples are too few for {count} harmonics", path="count")
+        raise InputError(f"{t.size} samples are too few for {count} harmonics", parameter="count")
     if not np.all(np.isfinite(y)):
         raise InputError(
-            "the window holds values that are not finite", path="values", remedy="choose a window without gaps"
+            "the window holds values that are not finite", parameter="values", remedy="choose a window without gaps"
         )
     # Phases are counted from the middle of the window, which keeps the matrix well conditioned at large clock times
     middle = 0.5 * (t[0] + t[-1])
@@ -210,7 +212,7 @@ def sliding_fits(
         From the earliest to the latest position, ``shifts`` of them.
     """
     if shifts < 1 or shifts % 2 == 0:
-        raise InputError(f"{shifts} positions", path="shifts", allowed="an odd number")
+        raise InputError(f"{shifts} positions", parameter="shifts", allowed="an odd number")
     period = 2.0 * math.pi / omega
     periods = math.floor((end - start) / period + 1e-6)
     if (end - start) - periods * period < 0.1 * period and periods > 1:

@@ -67,7 +67,7 @@ def student_quantile(confidence: float, freedom: float) -> float:
     from scipy.special import stdtrit
 
     if not 0.0 < confidence < 1.0:
-        raise InputError(f"confidence is {confidence:g}", path="confidence", allowed="between 0 and 1")
+        raise InputError(f"confidence is {confidence:g}", parameter="confidence", allowed="between 0 and 1")
     return float(stdtrit(max(freedom, 1.0), 0.5 + 0.5 * confidence))
 
 

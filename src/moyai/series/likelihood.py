@@ -43,7 +43,7 @@ def weibull_likelihood(excess: Array) -> tuple[float, float]:
         if abs(step) <= 1e-12 * shape:
             return shape, math.exp(top + math.log(float(np.mean(np.exp(shape * (logs - top))))) / shape)
     raise ConvergenceError(
-        "the likelihood of the Weibull fit has no maximum", path="values", remedy="give values that differ"
+        "the likelihood of the Weibull fit has no maximum", parameter="values", remedy="give values that differ"
     )
 
 
@@ -89,7 +89,7 @@ def pareto_likelihood(excess: Array) -> tuple[float, float]:
     if not math.isfinite(values[best]) or best == grid.size - 1:
         raise ConvergenceError(
             "the likelihood of the generalised Pareto fit has no maximum",
-            path="values",
+            parameter="values",
             remedy="choose another threshold, or a Weibull fit",
         )
     lower, upper = grid[max(best - 1, 0)], grid[best + 1]

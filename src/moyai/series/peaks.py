@@ -47,7 +47,7 @@ def peaks_of(series: ArrayLike, *, slack_share: float = SLACK_SHARE) -> tuple[Ar
     """
     x = np.asarray(series, dtype=float).ravel()
     if not np.isfinite(x).all():
-        raise InputError("the series holds NaN or infinity", path="series")
+        raise InputError("the series holds NaN or infinity", parameter="series")
     nothing = np.empty(0), np.empty(0, dtype=bool)
     if x.size < 3:
         return nothing
@@ -90,7 +90,7 @@ def maximum_of_kinds(kinds: Sequence[Kind], probability: float) -> float:
         For a probability out of range, or so few peaks that there may be none above the locations.
     """
     if not 0.0 < probability < 1.0:
-        raise InputError("a probability lies between 0 and 1", path="probability")
+        raise InputError("a probability lies between 0 and 1", parameter="probability")
     wanted = -math.log(probability)
 
     def excess(level: float) -> float:
@@ -119,14 +119,14 @@ def _falling_root(excess: object, kinds: Sequence[Kind]) -> float:
     step = max(one.fitted.scale for one in kinds)
     if excess(low) <= 0.0:
         raise InputError(
-            "there are too few peaks for a maximum", path="times", remedy="ask for a longer time or a larger share"
+            "there are too few peaks for a maximum", parameter="times", remedy="ask for a longer time or a larger share"
         )
     high = low + step
     for _ in range(200):
         if excess(high) < 0.0:
             return float(brentq(excess, low, high, xtol=1e-13 * max(abs(low), abs(high)), rtol=1e-13))
         low, high = high, high + 2.0 * (high - low)
-    raise ConvergenceError("the level of the maximum lies beyond any bound", path="peaks")
+    raise ConvergenceError("the level of the maximum lies beyond any bound", parameter="peaks")
 
 
 def interval_of_kinds(

@@ -38,7 +38,7 @@ def count_cycles(series: ArrayLike) -> tuple[Array, Array, Array]:
 
     data = np.asarray(series, dtype=float).ravel()
     if data.size < 3 or not np.isfinite(data).all():
-        raise InputError("a record to count has at least three finite values", path="series")
+        raise InputError("a record to count has at least three finite values", parameter="series")
     cycles = [(size, mean, count) for size, mean, count, _, _ in rainflow.extract_cycles(data)]
     if not cycles:
         return np.empty(0), np.empty(0), np.empty(0)

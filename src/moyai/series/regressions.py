@@ -62,10 +62,10 @@ class Fit:
 def _pairs(x: ArrayLike, y: ArrayLike, least: int) -> tuple[Array, Array]:
     one, two = np.asarray(x, dtype=np.float64).reshape(-1), np.asarray(y, dtype=np.float64).reshape(-1)
     if one.size != two.size:
-        raise InputError(f"{one.size} and {two.size} values", path="y", allowed="equal lists")
+        raise InputError(f"{one.size} and {two.size} values", parameter="y", allowed="equal lists")
     known = np.isfinite(one) & np.isfinite(two)
     if int(known.sum()) < least:
-        raise InputError(f"{int(known.sum())} pairs of numbers", path="y", allowed=f"at least {least}")
+        raise InputError(f"{int(known.sum())} pairs of numbers", parameter="y", allowed=f"at least {least}")
     return one[known], two[known]
 
 
@@ -120,7 +120,7 @@ def fit_line(x: ArrayLike, y: ArrayLike, *, through_origin: bool = False, confid
     one, two = _pairs(x, y, 3)
     columns = one[:, None] if through_origin else np.stack([one, np.ones_like(one)], axis=1)
     if float(np.ptp(one)) == 0.0 and not (through_origin and one[0] != 0.0):
-        raise InputError(f"x is {one[0]:g} throughout", path="x", allowed="values that differ")
+        raise InputError(f"x is {one[0]:g} throughout", parameter="x", allowed="values that differ")
     values: Array = np.asarray(np.linalg.lstsq(columns, two, rcond=None)[0], dtype=np.float64)
     slope, intercept = float(values[0]), 0.0 if through_origin else float(values[1])
 
@@ -144,7 +144,7 @@ def fit_power(x: ArrayLike, y: ArrayLike, *, confidence: float = 0.95) -> Fit:
     """
     one, two = _pairs(x, y, 3)
     if not np.all(one > 0.0):
-        raise InputError(f"x is {one.min():g}", path="x", allowed="greater than 0")
+        raise InputError(f"x is {one.min():g}", parameter="x", allowed="greater than 0")
     return _power("y = factor x^exponent", one, two, confidence, lambda at: np.asarray(at, dtype=np.float64))
 
 
@@ -169,7 +169,7 @@ def fit_cosine(angle: ArrayLike, y: ArrayLike, *, confidence: float = 0.95) -> F
     if np.any(np.abs(beta) > 0.5 * math.pi * (1.0 + 1e-12)):
         raise InputError(
             f"an angle of {math.degrees(float(np.abs(beta).max())):.4g} degrees",
-            path="angle",
+            parameter="angle",
             allowed="at most 90 degrees from the normal",
         )
 
@@ -182,7 +182,7 @@ def fit_cosine(angle: ArrayLike, y: ArrayLike, *, confidence: float = 0.95) -> F
 def _power(form: str, x: Array, y: Array, confidence: float, base: Callable[[ArrayLike], Array]) -> Fit:
     logs = np.log(base(x))
     if float(np.ptp(logs)) == 0.0:
-        raise InputError("x does not vary", path="x", allowed="values that differ")
+        raise InputError("x does not vary", parameter="x", allowed="values that differ")
 
     def factor_of(exponent: float) -> tuple[float, float]:
         shape = np.exp(exponent * logs - (exponent * logs).max())
@@ -225,7 +225,7 @@ def correlation(x: ArrayLike, y: ArrayLike, *, confidence: float = 0.95) -> Esti
     """
     one, two = _pairs(x, y, 4)
     if float(np.ptp(one)) == 0.0 or float(np.ptp(two)) == 0.0:
-        raise InputError("a list does not vary", path="x", allowed="values that differ")
+        raise InputError("a list does not vary", parameter="x", allowed="values that differ")
     r = float(np.corrcoef(one, two)[0, 1])
     from scipy.special import ndtri
 
@@ -254,7 +254,7 @@ def type_ratio(reference: ArrayLike, other: ArrayLike, *, confidence: float = 0.
     one, two = _pairs(reference, other, 3)
     line = fit_line(one, two, through_origin=True, confidence=confidence)
     if one.sum() == 0.0:
-        raise InputError("the reference loads sum to 0", path="reference", allowed="loads")
+        raise InputError("the reference loads sum to 0", parameter="reference", allowed="loads")
     ratio = float(two.sum() / one.sum())
     left = (two.sum() - two) / (one.sum() - one)
     error = math.sqrt((one.size - 1) / one.size * float(np.sum((left - left.mean()) ** 2)))
@@ -304,10 +304,10 @@ def fit_by_direction(
     """
     bounds = np.asarray(edges, dtype=np.float64)
     if bounds.ndim != 1 or bounds.size < 2 or np.any(np.diff(bounds) <= 0.0):
-        raise InputError("edges do not increase", path="edges", allowed="two or more, increasing")
+        raise InputError("edges do not increase", parameter="edges", allowed="two or more, increasing")
     one, two, beta = (np.asarray(item, dtype=np.float64).reshape(-1) for item in (x, y, angle))
     if not one.size == two.size == beta.size:
-        raise InputError("lists differ in length", path="angle", allowed="equal lists")
+        raise InputError("lists differ in length", parameter="angle", allowed="equal lists")
     known = np.isfinite(one) & np.isfinite(two) & np.isfinite(beta)
     one, two, beta = one[known], two[known], beta[known]
     common = fit_line(one, two, through_origin=True, confidence=confidence)
@@ -351,7 +351,9 @@ def resampled(
     lists = [np.asarray(column, dtype=np.float64) for column in columns]
     count = lists[0].shape[0] if lists else 0
     if count < 3 or any(column.shape[0] != count for column in lists):
-        raise InputError(f"lists of {[len(column) for column in lists]}", path="columns", allowed="equal, 3 or more")
+        raise InputError(
+            f"lists of {[len(column) for column in lists]}", parameter="columns", allowed="equal, 3 or more"
+        )
     rng = np.random.default_rng(seed)
     draws = np.array(
         [function(*(column[rows] for column in lists)) for rows in rng.integers(0, count, (resamples, count))]

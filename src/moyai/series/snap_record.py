@@ -111,7 +111,9 @@ def sampling_loss(samples_in_rise: float) -> tuple[float, float]:
         Rise time over the sampling step.
     """
     if not samples_in_rise > 0.0:
-        raise InputError(f"samples_in_rise is {samples_in_rise:g}", path="samples_in_rise", allowed="greater than 0")
+        raise InputError(
+            f"samples_in_rise is {samples_in_rise:g}", parameter="samples_in_rise", allowed="greater than 0"
+        )
     turn = 0.25 * math.pi / samples_in_rise
     # the nearest sample lies evenly within half a step of the top
     return 1.0 - math.sin(min(turn, math.pi)) / min(turn, math.pi), 1.0 - math.cos(min(turn, 0.5 * math.pi))
@@ -157,7 +159,9 @@ def read_snap(
     t, values = _checked(time, tension)
     labels = tuple(names) or tuple(f"cable {i + 1}" for i in range(len(values)))
     if len(labels) != len(values):
-        raise InputError(f"{len(labels)} names for {len(values)} cables", path="names", allowed="one for each cable")
+        raise InputError(
+            f"{len(labels)} names for {len(values)} cables", parameter="names", allowed="one for each cable"
+        )
     quiet = _intervals(t, unloaded)
     fits = [_zero(t, row, quiet) for row in (*values, values.sum(axis=0))]
     levelled = np.array([row - offset - drift * (t - t[0]) for row, (offset, drift, _) in zip(values, fits)])
@@ -167,19 +171,19 @@ def read_snap(
     low, high = (t[0], t[-1]) if window is None else window
     inside = np.flatnonzero((t >= low) & (t <= high))
     if inside.size < 10:
-        raise InputError(f"{inside.size} samples in the window", path="window", allowed="at least 10")
+        raise InputError(f"{inside.size} samples in the window", parameter="window", allowed="at least 10")
     largest = int(inside[np.argmax(total[inside])])
     if total[largest] < _LOUDEST_NOISE * noise or total[largest] <= 0.0:
         raise InputError(
             f"the largest tension, {total[largest]:.4g} N, does not stand out of the noise of {noise:.3g} N",
-            path="tension",
+            parameter="tension",
             allowed=f"above {_LOUDEST_NOISE:g} standard deviations",
             remedy="check the intervals called unloaded, and the sign of the gauge",
         )
     if largest + 10 > inside[-1] or largest < inside[0] + 5:
         raise InputError(
             "the peak lies at the end of the record",
-            path="window",
+            parameter="window",
             allowed="peak and plateau inside",
             remedy="widen it",
         )
@@ -189,7 +193,7 @@ def read_snap(
     if plateau < -0.1 * peak - 4.0 * noise:
         raise InputError(
             f"the plateau of {plateau:.4g} N is negative, for a peak of {peak:.4g} N",
-            path="tension",
+            parameter="tension",
             allowed="tensions positive",
             remedy="turn the sign of the gauge, check the unloaded intervals, or record on to the plateau",
         )
@@ -216,30 +220,32 @@ def _checked(time: ArrayLike, tension: ArrayLike) -> tuple[Array, Array]:
     if t.ndim != 1 or t.size < 20 or values.ndim != 2 or values.shape[1] != t.size:
         raise InputError(
             f"times {t.shape} and tensions {values.shape}",
-            path="tension",
+            parameter="tension",
             allowed="(n,) and (cables, n), n at least 20",
         )
     for name, array in (("time", t), ("tension", values)):
         bad = ~np.isfinite(array)
         if bad.any():
             place = int(np.argmax(bad.any(axis=0) if array.ndim == 2 else bad))
-            raise InputError(f"sample {place + 1} of {name} is no number", path=name, remedy="fill or cut gaps before")
+            raise InputError(
+                f"sample {place + 1} of {name} is no number", parameter=name, remedy="fill or cut gaps before"
+            )
     steps = np.diff(t)
     mean = float(steps.mean())
     if not (mean > 0.0 and float(np.abs(steps - mean).max()) < 0.01 * mean):
-        raise InputError("times are not uniform", path="time", allowed="equal steps", remedy="resample the record")
+        raise InputError("times are not uniform", parameter="time", allowed="equal steps", remedy="resample the record")
     return t, values
 
 
 def _intervals(t: Array, unloaded: Sequence[tuple[float, float]]) -> list[NDArray[np.intp]]:
     if not unloaded:
-        raise InputError("no unloaded interval", path="unloaded", allowed="one at least: it gives the zero level")
+        raise InputError("no unloaded interval", parameter="unloaded", allowed="one at least: it gives the zero level")
     found = []
     for low, high in unloaded:
         chosen = np.flatnonzero((t >= low) & (t <= high))
         if chosen.size < 5:
             raise InputError(
-                f"{chosen.size} samples between {low:g} and {high:g} s", path="unloaded", allowed="at least 5"
+                f"{chosen.size} samples between {low:g} and {high:g} s", parameter="unloaded", allowed="at least 5"
             )
         found.append(chosen)
     return found

@@ -79,7 +79,7 @@ class SnapFit:
         if self.rate.value * hours < 2.0:
             raise InputError(
                 f"{self.rate.value * hours:.3g} peaks above the threshold are expected in {hours:g} h",
-                path="hours",
+                parameter="hours",
                 allowed=f"at least {2.0 / self.rate.value:.3g} h",
                 remedy="ask for a longer time, or lower the threshold",
             )
@@ -89,7 +89,7 @@ class SnapFit:
         """Return the tension that the largest in so many hours stays below with a probability [N]."""
         _check_hours(hours)
         if not 0.0 < probability < 1.0:
-            raise InputError(f"probability is {probability:g}", path="probability", allowed="between 0 and 1")
+            raise InputError(f"probability is {probability:g}", parameter="probability", allowed="between 0 and 1")
         lack = -math.log(probability)
         return self._interval(
             lambda shape, scale, rate: _excess_at(self.law, min(lack / (rate * hours), 1.0), shape, scale)
@@ -106,7 +106,7 @@ class SnapFit:
 
 def _check_hours(hours: float) -> None:
     if not (math.isfinite(hours) and hours > 0.0):
-        raise InputError(f"hours is {hours:g}", path="hours", allowed="greater than 0")
+        raise InputError(f"hours is {hours:g}", parameter="hours", allowed="greater than 0")
 
 
 def _excess_at(law: SnapLaw, probability: float, shape: float, scale: float) -> float:
@@ -173,20 +173,20 @@ def fit_snaps(
     _check_hours(hours)
     given = np.asarray(peaks, dtype=np.float64).reshape(-1)
     if not np.isfinite(given).all():
-        raise InputError("a peak is not a number", path="peaks", allowed="finite tensions")
+        raise InputError("a peak is not a number", parameter="peaks", allowed="finite tensions")
     if law not in get_args(SnapLaw):
-        raise InputError(f"unknown law {law!r}", path="law", allowed=", ".join(get_args(SnapLaw)))
+        raise InputError(f"unknown law {law!r}", parameter="law", allowed=", ".join(get_args(SnapLaw)))
     if not 0.5 <= confidence < 1.0:
-        raise InputError(f"confidence is {confidence:g}", path="confidence", allowed="0.5 to below 1")
+        raise InputError(f"confidence is {confidence:g}", parameter="confidence", allowed="0.5 to below 1")
     if resamples < 50:
-        raise InputError(f"resamples is {resamples}", path="resamples", allowed="at least 50")
+        raise InputError(f"resamples is {resamples}", parameter="resamples", allowed="at least 50")
     if not math.isfinite(threshold):
-        raise InputError(f"threshold is {threshold:g} N", path="threshold", allowed="finite")
+        raise InputError(f"threshold is {threshold:g} N", parameter="threshold", allowed="finite")
     chosen = np.sort(given[given > threshold])[::-1].copy()
     if chosen.size < _FEWEST or chosen[0] == chosen[-1]:
         raise InputError(
             f"{chosen.size} different peaks above {threshold:g} N",
-            path="peaks",
+            parameter="peaks",
             allowed=f"at least {_FEWEST}, not all equal",
             remedy="simulate a longer sea, more seeds, or lower the threshold",
         )
@@ -205,7 +205,7 @@ def fit_snaps(
     if len(rows) < resamples // 2:
         raise ConvergenceError(
             f"only {len(rows)} of {resamples} samples drawn from the {law} fit can be fitted again",
-            path="peaks",
+            parameter="peaks",
             remedy="simulate a longer sea, more seeds, or lower the threshold",
         )
     drawn = np.array(rows)
@@ -244,10 +244,10 @@ def dispersion(time: ArrayLike, start: float, duration: float, blocks: int) -> f
         For fewer than two blocks, or no events.
     """
     if blocks < 2:
-        raise InputError(f"blocks is {blocks}", path="blocks", allowed="at least 2")
+        raise InputError(f"blocks is {blocks}", parameter="blocks", allowed="at least 2")
     counts, _ = np.histogram(np.asarray(time), bins=blocks, range=(start, start + duration))
     if counts.sum() == 0:
-        raise InputError("no event lies in the blocks", path="time", allowed="at least one event")
+        raise InputError("no event lies in the blocks", parameter="time", allowed="at least one event")
     return float(counts.var(ddof=1) / counts.mean())
 
 

@@ -110,21 +110,23 @@ def find_snaps(
     most = pull if peaks is None else np.asarray(peaks, dtype=np.float64)
     if t.ndim != 1 or t.shape != pull.shape or most.shape != t.shape or t.size < 2:
         raise InputError(
-            f"records of {t.shape}, {pull.shape}, {most.shape}", path="tension", allowed="equal, two values or more"
+            f"records of {t.shape}, {pull.shape}, {most.shape}",
+            parameter="tension",
+            allowed="equal, two values or more",
         )
     for name, values in (("time", t), ("tension", pull), ("peaks", most)):
         if not np.isfinite(values).all():
             raise InputError(
                 f"{name} is {values[~np.isfinite(values)][0]:g} in row {int(np.argmin(np.isfinite(values)))}",
-                path=name,
+                parameter=name,
                 allowed="finite numbers",
             )
     if not np.all(np.diff(t) > 0.0):
-        raise InputError("times do not rise", path="time", allowed="rising")
+        raise InputError("times do not rise", parameter="time", allowed="rising")
     if not (slack_level >= 0.0 and threshold >= slack_level):
         raise InputError(
             f"slack level {slack_level:g} N, threshold {threshold:g} N",
-            path="slack_level",
+            parameter="slack_level",
             allowed="0 <= level <= threshold",
         )
     t, pull = _with_peaks(t, pull, most)

@@ -38,11 +38,11 @@ class WelchOptions:
 
     def __post_init__(self) -> None:
         if not 0.0 <= self.overlap <= 0.9:
-            raise InputError(f"overlap {self.overlap:g}", path="overlap", allowed="0 to 0.9")
+            raise InputError(f"overlap {self.overlap:g}", parameter="overlap", allowed="0 to 0.9")
         if self.bands < 1:
-            raise InputError(f"{self.bands} bands", path="bands", allowed="1 or more")
+            raise InputError(f"{self.bands} bands", parameter="bands", allowed="1 or more")
         if not self.segment > 0.0:
-            raise InputError(f"segment {self.segment:g} s", path="segment", allowed="greater than 0")
+            raise InputError(f"segment {self.segment:g} s", parameter="segment", allowed="greater than 0")
 
 
 @checks_words
@@ -206,12 +206,12 @@ def cross_spectra(step: float, channels: ArrayLike, options: WelchOptions) -> Cr
     values = np.asarray(channels, dtype=np.float64)
     values = values[:, None] if values.ndim == 1 else values
     if not (math.isfinite(step) and step > 0.0):
-        raise InputError(f"time step {step:g} s", path="step", allowed="greater than 0")
+        raise InputError(f"time step {step:g} s", parameter="step", allowed="greater than 0")
     size = values.shape[0] if math.isinf(options.segment) else round(options.segment / step)
     if size < 8 or size > values.shape[0]:
         raise InputError(
             f"segments of {size} samples in a record of {values.shape[0]}",
-            path="segment",
+            parameter="segment",
             allowed="8 samples to the whole record",
         )
     shift = max(round(size * (1.0 - options.overlap)), 1)
@@ -236,7 +236,7 @@ def cross_spectra(step: float, channels: ArrayLike, options: WelchOptions) -> Cr
         used += 1
     if used == 0:
         raise InputError(
-            f"every segment of {size} samples lacks a sample", path="segment", remedy="take shorter segments"
+            f"every segment of {size} samples lacks a sample", parameter="segment", remedy="take shorter segments"
         )
     density = np.asarray(total * (2.0 * step / (power * used)), dtype=np.complex128)
     density[0] *= 0.5
@@ -247,7 +247,7 @@ def cross_spectra(step: float, channels: ArrayLike, options: WelchOptions) -> Cr
     if options.bands >= frequency.size:
         raise InputError(
             f"{options.bands} bands of {frequency.size - 1} frequencies",
-            path="bands",
+            parameter="bands",
             allowed=f"1 to {(frequency.size - 1) // 2}",
         )
     if options.bands > 1:

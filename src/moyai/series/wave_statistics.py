@@ -20,7 +20,7 @@ def significant(values: ArrayLike, fraction: float = 1.0 / 3.0) -> float:
     The number of values is rounded to the nearest whole number, at least one. NaN for no values.
     """
     if not 0.0 < fraction <= 1.0:
-        raise InputError(f"fraction is {fraction:g}", path="fraction", allowed="greater than 0, at most 1")
+        raise InputError(f"fraction is {fraction:g}", parameter="fraction", allowed="greater than 0, at most 1")
     array = np.sort(np.asarray(values, dtype=np.float64).reshape(-1))[::-1]
     if array.size == 0:
         return math.nan
@@ -45,7 +45,7 @@ def rayleigh_significant(fraction: float) -> float:
     sqrt(ln 1/p) + sqrt(pi)/(2p) erfc(sqrt(ln 1/p)); 1.41573 for p = 1/3 [eq:sea-rayleigh].
     """
     if not 0.0 < fraction <= 1.0:
-        raise InputError(f"fraction is {fraction:g}", path="fraction", allowed="greater than 0, at most 1")
+        raise InputError(f"fraction is {fraction:g}", parameter="fraction", allowed="greater than 0, at most 1")
     root = math.sqrt(-math.log(fraction))
     return root + 0.5 * math.sqrt(math.pi) / fraction * math.erfc(root)
 
@@ -57,7 +57,7 @@ def rayleigh_expected_maximum(count: int) -> float:
     [eq:sea-rayleigh].
     """
     if count < 1:
-        raise InputError(f"count is {count}", path="count", allowed="at least 1")
+        raise InputError(f"count is {count}", parameter="count", allowed="at least 1")
     points, weights = np.polynomial.legendre.leggauss(20)
     edges = np.linspace(0.0, math.sqrt(math.log(count) + 45.0), 60)
     half = 0.5 * np.diff(edges)
@@ -72,7 +72,9 @@ def rayleigh_maximum_quantile(count: int, probability: float) -> float:
     ``probability`` (between 0 and 1) is that of staying below: sqrt(-ln(1 - P^(1/N))) / 1.41573.
     """
     if count < 1 or not 0.0 < probability < 1.0:
-        raise InputError(f"count {count}, probability {probability:g}", path="probability", allowed="between 0 and 1")
+        raise InputError(
+            f"count {count}, probability {probability:g}", parameter="probability", allowed="between 0 and 1"
+        )
     single = -math.expm1(math.log(probability) / count)
     return math.sqrt(-math.log(single)) / rayleigh_significant(1.0 / 3.0)
 
@@ -135,5 +137,5 @@ def _heights(heights: ArrayLike) -> Array:
     x = np.asarray(heights, dtype=np.float64).reshape(-1)
     x = x[np.isfinite(x)]
     if np.unique(x).size < 5 or (x <= 0.0).any():
-        raise InputError(f"{x.size} heights", path="heights", allowed="five or more different, all greater than 0")
+        raise InputError(f"{x.size} heights", parameter="heights", allowed="five or more different, all greater than 0")
     return x

@@ -43,10 +43,12 @@ class WaveOptions:
 
     def __post_init__(self) -> None:
         if not self.dead_band >= 0.0:
-            raise InputError(f"dead band {self.dead_band:g}", path="dead_band", allowed="at least 0")
+            raise InputError(f"dead band {self.dead_band:g}", parameter="dead_band", allowed="at least 0")
         if not 0.0 <= self.shortest < self.longest:
             raise InputError(
-                f"periods {self.shortest:g} to {self.longest:g} s", path="shortest", allowed="0 <= shortest < longest"
+                f"periods {self.shortest:g} to {self.longest:g} s",
+                parameter="shortest",
+                allowed="0 <= shortest < longest",
             )
 
 
@@ -242,11 +244,11 @@ def find_waves(time: ArrayLike, values: ArrayLike, options: WaveOptions, *, gap:
     t = np.ascontiguousarray(time, dtype=np.float64)
     v = np.ascontiguousarray(values, dtype=np.float64)
     if t.ndim != 1 or t.shape != v.shape:
-        raise InputError(f"{v.shape} values for {t.shape} instants", path="values", allowed="equal, 1-D")
+        raise InputError(f"{v.shape} values for {t.shape} instants", parameter="values", allowed="equal, 1-D")
     if t.size < 3 or np.count_nonzero(np.isfinite(v)) < 3:
-        raise InputError(f"{np.count_nonzero(np.isfinite(v))} samples are no record of waves", path="values")
+        raise InputError(f"{np.count_nonzero(np.isfinite(v))} samples are no record of waves", parameter="values")
     if not np.all(np.diff(t) > 0.0):
-        raise InputError("the instants must increase", path="time")
+        raise InputError("the instants must increase", parameter="time")
     step = float(np.median(np.diff(t)))
     level = detrended(t, v, options.detrend)
     if options.crossing == "down":
@@ -348,14 +350,14 @@ def zero_crossing(
     v = np.ascontiguousarray(values, dtype=np.float64)
     if t.ndim != 1 or t.shape != v.shape or t.size < 2:
         raise InputError(
-            f"series of shape {v.shape} over times of shape {t.shape}", path="values", allowed="equal, 1-D"
+            f"series of shape {v.shape} over times of shape {t.shape}", parameter="values", allowed="equal, 1-D"
         )
     for name, array in (("time", t), ("values", v)):
         if not np.isfinite(array).all():
             place = int(np.argmin(np.isfinite(array)))
-            raise InputError(f"{name}[{place}] is not a number", path=name, remedy="fill or cut gaps before")
+            raise InputError(f"{name}[{place}] is not a number", parameter=name, remedy="fill or cut gaps before")
     if (np.diff(t) <= 0.0).any():
-        raise InputError("times do not increase", path="time", allowed="strictly increasing")
+        raise InputError("times do not increase", parameter="time", allowed="strictly increasing")
     level = float(np.mean(v)) if mean_level is None else float(mean_level)
     out = np.empty((4, t.size))
     count = _find_waves(v - level, t, 0.0, parabolic, math.inf, out)

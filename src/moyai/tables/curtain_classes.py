@@ -78,7 +78,7 @@ def curtain_class(name: str) -> CurtainClass:
     near = difflib.get_close_matches(name.upper(), names, 1, 0.3)
     raise InputError(
         f"unknown curtain class {name!r}",
-        path="curtain_class",
+        parameter="curtain_class",
         allowed=", ".join(names),
         remedy=f"did you mean {near[0]!r}?" if near else "",
     )

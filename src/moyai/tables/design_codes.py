@@ -90,7 +90,7 @@ def code_rules(code: str) -> tuple[CodeRule, ...]:
     """
     found = tuple(_rule(record) for record in read_table(_CODES) if record["code"] == code)
     if not found:
-        raise InputError(f"unknown code '{code}'", path="code", allowed=", ".join(available_codes()))
+        raise InputError(f"unknown code '{code}'", parameter="code", allowed=", ".join(available_codes()))
     return found
 
 
@@ -143,7 +143,9 @@ def endurance_data(name: str) -> EnduranceData:
                 name, float(record["exponent"]), float(record["capacity"]), float(record["mean_term"]),
                 record["unit"], record["confirmed"] == "yes", record["source"],
             )  # fmt: skip
-    raise InputError(f"unknown endurance curve '{name}'", path="curve", allowed=", ".join(available_endurance_curves()))
+    raise InputError(
+        f"unknown endurance curve '{name}'", parameter="curve", allowed=", ".join(available_endurance_curves())
+    )
 
 
 def holding_data(kind: str, name: str, bed: str) -> HoldingData:
@@ -159,7 +161,7 @@ def holding_data(kind: str, name: str, bed: str) -> HoldingData:
         if (record["name"], record["bed"]) == (name, bed):
             return HoldingData(kind, name, bed, float(record["value"]), record["confirmed"] == "yes", record["source"])
     pairs = ", ".join(f"{record['name']} on {record['bed']}" for record in rows)
-    raise InputError(f"no {kind} '{name}' on '{bed}' in the table", path="anchor", allowed=pairs)
+    raise InputError(f"no {kind} '{name}' on '{bed}' in the table", parameter="anchor", allowed=pairs)
 
 
 def anchor_factor(kind: str, direction: str) -> AnchorFactor:
@@ -183,4 +185,4 @@ def anchor_factor(kind: str, direction: str) -> AnchorFactor:
             value = float(record["value"])
             return AnchorFactor(kind, direction, value, record["confirmed"] == "yes", record["source"])
     pairs = ", ".join(f"{record['kind']} {record['direction']}" for record in rows)
-    raise InputError(f"no factor for '{kind}' {direction}", path="anchor", allowed=pairs)
+    raise InputError(f"no factor for '{kind}' {direction}", parameter="anchor", allowed=pairs)

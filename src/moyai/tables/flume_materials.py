@@ -52,7 +52,7 @@ class FlumeMaterial:
 
 def _positive(name: str, value: float) -> float:
     if not (math.isfinite(value) and value > 0.0):
-        raise InputError(f"{name} is {value:g} m", path=name, allowed="greater than 0")
+        raise InputError(f"{name} is {value:g} m", parameter=name, allowed="greater than 0")
     return value
 
 
@@ -88,7 +88,7 @@ def flume_material(name: str) -> FlumeMaterial:
     near = difflib.get_close_matches(name, available_flume_materials(), 1, 0.3)
     raise InputError(
         f"unknown material {name!r}",
-        path="material",
+        parameter="material",
         allowed=", ".join(available_flume_materials()),
         remedy=f"did you mean {near[0]!r}?" if near else "",
     )

@@ -96,7 +96,7 @@ def line_type(name: str, diameter: float) -> LineProperties:
     2.23
     """
     if not (math.isfinite(diameter) and diameter > 0.0):
-        raise InputError(f"diameter is {diameter:g} m", path="diameter", allowed="greater than 0")
+        raise InputError(f"diameter is {diameter:g} m", parameter="diameter", allowed="greater than 0")
     for record in read_table(_FILE):
         if record["name"] == name:
             break
@@ -104,7 +104,7 @@ def line_type(name: str, diameter: float) -> LineProperties:
         near = difflib.get_close_matches(name, available_line_types(), 1, 0.3)
         raise InputError(
             f"unknown line type {name!r}",
-            path="line_type",
+            parameter="line_type",
             allowed=", ".join(available_line_types()),
             remedy=f"did you mean {near[0]!r}?" if near else "",
         )
@@ -114,7 +114,7 @@ def line_type(name: str, diameter: float) -> LineProperties:
     if 2.0 * value["breaking_d2"] + 3.0 * value["breaking_d3"] * d <= 0.0:
         raise InputError(
             f"diameter is {d:g} m: the strength formula of {name} falls beyond its maximum",
-            path="diameter",
+            parameter="diameter",
             allowed=f"{value['diameter_min']:g} to {value['diameter_max']:g} m",
         )
     return LineProperties(

@@ -211,7 +211,7 @@ def _named(file: str, name: str, what: str) -> Record:
     near = difflib.get_close_matches(name, names, 1, 0.3)
     raise InputError(
         f"unknown {what} '{name}'",
-        path="name",
+        parameter="name",
         allowed=", ".join(names),
         remedy=f"did you mean '{near[0]}'?" if near else "",
     )

@@ -49,7 +49,7 @@ def water_properties(name: str) -> WaterProperties:
     for record in read_table(_FILE):
         if record["name"] == name:
             return _properties(record)
-    raise InputError(f"unknown water {name!r}", path="water", allowed=", ".join(available_waters()))
+    raise InputError(f"unknown water {name!r}", parameter="water", allowed=", ".join(available_waters()))
 
 
 def water_of_density(density: float) -> WaterProperties:

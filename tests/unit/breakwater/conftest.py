@@ -14,7 +14,6 @@ from moyai.structures.breakwater.model import (
     Environment,
     MooringLine,
     RegularSea,
-    Settings,
 )
 
 
@@ -40,4 +39,4 @@ def pontoon_problem() -> BreakwaterProblem:
     )
     sea = RegularSea("waves", 0.02, (0.8, 1.0))
     environment = Environment(Water(0.38, 1000.0, 9.81), (("SWL", 0.0),), (sea,))
-    return BreakwaterProblem("tank model", unit, environment, Settings())
+    return BreakwaterProblem("tank model", unit, environment)

@@ -16,8 +16,9 @@ from moyai.sea.current import uniform
 from moyai.sea.spectra import jonswap
 from moyai.sea.water import Water
 from moyai.structures.breakwater.assembly import assemble
-from moyai.structures.breakwater.model import Damping, IrregularSea, MooringSpring, RegularSea, TimeSettings, Wind
+from moyai.structures.breakwater.model import Damping, IrregularSea, MooringSpring, RegularSea, Wind
 from moyai.structures.breakwater.run import run
+from moyai.structures.breakwater.settings import TimeSettings
 
 
 def springs(stiffness: float) -> tuple[MooringSpring, ...]:
@@ -28,12 +29,13 @@ def springs(stiffness: float) -> tuple[MooringSpring, ...]:
     )
 
 
-def changed(problem, *, breakwater=None, environment=None, settings=None):
+def changed(problem, *, breakwater=None, environment=None, settings=None, analyses=None):
     return replace(
         problem,
+        analyses=analyses or problem.analyses,
         breakwater=replace(problem.breakwater, **(breakwater or {})),
         environment=replace(problem.environment, **(environment or {})),
-        settings=replace(problem.settings, **(settings or {})),
+        settings=problem.settings.changed(**(settings or {})),
     )
 
 
@@ -92,7 +94,8 @@ def test_long_waves_pass_and_carry_the_body(pontoon_problem):
         pontoon_problem,
         breakwater={"lines": (), "mass": None, "damping": Damping(0.0)},
         environment={"sea_states": (RegularSea("swell", 0.01, (8.0,)),)},
-        settings={"analyses": ("statics", "frequency"), "drift": False},
+        analyses=("statics", "frequency"),
+        settings={"drift": False},
     )
     data = run(problem).tree["SWL/frequency/swell"].to_dataset()
     assert float(data.motion_ratio.sel(dof="heave")[0]) == pytest.approx(1.0, abs=0.01)
@@ -105,7 +108,7 @@ def test_energy_of_the_moving_body_in_oblique_waves(pontoon_problem, heading):
     problem = changed(
         pontoon_problem,
         environment={"sea_states": (RegularSea("waves", 0.02, (0.9,), heading),)},
-        settings={"analyses": ("statics", "frequency")},
+        analyses=("statics", "frequency"),
     )
     result = run(problem)
     checks = [check for check in result.checks if "moving body" in check.name]
@@ -125,9 +128,7 @@ def test_irregular_sea_of_one_frequency_is_a_regular_sea(pontoon_problem):
         RegularSea("regular", height / math.sqrt(2.0), (0.95,)),
         IrregularSea("narrow", Spectrum(narrow, density, "narrow"), duration=60.0),
     )
-    problem = changed(
-        pontoon_problem, environment={"sea_states": seas}, settings={"analyses": ("statics", "frequency")}
-    )
+    problem = changed(pontoon_problem, environment={"sea_states": seas}, analyses=("statics", "frequency"))
     tree = run(problem).tree
     regular, narrow_sea = (tree[f"SWL/frequency/{sea.name}"].to_dataset() for sea in seas)
     assert float(narrow_sea.transmission_coefficient) == pytest.approx(
@@ -149,13 +150,13 @@ def test_same_seed_same_sea_bit_for_bit(pontoon_problem):
 
 
 def test_steady_wind_and_current_move_the_unit(pontoon_problem):
-    still = run(changed(pontoon_problem, settings={"analyses": ("statics",)})).tree["SWL/statics"].to_dataset()
+    still = run(changed(pontoon_problem, analyses=("statics",))).tree["SWL/statics"].to_dataset()
     assert np.all(still.steady_offset.values == 0.0)
     problem = changed(
         pontoon_problem,
         breakwater={"wind_drag_coefficient": 1.2, "current_drag_coefficient": 1.5},
         environment={"wind": Wind(10.0, 0.0, 1.225), "current": uniform(0.1, 0.0)},
-        settings={"analyses": ("statics",)},
+        analyses=("statics",),
     )
     data = run(problem).tree["SWL/statics"].to_dataset()
     wind = 0.5 * 1.225 * 1.2 * 0.986 * 0.057 * 100.0
@@ -223,7 +224,7 @@ def test_gap_of_a_twin_pontoon_is_told(pontoon_problem, lid):
     problem = changed(
         pontoon_problem,
         breakwater={"hull": hull, "mass": None, "draught": 0.12, "gap_damping_lid": lid},
-        settings={"analyses": ("statics", "frequency")},
+        analyses=("statics", "frequency"),
     )
     result = run(problem)
     assert result.status == "converged", result.message
@@ -236,7 +237,7 @@ def test_operators_in_slightly_oblique_waves_keep_their_energy(pontoon_problem):
     problem = changed(
         pontoon_problem,
         environment={"sea_states": (RegularSea("waves", 0.02, (0.9,), 0.1),)},
-        settings={"analyses": ("frequency",)},
+        analyses=("frequency",),
     )
     result = run(problem)
     assert result.status == "converged", result.message
@@ -248,7 +249,7 @@ def test_oblique_coefficients_are_kept_and_used_again(pontoon_problem, tmp_path,
     problem = changed(
         pontoon_problem,
         environment={"sea_states": (RegularSea("waves", 0.02, (0.9,), 0.4),)},
-        settings={"analyses": ("statics", "frequency")},
+        analyses=("statics", "frequency"),
     )
     store = DatasetStore(tmp_path)
     first = run(problem, store=store)
@@ -324,7 +325,7 @@ def test_mean_drift_of_a_spread_sea_is_the_sum_over_its_waves(pontoon_problem):
     base = changed(
         pontoon_problem,
         breakwater={"lines": springs(150.0), "mass": None, "damping": Damping(0.0, linear=(20.0, 60.0, 0.5))},
-        settings={"analyses": ("statics", "frequency")},
+        analyses=("statics", "frequency"),
     )
     spread = run(changed(base, environment={"sea_states": (sea,)})).tree["SWL/frequency/spread"].to_dataset()
     periods = tuple(2.0 * np.pi / np.concatenate([np.linspace(4.0, 12.0, 33), np.linspace(12.5, 33.0, 20)]))

@@ -18,7 +18,7 @@ from moyai.structures.breakwater.assembly import assemble
 from moyai.structures.breakwater.case.build import build_problem
 from moyai.structures.breakwater.lines.network import bars_of, line_network
 from moyai.structures.breakwater.lines.water import sea_of_lines
-from moyai.structures.breakwater.model import LineDynamics
+from moyai.structures.breakwater.settings import LineDynamics
 
 CASE = """
 moyai: 1

@@ -24,7 +24,7 @@ def without_far_field(problem):
 
 
 def test_same_motions_as_the_section_without_drift(pontoon_problem):
-    problem = replace(pontoon_problem, settings=replace(pontoon_problem.settings, drift=False))
+    problem = replace(pontoon_problem, settings=pontoon_problem.settings.changed(drift=False))
     section = run(problem).tree
     given = run(problem, coefficients=without_far_field(problem)).tree
     for group in ("SWL/frequency/waves", "SWL/time/waves"):

@@ -1,4 +1,4 @@
-"""The offset of a sea: realisations with lines at rest, and what the events with lines in motion add."""
+"""Offset and transmission of the first page: events with lines in motion, and limits that no further sea loosens."""
 
 from __future__ import annotations
 
@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from moyai.structures.breakwater.headlines import _offset
+from moyai.core.headline import Criterion, judge
+from moyai.structures.breakwater.headlines import _offset, _transmission
 
 
 def sea(moving: float, still: float, members: tuple[float, ...] = (1.0, 1.2, 1.4)) -> xr.Dataset:
@@ -37,3 +38,34 @@ def test_one_realisation_has_a_band_where_lines_in_motion_go_further():
     (alone,) = _offset("time", sea(1.5, 1.25, (1.2,)), "SWL", "storm", None)
     assert (alone.band.low, alone.band.high) == (pytest.approx(1.2), pytest.approx(1.44))
     assert _offset("time", sea(1.0, 1.25, (1.2,)), "SWL", "storm", None)[0].band is None
+
+
+def passed(values: tuple[float, ...], high: float, periods: tuple[float, ...] = ()) -> xr.Dataset:
+    """Transmission of a regular sea over its periods, or of an irregular one."""
+    data = np.array(values if periods else values[0])
+    dims = ("period",) if periods else ()
+    ends = {"low": data, "high": np.maximum(data, high)}
+    return xr.Dataset(
+        {"transmission_coefficient": (dims, data)}
+        | {f"transmission_coefficient_{end}": (dims, value) for end, value in ends.items()},
+        coords={"period": list(periods)} if periods else {},
+    )
+
+
+def test_no_further_sea_makes_a_limit_on_transmission_hold():
+    swell, chop, storm = passed((0.4, 0.97), 0.4, (3.0, 8.0)), passed((0.3,), 0.62), passed((0.35,), 0.4)
+    limit = Criterion("greatest_transmission", "transmission", 0.6, "at most", "case file")
+    level = {"/SWL": xr.Dataset(attrs={"water_depth": 10.0})}
+
+    def judged(**seas: xr.Dataset) -> tuple[str, float]:
+        groups = level | {f"/SWL/frequency/{name}": data for name, data in seas.items()}
+        numbers = _transmission(groups, ["SWL"])
+        assert sum(item.shown for item in numbers) == 1
+        found = judge(numbers, [limit], computed=True)
+        return found.outcome, max(item.value for item in found.judgements)
+
+    assert judged(storm=storm) == ("holds", pytest.approx(0.4))
+    # a smaller value with a wider band
+    assert judged(storm=storm, chop=chop) == ("does not hold", pytest.approx(0.62))
+    assert judged(swell=swell) == ("does not hold", pytest.approx(0.97))
+    assert judged(swell=swell, storm=storm) == ("does not hold", pytest.approx(0.97))

@@ -12,8 +12,9 @@ from moyai.case.yaml_reader import parse_yaml
 from moyai.sea.spectra import jonswap
 from moyai.sea.states import IrregularSea, RegularSea
 from moyai.structures.breakwater.assembly import assemble
-from moyai.structures.breakwater.model import Damping, MooringSpring, Settings, TimeSettings
+from moyai.structures.breakwater.model import Damping, MooringSpring
 from moyai.structures.breakwater.run import run
+from moyai.structures.breakwater.settings import Settings, TimeSettings
 from moyai.structures.breakwater.viscous_damping import unit_drag_rows, viscous_notices
 
 CASE = """\
@@ -73,8 +74,8 @@ def springs():
 def changed(problem, damping, seas, analyses=("frequency",), **time):
     unit = replace(problem.breakwater, damping=damping, lines=springs(), mass=None)
     environment = replace(problem.environment, sea_states=seas)
-    settings = Settings(analyses=analyses, drift=False, time=TimeSettings(**time))
-    return replace(problem, breakwater=unit, environment=environment, settings=settings)
+    settings = Settings(drift=False, time=TimeSettings(**time))
+    return replace(problem, breakwater=unit, environment=environment, analyses=analyses, settings=settings)
 
 
 COMPUTED = Damping(viscous=True, band=(0.5, 2.0))

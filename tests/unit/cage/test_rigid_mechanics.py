@@ -436,6 +436,38 @@ def test_net_is_loaded_by_its_law(name):
     assert still[1] != 0.0
 
 
+@pytest.mark.parametrize(("across", "up"), [(0.7, -0.45), (-0.3, 0.8)])
+def test_a_lumped_net_is_loaded_on_each_axis_by_the_square_of_its_speed(across, up):
+    """The lump of a whole net in the equations as printed: rho C_n(|u|) A u |u| / 2 along x and along z, at its arm."""
+    rng = np.random.default_rng(13)
+    cage = random_cage(rng)
+    packed = pack(cage, (), Water(50.0 * size_of(cage), 1000.0, 9.81), NU)
+    arm, areas, volume, added = (0.4, -0.9), (1.7, 2.3), 0.02, 0.6
+    lump = np.array([[*arm, volume, 1.0 + added, added, *areas]])
+    turn, spin = 0.3, 0.4
+    state = np.array([0.0, -20.0 * size_of(cage), turn, -across, -up, spin])
+
+    def loaded(blocks):
+        force, mass, work = np.empty(3), np.empty((3, 3)), np.empty(6)
+        load_kernel.loads(packed._replace(blocks=blocks), 0.0, state, np.zeros(0), force, mass, work)
+        return force, mass
+
+    (force, mass), (bare, without) = loaded(lump), loaded(lump[:0])
+    rx, rz = math.cos(turn) * arm[0] + math.sin(turn) * arm[1], -math.sin(turn) * arm[0] + math.cos(turn) * arm[1]
+    # the water passes the lump at minus its own velocity
+    u, w = across - spin * rz, up + spin * rx
+    extra = 1000.0 * volume * added
+    pushes = []
+    for speed, area, reach in ((u, areas[0], rx), (w, areas[1], rz)):
+        drag, _ = cage.law.coefficients(0.0, abs(speed), cage.net, NU)
+        # the arm turns: its end is drawn to the middle, and the added mass with it
+        pushes.append(0.5 * 1000.0 * area * float(drag) * speed * abs(speed) + extra * spin**2 * reach)
+    assert (force - bare)[:2] == pytest.approx(pushes, rel=2e-3)
+    assert (force - bare)[2] == pytest.approx(pushes[0] * rz - pushes[1] * rx, rel=2e-3)
+    held = np.array([[1.0, 0.0, rz], [0.0, 1.0, -rx], [rz, -rx, rx**2 + rz**2]])
+    assert mass - without == pytest.approx(extra * held, rel=1e-12, abs=1e-12)
+
+
 def test_masses_of_box_and_cylinder_are_those_of_the_formulas():
     rng = np.random.default_rng(3)
     for shape in ("box", "cylinder"):

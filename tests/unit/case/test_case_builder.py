@@ -45,7 +45,7 @@ def test_the_whole_case_arrives_in_si_units():
     chain = line_type("studless_chain_R3", 0.068)
     assert line.segments[0].line_type.submerged_weight == chain.submerged_weight_per_length(1025.0, 9.81)
     assert line.segments[0].line_type.breaking_load == chain.breaking_load
-    assert found.settings.analyses == ("statics", "mooring", "frequency", "time")
+    assert found.analyses == ("statics", "mooring", "frequency", "time")
     assert found.case_text == CASE
 
 
@@ -183,7 +183,7 @@ def test_settings_reach_the_problem():
     settings = found.settings
     assert settings.drift is False
     assert settings.angular_frequencies() == pytest.approx(2.0 * math.pi * np.array([0.1, 0.15, 0.2]))
-    assert settings.restoring_offsets == (-1.0, 0.0, 1.0)
+    assert settings.offsets() == pytest.approx([-1.0, 0.0, 1.0])
     assert found.environment.water_levels == (("LWL", 0.0),)
     assert (settings.time.duration, settings.time.time_step, settings.time.ramp) == (300.0, 0.02, None)
     assert (settings.time.drift, settings.time.memory) == ("newman", "convolution")

@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 
 from moyai.core.collected import Collected
-from moyai.core.headline import Band, Criterion, Headline, Verdict, judge
+from moyai.core.headline import Band, Criterion, Headline, Verdict, governing, judge
 from moyai.core.results import read_result
 from moyai.core.vocabulary import Vocabulary
 
@@ -101,3 +101,19 @@ def test_a_bound_of_a_load_turns_over_with_its_factor_of_safety() -> None:
     used = Headline("used", "Anchors", 1.5, "1", bound="at most")
     (found,) = judge([used], [least], computed=True).judgements
     assert (found.outcome, found.bound, found.shown_bound) == ("not judged", "at most", "at least")
+
+
+def test_of_one_number_the_worst_end_is_judged_in_either_sense() -> None:
+    shallow, deep = (
+        Headline("effective_depth", "depth", value, "m", where, band=Band(low, 6.0, "drag"))
+        for value, low, where in ((5.0, 4.6, "HWL"), (5.2, 3.9, "LWL"))
+    )
+    shown, behind = governing([shallow, deep], "at least")
+    assert (shown.where, behind.where, behind.shown) == ("HWL", "LWL", False)
+    assert judge([shallow], [LEAST], computed=True).outcome == "holds"
+    verdict = judge([shown, behind], [LEAST], computed=True)
+    assert verdict.outcome == "does not hold"
+    assert governing([deep], "at least") == [deep]
+    # scatter that does not decide is judged at its interval alone
+    mean = transmission(0.4, band=Band(0.3, 0.9, "5 seeds", decides=False))
+    assert governing([mean, transmission(0.45)]) == [transmission(0.45)]

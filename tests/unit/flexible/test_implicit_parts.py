@@ -166,7 +166,7 @@ def ring_network(seed: int) -> Network:
 
 
 @pytest.mark.parametrize("make", [sheet_network, panel_network, ring_network])
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", [0, *(pytest.param(k, marks=pytest.mark.slow) for k in (1, 2))])
 def test_implicit_and_explicit_schemes_meet(make: Callable[[int], Network], seed: int) -> None:
     """Random networks in a current: both families close in on one motion, each at its own order."""
     network, flow = make(seed), Flow(velocity=(0.4, 0.3, 0.1))

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import numpy as np
-
-from moyai.floating.checks import check_motion, check_statics
+from moyai.floating.checks import check_statics
 from moyai.floating.statics import hydrostatics
 from moyai.potential import shapes
 
@@ -20,12 +18,3 @@ def test_statics() -> None:
     assert codes == ["imbalance", "unstable"]
     notice = check_statics(_statics(57000.0, -0.5), vertical_pull=0.0, gravity=9.81)[0]
     assert abs(notice.value - 5.0) < 1e-9 and notice.limit == 1.0
-
-
-def test_motion() -> None:
-    assert check_motion(np.array([3.0, 0.5, 0.1]), draught=1.5, freeboard=1.5) == ()
-    codes = [n.code for n in check_motion(np.array([[0.0, 0.9, 0.0], [0, 0, 0.3]]), draught=1.5, freeboard=1.5)]
-    assert codes == ["large-roll", "large-heave"]
-    assert [n.code for n in check_motion(np.array([0.0, np.nan, 0.0]), draught=1.0, freeboard=1.0)] == [
-        "motion-not-finite"
-    ]

@@ -12,7 +12,13 @@ from moyai.floating.forcing import CalmWater
 from moyai.floating.memory import StateSpaceMemory
 from moyai.floating.moving_water import MovingWater
 from moyai.floating.time import CumminsModel, simulate
-from moyai.floating.viscous import edge_damping, rounding_factor, sharp_box_roll_damping, water_measure
+from moyai.floating.viscous import (
+    eddy_coefficient,
+    edge_damping,
+    rounding_factor,
+    sharp_box_roll_damping,
+    water_measure,
+)
 from moyai.floating.viscous_section import section_edges
 from moyai.potential.sections import Hull, Outline
 from moyai.potential.shapes import circle, rectangle
@@ -236,3 +242,67 @@ def test_impossible_arguments_are_refused():
         edge_damping(edges.corners, (), (0.0, 0.0), 0.0, 1.0)
     with pytest.raises(InputError):
         edge_damping(edges.corners, (), (0.0, 0.0), 1000.0, -1.0)
+
+
+def ikeda_by_the_procedure(beam, draught, radius):
+    """C_R of a section that rolls about the still water, copied from ITTC 7.5-02-07-04.5 (2011), section 2.1.3.
+
+    In the symbols and with the dimensions of that page; the Lewis form of a section is that of its half beam over
+    draught H0 and area coefficient sigma.
+    """
+    h0 = beam / (2.0 * draught)
+    sigma = (beam * draught - 2.0 * (1.0 - math.pi / 4.0) * radius**2) / (beam * draught)
+    f1 = 0.5 * (1.0 + math.tanh(20.0 * (sigma - 0.7)))
+    f2 = 0.5 * (1.0 - math.cos(math.pi * sigma))
+    f2 -= 1.5 * (1.0 - math.exp(-5.0 * (1.0 - sigma))) * math.sin(math.pi * sigma) ** 2
+    f3 = 1.0 + 4.0 * math.exp(-1.65e5 * (1.0 - sigma) ** 2)
+    # a1 and a3 of the form z = M (zeta + a1 / zeta + a3 / zeta^3): half beam, draught and area are those of the section
+    from scipy.optimize import root
+
+    def misses(a):
+        wide, deep = 1.0 + a[0] + a[1], 1.0 - a[0] + a[1]
+        area = 0.25 * math.pi * (1.0 - a[0] ** 2 - 3.0 * a[1] ** 2)
+        return [wide / deep - h0, area / (wide * deep) - sigma]
+
+    found = root(misses, [0.0, -0.1], tol=1e-13)
+    assert np.abs(found.fun).max() < 1e-12
+    a1, a3 = found.x
+    m = beam / (2.0 * (1.0 + a1 + a3))
+
+    def r_of(psi):
+        return m * math.sqrt(
+            ((1.0 + a1) * math.sin(psi) - a3 * math.sin(3.0 * psi)) ** 2
+            + ((1.0 - a1) * math.cos(psi) + a3 * math.cos(3.0 * psi)) ** 2
+        )
+
+    psi1, psi2 = 0.0, 0.0
+    if abs(a1 * (1.0 + a3)) < abs(4.0 * a3):
+        psi2 = 0.5 * math.acos(a1 * (1.0 + a3) / (4.0 * a3))
+    psi = psi1 if r_of(psi1) >= r_of(psi2) else psi2
+    r_max = r_of(psi)
+    h = 1.0 + a1**2 + 9.0 * a3**2 + 2.0 * a1 * (1.0 - 3.0 * a3) * math.cos(2.0 * psi) - 6.0 * a3 * math.cos(4.0 * psi)
+    a = -2.0 * a3 * math.cos(5.0 * psi) + a1 * (1.0 - a3) * math.cos(3.0 * psi)
+    a += ((6.0 - 3.0 * a1) * a3**2 + (a1**2 - 3.0 * a1) * a3 + a1**2) * math.cos(psi)
+    b = -2.0 * a3 * math.sin(5.0 * psi) + a1 * (1.0 - a3) * math.sin(3.0 * psi)
+    b += ((6.0 + 3.0 * a1) * a3**2 + (3.0 * a1 + a1**2) * a3 + a1**2) * math.sin(psi)
+    gamma = math.sqrt(math.pi) * f3 / (2.0 * draught * math.sqrt(h0 * sigma))
+    gamma *= r_max + 2.0 * m / h * math.sqrt(a**2 + b**2)
+    c_p = 0.5 * (0.87 * math.exp(-gamma) - 4.0 * math.exp(-0.187 * gamma) + 3.0)
+    levers = (1.0 - f1 * radius / draught) ** 2 + f2 * (beam / (2.0 * draught) - f1 * radius / draught) ** 2
+    return levers * c_p * (r_max / draught) ** 2
+
+
+@pytest.mark.parametrize(
+    ("beam", "draught", "radius"),
+    [(2.0, 1.0, 0.3), (3.1, 1.4, 0.7), (1.5, 1.0, 0.05), (2.4, 1.0, 0.9), (3.0, 1.2, 1.2)],
+)
+def test_eddies_of_a_round_bilge_are_those_of_the_procedure(beam, draught, radius):
+    found = eddy_coefficient(0.5 * beam / draught, radius / draught)
+    assert found == pytest.approx(ikeda_by_the_procedure(beam, draught, radius), rel=1e-9)
+
+
+def test_a_half_circle_sheds_hardly_anything():
+    """It turns in itself; what the law leaves is its pressure coefficient alone."""
+    whole = rounding_factor(1.0, 1.0)
+    assert 0.0 <= whole < 0.05
+    assert whole == pytest.approx(rounding_factor(1.0, 1.0 - 1e-6), abs=1e-4)

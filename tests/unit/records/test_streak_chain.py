@@ -81,6 +81,7 @@ def changed(folder, name, *pairs):
     return path
 
 
+@pytest.mark.slow
 def test_planted_circulation_comes_back_from_pictures(folder):
     runner = CliRunner()
     call = ["measure", "streaks", str(folder / "streaks.yaml"), "-o", str(folder / "out"), "--json"]

@@ -85,3 +85,34 @@ def test_faults_of_a_chain_are_told():
         close_period_cubic(chain_of(place, 0.4, 0.1, 3), 1.0)
     with pytest.raises(InputError, match="order of time"):
         StreakChain(np.array([0.0, 0.1]), np.array([0.2, 0.3]), np.zeros((2, 2)), np.zeros((2, 2)))
+
+
+def test_the_number_of_harmonics_is_that_of_the_corrected_criterion_of_akaike():
+    """n ln(s^2) + 2 k + 2 k (k + 1) / (n - k - 1) with n data and k unknowns, the variance among them."""
+    rng, chosen, plain = np.random.default_rng(5), [], []
+    for _ in range(60):
+        period, ends = 1.0, 2 * rng.integers(5, 9)
+        place, _ = random_motion(period, 2)
+        clean = chain_of(place, 2.0 * period / ends, 0.05, ends // 2)
+        noise = rng.normal(0.0, 4e-3, (2, *clean.start.shape))
+        chain = StreakChain(clean.start_time, clean.end_time, clean.start + noise[0], clean.end + noise[1])
+        fits = {
+            number: fit_drift_harmonics(chain, period, harmonics=(number,))
+            for number in (1, 2, 3)
+            if ends >= 2 + 2 * number + 3
+        }
+        n = 2 * ends  # both components
+
+        def corrected(number, fits=fits, n=n):
+            k = 2 * (2 + 2 * number) + 1
+            return n * math.log(fits[number].residual ** 2 / 2.0) + 2 * k + 2 * k * (k + 1) / (n - k - 1)
+
+        def without(number, fits=fits, n=n):
+            return n * math.log(fits[number].residual ** 2 / 2.0) + 2 * (2 * (2 + 2 * number) + 1)
+
+        best = min(fits, key=corrected)
+        chosen.append(best)
+        plain.append(min(fits, key=without))
+        assert fit_drift_harmonics(chain, period, harmonics=tuple(fits)).residual == fits[best].residual
+    # the correction decides some of them
+    assert len(set(chosen)) > 1 and chosen != plain

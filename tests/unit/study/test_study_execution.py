@@ -59,6 +59,7 @@ def test_a_case_that_kills_its_worker_is_a_failed_row(tmp_path):
     assert "died twice" in result.tree["case_message"].values[0, 1]
 
 
+@pytest.mark.slow
 def test_a_case_that_kills_fresh_workers_is_not_taken_for_workers_that_do_not_start(tmp_path):
     study = load_study(study_cases.write_study(tmp_path, heights=1, seeds=2))
     task = Task(study.base, study.base_path.resolve(), study.wanted, None, study_cases.deadly_case)

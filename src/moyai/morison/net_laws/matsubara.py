@@ -54,10 +54,10 @@ class Matsubara(NetLaw):
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.cap) and self.cap > 0.0):
-            raise InputError(f"cap is {self.cap:g}", path="cap", allowed="greater than 0")
+            raise InputError(f"cap is {self.cap:g}", parameter="cap", allowed="greater than 0")
         if not 0.0 <= self.tangential_share <= 1.0:
             raise InputError(
-                f"tangential_share is {self.tangential_share:g}", path="tangential_share", allowed="0 to 1"
+                f"tangential_share is {self.tangential_share:g}", parameter="tangential_share", allowed="0 to 1"
             )
 
     def twine_drag(self, reynolds: ArrayLike) -> Array:

@@ -61,16 +61,18 @@ class PowerLawNet(NetLaw):
         for name in ("factor", "cap"):
             value = getattr(self, name)
             if not (math.isfinite(value) and value > 0.0):
-                raise InputError(f"{name} is {value:g}", path=name, allowed="greater than 0")
+                raise InputError(f"{name} is {value:g}", parameter=name, allowed="greater than 0")
         if not 0.0 <= self.exponent < 1.0:
-            raise InputError(f"exponent is {self.exponent:g}", path="exponent", allowed="0 to below 1")
+            raise InputError(f"exponent is {self.exponent:g}", parameter="exponent", allowed="0 to below 1")
         if not 0.0 <= self.lowest < self.highest:
             raise InputError(
-                f"the range of Re from {self.lowest:g} to {self.highest:g}", path="lowest", allowed="a range that rises"
+                f"the range of Re from {self.lowest:g} to {self.highest:g}",
+                parameter="lowest",
+                allowed="a range that rises",
             )
         if not 0.0 <= self.tangential_share <= 1.0:
             raise InputError(
-                f"tangential_share is {self.tangential_share:g}", path="tangential_share", allowed="0 to 1"
+                f"tangential_share is {self.tangential_share:g}", parameter="tangential_share", allowed="0 to 1"
             )
         # the range of this law is its own, not that of its class
         object.__setattr__(self, "reynolds_range", (self.lowest, self.highest))

@@ -34,7 +34,7 @@ class TwineLaw(NetLaw):
 
     def __post_init__(self) -> None:
         if not math.isfinite(self.azimuth):
-            raise InputError(f"azimuth is {self.azimuth:g} rad", path="azimuth", allowed="a finite angle")
+            raise InputError(f"azimuth is {self.azimuth:g} rad", parameter="azimuth", allowed="a finite angle")
 
     @abstractmethod
     def normal_drag(self, reynolds: ArrayLike, net: Net) -> Array:

@@ -51,11 +51,11 @@ def agreement(model: ArrayLike, observed: ArrayLike) -> Agreement:
     """
     m, o = np.asarray(model, dtype=float).reshape(-1), np.asarray(observed, dtype=float).reshape(-1)
     if m.shape != o.shape:
-        raise InputError(f"{m.size} model values for {o.size} observations", path="model")
+        raise InputError(f"{m.size} model values for {o.size} observations", parameter="model")
     known = np.isfinite(m) & np.isfinite(o)
     m, o = m[known], o[known]
     if m.size < 2:
-        raise InputError(f"{m.size} pairs of values", path="observed", allowed="two or more")
+        raise InputError(f"{m.size} pairs of values", parameter="observed", allowed="two or more")
     difference = m - o
     bias, rms = float(difference.mean()), math.sqrt(float(np.mean(difference**2)))
     magnitude = float(np.mean(np.abs(o)))
@@ -112,10 +112,10 @@ def agreement_by_state(
     """
     m, o, s = (np.asarray(values, dtype=float).reshape(-1) for values in (model, observed, state))
     if not m.shape == o.shape == s.shape:
-        raise InputError(f"{m.size}, {o.size} and {s.size} values", path="state", allowed="equal numbers")
+        raise InputError(f"{m.size}, {o.size} and {s.size} values", parameter="state", allowed="equal numbers")
     borders = np.asarray(edges, dtype=float)
     if borders.size < 2 or not np.all(np.diff(borders) > 0.0):
-        raise InputError("borders of the classes", path="edges", allowed="two or more, increasing")
+        raise InputError("borders of the classes", parameter="edges", allowed="two or more, increasing")
     out = []
     for lower, upper in itertools.pairwise(borders):
         inside = (s >= lower) & (s < upper) & np.isfinite(m) & np.isfinite(o)
@@ -170,7 +170,7 @@ def overlay(
     mt, mv = np.asarray(model_time, dtype=float), np.asarray(model, dtype=float)
     ot, ov = np.asarray(observed_time, dtype=float), np.asarray(observed, dtype=float)
     if mt.size < 2 or ot.size < 2:
-        raise InputError(f"{mt.size} and {ot.size} instants", path="time", allowed="two or more each")
+        raise InputError(f"{mt.size} and {ot.size} instants", parameter="time", allowed="two or more each")
     gap = 2.5 * float(np.median(np.diff(mt)))
 
     def moved(lag: float) -> Array:
@@ -193,7 +193,7 @@ def overlay(
     if np.count_nonzero(shared) < 2:
         raise InputError(
             f"model ({mt[0]:.6g} to {mt[-1]:.6g} s) and record ({ot[0]:.6g} to {ot[-1]:.6g} s) share no time",
-            path="time",
+            parameter="time",
             remedy="give the start of the record, or shift it",
         )
     first, last = np.flatnonzero(shared)[[0, -1]]

@@ -52,7 +52,7 @@ def pairing_of(text: str, result: Result) -> Pairing:
     pairs = [(text[:place].strip(), text[place + 1 :].strip()) for place in places]
     pairs = [pair for pair in pairs if all(pair)]
     if not pairs:
-        raise InputError(f"'{text}' has no '='", path="--pair", allowed="variable=column")
+        raise InputError(f"'{text}' has no '='", parameter="--pair", allowed="variable=column")
     faults = []
     for variable, column in pairs:
         try:
@@ -145,19 +145,19 @@ def compare_result(
 def _read(path: Path, coordinate: str, decimal: str, wanted: Set[str]) -> tuple[Record, str]:
     """Return the wanted columns of the record, its coordinate as time, and the coordinate's name."""
     if not path.is_file():
-        raise InputError(f"no such file: {path}", path="record")
+        raise InputError(f"no such file: {path}", parameter="record")
     probe = LoggerSource("record", (path,), (ColumnSource(1, "x"),), TimeSource((1,)), format="csv", decimal=decimal)
     layout = find_layout(path, probe)
     headings = [split_heading(heading) for heading in layout.headings]
     names = [name for name, _ in headings]
     if not names or all(_is_number(name) for name in names):
-        raise InputError(f"{path.name} has no headings", path="record", remedy="the first line names the columns")
+        raise InputError(f"{path.name} has no headings", parameter="record", remedy="the first line names the columns")
     if coordinate and coordinate not in names:
-        raise InputError(f"{path.name} has no column '{coordinate}'", path="coordinate", allowed=", ".join(names))
+        raise InputError(f"{path.name} has no column '{coordinate}'", parameter="coordinate", allowed=", ".join(names))
     place = names.index(coordinate) if coordinate else 0
     others = [i for i in range(len(names)) if i != place and names[i]]
     if not others:
-        raise InputError(f"{path.name} has one column only", path="record")
+        raise InputError(f"{path.name} has one column only", parameter="record")
     given = ", ".join(names[i] for i in others)
     others = [i for i in others if names[i] in wanted]
     if not others:
@@ -166,7 +166,7 @@ def _read(path: Path, coordinate: str, decimal: str, wanted: Set[str]) -> tuple[
             f"no column of {path.name} ({given}) has the name of one variable of the result"
             if len(plain) > 2
             else f"{path.name} has no column '{plain[0]}'",
-            path="pair",
+            parameter="pair",
             allowed=", ".join(plain[:40]) if len(plain) > 2 else given,
             remedy="name pairs: --pair variable=column",
         )
@@ -226,7 +226,7 @@ def _by_name(record: Record, variables: Mapping[str, Any], path: Path) -> list[P
         plain = sorted({key.rsplit("/", 1)[1] for key in variables})
         raise InputError(
             f"no column of {path.name} ({', '.join(record.names)}) has the name of one variable of the result",
-            path="pair",
+            parameter="pair",
             allowed=", ".join(plain[:40]),
             remedy="name pairs: --pair variable=column",
         )
@@ -243,13 +243,13 @@ def _find(wanted: str, variables: Mapping[str, Any]) -> str:
         return fitting[0]
     if len(fitting) > 1:
         raise InputError(
-            f"'{wanted}' stands in {len(fitting)} groups", path="variable", allowed=", ".join(fitting[:20])
+            f"'{wanted}' stands in {len(fitting)} groups", parameter="variable", allowed=", ".join(fitting[:20])
         )
     near = difflib.get_close_matches(wanted, list(variables), n=3, cutoff=0.4)
     renamed = former(wanted.rsplit("/", 1)[-1])
     raise InputError(
         f"the result has no variable '{wanted}'",
-        path="variable",
+        parameter="variable",
         allowed=", ".join(list(variables)[:40]),
         remedy=renamed or (f"did you mean {' or '.join(near)}?" if near else ""),
     )
@@ -269,13 +269,15 @@ def _values(
             elif place.lstrip("-").isdigit() and abs(int(place)) < array.sizes[dimension]:
                 array = array.isel({dimension: int(place)})
             else:
-                raise InputError(f"'{place}' is no entry of {dimension}", path="select", allowed=", ".join(labels[:40]))
+                raise InputError(
+                    f"'{place}' is no entry of {dimension}", parameter="select", allowed=", ".join(labels[:40])
+                )
     if array.ndim > 1:
         array = array.squeeze()
     if array.ndim != 1:
         raise InputError(
             f"'{name}' runs along {', '.join(map(str, array.dims))}",
-            path="select",
+            parameter="select",
             remedy=f"choose with --select {array.dims[-1]}=...",
         )
     dimension = str(array.dims[0])
@@ -284,7 +286,7 @@ def _values(
     ]
     order = [key for key in (along, dimension, "time", "period", "omega") if key in candidates]
     if not order:
-        raise InputError(f"'{name}' has no coordinate along {dimension}", path="coordinate")
+        raise InputError(f"'{name}' has no coordinate along {dimension}", parameter="coordinate")
     stored = np.asarray(node[order[0]].values)
     dated = stored.dtype.kind == "M"
     coordinate = np.asarray(
@@ -315,7 +317,7 @@ def _column(record: Record, name: str, unit: str, path: Path, notices: list[Noti
         except InputError:
             same = True  # a unit such as m/m that is no product of units
         if not same:
-            raise InputError(f"{path.name}, column '{name}' is in {own} and the variable in {plain}", path="unit")
+            raise InputError(f"{path.name}, column '{name}' is in {own} and the variable in {plain}", parameter="unit")
     return values
 
 
@@ -323,7 +325,9 @@ def _edges(state: Array) -> tuple[float, ...]:
     """Return four classes with equal numbers."""
     known = state[np.isfinite(state)]
     if known.size < 8:
-        raise InputError(f"{known.size} values of the sea state", path="by", allowed="8 or more, or give the edges")
+        raise InputError(
+            f"{known.size} values of the sea state", parameter="by", allowed="8 or more, or give the edges"
+        )
     borders = np.unique(np.quantile(known, [0.0, 0.25, 0.5, 0.75, 1.0]))
     borders[-1] = np.nextafter(borders[-1], math.inf)
     return tuple(float(border) for border in borders)

@@ -64,29 +64,31 @@ class Setup:
     def __post_init__(self) -> None:
         for name in ("density", "area"):
             if not (math.isfinite(getattr(self, name)) and getattr(self, name) > 0.0):
-                raise InputError(f"{name} is {getattr(self, name):g}", path=name, allowed="greater than 0")
+                raise InputError(f"{name} is {getattr(self, name):g}", parameter=name, allowed="greater than 0")
         if not self.widths or not all(math.isfinite(width) and width > 0.0 for width in self.widths):
-            raise InputError(f"widths are {self.widths}", path="widths", allowed="greater than 0, one a component")
+            raise InputError(f"widths are {self.widths}", parameter="widths", allowed="greater than 0, one a component")
         if self.period is not None and not (math.isfinite(self.period) and self.period > 0.0):
-            raise InputError(f"period is {self.period:g} s", path="period", allowed="greater than 0 s")
+            raise InputError(f"period is {self.period:g} s", parameter="period", allowed="greater than 0 s")
         if not self.methods:
-            raise InputError("no method is named", path="methods", allowed=", ".join(METHODS))
+            raise InputError("no method is named", parameter="methods", allowed=", ".join(METHODS))
         if not self.regular and "fourier" in self.methods:
             raise InputError(
                 "the method 'fourier' needs a periodic record",
-                path="methods",
+                parameter="methods",
                 remedy="take it out for irregular waves",
             )
         if not self.regular and self.harmonics:
-            raise InputError("an irregular record has no harmonics", path="harmonics", remedy="leave them out")
+            raise InputError("an irregular record has no harmonics", parameter="harmonics", remedy="leave them out")
         if any(order < 2 for order in self.harmonics):
-            raise InputError(f"harmonics are {self.harmonics}", path="harmonics", allowed="2 and above")
+            raise InputError(f"harmonics are {self.harmonics}", parameter="harmonics", allowed="2 and above")
         if not 0.5 <= self.confidence < 1.0:
-            raise InputError(f"confidence is {self.confidence:g}", path="confidence", allowed="0.5 to below 1")
+            raise InputError(f"confidence is {self.confidence:g}", parameter="confidence", allowed="0.5 to below 1")
         if not 50 <= self.bootstrap <= 100_000:
-            raise InputError(f"{self.bootstrap} bootstrap samples", path="bootstrap", allowed="50 to 100000")
+            raise InputError(f"{self.bootstrap} bootstrap samples", parameter="bootstrap", allowed="50 to 100000")
         if not 0.0 <= self.phase_error < 0.5:
-            raise InputError(f"phase_error is {self.phase_error:g} rad", path="phase_error", allowed="0 to 0.5 rad")
+            raise InputError(
+                f"phase_error is {self.phase_error:g} rad", parameter="phase_error", allowed="0 to 0.5 rad"
+            )
 
 
 @dataclass(frozen=True)

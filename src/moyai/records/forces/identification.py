@@ -58,7 +58,7 @@ class Identification:
         for entry in self.fits:
             if entry.method == method and entry.component == component:
                 return entry
-        raise InputError(f"no fit by '{method}' of component {component}", path="method")
+        raise InputError(f"no fit by '{method}' of component {component}", parameter="method")
 
 
 def equivalent_work(
@@ -100,10 +100,12 @@ def identify(record: ForceRecord, setup: Setup) -> Identification:
     """
     if len(setup.widths) != record.components:
         raise InputError(
-            f"{len(setup.widths)} widths for {record.components} components", path="widths", allowed="one a component"
+            f"{len(setup.widths)} widths for {record.components} components",
+            parameter="widths",
+            allowed="one a component",
         )
     if setup.form == "vector" and record.components < 2:
-        raise InputError("the vector form needs two components", path="form", allowed="component")
+        raise InputError("the vector form needs two components", parameter="form", allowed="component")
     if setup.period is not None:
         period = setup.period
     else:
@@ -173,7 +175,7 @@ def _mean_period(record: ForceRecord) -> float:
     ups = np.flatnonzero((values[:-1] < 0.0) & (values[1:] >= 0.0))
     if ups.size < 2:
         raise InputError(
-            "the record holds less than one period", path="time", remedy="use a longer record or give the period"
+            "the record holds less than one period", parameter="time", remedy="use a longer record or give the period"
         )
     return float((ups[-1] - ups[0]) * record.step / (ups.size - 1))
 
@@ -182,13 +184,13 @@ def _whole_periods(record: ForceRecord, period: float, regular: bool) -> ForceRe
     if record.duration < period * (1.0 - 1e-6):
         raise InputError(
             f"the record of {record.duration:.4g} s is shorter than one period of {period:.4g} s",
-            path="time",
+            parameter="time",
             remedy="use a longer record or check the period",
         )
     if period / record.step < 12.0:
         raise InputError(
             f"{period / record.step:.3g} samples a period are too few for u|u|",
-            path="time",
+            parameter="time",
             allowed="at least 12",
             remedy="sample faster",
         )

@@ -109,7 +109,7 @@ def periodicity_notices(record: ForceRecord, period: float, orders: int) -> list
             raise InputError(
                 f"velocity {component + 1} does not repeat itself every {period:.4g} s: {100.0 * share:.0f} % of its "
                 "variance lies outside mean and harmonics",
-                path="period",
+                parameter="period",
                 remedy="check the period, or give 'regular: false' for irregular waves",
             )
         if share > TOLD_SHARE:

@@ -40,7 +40,9 @@ class ForceRecord:
     def __post_init__(self) -> None:
         time = np.array(self.time, dtype=float)
         if time.ndim != 1 or time.size < _LEAST_SAMPLES:
-            raise InputError(f"the record holds {time.size} samples", path="time", allowed=f"at least {_LEAST_SAMPLES}")
+            raise InputError(
+                f"the record holds {time.size} samples", parameter="time", allowed=f"at least {_LEAST_SAMPLES}"
+            )
         object.__setattr__(self, "time", time)
         for name in ("force", "velocity", "acceleration"):
             given = getattr(self, name)
@@ -49,19 +51,25 @@ class ForceRecord:
             values = np.array(given, dtype=float)
             values = values[:, None] if values.ndim == 1 else values
             if values.ndim != 2 or len(values) != time.size:
-                raise InputError(f"{name} has {len(values)} rows, time {time.size}", path=name, allowed="equal lengths")
+                raise InputError(
+                    f"{name} has {len(values)} rows, time {time.size}", parameter=name, allowed="equal lengths"
+                )
             object.__setattr__(self, name, values)
         for name in ("velocity", "acceleration"):
             values = getattr(self, name)
             if values is not None and values.shape != self.force.shape:
                 raise InputError(
-                    f"{name} has {values.shape[1]} components, force {self.force.shape[1]}", path=name, allowed="equal"
+                    f"{name} has {values.shape[1]} components, force {self.force.shape[1]}",
+                    parameter=name,
+                    allowed="equal",
                 )
         _refuse_gaps(self)
         _refuse_uneven(time)
         for column in range(self.force.shape[1]):
             if np.ptp(self.velocity[:, column]) == 0.0:
-                raise InputError(f"velocity {column + 1} does not change", path="velocity", remedy="check the column")
+                raise InputError(
+                    f"velocity {column + 1} does not change", parameter="velocity", remedy="check the column"
+                )
             _refuse_clipped(self.force[:, column], f"force {column + 1}")
             _refuse_clipped(self.velocity[:, column], f"velocity {column + 1}")
 
@@ -97,7 +105,7 @@ def _refuse_gaps(record: ForceRecord) -> None:
             rows = np.flatnonzero(~good)
             raise InputError(
                 f"{name} is not a number in {rows.size} of {good.size} samples, first in sample {rows[0] + 1}",
-                path=name,
+                parameter=name,
                 remedy="fill short gaps or choose a part of the record without any",
             )
 
@@ -107,7 +115,7 @@ def _refuse_uneven(time: Array) -> None:
     if (steps <= 0.0).any():
         row = int(np.argmax(steps <= 0.0)) + 2
         raise InputError(
-            f"time does not rise at sample {row}", path="time", remedy="sort the record or cut it at the reset"
+            f"time does not rise at sample {row}", parameter="time", remedy="sort the record or cut it at the reset"
         )
     even = float(np.median(steps))
     off = np.abs(steps - even)
@@ -116,7 +124,7 @@ def _refuse_uneven(time: Array) -> None:
         raise InputError(
             f"the record is not evenly sampled: the step to sample {row} is {steps[row - 2]:.6g} s, most are "
             f"{even:.6g} s",
-            path="time",
+            parameter="time",
             allowed="an even time step",
             remedy="interpolate the record to an even step, or choose a part without dropped samples",
         )
@@ -145,7 +153,7 @@ def _refuse_clipped(values: Array, name: str) -> None:
         if longest >= _LEAST_PLATEAU and longest > 2.0 * natural + 2.0:
             raise InputError(
                 f"{name} is clipped: it stays at its {word} {sign * extreme:.6g} for {longest} samples",
-                path=name.split()[0],
+                parameter=name.split()[0],
                 remedy="use a record within the range of the gauge",
             )
 
@@ -203,7 +211,7 @@ def period_of(time: Array, records: Array) -> float:
     guess = 2.0 * math.pi * peak / (8 * values.size * step)
     if guess * duration < 4.0 * math.pi:
         raise InputError(
-            f"the record of {duration:.4g} s shows less than two periods", path="period", remedy="give the period"
+            f"the record of {duration:.4g} s shows less than two periods", parameter="period", remedy="give the period"
         )
 
     def residual(omega: float) -> float:

@@ -56,13 +56,17 @@ def orbital_motion(
     """
     t, eta = np.asarray(time, dtype=float), np.asarray(elevation, dtype=float)
     if t.shape != eta.shape or t.ndim != 1 or t.size < 12:
-        raise InputError(f"{eta.size} elevations for {t.size} instants", path="elevation", allowed="equal, at least 12")
+        raise InputError(
+            f"{eta.size} elevations for {t.size} instants", parameter="elevation", allowed="equal, at least 12"
+        )
     if not (np.isfinite(eta).all() and np.isfinite(t).all()):
         row = int(np.argmin(np.isfinite(eta) & np.isfinite(t))) + 1
-        raise InputError(f"elevation is not a number in sample {row}", path="elevation", remedy="fill the gap")
+        raise InputError(f"elevation is not a number in sample {row}", parameter="elevation", remedy="fill the gap")
     if not -water_depth <= height < 0.0:
         raise InputError(
-            f"the axis of the member is at z = {height:g} m", path="member_z", allowed=f"{-water_depth:g} to below 0 m"
+            f"the axis of the member is at z = {height:g} m",
+            parameter="member_z",
+            allowed=f"{-water_depth:g} to below 0 m",
         )
     if period is not None:
         return _regular(t, eta, water_depth, gravity, height, distance, 2.0 * math.pi / period)

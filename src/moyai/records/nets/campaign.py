@@ -61,32 +61,34 @@ class NetCampaign:
         names = [run.name for run in self.runs] + [cage.name for cage in self.cages]
         for name in names:
             if names.count(name) > 1:
-                raise InputError(f"two runs are called '{name}'", path="runs")
+                raise InputError(f"two runs are called '{name}'", parameter="runs")
         nets = [specimen.name for specimen in self.specimens]
         for index, name in enumerate(nets):
             if name in nets[:index]:
-                raise InputError(f"two nets are called '{name}'", path=f"nets[{index}].name")
+                raise InputError(f"two nets are called '{name}'", parameter=f"nets[{index}].name")
         for index, run in enumerate(self.runs):
             if run.net and run.net not in nets:
                 raise InputError(
                     f"run {run.name} towed net '{run.net}', which is not listed",
-                    path=f"runs[{index}].net",
+                    parameter=f"runs[{index}].net",
                     allowed=", ".join(nets),
                 )
             if run.frame and run.frame not in [other.name for other in self.runs if not other.net]:
                 raise InputError(
-                    f"run {run.name}: '{run.frame}' is no run of the bare frame", path=f"runs[{index}].frame"
+                    f"run {run.name}: '{run.frame}' is no run of the bare frame", parameter=f"runs[{index}].frame"
                 )
         if not self.runs and not self.cages:
-            raise InputError("there are no runs", path="runs")
+            raise InputError("there are no runs", parameter="runs")
         if not self.cages and not any(run.net for run in self.runs):
             raise InputError(
-                "all runs are of the bare frame", path="runs", remedy="name the net of the runs that towed one"
+                "all runs are of the bare frame", parameter="runs", remedy="name the net of the runs that towed one"
             )
         if not 0.5 <= self.confidence < 1.0:
-            raise InputError(f"confidence is {self.confidence:g}", path="confidence", allowed="0.5 to below 1")
+            raise InputError(f"confidence is {self.confidence:g}", parameter="confidence", allowed="0.5 to below 1")
         if not 0.0 <= self.calibration < 0.5:
-            raise InputError(f"calibration error is {self.calibration:g}", path="calibration_error", allowed="0 to 0.5")
+            raise InputError(
+                f"calibration error is {self.calibration:g}", parameter="calibration_error", allowed="0 to 0.5"
+            )
 
     def specimen(self, name: str) -> Specimen:
         """Return a net by its name."""

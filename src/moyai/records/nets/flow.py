@@ -57,7 +57,7 @@ def wave_flow(run: NetRun, tank: Tank, part: NDArray[np.bool_]) -> tuple[Flow, t
     if not run.regular:
         if towed and run.velocity is None:
             raise InputError(
-                f"run {run.name}: irregular waves under way need the current meter", path="columns.velocity"
+                f"run {run.name}: irregular waves under way need the current meter", parameter="columns.velocity"
             )
         return _irregular(run, tank, time, signal), ()
     met = run.period if run.period is not None and not towed else period_of(time, signal[:, None])
@@ -97,7 +97,7 @@ def encounter_period(period: float, speed: float, tank: Tank, following: bool) -
     shift = float(wave_number(omega, tank.water_depth, tank.gravity)) * speed
     met = abs(omega - shift) if following else omega + shift
     if met < 1e-3 * omega:
-        raise InputError("the carriage runs as fast as the waves", path="speed", remedy="they are never met")
+        raise InputError("the carriage runs as fast as the waves", parameter="speed", remedy="they are never met")
     return 2.0 * math.pi / met
 
 

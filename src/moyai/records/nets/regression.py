@@ -78,13 +78,13 @@ def fit_power_law(
     number, value, spread = number[good], value[good], spread[good]
     if number.size < 3:
         raise InputError(
-            f"net {net}: {number.size} runs with a positive C_D", path="runs", allowed="at least 3 for A Re^-B"
+            f"net {net}: {number.size} runs with a positive C_D", parameter="runs", allowed="at least 3 for A Re^-B"
         )
     x, y = np.log(number), np.log(value)
     if float(np.ptp(x)) < 0.1:
         raise InputError(
             f"net {net}: the Reynolds numbers {number.min():.4g} to {number.max():.4g} hardly differ",
-            path="runs",
+            parameter="runs",
             remedy="tow at several speeds",
         )
     noise = np.square(spread / value)
@@ -283,15 +283,17 @@ def fit_joint_law(
     if len(names) < _LEAST_NETS:
         raise InputError(
             f"{len(names)} net{'s are' if len(names) > 1 else ' is'} too few for A and B as functions of solidity",
-            path="nets",
+            parameter="nets",
             allowed=f"at least {_LEAST_NETS}",
         )
     number, value, spread, share, twine = (item[good] for item in (number, value, spread, share, twine))
     if float(np.ptp(share)) < 0.01:
-        raise InputError("all nets have one solidity", path="nets", remedy="tow nets of different solidity")
+        raise InputError("all nets have one solidity", parameter="nets", remedy="tow nets of different solidity")
     x, y, d = np.log(number), np.log(value), np.log(twine)
     if float(np.ptp(x)) < 0.1:
-        raise InputError("the Reynolds numbers of the runs hardly differ", path="runs", remedy="tow at several speeds")
+        raise InputError(
+            "the Reynolds numbers of the runs hardly differ", parameter="runs", remedy="tow at several speeds"
+        )
     noise = np.square(spread / value)
     # a diameter that solidity already tells, or too few nets, leaves nothing to learn from it
     per_net = np.array([[share[index == k][0], d[index == k][0]] for k in range(len(names))])

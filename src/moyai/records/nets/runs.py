@@ -35,17 +35,19 @@ class Specimen:
         for name in ("panel_area", "projected_area"):
             value = getattr(self, name)
             if not (math.isfinite(value) and value > 0.0):
-                raise InputError(f"{name} of net {self.name} is {value:g} m2", path=name, allowed="greater than 0 m2")
+                raise InputError(
+                    f"{name} of net {self.name} is {value:g} m2", parameter=name, allowed="greater than 0 m2"
+                )
         if self.net.mesh_pitch**2 > self.panel_area:
             raise InputError(
                 f"meshes of {self.net.mesh_pitch:.4g} m do not fit net {self.name}'s panel of {self.panel_area:.4g} m2",
-                path="mesh_pitch",
+                parameter="mesh_pitch",
                 remedy="check the units: mm or m, cm2 or m2",
             )
         if not 0.25 * self.net.listed < self.projected_area / self.panel_area < 2.0:
             raise InputError(
                 f"the twines of net {self.name} shade {self.projected_area:.4g} m2 of a panel of {self.panel_area:.4g}",
-                path="projected_area",
+                parameter="projected_area",
                 allowed=f"about {self.net.listed:.3g} of the outline, the solidity of the net",
                 remedy="check the units: cm2 or m2",
             )
@@ -75,11 +77,11 @@ class Tank:
         for name in ("density", "viscosity", "gravity", "water_depth"):
             value = getattr(self, name)
             if not value > 0.0 or (name != "water_depth" and not math.isfinite(value)):
-                raise InputError(f"{name} is {value:g}", path=name, allowed="greater than 0")
+                raise InputError(f"{name} is {value:g}", parameter=name, allowed="greater than 0")
         if not -self.water_depth < self.panel_z < 0.0:
             raise InputError(
                 f"the centre of the panel is at z = {self.panel_z:g} m",
-                path="panel_z",
+                parameter="panel_z",
                 allowed=f"above the bed at {-self.water_depth:g} m and below 0 m",
             )
 
@@ -135,7 +137,7 @@ class NetRun:
         time = np.asarray(self.time, dtype=float)
         object.__setattr__(self, "time", time)
         if time.ndim != 1 or time.size < 32:
-            raise InputError(f"run {self.name} holds {time.size} samples", path="time", allowed="at least 32")
+            raise InputError(f"run {self.name} holds {time.size} samples", parameter="time", allowed="at least 32")
         for name in ("force", "lift", "speed_record", "velocity", "elevation", "acceleration"):
             given = getattr(self, name)
             if given is None:
@@ -143,7 +145,9 @@ class NetRun:
             values = np.asarray(given, dtype=float)
             if values.shape != time.shape:
                 raise InputError(
-                    f"run {self.name}: {values.size} samples of {name}, {time.size} of time", path=name, allowed="equal"
+                    f"run {self.name}: {values.size} samples of {name}, {time.size} of time",
+                    parameter=name,
+                    allowed="equal",
                 )
             object.__setattr__(self, name, values)
         self._refuse_gaps()
@@ -153,7 +157,7 @@ class NetRun:
             if part is not None and not (part[0] < part[1] and part[0] < time[-1] and part[1] > time[0]):
                 raise InputError(
                     f"run {self.name}: {name} from {part[0]:g} to {part[1]:g} s lies outside the record",
-                    path=name,
+                    parameter=name,
                     allowed=f"within {time[0]:g} to {time[-1]:g} s",
                 )
 
@@ -164,7 +168,7 @@ class NetRun:
                 row = int(np.argmin(np.isfinite(values))) + 1
                 raise InputError(
                     f"run {self.name}: {name} is not a number in sample {row}",
-                    path=name,
+                    parameter=name,
                     remedy="fill short gaps or cut the record",
                 )
         steps = np.diff(self.time)
@@ -174,27 +178,29 @@ class NetRun:
             raise InputError(
                 f"run {self.name} is not evenly sampled: the step to sample {row} is {steps[row - 2]:.6g} s, most are "
                 f"{even:.6g} s",
-                path="time",
+                parameter="time",
                 remedy="interpolate it to an even step, or choose a part without dropped samples",
             )
 
     def _refuse_lacks(self) -> None:
         if not (math.isfinite(self.speed) and self.speed >= 0.0):
-            raise InputError(f"run {self.name}: speed is {self.speed:g} m/s", path="speed", allowed="at least 0 m/s")
+            raise InputError(
+                f"run {self.name}: speed is {self.speed:g} m/s", parameter="speed", allowed="at least 0 m/s"
+            )
         if self.kind != "waves" and self.speed == 0.0 and self.speed_record is None:
-            raise InputError(f"run {self.name}: the speed of towing is missing", path="speed")
+            raise InputError(f"run {self.name}: the speed of towing is missing", parameter="speed")
         if self.kind == "still_water":
             return
         if self.velocity is None and self.elevation is None:
             raise InputError(
                 f"run {self.name}: waves need the record of a current meter or of a wave gauge",
-                path="columns",
+                parameter="columns",
                 allowed="velocity or elevation",
             )
         if self.kind == "towing_waves" and self.velocity is None and self.period is None:
             raise InputError(
                 f"run {self.name}: velocity by theory needs the period of the waves at rest",
-                path="period",
+                parameter="period",
                 remedy="give the period of the wave maker",
             )
 

@@ -50,7 +50,7 @@ def correlated_mean(values: Array, confidence: float = 0.95) -> Mean:
     """
     size = values.size
     if size < 16:
-        raise InputError(f"{size} samples in the steady window", path="window", allowed="at least 16")
+        raise InputError(f"{size} samples in the steady window", parameter="window", allowed="at least 16")
     centred = values - values.mean()
     variance = float(centred @ centred) / size
     if variance == 0.0:
@@ -147,7 +147,7 @@ def steady_window(time: Array, signal: Array, *, is_speed: bool) -> tuple[float,
     size = np.abs(signal)
     top = float(np.quantile(size, 0.95))
     if top <= 0.0:
-        raise InputError("the record does not move", path="window", remedy="give the window, or check the column")
+        raise InputError("the record does not move", parameter="window", remedy="give the window, or check the column")
     upper = size[size > 0.5 * top]
     plateau = float(np.median(upper))
     band = (_SPEED_BAND if is_speed else _FORCE_BAND) * plateau
@@ -163,7 +163,7 @@ def steady_window(time: Array, signal: Array, *, is_speed: bool) -> tuple[float,
     starts, ends = edges[::2], edges[1::2]
     if starts.size == 0 or (ends - starts).max() < max(16, _LEAST_SHARE * time.size):
         raise InputError(
-            "no steady stretch was found in the record", path="window", remedy="give the steady window of this run"
+            "no steady stretch was found in the record", parameter="window", remedy="give the steady window of this run"
         )
     longest = int(np.argmax(ends - starts))
     first, last = float(time[starts[longest]]), float(time[ends[longest] - 1])

@@ -54,18 +54,22 @@ class CageRecord:
     def __post_init__(self) -> None:
         time = np.asarray(self.time, dtype=float)
         if time.size < 32 or not np.isfinite(time).all() or not (np.diff(time) > 0.0).all():
-            raise InputError(f"run {self.name}: time does not rise or has gaps", path="time", allowed="rising seconds")
+            raise InputError(
+                f"run {self.name}: time does not rise or has gaps", parameter="time", allowed="rising seconds"
+            )
         if not self.ends:
-            raise InputError(f"run {self.name}: no tension was given", path="tensions")
+            raise InputError(f"run {self.name}: no tension was given", parameter="tensions")
         seen: set[tuple[str, str]] = set()
         for end in self.ends:
             if (end.line, end.end) in seen:
-                raise InputError(f"run {self.name}: line {end.line} has the end '{end.end}' twice", path="tensions")
+                raise InputError(
+                    f"run {self.name}: line {end.line} has the end '{end.end}' twice", parameter="tensions"
+                )
             seen.add((end.line, end.end))
             if end.tension.shape != time.shape or not np.isfinite(end.tension).all():
                 raise InputError(
                     f"run {self.name}: tension {end.line} {end.end} has gaps or another length than time",
-                    path="tensions",
+                    parameter="tensions",
                     remedy="fill short gaps or cut the record",
                 )
 
@@ -114,7 +118,9 @@ def measure_tensions(record: CageRecord) -> tuple[tuple[EndTension, ...], tuple[
     if record.window is not None:
         part = (time >= record.window[0]) & (time <= record.window[1])
     if int(part.sum()) < 32:
-        raise InputError(f"run {record.name}: {int(part.sum())} samples in the window", path="window", allowed="32")
+        raise InputError(
+            f"run {record.name}: {int(part.sum())} samples in the window", parameter="window", allowed="32"
+        )
     t = time[part]
     channels = np.column_stack([end.tension[part] for end in record.ends])
     period = record.period if record.period is not None else period_of(t, channels)

@@ -106,12 +106,12 @@ def measure_tow(run: NetRun, vibration: Vibration | None, confidence: float) -> 
             window = steady_window(run.time, signal, is_speed=by_speed)
         except InputError as error:
             raise InputError(
-                f"run {run.name}: {error.fault.message}", path="window", remedy=error.fault.remedy
+                f"run {run.name}: {error.fault.message}", parameter="window", remedy=error.fault.remedy
             ) from None
     part = run.part(window)
     if int(part.sum()) < 16:
         raise InputError(
-            f"run {run.name}: {int(part.sum())} samples in the steady window", path="window", allowed="at least 16"
+            f"run {run.name}: {int(part.sum())} samples in the steady window", parameter="window", allowed="at least 16"
         )
     if run.speed_record is not None:
         speed = correlated_mean(run.speed_record[part], confidence)

@@ -46,7 +46,7 @@ class Vibration:
         if not 0.0 < self.low < self.frequency < self.high < math.inf:
             raise InputError(
                 f"a stop band from {self.low:g} to {self.high:g} Hz about {self.frequency:g} Hz",
-                path="vibration",
+                parameter="vibration",
                 allowed="0 < low < line < high",
             )
 
@@ -89,12 +89,12 @@ def find_vibration(
         Without runs, or when they are too short or too coarse for the range.
     """
     if not forces:
-        raise InputError("there is no still-water run to find the vibration in", path="runs")
+        raise InputError("there is no still-water run to find the vibration in", parameter="runs")
     highest = min(highest, 0.45 / max(steps))
     if not 0.0 < lowest < highest:
         raise InputError(
             f"no frequency to search between {lowest:g} and {highest:.4g} Hz",
-            path="vibration.search",
+            parameter="vibration.search",
             allowed="a range below 0.9 of the Nyquist frequency",
         )
     shortest = min(step * force.size for step, force in zip(steps, forces))
@@ -103,7 +103,7 @@ def find_vibration(
     if segment * lowest < 4.0:
         raise InputError(
             f"a steady part of {shortest:.3g} s is too short to search from {lowest:g} Hz on",
-            path="vibration.search",
+            parameter="vibration.search",
             remedy="use longer runs, or give the band",
         )
     grid: Array | None = None
@@ -226,7 +226,7 @@ def _filtered(step: float, values: Array, gain: Callable[[Array], Array]) -> Arr
     """Filter by the Fourier transform of the record mirrored oddly at both ends, so that its ends do not ring."""
     size = values.size
     if size < 8:
-        raise InputError(f"{size} samples are too few for a filter", path="values", allowed="at least 8")
+        raise InputError(f"{size} samples are too few for a filter", parameter="values", allowed="at least 8")
     reach = size - 1
     before = 2.0 * values[0] - values[reach:0:-1]
     after = 2.0 * values[-1] - values[-2 : -2 - reach : -1]
@@ -274,7 +274,8 @@ def shaken_mass(step: float, force: Array, acceleration: Array, vibration: Vibra
     size = float(np.sum(np.abs(two) ** 2))
     if one.size < 3 or size <= 0.0:
         raise InputError(
-            "the acceleration of the carriage shows nothing in the band of the vibration", path="columns.acceleration"
+            "the acceleration of the carriage shows nothing in the band of the vibration",
+            parameter="columns.acceleration",
         )
     mass = float(np.sum((one * two.conj()).real)) / size
     both = float(np.sum(np.abs(one) ** 2))

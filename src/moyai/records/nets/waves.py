@@ -167,7 +167,7 @@ def fit_waves(
             return identify(record, setup)
         except InputError as error:
             raise InputError(
-                f"run {run.name}: {error.fault.message}", path=error.fault.path, remedy=error.fault.remedy
+                f"run {run.name}: {error.fault.message}", parameter=error.fault.path, remedy=error.fault.remedy
             ) from None
 
     if vibration is not None and run.acceleration is not None:

@@ -25,7 +25,7 @@ def _missing(kind: str, file: Path, column: str, names: Sequence[str]) -> InputE
     near = difflib.get_close_matches(column, names, n=1, cutoff=0.6)
     return InputError(
         f"{file.name} has no {kind} '{column}'",
-        path="column",
+        parameter="column",
         allowed=", ".join(names),
         remedy=f"did you mean '{near[0]}'?" if near else "",
     )
@@ -65,14 +65,14 @@ def read_netcdf(path: Path, wanted: Sequence[str], rows: int) -> Iterator[RawChu
                     shape = ", ".join(f"{other}: {dataset.sizes[other]}" for other in others)
                     raise InputError(
                         f"{path.name}: '{name}' has the further dimensions {shape or 'none'}",
-                        path="column",
+                        parameter="column",
                         remedy=f"write {name}[{', '.join('0' for _ in others)}]" if others else f"write {name}",
                     )
                 for other, place in zip(others, index):
                     if not -dataset.sizes[other] <= place < dataset.sizes[other]:
                         raise InputError(
                             f"{path.name}: '{name}' has no entry {place} along {other}",
-                            path="column",
+                            parameter="column",
                             allowed=f"0 to {dataset.sizes[other] - 1}",
                         )
                 chosen = variable.isel({dimension: window, **dict(zip(others, index))})
@@ -87,12 +87,12 @@ def _time_dimension(dataset: Any, path: Path, wanted: Sequence[str]) -> tuple[st
             raise _missing("variable", path, _entry(column)[0], names)
     shared = set.intersection(*(set(dataset.variables[_entry(column)[0]].dims) for column in wanted))
     if not shared:
-        raise InputError(f"{path.name}: the variables {', '.join(wanted)} share no dimension", path="column")
+        raise InputError(f"{path.name}: the variables {', '.join(wanted)} share no dimension", parameter="column")
     order = [name for name in ("time", "t") if name in shared]
     dimension = order[0] if order else max(shared, key=lambda name: dataset.sizes[name])
     size = int(dataset.sizes[dimension])
     if size == 0:
-        raise InputError(f"{path.name} has no samples", path="file")
+        raise InputError(f"{path.name} has no samples", parameter="file")
     return str(dimension), size
 
 
@@ -108,7 +108,9 @@ def _epoch(values: NDArray[np.float64], units: str) -> NDArray[np.float64]:
     factor = factors.get(unit, factors.get(unit.rstrip("s")))
     start = _reference(match[2])
     if factor is None or start is None:
-        raise InputError(f"the time unit '{units}' is not understood", path="time", allowed="seconds since 1970-01-01")
+        raise InputError(
+            f"the time unit '{units}' is not understood", parameter="time", allowed="seconds since 1970-01-01"
+        )
     return values * factor + start
 
 
@@ -151,7 +153,7 @@ def _parquet(path: Path) -> Any:
         import pyarrow.parquet as parquet
     except ImportError:
         raise InputError(
-            f"{path.name}: reading Parquet needs pyarrow", path="file", remedy="pip install 'moyai[parquet]'"
+            f"{path.name}: reading Parquet needs pyarrow", parameter="file", remedy="pip install 'moyai[parquet]'"
         ) from None
     file = parquet.ParquetFile(path, pre_buffer=False, buffer_size=1 << 20)
     require_plausible_size(path, _parquet_bytes(file.metadata), "columns")
@@ -186,11 +188,13 @@ def read_parquet(path: Path, wanted: Sequence[str], rows: int) -> Iterator[RawCh
             elif pa.types.is_decimal(kind):
                 columns[column] = array.cast(pa.float64()).to_numpy(zero_copy_only=False)
             else:
-                raise InputError(f"{path.name}, column '{real[column]}' holds {kind}, not numbers", path=str(column))
+                raise InputError(
+                    f"{path.name}, column '{real[column]}' holds {kind}, not numbers", parameter=str(column)
+                )
         yield RawChunk(columns, first)
         first += batch.num_rows
     if first == 0:
-        raise InputError(f"{path.name} has no samples", path="file")
+        raise InputError(f"{path.name} has no samples", parameter="file")
 
 
 def _parquet_name(path: Path, column: str, names: Sequence[str]) -> str:
@@ -233,10 +237,10 @@ def read_mat(path: Path, wanted: Sequence[str], rows: int) -> Iterator[RawChunk]
     sizes = {column: array.size for column, array in arrays.items()}
     if len(set(sizes.values())) > 1:
         reported = ", ".join(f"{column} {size}" for column, size in sizes.items())
-        raise InputError(f"{path.name}: the variables have different lengths: {reported}", path="column")
+        raise InputError(f"{path.name}: the variables have different lengths: {reported}", parameter="column")
     size = next(iter(sizes.values()))
     if size == 0:
-        raise InputError(f"{path.name} has no samples", path="file")
+        raise InputError(f"{path.name} has no samples", parameter="file")
     for first in range(0, size, rows):
         yield RawChunk({column: array[first : first + rows] for column, array in arrays.items()}, first)
 
@@ -251,20 +255,22 @@ def _mat_column(path: Path, column: str) -> NDArray[np.float64]:
     name, index = _entry(column)
     array = np.asarray(_mat_variable(path, name))
     if array.dtype == object or array.dtype.kind not in "fiub":
-        raise InputError(f"{path.name}: '{name}' holds no numbers", path="column")
+        raise InputError(f"{path.name}: '{name}' holds no numbers", parameter="column")
     array = np.squeeze(array)
     if array.ndim == 2 and len(index) == 1:
         # Records stand in columns, unless the matrix is wider than tall
         array = array if array.shape[0] >= array.shape[1] else array.T
         if not -array.shape[1] <= index[0] < array.shape[1]:
-            raise InputError(f"{path.name}: '{name}' has no column {index[0]}", path="column",
+            raise InputError(f"{path.name}: '{name}' has no column {index[0]}", parameter="column",
                              allowed=f"0 to {array.shape[1] - 1}")  # fmt: skip
         array = array[:, index[0]]
     if array.ndim == 0:
         array = array[None]
     if array.ndim != 1:
         raise InputError(
-            f"{path.name}: '{name}' has the shape {array.shape}", path="column", remedy=f"write {name}[0] for a column"
+            f"{path.name}: '{name}' has the shape {array.shape}",
+            parameter="column",
+            remedy=f"write {name}[0] for a column",
         )
     return np.ascontiguousarray(array, dtype=np.float64)
 
@@ -308,6 +314,8 @@ def _mat_hdf5(path: Path, parts: Sequence[str]) -> Any:
                 raise _missing("variable", path, part, [key for key in node if not str(key).startswith("#")])
             node = node[part]
         if not isinstance(node, h5py.Dataset):
-            raise InputError(f"{path.name}: '{'.'.join(parts)}' is a structure", path="column", remedy="name a field")
+            raise InputError(
+                f"{path.name}: '{'.'.join(parts)}' is a structure", parameter="column", remedy="name a field"
+            )
         require_plausible_size(path, node.nbytes, f"'{'.'.join(parts)}'")
         return np.asarray(node[()]).T

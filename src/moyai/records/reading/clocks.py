@@ -74,7 +74,7 @@ def fit_clock(
         When no window correlates.
     """
     if not window > 2.0 * largest_offset:
-        raise InputError(f"window {window:g} s", path="window", allowed=f"more than {2.0 * largest_offset:g} s")
+        raise InputError(f"window {window:g} s", parameter="window", allowed=f"more than {2.0 * largest_offset:g} s")
     step = min(reference.step, other.step)
     start = max(reference.time[0], other.time[0] - largest_offset)
     end = min(reference.time[-1], other.time[-1] + largest_offset)
@@ -93,7 +93,7 @@ def fit_clock(
     if not found:
         raise InputError(
             f"no window of {window:g} s in which '{channel}' and '{other_channel}' correlate by {least_correlation:g}",
-            path="clock",
+            parameter="clock",
             remedy="check the channels, widen 'largest_offset', or give the clock's error",
         )
     times, offsets, correlation = (np.array(column) for column in zip(*found))
@@ -193,13 +193,15 @@ def join(records: Sequence[Record], *, step: float, largest_gap: float | None = 
     names = [name for record in records for name in record.names]
     if len(set(names)) < len(names):
         twice = next(name for name in names if names.count(name) > 1)
-        raise InputError(f"two loggers have a channel '{twice}'", path="channels", remedy="rename one")
+        raise InputError(f"two loggers have a channel '{twice}'", parameter="channels", remedy="rename one")
     if len({record.dated for record in records}) > 1:
-        raise InputError("one logger has dates and another only seconds", path="time", remedy="give 'start'")
+        raise InputError("one logger has dates and another only seconds", parameter="time", remedy="give 'start'")
     start = max(float(record.time[0]) for record in records)
     end = min(float(record.time[-1]) for record in records)
     if end <= start:
-        raise InputError("the loggers share no time", path="time", remedy="check 'start', 'utc_offset' and 'clock'")
+        raise InputError(
+            "the loggers share no time", parameter="time", remedy="check 'start', 'utc_offset' and 'clock'"
+        )
     grid = start + np.arange(math.floor((end - start) / step + 1e-9) + 1) * step
     columns, units = [], []
     for record in records:

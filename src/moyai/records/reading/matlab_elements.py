@@ -81,5 +81,5 @@ def _inflated(content: memoryview, path: Path, place: int) -> memoryview:
 
 def _fault(path: Path, place: int, what: str) -> InputError:
     return InputError(
-        f"{path.name} cannot be read as a MATLAB file: byte {place} begins {what}", path="file", remedy=REMEDY
+        f"{path.name} cannot be read as a MATLAB file: byte {place} begins {what}", parameter="file", remedy=REMEDY
     )

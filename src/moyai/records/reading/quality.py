@@ -55,12 +55,12 @@ class QualityOptions:
 
     def __post_init__(self) -> None:
         if self.gap_steps <= 1.0:
-            raise InputError(f"gap_steps is {self.gap_steps:g}", path="gap_steps", allowed="greater than 1")
+            raise InputError(f"gap_steps is {self.gap_steps:g}", parameter="gap_steps", allowed="greater than 1")
         if self.spike_scale <= 0.0 or self.spike_samples < 1:
-            raise InputError("spike_scale and spike_samples", path="spike_scale", allowed="greater than 0")
+            raise InputError("spike_scale and spike_samples", parameter="spike_scale", allowed="greater than 0")
         if self.lowest >= self.highest:
             raise InputError(
-                f"range {self.lowest:g} to {self.highest:g}", path="range", allowed="the lower limit first"
+                f"range {self.lowest:g} to {self.highest:g}", parameter="range", allowed="the lower limit first"
             )
 
 

@@ -110,7 +110,7 @@ def read_chunks(source: LoggerSource, rows: int = CHUNK_ROWS) -> Iterator[Record
     seen = 0
     for path in source.files:
         if not path.is_file():
-            raise InputError(f"no such file: {path}", path="files")
+            raise InputError(f"no such file: {path}", parameter="files")
         units = [_unit_of(path, source, column) for column in source.columns]
         clock.open(path)
         for raw in _raw(path, source, rows):
@@ -128,7 +128,7 @@ def read_chunks(source: LoggerSource, rows: int = CHUNK_ROWS) -> Iterator[Record
         column = source.columns[int(np.argmin(holds_value))]
         raise InputError(
             f"{_file_names(source)}, column '{column.column}' holds no value at all in {seen} rows",
-            path=f"channels.{column.name}",
+            parameter=f"channels.{column.name}",
             remedy="check the column, and the signs of 'missing'",
         )
 
@@ -150,7 +150,9 @@ def _raw(path: Path, source: LoggerSource, rows: int) -> Iterator[RawChunk]:
         return
     for column in (*wanted, *stamps):
         if not isinstance(column, str):
-            raise InputError(f"{path.name}: columns of {form} files have names", path="column", remedy="write the name")
+            raise InputError(
+                f"{path.name}: columns of {form} files have names", parameter="column", remedy="write the name"
+            )
     names = list(dict.fromkeys(str(column) for column in (*wanted, *stamps)))
     readers = {"mat": read_arrays.read_mat, "netcdf": read_arrays.read_netcdf, "parquet": read_arrays.read_parquet}
     yield from readers[form](path, names, rows)
@@ -172,7 +174,7 @@ def _unit_of(path: Path, source: LoggerSource, column: ColumnSource) -> tuple[Un
         try:
             unit = parse_unit(column.unit) if column.unit != "1" else parse_unit("%") ** 0
         except InputError as error:
-            raise InputError(f"{place}: {error.fault.message}", path="unit", remedy=error.fault.remedy) from None
+            raise InputError(f"{place}: {error.fault.message}", parameter="unit", remedy=error.fault.remedy) from None
         if own is not None and (own.factor, own.pi_power, own.dimension) != (
             unit.factor,
             unit.pi_power,
@@ -180,7 +182,7 @@ def _unit_of(path: Path, source: LoggerSource, column: ColumnSource) -> tuple[Un
         ):
             raise InputError(
                 f"{place} states the unit [{stated}] and the configuration says '{column.unit}'",
-                path="unit",
+                parameter="unit",
                 remedy="leave 'unit' out, or rename the column if its heading is wrong",
             )
         return unit, si_symbol(unit)
@@ -188,7 +190,7 @@ def _unit_of(path: Path, source: LoggerSource, column: ColumnSource) -> tuple[Un
         if form == "mat":  # which states no units: is the variable there at all?
             read_arrays.check_mat(path, str(column.column))
         reported = f"states the unit [{stated}], which is not understood" if stated else "states no unit"
-        raise InputError(f"{place} {reported}", path=f"channels.{column.name}.unit", remedy="give 'unit'")
+        raise InputError(f"{place} {reported}", parameter=f"channels.{column.name}.unit", remedy="give 'unit'")
     return own, si_symbol(own)
 
 
@@ -245,7 +247,7 @@ class _Clock:
             if zone and self.time.utc_offset != 0.0:
                 raise InputError(
                     f"{path.name}, column '{column}' knows its time zone ({zone})",
-                    path="time.utc_offset",
+                    parameter="time.utc_offset",
                     remedy="leave 'utc_offset' out: it would count twice",
                 )
         self.dated = self.dated or self.file_has_epoch
@@ -258,7 +260,7 @@ class _Clock:
             bad = ~np.isfinite(stamps)
             if bad.any():
                 row = int(np.argmax(bad))
-                raise InputError(f"{self._place(raw, row)}: there is no time", path="time")
+                raise InputError(f"{self._place(raw, row)}: there is no time", parameter="time")
             time = self._spread(stamps) if source.rate > 0.0 else stamps
         else:
             start = source.start if math.isfinite(source.start) else 0.0
@@ -292,7 +294,7 @@ class _Clock:
         if self.time.utc_offset != 0.0 and own_zone is not None:
             raise InputError(
                 f"{self._place(raw, 0)}: '{text.iloc[0][:40]}' states its own offset from UTC ({own_zone[1]})",
-                path="time.utc_offset",
+                parameter="time.utc_offset",
                 remedy="leave 'utc_offset' out: it would count twice",
             )
         try:
@@ -302,7 +304,7 @@ class _Clock:
             row = int(np.argmax(each.isna().to_numpy())) if each.isna().any() else 0
             raise InputError(
                 f"{self._place(raw, row)}: '{text.iloc[row][:40]}' does not fit the time format '{self.time.form}'",
-                path="time.format",
+                parameter="time.format",
                 remedy="for instance '%Y/%m/%d %H:%M:%S.%f' or iso",
             ) from None
         return np.asarray(found.dt.tz_localize(None).to_numpy("datetime64[ns]").astype(np.int64) * 1e-9)
@@ -349,7 +351,7 @@ class _Clock:
             remedy = "sort or cut the file, or say 'order: drop' to leave such rows out"
             if time[row] == highest[row] and not self.time.rate > 0.0:
                 remedy = "give 'rate' where the logger rounds its stamps, for instance to whole seconds, or " + remedy
-            raise InputError(reported, path="time", remedy=remedy)
+            raise InputError(reported, parameter="time", remedy=remedy)
         kept = ~late
         if kept.any():
             self.last = float(time[kept][-1])

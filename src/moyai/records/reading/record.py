@@ -64,7 +64,7 @@ class Record:
             raise InputError(
                 f"{self.source or 'record'}: values of shape {self.values.shape} for {self.time.size} instants and "
                 f"{len(self.names)} channels",
-                path="values",
+                parameter="values",
             )
 
     def __len__(self) -> int:
@@ -86,7 +86,7 @@ class Record:
             return self.names.index(name)
         except ValueError:
             raise InputError(
-                f"{self.source or 'the record'} has no channel '{name}'", path=name, allowed=", ".join(self.names)
+                f"{self.source or 'the record'} has no channel '{name}'", parameter=name, allowed=", ".join(self.names)
             ) from None
 
     @property
@@ -135,16 +135,16 @@ def concatenate(parts: Iterable[Record]) -> Record:
     """
     listed = [part for part in parts if len(part)]
     if not listed:
-        raise InputError("there is no sample", path="records", remedy="check the files and the time window")
+        raise InputError("there is no sample", parameter="records", remedy="check the files and the time window")
     first = listed[0]
     for before, after in itertools.pairwise(listed):
         if after.names != first.names:
-            raise InputError(f"{after.source} has the channels {after.names}, not {first.names}", path="records")
+            raise InputError(f"{after.source} has the channels {after.names}, not {first.names}", parameter="records")
         if after.time[0] <= before.time[-1]:
             raise InputError(
                 f"{after.source} begins at {instant_text(after.time[0], after.dated)}, before the record ends at "
                 f"{instant_text(before.time[-1], before.dated)}",
-                path="time",
+                parameter="time",
                 remedy="list the files in the order of time",
             )
     if len(listed) == 1:

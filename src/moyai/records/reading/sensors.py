@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -68,7 +68,9 @@ class Sensor:
             When the sensor is below the bed.
         """
         if math.isfinite(water.depth) and self.z < -water.depth - 1e-9:
-            raise InputError(f"sensor at z = {self.z:g} m", path="z", allowed=f"at least {-water.depth:g} m, the bed")
+            raise InputError(
+                f"sensor at z = {self.z:g} m", parameter="z", allowed=f"at least {-water.depth:g} m, the bed"
+            )
         z = min(self.z, 0.0)  # Wheeler's rule would be no better for a linear analysis
         if math.isinf(water.depth):
             level = np.exp(k * z)
@@ -95,7 +97,7 @@ class Sensor:
         elif kind == "acceleration":
             out = -(omega**2) * sinh_sinh + 0j
         else:
-            raise InputError(f"unknown quantity '{self.quantity}'", path="quantity", allowed=", ".join(QUANTITIES))
+            raise InputError(f"unknown quantity '{self.quantity}'", parameter="quantity", allowed=", ".join(QUANTITIES))
         return np.asarray(out, dtype=np.complex128)
 
     def response(self, omega: Array, k: Array, heading: Array, water: Water) -> ComplexArray:
@@ -106,18 +108,7 @@ class Sensor:
         return np.asarray(self.magnitude(omega, k, water)[:, None] * cosine**power_x * sine**power_y * phase)
 
 
-QUANTITIES = (
-    "elevation",
-    "pressure",
-    "velocity_x",
-    "velocity_y",
-    "velocity_z",
-    "slope_x",
-    "slope_y",
-    "displacement_x",
-    "displacement_y",
-    "acceleration_z",
-)
+QUANTITIES = get_args(Quantity)
 
 
 @dataclass(frozen=True, eq=False)
@@ -171,14 +162,16 @@ def surface_elevation(
     """
     record = np.asarray(values, dtype=float)
     if sensor.powers != (0, 0):
-        raise InputError(f"{sensor.quantity} depends on the heading", path="quantity", allowed="a vertical quantity")
+        raise InputError(
+            f"{sensor.quantity} depends on the heading", parameter="quantity", allowed="a vertical quantity"
+        )
     if not np.isfinite(record).all():
-        raise InputError("the record has gaps", path="values", remedy="choose a stretch without gaps")
+        raise InputError("the record has gaps", parameter="values", remedy="choose a stretch without gaps")
     frequency = np.asarray(np.fft.rfftfreq(record.size, step), dtype=np.float64)
     omega = 2.0 * math.pi * frequency
     inside = (frequency >= max(lowest, 1e-12)) & (frequency <= highest)
     if not inside.any():
-        raise InputError(f"no frequency between {lowest:g} and {highest:g} Hz", path="lowest, highest")
+        raise InputError(f"no frequency between {lowest:g} and {highest:g} Hz", parameter="lowest, highest")
     k = np.asarray(wave_number(omega[inside], water.depth, water.gravity), dtype=float)
     transfer = sensor.magnitude(omega[inside], k, water)
     at_surface = Sensor(sensor.quantity, z=0.0).magnitude(omega[inside], k, water)

@@ -62,7 +62,7 @@ class TimeSource:
 
     def __post_init__(self) -> None:
         if not self.columns and not self.rate > 0.0:
-            raise InputError("neither a time column nor a rate", path="time", remedy="give 'column' or 'rate'")
+            raise InputError("neither a time column nor a rate", parameter="time", remedy="give 'column' or 'rate'")
 
     @property
     def dated(self) -> bool:
@@ -110,13 +110,13 @@ class LoggerSource:
 
     def __post_init__(self) -> None:
         if not self.columns:
-            raise InputError(f"logger '{self.name}' has no channels", path="channels")
+            raise InputError(f"logger '{self.name}' has no channels", parameter="channels")
         names = [column.name for column in self.columns]
         twice = [name for name in names if names.count(name) > 1]
         if twice:
-            raise InputError(f"logger '{self.name}' has the channel '{twice[0]}' twice", path="channels")
+            raise InputError(f"logger '{self.name}' has the channel '{twice[0]}' twice", parameter="channels")
         if not self.files:
-            raise InputError(f"logger '{self.name}' has no files", path="files")
+            raise InputError(f"logger '{self.name}' has no files", parameter="files")
 
     def format_of(self, path: Path) -> str:
         """Return the format of one file.
@@ -132,7 +132,7 @@ class LoggerSource:
         if found is None:
             raise InputError(
                 f"{path.name}: the ending '{path.suffix}' tells no format",
-                path="format",
+                parameter="format",
                 allowed="csv, mat, netcdf, parquet",
                 remedy="give 'format'",
             )

@@ -64,7 +64,9 @@ def find_encoding(path: Path, wanted: str) -> str:
             return codecs.lookup(wanted).name
         except LookupError:
             raise InputError(
-                f"unknown encoding '{wanted}'", path="encoding", allowed="for instance utf-8, cp932, shift_jis, utf-16"
+                f"unknown encoding '{wanted}'",
+                parameter="encoding",
+                allowed="for instance utf-8, cp932, shift_jis, utf-16",
             ) from None
     raw = _bytes(path, 4_000_000)
     if raw.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
@@ -77,7 +79,7 @@ def find_encoding(path: Path, wanted: str) -> str:
         return name
     raise InputError(
         f"{path.name} is neither UTF-8 nor Shift-JIS",
-        path="encoding",
+        parameter="encoding",
         remedy="give 'encoding', for instance euc_jp or latin-1",
     )
 
@@ -87,9 +89,9 @@ def _bytes(path: Path, most: int) -> bytes:
         with path.open("rb") as stream:
             raw = stream.read(most)
     except OSError as error:
-        raise InputError(f"{path} cannot be read: {error.strerror or error}", path="file") from None
+        raise InputError(f"{path} cannot be read: {error.strerror or error}", parameter="file") from None
     if not raw.strip():
-        raise InputError(f"{path.name} is empty", path="file")
+        raise InputError(f"{path.name} is empty", parameter="file")
     return raw
 
 
@@ -124,7 +126,7 @@ def find_layout(path: Path, source: LoggerSource) -> TextLayout:
     except UnicodeDecodeError as error:
         raise InputError(
             f"{path.name} is not {encoding}: byte {error.start} of the first lines does not fit",
-            path="encoding",
+            parameter="encoding",
             remedy="try cp932 (Shift-JIS), utf-8 or latin-1",
         ) from None
 
@@ -139,7 +141,7 @@ def find_layout(path: Path, source: LoggerSource) -> TextLayout:
     body = [line for line in lines[first - 1 :] if is_text(line)]
     heading = lines[header - 1] if 0 < header <= len(lines) else ""
     if not body:
-        raise InputError(f"{path.name} has no samples from line {first} on", path="file")
+        raise InputError(f"{path.name} has no samples from line {first} on", parameter="file")
     delimiter = source.delimiter
     if delimiter == "auto":
         delimiter = _sniff(body, source.decimal, heading)
@@ -148,7 +150,7 @@ def find_layout(path: Path, source: LoggerSource) -> TextLayout:
     headings: tuple[str, ...] = ()
     if header:
         if header > len(lines):
-            raise InputError(f"{path.name} has no line {header}", path="header_row")
+            raise InputError(f"{path.name} has no line {header}", parameter="header_row")
         headings = tuple(cell.strip().strip('"') for cell in _heading_cells(heading, delimiter))
     return TextLayout(encoding, delimiter, headings, first - 1, len(_cells(body[0], delimiter)))
 
@@ -197,7 +199,7 @@ def place_of(column: str | int, headings: Sequence[str], width: int, file: str) 
     if isinstance(column, int):
         if 1 <= column <= width:
             return column - 1
-        raise InputError(f"{file} has no column {column}", path="column", allowed=f"1 to {width}")
+        raise InputError(f"{file} has no column {column}", parameter="column", allowed=f"1 to {width}")
     wanted = plain_name(column)
     plain = [plain_name(heading) for heading in headings]
     bare = [split_heading(heading)[0] for heading in headings]
@@ -207,12 +209,12 @@ def place_of(column: str | int, headings: Sequence[str], width: int, file: str) 
             return places[0]
         if len(places) > 1:
             raise InputError(
-                f"{file} has the column '{column}' {len(places)} times", path="column", remedy="give its number"
+                f"{file} has the column '{column}' {len(places)} times", parameter="column", remedy="give its number"
             )
     near = difflib.get_close_matches(wanted, [*plain, *bare], n=1, cutoff=0.6)
     raise InputError(
         f"{file} has no column '{column}'",
-        path="column",
+        parameter="column",
         allowed=", ".join(f"'{name}'" for name in plain) or f"numbers 1 to {width}: the file has no headings",
         remedy=f"did you mean '{near[0]}'?" if near else "",
     )
@@ -262,13 +264,13 @@ def read_text(
                 yield RawChunk(columns, first)
                 first += len(frame)
     except pd.errors.EmptyDataError:
-        raise InputError(f"{path.name} has no samples", path="file") from None
+        raise InputError(f"{path.name} has no samples", parameter="file") from None
     except pd.errors.ParserError as error:
-        raise InputError(f"{path.name}: {_parser_words(str(error), layout.skipped)}", path="file") from None
+        raise InputError(f"{path.name}: {_parser_words(str(error), layout.skipped)}", parameter="file") from None
     except UnicodeDecodeError as error:
         raise InputError(
             f"{path.name} is not {layout.encoding}: {error.reason}",
-            path="encoding",
+            parameter="encoding",
             remedy="try cp932 (Shift-JIS), utf-8 or latin-1",
         ) from None
 
@@ -312,7 +314,7 @@ def _numbers(
         shown = layout.headings[place_of(column, layout.headings, layout.width, path.name)] if layout.headings else ""
         raise InputError(
             f"{path.name} line {line}, column '{shown or column}': '{str(text.iloc[row])[:40]}' is not a number",
-            path=str(column),
+            parameter=str(column),
             remedy=remedy,
         )
     return np.asarray(numbers.to_numpy(dtype=np.float64))

@@ -66,7 +66,7 @@ def _finding(run: SnapRun, runs: SnapRuns) -> SnapFinding:
     if not tension > 0.0:
         raise InputError(
             f"run '{run.name}': the peak of {run.record.total.peak:.3g} N is not above the drag level",
-            path="runs", allowed="peak above plateau", remedy="check the window, or leave the run out",
+            parameter="runs", allowed="peak above plateau", remedy="check the window, or leave the run out",
         )  # fmt: skip
     impact = run.impact
     if runs.drag_coefficient is not None:

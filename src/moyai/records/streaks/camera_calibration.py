@@ -51,14 +51,14 @@ class Refraction:
     def __post_init__(self) -> None:
         for name in ("camera_to_wall", "sheet_distance"):
             if not getattr(self, name) > 0.0:
-                raise InputError(f"{name} is {getattr(self, name):g} m", path=name, allowed="greater than 0 m")
+                raise InputError(f"{name} is {getattr(self, name):g} m", parameter=name, allowed="greater than 0 m")
         if not self.wall_thickness >= 0.0:
             raise InputError(
-                f"a wall of {self.wall_thickness:g} m", path="refraction.wall_thickness", allowed="at least 0 m"
+                f"a wall of {self.wall_thickness:g} m", parameter="refraction.wall_thickness", allowed="at least 0 m"
             )
         for name in ("wall_index", "water_index"):
             if not 1.0 <= getattr(self, name) <= 3.0:
-                raise InputError(f"{name} is {getattr(self, name):g}", path=name, allowed="between 1 and 3")
+                raise InputError(f"{name} is {getattr(self, name):g}", parameter=name, allowed="between 1 and 3")
 
     @property
     def distance(self) -> float:
@@ -155,7 +155,7 @@ def fit_homography(pixels: ArrayLike, world: ArrayLike) -> Homography:
     if condition > 1e6:
         raise InputError(
             "the targets lie on one line, or three of four do, so that the homography is not determined",
-            path="targets",
+            parameter="targets",
             remedy="spread the targets over the field of view",
         )
     start = right[-1].reshape(3, 3)
@@ -173,24 +173,24 @@ def fit_homography(pixels: ArrayLike, world: ArrayLike) -> Homography:
 def _check_targets(pixels: ArrayLike, world: ArrayLike) -> tuple[Array, Array]:
     picture, sheet = np.asarray(pixels, dtype=float), np.asarray(world, dtype=float)
     if picture.ndim != 2 or picture.shape[1:] != (2,) or sheet.shape != picture.shape:
-        raise InputError("every target needs column, row, x and z", path="targets")
+        raise InputError("every target needs column, row, x and z", parameter="targets")
     if len(picture) < 4:
-        raise InputError(f"{len(picture)} targets are too few", path="targets", allowed="at least 4")
+        raise InputError(f"{len(picture)} targets are too few", parameter="targets", allowed="at least 4")
     for values, what in ((picture, "pixel"), (sheet, "position")):
         if not np.isfinite(values).all():
-            raise InputError(f"a target's {what} is not a finite number", path="targets")
+            raise InputError(f"a target's {what} is not a finite number", parameter="targets")
         centred = values - values.mean(axis=0)
         extent = np.linalg.svd(centred, compute_uv=False)
         if extent[1] < 1e-6 * extent[0] or extent[0] == 0.0:
             raise InputError(
                 "the targets lie on one line, so that the plane is not determined",
-                path="targets",
+                parameter="targets",
                 remedy="spread the targets over the field of view",
             )
         distance = np.hypot(*(values[:, None, :] - values[None, :, :]).transpose(2, 0, 1))
         np.fill_diagonal(distance, np.inf)
         if distance.min() < 1e-9 * extent[0]:
-            raise InputError(f"two targets share one {what}", path="targets", remedy="remove one of them")
+            raise InputError(f"two targets share one {what}", parameter="targets", remedy="remove one of them")
     return picture, sheet
 
 
@@ -268,7 +268,9 @@ def fit_ray_camera(
 
     picture, sheet = _check_targets(pixels, world)
     if len(picture) < 6:
-        raise InputError(f"{len(picture)} targets are too few for the ray model", path="targets", allowed="at least 6")
+        raise InputError(
+            f"{len(picture)} targets are too few for the ray model", parameter="targets", allowed="at least 6"
+        )
     plane = fit_homography(picture, sheet)
     medium = refraction
     if dry:

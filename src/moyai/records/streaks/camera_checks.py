@@ -39,7 +39,7 @@ def require_fitting_targets(calibration: Calibration, pixels: ArrayLike, world: 
         return
     raise InputError(
         f"the targets miss a plane picture by {calibration.residual:.3g} pixels{_culprit(picture, sheet)}",
-        path="targets",
+        parameter="targets",
         allowed=f"at most {_LARGEST_MISFIT * extent:.3g} pixels",
         remedy="check columns, rows and positions of the targets",
     )

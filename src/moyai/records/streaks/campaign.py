@@ -212,7 +212,7 @@ def _measure_run(
         tail = f", {cloud.undecided} of them without direction" if cloud.undecided else ""
         raise InputError(
             f"the run '{run.name}' gives {cloud.count} drift velocities: {lost}{tail}",
-            path="runs",
+            parameter="runs",
             allowed="at least 12 particles followed through a period",
             remedy="check period and interval of the pulses, take more pictures, or use fewer particles a picture",
         )

@@ -72,7 +72,7 @@ def fit_circulation_law(
             )
         )
     if not usable.any():
-        raise InputError("no run has a circulation in the sense of the orbits", path="runs")
+        raise InputError("no run has a circulation in the sense of the orbits", parameter="runs")
     logs = np.log(gamma[usable] / (f * b**2 * kc**2)[usable])
     centre, weights = float(np.median(logs)), np.ones(logs.size)
     for _ in range(50):

@@ -127,7 +127,7 @@ def extrapolate_stokes(
     if ratio.size < 2:
         raise InputError(
             f"{ratio.size} contour(s) of Bc/B >= {least:g} with a circulation are left: the fit needs two",
-            path="contours",
+            parameter="contours",
             remedy="ask for larger contours, or give pictures of a larger field",
         )
     basis = np.column_stack([np.ones_like(ratio), ratio**-4.0])
@@ -146,7 +146,7 @@ def extrapolate_linear(size_ratio: ArrayLike, circulation: ArrayLike, *, weights
     """
     ratio, value, weight = _usable(size_ratio, circulation, weights, 0.0)
     if ratio.size < 2:
-        raise InputError(f"{ratio.size} contour(s) have a circulation: a line needs two", path="contours")
+        raise InputError(f"{ratio.size} contour(s) have a circulation: a line needs two", parameter="contours")
     root = np.sqrt(weight)
     slope, base = np.polyfit(ratio - 1.0, value, 1, w=root)
     return float(base) if math.isfinite(slope) else math.nan
@@ -219,10 +219,10 @@ def measure_circulation(
     shape = np.asarray(outline, dtype=float)
     if len(points) < 12:
         raise InputError(
-            f"{len(points)} drift velocities are too few for a circulation", path="drift", allowed="at least 12"
+            f"{len(points)} drift velocities are too few for a circulation", parameter="drift", allowed="at least 12"
         )
     if ratio.size < 2 or np.any(ratio < 1.0):
-        raise InputError("give at least two contours, none smaller than the section", path="contours")
+        raise InputError("give at least two contours, none smaller than the section", parameter="contours")
     error = np.ones(len(points)) if deviation is None else np.asarray(deviation, dtype=float)
     length = float(np.ptp(shape[:, 0]))
     outlier = outliers(points, vectors, error, length)
@@ -242,7 +242,7 @@ def measure_circulation(
     if not np.isfinite(value).any():
         raise InputError(
             "no contour lies within the cloud of particles",
-            path="contours",
+            parameter="contours",
             remedy="choose sizes Bc/B within the pictures",
         )
     bias, exact = 0.0, np.full_like(points, np.nan)
@@ -376,5 +376,5 @@ def _covered(points: Array, contours: list[Array]) -> NDArray[np.bool_]:
     try:
         hull = Delaunay(points)
     except QhullError:
-        raise InputError("the particles lie on one line", path="drift") from None
+        raise InputError("the particles lie on one line", parameter="drift") from None
     return np.array([bool(np.all(hull.find_simplex(item) >= 0)) for item in contours])

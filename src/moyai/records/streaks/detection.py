@@ -38,7 +38,8 @@ class DetectionSettings:
     def __post_init__(self) -> None:
         if not 0.0 < self.edge_threshold <= self.threshold:
             raise InputError(
-                "the threshold of the edge must be positive and no larger than the threshold", path="edge_threshold"
+                "the threshold of the edge must be positive and no larger than the threshold",
+                parameter="edge_threshold",
             )
 
 
@@ -94,7 +95,7 @@ def read_picture(path: Any) -> Array:
 
     file = Path(path)
     if not file.is_file():
-        raise InputError(f"no such picture: {file}", path="file")
+        raise InputError(f"no such picture: {file}", parameter="file")
     try:
         import imageio.v3 as imageio
     except ImportError:
@@ -105,14 +106,14 @@ def read_picture(path: Any) -> Array:
         grey = np.asarray(imageio.imread(file))
     except Exception as error:
         reason = str(error).splitlines()[0] if str(error) else type(error).__name__
-        raise InputError(f"{file} cannot be read as a picture: {reason[:120]}", path="file") from None
+        raise InputError(f"{file} cannot be read as a picture: {reason[:120]}", parameter="file") from None
     if grey.ndim == 3 and grey.shape[2] in (2, 4):
         grey = grey[..., :-1]
     if grey.ndim == 3:
         grey = grey.mean(axis=2)
     if grey.ndim != 2 or min(grey.shape) < 32:
         raise InputError(
-            f"{file} is no single picture of at least 32 by 32 pixels (its shape is {grey.shape})", path="file"
+            f"{file} is no single picture of at least 32 by 32 pixels (its shape is {grey.shape})", parameter="file"
         )
     return grey.astype(float)
 
@@ -143,7 +144,7 @@ def detect_streaks(
     chosen = settings if settings is not None else DetectionSettings()
     grey = np.asarray(picture, dtype=float)
     if grey.ndim != 2:
-        raise InputError(f"a picture has two dimensions, not {grey.ndim}", path="picture")
+        raise InputError(f"a picture has two dimensions, not {grey.ndim}", parameter="picture")
     from scipy.ndimage import gaussian_filter
 
     hidden = np.zeros(grey.shape, dtype=bool) if mask is None else mask

@@ -33,9 +33,9 @@ class StreakChain:
     def __post_init__(self) -> None:
         count = len(self.start_time)
         if len(self.end_time) != count or self.start.shape != (count, 2) or self.end.shape != (count, 2):
-            raise InputError("a chain needs two instants and two positions for every streak", path="chain")
+            raise InputError("a chain needs two instants and two positions for every streak", parameter="chain")
         if np.any(self.end_time <= self.start_time) or np.any(self.start_time[1:] < self.end_time[:-1]):
-            raise InputError("the streaks of a chain are not in the order of time", path="chain")
+            raise InputError("the streaks of a chain are not in the order of time", parameter="chain")
 
     @property
     def time(self) -> Array:
@@ -152,7 +152,9 @@ def fit_drift_harmonics(chain: StreakChain, period: float, *, harmonics: Sequenc
             best = (criterion, coefficients, misfit, deviation, number)
     if best is None:
         raise InputError(
-            f"a chain of {len(chain.start_time)} streaks is too short for a fit", path="chain", allowed="at least 4"
+            f"a chain of {len(chain.start_time)} streaks is too short for a fit",
+            parameter="chain",
+            allowed="at least 4",
         )
     _, coefficients, misfit, deviation, number = best
     first = _basis(np.array([(chain.time[0] - middle) / period + 1.0]), number) @ coefficients
@@ -176,14 +178,16 @@ def _least_squares(basis: Array, values: Array) -> tuple[Array, Array, Array]:
 def _require_period(chain: StreakChain, period: float, *, least: int) -> None:
     count = len(chain.start_time)
     if count < least:
-        raise InputError(f"a chain of {count} streaks is too short", path="chain", allowed=f"at least {least} streaks")
+        raise InputError(
+            f"a chain of {count} streaks is too short", parameter="chain", allowed=f"at least {least} streaks"
+        )
     if not period > 0.0:
-        raise InputError(f"a period of {period:g} s is not positive", path="period")
+        raise InputError(f"a period of {period:g} s is not positive", parameter="period")
     gap = period - (chain.time[-1] - chain.time[0])
     step = float(np.median(np.diff(chain.time)))
     if gap > 1.01 * step:
         raise InputError(
             f"a chain of {chain.span:.3g} s ends {gap:.3g} s before the period of {period:.3g} s does",
-            path="chain",
+            parameter="chain",
             allowed="a last streak within one step of the end of the period",
         )

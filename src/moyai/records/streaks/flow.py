@@ -82,7 +82,7 @@ class SectionMap:
         """
         target = np.asarray(plane, dtype=complex)
         if np.any(self.contains(target)):
-            raise InputError("a point lies inside the section", path="points")
+            raise InputError("a point lies inside the section", parameter="points")
         zeta: ComplexArray = np.asarray(target / self.scale, dtype=np.complex128)
         zeta = np.where(np.abs(zeta) < 1.05, 1.05 * np.exp(1j * np.angle(zeta)), zeta)
         for _ in range(60):
@@ -107,7 +107,9 @@ class SectionMap:
 def circle_map(diameter: float) -> SectionMap:
     """Return the map of a circle of ``diameter`` [m]."""
     if not diameter > 0.0:
-        raise InputError(f"a diameter of {diameter:g} m is not positive", path="diameter", allowed="greater than 0 m")
+        raise InputError(
+            f"a diameter of {diameter:g} m is not positive", parameter="diameter", allowed="greater than 0 m"
+        )
     return SectionMap("circle", diameter, diameter, 0.5 * diameter)
 
 
@@ -122,11 +124,11 @@ def rectangle_map(breadth: float, height: float) -> SectionMap:
 
     for name, value in (("breadth", breadth), ("height", height)):
         if not value > 0.0:
-            raise InputError(f"a {name} of {value:g} m is not positive", path=name, allowed="greater than 0 m")
+            raise InputError(f"a {name} of {value:g} m is not positive", parameter=name, allowed="greater than 0 m")
     if not 0.02 <= height / breadth <= 50.0:
         raise InputError(
             f"a rectangle of {breadth:g} by {height:g} m is too thin for the map",
-            path="height",
+            parameter="height",
             allowed="sides with a ratio of at most 50",
         )
 
@@ -185,9 +187,9 @@ class OrbitalFlow:
 
     def __post_init__(self) -> None:
         if not self.period > 0.0:
-            raise InputError(f"a period of {self.period:g} s is not positive", path="period")
+            raise InputError(f"a period of {self.period:g} s is not positive", parameter="period")
         if self.section is None and self.circulation:
-            raise InputError("a flow without section has no circulation", path="circulation")
+            raise InputError("a flow without section has no circulation", parameter="circulation")
 
     @property
     def angular_frequency(self) -> float:
@@ -220,7 +222,7 @@ def track_particles(flow: OrbitalFlow, start: ArrayLike, times: ArrayLike, *, st
     """
     instants = np.asarray(times, dtype=float)
     if instants.ndim != 1 or np.any(np.diff(instants) <= 0.0):
-        raise InputError("the times do not increase", path="times")
+        raise InputError("the times do not increase", parameter="times")
     points = np.atleast_2d(np.asarray(start, dtype=float))
     plane = points[:, 0] + 1j * points[:, 1]
     section = flow.section

@@ -45,7 +45,7 @@ class Recording:
     def __post_init__(self) -> None:
         expected = self.train.count if self.frames else 1
         if len(self.pictures) != expected:
-            raise InputError(f"a recording of {expected} picture(s) has {len(self.pictures)}", path="pictures")
+            raise InputError(f"a recording of {expected} picture(s) has {len(self.pictures)}", parameter="pictures")
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,7 +114,7 @@ def read_pictures(files: Sequence[Path]) -> list[Array]:
             raise InputError(
                 f"{file.name} has {other[1]} by {other[0]} pixels and {files[0].name} {one[1]} by {one[0]}: "
                 "pictures of one recording share one size",
-                path="pictures",
+                parameter="pictures",
             )
     return pictures
 
@@ -234,7 +234,7 @@ def _require_streaks(recording: Recording, found: list[Streaks], settings: Detec
     raise InputError(
         f"{recording.pictures[worst].name}: {counts[worst]} streaks stand out of the noise of "
         f"{found[worst].noise:.2g} grey levels",
-        path="pictures",
+        parameter="pictures",
         allowed=f"pictures with streaks brighter than {settings.threshold:g} times the noise",
         remedy="check that the light was on and the file is the right one, or lower detection.threshold",
     )
@@ -272,7 +272,7 @@ def _key(
         try:
             contents.append(hashlib.sha256(file.read_bytes()).hexdigest())
         except OSError:
-            raise InputError(f"no such picture: {file}", path="pictures") from None
+            raise InputError(f"no such picture: {file}", parameter="pictures") from None
     probe = calibration.to_world([[0.0, 0.0], [500.0, 0.0], [0.0, 500.0], [500.0, 500.0], [900.0, 300.0]])
     train = recording.train
     return key_of(
@@ -384,7 +384,7 @@ def fit_background(cloud: DriftCloud) -> BackgroundDrift:
     """
     if cloud.count < 6:
         raise InputError(
-            f"the run without model gives {cloud.count} drift velocities", path="no_model", allowed="at least 6"
+            f"the run without model gives {cloud.count} drift velocities", parameter="no_model", allowed="at least 6"
         )
     basis = np.column_stack([np.ones(cloud.count), cloud.position[:, 1]])
     weight = np.ones(cloud.count)

@@ -49,9 +49,9 @@ class Optics:
 
     def __post_init__(self) -> None:
         if self.bits not in (8, 16):
-            raise InputError(f"pictures of {self.bits} bits", path="bits", allowed="8 or 16")
+            raise InputError(f"pictures of {self.bits} bits", parameter="bits", allowed="8 or 16")
         if not self.density > 0.0:
-            raise InputError("the density of particles is not positive", path="density")
+            raise InputError("the density of particles is not positive", parameter="density")
 
 
 @dataclass(frozen=True, eq=False)

@@ -32,13 +32,13 @@ class PulseTrain:
 
     def __post_init__(self) -> None:
         if len(self.start) < 2 or len(self.duration) != len(self.start) or len(self.power) != len(self.start):
-            raise InputError("a train of pulses needs at least two, each with on-time and power", path="pulses")
+            raise InputError("a train of pulses needs at least two, each with on-time and power", parameter="pulses")
         if np.any(self.duration <= 0.0) or np.any(self.power <= 0.0):
-            raise InputError("on-times and powers of pulses must be positive", path="pulses")
+            raise InputError("on-times and powers of pulses must be positive", parameter="pulses")
         if np.any(self.start[1:] - (self.start + self.duration)[:-1] <= 0.0):
             raise InputError(
                 "a pulse begins before the one before it has ended",
-                path="pulses",
+                parameter="pulses",
                 remedy="make the on-times shorter than the interval",
             )
 
@@ -142,7 +142,7 @@ def require_time_order(train: PulseTrain, least_streaks: int) -> None:
     if train.count < least_streaks:
         raise InputError(
             f"{train.count} pulses in one picture do not cover a period: {least_streaks} are needed",
-            path="timing.count",
+            parameter="timing.count",
             remedy="open the shutter for longer, or chop the light faster",
         )
     steps = np.ones(least_streaks - 1, dtype=np.int64)
@@ -153,7 +153,7 @@ def require_time_order(train: PulseTrain, least_streaks: int) -> None:
     if min(evidence) < LEAST_EVIDENCE:
         raise InputError(
             "the order in time of the streaks is missing: the pulses look alike forwards and backwards",
-            path="timing",
+            parameter="timing",
             allowed="pulses of unequal on-time or power in an unsymmetrical pattern, such as powers [1, 0.65, 0.4], or "
             "one pulse a frame",
             remedy="state the pattern that the chopper makes; without one the direction of flow is unknown",

@@ -162,7 +162,7 @@ def _surface(survey: Survey, data: _Samples, name: str, notices: list[Notice]) -
         return found
     time, values = found
     if survey.water is None or survey.spectral is None:
-        raise InputError(f"'{name}' needs 'site' and 'spectrum' to become a surface", path="waves.channels")
+        raise InputError(f"'{name}' needs 'site' and 'spectrum' to become a surface", parameter="waves.channels")
     if not np.isfinite(values).all():
         notices.append(Notice("surface-gaps", f"{name}: a block has gaps; its surface is not computed"))
         return time, np.full_like(values, np.nan)
@@ -291,7 +291,7 @@ def _directions(survey: Survey, data: _Samples, notices: list[Notice]) -> dict[s
     for name in names:
         sensor = survey.use_of(name).sensor
         if sensor is None:
-            raise InputError(f"'{name}' is no quantity of waves", path="directions.channels")
+            raise InputError(f"'{name}' is no quantity of waves", parameter="directions.channels")
         sensors.append(sensor)
     step, columns = _filled(*_even(shared[0], *shared[1]), "directions", notices)
     options = _fitting(survey.spectral.options, columns.shape[0], step, notices, "directions")

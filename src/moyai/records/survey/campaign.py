@@ -173,7 +173,7 @@ def generate(laws: CampaignLaws, storm: Storm, *, seed: int, every: int = 1) -> 
         Each with a sea of its own: waves do not run on from block to block.
     """
     if every < 1:
-        raise InputError(f"every {every} blocks", path="every", allowed="1 or more")
+        raise InputError(f"every {every} blocks", parameter="every", allowed="1 or more")
     random = np.random.default_rng(seed)
     size = round(laws.block * laws.rate)
     wander = {"new": 0.0, "conventional": 0.0}

@@ -87,7 +87,7 @@ def block_means(
     t = np.asarray(time, dtype=float)
     u, v = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
     if not length > 0.0 or t.size == 0:
-        raise InputError(f"blocks of {length:g} s over {t.size} samples", path="length", allowed="greater than 0")
+        raise InputError(f"blocks of {length:g} s over {t.size} samples", parameter="length", allowed="greater than 0")
     start = float(t[0]) if origin is None else origin
     number = np.floor((t - start) / length + 1e-9).astype(np.int64)
     first = int(number[0])
@@ -126,7 +126,7 @@ def principal_axis(x: ArrayLike, y: ArrayLike) -> PrincipalAxis:
     u, v = np.asarray(x, dtype=float).reshape(-1), np.asarray(y, dtype=float).reshape(-1)
     known = np.isfinite(u) & np.isfinite(v)
     if np.count_nonzero(known) < 3:
-        raise InputError(f"{np.count_nonzero(known)} samples", path="x", allowed="3 or more")
+        raise InputError(f"{np.count_nonzero(known)} samples", parameter="x", allowed="3 or more")
     values, vectors = np.linalg.eigh(np.cov(u[known], v[known]))
     heading = math.atan2(vectors[1, 1], vectors[0, 1])
     if heading <= -math.pi / 2.0:
@@ -178,12 +178,12 @@ def mean_profile(z: ArrayLike, x: ArrayLike, y: ArrayLike, *, top: float, least_
     heights = np.asarray(z, dtype=float)
     u, v = np.atleast_2d(np.asarray(x, dtype=float)), np.atleast_2d(np.asarray(y, dtype=float))
     if u.shape != v.shape or u.shape[0] != heights.size:
-        raise InputError(f"velocities of shape {u.shape} for {heights.size} bins", path="x")
+        raise InputError(f"velocities of shape {u.shape} for {heights.size} bins", parameter="x")
     good = np.isfinite(u) & np.isfinite(v)
     share = good.mean(axis=1)
     kept = (share >= least_share) & (heights <= top) & (heights > 0.0)
     if not kept.any():
-        raise InputError("no bin has enough good samples below the surface", path="least_share")
+        raise InputError("no bin has enough good samples below the surface", parameter="least_share")
     with np.errstate(invalid="ignore", divide="ignore"):
         mx = np.where(kept, np.where(good, u, 0.0).sum(axis=1) / good.sum(axis=1), np.nan)
         my = np.where(kept, np.where(good, v, 0.0).sum(axis=1) / good.sum(axis=1), np.nan)

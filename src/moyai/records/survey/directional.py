@@ -125,11 +125,13 @@ def directional_spectrum(
     count = len(sensors)
     if count < 3 or spectra.matrix.shape[1] != count:
         raise InputError(
-            f"{count} sensors for {spectra.matrix.shape[1]} channels", path="sensors", allowed="three or more, equal"
+            f"{count} sensors for {spectra.matrix.shape[1]} channels",
+            parameter="sensors",
+            allowed="three or more, equal",
         )
     chosen = (spectra.frequency >= max(lowest, 1e-9)) & (spectra.frequency <= highest)
     if not chosen.any():
-        raise InputError(f"no frequency between {lowest:g} and {highest:g} Hz", path="lowest, highest")
+        raise InputError(f"no frequency between {lowest:g} and {highest:g} Hz", parameter="lowest, highest")
     frequency = spectra.frequency[chosen]
     omega = 2.0 * math.pi * frequency
     k = np.asarray(wave_number(omega, water.depth, water.gravity), dtype=float)
@@ -141,7 +143,9 @@ def directional_spectrum(
     independent = _rank(responses, first, second)
     most = min(6, (independent - 1) // 2) if largest_order is None else largest_order
     if most < 1:
-        raise InputError("these sensors cannot tell directions", path="sensors", remedy="add velocities or positions")
+        raise InputError(
+            "these sensors cannot tell directions", parameter="sensors", remedy="add velocities or positions"
+        )
     density = np.zeros((frequency.size, HEADINGS))
     order = np.zeros(frequency.size, dtype=np.int64)
     misfit = np.full(frequency.size, np.nan)
@@ -331,10 +335,10 @@ def fourier_directions(spectra: CrossSpectra, sensors: Sequence[Sensor], water: 
     """
     if [sensor.powers for sensor in sensors] != [(0, 0), (1, 0), (0, 1)]:
         raise InputError(
-            "these sensors are no triplet", path="sensors", allowed="a vertical quantity, one along x, one along y"
+            "these sensors are no triplet", parameter="sensors", allowed="a vertical quantity, one along x, one along y"
         )
     if len({(sensor.x, sensor.y) for sensor in sensors}) > 1:
-        raise InputError("the sensors of a triplet stand at one place", path="sensors")
+        raise InputError("the sensors of a triplet stand at one place", parameter="sensors")
     frequency, matrix = spectra.frequency, spectra.matrix
     omega = 2.0 * math.pi * np.maximum(frequency, 1e-6)
     k = np.asarray(wave_number(omega, water.depth, water.gravity), dtype=float)

@@ -54,7 +54,9 @@ class FlumeRecord:
             When the record has no such channel.
         """
         if name not in self.names:
-            raise InputError(f"{self.source} has no channel {name!r}", path="channel", allowed=", ".join(self.names))
+            raise InputError(
+                f"{self.source} has no channel {name!r}", parameter="channel", allowed=", ".join(self.names)
+            )
         return np.asarray(self.values[:, self.names.index(name)])
 
 
@@ -75,10 +77,10 @@ class FlumeLayout:
         unknown = [name for name in (*self.front, *self.behind) if name not in self.gauges]
         if unknown:
             raise InputError(
-                f"no position for gauge {', '.join(unknown)}", path="gauges", allowed=", ".join(self.gauges)
+                f"no position for gauge {', '.join(unknown)}", parameter="gauges", allowed=", ".join(self.gauges)
             )
         if any(self.gauges[name] >= self.model for name in self.front):
-            raise InputError("a gauge in front of the model must stand between wavemaker and model", path="front")
+            raise InputError("a gauge in front of the model must stand between wavemaker and model", parameter="front")
 
 
 @dataclass(frozen=True)
@@ -144,7 +146,7 @@ class RegularRun:
 
     def _index(self, channel: str) -> int:
         if channel not in self.names:
-            raise InputError(f"no channel {channel!r}", path="channel", allowed=", ".join(self.names))
+            raise InputError(f"no channel {channel!r}", parameter="channel", allowed=", ".join(self.names))
         return self.names.index(channel)
 
 
@@ -170,18 +172,18 @@ def read_flume_record(path: str | Path, *, units: Mapping[str, str] | None = Non
     """
     file = Path(path)
     if not file.is_file():
-        raise InputError(f"no such file: {file}", path="record")
+        raise InputError(f"no such file: {file}", parameter="record")
     with file.open(newline="", encoding="utf-8-sig") as stream:
         rows = list(csv.reader(stream))
     if len(rows) < 3:
         raise InputError(
-            f"{file.name} holds {max(len(rows) - 1, 0)} rows of data", path="record", allowed="two or more"
+            f"{file.name} holds {max(len(rows) - 1, 0)} rows of data", parameter="record", allowed="two or more"
         )
     heading, body = rows[0], [row for row in rows[1:] if row]
     for number, row in enumerate(body, start=2):
         if len(row) != len(heading):
             raise InputError(
-                f"{file.name}: row {number} has {len(row)} columns, the heading {len(heading)}", path="record"
+                f"{file.name}: row {number} has {len(row)} columns, the heading {len(heading)}", parameter="record"
             )
     table, unreadable = _numbers(body)
     if not heading[0].strip() and len(heading) > 2 and heading[1].strip().lower().startswith("time"):
@@ -198,11 +200,11 @@ def read_flume_record(path: str | Path, *, units: Mapping[str, str] | None = Non
     bad = np.flatnonzero(~np.isfinite(time))
     if bad.size:
         raise InputError(
-            f"{file.name}: row {bad[0] + 2}, column {column}: time is missing or not a number", path="record"
+            f"{file.name}: row {bad[0] + 2}, column {column}: time is missing or not a number", parameter="record"
         )
     back = np.flatnonzero(np.diff(time) <= 0.0)
     if back.size:
-        raise InputError(f"{file.name}: row {back[0] + 3}, column {column}: time does not increase", path="record")
+        raise InputError(f"{file.name}: row {back[0] + 3}, column {column}: time does not increase", parameter="record")
     notices = _reading_notices(file.name, time, names, channel_units, table[:, 1:], unreadable)
     return FlumeRecord(time, tuple(names[1:]), channel_units, table[:, 1:], notices, file.name)
 
@@ -265,7 +267,7 @@ def wavemaker_start(time: Array, position: Array, *, fraction: float) -> float:
     moving = np.flatnonzero(excursion > fraction * excursion.max())
     if excursion.max() == 0.0 or moving[0] == 0:
         raise InputError(
-            "the record does not show the start of the wavemaker", path="wavemaker", remedy="give the start"
+            "the record does not show the start of the wavemaker", parameter="wavemaker", remedy="give the start"
         )
     return float(time[moving[0]])
 
@@ -302,7 +304,7 @@ def useful_window(layout: FlumeLayout, water: Water, period: float, *, start: fl
     if closing - opening < period:
         raise InputError(
             f"the window from {opening:.4g} to {closing:.4g} s holds less than one period of {period:.4g} s",
-            path="ramp_periods",
+            parameter="ramp_periods",
             remedy="accept a shorter ramp or use gauges nearer to the model",
         )
     return Window(opening, closing)
@@ -372,7 +374,7 @@ def _coefficients(
     absent = [name for name in (*layout.front, *layout.behind) if name not in first]
     if absent:
         raise InputError(
-            f"{record.source} has no gauge {', '.join(absent)}", path="gauges", allowed=", ".join(record.names)
+            f"{record.source} has no gauge {', '.join(absent)}", parameter="gauges", allowed=", ".join(record.names)
         )
     positions = [layout.gauges[name] - layout.model for name in layout.front]
     separation = separate_waves(positions, [first[name] for name in layout.front], number)

@@ -114,18 +114,20 @@ def separate_irregular(
     x = np.asarray(positions, dtype=float)
     values = np.asarray(gauges, dtype=float)
     if x.ndim != 1 or np.unique(x).size < 2:
-        raise InputError(f"{np.unique(x).size} gauge positions", path="positions", allowed="two or more different")
+        raise InputError(f"{np.unique(x).size} gauge positions", parameter="positions", allowed="two or more different")
     if values.ndim != 2 or values.shape[1] != x.size:
-        raise InputError(f"records of shape {values.shape} for {x.size} gauges", path="gauges")
+        raise InputError(f"records of shape {values.shape} for {x.size} gauges", parameter="gauges")
     if not np.isfinite(values).all():
         row, column = np.argwhere(~np.isfinite(values))[0]
-        raise InputError(f"gauge {column + 1} lacks sample {row + 1}", path="gauges", remedy="choose a sound stretch")
+        raise InputError(
+            f"gauge {column + 1} lacks sample {row + 1}", parameter="gauges", remedy="choose a sound stretch"
+        )
     transforms, window, shift = _segments(step, values, options)
     size = window.size
     frequency = np.asarray(np.fft.rfftfreq(size, step), dtype=np.float64)
     inside = (frequency >= lowest) & (frequency <= highest) & (frequency > 0.0)
     if not inside.any():
-        raise InputError(f"no frequency between {lowest:g} and {highest:g} Hz", path="lowest, highest")
+        raise InputError(f"no frequency between {lowest:g} and {highest:g} Hz", parameter="lowest, highest")
     frequency = frequency[inside]
     k = np.asarray(wave_number(2.0 * math.pi * frequency, water.depth, water.gravity), dtype=float)
     inverse, condition, gain = _design(k, x)
@@ -133,7 +135,7 @@ def separate_irregular(
     if not used.any():
         raise InputError(
             f"at no frequency the gauges are well placed: the smallest condition number is {condition.min():.3g}",
-            path="positions",
+            parameter="positions",
             allowed=f"at most {largest_condition:g}",
         )
     amplitudes = transforms[:, inside]
@@ -181,7 +183,7 @@ def _segments(step: float, values: Array, options: WelchOptions) -> tuple[Comple
     """Return the tapered transforms (segments, frequencies, gauges) as amplitudes of Re(X exp(-i omega t))."""
     size = values.shape[0] if math.isinf(options.segment) else round(options.segment / step)
     if not 8 <= size <= values.shape[0]:
-        raise InputError(f"segments of {size} samples in a record of {values.shape[0]}", path="segment")
+        raise InputError(f"segments of {size} samples in a record of {values.shape[0]}", parameter="segment")
     shift = max(round(size * (1.0 - options.overlap)), 1)
     window = taper(options.window, size)
     ramp = np.arange(size) - 0.5 * (size - 1)
@@ -337,7 +339,7 @@ def transmission(
     for energy, place in ((came, "in front"), (passed, "behind")):
         if not energy > 0.0:  # noise that is taken off may exceed a calm sea
             raise InputError(
-                f"the energy of the waves {place} is not above the noise of the gauges", path="gauges",
+                f"the energy of the waves {place} is not above the noise of the gauges", parameter="gauges",
                 remedy="leave calm blocks out, or widen the band",
             )  # fmt: skip
     coefficient = math.sqrt(passed / came)

@@ -154,7 +154,7 @@ class Survey:
         names = [column.name for logger in self.loggers for column in logger.columns]
         twice = next((name for name in names if names.count(name) > 1), None)
         if twice is not None:
-            raise InputError(f"two channels are named '{twice}'", path="loggers", remedy="rename one")
+            raise InputError(f"two channels are named '{twice}'", parameter="loggers", remedy="rename one")
         known = {channel.name for channel in self.channels}
         wanted = {
             "waves.channels": self.waves,
@@ -168,9 +168,9 @@ class Survey:
         for path, channels in wanted.items():
             absent = next((name for name in channels if name not in known), None)
             if absent is not None:
-                raise InputError(f"there is no channel '{absent}'", path=path, allowed=", ".join(sorted(known)))
+                raise InputError(f"there is no channel '{absent}'", parameter=path, allowed=", ".join(sorted(known)))
         if not self.block_length > 0.0:
-            raise InputError(f"blocks of {self.block_length:g} s", path="blocks.length", allowed="greater than 0")
+            raise InputError(f"blocks of {self.block_length:g} s", parameter="blocks.length", allowed="greater than 0")
 
     def use_of(self, name: str) -> ChannelUse:
         """Return what a channel is."""

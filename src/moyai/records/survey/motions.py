@@ -77,13 +77,15 @@ def fit_decay_record(
     """
     t, v = np.asarray(time, dtype=float), np.asarray(values, dtype=float)
     if t.shape != v.shape or t.size < 8:
-        raise InputError(f"{v.size} samples for {t.size} instants", path="values", allowed="8 or more, equal")
+        raise InputError(f"{v.size} samples for {t.size} instants", parameter="values", allowed="8 or more, equal")
     level = float(np.nanmedian(v[-max(t.size // 5, 3) :])) if rest is None else float(rest)
     first = t[int(np.nanargmax(np.abs(v - level)))] if start is None else start
     chosen = (t >= first) & (t <= (t[-1] if end is None else end))
     t, v = t[chosen], v[chosen]
     if not np.isfinite(v).all():
-        raise InputError("the decay has gaps", path="values", remedy="choose 'start' and 'end' inside a sound stretch")
+        raise InputError(
+            "the decay has gaps", parameter="values", remedy="choose 'start' and 'end' inside a sound stretch"
+        )
     if t.size > 1 and np.ptp(np.diff(t)) > 0.01 * float(np.median(np.diff(t))):
         # Stamps with few decimals scatter about even steps; anything more is a gap
         even, step = np.linspace(t[0], t[-1], t.size), float(np.median(np.diff(t)))
@@ -92,7 +94,7 @@ def fit_decay_record(
             raise InputError(
                 f"the decay is not evenly stepped: {t[worst + 1] - t[worst]:.4g} s after {t[worst]:.6g} s, "
                 f"{step:.4g} s usually",
-                path="time",
+                parameter="time",
                 remedy="choose 'start' and 'end' inside a stretch without gaps",
             )
         t = even
@@ -287,7 +289,7 @@ def response_of(
     if freedom < 3.9:
         raise InputError(
             f"{freedom:.3g} degrees of freedom: one segment always has coherence 1",
-            path="segment",
+            parameter="segment",
             remedy="take shorter segments or average bands",
         )
     wave = matrix.auto(0)
@@ -362,9 +364,9 @@ def rigid_motion(markers: ArrayLike, reference: ArrayLike, *, centre: tuple[floa
     """
     q, p = np.asarray(markers, dtype=float), np.asarray(reference, dtype=float)
     if q.ndim != 3 or p.shape != q.shape[1:] or p.shape[-1] != 2:
-        raise InputError(f"tracks of shape {q.shape} for markers of shape {p.shape}", path="markers")
+        raise InputError(f"tracks of shape {q.shape} for markers of shape {p.shape}", parameter="markers")
     if p.shape[0] < 2 or float(np.ptp(p, axis=0).max()) == 0.0:
-        raise InputError(f"{p.shape[0]} markers", path="markers", allowed="two or more at different places")
+        raise InputError(f"{p.shape[0]} markers", parameter="markers", allowed="two or more at different places")
     good = np.isfinite(q).all(axis=2)
     seen = good.sum(axis=1)
     weight = np.where(good, 1.0, 0.0)[:, :, None]

@@ -91,14 +91,14 @@ def separate_waves(
     k = np.atleast_1d(np.asarray(wave_number, dtype=float))
     if x.ndim != 1 or x.size < 2 or np.unique(x).size < 2:
         raise InputError(
-            f"{np.unique(x).size} gauge positions", path="positions", allowed="two or more different positions"
+            f"{np.unique(x).size} gauge positions", parameter="positions", allowed="two or more different positions"
         )
     if gauges.shape != (k.size, x.size):
         raise InputError(
-            f"amplitudes of shape {gauges.shape} for {k.size} wave numbers and {x.size} gauges", path="amplitudes"
+            f"amplitudes of shape {gauges.shape} for {k.size} wave numbers and {x.size} gauges", parameter="amplitudes"
         )
     if not (np.all(np.isfinite(gauges)) and np.all(np.isfinite(k)) and np.all(k > 0.0)):
-        raise InputError("amplitudes must be finite and wave numbers positive", path="amplitudes")
+        raise InputError("amplitudes must be finite and wave numbers positive", parameter="amplitudes")
     # Positions from their middle: conditioning does not depend on where the tank has its origin
     origin = x.mean()
     phase = np.exp(1j * k[:, None] * (x - origin))

@@ -74,9 +74,9 @@ def run_survey(survey: Survey, progress: Progress = silent, *, rows: int = CHUNK
             raise
         status, message = "interrupted", f"stopped after {len(found)} blocks"
     if not found:
-        raise InputError("the files hold no sample", path="loggers")
+        raise InputError("the files hold no sample", parameter="loggers")
     if len({reader.dated for reader in readers if reader.dated is not None}) > 1:
-        raise InputError("one logger has dates and another only seconds", path="time", remedy="give 'start'")
+        raise InputError("one logger has dates and another only seconds", parameter="time", remedy="give 'start'")
     tree, further = _assemble(survey, found, dated)
     everything = tuple(dict.fromkeys([*notices, *further, *_summed_up(found)]))
     provenance = make_provenance(
@@ -115,7 +115,7 @@ def _first_instant(survey: Survey) -> tuple[float, bool]:
             dated = dated or chunk.dated
             break
     if not starts:
-        raise InputError("the files hold no sample", path="loggers")
+        raise InputError("the files hold no sample", parameter="loggers")
     return min(starts), dated
 
 

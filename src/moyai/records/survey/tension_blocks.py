@@ -145,14 +145,14 @@ def analyse_blocks(
     if not 10 <= size <= t.size:
         raise InputError(
             f"blocks of {block:g} s in a record of {t.size * step:g} s",
-            path="block",
+            parameter="block",
             allowed=f"{10 * step:g} to {t.size * step:g} s",
         )
     number = t.size // size
     heading = _per_block(wave_heading, t.size, size, number)
     flow = None if current is None else np.asarray(current, dtype=np.float64)
     if flow is not None and flow.shape != (t.size, 2):
-        raise InputError(f"current has shape {flow.shape}", path="current", allowed=f"({t.size}, 2)")
+        raise InputError(f"current has shape {flow.shape}", parameter="current", allowed=f"({t.size}, 2)")
     rows: list[tuple[float, ...]] = []
     columns: list[Array] = []
     single: list[Array] = []
@@ -190,7 +190,7 @@ def analyse_blocks(
     if not rows:
         raise InputError(
             f"no block of {block:g} s is left of {number}: gaps, or fewer than {least_waves} waves each",
-            path="block",
+            parameter="block",
             allowed="blocks without gaps and with waves enough",
             remedy="fill short gaps before, or take longer blocks",
         )
@@ -253,13 +253,13 @@ def _checked(time: ArrayLike, elevation: ArrayLike, tension: ArrayLike) -> tuple
     if t.ndim != 1 or t.size < 20 or eta.shape != t.shape or lines.ndim != 2 or lines.shape[1] != t.size:
         raise InputError(
             f"times {t.shape}, elevations {eta.shape}, tensions {lines.shape}",
-            path="tension",
+            parameter="tension",
             allowed="(n,), (n,) and (lines, n), n at least 20",
         )
     steps = np.diff(t)
     step = float(steps.mean())
     if not (step > 0.0 and float(np.abs(steps - step).max()) < 0.01 * step):
-        raise InputError("times are not uniform", path="time", allowed="equal steps", remedy="resample the record")
+        raise InputError("times are not uniform", parameter="time", allowed="equal steps", remedy="resample the record")
     return t, eta, lines, step
 
 
@@ -273,7 +273,7 @@ def _per_block(value: ArrayLike | None, samples: int, size: int, number: int) ->
         return lambda k: float(given[k])
     if given.size != samples:
         raise InputError(
-            f"{given.size} headings", path="wave_heading", allowed=f"1, {number} (blocks) or {samples} (samples)"
+            f"{given.size} headings", parameter="wave_heading", allowed=f"1, {number} (blocks) or {samples} (samples)"
         )
 
     def mean(k: int) -> float:

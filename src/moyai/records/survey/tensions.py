@@ -67,10 +67,10 @@ def split_tension(
     t, values = np.asarray(time, dtype=np.float64), np.asarray(tension, dtype=np.float64)
     if t.ndim != 1 or t.shape != values.shape or t.size < 5:
         raise InputError(
-            f"times {t.shape} and tensions {values.shape}", path="tension", allowed="equal lists, 5 or more"
+            f"times {t.shape} and tensions {values.shape}", parameter="tension", allowed="equal lists, 5 or more"
         )
     if not np.isfinite(values).all():
-        raise InputError("the tension has gaps", path="tension", remedy="cut or fill gaps before")
+        raise InputError("the tension has gaps", parameter="tension", remedy="cut or fill gaps before")
     if rule == "low_pass":
         steady = slow_part(t, values, cutoff)
     else:
@@ -121,9 +121,9 @@ def wave_maxima(
     t, values = np.asarray(time, dtype=np.float64), np.asarray(fluctuating, dtype=np.float64)
     first, last = np.asarray(start, dtype=np.float64), np.asarray(start, dtype=np.float64) + np.asarray(period)
     if t.shape != values.shape or first.shape != last.shape:
-        raise InputError("lists differ in length", path="fluctuating", allowed="equal lengths")
+        raise InputError("lists differ in length", parameter="fluctuating", allowed="equal lengths")
     if not math.isfinite(delay):
-        raise InputError(f"delay is {delay:g} s", path="delay", allowed="finite")
+        raise InputError(f"delay is {delay:g} s", parameter="delay", allowed="finite")
     low, high = np.searchsorted(t, first + delay), np.searchsorted(t, last + delay)
     count = first.size
     usual = float(np.median(np.diff(t))) if t.size > 1 else math.inf
@@ -193,10 +193,12 @@ def find_delay(time: ArrayLike, elevation: ArrayLike, fluctuating: ArrayLike, *,
     step = float(t[1] - t[0])
     reach = int(longest / step + 1e-9)
     if not 1 <= reach <= t.size // 4:
-        raise InputError(f"longest is {longest:g} s", path="longest", allowed=f"{step:g} to {0.25 * t.size * step:g} s")
+        raise InputError(
+            f"longest is {longest:g} s", parameter="longest", allowed=f"{step:g} to {0.25 * t.size * step:g} s"
+        )
     one, two = one - one.mean(), two - two.mean()
     if not (one.any() and two.any()):
-        raise InputError("a series does not vary", path="fluctuating", allowed="waves and tensions")
+        raise InputError("a series does not vary", parameter="fluctuating", allowed="waves and tensions")
     score = np.array(
         [
             float(one[max(0, -k) : t.size - max(0, k)] @ two[max(0, k) : t.size - max(0, -k)]) / (t.size - abs(k))

@@ -116,14 +116,14 @@ def fit_tide(
     """
     unknown = [name for name in names or () if name not in CONSTITUENTS]
     if unknown:
-        raise InputError(f"unknown constituent '{unknown[0]}'", path="names", allowed=", ".join(CONSTITUENTS))
+        raise InputError(f"unknown constituent '{unknown[0]}'", parameter="names", allowed=", ".join(CONSTITUENTS))
     t = np.asarray(time, dtype=float)
     u = np.asarray(x, dtype=float)
     v = np.zeros_like(u) if y is None else np.asarray(y, dtype=float)
     known = np.isfinite(u) & np.isfinite(v)
     t, data = t[known], np.column_stack([u[known], v[known]])
     if t.size < 5:
-        raise InputError(f"{t.size} samples", path="time", allowed="five or more")
+        raise InputError(f"{t.size} samples", parameter="time", allowed="five or more")
     length = float(t.max() - t.min())
     wanted = sorted(names or _ORDER, key=lambda name: _ORDER.index(name))
     chosen: list[str] = []
@@ -133,7 +133,7 @@ def fit_tide(
         apart = min(abs(CONSTITUENTS[name] - speed) for speed in speeds) / 360.0 * length / 3600.0
         (chosen if apart >= rayleigh else left_out).append(name)
     if not chosen:
-        raise InputError(f"a record of {length / 3600.0:.3g} h tells no constituent apart", path="time")
+        raise InputError(f"a record of {length / 3600.0:.3g} h tells no constituent apart", parameter="time")
     reference = 0.5 * float(t.min() + t.max())
     omega = np.radians([CONSTITUENTS[name] for name in chosen]) / 3600.0
     angles = (t - reference)[:, None] * omega
@@ -142,7 +142,9 @@ def fit_tide(
         columns.append(((t - reference) / length)[:, None])
     design = np.hstack(columns)
     if design.shape[1] >= t.size:
-        raise InputError(f"{t.size} samples for {design.shape[1]} unknowns", path="names", remedy="take fewer names")
+        raise InputError(
+            f"{t.size} samples for {design.shape[1]} unknowns", parameter="names", remedy="take fewer names"
+        )
     normal = design.T @ design
     solution = np.linalg.solve(normal, design.T @ data)
     rest = data - design @ solution

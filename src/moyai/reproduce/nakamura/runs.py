@@ -10,7 +10,8 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.core.progress import Progress, silent
 from moyai.reproduce.inputs import problem_of, run_problem
-from moyai.structures.breakwater.model import BreakwaterProblem, Damping, MooringLine, RegularSea, Sensitivity
+from moyai.structures.breakwater.model import BreakwaterProblem, Damping, MooringLine, RegularSea
+from moyai.structures.breakwater.settings import Sensitivity
 
 if TYPE_CHECKING:
     from moyai.core.results import Result
@@ -78,19 +79,14 @@ def variant(
     lines = tuple(replace(line, dynamic=moving, **kept) for line in chains)
     damping = Damping(fraction, case.breakwater.damping.modes)
     height = case.environment.sea_states[0].height  # type: ignore[union-attr]
-    mode = replace(case.settings.time.lines, mode="dynamic" if moving else "quasi_static")
-    settings = replace(
-        case.settings,
-        analyses=("statics", "mooring", "frequency", "time") if time else ("statics", "mooring", "frequency"),
-        sensitivity=Sensitivity(),
-        drift=drift,
-        time=replace(case.settings.time, lines=mode),
-    )
+    of_time = case.settings.time
+    of_time = of_time.changed(lines=of_time.lines.changed(mode="dynamic" if moving else "quasi_static"))
     return replace(
         case,
         breakwater=replace(case.breakwater, lines=lines, damping=damping),
         environment=replace(case.environment, sea_states=(RegularSea(SEA, height, periods),)),
-        settings=settings,
+        analyses=("statics", "mooring", "frequency", "time") if time else ("statics", "mooring", "frequency"),
+        settings=case.settings.changed(sensitivity=Sensitivity(), drift=drift, time=of_time),
     )
 
 

@@ -115,7 +115,7 @@ def _place(
     if math.isinf(water.depth):
         raise InputError(
             f"line {line.name!r} goes to a bed in infinite water depth",
-            path=f"lines.{line.name}",
+            parameter=f"lines.{line.name}",
             remedy="give the water depth, or use springs to fixed points",
         )
     anchor = (line.anchor[0] - centre[0], line.anchor[1], line.anchor[2] - water.depth - centre[1])
@@ -157,7 +157,7 @@ def _reference_balance(breakwater: Breakwater, water: Water) -> _Balance:
     """Find the mass from the draught, or keep both and the difference between them [eq:breakwater-balance]."""
     if breakwater.draught is None:
         if breakwater.mass is None:
-            raise InputError("neither mass nor draught is given", path="structure")
+            raise InputError("neither mass nor draught is given", parameter="draught")
         return _Balance(breakwater.mass, 0.0, None)
     section = breakwater.hull.immersed(breakwater.draught)
     displaced = water.density * section.area * breakwater.length
@@ -168,7 +168,7 @@ def _reference_balance(breakwater: Breakwater, water: Water) -> _Balance:
             raise InputError(
                 f"the lines pull {pull:.4g} N down, more than the displacement {displaced * water.gravity:.4g} N at a "
                 f"draught of {breakwater.draught:g} m",
-                path="structure.draught",
+                parameter="draught",
                 remedy="use lighter or longer lines, or a larger draught",
             )
         return _Balance(mass, 0.0, breakwater.draught)
@@ -196,7 +196,7 @@ def _least_draught(breakwater: Breakwater, mass: float, density: float) -> float
     if mass >= whole:
         raise InputError(
             f"the unit weighs {mass:.5g} kg and displaces {whole:.5g} kg when it is wholly under water: it sinks",
-            path="structure.mass",
+            parameter="mass",
             allowed=f"below {whole:.5g} kg",
             remedy="lower the mass or enlarge the section",
         )
@@ -279,7 +279,7 @@ def _checked_water(environment: Environment, name: str, level: float) -> Water:
     if not math.isinf(environment.water.depth) and environment.water.depth + level <= 0.0:
         raise InputError(
             f"level {name} ({level:g} m) leaves no water over the bed at {-environment.water.depth:g} m",
-            path=f"site.water_levels.{name}",
+            parameter=f"water_levels.{name}",
             allowed=f"above {-environment.water.depth:g} m",
         )
     return environment.water_at(level)
@@ -289,7 +289,7 @@ def _check_clearance(breakwater: Breakwater, water: Water, name: str, draught: f
     if draught >= water.depth:
         raise InputError(
             f"the draught of {draught:.4g} m reaches the bed at {name} (depth {water.depth:.4g} m)",
-            path="structure.draught",
+            parameter="draught",
             allowed=f"below {water.depth:.4g} m",
             remedy="lower the draught or the mass",
         )
@@ -341,7 +341,7 @@ def _equilibrium(breakwater: Breakwater, water: Water, balance: _Balance, start:
         )
     except ConvergenceError as error:
         raise InputError(
-            f"the unit finds no rest: {error.fault.message}", path="structure", remedy=error.fault.remedy
+            f"the unit finds no rest: {error.fault.message}", parameter="breakwater", remedy=error.fault.remedy
         ) from error
     # What is left of a Newton search is no heel and no offset
     heel = found.heel if abs(found.heel) > 1e-9 else 0.0

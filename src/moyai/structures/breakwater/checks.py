@@ -38,7 +38,7 @@ def check_problem(problem: BreakwaterProblem) -> tuple[Notice, ...]:
                     limit=math.degrees(SHORT_CREST_ANGLE),
                 )
             )
-        if sea.heading != 0.0 and "time" in problem.settings.analyses:
+        if sea.heading != 0.0 and "time" in problem.analyses:
             regular = isinstance(sea, RegularSea)
             notices.append(
                 Notice(

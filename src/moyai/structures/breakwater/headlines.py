@@ -8,13 +8,13 @@ same range. What is out of its range never governs: the number is then said to b
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import replace
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from moyai.core.headline import Band, Headline
+from moyai.core.headline import Band, Headline, governing, unfavourable
 from moyai.structures.breakwater.largest_motion import LargestOfPeriods
 from moyai.structures.breakwater.lines.headlines import (
     AT_REST,
@@ -64,57 +64,64 @@ def headlines(groups: Mapping[str, xr.Dataset]) -> tuple[Headline, ...]:
     return (*found, *_rest_headlines(groups, levels), *([_not_judged()] if peaks else []))
 
 
+@dataclass(frozen=True, eq=False)
+class _Passed:
+    """The largest transmission of one sea at one water level."""
+
+    item: Headline
+    sea: str
+    irregular: bool
+    data: xr.Dataset
+    row: int | None
+    in_time: float
+
+
 def _transmission(groups: Mapping[str, xr.Dataset], levels: list[str]) -> list[Headline]:
     """Return the largest transmission: of irregular seas where there are any, by the consistent frequency domain.
 
-    Behind it stands, not shown, that of every sea for criteria at a named one.
+    Behind it stand, not shown, that of every sea for criteria at a named one, and the one whose upper end is the
+    largest of all: a limit without a sea holds in every sea and period.
     """
-    rows: list[tuple[bool, float, str, xr.Dataset, int | None, float]] = []
-    named: dict[str, Headline] = {}
-    label = "Wave transmission K_T of a long structure"
-    for level in levels:
-        for sea in seas_of(groups, level):
-            data = groups.get(f"/{level}/frequency/{sea}")
-            if data is None or "transmission_coefficient" not in data:
-                continue
-            values = np.atleast_1d(data["transmission_coefficient"].values)
-            if not np.isfinite(values).any():
-                continue
-            row = int(np.nanargmax(values))
-            regular = "period" in data.dims
-            period = float(data["period"].values[row]) if regular else math.nan
-            time = groups.get(f"/{level}/time/{sea}")
-            other = math.nan
-            if time is not None and "transmission_coefficient" in time and not regular:
-                other = float(time["transmission_coefficient"])
-            kept = named.get(sea)
-            if kept is None or values[row] > kept.value:
-                model, at = (FIRST_ORDER, row) if regular else (FREQUENCY, None)
-                named[sea] = Headline(
-                    "transmission", label, float(values[row]), "1", place(level, sea, period), model,
-                    band=_damping_band(data, at), sea=sea, shown=False, judged_on=DAMPING_ALONE,
-                )  # fmt: skip
-            rows.append(
-                (not regular, float(values[row]), place(level, sea, period), data, row if regular else None, other)
-            )
-    if not rows:
+    found = [one for level in levels for sea in seas_of(groups, level) for one in _passed(groups, level, sea)]
+    if not found:
         return []
-    irregular, value, where, data, at, other = max(rows, key=lambda item: item[:2])
-    detail = "energy-weighted" if irregular else "largest over the periods"
-    detail += "; " + _outside_the_band(groups, where, data, at)
-    if math.isfinite(other):
-        detail += f"; {other:.3g} with the motions of the time domain"
-    highest = max(rows, key=lambda item: item[1])
-    if highest[1] > value:
-        detail += f"; up to {highest[1]:.3g} in regular waves: {highest[2]}"
-    if "overtopping_share" in data and (over := float(data["overtopping_share"])) > MUCH_OVERTOPPING:
+    chosen = max(found, key=lambda one: (one.irregular, one.item.value))
+    value, where = chosen.item.value, chosen.item.where
+    detail = "energy-weighted" if chosen.irregular else "largest over the periods"
+    detail += "; " + _outside_the_band(groups, where, chosen.data, chosen.row)
+    if math.isfinite(chosen.in_time):
+        detail += f"; {chosen.in_time:.3g} with the motions of the time domain"
+    highest = max((one.item for one in found), key=lambda item: item.value)
+    if highest.value > value:
+        detail += f"; up to {highest.value:.3g} in regular waves: {highest.where}"
+    if "overtopping_share" in chosen.data and (over := float(chosen.data["overtopping_share"])) > MUCH_OVERTOPPING:
         detail += f"; without the water that up to {100.0 * over:.0f} % of the waves bring over the deck"
-    return [
-        Headline("transmission", label, value, "1", where,
-                 FREQUENCY if irregular else FIRST_ORDER, band=_damping_band(data, at), detail=detail,
-                 judged_on=DAMPING_ALONE),
-        *named.values(),
-    ]  # fmt: skip
+    shown = replace(chosen.item, detail=detail)
+    widest = max((one.item for one in found), key=unfavourable)
+    behind = [replace(widest, shown=False)] if unfavourable(widest) > unfavourable(shown) else []
+    seas = dict.fromkeys(one.sea for one in found)
+    largest = (max((one.item for one in found if one.sea == sea), key=unfavourable) for sea in seas)
+    named = [replace(item, sea=sea, shown=False) for sea, item in zip(seas, largest, strict=True)]
+    return [shown, *behind, *named]
+
+
+def _passed(groups: Mapping[str, xr.Dataset], level: str, sea: str) -> Iterator[_Passed]:
+    data = groups.get(f"/{level}/frequency/{sea}")
+    if data is None or "transmission_coefficient" not in data:
+        return
+    values = np.atleast_1d(data["transmission_coefficient"].values)
+    if not np.isfinite(values).any():
+        return
+    regular, row = "period" in data.dims, int(np.nanargmax(values))
+    period, at = (float(data["period"].values[row]), row) if regular else (math.nan, None)
+    time: Mapping[Any, Any] = {} if regular else groups.get(f"/{level}/time/{sea}", {})
+    in_time = float(time["transmission_coefficient"]) if "transmission_coefficient" in time else math.nan
+    item = Headline(
+        "transmission", "Wave transmission K_T of a long structure", float(values[row]), "1",
+        place(level, sea, period), FIRST_ORDER if regular else FREQUENCY, band=_damping_band(data, at),
+        judged_on=DAMPING_ALONE,
+    )  # fmt: skip
+    yield _Passed(item, sea, not regular, data, at, in_time)
 
 
 def _damping_band(data: xr.Dataset, row: int | None) -> Band | None:
@@ -204,7 +211,7 @@ def _motion_headlines(groups: Mapping[str, xr.Dataset], levels: list[str]) -> li
             elif chosen is not None:
                 offsets += _offset(*chosen, level, sea, frequency)
                 rolls += _roll(*chosen, level, sea, frequency)
-    found = [max(items, key=lambda item: abs(item.value)) for items in (offsets, rolls) if items]
+    found = [*governing(offsets), *governing(rolls)]
     if not found and (rest := _steady_offset(groups, levels)) is not None:
         found = [rest]
     return found
@@ -272,18 +279,28 @@ def _slow_words(frequency: xr.Dataset | None) -> str:
 
 
 def _roll(domain: str, data: xr.Dataset, level: str, sea: str, frequency: xr.Dataset | None) -> list[Headline]:
-    band = None
-    model = _motion_model(domain, data)
-    if "significant_motion" not in data:
+    """Return the largest roll of a sea: mean over realisations, or the most probable one of the frequency domain."""
+    name = "maximum_excursion" if "maximum_excursion" in data else "most_probable_maximum_motion"
+    if name not in data or "significant_motion" not in data:
         return []
-    value = float(data["significant_motion"].values[2])
+    value, significant = float(data[name].values[2]), float(data["significant_motion"].values[2])
+    each = f"{name}_of_realisation"
+    band = seeds(np.asarray(data[each].values[:, 2], dtype=float)) if each in data else None
     if frequency is not None and "significant_motion_low" in frequency:
         # the frequency domain tells by how much damping moves roll; the time domain is run at its nominal value
-        ratio = value / float(frequency["significant_motion"].values[2])
-        low, high = (ratio * float(frequency[f"significant_motion_{end}"].values[2]) for end in ("low", "high"))
+        own = float(frequency["significant_motion"].values[2])
+        low, high = (float(frequency[f"significant_motion_{end}"].values[2]) / own for end in ("low", "high"))
         if math.isfinite(low + high):
-            band = Band(low, high, str(frequency.attrs.get("damping_band", "damping")))
-    return [Headline("roll", "Significant roll (double amplitude)", value, "rad", place(level, sea), model, band)]
+            of = str(frequency.attrs.get("damping_band", "damping"))
+            given = band or Band(value, value, "")
+            ends = (given.low, given.high) if given.judged is None else given.judged
+            band = Band(
+                low * given.low, high * given.high, "; ".join(filter(None, (given.of, of))), given.judged is None,
+                None if given.judged is None else (low * ends[0], high * ends[1]),
+            )  # fmt: skip
+    detail = f"significant double amplitude {math.degrees(significant):.3g}\u00b0"
+    model = _motion_model(domain, data)
+    return [Headline("roll", "Largest roll", value, "rad", place(level, sea), model, band, detail=detail)]
 
 
 def _steady_offset(groups: Mapping[str, xr.Dataset], levels: list[str]) -> Headline | None:
@@ -311,7 +328,7 @@ def _rest_headlines(groups: Mapping[str, xr.Dataset], levels: list[str]) -> list
     freeboard, level = least("freeboard")
     out.append(
         Headline("freeboard", "Freeboard", freeboard, "m", level, STILL,
-                 detail=f"draught {float(statics[level]['draught']):.3g} m")
+                 detail=f"draught {float(statics[level]['draught']):.3g} m", without_waves=True)
     )  # fmt: skip
     shares = [
         (float(data["overtopping_share"]), place(name, sea))
@@ -323,11 +340,11 @@ def _rest_headlines(groups: Mapping[str, xr.Dataset], levels: list[str]) -> list
         share, where = max(shares)
         out.append(
             Headline("overtopping", "Waves that pass the deck edge", share, "1", where, FREQUENCY,
-                     detail="estimate: incident wave doubled, as at a wall, against the moving deck edge; radiated "
-                            "waves not counted")
+                     detail="estimate: incident wave, once or doubled as at a wall, against the moving deck edge; "
+                            "radiated waves not counted")
         )  # fmt: skip
     height, level = least("metacentric_height")
-    out.append(Headline("metacentric_height", "Metacentric height GM", height, "m", level, STILL))
+    out.append(Headline("metacentric_height", "Metacentric height GM", height, "m", level, STILL, without_waves=True))
     return out
 
 

@@ -145,7 +145,7 @@ def spread_headings(sea: IrregularSea, omega: Array, count: int = 15) -> tuple[A
     if not low < high:
         raise InputError(
             f"{sea.name}: hardly any wave of this sea travels within 75 degrees of the normal of the unit",
-            path="waves.heading_deg",
+            parameter="waves.heading",
             remedy="turn the sea towards the unit or leave it out",
         )
     edges = np.linspace(low, high, count + 1)
@@ -183,13 +183,13 @@ def solve_unit(
     normal = _solve_band(unit, np.concatenate([wanted, band(unit).omega]), progress)
     headings = headings_of(problem)
     oblique = headings[headings != 0.0]
-    by_heading = [item.scaled_to(length) for item in _headings_of(normal.dataset, 1.0)]
+    by_heading = [item.scaled_to(length) for item in Hydrodynamics.of_headings(normal.dataset)]
     checks, notices, turned = list(normal.checks), list(normal.notices), None
     if len(oblique):
         # An oblique heading has matrices of its own at every frequency: only what the case asks for
         chosen = oblique_frequencies(problem, wanted)
         turned, found_checks = _oblique(unit, chosen, oblique, store, progress)
-        by_heading.extend(item.scaled_to(length) for item in _headings_of(turned, 1.0))
+        by_heading.extend(item.scaled_to(length) for item in Hydrodynamics.of_headings(turned))
         checks.extend(replace(check, name=f"oblique waves: {check.name}") for check in found_checks)
     return UnitHydrodynamics(
         per_metre=normal.dataset,
@@ -261,13 +261,13 @@ def _given(data: xr.Dataset, unit: FloatingUnit, problem: BreakwaterProblem) -> 
         When a heading of the case is not among them.
     """
     length = unit.breakwater.length
-    by_heading = tuple(item.scaled_to(length) for item in _headings_of(data, 1.0))
+    by_heading = tuple(item.scaled_to(length) for item in Hydrodynamics.of_headings(data))
     known = np.array([float(item.heading[0]) for item in by_heading])
     for heading in headings_of(problem):
         if np.min(np.abs(known - heading)) > HEADING_TOLERANCE:
             raise InputError(
                 f"the coefficients hold no heading of {math.degrees(heading):.4g} degrees to the normal of the unit",
-                path="structure.coefficients_file",
+                parameter="coefficients_file",
                 allowed=", ".join(f"{math.degrees(value):.4g}" for value in np.sort(known)),
                 remedy="compute that heading, or change that of the waves",
             )
@@ -323,22 +323,6 @@ def _solve_band(unit: FloatingUnit, omega: Array, progress: Progress) -> Radiati
     while len(_SOLVED) > MOST_SOLVED:
         _SOLVED.popitem(last=False)
     return found
-
-
-def _headings_of(data: xr.Dataset, length: float) -> tuple[Hydrodynamics, ...]:
-    """Take a dataset apart by heading, each with its own radiation where the dataset tells it."""
-    out = []
-    for index in range(data.sizes["wave_direction"]):
-        one = data.isel(wave_direction=[index])
-        if "oblique_added_mass" in data:
-            own = one.isel(wave_direction=0)
-            one = one.assign(
-                added_mass=own.oblique_added_mass,
-                radiation_damping=own.oblique_radiation_damping,
-                radiated_wave=own.oblique_radiated_wave,
-            )
-        out.append(Hydrodynamics.from_dataset(one, length=length))
-    return tuple(out)
 
 
 def wavelengths(omega: Array, unit: FloatingUnit) -> Array:

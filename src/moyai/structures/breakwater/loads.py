@@ -51,7 +51,7 @@ def steady_forces(unit: FloatingUnit, environment: Environment) -> tuple[Array, 
 def _required(value: float | None, name: str, load: str) -> float:
     if value is None:
         raise InputError(
-            f"there is {load} but no {name}", path=f"structure.{name}", remedy=f"give {name} or leave {load} out"
+            f"there is {load} but no {name}", parameter=f"{name}", remedy=f"give {name} or leave {load} out"
         )
     return value
 

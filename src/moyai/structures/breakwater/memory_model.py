@@ -23,7 +23,7 @@ from moyai.potential.state_space import fit_memory
 from moyai.structures.breakwater.assembly import FloatingUnit
 from moyai.structures.breakwater.frequency.model import FrequencyModel
 from moyai.structures.breakwater.hydrodynamics import damping_start
-from moyai.structures.breakwater.model import MODES
+from moyai.structures.breakwater.settings import MODES
 from moyai.structures.breakwater.variables import labelled
 
 if TYPE_CHECKING:

@@ -12,8 +12,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
 
-import numpy as np
-
 from moyai.core.errors import InputError
 from moyai.core.headline import Criterion
 from moyai.core.options import checks_words
@@ -25,11 +23,7 @@ from moyai.sea.environment import Wind as Wind
 from moyai.sea.states import IrregularSea as IrregularSea
 from moyai.sea.states import RegularSea as RegularSea
 from moyai.sea.states import SeaState as SeaState
-
-Mode = Literal["sway", "heave", "roll"]
-MODES: tuple[Mode, ...] = ("sway", "heave", "roll")
-DriftLaw = Literal["auto", "ramped", "pulsating", "newman", "none"]
-LineMode = Literal["auto", "quasi_static", "dynamic"]
+from moyai.structures.breakwater.settings import ANALYSES, MODES, Analysis, Mode, Settings
 
 DEFAULT_REALISATIONS = 5  # the mean of so many maxima is known to about half the scatter of one
 
@@ -146,86 +140,7 @@ class Breakwater:
 
     def __post_init__(self) -> None:
         if self.mass is None and self.draught is None:
-            raise InputError("neither mass nor draught is given", path="structure", remedy="give one of them")
-
-
-@checks_words
-@dataclass(frozen=True)
-class LineDynamics:
-    """How lines in motion are cut and what the bed and the material take; ``None``: chosen from the line."""
-
-    #: Straight bars that one line is cut into.
-    bars: int = 30
-    #: Internal damping of a bar, BA = ratio times bar length times sqrt(EA m).
-    damping_ratio: float = 0.1
-    #: Of the bed per contact area [Pa/m].
-    bed_stiffness: float | None = None
-    #: Of the bed per contact area [Pa s/m].
-    bed_damping: float | None = None
-    #: Tension over that at rest under which a line counts as slack.
-    slack_fraction: float = 0.05
-    #: Peak over the tension at rest above which a contact counts as a snap.
-    snap_fraction: float = 3.0
-    #: Whether every run is repeated with twice the bars, half the step and twice the internal damping.
-    sensitivity: bool = False
-    #: Whether lines that are not in motion from the start are set in motion around the events of the line that governs
-    #: an irregular sea, and where their peaks pass the range of lines at rest (``auto``), never, or from the start; one
-    #: of "auto", "quasi_static", "dynamic".
-    mode: LineMode = "auto"
-
-
-@checks_words
-@dataclass(frozen=True)
-class TimeSettings:
-    """How the time domain is run; ``None`` means that the program chooses and says why."""
-
-    #: Simulated time of regular waves [s] (irregular seas carry their own).
-    duration: float | None = None
-    #: Length of the cosine ramp [s].
-    ramp: float | None = None
-    time_step: float | None = None
-    #: Whole periods at the end that are analysed in regular waves.
-    analysed_periods: int = 10
-    #: ``auto``: the mean under the ramp in regular waves, slow drift by Newman's approximation in irregular seas; one
-    #: of "auto", "ramped", "pulsating", "newman", "none".
-    drift: DriftLaw = "auto"
-    memory: Literal["state_space", "convolution"] = "state_space"
-    #: For lines that are in motion.
-    lines: LineDynamics = field(default_factory=LineDynamics)
-    #: Realisations of every irregular sea; ``None``: :data:`DEFAULT_REALISATIONS`, or one where lines are in motion
-    #: from the start.
-    realisations: int | None = None
-
-
-@dataclass(frozen=True)
-class Sensitivity:
-    """Variations that redraw the figures of P3: damping fractions, chain slacks [m], number of lines."""
-
-    damping_fractions: tuple[float, ...] = ()
-    line_slacks: tuple[float, ...] = ()
-    line_counts: tuple[int, ...] = ()
-
-
-@checks_words
-@dataclass(frozen=True)
-class Settings:
-    """Which analyses are run and how."""
-
-    analyses: tuple[Literal["statics", "mooring", "frequency", "time"], ...] = (
-        "statics",
-        "mooring",
-        "frequency",
-        "time",
-    )
-    drift: bool = True
-    frequencies: tuple[float, ...] | None = None
-    restoring_offsets: tuple[float, ...] | None = None
-    time: TimeSettings = field(default_factory=TimeSettings)
-    sensitivity: Sensitivity = field(default_factory=Sensitivity)
-
-    def angular_frequencies(self) -> np.ndarray | None:
-        """Return the user's angular frequencies [rad/s], or ``None``."""
-        return None if self.frequencies is None else np.asarray(self.frequencies, dtype=float)
+            raise InputError("neither mass nor draught is given", parameter="draught", remedy="give one of them")
 
 
 @dataclass(frozen=True)
@@ -236,6 +151,7 @@ class MeasuredPoints:
     columns: Mapping[str, tuple[float, ...]]
 
 
+@checks_words
 @dataclass(frozen=True)
 class BreakwaterProblem:
     """The whole problem as the case file states it."""
@@ -243,6 +159,7 @@ class BreakwaterProblem:
     title: str
     breakwater: Breakwater
     environment: Environment
+    analyses: tuple[Analysis, ...] = ANALYSES
     settings: Settings = field(default_factory=Settings)
     measured: MeasuredPoints | None = None
     case_text: str = ""

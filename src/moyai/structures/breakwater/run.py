@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from moyai.core.collected import STOPPED, Collected
+from moyai.core.headline import SEAS_LEFT_OUT
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
 from moyai.core.store import DatasetStore
@@ -90,7 +91,7 @@ def run(
 
 
 def _steps(problem: BreakwaterProblem, collected: Collected, sources: _Sources, progress: Progress) -> Iterator[None]:
-    analyses = problem.settings.analyses
+    analyses = problem.analyses
     levels = problem.environment.water_levels
     # Every level is assembled before any long work starts, so that an impossible one is reported at once
     units = [assemble(problem, name, level) for name, level in levels]
@@ -130,8 +131,7 @@ def _level_steps(
         collected.notices.extend(notices)
         yield
     if "mooring" in analyses and unit.lines:
-        offsets = problem.settings.restoring_offsets
-        collected.groups[f"{root}/mooring"] = mooring_dataset(unit, None if offsets is None else np.asarray(offsets))
+        collected.groups[f"{root}/mooring"] = mooring_dataset(unit, problem.settings.offsets())
         yield
     if not dynamic or hydro is None:
         return
@@ -247,6 +247,9 @@ def _result(problem: BreakwaterProblem, collected: Collected) -> Result:
         fulfilled="all identities hold and all iterations converged",
         headlines=headlines(collected.groups),
         criteria=problem.criteria,
+        left_out=SEAS_LEFT_OUT
+        if problem.environment.sea_states and not {"frequency", "time"} & set(problem.analyses)
+        else "",
     )
 
 

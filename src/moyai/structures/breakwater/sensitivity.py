@@ -101,7 +101,7 @@ def with_slack(problem: BreakwaterProblem, unit: FloatingUnit, slack: float) -> 
         length = chord + slack - others
         if length <= 0.0:
             raise InputError(
-                f"line {line.name!r} has no upper segment left at a slack of {slack:g} m", path="line_slacks"
+                f"line {line.name!r} has no upper segment left at a slack of {slack:g} m", parameter="line_slacks"
             )
         lines.append(replace(line, segments=(*line.segments[:-1], replace(line.segments[-1], length=length))))
     return replace(problem.breakwater, lines=tuple(lines))
@@ -115,7 +115,7 @@ def with_count(problem: BreakwaterProblem, unit: FloatingUnit, count: float) -> 
     if any(abs(share - round(share)) > 1e-9 or round(share) < 1 for share in shares):
         raise InputError(
             f"{count:g} lines cannot be shared among the {len(lines)} kinds in their proportion",
-            path="settings.sensitivity.line_counts",
+            parameter="settings.sensitivity.line_counts",
             allowed="multiples that keep the proportion",
         )
     return replace(

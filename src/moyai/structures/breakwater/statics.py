@@ -15,7 +15,8 @@ from moyai.mooring.lines import LineElement
 from moyai.mooring.shape import element_shape
 from moyai.structures.breakwater.assembly import FloatingUnit
 from moyai.structures.breakwater.hydrodynamics import UnitHydrodynamics
-from moyai.structures.breakwater.model import MODES, MooringLine
+from moyai.structures.breakwater.model import MooringLine
+from moyai.structures.breakwater.settings import MODES
 from moyai.structures.breakwater.variables import labelled
 
 if TYPE_CHECKING:

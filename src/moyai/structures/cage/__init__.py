@@ -7,13 +7,11 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from moyai.core.kinds import StructureKind
-from moyai.core.progress import Progress
-from moyai.core.results import Result
+from moyai.core.kinds import FolderKind
 from moyai.core.vocabulary import Vocabulary, joined
 
 
-class CageKind(StructureKind):
+class CageKind(FolderKind):
     """The parts of this folder, each imported when it is asked for; the model of a cage chooses among them."""
 
     name = "cage"
@@ -22,26 +20,7 @@ class CageKind(StructureKind):
         ("cage", "template.yaml"),
         ("rigid_cage", "template_rigid.yaml"),
     )
-
-    def schema(self) -> Any:
-        from moyai.structures.cage.case.schema import CageCase
-
-        return CageCase
-
-    def add_sizes(self, model: Any, sizes: Any, periods: Any) -> None:
-        from moyai.structures.cage.case.sizes import add_sizes
-
-        add_sizes(model, sizes)
-
-    def criteria(self, model: Any, given: Any) -> Any:
-        from moyai.structures.cage.case.criteria import criteria
-
-        return criteria(model, given)
-
-    def check(self, model: Any, findings: Any, folder: Path) -> None:
-        from moyai.structures.cage.case.check import check
-
-        check(model, findings, folder)
+    root_schema = "CageCase"
 
     def build(self, model: Any, folder: Path, *, case_text: str, case_hash: str) -> Any:
         from moyai.structures.cage.case import build_flexible, build_rigid
@@ -62,21 +41,11 @@ class CageKind(StructureKind):
             return None
         return replace(problem, settings=replace(settings, current_speeds=(), other_laws=False))
 
-    def run(self, problem: Any, progress: Progress, keep: Path | None) -> Result:
-        from moyai.structures.cage.run import run
-
-        return run(problem, progress)
-
     def vocabulary(self) -> Vocabulary:
         return joined("cage", _vocabularies().values())
 
     def vocabulary_of(self, root: Mapping[Any, Any]) -> Vocabulary:
         return _vocabularies().get(str(root.get("cage_model", "")), self.vocabulary())
-
-    def compose(self, result: Result) -> Any:
-        from moyai.structures.cage.report.page import compose
-
-        return compose(result)
 
 
 def _vocabularies() -> dict[str, Vocabulary]:

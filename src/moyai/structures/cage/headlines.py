@@ -31,9 +31,8 @@ if TYPE_CHECKING:
     import xarray as xr
 
 STATICS, DYNAMIC = "equilibrium in the current of the site", "run through time"
-RIGID = "rigid cage, run through time"
 Groups = Mapping[str, "xr.Dataset"]
-_NOT_JUDGED = Headline(
+NOT_JUDGED = Headline(
     "not_judged", "Not judged", math.nan, "1",
     text="one line or buoy lost, wear and fatigue, chafe of the net, soil of the anchors", condition=True,
 )  # fmt: skip
@@ -61,7 +60,7 @@ class _State:
         if self.laws is None or self.laws.sizes["law"] < 2:
             return None
         values = self.laws[f"law_{name}"].values
-        words = _laws_text(self.laws) if name == "volume_share" else _SAME_LAWS
+        words = laws_text(self.laws) if name == "volume_share" else _SAME_LAWS
         return Band(float(np.min(values)), float(np.max(values)), words)
 
     def moved(self, name: str, low: float, high: float) -> tuple[float, float, str]:
@@ -82,15 +81,15 @@ class _State:
 
 def _band_in_sea(state: _State | None, name: str, run: xr.Dataset, value: float, series: Array) -> Band | None:
     """Return the band of a number found in the sea: chance of its seed, and the laws of the net."""
-    low, high, chance = _chance(run, value, series)
-    words = [chance] if chance else []
+    low, high, seed = chance(run, value, series)
+    words = [seed] if seed else []
     if state is not None:
         low, high, text = state.moved(name, low, high)
         words += [text] if text else []
     return Band(max(low, 0.0), high, "; ".join(words)) if words else None
 
 
-def _chance(run: xr.Dataset, value: float, series: Array) -> tuple[float, float, str]:
+def chance(run: xr.Dataset, value: float, series: Array) -> tuple[float, float, str]:
     """Return a range of the largest value over other seeds, with its words; none in regular waves or short records."""
     if int(run.attrs["regular"]):
         return value, value, ""
@@ -98,11 +97,12 @@ def _chance(run: xr.Dataset, value: float, series: Array) -> tuple[float, float,
     found = maximum_of(run["time"].values[late], series[late], float(run.attrs["period"]))
     if found is None:
         return value, value, "one seed, too short to tell the scatter of its maximum"
-    low, high = min(value, found.mean - found.deviation), max(value, found.mean + found.deviation)
-    return low, high, f"one seed, scatter of its maximum estimated from {found.blocks} blocks of the record"
+    low, high = found.range
+    words = f"90 of 100 seeds, estimated from {found.blocks} blocks of the record of one"
+    return max(min(value, low), 0.0), max(value, high), words
 
 
-def _laws_text(laws: xr.Dataset) -> str:
+def laws_text(laws: xr.Dataset) -> str:
     return f"law of the case and those valid for this net: {laws.attrs['valid']}"
 
 
@@ -129,7 +129,7 @@ def flexible_headlines(problem: FlexibleCageProblem, groups: Groups) -> tuple[He
         *_stress(states, runs),
     ]
     factors = _mesh_factors(groups)
-    named = [_NOT_JUDGED] if runs else []
+    named = [NOT_JUDGED] if runs else []
     return (*(_with_mesh(item, factors) for item in items), *condition_headlines(groups), *named)
 
 
@@ -196,43 +196,44 @@ Runs = list[tuple[str, str, "xr.Dataset"]]
 
 
 def _volume(states: list[_State], runs: Runs) -> list[Headline]:
-    if not states:
-        return []
-    worst = min(states, key=lambda state: float(state.statics["volume_share"].values[state.row].min()))
-    shares = worst.statics["volume_share"].values[worst.row]
-    value, at = float(shares.min()), int(np.argmin(shares))
+    """Return the least volume in the current of the site, and what the sea makes of it for moments."""
     least = min((float(run["volume_minimum"].min()) for _, _, run in runs), default=math.nan)
-    built = float(worst.cage["rest_volume"].values[at])
-    detail = f"{volume_text(value * built)} of {volume_text(built)} as built"
-    if math.isfinite(least):
-        low, high, words = worst.moved("volume_share", least, least)
-        detail += f"; down to {least:.3g} for moments in the sea" + (f" ({low:.3g} to {high:.3g})" if words else "")
-    return [
-        Headline(
-            "volume_left", "volume left", value, "1", worst.where, STATICS, worst.band("volume_share"), detail=detail,
-        )
-    ]  # fmt: skip
+    found = []
+    for state in states:
+        shares = state.statics["volume_share"].values[state.row]
+        value, at = float(shares.min()), int(np.argmin(shares))
+        built = float(state.cage["rest_volume"].values[at])
+        detail = f"{volume_text(value * built)} of {volume_text(built)} as built"
+        if math.isfinite(least):
+            low, high, words = state.moved("volume_share", least, least)
+            detail += f"; down to {least:.3g} for moments in the sea" + (f" ({low:.3g} to {high:.3g})" if words else "")
+        band = state.band("volume_share")
+        found.append(
+            Headline("volume_left", "volume left", value, "1", state.where, STATICS, band, detail=detail)
+        )  # fmt: skip
+    return governing(found, "at least")
 
 
 def _drag(states: list[_State], runs: Runs) -> list[Headline]:
-    if not states:
-        return []
-    worst = max(states, key=lambda state: float(state.statics["total_drag"].values[state.row]))
-    value = float(worst.statics["total_drag"].values[worst.row])
-    along = worst.statics["drag_along"].values[worst.row]
-    shares = [
-        (str(part), float(share))
-        for part, share in zip(worst.statics["part"].values, along)
-        if abs(share) > 5e-3 * value
-    ]
-    detail = ", ".join(f"{part} {100.0 * share / value:.0f} %" for part, share in shares)
+    """Return the largest drag in the current of the site, and what the sea makes of it for moments."""
     largest = [float(np.linalg.norm(run["drag"].values.sum(axis=1), axis=1).max()) for _, _, run in runs]
-    if largest:
-        low, high, words = worst.moved("drag", max(largest), max(largest))
-        span = f" ({low / 1e3:.3g} to {high / 1e3:.3g} kN)" if words else ""
-        detail += f"; up to {max(largest) / 1e3:.3g} kN for moments in the sea{span}"
-    band = worst.band("drag")
-    return [Headline("drag", "drag in the current", value, "N", worst.where, STATICS, band, detail=detail)]
+    found = []
+    for state in states:
+        value = float(state.statics["total_drag"].values[state.row])
+        along = state.statics["drag_along"].values[state.row]
+        shares = [
+            (str(part), float(share))
+            for part, share in zip(state.statics["part"].values, along)
+            if abs(share) > 5e-3 * value
+        ]
+        detail = ", ".join(f"{part} {100.0 * share / value:.0f} %" for part, share in shares)
+        if largest:
+            low, high, words = state.moved("drag", max(largest), max(largest))
+            span = f" ({low / 1e3:.3g} to {high / 1e3:.3g} kN)" if words else ""
+            detail += f"; up to {max(largest) / 1e3:.3g} kN for moments in the sea{span}"
+        band = state.band("drag")
+        found.append(Headline("drag", "drag in the current", value, "N", state.where, STATICS, band, detail=detail))
+    return governing(found)
 
 
 def _tension(states: list[_State], runs: Runs) -> tuple[list[Headline], list[Headline]]:
@@ -374,115 +375,3 @@ def _stress(states: list[_State], runs: Runs) -> list[Headline]:
         Headline("collar_stress", "largest stress of the collar", value, "Pa", where, model, band)
         for value, where, model, band in found
     )
-
-
-def rigid_headlines(groups: Groups) -> tuple[Headline, ...]:
-    """Return the first page's numbers of a rigid cage.
-
-    Parameters
-    ----------
-    groups : mapping of str to xarray.Dataset
-        What was run, by its place in the result.
-    """
-    seas = [
-        (parts[0], parts[2], group)
-        for path, group in groups.items()
-        if len(parts := path.strip("/").split("/")) == 3 and parts[1] == "waves"
-    ]
-    items = (*_rigid_tension(seas, groups), *_rigid_motions(seas, groups), *_rigid_rest(groups))
-    return (*items, *condition_headlines(groups))
-
-
-Seas = list[tuple[str, str, "xr.Dataset"]]
-
-
-def _rigid_tension(seas: Seas, groups: Groups) -> list[Headline]:
-    best: tuple[float, str, str, int, int, xr.Dataset] | None = None
-    for level, name, sea in seas:
-        values = sea["line_tension_maximum"].values
-        if values.size and (best is None or float(values.max()) > best[0]):
-            at = np.unravel_index(int(np.argmax(values)), values.shape)
-            best = (float(values.max()), level, name, int(at[0]), int(at[1]), sea)
-    if best is None:
-        return []
-    value, level, name, wave, line, sea = best
-    where = f"{sea['line'].values[line]}, {_rigid_where(level, name, sea, wave, groups)}"
-    laws, band, details = groups.get(f"/{level}/laws"), None, []
-    if laws is not None and laws.sizes["law"] > 1 and laws.attrs["sea"] == name:
-        peaks = laws["law_line_tension_maximum"].values
-        band = Band(float(peaks.min()), float(peaks.max()), _laws_text(laws))
-    elif laws is not None:
-        details.append("no second net law is valid for this net: no band")
-    if sea.attrs["kind"] != "regular":
-        details += _rigid_chance(groups[f"/{level}/time/{name}/sea"], line)
-    items = [
-        Headline("line_tension", "highest line tension", value, "N", where, RIGID, band, detail="; ".join(details))
-    ]
-    breaking = float(groups[f"/{level}/statics"]["breaking_load"].values[line])
-    if math.isfinite(breaking):
-        scaled = None if band is None else replace(band, low=band.low / breaking, high=band.high / breaking)
-        items.append(
-            Headline(
-                "line_utilisation", "tension over breaking load", value / breaking, "1", where, RIGID, scaled,
-                detail=f"breaking load {breaking / 1e3:.4g} kN, without a safety factor",
-            )
-        )  # fmt: skip
-    return items
-
-
-def _rigid_where(level: str, name: str, sea: xr.Dataset, wave: int, groups: Groups) -> str:
-    """Return sea, wave or seed, current and level of a number of a rigid cage."""
-    label = f"wave {wave + 1}" if sea.attrs["kind"] == "regular" else "sea"
-    run = groups[f"/{level}/time/{name}/{label}"]
-    return f"{sea_words(name, run, float(groups[f'/{level}'].attrs['current']))}, {level}"
-
-
-def _rigid_chance(run: xr.Dataset, line: int) -> list[str]:
-    late = run["time"].values >= float(run.attrs["ramp"])
-    time = run["time"].values[late]
-    chance = maximum_of(time, run["line_tension_peak_since_row"].values[late, line], float(run.attrs["period"]))
-    if chance is None:
-        return ["one seed, too short to tell the scatter of its maximum"]
-    return [
-        f"one seed: largest of others about {chance.mean:.3g} ± {chance.deviation:.2g} N, from {chance.blocks} blocks "
-        "of the record"
-    ]
-
-
-def _rigid_motions(seas: Seas, groups: Groups) -> list[Headline]:
-    best: dict[str, tuple[float, str, str, str]] = {}
-    for level, name, sea in seas:
-        regular = sea.attrs["kind"] == "regular"
-        for number, mode in enumerate(("sway", "heave")):
-            values = sea["range_ratio"].values[:, number]
-            at = int(np.argmax(values))
-            words = f"{mode} range over wave height" if regular else f"{mode}: 4 standard deviations over Hs"
-            entry = (float(values[at]), _rigid_where(level, name, sea, at, groups), "1", words)
-            best[words] = max(best.get(words, entry), entry)
-        turned = 0.5 * sea["range"].values[:, 2]
-        at = int(np.argmax(turned))
-        entry = (float(turned[at]), _rigid_where(level, name, sea, at, groups), "rad", "rotation, half its range")
-        best["rotation"] = max(best.get("rotation", entry), entry)
-    return [
-        Headline(f"{words.split()[0].strip(':,')}_range", words, value, unit, where, RIGID)
-        for value, where, unit, words in best.values()
-    ]
-
-
-def _rigid_rest(groups: Groups) -> list[Headline]:
-    for path, statics in groups.items():
-        parts = path.strip("/").split("/")
-        if len(parts) != 2 or parts[1] != "statics":
-            continue
-        items = []
-        tension = statics["tension_at_rest"].values
-        if tension.size:
-            items.append(Headline("tension_at_rest", "tension at rest", float(tension.max()), "N", parts[0], "rest"))
-        share = float(statics["immersion"].sel(situation="moored"))
-        items.append(
-            Headline(
-                "floats_immersed", "floats in water at rest", share, "1", parts[0], "rest", text=f"{100 * share:.3g} %"
-            )
-        )
-        return items
-    return []

@@ -147,7 +147,7 @@ def assemble(problem: CurtainProblem, name: str, level: float) -> LevelCurtain:
     if long and not curtain.may_lie_on_bed:
         raise InputError(
             f"the skirt of {curtain.skirt.length:g} m is longer than the water is deep at {name}, {water.depth:g} m",
-            path="structure.skirt.length",
+            parameter="skirt.length",
             allowed=f"at most {water.depth:g} m",
             remedy="shorten the skirt, or set 'may_lie_on_bed: true' in 'structure'",
         )
@@ -232,7 +232,7 @@ def _reference_speed(profile: CurrentProfile, depth: float) -> float:
     if speed <= 0.0:
         raise InputError(
             "the current stands still over the depth of the skirt",
-            path="current",
+            parameter="current",
             remedy="give its speed, or leave 'current' out",
         )
     return speed

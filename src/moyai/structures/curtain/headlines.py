@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -11,15 +11,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.headline import Band, Bound, Criterion, Headline, judge
-from moyai.core.wording import spoken
 from moyai.structures.curtain.analyses.event_peaks import event_band
 from moyai.structures.curtain.governing import model_of
 from moyai.structures.curtain.hierarchy import SPAN, STATICS
+from moyai.structures.curtain.limit_headlines import REMEDY, limit_headlines
+from moyai.structures.curtain.steady_headlines import (
+    Groups,
+    at_rest,
+    depth_headlines,
+    kilo,
+    statics_band,
+    steady_headlines,
+)
 
 if TYPE_CHECKING:
     import xarray as xr
-
-Groups = Mapping[str, "xr.Dataset"]
 
 #: Headlines of loads: name, words, components of which the most loaded one counts, in the order of the page
 _LOADS = (("cable_tension", "cable", ("upper cable", "lower cable")), ("anchor_load", "anchor line", ("anchor line",)))
@@ -43,7 +49,6 @@ _NOT_JUDGED = Headline(
     detail="ageing, fouling and fatigue of the sheet and its ropes, a curtain with one anchor line lost, stress at "
     "seams and eyelets, and the holding of an anchor in its soil are not computed",
 )  # fmt: skip
-_REMEDY = "add 'dynamic' to 'analyses', with settings.dynamic.sheet_mass, for the value"
 _MISSING = "'settings.impact.chord' and a skirt that stretches, or 'dynamic' in 'analyses'"
 
 
@@ -116,9 +121,9 @@ def curtain_headlines(
     found = [
         *_tensions(loads, groups),
         *used,
-        *_steady(groups, levels),
-        *_depths(groups, levels),
-        *_limits(groups, levels, loads),
+        *steady_headlines(groups, levels),
+        *depth_headlines(groups, levels),
+        *limit_headlines(groups, levels, lambda level: _span_holds(loads, level)),
     ]
     if used:
         found.append(_NOT_JUDGED)
@@ -156,10 +161,10 @@ def _at_rest_words(load: _Load, groups: Groups) -> str:
         return ""
     statics = groups.get(f"/{load.level}/statics")
     name = _STEADY_NAMES.get(load.component, "")
-    current = math.nan if statics is None else _at_rest(statics, name)
+    current = math.nan if statics is None else at_rest(statics, name)
     if load.component.startswith("anchor") and steady > current * (1.0 + 1e-9):
-        return f"pretension {_kilo(steady)}, more than the {_kilo(current)} of the current"
-    return f"steady {_kilo(steady)}"
+        return f"pretension {kilo(steady)}, more than the {kilo(current)} of the current"
+    return f"steady {kilo(steady)}"
 
 
 def _bounded_by(load: _Load) -> str:
@@ -171,7 +176,7 @@ def _bounded_by(load: _Load) -> str:
     bound = steady + max((one for one in more if math.isfinite(one)), default=0.0)
     if not bound > load.number("governing_load"):
         return ""
-    return f"an upright plate bounds it at {_kilo(bound)}"
+    return f"an upright plate bounds it at {kilo(bound)}"
 
 
 def _tensions(loads: Sequence[_Load], groups: Groups) -> Iterator[Headline]:
@@ -188,7 +193,7 @@ def _tensions(loads: Sequence[_Load], groups: Groups) -> Iterator[Headline]:
             name, label, load.number("governing_load"), "N",
             where=f"{load.component}, {load.source}: {load.level}",
             model=load.model, band=load.band, bound=load.bound,
-            detail="; ".join(part for part in (detail, _REMEDY if load.bound == "at most" else "") if part),
+            detail="; ".join(part for part in (detail, REMEDY if load.bound == "at most" else "") if part),
         )  # fmt: skip
 
 
@@ -204,7 +209,7 @@ def _used(loads: Sequence[_Load]) -> Iterator[tuple[float, Headline]]:
             continue
         strength = load.number("capacity")
         unit = load.words("load_unit")
-        of = f"{_kilo(load.number('governing_load'), unit)} of {_kilo(strength, unit)}"
+        of = f"{kilo(load.number('governing_load'), unit)} of {kilo(strength, unit)}"
         of += f", utilisation {load.number('utilisation'):.3g} with the factor {load.number('safety_factor'):.3g}"
         where = f"{load.component}, {load.source}: {load.level}"
         if load.bound == "at least" and load.model != SPAN:
@@ -254,14 +259,14 @@ def _impact_band(groups: Groups, load: _Load) -> Band | None:
     if steady is None:
         return None
     value, part = load.number("governing_load"), load.number("steady_load")
-    current = _at_rest(groups[f"/{load.level}/statics"], _STEADY_NAMES[load.component])
+    current = at_rest(groups[f"/{load.level}/statics"], _STEADY_NAMES[load.component])
     # a pretension above the load of the current stays where it is
     least = part if part > current * (1.0 + 1e-9) else 0.0
     low, high = (
-        load.number(end) + max(at_rest, least)
-        for end, at_rest in (("impact_low", steady.low), ("impact_high", steady.high))
+        load.number(end) + max(still, least)
+        for end, still in (("impact_low", steady.low), ("impact_high", steady.high))
     )
-    of = f"impact: the models that count, start speed over the range of the drag; steady part: {steady.of}"
+    of = f"impact: the models that count, start speed over drag and place of release; steady part: {steady.of}"
     return Band(min(low, value), max(high, value), of)
 
 
@@ -362,108 +367,7 @@ def _steady_band(groups: Groups, load: _Load) -> Band | None:
     statics = groups.get(f"/{load.level}/statics")
     if name is None or statics is None:
         return None
-    return _statics_band(statics, name)
-
-
-def _statics_band(statics: xr.Dataset, name: str) -> Band | None:
-    """Return the band of a number at rest: that of the governing steady load, else that of the drag."""
-    ends = [f"steady_{name}_low", f"steady_{name}_high"]
-    if all(end in statics for end in ends):
-        low, high = (float(statics[end]) for end in ends)
-        return Band(low, high, "drag, weights and what the skirt's ends hold") if low < high else None
-    if name not in statics:
-        return None
-    values = statics[name].values
-    known = values[np.isfinite(values)]
-    return Band(float(known.min()), float(known.max()), "range of the drag coefficient") if known.size > 1 else None
-
-
-def _at_rest(statics: xr.Dataset, name: str) -> float:
-    """Return a number at rest, of the governing steady load where there is one."""
-    if f"steady_{name}" in statics:
-        return float(statics[f"steady_{name}"])
-    if name not in statics:
-        return math.nan
-    values = statics[name]
-    return float(values.sel(drag_case="given")) if "drag_case" in values.dims else float(values)
-
-
-def _steady(groups: Groups, levels: Sequence[str]) -> Iterator[Headline]:
-    """Return the steady load of one span in the current, with its range."""
-    found = []
-    for level in levels:
-        statics = groups.get(f"/{level}/statics")
-        if statics is None:
-            continue
-        name = "span_load" if "steady_span_load" in statics else "anchor_force"
-        value = _at_rest(statics, name)
-        if math.isfinite(value):
-            found.append((value, level, statics, name))
-    if not found:
-        return
-    value, level, statics, name = max(found, key=lambda item: item[0])
-    line = _at_rest(statics, "line_load" if "steady_line_load" in statics else "section_load")
-    yield Headline(
-        "steady_load", "Steady load of one span", value, "N", where=level, model=STATICS,
-        band=_statics_band(statics, name), detail=f"{_kilo(line, 'N/m')} where the curtain faces the current",
-    )  # fmt: skip
-
-
-def _depths(groups: Groups, levels: Sequence[str]) -> Iterator[Headline]:
-    wanted: tuple[tuple[str, str, str, str], ...] = (
-        ("effective_depth", "Effective depth", "effective_depth", "m"),
-        ("toe_clearance", "Clearance of the toe from the bed", "toe_gap", "m"),
-        ("float_reserve", "Reserve of the floats, share of their buoyancy", "float_reserve_ratio", "1"),
-    )
-    for name, label, key, unit in wanted:
-        found = []
-        for level in levels:
-            statics = groups.get(f"/{level}/statics")
-            value = math.nan if statics is None else _at_rest(statics, key)
-            if statics is not None and math.isfinite(value):
-                found.append((value, level, statics))
-        if not found:
-            continue
-        value, level, statics = min(found, key=lambda item: item[0])
-        band, detail = _statics_band(statics, key), _beside(name, statics, value)
-        slack = float(statics[f"slack_{key}"]) if f"slack_{key}" in statics else math.nan
-        if slack < value:
-            # a curtain hangs lower and heavier at slack water than in its current
-            detail = f"at slack water; {_plain(value, unit)} in the current" + (f", {detail}" if detail else "")
-            value, band = slack, None
-        yield Headline(
-            name, label, value, unit, where=level, model=STATICS, band=band, detail=detail
-        )  # fmt: skip
-
-
-def _plain(value: float, unit: str) -> str:
-    return f"{value:.3g}" if unit == "1" else f"{value:.3g} {unit}"
-
-
-def _beside(name: str, statics: xr.Dataset, value: float) -> str:
-    """Return the one more fact that a depth needs."""
-    if name == "effective_depth":
-        share = f"{100.0 * value / float(statics['skirt_length']):.0f} % of the skirt"
-        causes = statics["steady_cause"].values if "steady_cause" in statics.coords else ()
-        if any("no shape" in str(cause) for cause in causes):
-            # pressure normal to the sheet everywhere turns a light skirt over
-            share += "; the lower end leaves out the other load law, which has no shape in this current"
-        return share
-    if name == "toe_clearance":
-        speed, ratio = _at_rest(statics, "toe_speed"), _at_rest(statics, "toe_speed_ratio")
-        if math.isfinite(speed) and math.isfinite(ratio):
-            return f"{speed:.3g} m/s under the toe, {ratio:.3g} times the current there"
-        return ""
-    drowning = float(statics["drowning_speed"])
-    return (
-        f"they drown at {drowning:.3g} m/s, their own drag counted, searched up to 10 m/s"
-        if math.isfinite(drowning)
-        else "no current in the range searched, up to 10 m/s, drowns them"
-    )
-
-
-#: Parts that an impact loads
-_STRUCK = ("upper cable", "lower cable", "sheet", "joint", "anchor line", "anchor")
+    return statics_band(statics, name)
 
 
 def _span_holds(loads: Sequence[_Load], level: str) -> bool:
@@ -472,129 +376,4 @@ def _span_holds(loads: Sequence[_Load], level: str) -> bool:
     return any(one.model == SPAN for one in mine) and all(one.holds for one in mine)
 
 
-def _deep_enough(groups: Groups, level: str) -> bool:
-    """Return whether the skirt keeps the depth that is asked for, at the lower end of its band."""
-    limits, statics = groups.get(f"/{level}/limits"), groups.get(f"/{level}/statics")
-    if limits is None or statics is None:
-        return True
-    band = _statics_band(statics, "effective_depth")
-    depth = _at_rest(statics, "effective_depth") if band is None else band.low
-    return not depth < float(limits.attrs.get("least_effective_depth", 0.0))
-
-
-def _limits(groups: Groups, levels: Sequence[str], loads: Sequence[_Load]) -> Iterator[Headline]:
-    """Return up to which current without waves, and up to which wave height in its own current, a curtain holds.
-
-    Where the plate is only a bound, the state of the case is the limit from below if the whole span holds in it.
-    """
-    for name, label, unit, where, value, key in (
-        ("limit_current", "Holds up to a current of", "m/s", "no waves", "speed_limit", "speed_limit"),
-        (
-            "limit_wave_height", "Holds up to a wave height of", "m", "significant, in currents up to that of the case",
-            "design_limit_height", "design_limit",
-        ),
-    ):  # fmt: skip
-        found = [
-            (float(table[value]), level, table)
-            for level in levels
-            if (table := groups.get(f"/{level}/limits")) is not None
-            and value in table
-            and math.isfinite(float(table[value]))
-        ]
-        if not found:
-            continue
-        limit, level, table = min(found, key=lambda item: item[0])
-        governing = str(table.attrs.get(f"{key}_governing", ""))
-        said = str(table.attrs.get("speed_limit_text" if key == "speed_limit" else "design_limit_note", ""))
-        bound = str(table.attrs.get(f"{key}_bound", ""))
-        held = _span_holds(loads, level) and _deep_enough(groups, level)
-        proven = _in_the_case(groups, level, key) if held else math.nan
-        if bound == "at least" and proven > limit:
-            more = f"an upright plate, a bound, allows {limit:.3g} {unit}; " if limit > 0.0 else ""
-            detail = f"the whole span holds in the state of the case; {more}the span is run in that state alone"
-            yield Headline(
-                name, label, proven, unit, where=f"{where}: {level}", model=SPAN, bound="at least", detail=detail
-            )
-            continue
-        details = [said or f"{governing} sets it"]
-        if limit > 0.0 and governing != "not reached" and said:
-            details.insert(0, f"{governing} sets it")
-        if key == "speed_limit" and table.attrs.get("with_impact") and governing in _STRUCK:
-            details.append("with the impact when the current draws the curtain taut")
-        if bound == "at most":
-            details.append("no snap is counted: add 'waves' or 'dynamic' to 'analyses'")
-        if key == "speed_limit" and math.isfinite(ratio := _number(table, "speed_limit_ratio")) and not said:
-            details.append(f"{ratio:.2f} of the current of the case, {float(table['surface_speed']):.3g} m/s")
-        if governing != "effective depth" and float(table.attrs.get("least_effective_depth", 1.0)) == 0.0:
-            details.append("no depth is asked for: 'least_effective_depth' of 'criteria' has no default")
-        if jump := str(table.attrs.get("limit_jump", "")) if key == "design_limit" else "":
-            details.append(jump)
-        band = _limit_band(table, limit) if key == "speed_limit" else None
-        if key != "speed_limit" and limit > 0.0 and not _deep_enough(groups, level):
-            limit, details = (
-                0.0,
-                ["the depth that is asked for is not kept in the current of the case, at its lower end"],
-            )
-        if limit <= 0.0 and bound == "at least":
-            # a bound that fails proves nothing about the curtain
-            words = f"the load of an upright plate, a bound, is already too much for the {governing} without waves"
-            run = groups.get(f"/{level}/dynamic")
-            more = (
-                _REMEDY if run is None else "the whole span is run in the seas of the case alone, to be run in others"
-            )
-            detail = f"{words}; {more}"
-            yield Headline(name, label, math.nan, unit, where=f"{where}: {level}", detail=detail, text="not known")
-            continue
-        yield Headline(
-            name, label, limit, unit, where=f"{where}: {level}", band=band,
-            bound="at least" if governing == "not reached" and not bound else bound,  # type: ignore[arg-type]
-            detail="; ".join(details),
-            text="" if limit > 0.0 else "none",
-        )  # fmt: skip
-
-
-def weaker_currents(groups: Groups, found: Sequence[Headline]) -> tuple[Criterion, ...]:
-    """Return the criterion that fails where the curtain gives way in a current weaker than that of the case.
-
-    Weaker currents come with every stronger one, twice a tide. Nothing is asked where the limit is a bound or holds.
-    """
-    limit = next((item for item in found if item.name == "limit_current"), None)
-    if limit is None or limit.bound or not math.isfinite(limit.value):
-        return ()
-    level = limit.where.rpartition(": ")[2]
-    own = _in_the_case(groups, level, "speed_limit")
-    if not limit.value < own * (1.0 - 1e-6):
-        return ()
-    source = "default of moyai: weaker currents come with every stronger one"
-    label = "largest current held without waves"
-    return (Criterion("weaker_currents", "limit_current", own, "at least", source, label, "m/s", assumed=True),)
-
-
-def _in_the_case(groups: Groups, level: str, key: str) -> float:
-    """Return the current of the case, or the largest significant height of its irregular seas; NaN without."""
-    if key == "speed_limit":
-        return _number(groups[f"/{level}/limits"], "surface_speed")
-    seas = [data for path, data in groups.items() if path.startswith(f"/{level}/waves/") and "realisations" in data]
-    return max((float(data["significant_height"]) for data in seas), default=math.nan)
-
-
-def _number(table: xr.Dataset, name: str) -> float:
-    return float(table[name]) if name in table else math.nan
-
-
-def _limit_band(table: xr.Dataset, value: float) -> Band | None:
-    """Return the band of the largest current over the drag coefficient or over the impact, and over the depth kept."""
-    low, high = _number(table, "speed_limit_low"), _number(table, "speed_limit_high")
-    band = Band(low, high, str(table.attrs.get("speed_limit_band_of", ""))) if low < high else None
-    least = float(table.attrs.get("speed_limit_of_least_depth", math.nan))
-    if not least < (value if band is None else band.low):
-        return band
-    of = "; ".join(filter(None, ("" if band is None else band.of, "depth at the lower end of its band")))
-    return Band(least, value if band is None else band.high, of)
-
-
-def _kilo(value: float, unit: str = "N") -> str:
-    return spoken(value, unit, 3)
-
-
-__all__ = ["curtain_headlines", "weaker_currents"]
+__all__ = ["curtain_headlines"]

@@ -140,6 +140,20 @@ def straight_share(unit: LevelCurtain, surface: float) -> float:
     return min(1.0, float(section.effective_depth) / unit.depth)
 
 
+def upright_in(unit: LevelCurtain) -> float:
+    """Return the largest surface speed up to that of the case in which an upright plate governs [m/s]; 0 for none."""
+    curtain, own = unit.curtain, unit.surface_speed
+    if curtain.toe == "free" or curtain.lower_stiffness <= 0.0 or own <= 0.0:
+        return 0.0
+    if straight_share(unit, own) >= STRAIGHT:
+        return own
+    low, high = 0.0, own
+    while high - low > 0.01 * own:
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if straight_share(unit, middle) >= STRAIGHT else (low, middle)
+    return low
+
+
 def _crest(asked: set[Analysis]) -> ModelRole:
     of = "drag in waves"
     if "dynamic" in asked:
@@ -186,4 +200,5 @@ __all__ = [
     "hierarchy_dataset",
     "role_of",
     "straight_share",
+    "upright_in",
 ]

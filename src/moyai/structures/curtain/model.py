@@ -61,13 +61,13 @@ class AnchorLines:
         if math.isinf(depth):
             raise InputError(
                 "anchor lines in water of infinite depth reach no bed",
-                path="site.water_depth",
+                parameter="water_depth",
                 remedy="give the depth, or 'slope_deg' of the lines",
             )
         if not self.length > depth:
             raise InputError(
                 f"an anchor line of {self.length:g} m in water of {depth:g} m",
-                path="structure.anchors.line_length",
+                parameter="anchors.length",
                 allowed=f"more than {depth:g} m",
                 remedy="lengthen the line, or give 'slope_deg'",
             )
@@ -154,8 +154,9 @@ class ImpactSettings:
     start: Literal["current", "slack_phase"] = "current"
     #: That speed itself [m/s].
     start_speed: float | None = None
-    #: Of mid-span when the curtain is let go [m], downstream of the line between the supports.
-    release_position: float = 0.0
+    #: Of mid-span when the curtain is let go [m], downstream of the line between the supports; None: not known, taken
+    #: on that line, and the band reaches to a curtain that drifts with the current.
+    release_position: float | None = None
     #: Of the equivalent flat plate [m]; None: the skirt's length.
     draught: float | None = None
     #: Straight distance of the skirt's edges when it becomes taut [m], for models whose skirt stretches; None: that of

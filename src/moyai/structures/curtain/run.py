@@ -23,8 +23,9 @@ from moyai.structures.curtain.analyses.span_peaks import peaks_wanted, span_peak
 from moyai.structures.curtain.analyses.statics import require_current, statics_checks, statics_groups, statics_notices
 from moyai.structures.curtain.analyses.waves import wave_answer
 from moyai.structures.curtain.assembly import LevelCurtain, assemble
-from moyai.structures.curtain.headlines import curtain_headlines, weaker_currents
+from moyai.structures.curtain.headlines import curtain_headlines
 from moyai.structures.curtain.hierarchy import CYCLES, hierarchy, hierarchy_dataset, role_of
+from moyai.structures.curtain.limit_headlines import weaker_currents
 from moyai.structures.curtain.model import CurtainProblem
 from moyai.structures.curtain.seas.loads import drag_curve
 from moyai.structures.curtain.seas.states import DesignWave, design_waves, significant_height
@@ -222,6 +223,9 @@ def _lost_depth(statics: xr.Dataset | None, depth: float) -> float:
     return (depth - low) / (depth - value) if low < value < depth else 1.0
 
 
+_NOT_MOVED = "neither the impact nor the whole span in the seas of the case was run"
+
+
 def _result(problem: CurtainProblem, collected: _Collected) -> Result:
     attributes = {
         "structure": "curtain",
@@ -231,6 +235,7 @@ def _result(problem: CurtainProblem, collected: _Collected) -> Result:
     }
     levels = [name for name, _ in problem.environment.water_levels]
     found = curtain_headlines(collected.groups, levels, problem.criteria)
+    ran = set(problem.settings.analyses)
     more = weaker_currents(collected.groups, found) if problem.criteria else ()
     fulfilled = "all identities hold" if collected.checks else "done; these analyses have no identity to hold"
     if any(notice.code == "span-mesh" for notice in collected.notices):
@@ -243,6 +248,7 @@ def _result(problem: CurtainProblem, collected: _Collected) -> Result:
         headlines=found,
         fulfilled=fulfilled,
         criteria=(*problem.criteria, *more),
+        left_out=_NOT_MOVED if problem.environment.sea_states and not {"impact", "dynamic"} & ran else "",
     )
 
 

@@ -34,7 +34,7 @@ def require_in_water(member: StraightMember, water: Water, name: str) -> None:
     if member.lowest >= 0.0:
         raise InputError(
             f"the member stands above the still water of {name}: its lowest point is at z = {member.lowest:+.3g} m",
-            path="structure.start",
+            parameter="start",
             allowed="at least one end below still water",
             remedy="z counts upwards from datum; heights below it are negative",
         )
@@ -44,7 +44,7 @@ def require_in_water(member: StraightMember, water: Water, name: str) -> None:
     if lowest < -water.depth * (1.0 + 1e-9):
         raise InputError(
             f"the member reaches to z = {lowest:.4g} m, below the bed of {name}",
-            path="structure.start",
+            parameter="start",
             allowed=f"at least {-water.depth:.4g} m",
         )
 

@@ -14,10 +14,11 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from moyai.core.arrays import Array
-from moyai.core.headline import Band, Headline, governing
+from moyai.core.headline import Band, Bound, Headline, governing
 from moyai.core.validity import Notice
 from moyai.core.wording import spoken
 from moyai.morison.coefficient_ranges import CIRCULATION, MeasuredRange, drag_range, inertia_range
+from moyai.morison.coefficients import DNV_CREST, dnv_drag, dnv_steady_drag
 from moyai.series.intervals import reach_of_mean
 from moyai.structures.member.model import MemberProblem
 from moyai.structures.member.supports import held_at
@@ -75,13 +76,14 @@ def headlines_of(problem: MemberProblem, groups: Mapping[str, xr.Dataset]) -> tu
     if found is None:
         return ()
     shares = _shares(found)
-    ranges = _ranges(problem)
+    ranges = _ranges(problem, found)
     model = f"Morison's equation, {found.theory}, {ranges[1].name}, {ranges[0].name}"
     if problem.circulation.counted:
         model += f", {CIRCULATION.name}"
     force = Headline(
         "peak_force", "largest force on the member", found.value, "N", found.where, model,
-        _band(problem, found, ranges), detail=_causes_text(shares) + _chance_text(found),
+        _band(found, ranges), bound=_bound(problem, found),
+        detail=_causes_text(shares) + _chance_text(found) + _crest_text(problem, found),
     )  # fmt: skip
     items = _with_the_others(problem, groups, "force", force)
     number, of_waves, reynolds = (found.number(key) for key in (_COEFFICIENTS, _CIRCULATION, "reynolds"))
@@ -100,7 +102,7 @@ def headlines_of(problem: MemberProblem, groups: Mapping[str, xr.Dataset]) -> tu
     if ends is not None and problem.support == "both_ends":
         end = Headline(
             "end_force", "largest force at an end", ends.value, "N", ends.where, model,
-            _band(problem, ends, ranges), detail=held + _ends_text(ends),
+            _band(ends, _ranges(problem, ends)), bound=_bound(problem, ends), detail=held + _ends_text(ends),
         )  # fmt: skip
         items += _with_the_others(problem, groups, "end_force", end)
     if bending is not None:
@@ -111,7 +113,7 @@ def headlines_of(problem: MemberProblem, groups: Mapping[str, xr.Dataset]) -> tu
             where = "at the fixed end"
         moment = Headline(
             "bending_moment", "largest bending moment", bending.value, "N m", bending.where, model,
-            _band(problem, bending, ranges),
+            _band(bending, _ranges(problem, bending)), bound=_bound(problem, bending),
             detail=f"{held}, {where}; of waves and current alone{_ends_text(bending)}",
         )  # fmt: skip
         items += _with_the_others(problem, groups, "bending_moment", moment)
@@ -120,7 +122,7 @@ def headlines_of(problem: MemberProblem, groups: Mapping[str, xr.Dataset]) -> tu
 
 def _number_label(found: _Largest) -> str:
     regular = found.sea.attrs.get("kind") == "regular"
-    return "Keulegan-Carpenter number" + ("" if regular else " of the significant velocity")
+    return "Keulegan-Carpenter number" + ("" if regular else " of the regular motion of equal variance")
 
 
 def range_notices(problem: MemberProblem, groups: Mapping[str, xr.Dataset]) -> tuple[Notice, ...]:
@@ -141,7 +143,7 @@ def range_notices(problem: MemberProblem, groups: Mapping[str, xr.Dataset]) -> t
 
 def _range_notices(problem: MemberProblem, found: _Largest) -> Iterator[Notice]:
     shares = dict(zip(_CAUSES, _shares(found), strict=True))
-    for cause, measured in zip(("drag", "inertia", "lift"), _ranges(problem), strict=False):
+    for cause, measured in zip(("drag", "inertia", "lift"), _ranges(problem, found), strict=False):
         low, high = measured.keulegan_carpenter
         number = found.number(_number_of(measured))
         if abs(shares[cause]) < DECIDES or low <= number <= high:
@@ -155,10 +157,38 @@ def _range_notices(problem: MemberProblem, found: _Largest) -> Iterator[Notice]:
         )  # fmt: skip
 
 
-def _ranges(problem: MemberProblem) -> tuple[MeasuredRange, ...]:
-    """Return the ranges of drag, inertia and, where it is counted, the circulation."""
-    found = (drag_range(problem.rule), inertia_range(problem.rule))
-    return (*found, CIRCULATION) if problem.circulation.counted else found
+def _ranges(problem: MemberProblem, found: _Largest) -> tuple[MeasuredRange, ...]:
+    """Return the ranges of drag, inertia and, where it is counted, the circulation.
+
+    Where the drag of DNV-RP-C205 keeps the crest of its amplification, the steady drag is its lower end.
+    """
+    drag, crest = drag_range(problem.rule), _crest(problem, found)
+    if crest > 1.0:
+        drag = replace(drag, below=1.0 - (1.0 - drag.below) / crest)
+    items = (drag, inertia_range(problem.rule))
+    return (*items, CIRCULATION) if problem.circulation.counted else items
+
+
+def _crest(problem: MemberProblem, found: _Largest) -> float:
+    """Return the amplification of the drag that is kept at its crest beyond KC = 12, 1 where none is."""
+    if problem.rule.drag != "dnv_c205" or not found.number(_COEFFICIENTS) > DNV_CREST:
+        return 1.0
+    roughness = problem.roughness / problem.member.placed_section.breadth
+    return dnv_drag(DNV_CREST, roughness) / dnv_steady_drag(roughness)
+
+
+def _bound(problem: MemberProblem, found: _Largest) -> Bound:
+    """Return ``at most`` where drag decides and its amplification is kept at its crest."""
+    return "at most" if _crest(problem, found) > 1.0 and abs(_shares(found)[1]) >= DECIDES else ""
+
+
+def _crest_text(problem: MemberProblem, found: _Largest) -> str:
+    crest = _crest(problem, found)
+    if crest <= 1.0:
+        return ""
+    return (
+        f"; drag keeps the crest of its amplification, {crest:.2f} at KC = {DNV_CREST:g}, steady drag is the lower end"
+    )
 
 
 def _number_of(item: MeasuredRange) -> str:
@@ -206,9 +236,15 @@ def _with_the_others(
     problem: MemberProblem, groups: Mapping[str, xr.Dataset], kind: _Kind, shown: Headline
 ) -> list[Headline]:
     """Return a number with that of the sea whose unfavourable end is the highest, where that is another: both count."""
-    ranges = _ranges(problem)
     others = [
-        replace(shown, value=item.value, where=item.where, band=_band(problem, item, ranges), detail="")
+        replace(
+            shown,
+            value=item.value,
+            where=item.where,
+            band=_band(item, _ranges(problem, item)),
+            bound=_bound(problem, item),
+            detail="",
+        )
         for item in _all(groups, kind)
         if item.where != shown.where
     ]
@@ -246,7 +282,7 @@ def _ends_text(found: _Largest) -> str:
     return f"; mean of {count} realisations" if count > 1 else ""
 
 
-def _band(problem: MemberProblem, found: _Largest, ranges: tuple[MeasuredRange, ...]) -> Band:
+def _band(found: _Largest, ranges: tuple[MeasuredRange, ...]) -> Band:
     """Return the smallest and largest peak with every coefficient at either end of its allowance.
 
     Forces are proportional to their coefficients [eq:morison-strip], so the series of the causes give every

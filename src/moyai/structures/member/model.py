@@ -119,7 +119,9 @@ class MemberProblem:
     def __post_init__(self) -> None:
         if not (math.isfinite(self.kinematic_viscosity) and self.kinematic_viscosity > 0.0):
             raise InputError(
-                f"kinematic_viscosity is {self.kinematic_viscosity:g} m2/s", path="kinematic_viscosity", allowed="> 0"
+                f"kinematic_viscosity is {self.kinematic_viscosity:g} m2/s",
+                parameter="kinematic_viscosity",
+                allowed="> 0",
             )
 
     def member_at(self, level: float) -> StraightMember:

@@ -68,7 +68,7 @@ def assemble(problem: NetworkProblem, level: float) -> Assembly:
     )  # fmt: skip
     places: dict[str, tuple[float, float, float]] = {}
     for point in problem.points:
-        place = _place(point.position, point.floats, level, water, f"structure.points.{point.name}.position")
+        place = _place(point.position, point.floats, level, water, f"points.{point.name}.position")
         places[point.name] = place
         _add_point(builder, point, place, water)
     for plan in problem.bodies:
@@ -99,18 +99,18 @@ def assemble(problem: NetworkProblem, level: float) -> Assembly:
 
 
 def _place(
-    position: tuple[float, float, float], floats: bool, level: float, water: Water, path: str
+    position: tuple[float, float, float], floats: bool, level: float, water: Water, parameter: str
 ) -> tuple[float, float, float]:
     x, y, z = position
     if math.isnan(z):
         if math.isinf(water.depth):
-            raise InputError("'bed' needs a finite water depth", path=path, remedy="give z as a number")
+            raise InputError("'bed' needs a finite water depth", parameter=parameter, remedy="give z as a number")
         return x, y, -water.depth
     height = z if floats else z - level
     if height < -water.depth * (1.0 + 1e-9):
         raise InputError(
             f"z = {z:g} m lies under the bed, which is {water.depth:g} m below still water",
-            path=path,
+            parameter=parameter,
             allowed=f"at least {-water.depth + (0.0 if floats else level):g} m, or the word bed",
         )
     return x, y, height
@@ -145,14 +145,14 @@ def _check_ends(problem: NetworkProblem) -> None:
             if name not in used:
                 raise InputError(
                     f"no line meets the point '{name}' of the body '{body.name}'",
-                    path=f"structure.bodies.{body.name}.points.{name}",
+                    parameter=f"bodies.{body.name}.points.{name}",
                     remedy="join a line to it, or remove it",
                 )
     for point in problem.points:
         if point.name not in used:
             raise InputError(
                 f"no line meets the point '{point.name}'",
-                path=f"structure.points.{point.name}",
+                parameter=f"points.{point.name}",
                 remedy="join a line to it, or remove it",
             )
 
@@ -219,9 +219,7 @@ def _add_line(builder: NetworkBuilder, line: LinePlan, water: Water) -> list[str
         try:
             builder.position(getattr(line, key))
         except InputError as error:
-            raise InputError(
-                error.fault.message, path=f"structure.lines.{line.name}.{key}", allowed=error.fault.allowed
-            ) from None
+            raise error.at(f"lines.{line.name}.{key}") from None
     shapes = _parts_shape(builder, line, water)
     names: list[str] = []
     start = line.start
@@ -248,10 +246,7 @@ def _joined(network: Network, name: str, parts: list[str]) -> Strand:
 
 
 def _add_net(builder: NetworkBuilder, net: NetPlan, level: float, water: Water) -> None:
-    corners = [
-        np.array(_place(corner, net.floats, level, water, f"structure.nets.{net.name}.corners"))
-        for corner in net.corners
-    ]
+    corners = [np.array(_place(corner, net.floats, level, water, f"nets.{net.name}.corners")) for corner in net.corners]
     u = np.linspace(0.0, 1.0, net.columns)[None, :, None]
     v = np.linspace(0.0, 1.0, net.rows)[:, None, None]
     grid = (1.0 - v) * ((1.0 - u) * corners[0] + u * corners[1]) + v * ((1.0 - u) * corners[3] + u * corners[2])
@@ -275,7 +270,7 @@ def _add_net(builder: NetworkBuilder, net: NetPlan, level: float, water: Water) 
         if distance <= 0.0:
             raise InputError(
                 f"knots {first} and {second} stand at the same place",
-                path=f"structure.nets.{net.name}.corners",
+                parameter=f"nets.{net.name}.corners",
                 remedy="give four different corners, once around the net",
             )
         labels = [f"{net.name}[{i},{j}]" for i, j in (first, second)]
@@ -295,14 +290,16 @@ def _add_net(builder: NetworkBuilder, net: NetPlan, level: float, water: Water) 
 
 
 def _add_sheet(builder: NetworkBuilder, sheet: SheetPlan, level: float, water: Water) -> None:
-    path = f"structure.sheets.{sheet.name}.corners"
-    a, b, c, d = (np.array(_place(corner, sheet.floats, level, water, path)) for corner in sheet.corners)
+    parameter = f"sheets.{sheet.name}.corners"
+    a, b, c, d = (np.array(_place(corner, sheet.floats, level, water, parameter)) for corner in sheet.corners)
     u, v = np.linspace(0.0, 1.0, sheet.columns)[None, :, None], np.linspace(0.0, 1.0, sheet.rows)[:, None, None]
     grid = (1.0 - v) * ((1.0 - u) * a + u * b) + v * ((1.0 - u) * d + u * c)
     high = 0.5 * float(np.linalg.norm(d - a) + np.linalg.norm(c - b)) * sheet.fullness
     wide = 0.5 * float(np.linalg.norm(b - a) + np.linalg.norm(c - d)) * sheet.fullness
     if not (high > 0.0 and wide > 0.0):
-        raise InputError("two corners stand at the same place", path=path, remedy="give four different corners")
+        raise InputError(
+            "two corners stand at the same place", parameter=parameter, remedy="give four different corners"
+        )
     try:
         builder.sheet(
             sheet.name, grid, warp=np.linspace(0.0, high, sheet.rows), weft=np.linspace(0.0, wide, sheet.columns),
@@ -310,10 +307,7 @@ def _add_sheet(builder: NetworkBuilder, sheet: SheetPlan, level: float, water: W
             **sheet.properties,
         )  # fmt: skip
     except InputError as error:
-        fault = error.fault
-        raise InputError(
-            fault.message, path=f"structure.sheets.{sheet.name}", allowed=fault.allowed, remedy=fault.remedy
-        ) from None
+        raise error.at(f"sheets.{sheet.name}") from None
 
 
 def _with_rows(network: Network, problem: NetworkProblem, pieces: dict[str, list[str]]) -> Network:
@@ -333,7 +327,7 @@ def _with_rows(network: Network, problem: NetworkProblem, pieces: dict[str, list
                 if inner.size == 0:
                     raise InputError(
                         f"the line '{line.name}' has one bar: nothing can hang along it",
-                        path=f"structure.lines.{line.name}.along",
+                        parameter=f"lines.{line.name}.along",
                         remedy="give it more segments",
                     )
                 node = strand.nodes[1 + int(np.argmin(np.abs(inner - line.length * (k + 0.5) / row.count)))]

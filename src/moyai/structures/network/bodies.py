@@ -201,7 +201,7 @@ def run_coupled(
         if set(states) != set(bodies):
             raise InputError(
                 f"the earlier result has the bodies {', '.join(states) or 'none'}, this network "
-                f"{', '.join(bodies)}", path="settings.resume", allowed="a result of the same network",
+                f"{', '.join(bodies)}", parameter="settings.resume", allowed="a result of the same network",
             )  # fmt: skip
         flow = options.get("flow") or Flow()
         options["carriers"] = {
@@ -262,7 +262,7 @@ def coupled_sensitivity(
         if found.status == "interrupted":
             raise KeyboardInterrupt
         if found.status != "converged":
-            raise ConvergenceError(f"run with {which}: {found.message}", path="sensitivity")
+            raise ConvergenceError(f"run with {which}: {found.message}", parameter="sensitivity")
         late = found.time >= found.time[0] + after
         peaks.append(float(np.max(found.network.tension_peak[: found.time.size][late, 0])))
     progress("sensitivity", 5, 5)

@@ -82,7 +82,6 @@ def loads_of(plan: BodyPlan, dataset: xr.Dataset, water: Water) -> WaveLoads:
     """
     given = plan.coefficients
     assert given is not None
-    path = f"structure.bodies.{plan.name}.coefficients_file"
     area, _, _ = water_plane(plan)
     try:
         found = WaveLoads.from_dataset(
@@ -91,9 +90,7 @@ def loads_of(plan: BodyPlan, dataset: xr.Dataset, water: Water) -> WaveLoads:
             origin=given.origin, stiffness=np.zeros((6, 6)), memory=given.memory,
         )  # fmt: skip
     except InputError as error:
-        raise InputError(
-            error.fault.message, path=path, allowed=error.fault.allowed, remedy=error.fault.remedy
-        ) from None
+        raise error.at(f"bodies.{plan.name}.coefficients_file") from None
     about = found.about(np.array(plan.centre_of_gravity), np.array(plan.position))
     return replace(about, stiffness=hydrostatic_stiffness(plan, given.draught, water))
 
@@ -126,7 +123,7 @@ def with_coefficients(
         if plan.name not in datasets:
             raise InputError(
                 f"the coefficients of body '{plan.name}' were not read",
-                path=f"structure.bodies.{plan.name}.coefficients_file", remedy="run the case with moyai.run",
+                parameter=f"bodies.{plan.name}.coefficients_file", remedy="run the case with moyai.run",
             )  # fmt: skip
         dataset = datasets[plan.name]
         loads = loads_of(plan, dataset, problem.environment.water)
@@ -185,7 +182,7 @@ def loads_on_time(problem: NetworkProblem, plan: RunPlan) -> list[Notice]:
             except InputError as error:
                 raise InputError(
                     f"run '{plan.name}': {error.fault.message}",
-                    path=f"structure.bodies.{body.name}.coefficients_file",
+                    parameter=f"bodies.{body.name}.coefficients_file",
                     allowed=error.fault.allowed,
                     remedy=error.fault.remedy,
                 ) from None

@@ -54,7 +54,8 @@ def headlines_of(problem: NetworkProblem, groups: Mapping[str, xr.Dataset]) -> t
     groups : mapping of str to xarray.Dataset
         What was run, by its place in the result.
     """
-    peaks = list(_peaks(groups)) or list(_rest_peaks(groups))
+    # a run of which nothing counts does not hand its number to the rest
+    peaks = list(_peaks(groups)) if any(_levels(groups, "dynamic")) else list(_rest_peaks(groups))
     peak = max(peaks, key=lambda item: item.value, default=None)
     items: list[Headline] = []
     if peak is not None:
@@ -252,8 +253,9 @@ def _band(groups: Mapping[str, xr.Dataset], peak: _Peak) -> tuple[Band | None, l
     if found is None:
         return band, details
     low, high, of = (peak.value, peak.value, "") if band is None else (band.low, band.high, band.of)
-    of = "; ".join(filter(None, (of, f"one seed, scatter of its maximum from {found.blocks} blocks of the record")))
-    return Band(min(low, found.mean - found.deviation), max(high, found.mean + found.deviation), of), details
+    of = "; ".join(filter(None, (of, f"90 of 100 seeds, estimated from {found.blocks} blocks of the record of one")))
+    least, most = found.range
+    return Band(max(min(low, least), 0.0), max(high, most), of), details
 
 
 def mesh_checked(groups: Mapping[str, xr.Dataset]) -> bool:

@@ -218,7 +218,7 @@ class MotionPlan:
             raise InputError(
                 f"the motion '{self.name}' covers {self.table.start:g} to {self.table.end:g} s, the run 0 to "
                 f"{duration:g} s",
-                path=f"structure.motions.{self.name}",
+                parameter=f"motions.{self.name}",
                 allowed="a table over the whole run",
                 remedy="let its times begin at 0 s"
                 if self.table.start > 1e-9

@@ -214,7 +214,7 @@ def check_peak(
         if found.status == "interrupted":
             raise KeyboardInterrupt
         if found.status != "converged":
-            raise ConvergenceError(found.message, path="sensitivity")
+            raise ConvergenceError(found.message, parameter="sensitivity")
         return float(np.max(found.tension_peak[found.time >= found.time[0] + skip]))
 
     try:

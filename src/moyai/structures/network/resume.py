@@ -70,10 +70,10 @@ def read_earlier(path: Path) -> Result:
         result = read_result(path)
     except InputError as error:
         raise InputError(
-            error.fault.message, path="settings.resume", remedy="name results.nc of an earlier run"
+            error.fault.message, parameter="settings.resume", remedy="name results.nc of an earlier run"
         ) from None
     if result.tree.attrs.get("structure") != "network":
-        raise InputError(f"{path} holds no network", path="settings.resume", allowed="results.nc of a network")
+        raise InputError(f"{path} holds no network", parameter="settings.resume", allowed="results.nc of a network")
     return result
 
 
@@ -92,24 +92,26 @@ def earlier_run(result: Result, level: str, run: str, nodes: int) -> Earlier | N
     series, frames = tree[path].to_dataset(inherit=False), tree[f"{path}/frames"].to_dataset(inherit=False)
     if "highest_load" not in series:
         raise InputError(
-            f"the run '{run}' of the earlier result lacks what runs hold today", path="settings.resume",
+            f"the run '{run}' of the earlier result lacks what runs hold today", parameter="settings.resume",
             remedy="run it from its start",
         )  # fmt: skip
     position, velocity = frames["final_position"].values, frames["final_velocity"].values
     if position.shape != (nodes, 3):
         raise InputError(
             f"the run '{run}' of the earlier result has {position.shape[0]} nodes, this network {nodes}",
-            path="settings.resume",
+            parameter="settings.resume",
             allowed="a result of the same network",
         )
     if not (np.isfinite(position).all() and np.isfinite(velocity).all()):
         raise InputError(
-            f"the last state of the run '{run}' is not finite", path="settings.resume", remedy="run it from its start"
+            f"the last state of the run '{run}' is not finite",
+            parameter="settings.resume",
+            remedy="run it from its start",
         )
     bodies = bodies_of(frames)
     if not all(np.isfinite(left.motion).all() and np.isfinite(left.memory).all() for left in bodies.values()):
         raise InputError(
-            f"the last state of the bodies of the run '{run}' is not finite", path="settings.resume",
+            f"the last state of the bodies of the run '{run}' is not finite", parameter="settings.resume",
             remedy="run it from its start",
         )  # fmt: skip
     return Earlier(State(float(frames.attrs["final_time"]), position, velocity), series, frames, bodies)

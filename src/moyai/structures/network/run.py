@@ -10,6 +10,7 @@ import numpy as np
 
 from moyai.core.collected import Collected
 from moyai.core.errors import ConvergenceError, InputError
+from moyai.core.headline import SEAS_LEFT_OUT
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
 from moyai.core.validity import IdentityCheck, Notice
@@ -343,7 +344,7 @@ def _dynamic(
         if before is not None and before.state.time >= plan.duration * (1.0 - 1e-9):
             raise InputError(
                 f"the run '{plan.name}' of the earlier result is complete: it reached {before.state.time:g} s",
-                path="settings.resume",
+                parameter="settings.resume",
                 remedy="lengthen settings.duration, or remove 'resume'",
             )
         item = run_through_time(
@@ -374,6 +375,13 @@ def _dynamic(
         yield
 
 
+def _not_run(problem: NetworkProblem) -> str:
+    """Return what of the case only a run through time brings in; empty where there is nothing."""
+    if problem.environment.sea_states:
+        return SEAS_LEFT_OUT
+    return "the motions of the case were not run" if problem.motions else ""
+
+
 def _result(problem: NetworkProblem, collected: Collected) -> Result:
     if collected.interrupted:
         begun = any("/time/" in name for name in collected.groups)
@@ -394,6 +402,7 @@ def _result(problem: NetworkProblem, collected: Collected) -> Result:
         fulfilled="all identities hold" + ("" if checked else "; mesh of the highest tension not checked"),
         headlines=numbers,
         criteria=problem.criteria,
+        left_out="" if "dynamic" in problem.settings.analyses else _not_run(problem),
     )
 
 

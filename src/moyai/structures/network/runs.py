@@ -15,7 +15,7 @@ from moyai.flexible.motion import Motion
 from moyai.sea.components import WaveComponents
 from moyai.sea.current import CurrentProfile
 from moyai.sea.dispersion import wave_number_in_current
-from moyai.sea.irregular import synthesise
+from moyai.sea.irregular import components_of_run
 from moyai.sea.permanent_wave import NonlinearWave
 from moyai.sea.regular_theory import linear_limit, regular_wave
 from moyai.sea.states import ComponentSea, IrregularSea, RegularSea
@@ -124,7 +124,7 @@ def _plans(problem: NetworkProblem, water: Water) -> tuple[RunPlan, ...]:
         else:
             raise InputError(
                 "nothing tells how long the run should be: no waves, no motion with a period",
-                path="settings.duration",
+                parameter="settings.duration",
                 remedy="give a duration",
             )
     period = min(periods, default=math.nan)
@@ -182,10 +182,7 @@ def theory_limit(problem: NetworkProblem, plan: RunPlan) -> list[Notice]:
 
 def _irregular(problem: NetworkProblem, sea: IrregularSea, water: Water) -> RunPlan:
     period = float(sea.spectrum.peak_period)
-    waves = synthesise(
-        sea.spectrum, water, duration=sea.duration, seed=sea.seed, method="equal_energy", count=COMPONENTS,
-        heading=sea.heading, spreading=sea.spreading, current=mean_current(problem, water),
-    )  # fmt: skip
+    waves = components_of_run(sea, water, mean_current(problem, water), COMPONENTS)
     # two rows in the shortest wave that counts would miss crests
     step = problem.settings.output_step or _output_step(problem, 0.5 * period, sea.duration)
     return RunPlan(

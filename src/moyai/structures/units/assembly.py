@@ -239,7 +239,7 @@ def _check_depth(draught: float, water: Water, name: str) -> None:
     if draught >= water.depth:
         raise InputError(
             f"the draught of {draught:.4g} m reaches the bed at {name} (depth {water.depth:.4g} m)",
-            path="structure.draught",
+            parameter="draught",
             allowed=f"below {water.depth:.4g} m",
         )
 
@@ -260,7 +260,7 @@ def _masses(row: FloatingRow, water: Water, level: float) -> Array:
         number = int(masses.argmin())
         raise InputError(
             f"the lines of unit {number + 1} pull more than its displacement of {displaced:.5g} kg",
-            path="lines",
+            parameter="lines",
             remedy="use lighter or longer lines, or a larger draught",
         )
     return masses
@@ -278,7 +278,7 @@ def _draught(row: FloatingRow, water: Water, masses: Array, level: float) -> flo
     low, high = 1e-3 * top, top * (1.0 - 1e-9)
     if surplus(high) < 0.0:
         raise InputError(
-            "the lines pull the row under at this water level", path="lines", remedy="use longer or lighter lines"
+            "the lines pull the row under at this water level", parameter="lines", remedy="use longer or lighter lines"
         )
     for _ in range(60):
         middle = 0.5 * (low + high)
@@ -312,7 +312,9 @@ def _place(
         )  # fmt: skip
     if math.isinf(water.depth):
         raise InputError(
-            f"line {line.name!r} goes to a bed that is infinitely deep", path="lines", remedy="give the water depth"
+            f"line {line.name!r} goes to a bed that is infinitely deep",
+            parameter="lines",
+            remedy="give the water depth",
         )
     anchor = turn @ np.array([line.anchor[0], line.anchor[1], line.anchor[2] - water.depth - centre_z])
     return Line(
@@ -386,7 +388,7 @@ def steady_position(at: RowAtLevel, load: Array) -> RowPosition:
         except ConvergenceError as error:
             raise InputError(
                 f"{at.name}: the row finds no rest under wind, current and drift: {error.fault.message}",
-                path="lines",
+                parameter="lines",
                 remedy="use stronger or more lines",
             ) from error
     position = free @ reduced

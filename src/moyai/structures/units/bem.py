@@ -48,7 +48,7 @@ def green_function() -> Any:
     except ImportError as error:
         raise InputError(
             "a row of units needs Capytaine 3, which is not installed",
-            path="structure.kind",
+            parameter="kind",
             remedy='pip install "moyai[bem3d]"',
         ) from error
     # the Prony series of Nemoh: waves far away agree with the energy of the body three times better than with the other
@@ -125,7 +125,7 @@ def check_memory(panels: Panels) -> None:
     if needed > free:
         raise InputError(
             f"{panels.mesh.count} panels need {needed / 2**30:.1f} GiB, {free / 2**30:.1f} GiB are free",
-            path="settings.panel_size",
+            parameter="settings.panel_size",
             remedy="give larger panels, fewer units, or a machine with more memory",
         )
 
@@ -226,7 +226,7 @@ def _check_depth(k: float, water: Water, omega: float) -> None:
     if k * water.depth < LEAST_DEPTH:
         raise InputError(
             f"waves of {2.0 * math.pi / omega:.4g} s are {2.0 * math.pi / (k * water.depth):.0f} depths long",
-            path="waves",
+            parameter="waves",
             allowed=f"up to {2.0 * math.pi / LEAST_DEPTH:.0f} depths",
             remedy="leave such long waves out: they pass the row as if it were not there",
         )

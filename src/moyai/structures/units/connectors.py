@@ -120,7 +120,7 @@ def constraints(joints: tuple[Joint, ...], count: int) -> Array:
             raise InputError(
                 f"connector '{joint.name}' holds {rank + len(own) - now} relative motion(s) that connectors before it "
                 "hold already",
-                path="structure.connectors",
+                parameter="connectors",
                 remedy="their share of the load is not determined: make one of them a spring, or take it out",
             )
         rows.append(own)

@@ -105,7 +105,7 @@ class RowHydrodynamics:
         own = self.omega
         if omega.min() < own[0] * (1.0 - 1e-9) or omega.max() > own[-1] * (1.0 + 1e-9):
             raise InputError(
-                f"{omega.min():.4g} to {omega.max():.4g} rad/s", path="settings.frequencies",
+                f"{omega.min():.4g} to {omega.max():.4g} rad/s", parameter="settings.frequencies",
                 allowed=f"{own[0]:.4g} to {own[-1]:.4g} rad/s, which was computed",
             )  # fmt: skip
         if len(own) == 1:

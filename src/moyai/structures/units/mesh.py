@@ -311,7 +311,7 @@ def _check_count(section: Section, length: float, units: int, size: float) -> No
     if count > MOST_PANELS:
         raise InputError(
             f"panels of {size:.3g} m would be about {count:.2g}",
-            path="settings.panel_size",
+            parameter="settings.panel_size",
             allowed=f"at least {math.sqrt(units * girth * length / MOST_PANELS):.3g} m",
             remedy="give larger panels",
         )
@@ -383,14 +383,14 @@ def check_gaps(section: Section, length: float, placements: tuple[Placement, ...
             if gap <= 0.0:
                 raise InputError(
                     f"units {i + 1} and {j + 1} overlap by {-gap:.3g} m",
-                    path="structure.units",
+                    parameter="units",
                     remedy="move them apart: 'gap' is the clear water between two units",
                 )
             if gap < LEAST_GAP * size:
                 raise InputError(
                     f"the gap of {gap:.3g} m between units {i + 1} and {j + 1} is under a tenth of a panel "
                     f"({size:.3g} m)",
-                    path="structure.units",
+                    parameter="units",
                     allowed=f"at least {LEAST_GAP * size:.3g} m with these panels",
                     remedy="widen the gap or give smaller panels (settings.panel_size)",
                 )

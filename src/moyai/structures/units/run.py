@@ -99,7 +99,7 @@ def check_resolution(at: RowAtLevel, panels: Panels, omega: Array) -> tuple[Noti
         raise InputError(
             f"the shortest wave, {shortest:.3g} m ({2.0 * math.pi / omega.max():.3g} s), is {shortest / side:.2g} "
             f"panels long (longest side {side:.3g} m)",
-            path="settings.panel_size",
+            parameter="settings.panel_size",
             allowed=f"panels of {shortest / LEAST_PANELS:.3g} m or less",
             remedy="give smaller panels, or leave the short waves out (settings.frequencies)",
         )

@@ -228,7 +228,7 @@ def irregular_answer(
     if not low < high:
         raise InputError(
             f"{sea.name}: the frequencies that were computed do not reach into this sea",
-            path="settings.frequencies",
+            parameter="settings.frequencies",
             allowed=f"{low:.3g} to {high:.3g} rad/s",
         )
     omega = np.linspace(low, high, FINE)

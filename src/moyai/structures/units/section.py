@@ -19,7 +19,7 @@ from moyai.potential.solver import solve
 from moyai.structures.units.assembly import RowAtLevel
 
 if TYPE_CHECKING:
-    import xarray as xr
+    pass
 
 LARGEST_HEADING = math.radians(75.0)
 #: Motions of the section among those of a unit
@@ -87,26 +87,11 @@ def section_answer(at: RowAtLevel, omega: Array, headings: Array, progress: Prog
     )
     transmission, drift = np.empty((len(omega), len(headings))), np.empty((len(omega), len(headings)))
     motion = np.empty((len(omega), len(headings), 3), dtype=complex)
-    for index, hydro in enumerate(_headings(found.dataset, row.length)):
+    for index, one in enumerate(Hydrodynamics.of_headings(found.dataset)):
+        hydro = one.scaled_to(row.length)
         solved = solve_motions(hydro, inertia, stiffness, damping=damping)
         far = far_field(hydro, solved.displacement)
         motion[:, index] = solved.displacement[:, 0]
         transmission[:, index] = np.abs(far.transmission[:, 0])
         drift[:, index] = drift_force_per_amplitude_squared(far, hydro.omega, hydro.heading, at.water, row.length)[:, 0]
     return SectionAnswer(transmission, motion, drift)
-
-
-def _headings(data: xr.Dataset, length: float) -> tuple[Hydrodynamics, ...]:
-    """Return the coefficients of each heading, with the radiation that belongs to it."""
-    out = []
-    for index in range(data.sizes["wave_direction"]):
-        one = data.isel(wave_direction=[index])
-        if "oblique_added_mass" in data:
-            own = one.isel(wave_direction=0)
-            one = one.assign(
-                added_mass=own.oblique_added_mass,
-                radiation_damping=own.oblique_radiation_damping,
-                radiated_wave=own.oblique_radiated_wave,
-            )
-        out.append(Hydrodynamics.from_dataset(one, length=1.0).scaled_to(length))
-    return tuple(out)

@@ -16,19 +16,15 @@ from moyai.flexible.network import BarType
 from moyai.sea.water import Water
 from moyai.structures.breakwater.case import schema
 from moyai.structures.breakwater.model import (
-    MODES,
     Breakwater,
     BreakwaterProblem,
     CoefficientsFile,
     Damping,
-    LineDynamics,
     MeasuredPoints,
     MooringLine,
     MooringSpring,
-    Sensitivity,
-    Settings,
-    TimeSettings,
 )
+from moyai.structures.breakwater.settings import MODES
 from moyai.tables.edge_damping import edge_damping_numbers
 from moyai.tables.lines import line_type
 
@@ -61,7 +57,8 @@ def build_problem(
         title=model.title,
         breakwater=breakwater_of(model, water, folder),
         environment=environment_of(model, water, folder),
-        settings=settings_of(model),
+        analyses=model.analyses,
+        settings=model.settings,
         measured=measured,
         case_text=case_text,
         case_hash=case_hash,
@@ -75,12 +72,9 @@ def breakwater_of(model: schema.BreakwaterCase, water: Water, folder: Path) -> B
     try:
         hull = unit.section.hull()
     except InputError as error:
-        fault = error.fault
-        key = fault.path.split(".")[-1]
+        key = error.fault.path.split(".")[-1]
         inner = f".{key}" if key in type(unit.section).model_fields else ""
-        raise InputError(
-            fault.message, path=f"structure.section{inner}", allowed=fault.allowed, remedy=fault.remedy
-        ) from None
+        raise error.at(f"structure.section{inner}") from None
     gyradius = unit.roll_gyradius
     if gyradius is None:
         if unit.mass is None or unit.roll_inertia is None:
@@ -222,37 +216,3 @@ def bar_type_of(
         drag_normal=float(part.drag_normal or 0.0), drag_tangential=float(part.drag_tangential or 0.0),
         added_mass_normal=float(part.added_mass_normal or 0.0), added_mass_tangential=part.added_mass_tangential,
     )  # fmt: skip
-
-
-def settings_of(model: schema.BreakwaterCase) -> Settings:
-    """Return analyses and settings."""
-    given = model.settings
-    time = given.time
-    return Settings(
-        analyses=model.analyses,
-        drift=given.drift,
-        frequencies=_values(given.frequencies),
-        restoring_offsets=_values(given.restoring_offsets),
-        time=TimeSettings(
-            time.duration,
-            time.ramp,
-            time.time_step,
-            time.analysed_periods,
-            time.drift,
-            time.memory,
-            LineDynamics(**time.lines.model_dump()),
-            None if isinstance(time.realisations, str) else time.realisations,
-        ),
-        sensitivity=Sensitivity(
-            given.sensitivity.damping_fractions, given.sensitivity.line_slacks, given.sensitivity.line_counts
-        ),
-    )
-
-
-def _values(given: Any) -> tuple[float, ...] | None:
-    """Return the values of ``auto``, a list or a range."""
-    if isinstance(given, str):
-        return None
-    if isinstance(given, (schema.FrequencyRange, schema.OffsetRange)):
-        return given.spread(given.first, given.last, given.count)
-    return tuple(given)

@@ -6,9 +6,8 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from moyai.case.check_catalogue import check_catalogue
-from moyai.case.check_sea import check_file, check_surroundings, check_waves
-from moyai.case.faults import did_you_mean
+from moyai.case.check_catalogue import SAID_OTHERWISE, check_catalogue, line_place
+from moyai.case.check_sea import check_file, check_level_names, check_surroundings, check_waves
 from moyai.case.findings import Findings, duplicates
 from moyai.case.schema_environment import PeriodRange
 from moyai.case.schema_lines import CatalogueSegment, CatenaryLine, SpringLine
@@ -118,18 +117,7 @@ def _check_lines_in_motion(model: BreakwaterCase, findings: Findings) -> None:
 
 
 def _check_settings(model: BreakwaterCase, findings: Findings) -> None:
-    chosen = model.settings.water_levels
-    if not isinstance(chosen, str):
-        for index, name in enumerate(chosen):
-            if name not in model.site.water_levels:
-                findings.fault(
-                    ("settings", "water_levels", index),
-                    f"there is no water level '{name}'",
-                    allowed=", ".join(model.site.water_levels),
-                    remedy=did_you_mean(name, model.site.water_levels),
-                )
-        for index in duplicates(chosen):
-            findings.fault(("settings", "water_levels", index), f"'{chosen[index]}' stands twice", remedy="remove one")
+    check_level_names(model, findings)
     for key in ("frequencies", "restoring_offsets"):
         values = getattr(model.settings, key)
         if hasattr(values, "first") and values.first == values.last:
@@ -374,24 +362,11 @@ def _rest(problem: BreakwaterProblem) -> tuple[InputError | None, tuple[Notice, 
             if problem.breakwater.coefficients_file is None:
                 count_panels(unit)
         except (InputError, ConvergenceError) as error:
-            fault = error.fault
-            again = InputError(fault.message, path=fault.path, allowed=fault.allowed, remedy=fault.remedy)
-            return again, tuple(said.values())
+            return InputError.of(error.fault), tuple(said.values())
         for notice in unit.notices:
             if notice.severity != "information":
                 said.setdefault(notice.code, notice)
     return None, tuple(said.values())
-
-
-_LINE_PLACES = {
-    "mooring-line-breaks": "segments",
-    "mooring-line-heap": "segments",
-    "mooring-line-unreachable": "segments",
-    "mooring-touches-between": "segments",
-    "mooring-anchor-in-body": "anchor",
-    "mooring-anchor-above-bed": "anchor",
-    "mooring-fairlead-below-bed": "fairlead",
-}
 
 
 def _check_lines_at_rest(model: BreakwaterCase, unit: Breakwater, environment: Environment, findings: Findings) -> None:
@@ -418,13 +393,10 @@ def _check_lines_at_rest(model: BreakwaterCase, unit: Breakwater, environment: E
         for notice in check_line_system(LineSystem(lines, water.depth + centre[1])):
             label, _, message = notice.message.partition(": ")
             line = label.removeprefix("lines.")
-            known = ("mooring-anchor-above-bed", "mooring-fairlead-dry", "mooring-anchor-uplift")
-            if line not in places or notice.code in known or (line, notice.code) in said:
+            if line not in places or notice.code in SAID_OTHERWISE or (line, notice.code) in said:
                 continue
             said.add((line, notice.code))
-            path: KeyPath = ("lines", places[line])
-            if notice.code in _LINE_PLACES and (*path, _LINE_PLACES[notice.code]) in findings.document.values:
-                path = (*path, _LINE_PLACES[notice.code])
+            path = line_place(findings, places[line], notice.code)
             where = f" (water level {name})" if len(environment.water_levels) > 1 else ""
             record = findings.fault if notice.severity == "error" else findings.warn
             remedy, across = notice.remedy, across_the_hull(model.lines[places[line]])

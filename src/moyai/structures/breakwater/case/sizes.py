@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from moyai.case.plausible_sizes import Sizes
+from moyai.case.plausible_sizes import Periods, Sizes
 from moyai.case.yaml_reader import KeyPath
 
 _DEPTH: KeyPath = ("site", "water_depth")
@@ -13,7 +13,7 @@ _DENSITY: KeyPath = ("site", "density")
 _GRAVITY: KeyPath = ("site", "gravity")
 
 
-def add_sizes(model: Any, sizes: Sizes) -> None:
+def add_sizes(model: Any, sizes: Sizes, periods: Periods) -> None:
     """Add the sizes of unit and lines, each with the keys that it follows from."""
     unit, site = model.structure, model.site
     section: KeyPath = ("structure", "section")

@@ -28,11 +28,12 @@ from moyai.structures.breakwater.frequency.model import (
     FrequencyResult,
 )
 from moyai.structures.breakwater.hydrodynamics import spread_headings
-from moyai.structures.breakwater.model import MODES, IrregularSea
+from moyai.structures.breakwater.model import IrregularSea
 from moyai.structures.breakwater.responses import (
     overtopping_share,
     tension_transfer,
 )
+from moyai.structures.breakwater.settings import MODES
 from moyai.structures.breakwater.slow_drift import SlowDrift, combined_extremes, slow_drift
 from moyai.structures.breakwater.variables import labelled
 from moyai.structures.breakwater.viscous_damping import (

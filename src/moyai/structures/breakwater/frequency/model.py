@@ -19,7 +19,7 @@ from moyai.floating.offset import mean_offset
 from moyai.structures.breakwater.assembly import FloatingUnit
 from moyai.structures.breakwater.hydrodynamics import UnitHydrodynamics
 from moyai.structures.breakwater.lines.drag import line_drag_rows, line_inertia
-from moyai.structures.breakwater.model import MODES
+from moyai.structures.breakwater.settings import MODES
 from moyai.structures.breakwater.viscous_damping import unit_drag_rows, water_motion
 
 if TYPE_CHECKING:

@@ -23,13 +23,14 @@ from moyai.structures.breakwater.frequency.model import (
     worst_status,
 )
 from moyai.structures.breakwater.hydrodynamics import wavelengths
-from moyai.structures.breakwater.model import MODES, RegularSea, SeaState
+from moyai.structures.breakwater.model import RegularSea, SeaState
 from moyai.structures.breakwater.responses import (
     deck_relative_elevation,
     line_tensions,
     overtopping_notices,
 )
 from moyai.structures.breakwater.screening import transmission_macagno, transmission_ruol, transmission_wiegel
+from moyai.structures.breakwater.settings import MODES
 from moyai.structures.breakwater.variables import labelled
 from moyai.structures.breakwater.viscous_damping import (
     band_factors,

@@ -21,8 +21,9 @@ from moyai.floating.time import CumminsModel, Simulation
 from moyai.structures.breakwater.assembly import FloatingUnit
 from moyai.structures.breakwater.frequency.model import FrequencyModel
 from moyai.structures.breakwater.lines.motion import BodyStart, run_on_lines
-from moyai.structures.breakwater.model import MooringLine, TimeSettings
+from moyai.structures.breakwater.model import MooringLine
 from moyai.structures.breakwater.responses import SNAP_RATIO
+from moyai.structures.breakwater.settings import TimeSettings
 from moyai.structures.breakwater.time.lines import lines_at_rest, motion_summary
 from moyai.structures.breakwater.time.model import SeaOfRun, TimeRun, compiled_lines
 from moyai.structures.breakwater.viscous_damping import in_moving_water

@@ -25,7 +25,8 @@ from moyai.structures.breakwater.frequency.model import FrequencyModel
 from moyai.structures.breakwater.lines.drag import line_drag_rows
 from moyai.structures.breakwater.lines.network import LineNetwork, line_network, static_check
 from moyai.structures.breakwater.lines.water import sea_of_lines
-from moyai.structures.breakwater.model import LineDynamics, MooringLine
+from moyai.structures.breakwater.model import MooringLine
+from moyai.structures.breakwater.settings import LineDynamics
 from moyai.structures.breakwater.viscous_damping import unit_drag_rows
 
 if TYPE_CHECKING:
@@ -409,9 +410,9 @@ def _sensitivity(
     unit = model.unit
     after = history.time >= begin
     variations = {
-        "twice the bars": (replace(dynamics, bars=2 * dynamics.bars), None),
+        "twice the bars": (dynamics.changed(bars=2 * dynamics.bars), None),
         "half the step": (dynamics, 0.5 * history.network_step),
-        "twice the internal damping": (replace(dynamics, damping_ratio=2.0 * dynamics.damping_ratio), None),
+        "twice the internal damping": (dynamics.changed(damping_ratio=2.0 * dynamics.damping_ratio), None),
     }
     out = {}
     for name, (changed, network_step) in variations.items():
@@ -419,7 +420,7 @@ def _sensitivity(
         assert lines is not None
         # the internal damping is one of the material: more bars keep it
         if changed.bars != dynamics.bars:
-            lines = line_network(unit, replace(changed, damping_ratio=2.0 * dynamics.damping_ratio))
+            lines = line_network(unit, changed.changed(damping_ratio=2.0 * dynamics.damping_ratio))
             assert lines is not None
         other, _ = _run(unit, lines, body, forcing, waves, current, ramp, step, rows, network_step, progress, start)
         change = np.full(len(unit.lines), np.nan)

@@ -20,7 +20,8 @@ from moyai.flexible.statics import Equilibrium, solve_equilibrium
 from moyai.mooring.lines import Line
 from moyai.mooring.shape import line_shape
 from moyai.structures.breakwater.assembly import FloatingUnit
-from moyai.structures.breakwater.model import LineDynamics, MooringLine
+from moyai.structures.breakwater.model import MooringLine
+from moyai.structures.breakwater.settings import LineDynamics
 
 #: Depth to which a line sinks into the bed at rest, over its diameter, where no stiffness is given.
 SINKING = 0.02
@@ -102,7 +103,7 @@ class LineNetwork:
             found = solve_equilibrium(moved, start=State(0.0, guess, np.zeros_like(guess)))
         except ConvergenceError as error:
             raise InputError(
-                f"the lines in motion find no rest: {error.fault.message}", path="lines", remedy=error.fault.remedy
+                f"the lines in motion find no rest: {error.fault.message}", parameter="lines", remedy=error.fault.remedy
             ) from error
         return State(0.0, found.state.position, np.zeros_like(guess))
 
@@ -135,7 +136,7 @@ def bed_of(unit: FloatingUnit, lines: list[MooringLine], dynamics: LineDynamics)
     if len(frictions) > 1:
         raise InputError(
             f"lines in motion have a friction of {', '.join(f'{value:g}' for value in sorted(frictions))} on the bed",
-            path="lines.bed_friction",
+            parameter="lines.bed_friction",
             allowed="one value for all lines in motion",
         )
     kinds = [kind for line in lines for kind in line.bar_types]
@@ -174,7 +175,7 @@ def line_network(unit: FloatingUnit, dynamics: LineDynamics) -> LineNetwork | No
         rest = solve_equilibrium(network)
     except ConvergenceError as error:
         raise InputError(
-            f"the lines in motion find no rest: {error.fault.message}", path="lines", remedy=error.fault.remedy
+            f"the lines in motion find no rest: {error.fault.message}", parameter="lines", remedy=error.fault.remedy
         ) from error
     names = [line.name for _, line, _ in chosen]
     return LineNetwork(
@@ -254,7 +255,7 @@ def resolved(unit: FloatingUnit, dynamics: LineDynamics) -> LineDynamics:
     dynamics : LineDynamics
     """
     for factor in (1, 2, 4):
-        finer = replace(dynamics, bars=factor * dynamics.bars)
+        finer = dynamics.changed(bars=factor * dynamics.bars)
         lines = line_network(unit, finer)
         if lines is None or static_check(unit, lines).passed:
             break

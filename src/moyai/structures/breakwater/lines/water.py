@@ -106,7 +106,7 @@ def sea_of_lines(
     if 7.0 * count * len(nodes) > MOST_NUMBERS:
         raise InputError(
             f"a sea of {duration:g} s at {len(nodes)} nodes of lines in motion is too long to be summed beforehand",
-            path="waves.duration",
+            parameter="waves.duration",
             allowed=f"up to {MOST_NUMBERS / 7.0 / len(nodes) * step:.4g} s",
             remedy="shorten the sea or use fewer bars",
         )

@@ -29,8 +29,9 @@ from moyai.structures.breakwater.lines.motion import has_dynamic_lines
 from moyai.structures.breakwater.lines.network import resolved
 from moyai.structures.breakwater.lines.search import MOST_EVENTS, EventsInMotion, Realisation, events_in_motion
 from moyai.structures.breakwater.memory_model import UnitMemory
-from moyai.structures.breakwater.model import DEFAULT_REALISATIONS, MODES, IrregularSea, TimeSettings
+from moyai.structures.breakwater.model import DEFAULT_REALISATIONS, IrregularSea
 from moyai.structures.breakwater.responses import anchor_loads, snap_notices
+from moyai.structures.breakwater.settings import MODES, TimeSettings
 from moyai.structures.breakwater.slow_drift import LEAST_CYCLES
 from moyai.structures.breakwater.time.lines import STATISTICS, lines_at_rest, motion_summary
 from moyai.structures.breakwater.time.model import SeaOfRun, TimeResult, TimeRun, linear_damping, run_with_lines
@@ -44,6 +45,8 @@ if TYPE_CHECKING:
 
 #: Peak periods in a record, below which its largest values say nothing of the sea state
 LEAST_WAVES = 10.0
+#: Natural period of sway over the peak period under which Newman's approximation is rough
+LEAST_RATIO = 3.0
 
 
 @dataclass(frozen=True)
@@ -89,7 +92,8 @@ def irregular_sea(
     """
     unit = model.unit
     shared = _shared(model, memory, sea, frequency, settings, current)
-    wanted = settings.realisations or (1 if has_dynamic_lines(unit) else DEFAULT_REALISATIONS)
+    chosen = 1 if has_dynamic_lines(unit) else DEFAULT_REALISATIONS
+    wanted = chosen if settings.realisations == "auto" else settings.realisations
     members: list[Realisation] = []
     status, notices = "converged", []
     for number in range(wanted):
@@ -227,7 +231,7 @@ def _lines_in_motion(
     except (InputError, ConvergenceError) as error:
         reported = f"{unit.name}, {shared.sea.name}: {error.fault.message}; lines stay at rest at every instant"
         return members, [], moved, (Notice("lines-stay-at-rest", reported, remedy=error.fault.remedy),)
-    settings = replace(shared.settings, lines=lines)
+    settings = shared.settings.changed(lines=lines)
     given = EventSettings(shared.model, shared.cummins, shared.expected, settings, shared.peak_period, period)
     shown: list[TimeRun] = []
     best, counts, still_open = -math.inf, [], 0
@@ -369,6 +373,19 @@ def _notices(shared: _Sea, data: xr.Dataset, frequency: xr.Dataset, moved: NDArr
                 value=slow,
                 limit=0.0,
                 remedy="leave settings.time.drift at auto, or give newman",
+            )
+        )
+    ratio = period / shared.peak_period
+    if shared.law == "newman" and ratio < LEAST_RATIO:
+        out.append(
+            Notice(
+                "newman-rough",
+                f"{where}: the natural period of sway is {ratio:.2g} peak periods; Newman's approximation of the slow "
+                "drift is rough there",
+                value=ratio,
+                limit=LEAST_RATIO,
+                remedy="take the offset with a margin, or compare with a longer mooring",
+                source="Newman (1974)",
             )
         )
     cycles = sea.duration / period

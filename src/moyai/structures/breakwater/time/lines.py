@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from moyai.core.arrays import Array
 from moyai.structures.breakwater.assembly import FloatingUnit
-from moyai.structures.breakwater.model import LineDynamics, MooringLine
+from moyai.structures.breakwater.model import MooringLine
+from moyai.structures.breakwater.settings import LineDynamics
 
 if TYPE_CHECKING:
     from moyai.structures.breakwater.time.model import TimeRun

@@ -18,7 +18,8 @@ from moyai.floating.time import CumminsModel, Simulation, simulate
 from moyai.structures.breakwater.assembly import FloatingUnit
 from moyai.structures.breakwater.frequency.model import FrequencyModel
 from moyai.structures.breakwater.lines.motion import LinesInMotion, has_dynamic_lines, run_on_lines
-from moyai.structures.breakwater.model import MODES, MooringLine, TimeSettings
+from moyai.structures.breakwater.model import MooringLine
+from moyai.structures.breakwater.settings import MODES, TimeSettings
 from moyai.structures.breakwater.variables import labelled
 
 if TYPE_CHECKING:

@@ -30,11 +30,12 @@ from moyai.structures.breakwater.hydrodynamics import wavelengths
 from moyai.structures.breakwater.lines.events import movable, out_of_range, with_lines_in_motion
 from moyai.structures.breakwater.lines.motion import without_line_drag
 from moyai.structures.breakwater.memory_model import UnitMemory
-from moyai.structures.breakwater.model import MODES, RegularSea, TimeSettings
+from moyai.structures.breakwater.model import RegularSea
 from moyai.structures.breakwater.responses import (
     anchor_loads,
     snap_notices,
 )
+from moyai.structures.breakwater.settings import MODES, TimeSettings
 from moyai.structures.breakwater.time.energy import HIGHER, EnergyOfPeriod, energy_checks, energy_of_period
 from moyai.structures.breakwater.time.lines import lines_at_rest, motion_names, motion_summary
 from moyai.structures.breakwater.time.model import SeaOfRun, TimeResult, TimeRun, linear_damping, run_with_lines
@@ -190,7 +191,7 @@ def _repeating(
     first = _one_period(model, memory, sea, period, frequency, settings, progress, current)
     if settings.duration is not None or _change(first[1].simulation, period, settings) <= REPEATING_LIMIT:
         return (*first, settings)
-    longer = replace(settings, analysed_periods=max(PERIODS_OF_NO_REPEAT, settings.analysed_periods))
+    longer = settings.changed(analysed_periods=max(PERIODS_OF_NO_REPEAT, settings.analysed_periods))
     again = _one_period(model, memory, sea, period, frequency, longer, progress, current)
     repeats = _change(again[1].simulation, period, settings) <= REPEATING_LIMIT
     return (*again, settings if repeats else longer)

@@ -40,12 +40,9 @@ def _under(path: str) -> Iterator[None]:
     try:
         yield
     except InputError as error:
-        fault = error.fault
-        inner = fault.path.split(".")
+        inner = error.fault.path.split(".")
         known = [_KEYS.get(name, name) for name in inner if name]
-        raise InputError(
-            fault.message, path=".".join([path, *known[-1:]]), allowed=fault.allowed, remedy=fault.remedy
-        ) from None
+        raise error.at(".".join([path, *known[-1:]])) from None
 
 
 #: What other packages call a key of the case file.
@@ -255,4 +252,4 @@ def cage_of(unit: parts.FlexibleCageStructure, water: Water) -> FlexibleCage:
             "mooring.depth": "mooring.frame_depth",
         }  # fmt: skip
         path = f"structure.{known.get(fault.path, fault.path)}"
-        raise InputError(fault.message, path=path, allowed=fault.allowed, remedy=fault.remedy) from None
+        raise error.at(path) from None

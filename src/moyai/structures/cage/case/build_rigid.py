@@ -10,7 +10,7 @@ from typing import Any
 from moyai.case.build_sea import current_of, sea_state_of
 from moyai.case.criteria import criteria_of
 from moyai.case.headings import heading_of
-from moyai.case.schema_environment import sea_names
+from moyai.case.schema_environment import RegularWavesOfHeights, sea_names
 from moyai.core.errors import InputError
 from moyai.morison.net_law_names import Net, NetLaw, net_law
 from moyai.sea.environment import Environment
@@ -82,10 +82,9 @@ def build_problem(
 
 def _at(path: str, error: InputError, known: Any = None) -> InputError:
     """Return an error of another package with the path of the case file before its key."""
-    fault = error.fault
-    key = fault.path.split(".")[-1]
+    key = error.fault.path.split(".")[-1]
     inner = f".{key}" if known is not None and key in type(known).model_fields else ""
-    return InputError(fault.message, path=f"{path}{inner}", allowed=fault.allowed, remedy=fault.remedy)
+    return error.at(f"{path}{inner}")
 
 
 def net_of(entry: parts.RigidNet) -> Net:
@@ -301,7 +300,7 @@ def seas_of(model: schema.CageCase, water: Water, folder: Path) -> tuple[CageSea
     names = sea_names(model.waves)
     found: list[CageSea] = []
     for index, state in enumerate(model.waves):
-        if isinstance(state, schema.CageRegularWaves):
+        if isinstance(state, RegularWavesOfHeights):
             heading = heading_of(state, bearing, f"waves[{index}]")
             sizes = state.all_heights(), state.all_periods()
             found.append(RegularWaves(names[index], *sizes, _straight(heading), state.theory))

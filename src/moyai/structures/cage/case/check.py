@@ -7,10 +7,9 @@ from pathlib import Path
 from typing import Any
 
 from moyai.case.build_sea import spectrum_of
-from moyai.case.check_sea import check_surroundings, wave_path
-from moyai.case.faults import did_you_mean
-from moyai.case.findings import Findings, duplicates
-from moyai.case.schema_environment import PeriodRange, SpectrumFile
+from moyai.case.check_sea import check_level_names, check_surroundings, wave_path
+from moyai.case.findings import Findings
+from moyai.case.schema_environment import PeriodRange, RegularWavesOfHeights, SpectrumFile
 from moyai.core.errors import InputError
 from moyai.sea.water import Water
 from moyai.structures.cage.case import check_flexible, check_rigid, schema
@@ -19,28 +18,12 @@ from moyai.structures.cage.case import check_flexible, check_rigid, schema
 def check(model: schema.CageCase, findings: Findings, folder: Path) -> None:
     """Record every fault and warning of a cage case in ``findings``."""
     check_surroundings(model, findings, folder)
-    _check_levels(model, findings)
+    check_level_names(model, findings)
     if findings.sound("site", "waves"):
         _check_waves(model, findings, folder)
     if findings.sound("site", "waves", "current"):
         of_model = check_rigid.check if model.structure.model == "rigid" else check_flexible.check
         of_model(model, findings, folder)
-
-
-def _check_levels(model: schema.CageCase, findings: Findings) -> None:
-    chosen = model.settings.water_levels
-    if isinstance(chosen, str):
-        return
-    for index, name in enumerate(chosen):
-        if name not in model.site.water_levels:
-            findings.fault(
-                ("settings", "water_levels", index),
-                f"there is no water level '{name}'",
-                allowed=", ".join(model.site.water_levels),
-                remedy=did_you_mean(name, model.site.water_levels),
-            )
-    for index in duplicates(chosen):
-        findings.fault(("settings", "water_levels", index), f"'{chosen[index]}' stands twice", remedy="remove one")
 
 
 def _check_waves(model: schema.CageCase, findings: Findings, folder: Path) -> None:
@@ -53,7 +36,7 @@ def _check_waves(model: schema.CageCase, findings: Findings, folder: Path) -> No
             depth = model.site.water_depth
             water = Water(depth if math.isinf(depth) else depth + level, model.site.density, model.site.gravity)
             pairs: list[tuple[str, Any]] = []
-            if isinstance(state, schema.CageRegularWaves):
+            if isinstance(state, RegularWavesOfHeights):
                 if isinstance(state.periods, PeriodRange) and state.periods.first == state.periods.last:
                     findings.fault(wave_path(findings, index, "periods"), "'from' and 'to' are equal")
                     break

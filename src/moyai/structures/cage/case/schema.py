@@ -2,34 +2,34 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Literal
 
-from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
+from pydantic import AfterValidator, BeforeValidator, Field
 
 from moyai.case.schema_app import APP, App
 from moyai.case.schema_criteria import CRITERIA
 from moyai.case.schema_display import DISPLAY, Display
 from moyai.case.schema_environment import (
+    STEEP_THEORY,
     BretschneiderMitsuyasu,
     Current,
     Jonswap,
-    Periods,
     PiersonMoskowitz,
+    RegularWavesOfHeights,
     Site,
     SpectrumFile,
-    SteepRegularWaves,
+    SteepTheory,
     Tma,
     refuse_no_seas,
 )
 from moyai.case.schema_measured import MEASURED, MeasuredSets
 from moyai.case.schema_types import (
+    LEVEL_NAMES,
     Block,
     Duration,
-    KeyGroups,
-    Name,
+    LevelNames,
     NonNegativeNumber,
     OneOrMany,
-    PositiveLength,
     PositiveNumber,
     QuantityOf,
     Stiffness,
@@ -82,31 +82,10 @@ class RigidCageStructure(Block):
 CageStructure = Annotated[RigidCageStructure | FlexibleCageStructure, Field(discriminator="model")]
 
 
-class CageRegularWaves(SteepRegularWaves):
+class CageRegularWaves(RegularWavesOfHeights):
     """Regular waves: every height with every period."""
 
-    exactly_one: ClassVar[KeyGroups] = (
-        ("heading_deg", "from_bearing_deg"),
-        ("period", "periods"),
-        ("height", "heights"),
-    )
-
-    height: PositiveLength | None = Field(default=None, description="Wave height H, crest to trough.")  # type: ignore[assignment]
-    heights: Annotated[tuple[PositiveLength, ...], Field(min_length=1, max_length=1000), AfterValidator(once_each)] = (
-        Field(default=(), description="Wave heights: a list; each is run with every period.")
-    )
-    periods: Periods | None = Field(
-        default=None, description="Wave periods: a list, or evenly spaced {from, to, count}; each is run."
-    )
-
-    def all_heights(self) -> tuple[float, ...]:
-        """Return every height [m]."""
-        return (self.height,) if self.height is not None else tuple(self.heights)
-
-    @property
-    def highest(self) -> float:
-        """Largest height [m]."""
-        return max(self.all_heights())
+    theory: SteepTheory = Field(default="automatic", description=STEEP_THEORY)  # type: ignore[assignment]
 
 
 CageSeaState = Annotated[
@@ -152,10 +131,7 @@ class CageSettings(Block):
     flexible: FlexibleCageSettings = Field(
         default_factory=FlexibleCageSettings, description="Settings of `model: flexible`."
     )
-    water_levels: Annotated[
-        Annotated[Literal["all"], Tag("<word>")] | Annotated[tuple[Name, ...], Field(min_length=1), Tag("<list>")],
-        Discriminator(lambda value: "<word>" if isinstance(value, str) else "<list>"),
-    ] = Field(default="all", description="Water levels to run: all, or a list of names.")
+    water_levels: LevelNames = Field(default="all", description=LEVEL_NAMES)
 
 
 class CageCase(Block):

@@ -64,12 +64,12 @@ def check_cage(model: FlexibleCage) -> None:
     mooring = model.mooring
     if not isinstance(mooring, GridMooring):
         if model.rows * model.columns > 1:
-            raise InputError("several cages with held collars", path="mooring.rows", allowed="1 x 1")
+            raise InputError("several cages with held collars", parameter="mooring.rows", allowed="1 x 1")
         return
     if spare <= 0.0:
         raise InputError(
             f"the pipes of the collar weigh {-spare:.4g} N more than the water that they displace",
-            path="collar.pipe",
+            parameter="collar.pipe",
             allowed="lighter than water",
             remedy="check diameter, wall_thickness, density and extra_mass_per_length",
         )
@@ -77,7 +77,7 @@ def check_cage(model: FlexibleCage) -> None:
         raise InputError(
             f"the cage does not float: net and weights weigh {weight:.4g} N in water, the collar bears {spare:.4g} N "
             "wholly immersed",
-            path="collar.pipe.diameter",
+            parameter="collar.pipe.diameter",
             allowed=f"weights below {spare:.4g} N",
             remedy="take a larger collar pipe, a second ring, or lighter weights",
         )
@@ -85,14 +85,14 @@ def check_cage(model: FlexibleCage) -> None:
     if mooring.spacing <= width:
         raise InputError(
             f"a bay of {mooring.spacing:g} m for a cage of {width:g} m",
-            path="mooring.spacing",
+            parameter="mooring.spacing",
             allowed=f"above {width:g} m",
         )
     rise = -model.bed.level - mooring.depth
     if rise <= 0.0:
         raise InputError(
             f"the frame lies {mooring.depth:g} m deep, the bed {-model.bed.level:g} m",
-            path="mooring.depth",
+            parameter="mooring.depth",
             allowed=f"less than {-model.bed.level:g} m",
         )
     _check_reach(model, mooring, rise)
@@ -106,7 +106,7 @@ def _check_reach(model: FlexibleCage, mooring: object, rise: float) -> None:
     if mooring.line_length < (1.0 - _STRETCH) * straight:
         raise InputError(
             f"the anchor lines of {mooring.line_length:g} m cannot reach: {straight:.4g} m from frame to anchor",
-            path="mooring.anchor_line",
+            parameter="mooring.anchor_line",
             allowed=f"about {straight:.4g} m or more",
             remedy="lengthen the lines or bring the anchors nearer",
         )
@@ -114,7 +114,7 @@ def _check_reach(model: FlexibleCage, mooring: object, rise: float) -> None:
         raise InputError(
             f"anchor lines of {mooring.line_length:g} m hang straight down and lie slack on the way of "
             f"{mooring.anchor_distance:g} m",
-            path="mooring.anchor_line",
+            parameter="mooring.anchor_line",
             allowed=f"below {mooring.anchor_distance + rise:.4g} m",
             remedy="shorten the lines or move the anchors out",
         )
@@ -126,7 +126,7 @@ def _check_reach(model: FlexibleCage, mooring: object, rise: float) -> None:
         if mooring.bridle_length < (1.0 - _STRETCH) * reach:
             raise InputError(
                 f"bridles of {mooring.bridle_length:g} m cannot reach: {reach:.4g} m from frame to collar",
-                path="mooring.bridle_length",
+                parameter="mooring.bridle_length",
                 allowed=f"about {reach:.4g} m or more",
                 remedy="lengthen the bridles, narrow the bay or raise the frame",
             )

@@ -46,19 +46,19 @@ class Pipe:
         for key in ("diameter", "wall_thickness", "density", "youngs_modulus"):
             value = getattr(self, key)
             if not (math.isfinite(value) and value > 0.0):
-                raise InputError(f"{key} of a pipe is {value:g}", path=key, allowed="greater than 0")
+                raise InputError(f"{key} of a pipe is {value:g}", parameter=key, allowed="greater than 0")
         if self.wall_thickness > 0.5 * self.diameter:
             raise InputError(
                 f"a wall of {self.wall_thickness:g} m does not fit a pipe of {self.diameter:g} m",
-                path="wall_thickness",
+                parameter="wall_thickness",
                 allowed=f"at most {0.5 * self.diameter:g} m",
             )
         if not -1.0 < self.poisson_ratio <= 0.5:
-            raise InputError(f"poisson_ratio is {self.poisson_ratio:g}", path="poisson_ratio", allowed="0 to 0.5")
+            raise InputError(f"poisson_ratio is {self.poisson_ratio:g}", parameter="poisson_ratio", allowed="0 to 0.5")
         for key in ("drag_normal", "drag_tangential", "added_mass", "extra_mass_per_length"):
             value = getattr(self, key)
             if not (math.isfinite(value) and value >= 0.0):
-                raise InputError(f"{key} of a pipe is {value:g}", path=key, allowed="0 or more")
+                raise InputError(f"{key} of a pipe is {value:g}", parameter=key, allowed="0 or more")
 
     @property
     def wall_area(self) -> float:
@@ -126,10 +126,12 @@ class Collar:
 
     def __post_init__(self) -> None:
         if self.rings not in (1, 2):
-            raise InputError(f"a collar of {self.rings} rings", path="collar.rings", allowed="1 or 2")
+            raise InputError(f"a collar of {self.rings} rings", parameter="collar.rings", allowed="1 or 2")
         if self.rings == 2 and not self.spacing > self.pipe.diameter:
             raise InputError(
-                f"two rings {self.spacing:g} m apart", path="collar.spacing", allowed=f"above {self.pipe.diameter:g} m"
+                f"two rings {self.spacing:g} m apart",
+                parameter="collar.spacing",
+                allowed=f"above {self.pipe.diameter:g} m",
             )
 
     @property

@@ -25,7 +25,7 @@ class Buoy:
         for key in ("diameter", "mass"):
             value = getattr(self, key)
             if not (math.isfinite(value) and value > 0.0):
-                raise InputError(f"{key} of a buoy is {value:g}", path=f"buoy.{key}", allowed="greater than 0")
+                raise InputError(f"{key} of a buoy is {value:g}", parameter=f"buoy.{key}", allowed="greater than 0")
 
     @property
     def volume(self) -> float:
@@ -72,28 +72,38 @@ class GridMooring:
         for key in ("spacing", "depth", "anchor_distance"):
             value = getattr(self, key)
             if not (math.isfinite(value) and value > 0.0):
-                raise InputError(f"{key} of the grid is {value:g} m", path=f"mooring.{key}", allowed="greater than 0 m")
+                raise InputError(
+                    f"{key} of the grid is {value:g} m", parameter=f"mooring.{key}", allowed="greater than 0 m"
+                )
         if not 1 <= self.bridles_per_corner <= 4:
             raise InputError(
-                f"{self.bridles_per_corner} bridles per corner", path="mooring.bridles_per_corner", allowed="1 to 4"
+                f"{self.bridles_per_corner} bridles per corner",
+                parameter="mooring.bridles_per_corner",
+                allowed="1 to 4",
             )
         if self.lines_per_corner not in (1, 2):
             raise InputError(
-                f"{self.lines_per_corner} lines per corner", path="mooring.lines_per_corner", allowed="1 or 2"
+                f"{self.lines_per_corner} lines per corner", parameter="mooring.lines_per_corner", allowed="1 or 2"
             )
         if not self.anchor_segments:
-            raise InputError("an anchor line of nothing", path="mooring.anchor_line", allowed="one segment or more")
+            raise InputError(
+                "an anchor line of nothing", parameter="mooring.anchor_line", allowed="one segment or more"
+            )
         for properties, length in self.anchor_segments:
             if not (math.isfinite(length) and length > 0.0):
                 raise InputError(
-                    f"{length:g} m of {properties.name}", path="mooring.anchor_line", allowed="greater than 0 m"
+                    f"{length:g} m of {properties.name}", parameter="mooring.anchor_line", allowed="greater than 0 m"
                 )
         if self.bridle_length is not None and not (math.isfinite(self.bridle_length) and self.bridle_length > 0.0):
             raise InputError(
-                f"bridle_length is {self.bridle_length:g} m", path="mooring.bridle_length", allowed="greater than 0 m"
+                f"bridle_length is {self.bridle_length:g} m",
+                parameter="mooring.bridle_length",
+                allowed="greater than 0 m",
             )
         if not -0.2 < self.bridle_slack < 1.0:
-            raise InputError(f"bridle_slack is {self.bridle_slack:g}", path="mooring.bridle_slack", allowed="-0.2 to 1")
+            raise InputError(
+                f"bridle_slack is {self.bridle_slack:g}", parameter="mooring.bridle_slack", allowed="-0.2 to 1"
+            )
 
     @property
     def line_length(self) -> float:

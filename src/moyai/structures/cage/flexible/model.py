@@ -21,12 +21,12 @@ WakeName = Literal["none", "loland", "cheng"]
 
 def _positive(value: float, path: str, unit: str) -> None:
     if not (math.isfinite(value) and value > 0.0):
-        raise InputError(f"{path} is {value:g} {unit}", path=path, allowed=f"greater than 0 {unit}")
+        raise InputError(f"{path} is {value:g} {unit}", parameter=path, allowed=f"greater than 0 {unit}")
 
 
 def _not_negative(value: float, path: str, unit: str) -> None:
     if not (math.isfinite(value) and value >= 0.0):
-        raise InputError(f"{path} is {value:g} {unit}", path=path, allowed=f"0 or more {unit}")
+        raise InputError(f"{path} is {value:g} {unit}", parameter=path, allowed=f"0 or more {unit}")
 
 
 @checks_words
@@ -66,11 +66,11 @@ class CageNet:
         for key in ("cone_depth", "added_mass", "growth_density", "damping"):
             _not_negative(getattr(self, key), f"net.{key}", "")
         if self.bottom == "cone" and self.cone_depth <= 0.0:
-            raise InputError("a cone of no depth", path="net.cone_depth", allowed="greater than 0 m")
+            raise InputError("a cone of no depth", parameter="net.cone_depth", allowed="greater than 0 m")
         if self.clean_diameter is not None and not 0.0 < self.clean_diameter <= self.net.twine_diameter:
             raise InputError(
                 f"clean twine of {self.clean_diameter:g} m in a net of {self.net.twine_diameter:g} m",
-                path="net.clean_diameter",
+                parameter="net.clean_diameter",
                 allowed="above 0, at most the diameter of the net's twine",
             )
 
@@ -112,7 +112,7 @@ class Sinkers:
 
     def __post_init__(self) -> None:
         if self.count < 1:
-            raise InputError(f"{self.count} sinkers", path="sinkers.count", allowed="1 or more")
+            raise InputError(f"{self.count} sinkers", parameter="sinkers.count", allowed="1 or more")
         _positive(self.mass, "sinkers.mass", "kg")
         for key in ("volume", "drag_area", "added_mass"):
             _not_negative(getattr(self, key), f"sinkers.{key}", "")
@@ -140,7 +140,7 @@ class CageDesign:
         _not_negative(self.centre_weight, "cage.centre_weight", "kg")
         if self.centre_weight > 0.0 and self.net.bottom == "none":
             raise InputError(
-                "a weight at the middle of a bottom that is not there", path="cage.centre_weight", allowed="0"
+                "a weight at the middle of a bottom that is not there", parameter="cage.centre_weight", allowed="0"
             )
 
     @property
@@ -171,10 +171,12 @@ class CageMesh:
     def __post_init__(self) -> None:
         if self.around < 8 or self.around % 4:
             raise InputError(
-                f"{self.around} knots around a cage", path="mesh.around", allowed="a multiple of 4, 8 or more"
+                f"{self.around} knots around a cage", parameter="mesh.around", allowed="a multiple of 4, 8 or more"
             )
         if self.down < 1 or self.bottom < 1:
-            raise InputError(f"{self.down} meshes down, {self.bottom} in the bottom", path="mesh", allowed="1 or more")
+            raise InputError(
+                f"{self.down} meshes down, {self.bottom} in the bottom", parameter="mesh", allowed="1 or more"
+            )
         _positive(self.rope_length, "mesh.rope_length", "m")
 
 
@@ -208,12 +210,12 @@ class FlexibleCage:
     def __post_init__(self) -> None:
         _positive(self.kinematic_viscosity, "kinematic_viscosity", "m2/s")
         if self.rows < 1 or self.columns < 1:
-            raise InputError(f"{self.rows} x {self.columns} cages", path="mooring.rows", allowed="1 x 1 or more")
+            raise InputError(f"{self.rows} x {self.columns} cages", parameter="mooring.rows", allowed="1 x 1 or more")
         depth = self.design.net.wall_depth + self.design.net.cone_depth
         if depth >= self.water.depth:
             raise InputError(
                 f"a net of {depth:g} m in water of {self.water.depth:g} m",
-                path="net.wall_depth",
+                parameter="net.wall_depth",
                 allowed="less than the water depth",
             )
         from moyai.structures.cage.flexible.checks import check_cage

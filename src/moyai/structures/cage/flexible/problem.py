@@ -68,7 +68,7 @@ class FlexibleCageProblem:
         if self.settings.current_speeds and self.environment.current is None:
             raise InputError(
                 "speeds of a current without a current",
-                path="settings.flexible.current_speeds",
+                parameter="settings.flexible.current_speeds",
                 remedy="give `current`, whose profile and heading they scale",
             )
 

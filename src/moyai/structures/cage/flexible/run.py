@@ -11,10 +11,12 @@ import numpy as np
 
 from moyai.core.collected import STOPPED, Collected
 from moyai.core.errors import ConvergenceError, InputError
+from moyai.core.headline import SEAS_LEFT_OUT
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
 from moyai.core.validity import Notice
 from moyai.flexible.flow import Current
+from moyai.sea.irregular import components_of_run
 from moyai.sea.states import IrregularSea
 from moyai.sea.water import Water
 from moyai.structures.cage.conditions import height_notices
@@ -31,7 +33,7 @@ from moyai.structures.cage.flexible.variables import VOCABULARY
 from moyai.structures.cage.flexible.wake import ScaledCurrent
 from moyai.structures.cage.headlines import flexible_headlines
 from moyai.structures.cage.rigid.model import RegularWaves
-from moyai.structures.cage.rigid.waves import Wave, sea_components, theory_limit, wave_of
+from moyai.structures.cage.rigid.waves import COMPONENTS, Wave, theory_limit, wave_of
 
 if TYPE_CHECKING:
     pass
@@ -88,7 +90,7 @@ def waves_of(problem: FlexibleCageProblem, sea: RegularWaves | IrregularSea, wat
             for height, period in sea.waves()
         )
     period = float(sea.spectrum.peak_period)
-    parts = sea_components(sea, water, (float(mean[0]), float(mean[1])))
+    parts = components_of_run(sea, water, (float(mean[0]), float(mean[1])), COMPONENTS)
     number = float(np.interp(2.0 * math.pi / period, np.sort(parts.omega), parts.wave_number[np.argsort(parts.omega)]))
     height = float(sea.spectrum.significant_height)
     return (Wave("sea", parts, height, period, 2.0 * math.pi / number, sea.duration, False, sea.seed),)
@@ -207,4 +209,5 @@ def _result(problem: FlexibleCageProblem, collected: Collected) -> Result:
         fulfilled="all identities hold" + ("; mesh not checked" if waved and not checked else ""),
         headlines=flexible_headlines(problem, collected.groups),
         criteria=problem.criteria,
+        left_out=SEAS_LEFT_OUT if problem.seas and "time" not in problem.settings.analyses else "",
     )

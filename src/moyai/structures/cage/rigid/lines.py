@@ -41,10 +41,12 @@ class CageLine:
         for key in ("length", "stiffness"):
             value = getattr(self, key)
             if not (math.isfinite(value) and value > 0.0):
-                raise InputError(f"{key} of line '{self.name}' is {value:g}", path=key, allowed="greater than 0")
+                raise InputError(f"{key} of line '{self.name}' is {value:g}", parameter=key, allowed="greater than 0")
         if not (math.isfinite(self.damping) and self.damping >= 0.0):
             raise InputError(
-                f"damping of line '{self.name}' is {self.damping:g} N s/m", path="damping", allowed="at least 0 N s/m"
+                f"damping of line '{self.name}' is {self.damping:g} N s/m",
+                parameter="damping",
+                allowed="at least 0 N s/m",
             )
 
     def with_stiffness(self, stiffness: float, tension: float) -> CageLine:
@@ -57,7 +59,7 @@ class CageLine:
         if length <= 0.0:
             raise InputError(
                 f"line '{self.name}' of {stiffness:g} N/m would need a length of {length:g} m for {tension:g} N",
-                path="stiffness",
+                parameter="stiffness",
                 remedy="take a stiffer line",
             )
         damping = self.damping * math.sqrt(stiffness / self.stiffness)

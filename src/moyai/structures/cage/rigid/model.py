@@ -100,7 +100,7 @@ class Settings:
             raise InputError(
                 f"{self.ramp_periods:g} periods of growing waves and {self.settled_periods} settled ones exceed the "
                 f"{self.periods} periods of the run",
-                path="settings.rigid.periods",
+                parameter="settings.rigid.periods",
                 allowed=f"at least {math.ceil(self.settled_periods + self.ramp_periods)}",
             )
 
@@ -130,24 +130,26 @@ class RigidCageProblem:
     def __post_init__(self) -> None:
         if not (math.isfinite(self.kinematic_viscosity) and self.kinematic_viscosity > 0.0):
             raise InputError(
-                f"kinematic_viscosity is {self.kinematic_viscosity:g} m2/s", path="kinematic_viscosity", allowed="> 0"
+                f"kinematic_viscosity is {self.kinematic_viscosity:g} m2/s",
+                parameter="kinematic_viscosity",
+                allowed="> 0",
             )
         if self.plans and math.isinf(self.environment.water.depth):
             raise InputError(
-                "lines need a bed to be held at", path="site.water_depth", remedy="give the water depth in metres"
+                "lines need a bed to be held at", parameter="water_depth", remedy="give the water depth in metres"
             )
         for sea in self.seas:
             if abs(math.sin(sea.heading)) > 1e-9:
                 raise InputError(
                     f"the waves of '{sea.name}' travel at {math.degrees(sea.heading):.4g} degrees to +x",
-                    path="waves.heading_deg",
+                    parameter="waves.heading",
                     allowed="0 or 180 degrees: the rigid cage moves in the plane of the waves",
                     remedy="turn the x axis, or use 'model: flexible'",
                 )
             if getattr(sea, "spreading", None) is not None:
                 raise InputError(
                     f"the sea '{sea.name}' has spread directions",
-                    path="waves.spreading",
+                    parameter="waves.spreading",
                     allowed="long crests: the rigid cage moves in the plane of the waves",
                     remedy="leave 'spreading' out, or use 'model: flexible'",
                 )

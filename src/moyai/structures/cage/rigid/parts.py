@@ -17,7 +17,7 @@ from moyai.morison.net_law_names import Net, NetLaw
 def _points(values: object, name: str) -> Array:
     array = np.array(values, dtype=float).reshape(-1, 3)
     if not np.isfinite(array).all():
-        raise InputError(f"{name} holds a value that is not finite", path=name)
+        raise InputError(f"{name} holds a value that is not finite", parameter=name)
     array.setflags(write=False)
     return array
 
@@ -26,7 +26,7 @@ def _not_negative(owner: object, *names: str) -> None:
     for name in names:
         value = getattr(owner, name)
         if not (math.isfinite(value) and value >= 0.0):
-            raise InputError(f"{name} is {value:g}", path=name, allowed="at least 0")
+            raise InputError(f"{name} is {value:g}", parameter=name, allowed="at least 0")
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,7 +48,9 @@ class Floats:
         object.__setattr__(self, "points", _points(self.points, "floats"))
         _not_negative(self, "mass", "drag", "added_mass")
         if not (math.isfinite(self.diameter) and self.diameter > 0.0):
-            raise InputError(f"diameter is {self.diameter:g} m", path="floats.diameter", allowed="greater than 0 m")
+            raise InputError(
+                f"diameter is {self.diameter:g} m", parameter="floats.diameter", allowed="greater than 0 m"
+            )
 
     @property
     def volume(self) -> float:
@@ -237,7 +239,7 @@ class RigidCage:
     def __post_init__(self) -> None:
         _not_negative(self, "net_mass", "net_volume", "net_added_mass", "rod_drag", "rod_added_mass")
         if not self.mass > 0.0:
-            raise InputError("the cage has no mass", path="mass", allowed="greater than 0 kg")
+            raise InputError("the cage has no mass", parameter="mass", allowed="greater than 0 kg")
 
     @cached_property
     def _masses(self) -> tuple[Array, Array, Array]:

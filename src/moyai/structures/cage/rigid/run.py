@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from moyai.core.collected import STOPPED, Collected, most_severe
+from moyai.core.headline import SEAS_LEFT_OUT
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
 from moyai.core.validity import Notice
 from moyai.sea.states import IrregularSea
 from moyai.sea.water import Water
 from moyai.structures.cage.conditions import height_notices
-from moyai.structures.cage.headlines import rigid_headlines
 from moyai.structures.cage.rigid.checks import (
     cage_notices,
     level_notices,
@@ -25,6 +25,7 @@ from moyai.structures.cage.rigid.checks import (
     run_notices,
 )
 from moyai.structures.cage.rigid.datasets import cage_dataset, sea_dataset, statics_dataset, time_dataset
+from moyai.structures.cage.rigid.headlines import rigid_headlines
 from moyai.structures.cage.rigid.laws import laws_dataset
 from moyai.structures.cage.rigid.lines import CageLine
 from moyai.structures.cage.rigid.model import CageSea, RegularWaves, RigidCageProblem
@@ -222,6 +223,7 @@ def _result(problem: RigidCageProblem, collected: Collected) -> Result:
         [sea.seed for sea in problem.seas if isinstance(sea, IrregularSea)],
         headlines=rigid_headlines(collected.groups),
         criteria=problem.criteria,
+        left_out=SEAS_LEFT_OUT if problem.seas and "time" not in problem.settings.analyses else "",
     )
 
 

@@ -44,7 +44,7 @@ def resolve(
         if not plan.anchor_above_bed < water.depth:
             raise InputError(
                 f"the anchor of line '{plan.name}' is {plan.anchor_above_bed:g} m above the bed, over the surface",
-                path="structure.mooring",
+                parameter="mooring",
                 allowed=f"less than {water.depth:g} m",
             )
     free = free_floating(cage, water, kinematic_viscosity)
@@ -74,7 +74,7 @@ def _draft(plan: LinePlan, cage: RigidCage, water: Water, free: Rest) -> CageLin
     )
     if line.span(free.place, cage.centre) < 1e-6 * size_of(cage):
         raise InputError(
-            f"line '{plan.name}' is anchored where it meets the cage", path="structure.mooring", allowed="apart"
+            f"line '{plan.name}' is anchored where it meets the cage", parameter="mooring", allowed="apart"
         )
     return line
 
@@ -94,7 +94,7 @@ def _tightened(plan: LinePlan, draft: CageLine, span: float, tension: float) -> 
         if length <= 0.0:
             raise InputError(
                 f"line '{plan.name}' stretches by more than the {span:.4g} m that it spans",
-                path="structure.mooring.stiffness",
+                parameter="mooring.stiffness",
                 remedy="take a stiffer line or a smaller pretension",
             )
     return replace(draft, length=length, stiffness=_stiffness(plan, length))
@@ -112,7 +112,7 @@ def _balance(
     still = pack(cage, (), water, kinematic_viscosity)
     depths = {plan.value for plan in plans if plan.setting == "pull_down"}
     if len(depths) > 1:
-        raise InputError("lines of one cage pull it down differently", path="structure.mooring", allowed="one value")
+        raise InputError("lines of one cage pull it down differently", parameter="mooring", allowed="one value")
     shared = [plan.setting == "pull_down" for plan in plans]
     given = np.array([plan.value if plan.setting == "pretension" else 0.0 for plan in plans])
     weight, size = cage.mass * water.gravity, size_of(cage)
@@ -148,7 +148,7 @@ def _balance(
     if error > 1e-8 or (tension < -1e-9 * weight).any():
         raise InputError(
             "the tensions of the lines do not balance: the cage finds no rest with them",
-            path="structure.mooring",
+            parameter="mooring",
             remedy="give lines on both sides, or their lengths",
         )
     return place, tension
@@ -167,7 +167,7 @@ def _require_carried(cage: RigidCage, drafts: tuple[CageLine, ...], water: Water
         raise InputError(
             f"the pretension pulls the cage down with {asked:.4g} N; its floats carry {carried:.4g} N beyond its "
             "weight",
-            path="structure.mooring.pretension",
+            parameter="mooring.pretension",
             allowed=f"less than about {equal:.4g} N in each line",
         )
 
@@ -213,7 +213,7 @@ def _require_reach(line: CageLine, cage: RigidCage, water: Water, free: Rest) ->
         raise InputError(
             f"line '{line.name}' of {line.length:.4g} m cannot reach: from its anchor to the floating cage are "
             f"{span:.4g} m, and its pull would drown the floats",
-            path="structure.mooring",
+            parameter="mooring",
             allowed=f"at least about {max(shortest, 0.0):.4g} m",
             remedy="lengthen the line, or bring the anchor nearer",
         )

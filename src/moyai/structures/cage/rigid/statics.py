@@ -135,7 +135,7 @@ def require_floating(cage: RigidCage, water: Water) -> None:
     raise InputError(
         f"the cage does not float: it weighs {weight:.4g} N in water, and its {len(cage.floats.points)} floats carry "
         f"{max(net_lift, 0.0):.4g} N beyond their own weight",
-        path="structure.floats",
+        parameter="floats",
         allowed="floats that carry more than the cage weighs in water",
         remedy=remedy,
     )
@@ -200,7 +200,7 @@ def rest_of(packed: Packed, cage: RigidCage, place: Array, held: tuple[int, ...]
     if error > 1e-8:
         raise ConvergenceError(
             f"no position of rest was found: a force of {error:.2g} of the weight is left",
-            path="structure.mooring",
+            parameter="mooring",
             remedy="check anchors, lengths and current",
         )
     work = np.empty(6)
@@ -291,7 +291,7 @@ def rest_with_lines(
         if flowing:
             raise InputError(
                 "a current carries the cage away: it has no lines",
-                path="structure.mooring",
+                parameter="mooring",
                 remedy="give 'mooring', or leave the current out",
             )
         return free

@@ -111,7 +111,9 @@ def march(
         For durations that are not positive.
     """
     if not (duration > 0.0 and spacing > 0.0 and math.isfinite(duration)):
-        raise InputError(f"duration {duration:g} s, spacing {spacing:g} s", path="duration", allowed="greater than 0 s")
+        raise InputError(
+            f"duration {duration:g} s, spacing {spacing:g} s", parameter="duration", allowed="greater than 0 s"
+        )
     count = round(duration / spacing) + 1
     lines = len(packed.lines)
     rows, tension = np.full((count, 6), np.nan), np.full((count, lines), np.nan)

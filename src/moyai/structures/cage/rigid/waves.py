@@ -10,10 +10,9 @@ from moyai.core.options import checks_words
 from moyai.core.validity import Notice
 from moyai.sea.components import WaveComponents
 from moyai.sea.dispersion import wave_number_in_current
-from moyai.sea.irregular import synthesise
+from moyai.sea.irregular import components_of_run
 from moyai.sea.permanent_wave import NonlinearWave
 from moyai.sea.regular_theory import RegularTheory, linear_limit, regular_wave
-from moyai.sea.states import IrregularSea
 from moyai.sea.water import Water
 from moyai.structures.cage.rigid.model import CageSea, RegularWaves, RigidCageProblem
 
@@ -56,7 +55,7 @@ def current_along(problem: RigidCageProblem, water: Water) -> float:
     if abs(float(found[1])) > 1e-9 * max(abs(float(found[0])), 1e-300):
         raise InputError(
             "the current does not flow along x",
-            path="current.heading_deg",
+            parameter="current.heading",
             allowed="0 or 180 degrees: the rigid cage moves in one plane",
             remedy="turn the x axis, or use 'model: flexible'",
         )
@@ -73,29 +72,10 @@ def waves_of(problem: RigidCageProblem, sea: CageSea, water: Water) -> tuple[Wav
             for height, period in sea.waves()
         )
     period = float(sea.spectrum.peak_period)
-    parts = sea_components(sea, water, (flow, 0.0))
+    parts = components_of_run(sea, water, (flow, 0.0), COMPONENTS)
     number = float(wave_number_in_current(2.0 * math.pi / period, water.depth, water.gravity, flow * sense))
     height = float(sea.spectrum.significant_height)
     return (Wave("sea", parts, height, period, 2.0 * math.pi / number, sea.duration, False, sea.seed),)
-
-
-def sea_components(sea: IrregularSea, water: Water, current: tuple[float, float]) -> WaveComponents:
-    """Return the components of an irregular sea on a current.
-
-    A sea of whole multiples of its lowest frequency has its significant height over its duration exactly; where that
-    would take more than twice ``COMPONENTS``, that many of equal energy, whose height over the duration is a chance
-    [eq:sea-equal-energy].
-    """
-    parts = synthesise(
-        sea.spectrum, water, duration=sea.duration, seed=sea.seed, heading=sea.heading, spreading=sea.spreading,
-        current=current,
-    )  # fmt: skip
-    if parts.omega.size <= 2 * COMPONENTS:
-        return parts
-    return synthesise(
-        sea.spectrum, water, duration=sea.duration, seed=sea.seed, heading=sea.heading, spreading=sea.spreading,
-        method="equal_energy", count=COMPONENTS, current=current,
-    )  # fmt: skip
 
 
 @checks_words

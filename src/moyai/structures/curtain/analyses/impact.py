@@ -104,7 +104,7 @@ def start_speed(unit: LevelCurtain, settings: ImpactSettings) -> tuple[float, st
     if not current > 0.0:
         raise InputError(
             "the start speed of the impact needs a current along the normal",
-            path="settings.impact.start",
+            parameter="settings.impact.start",
             remedy="give 'current', or 'settings.impact.start_speed'",
         )
     if settings.start == "current":
@@ -114,16 +114,17 @@ def start_speed(unit: LevelCurtain, settings: ImpactSettings) -> tuple[float, st
         impact,
         drag_coefficient=drag_coefficient(unit, impact.draught),
         current=current,
-        position=settings.release_position,
+        position=settings.release_position or 0.0,
         speed=0.0,
     )
     return abs(phase.speed), f"drift from release, {100.0 * phase.share:.3g} % of the current"
 
 
 def start_speed_range(unit: LevelCurtain, settings: ImpactSettings) -> tuple[float, float]:
-    """Return the start speed at the low and at the high end of the drag coefficient over that as given [-].
+    """Return the low and the high end of the start speed over that as given [-].
 
-    Only the drift from a release depends on the drag.
+    Only the drift from a release depends on the drag, and on the place of the release, which no drift makes faster than
+    the current: where the case does not state the place, that is the high end.
     """
     if settings.start_speed is not None or settings.start == "current":
         return 1.0, 1.0
@@ -133,7 +134,7 @@ def start_speed_range(unit: LevelCurtain, settings: ImpactSettings) -> tuple[flo
         start_speed(replace(unit, hanging=replace(unit.hanging, drag=law.scaled(factor))), settings)[0] / given
         for factor in law.range
     )
-    return low, high
+    return low, high if settings.release_position is not None else max(high, unit.normal_speed / given)
 
 
 def bulging_skirt(unit: LevelCurtain, settings: ImpactSettings) -> BulgingSkirt | None:

@@ -61,7 +61,7 @@ def find_snap(unit: LevelCurtain, settings: ImpactSettings, impact: Impact) -> S
     current = unit.normal_speed
     if not current > 0.0:
         return None
-    position = settings.release_position
+    position = settings.release_position or 0.0
     if abs(position) >= slack_sag(impact):
         return None
     return snap_in_current(

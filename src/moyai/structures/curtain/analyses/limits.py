@@ -71,21 +71,40 @@ def limits_dataset(
     heights = _heights(settings, max((row.value for row, _ in rows), default=0.0))
     parts = _grid(unit, [counted.loads_in(speed) for speed in speeds], speeds, heights)
     group = _limits_group(unit, settings, counted, _Found(most, most_bound, speeds, tuple(rows)), heights, parts)
-    return group.assign_attrs(speed_limit_of_least_depth=_speed_of_least_depth(counted, lost_depth))
+    strict = _strict(counted, lost_depth)
+    height = float(group["design_limit_height"])
+    return group.assign(design_limit_low=_design_low(strict, speeds)).assign_attrs(
+        speed_limit_of_least_depth=math.nan if strict.unit is unit else strict.speed()[0].value,
+        design_limit_period=settings.limits.period_of(height) if height > 0.0 else math.nan,
+    )
 
 
-def _speed_of_least_depth(counted: CountedLimits, lost_depth: float) -> float:
-    """Return the largest current in which the depth is kept at the lower end of its band too [m/s]; NaN without one."""
+def _strict(counted: CountedLimits, lost_depth: float) -> CountedLimits:
+    """Return the limits with the depth asked for at the lower end of its band."""
     unit = counted.unit
     strengths = unit.curtain.strengths
     asked = strengths.least_depth
     if not (0.0 < asked < unit.depth and lost_depth > 1.0):
-        return math.nan
+        return counted
     # d - f (d - z) is at least what is asked where z is at least this
     strict = replace(strengths, least_depth=unit.depth - (unit.depth - asked) / lost_depth)
-    other = replace(unit, curtain=replace(unit.curtain, strengths=strict))
-    found, _ = replace(counted, unit=other).speed()
-    return found.value
+    return replace(counted, unit=replace(unit, curtain=replace(unit.curtain, strengths=strict)))
+
+
+def _design_low(strict: CountedLimits, speeds: tuple[float, ...]) -> xr.DataArray:
+    """Return the height held in currents up to that of the case with impact and snaps at their upper end [m]."""
+    import xarray as xr
+
+    loads, own = strict.loads, strict.unit.surface_speed
+    struck = loads.impact or (loads.snaps[1] if loads.snaps is not None else None)
+    low = math.nan
+    if own > 0.0:
+        upper = 1.0 if struck is None else max(struck.uncertainty[1], 1.0)
+        impact = None if loads.impact is None else replace(loads.impact, factor=upper * loads.impact.factor)
+        severe = replace(strict, loads=replace(loads, impact=impact, snap_factor=upper * loads.snap_factor))
+        within = {speed for speed in speeds if speed < own * (1.0 - 1e-9)} | {own}
+        low = min(severe.height(speed)[0].value for speed in within)
+    return xr.DataArray(low)
 
 
 @dataclass(frozen=True)

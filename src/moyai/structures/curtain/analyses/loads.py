@@ -16,7 +16,7 @@ from moyai.structures.curtain.analyses.impact import ImpactAnswer
 from moyai.structures.curtain.analyses.limits import impact_load
 from moyai.structures.curtain.assembly import LevelCurtain
 from moyai.structures.curtain.governing import governing_load
-from moyai.structures.curtain.hierarchy import ModelRole, hierarchy
+from moyai.structures.curtain.hierarchy import IMPACT, ModelRole, hierarchy, upright_in
 from moyai.structures.curtain.limits.utilisation import AddedLoads, Strength
 from moyai.structures.curtain.model import COMPONENTS, Settings
 from moyai.structures.curtain.seas.loads import DragCurve, increase
@@ -98,7 +98,8 @@ def loads_dataset(
             hit = math.nan
         ends = (1.0, 1.0) if answer is None else answer.uncertainty
         rows.append(_row(unit, component, steady, wave, (hit, ends[0] * hit, ends[1] * hit), best.source, name))
-    return _table(unit, rows, moved, roles or hierarchy(unit, settings)), tuple(notices)
+    weaker = _in_weaker_current(unit, settings, answer)
+    return _table(unit, rows, moved, roles or hierarchy(unit, settings), weaker), tuple(notices)
 
 
 def dynamic_loads_dataset(unit: LevelCurtain, moved: DynamicLoads) -> xr.Dataset:
@@ -108,12 +109,45 @@ def dynamic_loads_dataset(unit: LevelCurtain, moved: DynamicLoads) -> xr.Dataset
     return _table(unit, rows, moved, ())
 
 
+def _in_weaker_current(
+    unit: LevelCurtain, settings: Settings, answer: ImpactAnswer | None
+) -> dict[str, dict[str, float | str]]:
+    """Return the rows of the impact in the strongest current up to that of the case in which an upright plate governs.
+
+    Weaker currents come with every stronger one, twice a tide: where the current of the case leaves the plate as a
+    bound alone, its load in the weaker current is a value all the same [eq:curtain-hierarchy].
+    """
+    speed = 0.0 if answer is None else upright_in(unit)
+    if answer is None or not 0.0 < speed < unit.surface_speed:
+        return {}
+    there = replace(unit, surface_speed=speed)
+    struck = impact_load(unit, answer, settings).at(unit.unit_normal_speed * speed)
+    source = f"impact, model {answer.design_model}, in a weaker current of {speed:.3g} m/s"
+    rows = {}
+    for component in COMPONENTS:
+        hit = _factor(unit, component) * getattr(struck, _FIELDS[component])
+        if component == "skirt" and math.isnan(answer.half_angle):
+            continue
+        ends = (hit, answer.uncertainty[0] * hit, answer.uncertainty[1] * hit)
+        rows[component] = _row(unit, component, _steady(there, component), 0.0, ends, "", source)
+    return rows
+
+
 def _table(
-    unit: LevelCurtain, rows: list[dict[str, float | str]], moved: DynamicLoads, roles: tuple[ModelRole, ...]
-) -> xr.Dataset:
+    unit: LevelCurtain, rows: list[dict[str, float | str]], moved: DynamicLoads, roles: tuple[ModelRole, ...],
+    weaker: Mapping[str, dict[str, float | str]] = MappingProxyType({}),
+) -> xr.Dataset:  # fmt: skip
     import xarray as xr
 
-    rows = _with_joint(unit, [_decided(unit, row, moved, roles) for row in rows])
+    decided = [_decided(unit, row, moved, roles) for row in rows]
+    plate = (ModelRole(IMPACT, "governs", "", ""),)
+    for number, row in enumerate(decided):
+        other = weaker.get(str(row["component"]))
+        if other is not None and row["component"] != "float":
+            found = _decided(unit, other, NOT_MOVED, plate)
+            if float(found["governing_high"]) > float(row["governing_high"]):
+                decided[number] = found
+    rows = _with_joint(unit, decided)
     columns = {key: [row[key] for row in rows] for key in rows[0]}
     known = [row for row in rows if math.isfinite(row["utilisation"])]  # type: ignore[arg-type]
     governing = max(known, key=lambda row: float(row["utilisation"]), default=None)

@@ -391,4 +391,4 @@ def require_current(unit: LevelCurtain) -> None:
         Without a current.
     """
     if unit.surface_speed == 0.0:
-        raise InputError("there is no current", path="current", remedy="give its speed and heading")
+        raise InputError("there is no current", parameter="current", remedy="give its speed and heading")

@@ -116,7 +116,7 @@ def recorded_snap(entry: schema.Record, folder: Path) -> RecordedSnap:
         )
     except InputError as error:
         key = error.fault.path.split(".")[0].split("[")[0]
-        raise _at(error, f"record.{key if key in ('unloaded', 'window', 'release_time') else 'file'}") from None
+        raise error.at(f"record.{key if key in ('unloaded', 'window', 'release_time') else 'file'}") from None
     cables = [RecordedCable(cable.name, cable.peak, cable.plateau, cable.noise) for cable in (*found.cables, found.sum)]
     return RecordedSnap(
         entry.file,
@@ -145,7 +145,7 @@ def curtain_of(model: schema.CurtainCase, water: Water) -> Curtain:
     try:
         line = FloatLine(floats.buoyancy, floats.weight, flooded)
     except InputError as error:
-        raise _at(error, "structure.floats.flooded_buoyancy") from None
+        raise error.at("structure.floats.flooded_buoyancy") from None
     anchors = None
     if given.anchors is not None:
         stiffness = given.anchors.line_stiffness
@@ -183,7 +183,7 @@ def skirt_of(model: schema.CurtainCase, water: Water) -> Skirt:
         try:
             film = flume_material(given.film.material)
         except InputError as error:
-            raise _at(error, "structure.skirt.film.material") from None
+            raise error.at("structure.skirt.film.material") from None
         modulus = given.film.modulus if given.film.modulus is not None else 0.5 * sum(film.modulus)
         stiffness = modulus * given.film.thickness
         if weight is None and given.mass_per_area is None:
@@ -209,7 +209,7 @@ def skirt_of(model: schema.CurtainCase, water: Water) -> Skirt:
         return Skirt(given.length, weight, load, stiffness if stiffness is not None else math.inf)
     except InputError as error:
         key = "weight" if toe.weight is not None else "chain_mass"
-        raise _at(error, f"structure.toe.{key}") from None
+        raise error.at(f"structure.toe.{key}") from None
 
 
 def _cable(entry: schema.Cable, path: str) -> tuple[float, float]:
@@ -228,7 +228,7 @@ def _cable(entry: schema.Cable, path: str) -> tuple[float, float]:
         line = line_type(entry.catalogue, entry.diameter)
     except InputError as error:
         if error.fault.path == "diameter":
-            raise _at(error, f"{path}.diameter") from None
+            raise error.at(f"{path}.diameter") from None
         named = f"{error.fault.allowed}; of flumes: {', '.join(available_flume_materials())}"
         raise InputError(
             error.fault.message, path=f"{path}.catalogue", allowed=named, remedy=error.fault.remedy
@@ -249,7 +249,7 @@ def _drag(entry: Any) -> DragLaw:
         try:
             law = DragLaw("table", blockage, coefficients, entry.range, _CASE)
         except InputError as error:
-            raise _at(error, "structure.drag.points") from None
+            raise error.at("structure.drag.points") from None
     if entry.blockage is None:
         return law
     low, middle, high = entry.blockage if isinstance(entry.blockage, tuple) else (entry.blockage,) * 3
@@ -400,8 +400,3 @@ def _values(given: Any) -> tuple[float, ...] | None:
     if isinstance(given, (schema.SpeedRange, schema.HeightRange)):
         return given.spread(given.first, given.last, given.count)
     return tuple(given)
-
-
-def _at(error: InputError, path: str) -> InputError:
-    fault = error.fault
-    return InputError(fault.message, path=path, allowed=fault.allowed, remedy=fault.remedy)

@@ -6,9 +6,8 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from moyai.case.check_sea import check_file, check_surroundings, check_waves
-from moyai.case.faults import did_you_mean
-from moyai.case.findings import Findings, duplicates
+from moyai.case.check_sea import check_file, check_level_names, check_surroundings, check_waves
+from moyai.case.findings import Findings
 from moyai.case.schema_environment import PeriodRange
 from moyai.case.yaml_reader import KeyPath
 from moyai.core.errors import InputError
@@ -126,18 +125,7 @@ def _value(block: Any, keys: tuple[str, ...]) -> Any:
 
 
 def _check_settings(model: CurtainCase, findings: Findings) -> None:
-    chosen = model.settings.water_levels
-    if not isinstance(chosen, str):
-        for index, name in enumerate(chosen):
-            if name not in model.site.water_levels:
-                findings.fault(
-                    ("settings", "water_levels", index),
-                    f"there is no water level '{name}'",
-                    allowed=", ".join(model.site.water_levels),
-                    remedy=did_you_mean(name, model.site.water_levels),
-                )
-        for index in duplicates(chosen):
-            findings.fault(("settings", "water_levels", index), f"'{chosen[index]}' stands twice", remedy="remove one")
+    check_level_names(model, findings)
     for key in ("speeds", "heights"):
         values = getattr(model.settings.limits, key)
         if hasattr(values, "first") and values.first >= values.last:

@@ -38,28 +38,8 @@ def _once(findings: Findings, said: set[str], error: InputError, where: str) -> 
     if fault.message in said:
         return
     said.add(fault.message)
-    path = findings.path_of(fault.path) or _place(fault.path) or ("structure",)
+    path = findings.path_of(fault.path) or ("structure",)
     findings.fault(path, f"{fault.message}{where}", allowed=fault.allowed, remedy=fault.remedy)
-
-
-_PLACES: dict[str, KeyPath] = {
-    "skirt.toe_load": ("structure", "toe"),
-    "skirt.length": ("structure", "skirt", "length"),
-    "skirt.stiffness": ("structure", "skirt"),
-    "skirt.chord": ("settings", "impact", "chord"),
-    "plan.flow_angle": ("current",),
-    "plan.load": ("current",),
-    "plan.length": ("structure", "length"),
-    "length": ("structure", "length"),
-    "draught": ("settings", "impact", "draught"),
-    "position": ("settings", "impact", "release_position"),
-    "floats.buoyancy": ("structure", "floats", "buoyancy"),
-}
-
-
-def _place(path: str) -> KeyPath:
-    """Return where in a case file the solvers' names stand."""
-    return _PLACES.get(path, ())
 
 
 def _check_span(problem: CurtainProblem, unit: LevelCurtain) -> None:

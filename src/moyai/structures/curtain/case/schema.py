@@ -14,6 +14,7 @@ from moyai.case.schema_display import DISPLAY, Display
 from moyai.case.schema_environment import Current, SeaState, Site, refuse_no_seas
 from moyai.case.schema_measured import MEASURED, MeasuredSets
 from moyai.case.schema_types import (
+    LEVEL_NAMES,
     Auto,
     AutoDuration,
     AxialStiffness,
@@ -23,8 +24,8 @@ from moyai.case.schema_types import (
     Heading,
     KeyGroups,
     Length,
+    LevelNames,
     Mass,
-    Name,
     OneOrMany,
     PositiveForce,
     PositiveLength,
@@ -289,9 +290,10 @@ class Impact(Block):
         description="Speed when the curtain becomes taut: the current's (the paper), or that of a drift from release.",
     )
     start_speed: PositiveSpeed | None = Field(default=None, description="That speed itself, in place of 'start'.")
-    release_position: Length = Field(
-        default=0.0,
-        description="Mid-span when the curtain is let go, downstream of the line between the supports. Default: 0.",
+    release_position: Length | None = Field(
+        default=None,
+        description="Mid-span when the curtain is let go, downstream of the line between the supports; absent: on that "
+        "line, and the band of the impact reaches up to the speed of the current.",
     )
     draught: PositiveLength | None = Field(
         default=None, description="Of the equivalent flat plate; absent: the skirt's length."
@@ -515,10 +517,7 @@ class CurtainSettings(Block):
     least_effective_depth: Annotated[float, QuantityOf(quantities.LENGTH, least=0.0)] = Field(
         default=0.0, description="Effective depth that must be kept. Default: 0."
     )
-    water_levels: Annotated[
-        Annotated[Literal["all"], Tag("<word>")] | Annotated[tuple[Name, ...], Field(min_length=1), Tag("<list>")],
-        Discriminator(_form),
-    ] = Field(default="all", description="Water levels to run: all, or a list of names.")
+    water_levels: LevelNames = Field(default="all", description=LEVEL_NAMES)
 
 
 class Record(Block):

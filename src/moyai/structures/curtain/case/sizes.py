@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from moyai.case.plausible_sizes import Sizes
+from moyai.case.plausible_sizes import Periods, Sizes
 from moyai.case.yaml_reader import KeyPath
 
 _DENSITY: KeyPath = ("site", "density")
 _GRAVITY: KeyPath = ("site", "gravity")
 
 
-def add_sizes(model: Any, sizes: Sizes) -> None:
+def add_sizes(model: Any, sizes: Sizes, periods: Periods) -> None:
     """Add the sizes of skirt and span, each with the keys that it follows from."""
     unit, site = model.structure, model.site
     skirt: KeyPath = ("structure", "skirt", "length")

@@ -135,7 +135,7 @@ def _gathered(shape: Array, arc: Array, release: float) -> Array:
         For a share outside of 0 to 1.
     """
     if not 0.0 <= release < 1.0:
-        raise InputError(f"release is {release:g}", path="release", allowed="0 or more, below 1")
+        raise InputError(f"release is {release:g}", parameter="release", allowed="0 or more, below 1")
     # between two shapes whose cells are not longer than the cable lies one whose cells are not longer either
     line = np.zeros_like(shape)
     line[:, 1] = shape[0, 1] + (shape[-1, 1] - shape[0, 1]) * arc / arc[-1]
@@ -175,7 +175,7 @@ def _hang(span: CurtainSpan, section: SectionMesh, water: Water, weight: bool) -
     if lift <= whole:
         raise InputError(
             f"the floats lift {lift:g} N/m, curtain and ballast weigh {whole:g} N/m",
-            path="structure.floats.buoyancy",
+            parameter="floats.buoyancy",
             allowed=f"more than {whole:g} N/m",
             remedy="give larger floats or a lighter toe",
         )

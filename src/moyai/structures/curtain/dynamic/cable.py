@@ -72,11 +72,13 @@ def dynamic_cable(
     """
     shape = taut_shape(impact.span_ratio)
     if shape == 0.0:
-        raise InputError("the cable is as long as its span: it has no sag", path="length", allowed="more than the span")
+        raise InputError(
+            "the cable is as long as its span: it has no sag", parameter="length", allowed="more than the span"
+        )
     if segments < 4:
-        raise InputError(f"{segments} segments", path="segments", allowed="4 or more")
+        raise InputError(f"{segments} segments", parameter="segments", allowed="4 or more")
     if not (math.isfinite(own_mass) and own_mass > 0.0):
-        raise InputError(f"own mass is {own_mass:g} kg/m", path="own_mass", allowed="greater than 0")
+        raise InputError(f"own mass is {own_mass:g} kg/m", parameter="own_mass", allowed="greater than 0")
     moved = moved_mass(impact, mass)
     scale, cell = 0.5 * impact.span / shape, impact.length / segments
     arc = np.linspace(-0.5 * impact.length, 0.5 * impact.length, segments + 1)
@@ -105,7 +107,7 @@ def dynamic_cable(
     rise = peak_by_energy(impact, moved).time
     history = simulate(network, duration=rises * rise, output_step=rise / 200.0, start=State(0.0, place, speed))
     if history.status != "converged":
-        raise ConvergenceError(history.message, path="dynamic_cable")
+        raise ConvergenceError(history.message, parameter="dynamic_cable")
     highest = history.tension_peak.max(axis=1)
     total = history.kinetic_energy + history.elastic_energy
     drift = float(np.max(np.abs(total / total[0] - 1.0)))

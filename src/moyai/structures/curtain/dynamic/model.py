@@ -107,7 +107,7 @@ class CurtainSpan:
         for name in positive:
             value = getattr(self, name)
             if not (math.isfinite(value) and value > 0.0):
-                raise InputError(f"{name} is {value:g}", path=f"span.{name}", allowed="greater than 0, finite")
+                raise InputError(f"{name} is {value:g}", parameter=f"span.{name}", allowed="greater than 0, finite")
         rest = (
             "lower_stiffness", "lower_volume", "span_stiffness", "shear_stiffness", "sheet_volume", "drag_coefficient",
             "float_volume", "float_height",
@@ -115,25 +115,27 @@ class CurtainSpan:
         for name in rest:
             value = getattr(self, name)
             if not (math.isfinite(value) and value >= 0.0):
-                raise InputError(f"{name} is {value:g}", path=f"span.{name}", allowed="0 or more, finite")
+                raise InputError(f"{name} is {value:g}", parameter=f"span.{name}", allowed="0 or more, finite")
         if self.length <= self.span:
             raise InputError(
                 f"the curtain of {self.length:g} m is not longer than its span of {self.span:g} m",
-                path="span.length",
+                parameter="span.length",
                 allowed=f"more than {self.span:g} m",
                 remedy="a curtain without slack does not snap; statics takes it",
             )
         if self.chord > self.skirt_length * (1.0 + _TIGHT):
             raise InputError(
                 f"the chord of {self.chord:g} m is longer than the skirt of {self.skirt_length:g} m",
-                path="span.chord",
+                parameter="span.chord",
                 allowed=f"at most {self.skirt_length:g} m",
             )
         if self.float_volume > 0.0 and self.float_height <= 0.0:
-            raise InputError("floats without height", path="span.float_height", allowed="greater than 0")
+            raise InputError("floats without height", parameter="span.float_height", allowed="greater than 0")
         if (self.span_stiffness > 0.0) != (self.shear_stiffness > 0.0) and self.shear_stiffness > 0.0:
             raise InputError(
-                "a shear stiffness without span stiffness", path="span.shear_stiffness", remedy="give both, or neither"
+                "a shear stiffness without span stiffness",
+                parameter="span.shear_stiffness",
+                remedy="give both, or neither",
             )
 
 
@@ -161,17 +163,19 @@ class Mesh:
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.normal_reach) and self.normal_reach >= 0.0):
-            raise InputError(f"normal_reach is {self.normal_reach:g}", path="mesh.normal_reach", allowed="0 or more")
+            raise InputError(
+                f"normal_reach is {self.normal_reach:g}", parameter="mesh.normal_reach", allowed="0 or more"
+            )
         if self.along < 4 or self.down < 2:
             raise InputError(
                 f"a mesh of {self.along} x {self.down} cells",
-                path="mesh",
+                parameter="mesh",
                 allowed="at least 4 along the span and 2 over the skirt",
             )
         for name in ("cable_viscosity", "skirt_damping_time"):
             value = getattr(self, name)
             if value is not None and not (math.isfinite(value) and value >= 0.0):
-                raise InputError(f"{name} is {value:g}", path=f"mesh.{name}", allowed="0 or more")
+                raise InputError(f"{name} is {value:g}", parameter=f"mesh.{name}", allowed="0 or more")
 
 
 @dataclass(frozen=True, eq=False)

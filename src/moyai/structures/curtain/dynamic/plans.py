@@ -108,7 +108,7 @@ def _snap_plan(
     if not speed > 0.0:
         raise InputError(
             "the analysis 'dynamic' needs waves, a current along the normal, or a start speed",
-            path="analyses",
+            parameter="analyses",
             remedy="give 'waves', 'current', or 'settings.impact.start_speed'",
         )
     lower = span.lower_stiffness if span.lower_stiffness > 0.0 else 1e-6 * span.upper_stiffness
@@ -120,7 +120,7 @@ def _snap_plan(
         if current is None or not unit.normal_speed > 0.0:
             raise InputError(
                 "a curtain let go at rest needs a current along its normal to become taut",
-                path="settings.dynamic.start",
+                parameter="settings.dynamic.start",
                 remedy="give 'current'",
             )
         sag = slack_sag(Impact(span.span, span.length, draught, span.upper_stiffness, lower, speed, unit.water))

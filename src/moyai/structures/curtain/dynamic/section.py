@@ -56,13 +56,13 @@ def section_mesh(length: float, chord: float, cells: int, depth: float, density:
         For a chord beyond the length, no cells, or a skirt that reaches the bed.
     """
     if cells < 1:
-        raise InputError(f"a skirt of {cells} cells", path="cells", allowed="1 or more")
+        raise InputError(f"a skirt of {cells} cells", parameter="cells", allowed="1 or more")
     if not 0.0 < chord <= length:
-        raise InputError(f"chord is {chord:g} m", path="chord", allowed=f"above 0, at most {length:g} m")
+        raise InputError(f"chord is {chord:g} m", parameter="chord", allowed=f"above 0, at most {length:g} m")
     if not length < depth:
         raise InputError(
             f"a skirt of {length:g} m in water {depth:g} m deep",
-            path="skirt.length",
+            parameter="skirt.length",
             allowed=f"less than {depth:g} m",
             remedy="sections of added mass end above the bed",
         )

@@ -24,13 +24,13 @@ def span_of(unit: LevelCurtain, settings: DynamicSettings) -> CurtainSpan:
     if math.isinf(skirt.stiffness):
         raise InputError(
             "the skirt does not stretch: dynamics needs its stiffness",
-            path="structure.skirt.stiffness",
+            parameter="skirt.stiffness",
             allowed="a stiffness",
         )
     if settings.sheet_mass is None:
         raise InputError(
             "the mass of the sheet is not known",
-            path="settings.dynamic.sheet_mass",
+            parameter="settings.dynamic.sheet_mass",
             remedy="give it, or 'mass_per_area' with 'sheet_density' or 'film' in 'structure.skirt'",
         )
     volume = settings.sheet_volume
@@ -39,13 +39,13 @@ def span_of(unit: LevelCurtain, settings: DynamicSettings) -> CurtainSpan:
     if volume < 0.0:
         raise InputError(
             f"a sheet of {settings.sheet_mass:g} kg/m2 cannot weigh {skirt.submerged_weight:g} N/m2 under water",
-            path="settings.dynamic.sheet_mass",
+            parameter="settings.dynamic.sheet_mass",
             allowed=f"at least {skirt.submerged_weight / g:.4g} kg/m2",
         )
     if not settings.ballast_density > water.density:
         raise InputError(
             f"ballast of {settings.ballast_density:g} kg/m3 floats",
-            path="settings.dynamic.ballast_density",
+            parameter="settings.dynamic.ballast_density",
             allowed=f"more than {water.density:g} kg/m3",
         )
     ballast = skirt.toe_load / g / (1.0 - water.density / settings.ballast_density)
@@ -54,7 +54,7 @@ def span_of(unit: LevelCurtain, settings: DynamicSettings) -> CurtainSpan:
     if curtain.floats.weight <= 0.0:
         raise InputError(
             "floats and top cable have no weight: dynamics needs their mass",
-            path="structure.floats.weight",
+            parameter="floats.weight",
             allowed="greater than 0",
         )
     held = curtain.toe == "held"
@@ -88,12 +88,12 @@ def _support(unit: LevelCurtain, settings: DynamicSettings) -> AnchoredSupport |
     if settings.support_mass is None:
         raise InputError(
             "the buoys of anchored supports need their mass",
-            path="settings.dynamic.support_mass",
+            parameter="settings.dynamic.support_mass",
             remedy="give the mass of one buoy with its added mass, or leave 'structure.anchors' out for fixed supports",
         )
     if not math.isfinite(anchors.stiffness):
         raise InputError(
-            "the stiffness of the anchor lines is not known", path="structure.anchors", remedy="give 'axial_stiffness'"
+            "the stiffness of the anchor lines is not known", parameter="anchors", remedy="give 'axial_stiffness'"
         )
     pretension = anchors.pretension
     return AnchoredSupport(

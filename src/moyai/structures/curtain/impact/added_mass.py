@@ -58,7 +58,7 @@ def flat_skirt_mass(draught: float, water: Water) -> PlateMass:
         return np.asarray(-normals[:, 0] * points[:, 1] / draught)
 
     if not (math.isfinite(draught) and draught > 0.0):
-        raise InputError(f"draught is {draught:g} m", path="draught", allowed="greater than 0")
+        raise InputError(f"draught is {draught:g} m", parameter="draught", allowed="greater than 0")
     found = solve_plate_limit(Plate((0.0, 0.0), (0.0, -draught)), water, (upper, lower)).added_mass
     return PlateMass(float(found[0, 0]), 0.5 * float(found[0, 1] + found[1, 0]), float(found[1, 1]))
 
@@ -86,7 +86,7 @@ class ArcMass:
         f = np.asarray(sagitta, dtype=float) / self.chord
         if np.any(f < 0.0) or np.any(f > LARGEST_SAGITTA) or not np.all(np.isfinite(f)):
             raise InputError(
-                f"sagitta over chord is {np.max(f):.3g}", path="sagitta", allowed=f"0 to {LARGEST_SAGITTA}"
+                f"sagitta over chord is {np.max(f):.3g}", parameter="sagitta", allowed=f"0 to {LARGEST_SAGITTA}"
             )
         return np.asarray(np.polynomial.chebyshev.chebval(2.0 * f / LARGEST_SAGITTA - 1.0, self.coefficients.T))
 
@@ -108,11 +108,11 @@ def arc_skirt_mass(chord: float, water: Water) -> ArcMass:
         When the chord is not positive or deeper than the water.
     """
     if not (math.isfinite(chord) and chord > 0.0):
-        raise InputError(f"chord is {chord:g} m", path="chord", allowed="greater than 0")
+        raise InputError(f"chord is {chord:g} m", parameter="chord", allowed="greater than 0")
     if chord >= water.depth:
         raise InputError(
             f"the skirt's chord is {chord:g} m in water {water.depth:g} m deep",
-            path="chord",
+            parameter="chord",
             allowed=f"less than {water.depth:g} m",
             remedy="the impact models take a skirt that is clear of the bed",
         )

@@ -54,18 +54,18 @@ class Impact:
         for name in ("span", "length", "draught", "upper_stiffness", "lower_stiffness", "speed"):
             value = getattr(self, name)
             if not (math.isfinite(value) and value > 0.0):
-                raise InputError(f"{name} is {value:g}", path=name, allowed="greater than 0, finite")
+                raise InputError(f"{name} is {value:g}", parameter=name, allowed="greater than 0, finite")
         if self.length < self.span:
             raise InputError(
                 f"length is {self.length:g} m, shorter than the span of {self.span:g} m: the cable is never slack",
-                path="length",
+                parameter="length",
                 allowed=f"at least {self.span:g} m",
                 remedy="the static solution takes a shorter cable, as pretension",
             )
         if self.draught >= self.water.depth:
             raise InputError(
                 f"draught is {self.draught:g} m in water {self.water.depth:g} m deep",
-                path="draught",
+                parameter="draught",
                 allowed=f"less than {self.water.depth:g} m",
             )
 
@@ -108,7 +108,7 @@ def moved_mass(impact: Impact, mass: float | None) -> float:
     if mass is None:
         return impact.deep_mass
     if not (math.isfinite(mass) and mass > 0.0):
-        raise InputError(f"mass is {mass:g} kg/m", path="mass", allowed="greater than 0, finite")
+        raise InputError(f"mass is {mass:g} kg/m", parameter="mass", allowed="greater than 0, finite")
     return float(mass)
 
 
@@ -149,9 +149,9 @@ def sweep_peaks(span: ArrayLike, length: ArrayLike, stiffness: ArrayLike, speed:
     parts = np.broadcast_arrays(*(np.asarray(v, dtype=float) for v in (span, length, stiffness, speed, mass)))
     for name, values in zip(("span", "length", "stiffness", "speed", "mass"), parts):
         if not (np.isfinite(values).all() and (values > 0.0).all()):
-            raise InputError(f"{name} contains {values.min():g}", path=name, allowed="greater than 0, finite")
+            raise InputError(f"{name} contains {values.min():g}", parameter=name, allowed="greater than 0, finite")
     if (parts[1] < parts[0]).any():
-        raise InputError("a length is shorter than its span", path="length", allowed="at least the span")
+        raise InputError("a length is shorter than its span", parameter="length", allowed="at least the span")
     out = np.empty((parts[0].size, 4))
     energy_peaks(*(np.array(values).ravel() for values in parts), out)
     return out.reshape(*parts[0].shape, 4)
@@ -167,7 +167,7 @@ def speed_factor(span_ratio: ArrayLike) -> Array:
     """
     ratio = np.asarray(span_ratio, dtype=float)
     if not (np.all(ratio > 0.0) and np.all(ratio <= 1.0)):
-        raise InputError("span_ratio is out of range", path="span_ratio", allowed="0 < R <= 1")
+        raise InputError("span_ratio is out of range", parameter="span_ratio", allowed="0 < R <= 1")
     out = np.empty(ratio.shape)
     for index in np.ndindex(ratio.shape):
         b = taut_shape(float(ratio[index]))
@@ -294,9 +294,9 @@ def edge_impact(
     from scipy.integrate import solve_ivp
 
     if duration is not None and not (math.isfinite(duration) and duration > 0.0):
-        raise InputError(f"duration is {duration:g} s", path="duration", allowed="greater than 0, finite")
+        raise InputError(f"duration is {duration:g} s", parameter="duration", allowed="greater than 0, finite")
     if samples < 2:
-        raise InputError(f"samples is {samples}", path="samples", allowed="at least 2")
+        raise InputError(f"samples is {samples}", parameter="samples", allowed="at least 2")
     plate = flat_skirt_mass(impact.draught, impact.water if finite_depth else impact.water.with_depth(math.inf))
     inverse = np.linalg.inv(plate.matrix)
     taut = taut_shape(impact.span_ratio)
@@ -346,7 +346,9 @@ def impact_numbers(impact: Impact, tension: float) -> ImpactNumbers:
     """
     water = impact.water
     if math.isinf(water.depth):
-        raise InputError("the depth is infinite", path="water.depth", allowed="finite", remedy="Fr and C_E need it")
+        raise InputError(
+            "the depth is infinite", parameter="water.depth", allowed="finite", remedy="Fr and C_E need it"
+        )
     wave_speed = math.sqrt(water.gravity * water.depth)
     return ImpactNumbers(
         tension / (0.5 * water.density * impact.speed**2 * impact.span * impact.draught),

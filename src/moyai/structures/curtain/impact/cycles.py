@@ -113,53 +113,19 @@ def slack_taut_motion(
     numbers = {"period": period, "duration": duration, "time_step": 1.0 if time_step is None else time_step}
     for name, value in numbers.items():
         if not (math.isfinite(value) and value > 0.0):
-            raise InputError(f"{name} is {value:g} s", path=name, allowed="greater than 0")
+            raise InputError(f"{name} is {value:g} s", parameter=name, allowed="greater than 0")
     if not (math.isfinite(velocity_amplitude) and velocity_amplitude >= 0.0):
         raise InputError(
-            f"velocity_amplitude is {velocity_amplitude:g}", path="velocity_amplitude", allowed="0 or more"
+            f"velocity_amplitude is {velocity_amplitude:g}", parameter="velocity_amplitude", allowed="0 or more"
         )
     if not math.isfinite(current):
-        raise InputError("current is not finite", path="current", allowed="a number")
+        raise InputError("current is not finite", parameter="current", allowed="a number")
     step = min(period / 400.0, _TAUT_SHARE * rise_time(impact)) if time_step is None else time_step
     check_samples(duration, step)
     omega = 2.0 * math.pi / period
     phase = omega * step * np.arange(max(1, math.ceil(duration / step - 1e-9)) + 1)
     flow = np.stack([current + velocity_amplitude * np.sin(phase), velocity_amplitude * omega * np.cos(phase)], axis=1)
     return simulate_in_flow(impact, drag_coefficient, flow, step, start, mass=mass, mean_speed=current)
-
-
-def slack_taut_in_flow(
-    impact: Impact, drag_coefficient: float, flow: ArrayLike, time_step: float, start: tuple[float, float]
-) -> SlackTautMotion:
-    """Solve the same in a flow given at every half step of the series.
-
-    Parameters
-    ----------
-    impact, drag_coefficient, start
-        As in :func:`slack_taut_motion`.
-    flow : array_like, shape (2 n + 1, 2)
-        Velocity [m/s] and acceleration [m/s2] of the water at every half step.
-    time_step : float
-        [s].
-
-    Raises
-    ------
-    InputError
-        When the flow has another shape or is not finite.
-    """
-    given = np.asarray(flow, dtype=float)
-    if given.ndim != 2 or given.shape[1] != 2 or len(given) % 2 == 0 or not np.isfinite(given).all():
-        raise InputError(
-            f"flow has shape {given.shape} or is not finite", path="flow", allowed="(2 n + 1, 2): every half step"
-        )
-    fine = simulate_in_flow(impact, drag_coefficient, given, 0.5 * time_step, start)
-    return SlackTautMotion(
-        fine.time[::2].copy(),
-        fine.position[::2].copy(),
-        fine.speed[::2].copy(),
-        fine.tension[::2].copy(),
-        fine.contacts,
-    )
 
 
 def simulate_in_flow(
@@ -201,16 +167,18 @@ def simulate_in_flow(
     """
     given = np.ascontiguousarray(flow, dtype=float)
     if given.ndim != 2 or given.shape[1:] != (2,) or len(given) < 2 or not np.isfinite(given).all():
-        raise InputError(f"flow has shape {given.shape} or is not finite", path="flow", allowed="(n + 1, 2), finite")
+        raise InputError(
+            f"flow has shape {given.shape} or is not finite", parameter="flow", allowed="(n + 1, 2), finite"
+        )
     longest = _TAUT_SHARE * rise_time(impact) if taut_step is None else taut_step
     moved = impact.deep_mass if mass is None else float(mass)
     for name, value in {"time_step": time_step, "taut_step": longest, "mass": moved}.items():
         if not (math.isfinite(value) and value > 0.0):
-            raise InputError(f"{name} is {value:g}", path=name, allowed="greater than 0")
+            raise InputError(f"{name} is {value:g}", parameter=name, allowed="greater than 0")
     if not (math.isfinite(drag_coefficient) and drag_coefficient >= 0.0):
-        raise InputError(f"drag_coefficient is {drag_coefficient:g}", path="drag_coefficient", allowed="0 or more")
+        raise InputError(f"drag_coefficient is {drag_coefficient:g}", parameter="drag_coefficient", allowed="0 or more")
     if not (math.isfinite(start[0]) and math.isfinite(start[1])):
-        raise InputError("start is not finite", path="start", allowed="position [m] and speed [m/s]")
+        raise InputError("start is not finite", parameter="start", allowed="position [m] and speed [m/s]")
     taut = taut_shape(impact.span_ratio)
     cable = np.array([impact.span, impact.span_ratio, taut, impact.stiffness, slack_sag(impact)])
     drag = 0.5 * impact.water.density * drag_coefficient * impact.draught

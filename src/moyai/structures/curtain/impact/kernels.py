@@ -12,21 +12,10 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.compiled import njit
+from moyai.structures.curtain.statics.closed_forms import sinh_excess
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
 _TIME_NODES, _TIME_WEIGHTS = np.polynomial.legendre.leggauss(32)
-
-
-@njit(cache=True, error_model="numpy")
-def _excess(b: float) -> float:
-    """sinh(b)/b - 1."""
-    if b > 1.0:
-        return math.sinh(b) / b - 1.0
-    square = b * b
-    total = 0.0
-    for n in range(10, 0, -1):
-        total = square / ((2 * n) * (2 * n + 1)) * (1.0 + total)
-    return total
 
 
 @njit(cache=True, error_model="numpy")
@@ -52,8 +41,8 @@ def taut_shape(span_ratio: float) -> float:
         return 0.0
     b = min(math.sqrt(6.0 * lack), 2.0 + 2.0 * math.log(1.0 + lack))
     for _ in range(100):
-        slope = (math.cosh(b) - 1.0 - _excess(b)) / b
-        step = (_excess(b) - lack) / slope
+        slope = (math.cosh(b) - 1.0 - sinh_excess(b)) / b
+        step = (sinh_excess(b) - lack) / slope
         b = max(b - step, 0.1 * b)
         if abs(step) <= 4e-16 * b:
             break
@@ -78,7 +67,7 @@ def spring(displacement: float, span: float, span_ratio: float, taut: float, sti
     if displacement <= 0.0:
         return 0.0, 0.0
     b = shape_of_sag(sag_ratio(taut) + 2.0 * displacement / span, taut)
-    tension = stiffness * span_ratio * (_excess(b) - _excess(taut))
+    tension = stiffness * span_ratio * (sinh_excess(b) - sinh_excess(taut))
     return tension * 2.0 * b / span, tension
 
 
@@ -89,7 +78,7 @@ def _work(b: float, span: float, span_ratio: float, taut: float, stiffness: floa
     total = 0.0
     for i in range(_NODES.size):
         x = taut + half * (1.0 + _NODES[i])
-        load = stiffness * span_ratio * (_excess(x) - _excess(taut)) * 2.0 * x / span
+        load = stiffness * span_ratio * (sinh_excess(x) - sinh_excess(taut)) * 2.0 * x / span
         total += _WEIGHTS[i] * load * _sag_slope(x)
     return total * half * 0.5 * span
 
@@ -108,13 +97,13 @@ def energy_peak(
         b = taut + 2.0 * (b - taut)
     for _ in range(100):
         work = _work(b, span, ratio, taut, stiffness)
-        load = stiffness * ratio * (_excess(b) - _excess(taut)) * 2.0 * b / span
+        load = stiffness * ratio * (sinh_excess(b) - sinh_excess(taut)) * 2.0 * b / span
         # Newton on the square root of the work, which is nearly straight
         step = 2.0 * (work - math.sqrt(work * energy)) / (load * _sag_slope(b) * 0.5 * span)
         b -= step
         if abs(step) <= 1e-15 * b:
             break
-    tension = stiffness * ratio * (_excess(b) - _excess(taut))
+    tension = stiffness * ratio * (sinh_excess(b) - sinh_excess(taut))
     furthest = 0.5 * span * (sag_ratio(b) - sag_ratio(taut))
     # Time by displacement = furthest sin(angle): the speed at the peak vanishes like cos(angle)
     time = 0.0
@@ -312,9 +301,9 @@ def load_table(span: float, span_ratio: float, taut: float, stiffness: float, ou
     for i in range(out.shape[0]):
         sag = sag_ratio(taut) + 2.0 * out[i, 0] / span
         b = shape_of_sag(sag, taut) if sag > 0.0 else 0.0
-        tension = stiffness * span_ratio * (_excess(b) - _excess(taut))
+        tension = stiffness * span_ratio * (sinh_excess(b) - sinh_excess(taut))
         # d excess/db = (cosh b - 1 - excess)/b = (cosh b - sinh(b)/b)/b
-        widening = (math.cosh(b) - 1.0 - _excess(b)) / b if b > 1e-4 else b / 3.0
+        widening = (math.cosh(b) - 1.0 - sinh_excess(b)) / b if b > 1e-4 else b / 3.0
         rate = stiffness * span_ratio * widening * b + tension
         out[i, 1] = tension * 2.0 * b / span
         out[i, 2] = rate * 2.0 / span / (_sag_slope(b) * 0.5 * span)

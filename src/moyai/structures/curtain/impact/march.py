@@ -65,12 +65,12 @@ def march_impact(impact: Impact, *, time_step: float, duration: float, mass: flo
     """
     for name, value in (("time_step", time_step), ("duration", duration)):
         if not (math.isfinite(value) and value > 0.0):
-            raise InputError(f"{name} is {value:g} s", path=name, allowed="greater than 0")
+            raise InputError(f"{name} is {value:g} s", parameter=name, allowed="greater than 0")
     moved = moved_mass(impact, mass)
     if duration > _MOST_STEPS * time_step:
         raise InputError(
             f"a step of {time_step:g} s over {duration:.4g} s",
-            path="time_step",
+            parameter="time_step",
             allowed=f"at least {duration / _MOST_STEPS:.3g} s: {_MOST_STEPS} steps",
             remedy="the energy form needs no step",
         )

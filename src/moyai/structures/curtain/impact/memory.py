@@ -78,10 +78,12 @@ def memory_impact(impact: Impact, kernel: ArrayLike, time_step: float, mass: flo
     """
     given = np.ascontiguousarray(kernel, dtype=float)
     if given.ndim != 1 or given.size < 5 or not np.isfinite(given).all():
-        raise InputError(f"kernel has shape {given.shape} or is not finite", path="kernel", allowed="5 values or more")
+        raise InputError(
+            f"kernel has shape {given.shape} or is not finite", parameter="kernel", allowed="5 values or more"
+        )
     for name, value in (("time_step", time_step), ("mass", mass)):
         if not (math.isfinite(value) and value > 0.0):
-            raise InputError(f"{name} is {value:g}", path=name, allowed="greater than 0")
+            raise InputError(f"{name} is {value:g}", parameter=name, allowed="greater than 0")
     fine, series = _march(impact, given, time_step, mass)
     coarse, _ = _march(impact, np.ascontiguousarray(given[::2]), 2.0 * time_step, mass)
     # second order: a third of the change is left in the finer one
@@ -139,7 +141,7 @@ def impact_with_memory(impact: Impact) -> MemoryImpact:
             continue
     raise ConvergenceError(
         f"the tension still rises after {_LENGTHS[-1]:g} sqrt(d/g)",
-        path="stiffness",
+        parameter="stiffness",
         remedy="take stiffer cables; so slow a rise is a drift, not an impact",
     )
 
@@ -160,7 +162,7 @@ def _march(impact: Impact, kernel: Array, step: float, mass: float) -> tuple[tup
     if not turned.size:
         raise ConvergenceError(
             f"no peak within the {step * (len(kernel) - 1):.3g} s of the kernel",
-            path="kernel",
+            parameter="kernel",
             remedy="give the kernel over a longer time",
         )
     n = int(turned[0])

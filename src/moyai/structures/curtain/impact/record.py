@@ -92,12 +92,12 @@ def compare_record(
         if value is not None and not (math.isfinite(value) and value > 0.0):
             raise InputError(
                 f"{name} is {value:g} N",
-                path=name,
+                parameter=name,
                 allowed="greater than 0",
                 remedy="check the sign of the gauges and the plateau",
             )
     if not (math.isnan(rise_time) or rise_time > 0.0):
-        raise InputError(f"rise_time is {rise_time:g} s", path="rise_time", allowed="greater than 0")
+        raise InputError(f"rise_time is {rise_time:g} s", parameter="rise_time", allowed="greater than 0")
     lines = []
     for item in comparison.models:
         lines.append(ModelError(item.model, item.tension, impact_tension, item.time, rise_time))

@@ -65,20 +65,20 @@ def slack_phase(
     moved = impact.deep_mass if mass is None else float(mass)
     for name, value in {"current": current, "position": position, "speed": speed, "mass": moved}.items():
         if not math.isfinite(value):
-            raise InputError(f"{name} is {value:g}", path=name, allowed="finite")
+            raise InputError(f"{name} is {value:g}", parameter=name, allowed="finite")
     if not (math.isfinite(drag_coefficient) and drag_coefficient >= 0.0):
-        raise InputError(f"drag_coefficient is {drag_coefficient:g}", path="drag_coefficient", allowed="0 or more")
+        raise InputError(f"drag_coefficient is {drag_coefficient:g}", parameter="drag_coefficient", allowed="0 or more")
     if sag == 0.0:
         raise InputError(
             "the cable is as long as its span: it is taut from the start",
-            path="length",
+            parameter="length",
             allowed=f"above {impact.span:g} m",
             remedy="give the speed at the taut instant",
         )
     if abs(position) >= sag:
         raise InputError(
             f"the curtain is let go {position:g} m from the line between the supports; it is taut there",
-            path="position",
+            parameter="position",
             allowed=f"between {-sag:.4g} and {sag:.4g} m",
             remedy="let it go nearer, or give the speed at the taut instant",
         )
@@ -110,7 +110,7 @@ def slack_phase(
             break
     raise InputError(
         "the curtain never becomes taut: neither current nor release carries it there",
-        path="current",
+        parameter="current",
         allowed="not 0, or a release fast enough",
         remedy="give a current, or the speed at the taut instant",
     )
@@ -182,13 +182,15 @@ def snap_in_current(
         impact, drag_coefficient=drag_coefficient, current=current, position=position, speed=speed, mass=mass
     )
     if not (current != 0.0 and drag_coefficient > 0.0):
-        raise InputError("a plateau needs current and drag", path="current", allowed="not 0, with drag_coefficient > 0")
+        raise InputError(
+            "a plateau needs current and drag", parameter="current", allowed="not 0, with drag_coefficient > 0"
+        )
     rise = rise_time(phase.started(impact))
     step = 0.04 * rise if time_step is None else time_step
     last = phase.duration + 40.0 * rise if duration is None else duration
     for name, value in {"duration": last, "time_step": step}.items():
         if not (math.isfinite(value) and value > 0.0):
-            raise InputError(f"{name} is {value:g} s", path=name, allowed="greater than 0")
+            raise InputError(f"{name} is {value:g} s", parameter=name, allowed="greater than 0")
     count = max(1, math.ceil(last / step - 1e-9))
     flow = np.zeros((count + 1, 2))
     flow[:, 0] = current
@@ -196,7 +198,7 @@ def snap_in_current(
     if not motion.contacts:
         raise InputError(
             f"the series of {last:g} s ends before the cable is taut at {phase.duration:.4g} s",
-            path="duration",
+            parameter="duration",
             allowed=f"above {phase.duration:.4g} s",
         )
     load = 0.5 * impact.water.density * drag_coefficient * impact.draught * current**2

@@ -50,11 +50,11 @@ class Skirt:
         for name in ("length", "chord", "stiffness"):
             value = getattr(self, name)
             if not (math.isfinite(value) and value > 0.0):
-                raise InputError(f"{name} is {value:g}", path=f"skirt.{name}", allowed="greater than 0, finite")
+                raise InputError(f"{name} is {value:g}", parameter=f"skirt.{name}", allowed="greater than 0, finite")
         if not LEAST_CHORD * self.length < self.chord < self.length:
             raise InputError(
                 f"chord is {self.chord:g} m of a skirt {self.length:g} m long",
-                path="skirt.chord",
+                parameter="skirt.chord",
                 allowed=f"between {LEAST_CHORD * self.length:.5g} and {self.length:g} m, both excluded",
                 remedy="the skirt must bulge, and less than a half circle",
             )
@@ -144,10 +144,10 @@ def skirt_impact(
     from scipy.integrate import solve_ivp
 
     if variant not in get_args(Variant):
-        raise InputError(f"variant is {variant}", path="variant", allowed=", ".join(get_args(Variant)))
+        raise InputError(f"variant is {variant}", parameter="variant", allowed=", ".join(get_args(Variant)))
     b = taut_shape(impact.span_ratio)
     if b == 0.0:
-        raise InputError("the cable is as long as its span: it holds no load without stretch", path="length")
+        raise InputError("the cable is as long as its span: it holds no load without stretch", parameter="length")
     mass = _arc_mass(impact, skirt, finite_depth)
     start = skirt.sagitta
     _, xf, ff = mass.at(start)
@@ -185,7 +185,7 @@ def skirt_impact(
     if not len(found.t_events[0]):
         raise InputError(
             "the skirt stretches beyond the range of the added mass before it stops",
-            path="skirt.stiffness",
+            parameter="skirt.stiffness",
             allowed=f"sagitta up to {LARGEST_SAGITTA} chords",
             remedy="take a stiffer skirt or a lower speed",
         )

@@ -47,7 +47,7 @@ class Strength:
         if not (self.capacity > 0.0 and self.safety_factor >= 1.0 and math.isfinite(self.safety_factor)):
             raise InputError(
                 f"capacity {self.capacity:g} with safety factor {self.safety_factor:g}",
-                path="strength",
+                parameter="strength",
                 allowed="capacity greater than 0, factor at least 1",
             )
 
@@ -88,7 +88,7 @@ class Requirements:
         if not 0.0 <= self.least_reserve < 1.0 or not self.least_depth >= 0.0:
             raise InputError(
                 f"least reserve {self.least_reserve:g}, least depth {self.least_depth:g} m",
-                path="requirements",
+                parameter="requirements",
                 allowed="reserve from 0 to below 1, depth at least 0",
             )
 
@@ -300,7 +300,7 @@ def speed_limit(
                 known[speed] = None
         statics = known[speed]
         if statics is None:
-            raise InputError(f"no equilibrium in {speed:g} m/s", path="current")
+            raise InputError(f"no equilibrium in {speed:g} m/s", parameter="current")
         return statics
 
     def worst(speed: float) -> tuple[float, str]:
@@ -327,7 +327,7 @@ def drowning_speed(curtain: HangingCurtain, site: Site, *, highest: float) -> fl
     if curtain.net_weight >= curtain.floats.buoyancy:
         raise InputError(
             f"floats of {curtain.floats.buoyancy:g} N/m under {curtain.net_weight:g} N/m",
-            path="floats.buoyancy",
+            parameter="floats.buoyancy",
             allowed=f"more than {curtain.net_weight:g} N/m",
             remedy="give larger floats or a lighter toe",
         )
@@ -466,6 +466,6 @@ def joint_spacing(tension_per_length: float, joint: Strength, longest: float = m
         Distance up to which it is of interest [m]; beyond it the distance is infinite: the joints set no limit.
     """
     if not tension_per_length > 0.0:
-        raise InputError(f"load is {tension_per_length:g} N/m", path="load", allowed="greater than 0")
+        raise InputError(f"load is {tension_per_length:g} N/m", parameter="load", allowed="greater than 0")
     found = joint.capacity / (joint.safety_factor * tension_per_length)
     return found if found <= longest else math.inf

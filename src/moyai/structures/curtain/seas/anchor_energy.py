@@ -58,7 +58,7 @@ class EnergyModel:
                 remedy = "give the float's mass per anchor rope; no value follows from the paper"
                 raise InputError(
                     f"{name} is {value:g}",
-                    path=f"energy_model.{name}",
+                    parameter=f"energy_model.{name}",
                     allowed="greater than 0",
                     remedy=remedy if name == "float_mass" else "",
                 )
@@ -90,7 +90,7 @@ class EnergyModel:
         """
         steady = np.asarray(pretension, dtype=np.float64)
         if not np.all(steady >= 0.0):
-            raise InputError(f"pretension is {np.min(steady):g} N", path="pretension", allowed="at least 0")
+            raise InputError(f"pretension is {np.min(steady):g} N", parameter="pretension", allowed="at least 0")
         speed = np.maximum(np.asarray(float_speed, dtype=np.float64), 0.0)
         energy = self.product * speed**2
         # sqrt(T^2 + e) - T without cancellation
@@ -194,19 +194,19 @@ def calibrate(
         For fewer than three observations, or numbers that are not positive.
     """
     if rule not in FITTING_RULES:
-        raise InputError(f"unknown rule {rule!r}", path="rule", allowed=", ".join(FITTING_RULES))
+        raise InputError(f"unknown rule {rule!r}", parameter="rule", allowed=", ".join(FITTING_RULES))
     rise, speed, steady = np.broadcast_arrays(
         np.asarray(observed, dtype=np.float64) / line_factor,
         np.asarray(float_speed, dtype=np.float64),
         np.asarray(pretension, dtype=np.float64),
     )
     if rise.ndim != 1 or rise.size < 3:
-        raise InputError(f"{rise.size} observations", path="observed", allowed="at least 3, in one list")
+        raise InputError(f"{rise.size} observations", parameter="observed", allowed="at least 3, in one list")
     for name, values, lowest in (("observed", rise, 0.0), ("float_speed", speed, 0.0), ("pretension", steady, -1e-300)):
         bad = ~(np.isfinite(values) & (values > lowest))
         if np.any(bad):
             row = int(np.argmax(bad)) + 1
-            raise InputError(f"row {row}: {name} is {values[row - 1]:g}", path=name, allowed="positive numbers")
+            raise InputError(f"row {row}: {name} is {values[row - 1]:g}", parameter=name, allowed="positive numbers")
     amplitude = np.sqrt(rise * (rise + 2.0 * steady))
     root = _root(rule, amplitude, speed)
     count = rise.size
@@ -251,7 +251,7 @@ def calibration_bounds(
     """
     fit = calibrate(observed, float_speed, pretension, line_factor=line_factor, rule=rule)
     if resamples < 50 or not 0.0 < confidence < 1.0:
-        raise InputError(f"{resamples} draws at {confidence:g}", path="resamples", allowed="at least 50, 0 to 1")
+        raise InputError(f"{resamples} draws at {confidence:g}", parameter="resamples", allowed="at least 50, 0 to 1")
     speed = np.broadcast_to(np.asarray(float_speed, dtype=np.float64), fit.observed.shape)
     rng = np.random.default_rng(seed)
     rows = rng.integers(0, fit.observed.size, (resamples, fit.observed.size))

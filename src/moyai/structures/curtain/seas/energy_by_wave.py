@@ -82,7 +82,7 @@ def calibrate_by_wave(
     least = _ABOVE_NOISE * np.asarray(noise, dtype=np.float64)[of] / line_factor
     usable = np.isfinite(rise) & (speed > 0.0)
     if not np.any(usable):
-        raise InputError("no wave has a tension and a speed", path="observed", allowed="waves with both")
+        raise InputError("no wave has a tension and a speed", parameter="observed", allowed="waves with both")
     high = usable & (speed >= np.percentile(speed[usable], 67.0))
     root, floor, chosen = float(np.median(rise[high] / speed[high])), 0.0, high
     rows: Array = np.empty((0, 5))
@@ -94,7 +94,8 @@ def calibrate_by_wave(
         if members.size < 3:
             raise InputError(
                 f"{members.size} blocks hold waves whose pull stands {_ABOVE_NOISE:g} times above the noise",
-                path="observed", allowed="at least 3 blocks", remedy="take higher seas, or a gauge with less noise",
+                parameter="observed", allowed="at least 3 blocks",
+                remedy="take higher seas, or a gauge with less noise",
             )  # fmt: skip
         terms = np.column_stack([np.ones(c.size), 1.0 / c, 1.0 / c**2, o / c, o / c**2])
         rows = np.array([np.bincount(place, weights=column) for column in terms.T]).T

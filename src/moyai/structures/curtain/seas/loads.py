@@ -50,7 +50,7 @@ class DragCurve:
         if speed > self.speed[-1]:
             raise InputError(
                 f"the curtain has no equilibrium in water that moves with {speed:.3g} m/s",
-                path="current",
+                parameter="current",
                 allowed=f"at most {self.speed[-1]:.3g} m/s",
             )
         return AddedLoads(*(float(value) for value in self._curve(speed)))
@@ -175,6 +175,8 @@ class SeaLoads:
     impact: ImpactLoad | None = None
     #: Slack and taut cycles, and how their tension goes to the components.
     snaps: tuple[CycleTable, ImpactLoad] | None = None
+    #: On the tension of the cycles [-].
+    snap_factor: float = 1.0
 
     def water_speed(self, significant_height: float, speed: float, water: Water) -> float:
         """Return the root of the squared velocity under the crest of the highest wave [m/s] [eq:curtain-wave-drag]."""
@@ -193,7 +195,7 @@ class SeaLoads:
         found = increase(self.drag.at(moving), statics)
         if self.snaps is not None:
             table, proportions = self.snaps
-            struck = proportions.of_tension(table.tension(speed, significant_height))
+            struck = proportions.of_tension(self.snap_factor * table.tension(speed, significant_height))
             if self.energy is not None:
                 # the energy model was fitted to anchor lines; fixed supports would overload them
                 struck = replace(struck, anchor_line=0.0)

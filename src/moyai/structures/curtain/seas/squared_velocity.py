@@ -57,18 +57,18 @@ def effective_height(
     """
     height, beta = np.asarray(significant_height, dtype=np.float64), np.asarray(angle, dtype=np.float64)
     if rule not in _RULES:
-        raise InputError(f"unknown direction rule {rule!r}", path="direction_rule", allowed=", ".join(_RULES))
+        raise InputError(f"unknown direction rule {rule!r}", parameter="direction_rule", allowed=", ".join(_RULES))
     if not (np.all(np.isfinite(beta)) and np.all(np.abs(beta) <= 0.5 * math.pi * (1.0 + 1e-12))):
         raise InputError(
             f"waves at {math.degrees(float(np.max(np.abs(beta)))):.4g} degrees from the normal of the curtain",
-            path="angle",
+            parameter="angle",
             allowed="at most 90 degrees",
             remedy="measure the angle from the other side of the curtain",
         )
     if not (np.all(np.isfinite(height)) and np.all(height >= 0.0)):
-        raise InputError(f"wave height is {np.min(height):g} m", path="significant_height", allowed="at least 0 m")
+        raise InputError(f"wave height is {np.min(height):g} m", parameter="significant_height", allowed="at least 0 m")
     if not (math.isfinite(height_ratio) and height_ratio > 0.0):
-        raise InputError(f"height ratio is {height_ratio:g}", path="height_ratio", allowed="greater than 0")
+        raise InputError(f"height ratio is {height_ratio:g}", parameter="height_ratio", allowed="greater than 0")
     values: Array = height_ratio * height * np.maximum(np.cos(beta), 0.0) ** _RULES[rule]
     return values
 
@@ -80,11 +80,11 @@ def _factors(period: ArrayLike, curtain_depth: ArrayLike, water: Water) -> tuple
     """
     time, d = np.asarray(period, dtype=np.float64), np.asarray(curtain_depth, dtype=np.float64)
     if not (np.all(np.isfinite(time)) and np.all(time > 0.0)):
-        raise InputError(f"period is {np.min(time):g} s", path="period", allowed="greater than 0 s")
+        raise InputError(f"period is {np.min(time):g} s", parameter="period", allowed="greater than 0 s")
     if not (np.all(d > 0.0) and np.all(d <= water.depth)):
         raise InputError(
             f"curtain depth is {np.max(d) if np.any(d > water.depth) else np.min(d):g} m in water of {water.depth:g} m",
-            path="curtain_depth",
+            parameter="curtain_depth",
             allowed=f"above 0 to {water.depth:g} m",
         )
     omega = 2.0 * math.pi / time
@@ -130,7 +130,7 @@ def squared_velocity(
     """
     high = np.asarray(height, dtype=np.float64)
     if not np.all(high >= 0.0):
-        raise InputError(f"height is {np.min(high):g} m", path="height", allowed="at least 0 m")
+        raise InputError(f"height is {np.min(high):g} m", parameter="height", allowed="at least 0 m")
     omega, squared, single, _ = _factors(period, curtain_depth, water)
     speed, u = 0.5 * high * omega, np.asarray(current)
     values: Array = speed**2 * squared + 2.0 * u * speed * single + u**2
@@ -179,7 +179,7 @@ def fit_proportional(squared: ArrayLike, tension: ArrayLike) -> ProportionalFit:
     x, y = np.asarray(squared, dtype=np.float64), np.asarray(tension, dtype=np.float64)
     if x.ndim != 1 or x.shape != y.shape or x.size < 3 or not np.any(x):
         raise InputError(
-            f"{x.size} and {y.size} values", path="squared", allowed="equal lists of at least 3, not all 0"
+            f"{x.size} and {y.size} values", parameter="squared", allowed="equal lists of at least 3, not all 0"
         )
     total = float(x @ x)
     factor = float(x @ y) / total

@@ -118,10 +118,10 @@ def snaps_in_sea(
         When a number is out of range or nothing is left after the transient.
     """
     if not (math.isfinite(slowest) and slowest >= 0.0):
-        raise InputError(f"slowest is {slowest:g} m/s", path="slowest", allowed="0 or more")
+        raise InputError(f"slowest is {slowest:g} m/s", parameter="slowest", allowed="0 or more")
     last = float(flow.time[-1])
     if not 0.0 <= transient < last:
-        raise InputError(f"transient is {transient:g} s", path="transient", allowed=f"0 to less than {last:g} s")
+        raise InputError(f"transient is {transient:g} s", parameter="transient", allowed=f"0 to less than {last:g} s")
     motion = simulate_in_flow(
         impact,
         drag_coefficient,
@@ -232,5 +232,5 @@ def suggested_time_step(peak_period: float) -> float:
     Contacts need no finer one; they are located in time and stepped through by the oscillator.
     """
     if not (math.isfinite(peak_period) and peak_period > 0.0):
-        raise InputError(f"peak_period is {peak_period:g} s", path="peak_period", allowed="greater than 0")
+        raise InputError(f"peak_period is {peak_period:g} s", parameter="peak_period", allowed="greater than 0")
     return peak_period / 160.0

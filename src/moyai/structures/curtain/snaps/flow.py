@@ -36,7 +36,7 @@ def check_samples(duration: float, time_step: float) -> None:
         raise InputError(
             f"a series of {duration:.4g} s in steps of {time_step:.3g} s has more than {MOST_SAMPLES // 10**6} million "
             "samples",
-            path="time_step",
+            parameter="time_step",
             allowed=f"at least {duration / MOST_SAMPLES:.3g} s",
             remedy="shorten the series, or take longer steps",
         )
@@ -131,21 +131,25 @@ def flow_over_skirt(
     """
     for name, value in {"draught": draught, "duration": duration, "time_step": time_step}.items():
         if not (math.isfinite(value) and value > 0.0):
-            raise InputError(f"{name} is {value:g}", path=name, allowed="greater than 0")
+            raise InputError(f"{name} is {value:g}", parameter=name, allowed="greater than 0")
     if draught > water.depth:
         raise InputError(
             f"draught is {draught:g} m in water {water.depth:g} m deep",
-            path="draught",
+            parameter="draught",
             allowed=f"at most {water.depth:g} m",
         )
     if velocity not in get_args(SkirtVelocity):
-        raise InputError(f"unknown velocity {velocity!r}", path="velocity", allowed=", ".join(get_args(SkirtVelocity)))
+        raise InputError(
+            f"unknown velocity {velocity!r}", parameter="velocity", allowed=", ".join(get_args(SkirtVelocity))
+        )
     if not (math.isfinite(span) and span >= 0.0 and math.isfinite(normal_heading)):
-        raise InputError("span or normal_heading is out of range", path="span", allowed="0 or more, finite")
+        raise InputError("span or normal_heading is out of range", parameter="span", allowed="0 or more, finite")
     check_samples(duration, time_step)
     time = time_step * np.arange(math.ceil(duration / time_step - 1e-9) + 1, dtype=np.float64)
     if len(time) < 4:
-        raise InputError("the series has fewer than four times", path="time_step", allowed=f"below {duration / 3:g} s")
+        raise InputError(
+            "the series has fewer than four times", parameter="time_step", allowed=f"below {duration / 3:g} s"
+        )
     sigma = np.asarray(sea.intrinsic_omega)
     across = np.sin(sea.heading - normal_heading) * sea.wave_number * 0.5 * span
     # waves at the middle, averaged along the span; sinc(x) = sin(pi x)/(pi x)
@@ -169,7 +173,7 @@ def _steady(current: CurrentProfile | float, draught: float, normal_heading: flo
         part = np.asarray(mean, dtype=np.float64).reshape(-1)
         return float(part[0] * math.cos(normal_heading) + part[1] * math.sin(normal_heading))
     if not math.isfinite(current):
-        raise InputError(f"current is {current:g} m/s", path="current", allowed="a number or a profile")
+        raise InputError(f"current is {current:g} m/s", parameter="current", allowed="a number or a profile")
     return float(current)
 
 
@@ -180,7 +184,7 @@ def _stretched(
     if float(elevation.min()) <= draught - water.depth:
         raise InputError(
             f"a trough of {elevation.min():.3g} m sets the skirt of {draught:g} m on the bed",
-            path="draught",
+            parameter="draught",
             allowed=f"less than {water.depth + elevation.min():.4g} m",
             remedy="take skirt_mean, or a shorter skirt",
         )

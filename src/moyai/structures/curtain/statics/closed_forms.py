@@ -127,15 +127,17 @@ def _arc_half_angles(chord_ratio: Array, stiffness_ratio: Array, out: Array) -> 
 def _ratios(ratio: ArrayLike, stiffness_ratio: ArrayLike, name: str) -> tuple[Array, Array]:
     r, e = np.broadcast_arrays(np.asarray(ratio, dtype=np.float64), np.asarray(stiffness_ratio, dtype=np.float64))
     if not (np.all(np.isfinite(r)) and np.all(r > 0.0)):
-        raise InputError(f"{name} is {np.min(r):g}", path=name, allowed="greater than 0, finite")
+        raise InputError(f"{name} is {np.min(r):g}", parameter=name, allowed="greater than 0, finite")
     if not np.all(e > 0.0):
         raise InputError(
-            f"stiffness ratio is {np.min(e):g}", path="stiffness_ratio", allowed="greater than 0; infinite: no stretch"
+            f"stiffness ratio is {np.min(e):g}",
+            parameter="stiffness_ratio",
+            allowed="greater than 0; infinite: no stretch",
         )
     if np.any(np.isinf(e) & (r >= 1.0)):
         raise InputError(
             f"{name} is {np.max(r[np.isinf(e)]):g} without stretch: the tension has no bound",
-            path=name,
+            parameter=name,
             allowed="less than 1 where nothing stretches",
             remedy="give more length than the straight line, or the stiffness",
         )
@@ -195,7 +197,7 @@ def arc_half_angle(chord_ratio: ArrayLike, stiffness_ratio: ArrayLike = np.inf) 
     if np.any(e <= 0.5 / math.pi):
         raise InputError(
             f"stiffness ratio is {np.min(e):g}: the skirt stretches beyond a full circle and holds no pressure",
-            path="stiffness_ratio",
+            parameter="stiffness_ratio",
             allowed=f"greater than {0.5 / math.pi:.4f}",
             remedy="give a stiffer skirt or a lower pressure",
         )
@@ -374,4 +376,4 @@ def solve_skirt_arc(
 def _require_positive(parts: dict[str, Array]) -> None:
     for name, values in parts.items():
         if not np.all(values > 0.0):
-            raise InputError(f"{name} is {np.min(values):g}", path=name, allowed="greater than 0")
+            raise InputError(f"{name} is {np.min(values):g}", parameter=name, allowed="greater than 0")

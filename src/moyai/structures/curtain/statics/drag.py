@@ -36,12 +36,16 @@ class DragLaw:
 
     def __post_init__(self) -> None:
         if len(self.blockage) != len(self.coefficients) or not self.blockage or np.any(np.diff(self.blockage) <= 0.0):
-            raise InputError("points of the drag law", path="drag", allowed="as many as coefficients, increasing")
+            raise InputError("points of the drag law", parameter="drag", allowed="as many as coefficients, increasing")
         if not all(math.isfinite(c) and c > 0.0 for c in self.coefficients):
-            raise InputError(f"drag coefficients {self.coefficients}", path="drag", allowed="greater than 0, finite")
+            raise InputError(
+                f"drag coefficients {self.coefficients}", parameter="drag", allowed="greater than 0, finite"
+            )
         low, high = self.range
         if not 0.0 < low <= 1.0 <= high < math.inf:
-            raise InputError(f"range of the drag is {low:g} to {high:g}", path="drag.range", allowed="low <= 1 <= high")
+            raise InputError(
+                f"range of the drag is {low:g} to {high:g}", parameter="drag.range", allowed="low <= 1 <= high"
+            )
 
     def coefficient(self, blockage: float) -> float:
         """Return C_D [-] at a blockage d/h [-]."""
@@ -95,7 +99,7 @@ def closure_drag(contraction: float, range: tuple[float, float], count: int = 40
     Head loss of a sudden expansion, U^2/2g (h/(C_c (h - d)) - 1)^2, over the depth [eq:curtain-drag-closure].
     """
     if not 0.5 < contraction <= 1.0:
-        raise InputError(f"contraction is {contraction:g}", path="contraction", allowed="above 0.5, at most 1")
+        raise InputError(f"contraction is {contraction:g}", parameter="contraction", allowed="above 0.5, at most 1")
     blockage = np.linspace(0.1, 0.95, count)
     values = (1.0 / (contraction * (1.0 - blockage)) - 1.0) ** 2 / blockage
     return DragLaw("closure", tuple(blockage), tuple(values), range, "Borda-Carnot head loss of a closure")
@@ -121,10 +125,12 @@ def under_toe_speed(
     """
     if not 0.0 < toe_depth < water.depth or math.isinf(water.depth):
         raise InputError(
-            f"toe at {toe_depth:g} m in water of {water.depth:g} m", path="toe_depth", allowed="between 0 and the depth"
+            f"toe at {toe_depth:g} m in water of {water.depth:g} m",
+            parameter="toe_depth",
+            allowed="between 0 and the depth",
         )
     if not 0.0 <= passing_fraction <= 1.0:
-        raise InputError(f"passing fraction is {passing_fraction:g}", path="passing_fraction", allowed="0 to 1")
+        raise InputError(f"passing fraction is {passing_fraction:g}", parameter="passing_fraction", allowed="0 to 1")
     normal = np.array([math.cos(heading), math.sin(heading)])
     held = float(current.depth_mean(-toe_depth, 0.0) @ normal) * toe_depth
     below = float(current.depth_mean(-water.depth, -toe_depth) @ normal)

@@ -34,7 +34,7 @@ class FloatLine:
         if not 0.0 <= self.flooded_buoyancy <= self.buoyancy < math.inf or not 0.0 <= self.weight < math.inf:
             raise InputError(
                 f"buoyancy {self.buoyancy:g}, flooded {self.flooded_buoyancy:g}, weight {self.weight:g} N/m",
-                path="floats",
+                parameter="floats",
                 allowed="0 <= flooded <= buoyancy, weight at least 0",
             )
 
@@ -72,7 +72,9 @@ class HangingCurtain:
     def __post_init__(self) -> None:
         if not 0.0 <= self.anchor_slope < 0.5 * math.pi:
             raise InputError(
-                f"anchor slope is {math.degrees(self.anchor_slope):.4g} degrees", path="anchor_slope", allowed="0 to 90"
+                f"anchor slope is {math.degrees(self.anchor_slope):.4g} degrees",
+                parameter="anchor_slope",
+                allowed="0 to 90",
             )
 
     @property
@@ -160,10 +162,6 @@ def solve_statics(
     ------
     InputError
         As the solvers of section and plan; and without any load, when there is no plan shape.
-
-    Notes
-    -----
-    Forces of the supports: [eq:curtain-anchor]; floats: [eq:curtain-float-reserve].
     """
     section, load = loaded or loaded_section(
         curtain, current, flow_heading, chord_normal, water, top_depth=top_depth, below_bed=below_bed
@@ -175,25 +173,54 @@ def solve_statics(
         # no part of the span lies across so oblique a current
         settings = _settings(curtain, top_depth, below_bed)
         section = solve_section(curtain.skirt, current, flow_heading - turn, water, curtain.drag, **settings)
-    share = section.toe_hold / section.load
+    under, ratio = math.nan, math.nan
+    if math.isfinite(water.depth):
+        under, ratio = under_toe_flow(current, chord_normal, section.toe_depth, water, passing_fraction)
+    toe = (water.depth - section.toe_depth, under, ratio)
+    return supported(curtain, section, flow_heading - turn, plan, toe, lower_share=section.toe_hold / section.load)
+
+
+def supported(
+    curtain: HangingCurtain,
+    section: SectionShape,
+    section_heading: float,
+    plan: PlanShape,
+    toe: tuple[float, float, float],
+    *,
+    lower_share: float,
+) -> CurtainStatics:
+    """Return the statics of a section and a plan with the forces of supports and floats.
+
+    Supports: [eq:curtain-anchor]; floats: [eq:curtain-float-reserve].
+
+    Parameters
+    ----------
+    curtain : HangingCurtain
+        Its floats and anchor lines.
+    section, section_heading
+        Section, and heading of the flow across it [rad].
+    plan : PlanShape
+        Of the load that the cables carry.
+    toe : tuple of float
+        Gap under the toe [m], speed in it [m/s], that over the undisturbed one [-].
+    lower_share : float
+        Share of the tension that the lower cable bears [-].
+    """
     first, second = plan.downstream_end_forces
     lean = abs(plan.inward_end_forces[0] - plan.inward_end_forces[1])
     inner = math.hypot(first + second, lean)
     lone = max(math.hypot(down, along) for down, along in zip((first, second), plan.inward_end_forces))
-    under, ratio = math.nan, math.nan
-    if math.isfinite(water.depth):
-        under, ratio = under_toe_flow(current, chord_normal, section.toe_depth, water, passing_fraction)
     down_pull = section.top_pull + inner * math.tan(curtain.anchor_slope) / curtain.span
     return CurtainStatics(
         curtain=curtain,
         section=section,
-        section_heading=flow_heading - turn,
+        section_heading=section_heading,
         plan=plan,
-        toe_gap=water.depth - section.toe_depth,
-        toe_speed=under,
-        toe_speed_ratio=ratio,
-        upper_tension=plan.tension * (1.0 - share),
-        lower_tension=plan.tension * share,
+        toe_gap=toe[0],
+        toe_speed=toe[1],
+        toe_speed_ratio=toe[2],
+        upper_tension=plan.tension * (1.0 - lower_share),
+        lower_tension=plan.tension * lower_share,
         anchor_force=inner,
         end_anchor_force=lone,
         anchor_line_tension=inner / math.cos(curtain.anchor_slope),
@@ -223,7 +250,7 @@ def loaded_section(
     if section.load <= 0.0:
         raise InputError(
             f"the current loads the curtain with {section.load:g} N/m along its heading",
-            path="current",
+            parameter="current",
             remedy="give a current, and the heading in which it flows",
         )
     load = section_load(

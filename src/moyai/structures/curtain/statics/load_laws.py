@@ -95,9 +95,9 @@ def section_laws(
     """
     for name, value in (("length", length), ("toe_load", toe_load), ("pressure", pressure)):
         if not (math.isfinite(value) and value > 0.0):
-            raise InputError(f"{name} is {value:g}", path=name, allowed="greater than 0, finite")
+            raise InputError(f"{name} is {value:g}", parameter=name, allowed="greater than 0, finite")
     if not stiffness > 0.0:
-        raise InputError(f"skirt stiffness is {stiffness:g} N/m", path="stiffness", allowed="greater than 0")
+        raise InputError(f"skirt stiffness is {stiffness:g} N/m", parameter="stiffness", allowed="greater than 0")
     stretched = length * (1.0 + toe_load / stiffness)
     return (
         _section_catenary(length, toe_load, pressure, "catenary"),

@@ -15,7 +15,7 @@ from moyai.core.validity import Notice
 from moyai.core.wording import spoken
 from moyai.sea.current import CurrentProfile
 from moyai.sea.water import Water
-from moyai.structures.curtain.statics.hanging import CurtainStatics, HangingCurtain, solve_statics
+from moyai.structures.curtain.statics.hanging import CurtainStatics, HangingCurtain, solve_statics, supported
 from moyai.structures.curtain.statics.plan import PlanLoad, section_load, solve_plan
 from moyai.structures.curtain.statics.section import SectionShape, SectionStart, Skirt, solve_section
 
@@ -59,26 +59,7 @@ def solve_on_bed(
     share = section.top_load / section.load
     carried = PlanLoad(load.across * share, load.flow_angle, load.angle, load.ratio)
     plan = solve_plan(curtain.span, curtain.length, curtain.upper_stiffness, carried)
-    first, second = plan.downstream_end_forces
-    lean = abs(plan.inward_end_forces[0] - plan.inward_end_forces[1])
-    inner = math.hypot(first + second, lean)
-    lone = max(math.hypot(down, along) for down, along in zip((first, second), plan.inward_end_forces))
-    pull = section.top_pull + inner * math.tan(curtain.anchor_slope) / curtain.span
-    return CurtainStatics(
-        curtain=curtain,
-        section=section,
-        section_heading=flow_heading,
-        plan=plan,
-        toe_gap=0.0,
-        toe_speed=0.0,
-        toe_speed_ratio=math.nan,
-        upper_tension=plan.tension,
-        lower_tension=0.0,
-        anchor_force=inner,
-        end_anchor_force=lone,
-        anchor_line_tension=inner / math.cos(curtain.anchor_slope),
-        float_reserve=curtain.floats.buoyancy - curtain.floats.weight - pull,
-    )
+    return supported(curtain, section, flow_heading, plan, (0.0, 0.0, math.nan), lower_share=0.0)
 
 
 def _lifted(

@@ -50,18 +50,20 @@ class PlanLoad:
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.across) and self.across > 0.0):
-            raise InputError(f"load across the flow is {self.across:g} N/m", path="plan.load", allowed="greater than 0")
+            raise InputError(
+                f"load across the flow is {self.across:g} N/m", parameter="plan.load", allowed="greater than 0"
+            )
         if not abs(self.flow_angle) < 0.5 * math.pi:
             raise InputError(
                 f"the flow meets the curtain at {math.degrees(self.flow_angle):.4g} degrees from its normal",
-                path="plan.flow_angle",
+                parameter="plan.flow_angle",
                 allowed="less than 90 degrees",
                 remedy="a curtain along the flow carries friction only, which is not part of this model",
             )
         if not np.all(self.ratio > 0.0):
             raise InputError(
                 "the load changes its side along the curtain",
-                path="plan.load",
+                parameter="plan.load",
                 remedy="the current turns too much over the depth for a shape without inflexion",
             )
 
@@ -336,11 +338,11 @@ def solve_plan(
     """
     for name, value in (("span", span), ("length", length), ("axial_stiffness", axial_stiffness)):
         if not value > 0.0 or (math.isinf(value) and name != "axial_stiffness"):
-            raise InputError(f"{name} is {value:g}", path=f"plan.{name}", allowed="greater than 0")
+            raise InputError(f"{name} is {value:g}", parameter=f"plan.{name}", allowed="greater than 0")
     if math.isinf(axial_stiffness) and length <= span:
         raise InputError(
             f"a curtain of {length:g} m that does not stretch over a span of {span:g} m",
-            path="plan.length",
+            parameter="plan.length",
             allowed=f"more than {span:g} m",
             remedy="give more length, or the stiffness of the cables",
         )

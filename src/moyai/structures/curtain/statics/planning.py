@@ -73,7 +73,7 @@ def tow_trial_load(span: float, significant_height: float, draught: float, speed
         K [N s2/m4] of the type of boom; its values were not seen, so it has no default.
     """
     if not factor > 0.0:
-        raise InputError(f"factor is {factor:g}", path="factor", allowed="greater than 0")
+        raise InputError(f"factor is {factor:g}", parameter="factor", allowed="greater than 0")
     area = span * (0.5 * significant_height + draught)
     return PlanningLoad(
         "tow trials", factor * area * speed**2, float("nan"), False, "MMS and S.L. Ross (1999), T = K A V^2"

@@ -48,13 +48,13 @@ class Skirt:
         for name in ("length", "toe_load"):
             value = getattr(self, name)
             if not (math.isfinite(value) and value > 0.0):
-                raise InputError(f"{name} is {value:g}", path=f"skirt.{name}", allowed="greater than 0, finite")
+                raise InputError(f"{name} is {value:g}", parameter=f"skirt.{name}", allowed="greater than 0, finite")
         if not math.isfinite(self.submerged_weight):
-            raise InputError("weight of the sheet is no number", path="skirt.submerged_weight", allowed="finite")
+            raise InputError("weight of the sheet is no number", parameter="skirt.submerged_weight", allowed="finite")
         if not self.stiffness > 0.0:
             raise InputError(
                 f"stiffness is {self.stiffness:g} N/m",
-                path="skirt.stiffness",
+                parameter="skirt.stiffness",
                 allowed="greater than 0",
                 remedy="give modulus times thickness, or infinite for a sheet that does not stretch",
             )
@@ -62,7 +62,7 @@ class Skirt:
             raise InputError(
                 f"the skirt floats: its sheet lifts {-self.submerged_weight * self.length:g} N/m, its toe holds "
                 f"{self.toe_load:g} N/m",
-                path="skirt.toe_load",
+                parameter="skirt.toe_load",
                 remedy="give more toe weight",
             )
 
@@ -404,7 +404,7 @@ def solve_section(
     if top_depth < 0.0 or (skirt.length > room and not below_bed):
         raise InputError(
             f"a skirt of {skirt.length:g} m from {top_depth:g} m below the surface in water of {water.depth:g} m",
-            path="skirt.length",
+            parameter="skirt.length",
             allowed=f"at most {room:g} m",
             remedy="shorten the skirt, or let it lie on the bed",
         )
@@ -445,17 +445,19 @@ def solve_section(
         ratio = coefficient * problem.largest * skirt.length / skirt.toe_load
         raise InputError(
             f"the current overturns the skirt (load ratio qL/W = {ratio:.3g})",
-            path="skirt.toe_load",
+            parameter="skirt.toe_load",
             remedy="give more toe weight, or the load law of the normal velocity",
         )
     if abs(miss) > 1e-9 * skirt.length:
         raise ConvergenceError(
-            f"the top of the skirt is missed by {abs(miss):.3g} m", path="skirt", remedy="check the load ratio qL/W"
+            f"the top of the skirt is missed by {abs(miss):.3g} m",
+            parameter="skirt",
+            remedy="check the load ratio qL/W",
         )
     if path[0, 1] < -water.depth and not below_bed:
         raise InputError(
             f"the skirt stretches {-path[0, 1] - water.depth:.3g} m deeper than the water of {water.depth:g} m",
-            path="skirt.stiffness",
+            parameter="skirt.stiffness",
             remedy="shorten or stiffen the skirt",
         )
     depth = float(down[0, 1] - down[-1, 1])

@@ -84,10 +84,7 @@ def member_of(unit: schema.MemberStructure) -> StraightMember:
     try:
         return StraightMember(ends[0], ends[1], section, math.radians(unit.section_angle_deg))
     except InputError as error:
-        fault = error.fault
-        raise InputError(
-            fault.message, path=f"structure.{fault.path}", allowed=fault.allowed, remedy=fault.remedy
-        ) from None
+        raise error.at(f"structure.{error.fault.path}") from None
 
 
 def member_section(entry: Any, path: str) -> sections.MemberSection:
@@ -101,10 +98,9 @@ def member_section(entry: Any, path: str) -> sections.MemberSection:
     try:
         return _section(entry)
     except InputError as error:
-        fault = error.fault
-        key = fault.path.split(".")[-1]
+        key = error.fault.path.split(".")[-1]
         inner = f".{key}" if key in type(entry).model_fields else ""
-        raise InputError(fault.message, path=f"{path}{inner}", allowed=fault.allowed, remedy=fault.remedy) from None
+        raise error.at(f"{path}{inner}") from None
 
 
 def _section(entry: Any) -> sections.MemberSection:
@@ -150,10 +146,7 @@ def _circulation(entry: schema.Circulation) -> CirculationLaw:
             beta_table=entry.beta_table,
         )
     except InputError as error:
-        fault = error.fault
-        raise InputError(
-            fault.message, path=f"structure.circulation.{fault.path}", allowed=fault.allowed, remedy=fault.remedy
-        ) from None
+        raise error.at(f"structure.circulation.{error.fault.path}") from None
 
 
 def _motion(entry: schema.MemberMotion | None) -> Motion | None:

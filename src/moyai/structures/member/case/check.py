@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from moyai.case.check_sea import check_surroundings, wave_path
-from moyai.case.faults import did_you_mean
-from moyai.case.findings import Findings, duplicates
+from moyai.case.check_sea import check_level_names, check_surroundings, wave_path
+from moyai.case.findings import Findings
 from moyai.case.schema_environment import PeriodRange, SpectrumFile
 from moyai.case.yaml_reader import KeyPath
 from moyai.core.errors import ConvergenceError, InputError
@@ -52,18 +51,7 @@ def check(model: schema.MemberCase, findings: Findings, folder: Path) -> None:
 
 
 def _check_settings(model: schema.MemberCase, findings: Findings) -> None:
-    chosen = model.settings.water_levels
-    if not isinstance(chosen, str):
-        for index, name in enumerate(chosen):
-            if name not in model.site.water_levels:
-                findings.fault(
-                    ("settings", "water_levels", index),
-                    f"there is no water level '{name}'",
-                    allowed=", ".join(model.site.water_levels),
-                    remedy=did_you_mean(name, model.site.water_levels),
-                )
-        for index in duplicates(chosen):
-            findings.fault(("settings", "water_levels", index), f"'{chosen[index]}' stands twice", remedy="remove one")
+    check_level_names(model, findings)
     for index, state in enumerate(model.waves):
         periods = getattr(state, "periods", None)
         if isinstance(periods, PeriodRange) and periods.first == periods.last:

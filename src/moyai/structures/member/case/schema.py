@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 
@@ -14,9 +14,8 @@ from moyai.case.schema_environment import (
     BretschneiderMitsuyasu,
     Current,
     Jonswap,
-    Periods,
     PiersonMoskowitz,
-    RegularWaves,
+    RegularWavesOfHeights,
     Site,
     SpectrumFile,
     Tma,
@@ -24,12 +23,12 @@ from moyai.case.schema_environment import (
 )
 from moyai.case.schema_measured import MEASURED, MeasuredSets
 from moyai.case.schema_types import (
+    LEVEL_NAMES,
     Block,
     Duration,
     Heading,
-    KeyGroups,
     Length,
-    Name,
+    LevelNames,
     NonNegativeLength,
     NonNegativeNumber,
     OneOrMany,
@@ -251,36 +250,14 @@ class MemberStructure(Block):
     motion: MemberMotion | None = Field(default=None, description="Motion of the member; drag is relative to it.")
 
 
-class MemberRegularWaves(RegularWaves):
+class MemberRegularWaves(RegularWavesOfHeights):
     """Regular waves: every height with every period."""
 
-    exactly_one: ClassVar[KeyGroups] = (
-        ("heading_deg", "from_bearing_deg"),
-        ("period", "periods"),
-        ("height", "heights"),
-    )
-
-    height: PositiveLength | None = Field(default=None, description="Wave height H, crest to trough.")  # type: ignore[assignment]
-    heights: Annotated[tuple[PositiveLength, ...], Field(min_length=1, max_length=1000), AfterValidator(once_each)] = (
-        Field(default=(), description="Wave heights: a list; each is run with every period.")
-    )
-    periods: Periods | None = Field(
-        default=None, description="Wave periods: a list, or evenly spaced {from, to, count}; each is run."
-    )
     theory: Literal["automatic", "linear", "stokes", "stream_function"] = Field(  # type: ignore[assignment]
         default="automatic",
         description="Wave theory: linear, Stokes of fifth order, or stream function; automatic takes linear waves "
         "where their second harmonic is below 1 % of the first, else the stream function.",
     )
-
-    def all_heights(self) -> tuple[float, ...]:
-        """Return every height [m]."""
-        return (self.height,) if self.height is not None else tuple(self.heights)
-
-    @property
-    def highest(self) -> float:
-        """Largest height [m]."""
-        return max(self.all_heights())
 
 
 MemberSeaState = Annotated[
@@ -308,10 +285,7 @@ class MemberSettings(Block):
     periods: Whole | None = Field(
         default=None, description="Periods shown of regular waves; chosen by the start of the circulation when absent."
     )
-    water_levels: Annotated[
-        Annotated[Literal["all"], Tag("<word>")] | Annotated[tuple[Name, ...], Field(min_length=1), Tag("<list>")],
-        Discriminator(lambda value: "<word>" if isinstance(value, str) else "<list>"),
-    ] = Field(default="all", description="Water levels to run: all, or a list of names.")
+    water_levels: LevelNames = Field(default="all", description=LEVEL_NAMES)
 
 
 class MemberCase(Block):

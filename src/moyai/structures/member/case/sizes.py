@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from moyai.case.plausible_sizes import Sizes
+from moyai.case.plausible_sizes import Periods, Sizes
 from moyai.case.yaml_reader import KeyPath
 
 
-def add_sizes(model: Any, sizes: Sizes) -> None:
+def add_sizes(model: Any, sizes: Sizes, periods: Periods) -> None:
     """Add width and length of a member, each with the keys that it follows from."""
     unit = model.structure
     section: KeyPath = ("structure", "section")

@@ -192,9 +192,8 @@ def bar_type_of(
         try:
             properties = line_type(entry.catalogue, entry.diameter)
         except InputError as error:
-            fault = error.fault
-            key = "diameter" if "diameter" in fault.path else "catalogue"
-            raise InputError(fault.message, path=f"{path}.{key}", allowed=fault.allowed, remedy=fault.remedy) from None
+            key = "diameter" if "diameter" in error.fault.path else "catalogue"
+            raise error.at(f"{path}.{key}") from None
         breaking = properties.breaking_load
         made = {
             "mass_per_length": properties.mass_per_length, "axial_stiffness": properties.axial_stiffness,

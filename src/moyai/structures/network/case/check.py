@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from moyai.case.check_catalogue import check_catalogue
-from moyai.case.check_sea import check_file, check_surroundings, check_waves, wave_path
+from moyai.case.check_sea import check_file, check_level_names, check_surroundings, check_waves, wave_path
 from moyai.case.faults import did_you_mean
-from moyai.case.findings import Findings, duplicates
+from moyai.case.findings import Findings
 from moyai.core.errors import InputError
 from moyai.structures.network.case import schema_parts as parts
 from moyai.structures.network.case.check_parts import check_bodies, check_corners, check_floats, check_sheets
@@ -76,18 +76,8 @@ def _raised(error: InputError, findings: Findings) -> None:
             if len(path) == 3 and path[:2] == ("structure", kind) and f"'{path[2]}'" in fault.message:
                 findings.fault(path, fault.message, allowed=fault.allowed, remedy=fault.remedy)
                 return
-    path = findings.path_of(fault.path) or _longest(fault.path, findings)
+    path = findings.path_of(fault.path) or ("structure",)
     findings.fault(path, fault.message, allowed=fault.allowed, remedy=fault.remedy)
-
-
-def _longest(text: str, findings: Findings) -> tuple[str | int, ...]:
-    """Return the longest path of the document that a dotted text begins with; names may hold dots and blanks."""
-    best: tuple[str | int, ...] = ("structure",)
-    for path in findings.document.values:
-        words = ".".join(str(step) for step in path)
-        if (text == words or text.startswith((words + ".", words + "["))) and len(path) > len(best):
-            best = path
-    return best
 
 
 def _check_names(model: NetworkCase, findings: Findings) -> None:
@@ -228,15 +218,7 @@ def _check_files(model: NetworkCase, findings: Findings, folder: Path) -> None:
 
 def _check_settings(model: NetworkCase, findings: Findings, folder: Path) -> None:
     settings = model.settings
-    if not isinstance(settings.water_levels, str):
-        for index, name in enumerate(settings.water_levels):
-            if name not in model.site.water_levels:
-                findings.fault(
-                    ("settings", "water_levels", index), f"there is no water level '{name}'",
-                    allowed=", ".join(model.site.water_levels), remedy=did_you_mean(name, model.site.water_levels),
-                )  # fmt: skip
-        for index in duplicates(settings.water_levels):
-            findings.fault(("settings", "water_levels", index), "it stands twice", remedy="remove one")
+    check_level_names(model, findings)
     if settings.wave_front and settings.method not in ("auto", "explicit"):
         findings.fault(("settings", "wave_front"), "only explicit steps go at the pace of the wave",
                        remedy="set method: explicit")  # fmt: skip
@@ -291,12 +273,8 @@ def _check_runs(problem: NetworkProblem, findings: Findings) -> None:
                     )  # fmt: skip
         except InputError as error:
             fault = error.fault
-            path = findings.path_of(fault.path)
-            path = path if path in findings.document.values else _longest(fault.path, findings)
-            if fault.path == "current_along_wave":
-                path = ("current",)
-            elif path == ("structure",):
-                path = ("settings",) if ("settings",) in findings.document.values else ("analyses",)
+            settings = ("settings",) if ("settings",) in findings.document.values else ("analyses",)
+            path = ("current",) if fault.path == "current_along_wave" else findings.path_of(fault.path) or settings
             findings.fault(path, fault.message, allowed=fault.allowed, remedy=fault.remedy)
             return
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
+from pydantic import AfterValidator, BeforeValidator, Field
 
 from moyai.case.schema_app import APP, App
 from moyai.case.schema_criteria import CRITERIA
@@ -23,12 +23,14 @@ from moyai.case.schema_environment import (
 )
 from moyai.case.schema_measured import MEASURED, MeasuredSets
 from moyai.case.schema_types import (
+    LEVEL_NAMES,
     AngularFrequency,
     AutoDuration,
     Block,
     Duration,
     FileName,
     KeyGroups,
+    LevelNames,
     Name,
     OneOrMany,
     PositiveForce,
@@ -195,10 +197,7 @@ class NetworkSettings(Block):
     stiffness_step: Annotated[float, QuantityOf(quantities.LENGTH, above=0.0)] | None = Field(
         default=None, description="Displacement that the stiffness at driven points is taken over; 1 mm to 1 cm."
     )
-    water_levels: Annotated[
-        Annotated[Literal["all"], Tag("<word>")] | Annotated[tuple[Name, ...], Field(min_length=1), Tag("<list>")],
-        Discriminator(lambda value: "<word>" if isinstance(value, str) else "<list>"),
-    ] = Field(default="all", description="Water levels to run: all, or a list of names.")
+    water_levels: LevelNames = Field(default="all", description=LEVEL_NAMES)
 
 
 class NetworkCase(Block):

@@ -6,6 +6,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import AfterValidator, Field
 
+from moyai.case.schema_coefficients import OfCapytaine, OfNemoh, OfWamit
 from moyai.case.schema_types import (
     AddedInertia,
     AddedMass,
@@ -45,33 +46,16 @@ class _BodyCoefficients(Block):
     )
 
 
-class CapytaineBody(_BodyCoefficients):
+class CapytaineBody(OfCapytaine, _BodyCoefficients):
     """Coefficients computed by Capytaine."""
 
-    program: Literal["capytaine"] = Field(description="NetCDF written by Capytaine.")
-    reference_point: tuple[Length, Length, Length] | None = Field(
-        default=None, description="Rotation centre [x, y, z] where the file does not say it."
-    )
-    body: str | None = Field(default=None, description="Body to take from a file with several.")
 
-
-class WamitBody(_BodyCoefficients):
+class WamitBody(OfWamit, _BodyCoefficients):
     """Coefficients computed by WAMIT or written in its form."""
 
-    program: Literal["wamit"] = Field(description="WAMIT .1 and .3 files (HAMS writes them too).")
-    reference_point: tuple[Length, Length, Length] | None = Field(
-        default=None, description="Origin of the body axes [x, y, z]; from the .pot file when absent."
-    )
-    length_scale: PositiveLength | None = Field(default=None, description="ULEN; from the .gdf file when absent.")
-    first_column: Literal["period", "angular_frequency", "wave_number"] | None = Field(
-        default=None, description="Meaning of the first column; must be given for HAMS."
-    )
 
-
-class NemohBody(_BodyCoefficients):
+class NemohBody(OfNemoh, _BodyCoefficients):
     """Coefficients computed by NEMOH."""
-
-    program: Literal["nemoh"] = Field(description="Folder with Nemoh.cal and Results.")
 
 
 BodyCoefficients = Annotated[CapytaineBody | WamitBody | NemohBody, Field(discriminator="program")]

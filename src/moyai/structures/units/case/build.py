@@ -76,12 +76,9 @@ def row_of(model: schema.UnitsCase, water: Water) -> FloatingRow:
     try:
         hull = unit.section.hull()
     except InputError as error:
-        fault = error.fault
-        key = fault.path.split(".")[-1]
+        key = error.fault.path.split(".")[-1]
         inner = f".{key}" if key in type(unit.section).model_fields else ""
-        raise InputError(
-            fault.message, path=f"structure.section{inner}", allowed=fault.allowed, remedy=fault.remedy
-        ) from None
+        raise error.at(f"structure.section{inner}") from None
     placements = placements_of(unit.units)
     fraction, linear = np.zeros(6), np.zeros(6)
     if unit.damping is not None:

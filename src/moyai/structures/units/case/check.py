@@ -6,8 +6,8 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from moyai.case.check_sea import check_surroundings, check_waves
-from moyai.case.faults import did_you_mean
+from moyai.case.check_catalogue import SAID_OTHERWISE, line_place
+from moyai.case.check_sea import check_level_names, check_surroundings, check_waves
 from moyai.case.findings import Findings, duplicates
 from moyai.case.yaml_reader import KeyPath
 from moyai.core.errors import ConvergenceError, InputError
@@ -26,7 +26,7 @@ def check(model: schema.UnitsCase, findings: Findings, folder: Path) -> None:
     """Record every fault and warning of a row of units in ``findings``."""
     check_surroundings(model, findings, folder)
     _check_needs(model, findings)
-    _check_levels(model, findings)
+    check_level_names(model, findings)
     _check_numbers(model, findings)
     _check_lines(model, findings)
     _check_map(model, findings)
@@ -65,20 +65,6 @@ def _places(model: schema.UnitsCase) -> tuple[Any, ...]:
     from moyai.structures.units.case.build import placements_of
 
     return placements_of(model.structure.units)
-
-
-def _check_levels(model: schema.UnitsCase, findings: Findings) -> None:
-    chosen = model.settings.water_levels
-    if isinstance(chosen, str):
-        return
-    for index, name in enumerate(chosen):
-        if name not in model.site.water_levels:
-            findings.fault(
-                ("settings", "water_levels", index), f"there is no water level '{name}'",
-                allowed=", ".join(model.site.water_levels), remedy=did_you_mean(name, model.site.water_levels),
-            )  # fmt: skip
-    for index in duplicates(chosen):
-        findings.fault(("settings", "water_levels", index), f"'{chosen[index]}' stands twice", remedy="remove one")
 
 
 def _check_numbers(model: schema.UnitsCase, findings: Findings) -> None:
@@ -238,17 +224,6 @@ def _check_by_building(model: schema.UnitsCase, findings: Findings, folder: Path
         _check_problem(problem, findings)
 
 
-_LINE_PLACES = {
-    "mooring-line-breaks": "segments",
-    "mooring-line-heap": "segments",
-    "mooring-line-unreachable": "segments",
-    "mooring-touches-between": "segments",
-    "mooring-anchor-in-body": "anchor",
-    "mooring-anchor-above-bed": "anchor",
-    "mooring-fairlead-below-bed": "fairlead",
-}
-
-
 def _check_lines_at_rest(problem: UnitsProblem, at: RowAtLevel, findings: Findings) -> bool:
     """Hold the lines of every unit against their strength and slack; return whether any is impossible."""
     from moyai.mooring.checks import check_line_system
@@ -260,13 +235,10 @@ def _check_lines_at_rest(problem: UnitsProblem, at: RowAtLevel, findings: Findin
             label, _, message = notice.message.partition(": ")
             name = label.removeprefix("lines.")
             line = name if name in places else name.removesuffix(f" {number + 1}")
-            known = ("mooring-anchor-above-bed", "mooring-fairlead-dry", "mooring-anchor-uplift")
-            if line not in places or notice.code in known or (line, notice.code) in said:
+            if line not in places or notice.code in SAID_OTHERWISE or (line, notice.code) in said:
                 continue
             said.add((line, notice.code))
-            path: KeyPath = ("lines", places[line])
-            if notice.code in _LINE_PLACES and (*path, _LINE_PLACES[notice.code]) in findings.document.values:
-                path = (*path, _LINE_PLACES[notice.code])
+            path = line_place(findings, places[line], notice.code)
             record = findings.fault if notice.severity == "error" else findings.warn
             record(path, f"line '{line}' of unit {number + 1}: {message}", remedy=notice.remedy)
     return bool(findings.faults)

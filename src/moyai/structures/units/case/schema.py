@@ -13,6 +13,7 @@ from moyai.case.schema_lines import CatenaryLine, SpringLine
 from moyai.case.schema_measured import MEASURED, MeasuredSets
 from moyai.case.schema_sections import Section
 from moyai.case.schema_types import (
+    LEVEL_NAMES,
     AngularFrequency,
     Auto,
     Block,
@@ -21,6 +22,7 @@ from moyai.case.schema_types import (
     Heading,
     KeyGroups,
     Length,
+    LevelNames,
     Name,
     NonNegativeNumber,
     OneOrMany,
@@ -227,10 +229,7 @@ class UnitsSettings(Block):
     compare_with_section: Truth = Field(
         default=True, description="Whether the two-dimensional section is computed as well. Default: true."
     )
-    water_levels: Annotated[
-        Annotated[Literal["all"], Tag("<word>")] | Annotated[tuple[Name, ...], Field(min_length=1), Tag("<list>")],
-        Discriminator(_word_or_list),
-    ] = Field(default="all", description="Water levels to run: all, or a list of names.")
+    water_levels: LevelNames = Field(default="all", description=LEVEL_NAMES)
 
 
 class UnitsCase(Block):

@@ -1,0 +1,6 @@
+"""Where parameters of the physics stand in the case file."""
+
+KEYS = {
+    "floats": "structure.floats",
+    "mooring": "structure.mooring",
+}

@@ -1,0 +1,126 @@
+"""The numbers of a rigid cage's first page: tensions with the band of seed and net law, motions, rest."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from moyai.core.headline import Band, Headline, governing
+from moyai.structures.cage.conditions import condition_headlines, sea_words
+from moyai.structures.cage.headlines import NOT_JUDGED, Groups, chance, laws_text
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+RIGID = "rigid cage, run through time"
+
+
+def rigid_headlines(groups: Groups) -> tuple[Headline, ...]:
+    """Return the first page's numbers of a rigid cage.
+
+    Parameters
+    ----------
+    groups : mapping of str to xarray.Dataset
+        What was run, by its place in the result.
+    """
+    seas = [
+        (parts[0], parts[2], group)
+        for path, group in groups.items()
+        if len(parts := path.strip("/").split("/")) == 3 and parts[1] == "waves"
+    ]
+    items = (*_rigid_tension(seas, groups), *_rigid_motions(seas, groups), *_rigid_rest(groups))
+    return (*items, *condition_headlines(groups), *([NOT_JUDGED] if seas else []))
+
+
+Seas = list[tuple[str, str, "xr.Dataset"]]
+
+
+def _rigid_tension(seas: Seas, groups: Groups) -> list[Headline]:
+    """Return the highest tension of all seas and the utilisations that decide, with the band of seed and net law."""
+    tensions, utilisations = [], []
+    for level, name, sea in seas:
+        for line, title in enumerate(sea["line"].values):
+            values = sea["line_tension_maximum"].values.reshape(sea.sizes["wave"], sea.sizes["line"], -1)[:, line]
+            wave = int(np.argmax(values.max(axis=1)))
+            value = float(values[wave].max())
+            where = f"{title}, {_rigid_where(level, name, sea, wave, groups)}"
+            label = f"wave {wave + 1}" if sea.attrs["kind"] == "regular" else "sea"
+            run = groups[f"/{level}/time/{name}/{label}"]
+            band, said = _rigid_band(groups.get(f"/{level}/laws"), run, line, value)
+            model = f"{RIGID}, {run.attrs['theory']}"
+            tensions.append(
+                Headline("line_tension", "highest line tension", value, "N", where, model, band, detail=said)
+            )
+            breaking = float(groups[f"/{level}/statics"]["breaking_load"].values[line])
+            if math.isfinite(breaking):
+                scaled = None if band is None else replace(band, low=band.low / breaking, high=band.high / breaking)
+                utilisations.append(
+                    Headline(
+                        "line_utilisation", "tension over breaking load", value / breaking, "1", where, model, scaled,
+                        detail=f"breaking load {breaking / 1e3:.4g} kN, without a safety factor",
+                    )
+                )  # fmt: skip
+    return [*governing(tensions), *governing(utilisations)]
+
+
+def _rigid_band(laws: xr.Dataset | None, run: xr.Dataset, line: int, value: float) -> tuple[Band | None, str]:
+    """Return what other seeds and the laws valid for this net make of a tension, and what is to be said of it."""
+    low, high, seed = chance(run, value, run["line_tension_peak_since_row"].values[:, line])
+    words, said = [seed] if seed else [], ""
+    if laws is not None and laws.sizes["law"] > 1:
+        # the laws were run in the wave of the highest tension: their ratio holds for the others
+        ratio = laws["law_line_tension_maximum"].values / float(laws["law_line_tension_maximum"].values[0])
+        low, high = low * min(float(ratio.min()), 1.0), high * max(float(ratio.max()), 1.0)
+        words.append(laws_text(laws))
+    elif laws is not None:
+        said = "no second net law is valid for this net"
+    return (Band(low, high, "; ".join(words)) if words else None), said
+
+
+def _rigid_where(level: str, name: str, sea: xr.Dataset, wave: int, groups: Groups) -> str:
+    """Return sea, wave or seed, current and level of a number of a rigid cage."""
+    label = f"wave {wave + 1}" if sea.attrs["kind"] == "regular" else "sea"
+    run = groups[f"/{level}/time/{name}/{label}"]
+    return f"{sea_words(name, run, float(groups[f'/{level}'].attrs['current']))}, {level}"
+
+
+def _rigid_motions(seas: Seas, groups: Groups) -> list[Headline]:
+    best: dict[str, tuple[float, str, str, str]] = {}
+    for level, name, sea in seas:
+        regular = sea.attrs["kind"] == "regular"
+        for number, mode in enumerate(("sway", "heave")):
+            values = sea["range_ratio"].values[:, number]
+            at = int(np.argmax(values))
+            words = f"{mode} range over wave height" if regular else f"{mode}: 4 standard deviations over Hs"
+            entry = (float(values[at]), _rigid_where(level, name, sea, at, groups), "1", words)
+            best[words] = max(best.get(words, entry), entry)
+        turned = 0.5 * sea["range"].values[:, 2]
+        at = int(np.argmax(turned))
+        entry = (float(turned[at]), _rigid_where(level, name, sea, at, groups), "rad", "rotation, half its range")
+        best["rotation"] = max(best.get("rotation", entry), entry)
+    return [
+        Headline(f"{words.split()[0].strip(':,')}_range", words, value, unit, where, RIGID)
+        for value, where, unit, words in best.values()
+    ]
+
+
+def _rigid_rest(groups: Groups) -> list[Headline]:
+    for path, statics in groups.items():
+        parts = path.strip("/").split("/")
+        if len(parts) != 2 or parts[1] != "statics":
+            continue
+        items = []
+        tension = statics["tension_at_rest"].values
+        if tension.size:
+            items.append(Headline("tension_at_rest", "tension at rest", float(tension.max()), "N", parts[0], "rest"))
+        share = float(statics["immersion"].sel(situation="moored"))
+        items.append(
+            Headline(
+                "floats_immersed", "floats in water at rest", share, "1", parts[0], "rest", text=f"{100 * share:.3g} %"
+            )
+        )
+        return items
+    return []

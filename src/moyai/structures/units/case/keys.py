@@ -1,0 +1,9 @@
+"""Where parameters of the physics stand in the case file."""
+
+KEYS = {
+    "connectors": "structure.connectors",
+    "draught": "structure.draught",
+    "kind": "structure.kind",
+    "section": "structure.section",
+    "units": "structure.units",
+}
