@@ -130,7 +130,7 @@ def _steps(problem: FlexibleCageProblem, collected: Collected, progress: Progres
             collected.notices.extend(rest_notices(name, model, statics, speed))
             close = [rest for rest, value in zip(rests, speeds, strict=True) if abs(value - speed) < 1e-9]
             rest = close[0] if close else None
-            if rest is not None and speed > 0.0:
+            if rest is not None and speed > 0.0 and problem.settings.other_laws:
                 collected.groups[f"{root}/laws"] = laws_dataset(model, rest, rests[0], speed, heading, progress)
                 yield
         if problem.seas and {"time", "sensitivity"} & set(problem.settings.analyses):
