@@ -12,6 +12,7 @@ from moyai.case.findings import Findings, duplicates
 from moyai.case.schema_environment import sea_names
 from moyai.case.yaml_reader import KeyPath
 from moyai.core.errors import ConvergenceError, InputError
+from moyai.sea.states import RegularSea
 from moyai.structures.units.case import schema
 
 if TYPE_CHECKING:
@@ -47,10 +48,13 @@ def _check_needs(model: schema.UnitsCase, findings: Findings) -> None:
         findings.fault(("analyses",), f"the analysis '{sorted(waves)[0]}' needs 'waves'", remedy="give a sea state")
     if "map" in model.analyses and model.map is None:
         findings.fault(("analyses",), "the analysis 'map' needs 'map'", remedy="say where: map: {x: ..., y: ...}")
-    if "map" in model.analyses and "frequency" not in model.analyses:
-        findings.fault(
-            ("analyses",), "the analysis 'map' needs 'frequency'", remedy="the units move in the waves: ask for both"
-        )
+    for name in ("map", "time"):
+        if name in model.analyses and "frequency" not in model.analyses:
+            findings.fault(
+                ("analyses",), f"the analysis '{name}' needs 'frequency'",
+                remedy="the units move in the waves: ask for both",
+            )  # fmt: skip
+    _check_time(model, findings)
     pushed = model.settings.drift or model.wind is not None or model.current is not None
     if not model.lines and pushed and model.waves and waves:
         findings.fault(
@@ -60,6 +64,16 @@ def _check_needs(model: schema.UnitsCase, findings: Findings) -> None:
         )
     if unit.gap_damping_lid > 0.0 and len(_places(model)) < 2:
         findings.warn(("structure", "gap_damping_lid"), "a single unit has no gap; the lid does nothing")
+
+
+def _check_time(model: schema.UnitsCase, findings: Findings) -> None:
+    for index, entry in enumerate(model.structure.connectors):
+        if entry.endurance is not None and "time" not in model.analyses:
+            findings.warn(
+                ("structure", "connectors", index, "endurance"),
+                f"the fatigue of connector '{entry.name}' is counted in the time domain alone",
+                remedy="add 'time' to 'analyses'",
+            )
 
 
 def _places(model: schema.UnitsCase) -> tuple[Any, ...]:
@@ -275,6 +289,7 @@ def _check_by_building(model: schema.UnitsCase, findings: Findings, folder: Path
         return
     check_waves(model, problem.environment, findings, lambda *_: None)
     if not findings.faults:
+        _check_step(problem, findings)
         _check_problem(problem, findings)
 
 
@@ -298,10 +313,27 @@ def _check_lines_at_rest(problem: UnitsProblem, at: RowAtLevel, findings: Findin
     return bool(findings.faults)
 
 
+def _check_step(problem: UnitsProblem, findings: Findings) -> None:
+    step = problem.settings.time.time_step
+    if step is None or "time" not in problem.settings.analyses:
+        return
+    periods = [
+        min(sea.periods) if isinstance(sea, RegularSea) else 2.0 * math.pi / float(sea.spectrum.peak_omega)
+        for sea in problem.environment.sea_states
+    ]
+    if periods and step > 0.1 * min(periods):
+        findings.fault(
+            ("settings", "time", "time_step"),
+            f"the step of {step:g} s is more than a tenth of the shortest period, {min(periods):.3g} s",
+            allowed=f"up to {0.1 * min(periods):.3g} s",
+            remedy="leave it out: auto takes a fortieth",
+        )
+
+
 def _check_problem(problem: UnitsProblem, findings: Findings) -> None:
     from moyai.structures.units.assembly import assemble, level_notices, steady_load, steady_position
     from moyai.structures.units.bem import check_memory
-    from moyai.structures.units.run import check_resolution, row_panels
+    from moyai.structures.units.run import WITH_WAVES, check_resolution, highest_frequency, row_panels
     from moyai.structures.units.seas import frequencies_of
 
     environment = problem.environment
@@ -315,8 +347,8 @@ def _check_problem(problem: UnitsProblem, findings: Findings) -> None:
                 return
             wind, current = steady_load(at, environment)
             steady_position(at, wind + current)
-            if {"frequency", "map"} & set(problem.settings.analyses) and omega.size:
-                panels = row_panels(at, problem.settings, float(omega.max()))
+            if WITH_WAVES & set(problem.settings.analyses) and omega.size:
+                panels = row_panels(at, problem.settings, highest_frequency(omega, problem.settings))
                 check_memory(panels)
                 notices += check_resolution(at, panels, omega)
         except InputError as error:
