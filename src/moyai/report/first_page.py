@@ -118,7 +118,7 @@ def criteria_table(result: Result) -> Table | None:
         "criteria",
         "Criteria",
         (
-            Column("Criterion", [sentence(item.criterion.words) for item in items]),
+            Column("Criterion", [_asked(item) for item in items]),
             Column("Limit", list(limits)),
             Column("Found", list(found)),
             Column("Where", [_place(item) for item in items]),
@@ -128,6 +128,12 @@ def criteria_table(result: Result) -> Table | None:
         note=" ".join(filter(None, (criteria_note(items), without_limit(result)))),
         failed=tuple(row for row, item in enumerate(items) if item.outcome == "does not hold"),
     )
+
+
+def _asked(item: Judgement) -> str:
+    """Return a criterion in words, with the line and sea where a code asks other factors of each analysis."""
+    words = sentence(item.criterion.words)
+    return f"{words}: {item.reason}" if item.criterion.analysis and item.reason else words
 
 
 def _place(item: Judgement) -> str:

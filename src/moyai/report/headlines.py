@@ -102,7 +102,7 @@ def _asked(headline: Headline, item: Judgement, like: float) -> str:
     if item.criterion.as_factor:
         here = "" if plain else f" where it is judged, {own} at the value shown"
         return f"factor of safety {found}{here}, asked {limit}"
-    return f"limit {limit}" if plain else f"limit {limit}, judged at {found}"
+    return f"limit {limit}" if plain else f"limit {limit}, judged at {found.removeprefix('at most ')}"
 
 
 def _severity(item: Judgement) -> int:

@@ -279,18 +279,28 @@ def _slow_words(frequency: xr.Dataset | None) -> str:
 
 
 def _roll(domain: str, data: xr.Dataset, level: str, sea: str, frequency: xr.Dataset | None) -> list[Headline]:
-    band = None
-    model = _motion_model(domain, data)
-    if "significant_motion" not in data:
+    """Return the largest roll of a sea: mean over realisations, or the most probable one of the frequency domain."""
+    name = "maximum_excursion" if "maximum_excursion" in data else "most_probable_maximum_motion"
+    if name not in data or "significant_motion" not in data:
         return []
-    value = float(data["significant_motion"].values[2])
+    value, significant = float(data[name].values[2]), float(data["significant_motion"].values[2])
+    each = f"{name}_of_realisation"
+    band = seeds(np.asarray(data[each].values[:, 2], dtype=float)) if each in data else None
     if frequency is not None and "significant_motion_low" in frequency:
         # the frequency domain tells by how much damping moves roll; the time domain is run at its nominal value
-        ratio = value / float(frequency["significant_motion"].values[2])
-        low, high = (ratio * float(frequency[f"significant_motion_{end}"].values[2]) for end in ("low", "high"))
+        own = float(frequency["significant_motion"].values[2])
+        low, high = (float(frequency[f"significant_motion_{end}"].values[2]) / own for end in ("low", "high"))
         if math.isfinite(low + high):
-            band = Band(low, high, str(frequency.attrs.get("damping_band", "damping")))
-    return [Headline("roll", "Significant roll (double amplitude)", value, "rad", place(level, sea), model, band)]
+            of = str(frequency.attrs.get("damping_band", "damping"))
+            given = band or Band(value, value, "")
+            ends = (given.low, given.high) if given.judged is None else given.judged
+            band = Band(
+                low * given.low, high * given.high, "; ".join(filter(None, (given.of, of))), given.judged is None,
+                None if given.judged is None else (low * ends[0], high * ends[1]),
+            )  # fmt: skip
+    detail = f"significant double amplitude {math.degrees(significant):.3g}\u00b0"
+    model = _motion_model(domain, data)
+    return [Headline("roll", "Largest roll", value, "rad", place(level, sea), model, band, detail=detail)]
 
 
 def _steady_offset(groups: Mapping[str, xr.Dataset], levels: list[str]) -> Headline | None:
@@ -330,8 +340,8 @@ def _rest_headlines(groups: Mapping[str, xr.Dataset], levels: list[str]) -> list
         share, where = max(shares)
         out.append(
             Headline("overtopping", "Waves that pass the deck edge", share, "1", where, FREQUENCY,
-                     detail="estimate: incident wave doubled, as at a wall, against the moving deck edge; radiated "
-                            "waves not counted")
+                     detail="estimate: incident wave, once or doubled as at a wall, against the moving deck edge; "
+                            "radiated waves not counted")
         )  # fmt: skip
     height, level = least("metacentric_height")
     out.append(Headline("metacentric_height", "Metacentric height GM", height, "m", level, STILL, without_waves=True))

@@ -69,7 +69,7 @@ class LargestOfPeriods:
 
     def roll(self) -> list[Headline]:
         """Return the largest amplitude of roll."""
-        return self._headline("roll", "Roll amplitude", "rad", 2)
+        return self._headline("roll", "Largest roll", "rad", 2)
 
     def _of(self, data: xr.Dataset, domain: str, mode: int) -> Array:
         if mode == 0 and domain == "time" and "maximum_motion" in data:

@@ -124,13 +124,15 @@ def snap_notices(where: str, names: list[str], largest: Array, mean: Array) -> t
 def deck_relative_elevation(unit: FloatingUnit, motions: Motions, k: Array, heading: float) -> Array:
     """Amplitude of the water surface relative to the seaward deck edge per wave amplitude [eq:breakwater-overtopping].
 
-    The surface is the incident wave and its reflection by the fixed and moving body would raise it to twice that at
-    most; the incident wave is doubled here, which a wall would do, so that the figure is on the safe side.
+    The surface is the incident wave times something between one, where it passes, and two, as at a wall. The motion of
+    the edge may go with it or against it: the larger of both ends bounds all that lies between, since the modulus is
+    convex.
     """
     side = -1.0 if math.cos(heading) >= 0.0 else 1.0
     point = (side * 0.5 * unit.breakwater.hull.beam, unit.freeboard)
-    surface = 2.0 * np.exp(1j * k * point[0] * math.cos(heading))
-    return np.abs(relative_elevation(motions, point, unit.centre, surface[:, None])[:, 0])
+    incident = np.exp(1j * k * point[0] * math.cos(heading))[:, None]
+    ends = [relative_elevation(motions, point, unit.centre, factor * incident)[:, 0] for factor in (1.0, 2.0)]
+    return np.asarray(np.abs(ends).max(axis=0))
 
 
 def overtopping_notices(unit: FloatingUnit, name: str, elevation: Array) -> tuple[Notice, ...]:
@@ -140,12 +142,12 @@ def overtopping_notices(unit: FloatingUnit, name: str, elevation: Array) -> tupl
     return (
         Notice(
             "overtopping",
-            f"{unit.name}, {name}: the water may rise {worst:.3g} m against the seaward deck edge, above the freeboard "
-            f"of {unit.freeboard:.3g} m",
+            f"{unit.name}, {name}: water and seaward deck edge move {worst:.3g} m towards each other, more than the "
+            f"freeboard of {unit.freeboard:.3g} m: the edge goes under water",
             value=worst,
             limit=unit.freeboard,
             remedy="waves over the deck pass energy that linear theory does not count; raise the deck",
-            source="wall-doubled incident wave against linear motion",
+            source="incident wave, once and doubled as at a wall, against linear motion",
         ),
     )
 

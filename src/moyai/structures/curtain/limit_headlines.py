@@ -79,6 +79,9 @@ def limit_headlines(groups: Groups, levels: Sequence[str], span_holds: Callable[
             details.append("with the impact when the current draws the curtain taut")
         if bound == "at most":
             details.append("no snap is counted: add 'waves' or 'dynamic' to 'analyses'")
+        period = float(table.attrs.get("design_limit_period", math.nan))
+        if key != "speed_limit" and math.isfinite(period):
+            details.append(f"in waves of {period:.3g} s, as settings.limits takes the period with the height")
         if key != "speed_limit" and table.attrs.get("with_snaps"):
             details.append("snaps by regular waves of the highest height, not by realisations of a sea")
         if governing != "effective depth" and float(table.attrs.get("least_effective_depth", 1.0)) == 0.0:

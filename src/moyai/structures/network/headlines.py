@@ -54,7 +54,8 @@ def headlines_of(problem: NetworkProblem, groups: Mapping[str, xr.Dataset]) -> t
     groups : mapping of str to xarray.Dataset
         What was run, by its place in the result.
     """
-    peaks = list(_peaks(groups)) or list(_rest_peaks(groups))
+    # a run of which nothing counts does not hand its number to the rest
+    peaks = list(_peaks(groups)) if any(_levels(groups, "dynamic")) else list(_rest_peaks(groups))
     peak = max(peaks, key=lambda item: item.value, default=None)
     items: list[Headline] = []
     if peak is not None:

@@ -45,6 +45,8 @@ if TYPE_CHECKING:
 
 #: Peak periods in a record, below which its largest values say nothing of the sea state
 LEAST_WAVES = 10.0
+#: Natural period of sway over the peak period under which Newman's approximation is rough
+LEAST_RATIO = 3.0
 
 
 @dataclass(frozen=True)
@@ -371,6 +373,19 @@ def _notices(shared: _Sea, data: xr.Dataset, frequency: xr.Dataset, moved: NDArr
                 value=slow,
                 limit=0.0,
                 remedy="leave settings.time.drift at auto, or give newman",
+            )
+        )
+    ratio = period / shared.peak_period
+    if shared.law == "newman" and ratio < LEAST_RATIO:
+        out.append(
+            Notice(
+                "newman-rough",
+                f"{where}: the natural period of sway is {ratio:.2g} peak periods; Newman's approximation of the slow "
+                "drift is rough there",
+                value=ratio,
+                limit=LEAST_RATIO,
+                remedy="take the offset with a margin, or compare with a longer mooring",
+                source="Newman (1974)",
             )
         )
     cycles = sea.duration / period
