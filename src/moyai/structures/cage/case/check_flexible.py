@@ -6,15 +6,13 @@ import math
 from pathlib import Path
 
 from moyai.case.check_catalogue import check_catalogue
-from moyai.case.faults import did_you_mean
 from moyai.case.findings import Findings
 from moyai.case.yaml_reader import KeyPath
 from moyai.core.errors import InputError
 from moyai.structures.cage.case import schema
+from moyai.structures.cage.case.check_rigid import check_law_and_water
 from moyai.structures.cage.case.schema_flexible import FlexibleCageStructure, GridEntry, RopeEntry
 
-#: Kinematic viscosity of water from boiling to freezing, salt included, with room [m2/s]
-_WATER_VISCOSITY = (2e-7, 3e-6)
 #: Share of the way that anchor lines may lack at rest; fibre ropes bear it as a pretension
 _USUAL_STRETCH = 0.02
 
@@ -63,26 +61,12 @@ def _check_anchor_lines(model: schema.CageCase, unit: FlexibleCageStructure, fin
 def check(model: schema.CageCase, findings: Findings, folder: Path) -> None:
     """Record every fault and warning of a flexible cage case in ``findings``."""
     from moyai.morison.net_fouling import check_fouling
-    from moyai.morison.net_law_names import available_net_laws, known_net_law
     from moyai.structures.cage.case.build_flexible import build_problem
     from moyai.structures.cage.flexible.checks import problem_notices
 
     unit = model.structure
     assert isinstance(unit, FlexibleCageStructure)
-    law = unit.net.law
-    if not known_net_law(law):
-        findings.fault(
-            ("structure", "net", "law"),
-            f"there is no net law '{law}'",
-            allowed=", ".join(available_net_laws()),
-            remedy=did_you_mean(law, available_net_laws()),
-        )
-    if not _WATER_VISCOSITY[0] <= unit.kinematic_viscosity <= _WATER_VISCOSITY[1]:
-        findings.warn(
-            ("structure", "kinematic_viscosity"),
-            f"{unit.kinematic_viscosity:.3g} m2/s is not the kinematic viscosity of water",
-            remedy="water has 0.3e-6 to 2e-6 m2/s",
-        )
+    check_law_and_water(("structure", "net", "law"), unit.net.law, unit.kinematic_viscosity, findings)
     needs = [name for name in ("time", "sensitivity") if name in model.analyses]
     if needs and not model.waves:
         findings.fault(

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from moyai.core.collected import STOPPED, Collected
+from moyai.core.collected import Collected
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.headline import SEAS_LEFT_OUT
 from moyai.core.progress import Progress, silent
@@ -59,11 +59,7 @@ def run(problem: FlexibleCageProblem, progress: Progress = silent) -> Result:
         For a cage that does not float or does not come to rest.
     """
     collected = Collected()
-    try:
-        for _ in _steps(problem, collected, progress):
-            pass
-    except KeyboardInterrupt:
-        collected.interrupted = STOPPED
+    collected.take(_steps(problem, collected, progress))
     return _result(problem, collected)
 
 
