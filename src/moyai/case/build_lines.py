@@ -6,6 +6,7 @@ import math
 
 from moyai.case.schema_lines import CatalogueSegment, CatenaryLine, ClumpEntry, OwnSegment
 from moyai.core.errors import InputError
+from moyai.flexible.network import BarType
 from moyai.mooring.lines import Clump, LineType, Segment
 from moyai.sea.water import Water
 from moyai.tables.lines import line_type
@@ -53,3 +54,57 @@ def segment_of(
     name = part.name or f"{entry.name} {number + 1}"
     breaking = math.inf if part.breaking_load is None else part.breaking_load
     return Segment(LineType(name, weight, part.axial_stiffness, breaking), part.length)
+
+
+#: What a segment of its own must tell when its line is in motion.
+NEEDED_IN_MOTION = ("mass", "diameter", "drag_normal", "drag_tangential", "added_mass_normal")
+
+
+def bar_type_of(
+    part: CatalogueSegment | OwnSegment, path: str, entry: CatenaryLine, water: Water, *, needed: bool
+) -> BarType | None:
+    """Return what a segment is made of for a line in motion, without internal damping.
+
+    ``None`` where the segment does not tell enough and the line need not be ``needed`` in motion.
+
+    Raises
+    ------
+    InputError
+        For a segment that does not tell enough, cannot stretch, or floats more than its mass allows.
+    """
+    if isinstance(part, CatalogueSegment):
+        return BarType.from_properties(line_type(part.catalogue, part.diameter), viscosity=0.0)
+    missing = [name for name in NEEDED_IN_MOTION if getattr(part, name) is None]
+    if not needed and (missing or math.isinf(part.axial_stiffness)):
+        return None
+    if missing:
+        raise InputError(
+            f"line {entry.name!r} is in motion and a segment of it lacks {', '.join(missing)}",
+            path=f"{path}.{missing[0]}",
+            remedy="give " + " and ".join(missing) + ", or set dynamic: false",
+        )
+    if math.isinf(part.axial_stiffness):
+        raise InputError(
+            f"line {entry.name!r} is in motion and a segment of it cannot stretch",
+            path=f"{path}.axial_stiffness",
+            allowed="a finite stiffness",
+            remedy="give EA, or set dynamic: false",
+        )
+    mass = float(part.mass or 0.0)
+    weight = part.submerged_weight
+    if weight is None:
+        weight = float(part.submerged_mass or 0.0) * water.gravity
+    volume = (mass - weight / water.gravity) / water.density
+    if volume < 0.0 and not needed:
+        return None
+    if volume < 0.0:
+        raise InputError(
+            f"a segment of line {entry.name!r} weighs {weight / water.gravity:.4g} kg/m in water, {mass:.4g} in air",
+            path=f"{path}.mass",
+            allowed="more in air than in water",
+        )
+    return BarType(
+        part.name or entry.name, mass, part.axial_stiffness, float(part.diameter or 0.0), volume_per_length=volume,
+        drag_normal=float(part.drag_normal or 0.0), drag_tangential=float(part.drag_tangential or 0.0),
+        added_mass_normal=float(part.added_mass_normal or 0.0), added_mass_tangential=part.added_mass_tangential,
+    )  # fmt: skip

@@ -63,6 +63,8 @@ def run(case: Case, progress: Progress = silent, *, keep: Path | None = None, pr
     result = result.with_notices(*warnings) if warnings else result
     if (display := getattr(case.model, "display", None)) is not None and display.units != "SI":
         result = replace(result, provenance={**result.provenance, "display_units": display.units})
+    if display is not None and display.language is not None:
+        result = replace(result, provenance={**result.provenance, "display_language": display.language})
     return with_views(result)
 
 

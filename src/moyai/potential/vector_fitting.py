@@ -42,7 +42,9 @@ def _stacked(matrix: ComplexArray) -> Array:
     return np.concatenate([matrix.real, matrix.imag], axis=0)
 
 
-def fit_poles(s: ComplexArray, entries: ComplexArray, weight: Array, poles: ComplexArray) -> ComplexArray:
+def fit_poles(
+    s: ComplexArray, entries: ComplexArray, weight: Array, poles: ComplexArray, *, slope: bool = False
+) -> ComplexArray:
     """Relocate poles until they settle, [eq:memory-vector-fitting].
 
     Parameters
@@ -55,14 +57,17 @@ def fit_poles(s: ComplexArray, entries: ComplexArray, weight: Array, poles: Comp
         Weight of every point.
     poles : ndarray
         Where to start; one of each pair.
+    slope : bool
+        Whether every entry has a part proportional to ``s`` next to the poles.
     """
     for _ in range(_ITERATIONS):
         basis = partial_fractions(s, poles)
-        size = basis.shape[1]
+        own = np.column_stack([basis, s]) if slope else basis
+        size = own.shape[1]
         blocks = []
         for entry in entries.T:
             # unknowns: residues of the entry, then those of sigma with its constant
-            left = weight[:, None] * np.column_stack([basis, -entry[:, None] * basis, -entry])
+            left = weight[:, None] * np.column_stack([own, -entry[:, None] * basis, -entry])
             triangle: Array = np.asarray(np.linalg.qr(_stacked(left), mode="r"))
             blocks.append(triangle[size:, size:])
         # Relaxation: the mean of the real part of sigma is 1, which rules out the trivial solution

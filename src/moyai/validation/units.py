@@ -24,7 +24,7 @@ from moyai.structures.units.assembly import RowAtLevel, assemble
 from moyai.structures.units.bem import Panels, elevation_at, given_flow, panels_of, solve_frequency
 from moyai.structures.units.field import height_ratio, line_transmission, map_points, wave_field
 from moyai.structures.units.hydrodynamics import RowHydrodynamics, solve_row
-from moyai.structures.units.mesh import PanelMesh, cuts, row_mesh
+from moyai.structures.units.mesh import PanelMesh, cuts, row_mesh, turned_round
 from moyai.structures.units.model import Connector, FloatingRow, MapArea, straight_row
 from moyai.structures.units.response import RowModel, RowResponse, far_waves, respond
 from moyai.structures.units.section import section_answer
@@ -204,6 +204,26 @@ def barrier() -> tuple[Array, Array]:
     return scattered(_upright(plan, 0.6, 8), Water(0.6, 1000.0, 9.81), k, points), np.abs(exact)
 
 
+@cache
+def gap() -> tuple[Array, Array]:
+    """Return K behind a gap of two wave lengths between thin barriers of three: computed, and of four half planes.
+
+    On the axis four wave lengths behind, and behind an end of the gap at two and four.
+    """
+    k, width, length, thickness = 1.0, 4.0 * math.pi, 6.0 * math.pi, 0.1
+    y = cuts(length, 0.35, even=True) + 0.5 * width
+    side = np.stack([np.full(len(y), 0.5 * thickness), y], axis=1)
+    one = _upright(np.concatenate([side, side[::-1] * np.array([-1.0, 1.0])]), 0.6, 5)
+    other = PanelMesh(turned_round(one.corners * np.array([1.0, -1.0, 1.0])), one.unit, one.part)
+    points = 2.0 * math.pi * np.array([[4.0, 0.0], [2.0, 1.0], [4.0, 1.0]])
+    x, along = points.T
+    # Penney and Price (1952): openings beside each other, each of them the half planes at its ends
+    exact = sommerfeld(k, x, along + 0.5 * width) + sommerfeld(k, x, 0.5 * width - along) - np.exp(1j * k * x)
+    for sign in (1.0, -1.0):
+        exact = exact + sommerfeld(k, x, sign * along - 0.5 * width - length)
+    return scattered(one.joined(other), Water(0.6, 1000.0, 9.81), k, points), np.abs(exact)
+
+
 def column_waves(k: float, radius: float, points: Array) -> Array:
     """Return K around an upright circular column on the bed (MacCamy and Fuchs 1954)."""
     r, angle = np.hypot(*points.T), np.arctan2(points[:, 1], points[:, 0])
@@ -232,6 +252,10 @@ def _long(name: str) -> Callable[[], float]:
 
 def _behind(index: int) -> Callable[[], float]:
     return lambda: float(barrier()[0][index] - barrier()[1][index])
+
+
+def _through(index: int) -> Callable[[], float]:
+    return lambda: float(gap()[0][index] - gap()[1][index])
 
 
 _MESH = "first order in the size of the panels"
@@ -280,6 +304,14 @@ _CASES: tuple[ValidationCase, ...] = (
         for index, place in enumerate(
             ("on the axis, 2 L", "on the axis, 4 L", "on the shadow line, 2 L", "on the shadow line, 4 L")
         )
+    ),
+    *(
+        ValidationCase(
+            f"units: K behind a gap of two wave lengths, {place}", "Penney and Price 1952, half planes at all ends",
+            _through(index), 0.0, 0.03, False,
+            "half planes leave out waves that go from end to end, of the order of 1/sqrt(k w): 0.03 of 0.28",
+        )
+        for index, place in enumerate(("on the axis, 4 L", "behind an end, 2 L", "behind an end, 4 L"))
     ),
     ValidationCase(
         "units: K around a column of k a = 1", "MacCamy and Fuchs 1954, exact", column, 0.0, 0.01, False, _MESH

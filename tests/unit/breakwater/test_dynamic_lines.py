@@ -9,15 +9,16 @@ import pytest
 
 import moyai
 from moyai.core.errors import CaseError
+from moyai.flexible.mooring_line import bars_of
 from moyai.flexible.motion import Motion
+from moyai.flexible.sea_table import sea_of_lines
 from moyai.flexible.simulation import simulate
 from moyai.sea.components import WaveComponents
 from moyai.sea.dispersion import wave_number
 from moyai.sea.water import Water
 from moyai.structures.breakwater.assembly import assemble
 from moyai.structures.breakwater.case.build import build_problem
-from moyai.structures.breakwater.lines.network import bars_of, line_network
-from moyai.structures.breakwater.lines.water import sea_of_lines
+from moyai.structures.breakwater.lines.network import line_network
 from moyai.structures.breakwater.settings import LineDynamics
 
 CASE = """

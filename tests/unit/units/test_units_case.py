@@ -16,6 +16,7 @@ from moyai.core.errors import CaseError
 ROOT = Path(__file__).resolve().parents[3]
 BASE = template("units")
 UNITS = "units: {count: 3, length: 20 m, gap: 1 m}"
+ANALYSES = "analyses: [statics, frequency, time, map]"
 PIN = "- {name: pin, kind: hinge, axis: x, above_keel: 3 m, breaking_load: 3 MN}"
 
 
@@ -54,8 +55,11 @@ SLIPS = {
     "line of no unit": (("# units: [1, 3]", "units: [1, 5]   #"), "there is no unit 5", "lines[0].units"),
     "line in motion": (("# units: [1, 3]", "dynamic: true   #"), "at rest at every instant", "lines[0].dynamic"),
     "drag of a line": (("# units: [1, 3]", "drag_width: 0.1 m   #"), "is not counted", "lines[0].drag_width"),
-    "time domain": (("analyses: [statics, frequency, map]", "analyses: [statics, frequency, time]"), "'time'", "analyses"),
-    "map without motions": (("analyses: [statics, frequency, map]", "analyses: [statics, map]"), "needs 'frequency'", ""),
+    "time without frequency": ((ANALYSES, "analyses: [statics, time]"), "needs 'frequency'", "analyses"),
+    "map without motions": ((ANALYSES, "analyses: [statics, map]"), "needs 'frequency'", ""),
+    "no realisation": (("# time: {realisations: 5,", "time: {realisations: 0} #"), "realisations", "settings.time"),
+    "a step as long as a wave": (("# time: {realisations: 5,", "time: {time_step: 2 s} #"), "more than a tenth", "time_step"),
+    "endurance without range": ((PIN, PIN.replace("axis: x", "axis: x, endurance: {cycles: 10, exponent: 3}")), "range", ""),
     "map runs backwards": (("x: [-40 m, 100 m]", "x: [100 m, -40 m]"), "the smaller one first", "map.x"),
     "wind without coefficient": (
         ("# wind: {speed: 25 m/s", "wind: {speed: 25 m/s"), "needs 'structure.wind_drag_coefficient'", "wind",
@@ -106,6 +110,9 @@ def test_check_tells_panels_and_cost():
     assert names["panels a shortest wave"] == pytest.approx(names["shortest wave"] / names["longest side of a panel"])
     assert names["motions that connectors leave"] == 18 - 2 * 5
     assert names["processor time, about"] > 1.0
+    # 8 of the list and 2 of regular waves; those of the memory fill the band beyond
+    assert names["frequencies"] == 10
+    assert 10 < names["frequencies with those of the memory"] <= 10 + 24
 
 
 def test_automatic_panels_resolve_the_shortest_wave():

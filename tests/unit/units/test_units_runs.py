@@ -18,7 +18,8 @@ from moyai.structures.units.run import run
 
 SMALL = (
     ("points_across: 15", "points_across: 5"), ("points_along: 15", "points_along: 5"), ("count: 3,", "count: 2,"),
-    ("count: 8}", "count: 5}"), ("panel_size: 2 m", "panel_size: 3 m"),
+    ("count: 8}", "count: 5}"), ("panel_size: 2 m", "panel_size: 3 m"), ("duration: 3 h", "duration: 10 min"),
+    ("  # time: {realisations: 5, memory_frequencies: 24}", "  time: {realisations: 2, memory_frequencies: 14}"),
 )  # fmt: skip
 
 
@@ -72,10 +73,13 @@ def test_the_report_has_map_connectors_and_lines(result, tmp_path):
 def test_a_stopped_run_keeps_its_frequencies_and_goes_on(result, folder):
     kept = {path.name: path.stat().st_mtime_ns for path in folder.glob("*.nc")}
     frequencies = 5 + 2
-    assert len(kept) == 2 * frequencies
+    band = result.tree["SWL/memory"].to_dataset().sizes["omega"]
+    assert band > frequencies
+    # coefficients of the band of the memory, waves of the map at the frequencies of the seas
+    assert len(kept) == band + frequencies
     again = run(problem(), store=DatasetStore(folder))
     assert {path.name: path.stat().st_mtime_ns for path in folder.glob("*.nc")} == kept
-    for group in ("SWL/frequency/storm", "SWL/map/operation"):
+    for group in ("SWL/frequency/storm", "SWL/map/operation", "SWL/time/storm"):
         first, second = (item.tree[group].to_dataset() for item in (result, again))
         for name in first:
             assert np.allclose(first[name], second[name], rtol=1e-9, atol=1e-12, equal_nan=True), name
@@ -91,13 +95,37 @@ def test_a_stopped_run_keeps_its_frequencies_and_goes_on(result, folder):
 
 def test_linear_waves_move_the_row_in_proportion(folder):
     fixed = ("drift: true", "drift: false")
+    linear = ("[statics, frequency, time, map]", "[statics, frequency]")
     low, high = (
-        run(problem(fixed, ("height: 0.8 m", f"height: {height} m")), store=DatasetStore(folder))
+        run(problem(fixed, linear, ("height: 0.8 m", f"height: {height} m")), store=DatasetStore(folder))
         for height in (0.2, 0.8)
     )
     for name in ("motion_amplitude", "connector_force_amplitude", "tension_amplitude"):
         first, second = (item.tree["SWL/frequency/operation"].to_dataset()[name].values for item in (low, high))
         assert np.allclose(4.0 * first, second, rtol=1e-9, atol=1e-9 * np.abs(second).max()), name
+
+
+def test_the_time_domain_governs_and_its_realisations_scatter(result):
+    numbers = {item.name: item for item in result.headlines}
+    time, frequency = (result.tree[f"SWL/{domain}/storm"].to_dataset() for domain in ("time", "frequency"))
+    assert numbers["connector_force"].model == "time domain, three dimensions"
+    scatter = time["connector_resultant_largest_of_realisation"].values
+    assert scatter.shape == (2, 1)
+    assert numbers["connector_force"].value == pytest.approx(float(scatter.mean()))
+    assert numbers["connector_force"].band.low == pytest.approx(float(scatter.min()))
+    assert numbers["offset"].bound == ""
+    assert len(result.provenance["seeds"]) == 2
+    # motions at wave frequencies are those of the frequency domain, slow drift comes on top in sway
+    heave, sway = (
+        float(time["significant_motion"].sel(unit=1, dof=dof) / frequency["significant_motion"].sel(unit=1, dof=dof))
+        for dof in ("heave", "sway")
+    )
+    assert heave == pytest.approx(1.0, abs=0.1)
+    assert sway > 1.0
+    regular, other = (result.tree[f"SWL/{domain}/operation"].to_dataset() for domain in ("time", "frequency"))
+    for dof in ("sway", "heave", "roll"):
+        one, two = (item["motion_amplitude"].sel(dof=dof).values for item in (regular, other))
+        assert np.allclose(one, two, rtol=0.05), dof
 
 
 def test_an_irregular_sea_of_one_frequency_is_a_regular_sea(result):

@@ -23,6 +23,7 @@ from moyai.structures.units.response import (
 )
 from moyai.structures.units.symmetry import Symmetry
 from moyai.validation import units as known
+from moyai.validation import units_time as in_time
 from moyai.validation.units import OMEGA, WATER, at_rest, row
 
 HINGE = Connector("h", "hinge", ((0, 1),), 0.0, 3.0, (1.0, 0.0, 0.0))
@@ -30,7 +31,7 @@ HINGE = Connector("h", "hinge", ((0, 1),), 0.0, 3.0, (1.0, 0.0, 0.0))
 
 LONGER = ("five wave", "barrier")
 QUICK = [item for item in known.CASES if not any(words in item.name for words in LONGER)]
-SLOW = [item for item in known.CASES if any(words in item.name for words in LONGER)]
+SLOW = [item for item in known.CASES if any(words in item.name for words in LONGER)] + list(in_time.CASES)
 
 
 @pytest.mark.parametrize("case", QUICK, ids=lambda item: item.name)

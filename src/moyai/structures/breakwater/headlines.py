@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from moyai.core.headline import Band, Headline, governing, unfavourable
+from moyai.series.realisations import seeds
 from moyai.structures.breakwater.largest_motion import LargestOfPeriods
 from moyai.structures.breakwater.lines.headlines import (
     AT_REST,
@@ -30,7 +31,6 @@ from moyai.structures.breakwater.lines.headlines import (
     line_peaks,
     place,
     seas_of,
-    seeds,
     storm_words,
     tension_at_rest,
 )

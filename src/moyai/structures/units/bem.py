@@ -260,7 +260,8 @@ def _sinh_profile(z: Array, k: float, depth: float) -> Array:
     return np.asarray((np.exp(k * z) - np.exp(-k * (z + 2.0 * depth))) / (1.0 + math.exp(-2.0 * k * depth)))
 
 
-def _capytaine_mesh(corners: Array) -> Any:
+def capytaine_mesh(corners: Array) -> Any:
+    """Return panels (n, 4, 3) as a mesh of Capytaine; triangles repeat their first corner."""
     from capytaine.meshes.meshes import Mesh
 
     count = len(corners)
@@ -273,7 +274,7 @@ def _capytaine_mesh(corners: Array) -> Any:
 def _blocks(panels: Panels, water: Water, k: float) -> list[tuple[ComplexArray, ComplexArray]]:
     """Return single and double layer of every image of the part on the part."""
     mesh, group, engine = panels.mesh, panels.symmetry, green_function()
-    part = _capytaine_mesh(mesh.corners[group.part])
+    part = capytaine_mesh(mesh.corners[group.part])
     blocks = []
     for element, (over_x, over_y) in enumerate(group.mirrors):
         corners = mesh.corners[group.part] * np.array([-1.0 if over_x else 1.0, -1.0 if over_y else 1.0, 1.0])
@@ -282,7 +283,7 @@ def _blocks(panels: Panels, water: Water, k: float) -> list[tuple[ComplexArray, 
             corners = turned_round(corners)
         blocks.append(
             engine.evaluate(
-                part, _capytaine_mesh(corners), free_surface=0.0, water_depth=water.depth, wavenumber=k,
+                part, capytaine_mesh(corners), free_surface=0.0, water_depth=water.depth, wavenumber=k,
                 adjoint_double_layer=False, diagonal_term_in_double_layer=element == 0,
             )
         )  # fmt: skip
@@ -357,7 +358,7 @@ def elevation_at(
     points: Array, panels: Panels, water: Water, omega: float, k: float, surface: ComplexArray, given: ComplexArray
 ) -> ComplexArray:
     """Return the surface elevation (p, r) [m] at points (p, 2) of the row that solutions (n, r) make."""
-    engine, full = green_function(), _capytaine_mesh(panels.mesh.corners)
+    engine, full = green_function(), capytaine_mesh(panels.mesh.corners)
     single, double = _layers(panels, surface, given)
     out = np.empty((len(points), surface.shape[1]), dtype=complex)
     for start in range(0, len(points), _BATCH):

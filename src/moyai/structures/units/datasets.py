@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-def _coords(at: RowAtLevel) -> dict[str, Any]:
+def coords_of(at: RowAtLevel) -> dict[str, Any]:
     return {
         "unit": np.arange(1, at.row.count + 1),
         "dof": list(DOFS),
@@ -60,6 +60,9 @@ def statics_dataset(at: RowAtLevel, wind: Array, current: Array) -> xr.Dataset:
         "anchor_y": ("line", anchor[:, 1]),
         "fairlead_x": ("line", fairlead[:, 0]),
         "fairlead_y": ("line", fairlead[:, 1]),
+        "anchor_z": ("line", anchor[:, 2]),
+        "fairlead_z": ("line", fairlead[:, 2]),
+        "unit_centre_z": ("unit", at.centres[:, 2]),
         "breaking_load": ("line", _known(at.breaking_load)),
         "line_tension_mean": ("line", at.tensions(rest.position)),
         "connector_x": ("connector", places[:, 0]),
@@ -70,9 +73,13 @@ def statics_dataset(at: RowAtLevel, wind: Array, current: Array) -> xr.Dataset:
         "steady_force_of_wind": (("unit", "dof"), wind.reshape(-1, 6)),
         "steady_force_of_current": (("unit", "dof"), current.reshape(-1, 6)),
     }
-    coords = _coords(at) | {"corner": np.arange(1, 5)}
+    coords = coords_of(at) | {"corner": np.arange(1, 5)}
     kinds = [joint.connector.kind for joint in at.joints]
-    return labelled(xr.Dataset(out, coords=coords).assign_attrs(length=row.length, connector_kinds=kinds))
+    return labelled(
+        xr.Dataset(out, coords=coords).assign_attrs(
+            length=row.length, beam=row.hull.beam, height=row.hull.height, connector_kinds=kinds
+        )
+    )
 
 
 def _known(values: Array) -> Array:
@@ -171,7 +178,7 @@ def regular_dataset(at: RowAtLevel, sea: RegularSea, answers: list[SeaAnswer]) -
         "tension_amplitude": (("period", "line"), tension),
         "line_tension_maximum": (("period", "line"), mean_tension + tension),
     }
-    coords = _coords(at) | {"period": np.array(sea.periods), "direction": ["across", "along", "about z"]}
+    coords = coords_of(at) | {"period": np.array(sea.periods), "direction": ["across", "along", "about z"]}
     data = labelled(xr.Dataset(out, coords=coords))
     data.attrs |= {"kind": "regular", "heading": sea.heading, "status": _status(answers)}
     return data
@@ -259,7 +266,7 @@ def irregular_dataset(at: RowAtLevel, sea: IrregularSea, answer: SeaAnswer) -> x
         "line_tension_mean": ("line", mean_tension),
         "line_tension_maximum": ("line", mean_tension + largest(fine.tension)),
     }
-    coords = _coords(at) | {"direction": ["across", "along", "about z"]}
+    coords = coords_of(at) | {"direction": ["across", "along", "about z"]}
     data = labelled(xr.Dataset(out, coords=coords))
     data.attrs |= {
         "kind": "irregular",

@@ -7,24 +7,31 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from moyai.core.arrays import Array
-from moyai.core.headline import Bound, Headline
+from moyai.core.headline import Band, Bound, Headline
 from moyai.core.wording import spoken
+from moyai.series.realisations import seeds
+from moyai.structures.units.model import SNAP_RATIO
 
 if TYPE_CHECKING:
     import xarray as xr
 
 MODEL = "linear, three dimensions"
 AT_REST = "linear, lines at rest at every instant"
+TIME = "time domain, three dimensions"
+TIME_AT_REST = "time domain, lines at rest at every instant"
+IN_MOTION = "time domain, lines in motion around events"
+Seas = list[tuple[str, "xr.Dataset"]]
 
 
 def headlines_of(groups: Mapping[str, xr.Dataset]) -> tuple[Headline, ...]:
     """Return the first page's numbers."""
-    seas = [(path, data) for path, data in groups.items() if path.count("/") == 3 and path.split("/")[2] == "frequency"]
+    seas = governing_seas(groups)
     maps = [(path, data) for path, data in groups.items() if path.count("/") == 3 and path.split("/")[2] == "map"]
     rests = [(path, data) for path, data in groups.items() if path.endswith("/statics")]
     found: list[Headline] = []
@@ -38,14 +45,49 @@ def headlines_of(groups: Mapping[str, xr.Dataset]) -> tuple[Headline, ...]:
         if known:
             value, level = min(known)
             found.append(Headline(name, label, value, "m", level, "still water"))
-    found.append(
-        Headline(
-            "not_judged", "Not judged", math.nan, "1",
-            text="time domain, slow drift, fatigue",
-            detail="no impacts and snaps in time, no slow drift about the mean, no lines in motion, no fatigue",
-        )
-    )  # fmt: skip
+    found.append(_not_judged(seas))
     return tuple(found)
+
+
+def governing_seas(groups: Mapping[str, xr.Dataset]) -> Seas:
+    """Return what governs every sea: the time domain where it came to its end, else the frequency domain."""
+    found = []
+    for path, data in groups.items():
+        if path.count("/") != 3 or path.split("/")[2] != "frequency":
+            continue
+        other = path.replace("/frequency/", "/time/", 1)
+        if other in groups and groups[other].attrs.get("status") == "converged":
+            found.append((other, groups[other]))
+        else:
+            found.append((path, data))
+    return found
+
+
+def _not_judged(seas: Seas) -> Headline:
+    timed = [data for path, data in seas if _in_time(path)]
+    words, detail = [], []
+    if len(timed) < len(seas) or not seas:
+        words.append("time domain, slow drift")
+        detail.append("no impacts and snaps in time, no slow drift about the mean")
+    if any(_snaps(data) for data in timed):
+        words.append("lines in motion")
+        detail.append("no snaps of lines")
+    if not any(np.isfinite(data["connector_damage_rate"].values).any() for data in timed):
+        words.append("fatigue")
+        detail.append("no fatigue of connectors and lines")
+    words.append("one line lost")
+    detail.append("no row with a line or a connector lost")
+    return Headline("not_judged", "Not judged", math.nan, "1", text=", ".join(words), detail="; ".join(detail))
+
+
+def _snaps(data: xr.Dataset) -> bool:
+    """Whether lines at rest are pulled beyond their range, and none was set in motion."""
+    beyond = data["line_tension_maximum"].values > SNAP_RATIO * data["line_tension_mean"].values
+    return bool(beyond.any()) and "lines_in_motion" not in data
+
+
+def _in_time(path: str) -> bool:
+    return path.split("/")[2] == "time"
 
 
 def _where(path: str, data: xr.Dataset, index: tuple[int, ...], dims: tuple[str, ...]) -> str:
@@ -79,85 +121,192 @@ def _greatest(
 #: Groups of waves move a row on chains slowly and far about its mean place; a single unit with it has several times the
 #: tension. Without it tensions and offsets of an irregular sea prove no strength.
 _WITHOUT_DRIFT = "; slow drift about the mean is not computed and adds to it, on chains several times over"
+_SNAPS = f"; pulled beyond {SNAP_RATIO:g} times its mean, where a line at rest at every instant says too little"
 
 
-def _bound(data: xr.Dataset) -> Bound:
-    """Return ``at least`` for an irregular sea, whose slow drift is left out."""
-    return "at least" if "significant_motion" in data else ""
+@dataclass(frozen=True)
+class _Largest:
+    """The largest value of a variable over all seas, and where it stands."""
+
+    value: float
+    where: str
+    path: str
+    data: xr.Dataset
+    index: tuple[int, ...]
+    name: str
+    scale: float
+
+    @property
+    def timed(self) -> bool:
+        return _in_time(self.path)
+
+    @property
+    def band(self) -> Band | None:
+        """What the realisations give."""
+        scatter = self.data.get(f"{self.name}_of_realisation")
+        if scatter is None:
+            return None
+        rows = np.asarray(scatter.values, dtype=float)
+        return seeds(np.array([row[self.index] for row in rows]) / self.scale)
+
+    @property
+    def without_drift(self) -> bool:
+        """Whether it is of an irregular sea without slow drift."""
+        return not self.timed and "significant_motion" in self.data
 
 
-def _connectors(groups: Mapping[str, xr.Dataset], seas: list[tuple[str, xr.Dataset]]) -> Iterator[Headline]:
-    found = _greatest(seas, "connector_resultant_largest")
+def _largest(seas: Seas, name: str, over: Array | None = None) -> _Largest | None:
+    found = _greatest(seas, name, over)
     if found is None:
-        return
-    value, where, (path, _, _) = found
-    words = "mean and waves together, along the direction that bears most"
-    yield Headline("connector_force", "Largest force in a connector", value, "N", where, MODEL, detail=words)
-    rest = groups[f"/{path.split('/')[1]}/statics"]
-    load = np.asarray(rest["connector_breaking_load"].values, dtype=float)
-    if np.isfinite(load).any():
-        share = _greatest(seas, "connector_resultant_largest", over=load)
-        if share is not None:
-            yield Headline(
-                "connector_utilisation",
-                "Largest force over breaking load of a connector",
-                share[0],
-                "1",
-                share[1],
-                MODEL,
-            )
-    moment = _greatest(seas, "connector_moment_largest")
-    if moment is not None and moment[0] > 0.0:
-        yield Headline("connector_moment", "Largest moment in a connector", moment[0], "N m", moment[1], MODEL)
-    opening = _greatest(
-        [(place, item.assign(opening=item["relative_motion_largest"].sel(component="y"))) for place, item in seas],
-        "opening",
-    )
-    if opening is not None and opening[0] > 1e-9:
-        yield Headline(
-            "gap_motion", "Largest opening and closing of a gap at a connector", opening[0], "m", opening[1], MODEL
-        )
-
-
-def _lines(groups: Mapping[str, xr.Dataset], seas: list[tuple[str, xr.Dataset]]) -> Iterator[Headline]:
-    found = _greatest(seas, "line_tension_maximum")
-    if found is None:
-        return
+        return None
     value, where, (path, data, index) = found
-    mean = float(data["line_tension_mean"].values[index])
+    return _Largest(value, where, path, data, index, name, 1.0 if over is None else float(over[index[-1]]))
+
+
+def _connectors(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Headline]:
+    found = _largest(seas, "connector_resultant_largest")
+    if found is None:
+        return
+    words = (
+        "largest of the record, all components together"
+        if found.timed
+        else "mean and waves together, along the direction that bears most"
+    )
     yield Headline(
-        "line_tension", "Largest tension of a line", value, "N", where, AT_REST, mean=mean, bound=_bound(data),
-        detail=f"mean {spoken(mean, 'N', 3)}" + _WITHOUT_DRIFT * bool(_bound(data)),
-        analysis="quasi_static",
+        "connector_force", "Largest force in a connector", found.value, "N", found.where, _model(found),
+        band=found.band, detail=words,
     )  # fmt: skip
-    load = np.asarray(groups[f"/{path.split('/')[1]}/statics"]["breaking_load"].values, dtype=float)
-    if np.isfinite(load).any():
-        share = _greatest(seas, "line_tension_maximum", over=load)
-        if share is not None:
-            _, _, (_, other, place) = share
-            part = float(other["line_tension_mean"].values[place] / load[place[-1]])
-            yield Headline(
-                "line_utilisation", "Tension over breaking load of a line", share[0], "1", share[1], AT_REST, mean=part,
-                bound=_bound(other), analysis="quasi_static",
-            )  # fmt: skip
-
-
-def _motions(seas: list[tuple[str, xr.Dataset]]) -> Iterator[Headline]:
-    offset = _greatest(seas, "largest_offset")
-    if offset is not None:
+    load = np.asarray(groups[f"/{found.path.split('/')[1]}/statics"]["connector_breaking_load"].values, dtype=float)
+    share = _largest(seas, "connector_resultant_largest", over=load) if np.isfinite(load).any() else None
+    if share is not None:
         yield Headline(
-            "offset", "Largest sway of a unit from rest", offset[0], "m", offset[1], MODEL,
-            bound=_bound(offset[2][1]), detail="mean and waves" + _WITHOUT_DRIFT * bool(_bound(offset[2][1])),
+            "connector_utilisation", "Largest force over breaking load of a connector", share.value, "1", share.where,
+            _model(share), band=share.band,
+        )  # fmt: skip
+    moment = _largest(seas, "connector_moment_largest")
+    if moment is not None and moment.value > 0.0:
+        yield Headline(
+            "connector_moment", "Largest moment in a connector", moment.value, "N m", moment.where, _model(moment)
+        )
+    opened = [(path, data.assign(opened=data["relative_motion_largest"].sel(component="y"))) for path, data in seas]
+    opening = _largest(opened, "opened")
+    if opening is not None and opening.value > 1e-9:
+        yield Headline(
+            "gap_motion", "Largest opening and closing of a gap at a connector", opening.value, "m", opening.where,
+            _model(opening), band=replace(opening, name="gap_motion_largest").band,
+        )  # fmt: skip
+    worn = [
+        (path, data.assign(worn=data["connector_damage_rate"] * float(data.attrs["duration"])))
+        for path, data in seas
+        if "connector_damage_rate" in data and "duration" in data.attrs
+    ]
+    damage = _largest(worn, "worn")
+    if damage is not None:
+        yield Headline(
+            "connector_damage", "Share of the life of a connector that the sea takes", damage.value, "1", damage.where,
+            TIME, detail=f"in {float(damage.data.attrs['duration']) / 3600.0:.3g} h, cycles by rainflow",
+        )  # fmt: skip
+
+
+def _model(found: _Largest) -> str:
+    return TIME if found.timed else MODEL
+
+
+def _lines(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Headline]:
+    found = _largest(seas, "line_tension_maximum")
+    if found is None:
+        return
+    mean = float(found.data["line_tension_mean"].values[found.index])
+    bound, words = _of_line(found, mean)
+    yield Headline(
+        "line_tension", "Largest tension of a line", found.value, "N", found.where, _line_model(found), mean=mean,
+        bound=bound, band=_line_band(found), detail=f"mean {spoken(mean, 'N', 3)}{words}", analysis=_analysis(found),
+    )  # fmt: skip
+    load = np.asarray(groups[f"/{found.path.split('/')[1]}/statics"]["breaking_load"].values, dtype=float)
+    share = _largest(seas, "line_tension_maximum", over=load) if np.isfinite(load).any() else None
+    if share is None:
+        return
+    yield _utilisation(share, True)
+    if _moved(share):
+        # codes ask another factor of lines at rest: the highest of them is judged too
+        still = [(path, _at_rest(data)) for path, data in seas]
+        other = _largest(still, "line_tension_maximum", over=load)
+        if other is not None:
+            yield _utilisation(other, False)
+
+
+def _utilisation(share: _Largest, shown: bool) -> Headline:
+    own = float(share.data["line_tension_mean"].values[share.index])
+    return Headline(
+        "line_utilisation", "Tension over breaking load of a line", share.value, "1", share.where, _line_model(share),
+        mean=own / share.scale, bound=_of_line(share, own)[0], band=_line_band(share), analysis=_analysis(share),
+        shown=shown,
+    )  # fmt: skip
+
+
+def _at_rest(data: xr.Dataset) -> xr.Dataset:
+    """Return a sea without the lines in motion, and without those that were found to stay under them."""
+    if "lines_in_motion" not in data:
+        return data
+    tension, mean = data["line_tension_maximum"].values, data["line_tension_mean"].values
+    kept = (data["lines_in_motion"].values == 0) & (tension <= SNAP_RATIO * mean)
+    return data.assign(line_tension_maximum=("line", np.where(kept, tension, np.nan)))
+
+
+def _moved(found: _Largest) -> bool:
+    return "lines_in_motion" in found.data and bool(found.data["lines_in_motion"].values[found.index[-1]])
+
+
+def _line_band(found: _Largest) -> Band | None:
+    """Return the band of realisations, judged at what events that were not rerun leave open."""
+    if not _moved(found):
+        return found.band
+    line = found.index[-1]
+    scatter, bound = (
+        found.data[f"line_tension_{name}_of_realisation"].values[:, line] / found.scale for name in ("maximum", "bound")
+    )
+    return seeds(scatter, bound)
+
+
+def _line_model(found: _Largest) -> str:
+    return IN_MOTION if _moved(found) else TIME_AT_REST if found.timed else AT_REST
+
+
+def _analysis(found: _Largest) -> str:
+    return "dynamic" if _moved(found) else "quasi_static"
+
+
+def _of_line(found: _Largest, mean: float) -> tuple[Bound, str]:
+    """Return the bound of a tension and its reason: slow drift left out, or snaps that lines at rest do not see."""
+    if found.without_drift:
+        return "at least", _WITHOUT_DRIFT
+    if _moved(found):
+        still = float(found.data["line_tension_maximum_lines_at_rest"].values[found.index[-1]])
+        return "", f"; {spoken(still, 'N', 3)} with lines at rest at every instant"
+    snapped = found.timed and found.value * found.scale > SNAP_RATIO * mean
+    return ("at least", _SNAPS) if snapped else ("", "")
+
+
+def _motions(seas: Seas) -> Iterator[Headline]:
+    offset = _largest(seas, "largest_offset")
+    if offset is not None:
+        left_out = offset.without_drift
+        words = "mean, slow drift and waves" if offset.timed else "mean and waves"
+        yield Headline(
+            "offset", "Largest sway of a unit from rest", offset.value, "m", offset.where, _model(offset),
+            bound="at least" if left_out else "", band=offset.band, detail=words + _WITHOUT_DRIFT * left_out,
         )  # fmt: skip
     rolls = []
     for path, data in seas:
         name = "significant_motion" if "significant_motion" in data else "motion_amplitude"
         factor = 1.0 if name == "significant_motion" else 2.0
         rolls.append((path, data.assign(roll=factor * data[name].sel(dof="roll"))))
-    roll = _greatest(rolls, "roll")
+    roll = _largest(rolls, "roll")
     if roll is not None:
-        yield Headline("roll", "Largest roll of a unit (double amplitude, significant in seas)", roll[0], "rad",
-                       roll[1], MODEL)  # fmt: skip
+        yield Headline(
+            "roll", "Largest roll of a unit (double amplitude, significant in seas)", roll.value, "rad", roll.where,
+            _model(roll),
+        )  # fmt: skip
 
 
 def _waves(maps: list[tuple[str, xr.Dataset]]) -> Iterator[Headline]:

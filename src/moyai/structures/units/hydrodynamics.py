@@ -92,10 +92,23 @@ class RowHydrodynamics:
         )
         return np.repeat(np.exp(1j * k[:, None, None] * along), 6, axis=2)
 
+    @property
+    def reach(self) -> Array:
+        """Distance in plan (u, u) [m] from unit to unit."""
+        plan = self.centres[:, :2]
+        return np.asarray(np.linalg.norm(plan[:, None] - plan[None, :], axis=2))
+
+    def _travel(self, k: Array) -> ComplexArray:
+        """Return the phase of a wave from unit to unit (f, m, m)."""
+        apart = np.kron(self.reach, np.ones((6, 6)))
+        return np.asarray(np.exp(1j * k[:, None, None] * apart))
+
     def at(self, omega: Array, k: Array) -> tuple[Array, Array, ComplexArray]:
         """Return added mass, damping (f, m, m) and excitation (f, h, m) at other frequencies, by splines.
 
-        The excitation is interpolated without the phase of the wave at each unit, which turns fast with frequency.
+        What turns fast with frequency is taken out before: the phase of the incident wave at each unit in the
+        excitation, and in the coefficients of two units that of a wave from the one to the other
+        [eq:units-interpolation].
 
         Raises
         ------
@@ -113,7 +126,9 @@ class RowHydrodynamics:
             return np.tile(self.added_mass, shape), np.tile(self.damping, shape), np.tile(self.excitation, shape)
         steady = self.excitation / self.phase(self.wave_number)
         excitation = CubicSpline(own, steady)(omega) * self.phase(k)
-        return CubicSpline(own, self.added_mass)(omega), CubicSpline(own, self.damping)(omega), excitation
+        answer = (self.added_mass + 1j * self.damping / own[:, None, None]) / self._travel(self.wave_number)
+        answer = CubicSpline(own, answer)(omega) * self._travel(k)
+        return np.asarray(answer.real), np.asarray(answer.imag * omega[:, None, None]), excitation
 
 
 def solve_row(

@@ -16,14 +16,18 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.core.headline import Criterion
 from moyai.core.options import checks_words
+from moyai.design.fatigue import EnduranceCurve
+from moyai.flexible.network import BarType
 from moyai.mooring.lines import Clump, Segment
 from moyai.potential.sections import Hull
 from moyai.sea.environment import Environment
 
 #: Along x, y, z and about x, y, z of the unit.
 DOFS = ("sway", "surge", "heave", "pitch", "roll", "yaw")
+#: Largest tension over the mean up to which a line at rest at every instant serves
+SNAP_RATIO = 5.0
 ConnectorKind = Literal["rigid", "hinge", "ball", "spring", "rubber", "chain", "fender"]
-Analysis = Literal["statics", "frequency", "map"]
+Analysis = Literal["statics", "frequency", "map", "time"]
 
 
 @dataclass(frozen=True)
@@ -99,6 +103,8 @@ class Connector:
         Of a curve, per rate of elongation [N s/m].
     breaking_load : float
         Largest resultant force [N]; infinite where it is not known.
+    endurance : EnduranceCurve or None
+        Cycles that it bears over the range of its force [N].
     """
 
     name: str
@@ -112,6 +118,7 @@ class Connector:
     curve: Curve | None = None
     linear_damping: float = 0.0
     breaking_load: float = math.inf
+    endurance: EnduranceCurve | None = None
 
 
 @dataclass(frozen=True)
@@ -132,6 +139,10 @@ class UnitLine:
         As of :class:`moyai.mooring.Line`.
     stiffness, pretension : float
         Of a spring [N/m], [N].
+    bar_types : tuple of BarType
+        What the segments are made of, for a line in motion; empty where a segment does not tell enough.
+    clump_bodies : tuple of (float, float)
+        Mass [kg] and volume [m3] of the clumps.
     """
 
     name: str
@@ -144,6 +155,8 @@ class UnitLine:
     bed_friction: float = 0.0
     stiffness: float = 0.0
     pretension: float = 0.0
+    bar_types: tuple[BarType, ...] = ()
+    clump_bodies: tuple[tuple[float, float], ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -216,6 +229,34 @@ class MapArea:
     line: tuple[float, float, float, float] | None = None
 
 
+@dataclass(frozen=True)
+class TimeSettings:
+    """How the time domain is run; ``None`` means that the program chooses.
+
+    Parameters
+    ----------
+    time_step : float or None
+        [s].
+    ramp : float or None
+        Length of the cosine ramp of the waves [s].
+    duration : float or None
+        Simulated time of regular waves [s] (irregular seas carry their own).
+    analysed_periods : int
+        Whole periods at the end that are analysed in regular waves.
+    realisations : int
+        Of every irregular sea.
+    memory_frequencies : int
+        Frequencies over the band that the memory of the water is fitted to, those of the seas among them.
+    """
+
+    time_step: float | None = None
+    ramp: float | None = None
+    duration: float | None = None
+    analysed_periods: int = 10
+    realisations: int = 5
+    memory_frequencies: int = 24
+
+
 @checks_words
 @dataclass(frozen=True)
 class Settings:
@@ -234,6 +275,7 @@ class Settings:
         Whether the mean drift force moves the row.
     section_compare : bool
         Whether the two-dimensional section is computed next to the row.
+    time : TimeSettings
     """
 
     panel_size: float
@@ -242,6 +284,7 @@ class Settings:
     frequency_count: int = 20
     drift: bool = True
     section_compare: bool = True
+    time: TimeSettings = field(default_factory=TimeSettings)
 
 
 @dataclass(frozen=True, eq=False)
@@ -265,6 +308,6 @@ def straight_row(count: int, length: float, gap: float) -> tuple[Placement, ...]
 
 
 __all__ = [
-    "DOFS", "Analysis", "Connector", "ConnectorKind", "Curve", "FloatingRow", "MapArea", "Placement",
-    "Settings", "UnitLine", "UnitsProblem", "straight_row",
+    "DOFS", "SNAP_RATIO", "Analysis", "Connector", "ConnectorKind", "Curve", "FloatingRow", "MapArea", "Placement",
+    "Settings", "TimeSettings", "UnitLine", "UnitsProblem", "straight_row",
 ]  # fmt: skip

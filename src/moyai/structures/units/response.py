@@ -81,7 +81,7 @@ def respond(model: RowModel, omega: Array, curve_stiffness: Array) -> RowRespons
     along = np.array([joint.along for joint in joints]).reshape(len(joints), at.size)
     restoring = at.hydrostatic + at.line_stiffness(model.position)
     stiffness = restoring + at.springs[0]
-    own = _own_damping(at, added, restoring) + at.springs[1]
+    own = own_damping(at, added, restoring) + at.springs[1]
     headings = excitation.shape[1]
     given = np.broadcast_to(np.asarray(curve_stiffness, dtype=float), (len(omega), headings, len(joints)))
     w = omega[:, None, None]
@@ -105,7 +105,7 @@ def respond(model: RowModel, omega: Array, curve_stiffness: Array) -> RowRespons
     return RowResponse(omega, motion, relative, load, np.asarray(tension), np.asarray(power, dtype=float))
 
 
-def _own_damping(at: RowAtLevel, added: Array, stiffness: Array) -> Array:
+def own_damping(at: RowAtLevel, added: Array, stiffness: Array) -> Array:
     """Return the damping (n, m, m) beyond waves and connectors [eq:units-critical]."""
     row = at.row
     turn = np.zeros((at.size, at.size))

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from moyai.core.arrays import Array
-from moyai.core.collected import STOPPED, Collected
+from moyai.core.collected import Collected
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
@@ -42,6 +42,8 @@ from moyai.structures.units.seas import (
     spread_of,
 )
 from moyai.structures.units.section import SectionAnswer, comparable, section_answer
+from moyai.structures.units.time.analysis import sea_in_time, water_in_time
+from moyai.structures.units.time.band import ABOVE
 from moyai.structures.units.variables import VOCABULARY
 
 if TYPE_CHECKING:
@@ -49,6 +51,8 @@ if TYPE_CHECKING:
 
 #: Least wave length over the longest side of a panel: less is refused; below the second a notice is given
 LEAST_PANELS, FEW_PANELS = 4.0, 6.0
+#: Analyses that need the coefficients of the waves
+WITH_WAVES = frozenset({"frequency", "map", "time"})
 #: Accepted error of the energy balance, over the energy that meets the length of the row
 BALANCE = 0.05
 
@@ -74,6 +78,11 @@ def row_panels(at: RowAtLevel, settings: Settings, shortest: float) -> Panels:
         lid=shortest > 0.7 * irregular_frequency(at), gap_lid=row.gap_damping_lid > 0.0,
     )  # fmt: skip
     return panels_of(mesh, at.centres, row.gap_damping_lid)
+
+
+def highest_frequency(omega: Array, settings: Settings) -> float:
+    """Return the highest frequency [rad/s] that panels meet: in time, of the band of the memory."""
+    return float(omega.max()) * (ABOVE if "time" in settings.analyses else 1.0)
 
 
 def irregular_frequency(at: RowAtLevel) -> float:
@@ -135,11 +144,7 @@ def run(problem: UnitsProblem, progress: Progress = silent, *, store: DatasetSto
         When the case is impossible, or Capytaine is not installed.
     """
     collected = Collected()
-    try:
-        for _ in _steps(problem, collected, store, progress):
-            pass
-    except KeyboardInterrupt:
-        collected.interrupted = STOPPED
+    collected.take(_steps(problem, collected, store, progress))
     return _result(problem, collected)
 
 
@@ -148,7 +153,7 @@ def _steps(
 ) -> Iterator[None]:
     environment = problem.environment
     levels = [assemble(problem.row, environment, name, level) for name, level in environment.water_levels]
-    if {"frequency", "map"} & set(problem.settings.analyses):
+    if WITH_WAVES & set(problem.settings.analyses):
         green_function()
     for index, at in enumerate(levels):
         progress("water levels", index, len(levels))
@@ -167,10 +172,10 @@ def _level_steps(
     wind, current = steady_load(at, environment)
     collected.groups[f"{root}/statics"] = statics_dataset(at, wind, current)
     yield
-    if not {"frequency", "map"} & set(settings.analyses) or not environment.sea_states:
+    if not WITH_WAVES & set(settings.analyses) or not environment.sea_states:
         return
     omega, headings = frequencies_of(environment, settings), headings_of(environment)
-    panels = row_panels(at, settings, float(omega.max()))
+    panels = row_panels(at, settings, highest_frequency(omega, settings))
     collected.notices.extend(check_resolution(at, panels, omega))
     hydro = solve_row(panels, at.water, at.centres, omega, headings, store=store, progress=progress)
     collected.checks.extend(replace(check, name=f"{at.name}: {check.name}") for check in hydro.checks)
@@ -190,9 +195,12 @@ def _level_steps(
         if data.attrs["status"] != "converged":
             collected.failures.append(f"not settled: {at.name}/frequency/{sea.name}")
         collected.checks.extend(_balance(at, sea, answers[sea.name], hydro))
-        collected.notices.extend((*_curve_notices(at), *_beyond_curves(at, sea.name, data)))
+        in_time = "time" in settings.analyses
+        collected.notices.extend((*(() if in_time else _curve_notices(at)), *_beyond_curves(at, sea.name, data)))
         yield
     progress("seas", len(answers), len(environment.sea_states))
+    if "time" in settings.analyses:
+        yield from _time_steps(problem, at, hydro, wind + current, answers, collected, store, progress)
     if "map" in settings.analyses:
         section = _section(problem, at, hydro, progress)
         points = map_points(problem.map_area, at)
@@ -201,6 +209,34 @@ def _level_steps(
             collected.groups[f"{root}/map/{sea.name}"] = map_dataset(
                 at, hydro, sea, answers[sea.name], points, problem.map_area, field, section
             )
+        yield
+
+
+def _time_steps(
+    problem: UnitsProblem,
+    at: RowAtLevel,
+    hydro: RowHydrodynamics,
+    steady: Array,
+    answers: dict[str, list[SeaAnswer]],
+    collected: Collected,
+    store: DatasetStore | None,
+    progress: Progress,
+) -> Iterator[None]:
+    root = f"/{at.name}"
+    water, data, checks, notices = water_in_time(at, hydro, steady, problem.settings, store=store, progress=progress)
+    collected.checks.extend(checks)
+    collected.notices.extend(notices)
+    for name, item in data.items():
+        collected.groups[f"{root}/{name}"] = item
+    for sea in problem.environment.sea_states:
+        found = sea_in_time(water, sea, answers[sea.name], progress)
+        for end, item in found.groups.items():
+            collected.groups[f"{root}/time/{sea.name}{end}"] = item
+        collected.notices.extend(found.notices)
+        if found.status == "interrupted":
+            raise KeyboardInterrupt
+        if found.status != "converged":
+            collected.failures.append(f"{at.name}/time/{sea.name}: {found.message}")
         yield
 
 
@@ -307,7 +343,12 @@ def _result(problem: UnitsProblem, collected: Collected) -> Result:
         "case_hash": problem.case_hash,
         "case_text": problem.case_text,
     }
-    seeds: list[int] = []
+    seeds = [
+        int(seed)
+        for data in collected.groups.values()
+        if "seed_of_realisation" in data
+        for seed in data["seed_of_realisation"].values
+    ]
     return collected.close(
         VOCABULARY,
         attributes,

@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from moyai.core.arrays import Array
-from moyai.core.headline import Band, Headline, governing, unfavourable
+from moyai.core.headline import Headline, governing, unfavourable
 from moyai.mooring.anchors import gravity_anchor_weight
 from moyai.series.intervals import reach_of_mean
+from moyai.series.realisations import seeds
 from moyai.structures.breakwater.responses import SNAP_RATIO
 from moyai.tables.design_codes import anchor_factor, holding_data
 
@@ -356,20 +357,6 @@ def tension_at_rest(groups: Mapping[str, xr.Dataset], levels: list[str]) -> list
         out.append(Headline("line_utilisation", "Utilisation of the breaking load at rest", best[0] / best[2], "1",
                             best[1], STILL, detail=f"breaking load {kilonewton(best[2])}"))  # fmt: skip
     return out
-
-
-def seeds(scatter: Array, bound: Array | None = None) -> Band | None:
-    """Return the band of realisations: they scatter about their mean, which is the number.
-
-    Criteria are judged at the end of the one-sided 95 % interval of that mean (Student), since few realisations leave
-    it uncertain; with a bound on each realisation, of the mean of the bounds.
-    """
-    if scatter.size < 2 or not np.isfinite(scatter).all():
-        return None
-    upper = scatter if bound is None or bound.size != scatter.size else np.fmax(bound, scatter)
-    of = f"{scatter.size} realisations; judged at the 95 % end of their mean"
-    ends = (float(scatter.mean()) - reach_of_mean(scatter), float(upper.mean()) + reach_of_mean(upper))
-    return Band(float(scatter.min()), float(scatter.max()), of, decides=False, judged=ends)
 
 
 def _standard_error(scatter: Array) -> float:

@@ -15,6 +15,7 @@ from moyai.core.validity import IdentityCheck, Notice
 from moyai.coupled.bodies import BodyHistory
 from moyai.coupled.planar import PlanarBody, PlanarCarrier
 from moyai.coupled.simulate import CoupledHistory, simulate_coupled
+from moyai.flexible.sea_table import sea_of_lines
 from moyai.floating.damping import QuadraticDamping
 from moyai.floating.forcing import Forcing
 from moyai.floating.lines import PlanarMooring
@@ -24,7 +25,6 @@ from moyai.structures.breakwater.assembly import FloatingUnit
 from moyai.structures.breakwater.frequency.model import FrequencyModel
 from moyai.structures.breakwater.lines.drag import line_drag_rows
 from moyai.structures.breakwater.lines.network import LineNetwork, line_network, static_check
-from moyai.structures.breakwater.lines.water import sea_of_lines
 from moyai.structures.breakwater.model import MooringLine
 from moyai.structures.breakwater.settings import LineDynamics
 from moyai.structures.breakwater.viscous_damping import unit_drag_rows

@@ -8,10 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from moyai.case.build_lines import line_parts
+from moyai.case.build_lines import bar_type_of, line_parts
 from moyai.case.build_sea import environment_of
 from moyai.case.criteria import criteria_of
+from moyai.case.schema_lines import ClumpEntry
 from moyai.core.errors import InputError
+from moyai.design.fatigue import EnduranceCurve
 from moyai.sea.dispersion import wave_number
 from moyai.sea.environment import Environment
 from moyai.sea.water import Water
@@ -25,6 +27,7 @@ from moyai.structures.units.model import (
     MapArea,
     Placement,
     Settings,
+    TimeSettings,
     UnitLine,
     UnitsProblem,
     straight_row,
@@ -126,6 +129,7 @@ def connector_of(entry: Any, count: int) -> Connector:
     base: dict[str, Any] = {
         "name": entry.name, "kind": entry.kind, "pairs": pairs, "x": entry.x, "above_keel": entry.above_keel,
         "breaking_load": math.inf if entry.breaking_load is None else entry.breaking_load,
+        "endurance": _endurance(entry.endurance),
     }  # fmt: skip
     if isinstance(entry, joints.HingeConnector):
         return Connector(**base, axis=_axis(entry.axis))
@@ -146,6 +150,13 @@ def connector_of(entry: Any, count: int) -> Connector:
     return Connector(**base, axis=_axis(entry.direction), curve=curve, linear_damping=entry.damping)
 
 
+def _endurance(given: joints.Endurance | None) -> EnduranceCurve | None:
+    if given is None:
+        return None
+    capacity = given.cycles * given.range**given.exponent
+    return EnduranceCurve("of the case", given.exponent, capacity, "N", True, "case file")
+
+
 def line_of(entry: Any, index: int, water: Water, count: int) -> UnitLine:
     """Return one entry of ``lines``."""
     units = tuple(range(count)) if isinstance(entry.units, str) else tuple(number - 1 for number in entry.units)
@@ -157,7 +168,17 @@ def line_of(entry: Any, index: int, water: Water, count: int) -> UnitLine:
         )
     segments, clumps = line_parts(entry, f"lines[{index}]", water)
     anchor = (entry.anchor.x, entry.anchor.y, entry.anchor.above_bed)
-    return UnitLine(entry.name, entry.count, units, fairlead, anchor, segments, clumps, entry.bed_friction)
+    materials = [
+        bar_type_of(part, f"lines[{index}].segments[{number}]", entry, water, needed=False)
+        for number, part in enumerate(entry.segments)
+        if not isinstance(part, ClumpEntry)
+    ]
+    kinds = tuple(kind for kind in materials if kind is not None)
+    bodies = tuple((part.clump.mass, part.clump.volume) for part in entry.segments if isinstance(part, ClumpEntry))
+    return UnitLine(
+        entry.name, entry.count, units, fairlead, anchor, segments, clumps, entry.bed_friction,
+        bar_types=kinds if len(kinds) == len(materials) else (), clump_bodies=bodies,
+    )  # fmt: skip
 
 
 def map_of(block: schema.MapBlock | None) -> MapArea:
@@ -186,6 +207,7 @@ def settings_of(model: schema.UnitsCase, row: FloatingRow, environment: Environm
         frequency_count=given.frequency_count,
         drift=given.drift,
         section_compare=given.compare_with_section,
+        time=TimeSettings(**given.time.model_dump()),
     )
     if given.panel_size is not None:
         return settings

@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING, Any
 from moyai.case.check_catalogue import SAID_OTHERWISE, line_place
 from moyai.case.check_sea import check_level_names, check_surroundings, check_waves
 from moyai.case.findings import Findings, duplicates
+from moyai.case.schema_environment import sea_names
 from moyai.case.yaml_reader import KeyPath
 from moyai.core.errors import ConvergenceError, InputError
+from moyai.sea.states import RegularSea
 from moyai.structures.units.case import schema
 
 if TYPE_CHECKING:
@@ -46,10 +48,13 @@ def _check_needs(model: schema.UnitsCase, findings: Findings) -> None:
         findings.fault(("analyses",), f"the analysis '{sorted(waves)[0]}' needs 'waves'", remedy="give a sea state")
     if "map" in model.analyses and model.map is None:
         findings.fault(("analyses",), "the analysis 'map' needs 'map'", remedy="say where: map: {x: ..., y: ...}")
-    if "map" in model.analyses and "frequency" not in model.analyses:
-        findings.fault(
-            ("analyses",), "the analysis 'map' needs 'frequency'", remedy="the units move in the waves: ask for both"
-        )
+    for name in ("map", "time"):
+        if name in model.analyses and "frequency" not in model.analyses:
+            findings.fault(
+                ("analyses",), f"the analysis '{name}' needs 'frequency'",
+                remedy="the units move in the waves: ask for both",
+            )  # fmt: skip
+    _check_time(model, findings)
     pushed = model.settings.drift or model.wind is not None or model.current is not None
     if not model.lines and pushed and model.waves and waves:
         findings.fault(
@@ -59,6 +64,16 @@ def _check_needs(model: schema.UnitsCase, findings: Findings) -> None:
         )
     if unit.gap_damping_lid > 0.0 and len(_places(model)) < 2:
         findings.warn(("structure", "gap_damping_lid"), "a single unit has no gap; the lid does nothing")
+
+
+def _check_time(model: schema.UnitsCase, findings: Findings) -> None:
+    for index, entry in enumerate(model.structure.connectors):
+        if entry.endurance is not None and "time" not in model.analyses:
+            findings.warn(
+                ("structure", "connectors", index, "endurance"),
+                f"the fatigue of connector '{entry.name}' is counted in the time domain alone",
+                remedy="add 'time' to 'analyses'",
+            )
 
 
 def _places(model: schema.UnitsCase) -> tuple[Any, ...]:
@@ -140,6 +155,59 @@ def _check_map(model: schema.UnitsCase, findings: Findings) -> None:
     line = model.map.line
     if line is not None and line.start == line.end:
         findings.fault(("map", "line"), "both ends of the line are the same point", remedy="give two points")
+    if findings.sound("structure", "map", "waves", "site"):
+        _check_named_points(model, findings)
+        _check_line_behind(model, findings)
+
+
+def _check_named_points(model: schema.UnitsCase, findings: Findings) -> None:
+    """Refuse named points inside of a unit, where there is no water."""
+    assert model.map is not None
+    half = 0.5 * model.structure.units.length
+    try:
+        hull = model.structure.section.hull()
+    except InputError:
+        return  # told by the checks of the section
+    left, right = hull.bounds[0], hull.bounds[1]
+    for index, point in enumerate(model.map.points):
+        for number, place in enumerate(_places(model)):
+            dx, dy = point.x - place.x, point.y - place.y
+            cos, sin = math.cos(place.heading), math.sin(place.heading)
+            across, lengthwise = dx * cos + dy * sin, dy * cos - dx * sin
+            if left < across < right and abs(lengthwise) < half:
+                findings.fault(
+                    ("map", "points", index),
+                    f"the point '{point.name}' at x = {point.x:g} m, y = {point.y:g} m lies inside of unit "
+                    f"{number + 1}, where there is no water",
+                    allowed="points outside of the units", remedy="move it",
+                )  # fmt: skip
+
+
+def _check_line_behind(model: schema.UnitsCase, findings: Findings) -> None:
+    """Warn of a line of transmission that a sea meets before the row."""
+    from moyai.case.headings import heading_of
+
+    assert model.map is not None
+    line, places = model.map.line, _places(model)
+    if line is None:
+        return
+    names = sea_names(model.waves)
+    for index, state in enumerate(model.waves):
+        try:
+            heading = heading_of(state, model.site.x_axis_bearing_deg, f"waves[{index}]")
+        except InputError:
+            continue
+        cos, sin = math.cos(heading), math.sin(heading)
+        row = min(place.x * cos + place.y * sin for place in places)
+        before = [row - x * cos - y * sin for x, y in (line.start, line.end)]
+        if min(before) >= 0.0:
+            findings.warn(
+                ("map", "line"),
+                f"the line lies on the seaward side: '{names[index]}' meets it {min(before):.4g} to "
+                f"{max(before):.4g} m before the first unit; its transmission would hold reflected waves",
+                allowed="a line behind the row, as the waves travel", remedy="check the sign of its x",
+            )  # fmt: skip
+            return
 
 
 def _hull(model: schema.UnitsCase, findings: Findings) -> Hull | None:
@@ -221,6 +289,7 @@ def _check_by_building(model: schema.UnitsCase, findings: Findings, folder: Path
         return
     check_waves(model, problem.environment, findings, lambda *_: None)
     if not findings.faults:
+        _check_step(problem, findings)
         _check_problem(problem, findings)
 
 
@@ -244,10 +313,27 @@ def _check_lines_at_rest(problem: UnitsProblem, at: RowAtLevel, findings: Findin
     return bool(findings.faults)
 
 
+def _check_step(problem: UnitsProblem, findings: Findings) -> None:
+    step = problem.settings.time.time_step
+    if step is None or "time" not in problem.settings.analyses:
+        return
+    periods = [
+        min(sea.periods) if isinstance(sea, RegularSea) else 2.0 * math.pi / float(sea.spectrum.peak_omega)
+        for sea in problem.environment.sea_states
+    ]
+    if periods and step > 0.1 * min(periods):
+        findings.fault(
+            ("settings", "time", "time_step"),
+            f"the step of {step:g} s is more than a tenth of the shortest period, {min(periods):.3g} s",
+            allowed=f"up to {0.1 * min(periods):.3g} s",
+            remedy="leave it out: auto takes a fortieth",
+        )
+
+
 def _check_problem(problem: UnitsProblem, findings: Findings) -> None:
     from moyai.structures.units.assembly import assemble, level_notices, steady_load, steady_position
     from moyai.structures.units.bem import check_memory
-    from moyai.structures.units.run import check_resolution, row_panels
+    from moyai.structures.units.run import WITH_WAVES, check_resolution, highest_frequency, row_panels
     from moyai.structures.units.seas import frequencies_of
 
     environment = problem.environment
@@ -261,8 +347,8 @@ def _check_problem(problem: UnitsProblem, findings: Findings) -> None:
                 return
             wind, current = steady_load(at, environment)
             steady_position(at, wind + current)
-            if {"frequency", "map"} & set(problem.settings.analyses) and omega.size:
-                panels = row_panels(at, problem.settings, float(omega.max()))
+            if WITH_WAVES & set(problem.settings.analyses) and omega.size:
+                panels = row_panels(at, problem.settings, highest_frequency(omega, problem.settings))
                 check_memory(panels)
                 notices += check_resolution(at, panels, omega)
         except InputError as error:

@@ -24,9 +24,14 @@ from moyai.case.schema_criteria import (
 )
 from moyai.case.schema_types import Name, QuantityOf
 from moyai.core import quantities
-from moyai.core.headline import Criterion
+from moyai.core.headline import UNCONFIRMED, Criterion
 
 AFLOAT_SOURCE = "default of moyai: upright and afloat"
+#: Metacentric height over draught that Japanese practice asks of caissons afloat.
+STABLE_SHARE = 0.05
+STABLE_SOURCE = (
+    f"default of moyai: 5 % of the draught, as Japanese port practice asks of caissons afloat, {UNCONFIRMED}"
+)
 GreatestRatio = Annotated[float | None, QuantityOf(quantities.NUMBER, above=0.0)]
 
 
@@ -53,6 +58,12 @@ class UnitsCriteria(LineCriteria):
     greatest_gap_motion: GreatestLength = Field(
         default=None, description="Largest opening and closing of a gap" + OFF + "."
     )
+    greatest_connector_damage: Share = Field(
+        default=None,
+        description="Largest share of the life of a connector that a sea takes; needs 'endurance' and the time domain"
+        + OFF
+        + ".",
+    )
     greatest_offset: GreatestLength = Field(default=None, description="Largest sway from rest" + OFF + ".")
     greatest_roll_deg: GreatestAngle = Field(default=None, description="Largest roll, double amplitude" + OFF + ".")
     least_freeboard: LeastLength = Field(default=None, description="Freeboard that is left" + OFF + ".")
@@ -66,6 +77,7 @@ UnitsKeeps = Annotated[
 _OWN = {
     "greatest_connector_force": ("connector_force", "N", "force in the connectors"),
     "greatest_berth_ratio": ("berth_wave_height", "1", "wave height at the named points"),
+    "greatest_connector_damage": ("connector_damage", "1", "share of the life of the connectors"),
     "greatest_gap_motion": ("gap_motion", "m", "motion of the gaps"),
 }
 
@@ -73,11 +85,11 @@ _OWN = {
 def criteria(model: Any, given: Any) -> Iterator[Criterion]:
     """Yield what the headlines are judged against: the block of the case, else the defaults with their source."""
     moored = [line for line in model.lines if line.kind == "catenary"]
-    computed = bool(model.waves) and "frequency" in model.analyses
+    computed = bool(model.waves) and bool({"frequency", "map", "time"} & set(model.analyses))
     yield from line_criteria(
         given,
         DEFAULT_CODE if moored and computed else "",
-        "quasi_static",
+        "" if "time" in model.analyses else "quasi_static",
         [getattr(part, "catalogue", None) for line in moored for part in line.segments if not hasattr(part, "clump")],
     )
     factor = given.connector_safety_factor
@@ -94,6 +106,7 @@ def criteria(model: Any, given: Any) -> Iterator[Criterion]:
     for sea, value in seas.items():
         yield Criterion("greatest_transmission", "transmission", value, "at most", CASE, "transmission", sea=sea)
     yield from given_criteria(given)
-    for key in ("least_metacentric_height", "least_freeboard"):
-        if getattr(given, key) is None:
-            yield plain_criterion(key, 0.0, AFLOAT_SOURCE)
+    if given.least_metacentric_height is None:
+        yield plain_criterion("least_metacentric_height", STABLE_SHARE * model.structure.draught, STABLE_SOURCE)
+    if given.least_freeboard is None:
+        yield plain_criterion("least_freeboard", 0.0, AFLOAT_SOURCE)

@@ -13,8 +13,9 @@ from moyai.structures.units.assembly import RowAtLevel, assemble
 from moyai.structures.units.bem import memory_needed
 from moyai.structures.units.field import LINE_POINTS
 from moyai.structures.units.model import UnitsProblem
-from moyai.structures.units.run import irregular_frequency, row_panels
+from moyai.structures.units.run import WITH_WAVES, highest_frequency, irregular_frequency, row_panels
 from moyai.structures.units.seas import frequencies_of, headings_of
+from moyai.structures.units.time.band import further_frequencies, memory_band
 
 #: Processor time of the Green function of two panels in finite depth [s], and of one operation of the solver [s]
 _PER_PAIR, _PER_OPERATION = 2.5e-6, 1.5e-10
@@ -44,9 +45,9 @@ def _unit_numbers(level: str, at: RowAtLevel) -> Iterator[Number]:
 
 def _panel_numbers(level: str, at: RowAtLevel, problem: UnitsProblem) -> Iterator[Number]:
     omega = frequencies_of(problem.environment, problem.settings)
-    if not omega.size or not {"frequency", "map"} & set(problem.settings.analyses):
+    if not omega.size or not WITH_WAVES & set(problem.settings.analyses):
         return
-    panels = row_panels(at, problem.settings, float(omega.max()))
+    panels = row_panels(at, problem.settings, highest_frequency(omega, problem.settings))
     group, mesh = "Panels", panels.mesh
     mirrors = len(panels.symmetry.mirrors)
     shortest = 2.0 * math.pi / float(wave_number(float(omega.max()), at.water.depth, at.water.gravity))
@@ -61,7 +62,12 @@ def _panel_numbers(level: str, at: RowAtLevel, problem: UnitsProblem) -> Iterato
     yield Number(group, level, "frequencies", float(omega.size))
     yield Number(group, level, "headings", float(headings_of(problem.environment).size))
     part = mesh.count / mirrors
-    seconds = omega.size * (mesh.count * part * _PER_PAIR + mirrors * 8.0 / 3.0 * part**3 * _PER_OPERATION)
+    solved = omega.size
+    if "time" in problem.settings.analyses:
+        band = memory_band(omega, panels, at.water)
+        solved += further_frequencies(omega, *band, problem.settings.time.memory_frequencies).size
+        yield Number(group, level, "frequencies with those of the memory", float(solved))
+    seconds = solved * (mesh.count * part * _PER_PAIR + mirrors * 8.0 / 3.0 * part**3 * _PER_OPERATION)
     if "map" in problem.settings.analyses:
         area = problem.map_area
         points = area.cells[0] * area.cells[1] + len(area.points) + (LINE_POINTS if area.line is not None else 0)

@@ -16,6 +16,7 @@ from moyai.case.schema_types import (
     LEVEL_NAMES,
     AngularFrequency,
     Auto,
+    AutoDuration,
     Block,
     Damping,
     Fraction,
@@ -39,7 +40,7 @@ from moyai.structures.units.case.criteria import UnitsCriteria, UnitsKeeps
 from moyai.structures.units.case.schema_connectors import ConnectorEntry
 
 Mode = Literal["sway", "surge", "heave", "pitch", "roll", "yaw"]
-Analysis = Literal["statics", "frequency", "map"]
+Analysis = Literal["statics", "frequency", "map", "time"]
 
 
 class UnitPlace(Block):
@@ -204,6 +205,29 @@ def _form(value: Any) -> str:
 PanelSize = Annotated[float | None, QuantityOf(quantities.LENGTH, above=0.0, words=(("auto", None),))]
 
 
+class RowTimeSettings(Block):
+    """How the time domain is run."""
+
+    duration: AutoDuration = Field(default=None, description="Simulated time in regular waves. Default: auto.")
+    ramp: AutoDuration = Field(default=None, description="Length of the ramp of the waves. Default: auto.")
+    time_step: AutoDuration = Field(
+        default=None,
+        description="Time step. Default: auto, a fortieth of the shortest waves, less where connectors come tight.",
+    )
+    analysed_periods: Whole = Field(
+        default=10, description="Whole periods at the end that are analysed in regular waves. Default: 10."
+    )
+    realisations: Annotated[int, Field(strict=True, ge=1, le=100)] = Field(
+        default=5,
+        description="Realisations of each irregular sea, the first with its 'seed'; numbers are means over them. "
+        "Default: 5.",
+    )
+    memory_frequencies: Annotated[int, Field(strict=True, ge=8, le=400)] = Field(
+        default=24,
+        description="Frequencies that the memory of the water is fitted to, those of the seas among them. Default: 24.",
+    )
+
+
 class UnitsSettings(Block):
     """How the analyses are run."""
 
@@ -229,6 +253,7 @@ class UnitsSettings(Block):
     compare_with_section: Truth = Field(
         default=True, description="Whether the two-dimensional section is computed as well. Default: true."
     )
+    time: RowTimeSettings = Field(default_factory=RowTimeSettings, description="How the time domain is run.")
     water_levels: LevelNames = Field(default="all", description=LEVEL_NAMES)
 
 
@@ -249,7 +274,7 @@ class UnitsCase(Block):
     )
     map: MapBlock | None = Field(default=None, description="Map of the waves; needed with the analysis 'map'.")
     analyses: Annotated[tuple[Analysis, ...], Field(min_length=1), AfterValidator(once_each)] = Field(
-        description="What is computed; there is no time domain of a row.", examples=[["statics", "frequency", "map"]]
+        description="What is computed.", examples=[["statics", "frequency", "time", "map"]]
     )
     criteria: UnitsKeeps = Field(default_factory=UnitsCriteria, description=CRITERIA)
     settings: UnitsSettings = Field(default_factory=UnitsSettings, description="How the analyses are run.")

@@ -15,6 +15,7 @@ from moyai.case.schema_types import (
     NonNegativeLength,
     Number,
     PositiveForce,
+    PositiveNumber,
     QuantityOf,
     Stiffness,
     Whole,
@@ -55,6 +56,14 @@ Direction = Annotated[
 ]
 
 
+class Endurance(Block):
+    """Curve of endurance: N = cycles (range / force)^-exponent."""
+
+    range: PositiveForce = Field(description="Range of force that the connector bears 'cycles' times.")
+    cycles: PositiveNumber = Field(description="Number of cycles at that range.", examples=[1000000])
+    exponent: PositiveNumber = Field(description="Inverse slope m of the curve.", examples=[3])
+
+
 class ConnectorBlock(Block):
     """What all connectors share."""
 
@@ -71,6 +80,9 @@ class ConnectorBlock(Block):
     above_keel: Length = Field(description="Height above the keel; along, it stands in the middle of the gap.")
     breaking_load: PositiveForce | None = Field(
         default=None, description="Largest force that it bears; without it no utilisation is shown."
+    )
+    endurance: Endurance | None = Field(
+        default=None, description="Cycles that it bears; without it no fatigue is counted, which needs the time domain."
     )
 
 

@@ -221,6 +221,20 @@ def _of_period(group: Group, name: str, period: int | None, *dims: str) -> Array
     return None if found is None else found[period]
 
 
+def _domain(sea: Group) -> str:
+    """Return ``time`` for a group of the time domain, which alone has largest motions."""
+    return "time" if sea.variable("maximum_motion") is not None else ""
+
+
+def _key(level: Group, what: str, sea: Group, period: int | None) -> str:
+    parts = [level.name, what, sea.name, _domain(sea), "" if period is None else str(period + 1)]
+    return slug(*(part for part in parts if part))
+
+
+def _said(sea: Group) -> str:
+    return ", time domain" if _domain(sea) else ""
+
+
 def connector_table(level: Group, sea: Group, period: int | None) -> Table | None:
     """Return the loads in every connector, those with most first."""
     names = sea.labels("connector")
@@ -247,12 +261,17 @@ def connector_table(level: Group, sea: Group, period: int | None) -> Table | Non
     columns = [Column("Connector", [names[n] for n in order]), *forces, *moments]
     columns += [Column(f"Motion along {axis}", list(motion[order, n]), "m") for n, axis in enumerate(axes)]
     columns.append(Column("Over breaking load", list(use[order])))
+    worn = _of_period(sea, "connector_damage_rate", period, "connector")
+    if worn is not None and np.isfinite(worn).any():
+        columns.append(Column("Share of life an hour", list(3600.0 * worn[order])))
     when = "" if period is None else f", T = {float(sea.require('period', 'period')[period]):g} s"
     return Table(
-        slug(level.name, "connectors", sea.name, "" if period is None else str(period + 1)),
-        f"Connectors: {sea.name}{when}", tuple(columns),
-        note="Most loaded first. Largest values: mean and waves together, in an irregular sea the most probable "
-        "largest in its duration. Axes of the unit before the connector: x across, y along, z up.",
+        _key(level, "connectors", sea, period),
+        f"Connectors: {sea.name}{when}{_said(sea)}", tuple(columns),
+        note="Most loaded first. Largest values: "
+        + ("of the record, in an irregular sea the mean of its realisations" if _domain(sea) else "mean and waves "
+        "together, in an irregular sea the most probable largest in its duration")
+        + ". Axes of the unit before the connector: x across, y along, z up.",
     )  # fmt: skip
 
 
@@ -271,8 +290,8 @@ def motion_table(level: Group, sea: Group, period: int | None) -> Table | None:
     columns.append(Column("Mean sway", list(offset[:, 0]), "m"))
     when = "" if period is None else f", T = {float(sea.require('period', 'period')[period]):g} s"
     return Table(
-        slug(level.name, "motions", sea.name, "" if period is None else str(period + 1)),
-        f"Motions: {sea.name}{when}", tuple(columns),
+        _key(level, "motions", sea, period),
+        f"Motions: {sea.name}{when}{_said(sea)}", tuple(columns),
         note=("Significant double amplitudes" if irregular else "Amplitudes")
         + " at the centre of gravity, axes of the unit: sway across, surge along, roll about the long axis.",
     )  # fmt: skip
@@ -293,8 +312,9 @@ def line_table(level: Group, sea: Group, period: int | None) -> Table | None:
     ]
     when = "" if period is None else f", T = {float(sea.require('period', 'period')[period]):g} s"
     return Table(
-        slug(level.name, "tensions", sea.name, "" if period is None else str(period + 1)),
-        f"Lines: {sea.name}{when}", tuple(columns), note="At rest at every instant, linear about the mean position.",
+        _key(level, "tensions", sea, period),
+        f"Lines: {sea.name}{when}{_said(sea)}", tuple(columns),
+        note="At rest at every instant" + ("." if _domain(sea) else ", linear about the mean position."),
     )  # fmt: skip
 
 

@@ -10,6 +10,7 @@ from moyai.report.general_page import case_listing, closing_section, notice_bloc
 from moyai.report.headlines import headline_figures
 from moyai.report.reading import Group, root_of
 from moyai.structures.units.report import figures
+from moyai.structures.units.report.time import time_blocks
 
 
 def compose(result: Result) -> Document:
@@ -42,6 +43,7 @@ def compose(result: Result) -> Document:
         Section("waves", "Waves around the row", at_each_level(_maps)),
         Section("connectors", "Connectors", at_each_level(lambda level: _tables(level, figures.connector_table))),
         Section("motions", "Motions", at_each_level(_motions)),
+        Section("time", "Records in time", at_each_level(_records)),
         Section("lines", "Lines", at_each_level(lambda level: _tables(level, figures.line_table))),
         Section("input", "Input", (case_listing(root),)),
     ]
@@ -93,19 +95,27 @@ def _maps(level: Group) -> list[Block | None]:
 
 
 def _tables(level: Group, table: Callable[[Group, Group, int | None], Block | None]) -> list[Block | None]:
+    """Return a table of every sea: of the time domain where it was run, that of the frequency domain behind it."""
     blocks: list[Block | None] = []
     for sea in level.child("frequency").children():
+        timed = level.child("time").child(sea.name)
+        domains = [("time", timed), ("frequency", sea)] if timed.exists else [("frequency", sea)]
         options = []
-        for period in _periods(sea):
-            found = table(level, sea, period)
-            if found is not None:
-                label = sea.name if period is None else f"T = {float(sea.require('period', 'period')[period]):g} s"
-                options.append(Option(label, (found,)))
+        for domain, group in domains:
+            for period in _periods(group):
+                found = table(level, group, period)
+                if found is not None:
+                    label = sea.name if period is None else f"T = {float(sea.require('period', 'period')[period]):g} s"
+                    options.append(Option(f"{label}, {domain} domain" if timed.exists else label, (found,)))
         if len(options) == 1:
             blocks.append(options[0].blocks[0])
         elif options:
-            blocks.append(Choice(f"{table.__name__}-{level.name}-{sea.name}", "Period", tuple(options)))
+            blocks.append(Choice(f"{table.__name__}-{level.name}-{sea.name}", "Period or domain", tuple(options)))
     return blocks
+
+
+def _records(level: Group) -> list[Block | None]:
+    return [block for sea in level.child("time").children() for block in time_blocks(level, sea)]
 
 
 def _motions(level: Group) -> list[Block | None]:

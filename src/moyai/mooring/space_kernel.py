@@ -1,0 +1,92 @@
+"""Compiled force of lines in space on several bodies for time integration, by the exact solver.
+
+Every line starts from its last horizontal tension, so that a step along a path takes few iterations.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from moyai.core.arrays import Array, IntArray
+from moyai.core.compiled import njit
+from moyai.mooring import planar_kernel as pk
+from moyai.mooring.kernels import solve_single
+from moyai.mooring.planar_kernel import _exact_segmented
+
+# as globals of this file, which compiled code can read
+_KIND, _COUNT, _RATE, _NATURAL, _TENSION_ONLY = pk.KIND, pk.COUNT, pk.RATE, pk.NATURAL, pk.TENSION_ONLY
+_LENGTH, _AXIAL, _WEIGHT, _CLEARANCE, _FRICTION = pk.LENGTH, pk.AXIAL, pk.WEIGHT, pk.CLEARANCE, pk.FRICTION
+_ANCHOR, _FAIRLEAD, _ROWS, _ROW_COUNT = pk.ANCHOR_X, pk.FAIRLEAD_X, pk.ROWS, pk.ROW_COUNT
+_UNIFORM, _SPRING = pk.UNIFORM, pk.SPRING
+
+
+@njit(cache=True, error_model="numpy")
+def space_line_force(
+    position: Array,
+    body: IntArray,
+    parameters: Array,
+    index: IntArray,
+    nodes: Array,
+    memory: Array,
+    force: Array,
+    tension: Array,
+) -> None:
+    """Add the force of all lines to ``force`` for one position of all bodies.
+
+    Parameters
+    ----------
+    position : ndarray (6 b,)
+        x, y, z [m], turns about x, y, z [rad] of every body, as :mod:`moyai.mooring.system` takes them.
+    body : ndarray (lines,) of int
+        That a line holds.
+    parameters, index, nodes : ndarray
+        From :class:`moyai.mooring.table.CompiledLines`.
+    memory : ndarray (lines,)
+        Last horizontal tension of every line; zeros at first; changed here.
+    force : ndarray (6 b,)
+        Is added to [N, N m], moments about the origin of each body; copies of a line count.
+    tension : ndarray (lines,)
+        Receives the fairlead tension of one copy [N].
+    """
+    for i in range(parameters.shape[0]):
+        first = 6 * body[i]
+        row = parameters[i]
+        cr, sr = np.cos(position[first + 3]), np.sin(position[first + 3])
+        cp, sp = np.cos(position[first + 4]), np.sin(position[first + 4])
+        cy, sy = np.cos(position[first + 5]), np.sin(position[first + 5])
+        a, b, c = row[_FAIRLEAD], row[_FAIRLEAD + 1], row[_FAIRLEAD + 2]
+        arm_x = cy * cp * a + (cy * sp * sr - sy * cr) * b + (cy * sp * cr + sy * sr) * c
+        arm_y = sy * cp * a + (sy * sp * sr + cy * cr) * b + (sy * sp * cr - cy * sr) * c
+        arm_z = -sp * a + cp * sr * b + cp * cr * c
+        dx = position[first] + arm_x - row[_ANCHOR]
+        dy = position[first + 1] + arm_y - row[_ANCHOR + 1]
+        dz = position[first + 2] + arm_z - row[_ANCHOR + 2]
+        level = np.sqrt(dx * dx + dy * dy)
+        if row[_KIND] == _SPRING:
+            length = np.sqrt(level * level + dz * dz)
+            pull = row[_RATE] * (length - row[_NATURAL])
+            if row[_TENSION_ONLY] > 0.0 and pull < 0.0:
+                pull = 0.0
+            tension[i] = pull
+            h, v = pull * level / length, pull * dz / length
+        elif row[_KIND] == _UNIFORM:
+            h, v, _, _, _, _, _, _, _, _, _ = solve_single(
+                level, dz, row[_LENGTH], row[_AXIAL], row[_WEIGHT], row[_CLEARANCE], row[_FRICTION], memory[i]
+            )
+            memory[i] = h
+            tension[i] = np.sqrt(h * h + v * v)
+        else:
+            start, count = index[i, _ROWS], index[i, _ROW_COUNT]
+            rows = nodes[start : start + 4 * count].reshape((count, 4))
+            h, v = _exact_segmented(level, dz, rows, row[_CLEARANCE], row[_FRICTION], memory[i])
+            memory[i] = h
+            tension[i] = np.sqrt(h * h + v * v)
+        fx = -row[_COUNT] * h * dx / level if level > 0.0 else 0.0
+        fy = -row[_COUNT] * h * dy / level if level > 0.0 else 0.0
+        fz = -row[_COUNT] * v
+        force[first] += fx
+        force[first + 1] += fy
+        force[first + 2] += fz
+        force[first + 3] += arm_y * fz - arm_z * fy
+        force[first + 4] += arm_z * fx - arm_x * fz
+        force[first + 5] += arm_x * fy - arm_y * fx

@@ -1,0 +1,1 @@
+"""The row of units in time: memory of the water, integration with nonlinear connectors and lines, seas."""

@@ -1,0 +1,214 @@
+"""The time domain of one water level: memory, runs of every sea, what they have to say."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from moyai.core.arrays import Array
+from moyai.core.errors import ConvergenceError, InputError
+from moyai.core.progress import Progress
+from moyai.core.store import DatasetStore
+from moyai.core.validity import IdentityCheck, Notice
+from moyai.sea.states import IrregularSea, RegularSea
+from moyai.structures.units.assembly import RowAtLevel
+from moyai.structures.units.hydrodynamics import RowHydrodynamics
+from moyai.structures.units.model import SNAP_RATIO, Settings
+from moyai.structures.units.seas import SeaAnswer
+from moyai.structures.units.time.band import dense_coefficients, wide_coefficients
+from moyai.structures.units.time.datasets import (
+    Kept,
+    irregular_time_dataset,
+    memory_dataset,
+    regular_time_dataset,
+    shown_run,
+    status_of,
+)
+from moyai.structures.units.time.lines import Carried, rerun_events
+from moyai.structures.units.time.memory import RowMemory, fit_row_memory
+from moyai.structures.units.time.seas import TimeRun, Water3D, irregular_run, regular_run
+from moyai.structures.units.variables import labelled
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+#: Peak periods in a record, below which its largest values say nothing of the sea state
+LEAST_WAVES = 10.0
+#: Error of the memory that is told, of the largest response
+_TOLD = 0.02
+
+
+@dataclass(frozen=True)
+class SeaInTime:
+    """What a sea gave.
+
+    Parameters
+    ----------
+    groups : dict
+        Datasets by the end of their path.
+    notices : list of Notice
+    status : str
+    message : str
+        Of the run that did not come to its end.
+    """
+
+    groups: dict[str, xr.Dataset]
+    notices: list[Notice]
+    status: str
+    message: str = ""
+
+
+def water_in_time(
+    at: RowAtLevel, hydro: RowHydrodynamics, steady: Array, settings: Settings, *, store: DatasetStore | None,
+    progress: Progress,
+) -> tuple[Water3D, dict[str, xr.Dataset], list[IdentityCheck], list[Notice]]:  # fmt: skip
+    """Solve the band of the memory and fit it; return also its dataset, identities and notices."""
+    wide = wide_coefficients(hydro, settings.time.memory_frequencies, store=store, progress=progress)
+    band = float(hydro.omega[0]), float(hydro.omega[-1])
+    memory: RowMemory = fit_row_memory(*dense_coefficients(wide), band=band)
+    checks = [replace(item, name=f"{at.name}: {item.name}") for item in memory.checks]
+    notices = [
+        Notice(
+            "memory",
+            f"{at.name}: {len(memory.poles)} poles carry the memory of the water; added mass and damping within "
+            f"{100.0 * memory.error:.2g} % of the largest of their pair in the band of the waves, "
+            f"{100.0 * memory.error_outside:.2g} % outside",
+            value=memory.error, limit=_TOLD, severity="information" if memory.error <= _TOLD else "warning",
+            remedy="give smaller panels or more settings.time.memory_frequencies",
+        )
+    ]  # fmt: skip
+    data = {"memory": memory_dataset(at, memory, wide.omega)}
+    return Water3D(at, wide, memory, steady, settings), data, checks, notices
+
+
+def sea_in_time(
+    water: Water3D, sea: RegularSea | IrregularSea, answers: list[SeaAnswer], progress: Progress
+) -> SeaInTime:
+    """Run all periods or all realisations of a sea."""
+    runs: list[Kept] = []
+    carried: list[Carried] = []
+    for run in _runs(water, sea, answers, progress):
+        runs.append(Kept.of(run))
+        if not run.complete:
+            break
+        if run.seed >= 0 and water.at.line_names:
+            carried.append(_carried(run))
+    good = [item for item in runs if item.status == "converged"] or runs[:1]
+    regular = isinstance(sea, RegularSea)
+    notices: list[Notice] = []
+    if isinstance(sea, RegularSea):
+        data = regular_time_dataset(water.at, sea, good)
+        groups = {f"T{period:g}": item.series for period, item in zip(sea.periods, good)}
+    else:
+        data = irregular_time_dataset(water.at, sea, good)
+        if len(carried) == len(runs):
+            data, told = _in_motion(water, sea, data, carried, progress)
+            notices += told
+        groups = {"realisation": good[shown_run(good)].series}
+    data.attrs["status"] = status_of(runs)
+    data.attrs["drift"] = "mean" if regular else ("newman" if water.settings.drift else "none")
+    bad = [item.message for item in runs if item.status == "diverged"]
+    return SeaInTime(
+        {"": data} | {f"/{name}": item for name, item in groups.items()},
+        [*notices, *_notices(water, sea, data, good)],
+        status_of(runs), bad[0] if bad else "",
+    )  # fmt: skip
+
+
+def _runs(
+    water: Water3D, sea: RegularSea | IrregularSea, answers: list[SeaAnswer], progress: Progress
+) -> Iterator[TimeRun]:
+    if isinstance(sea, RegularSea):
+        for period, answer in zip(sea.periods, answers):
+            yield regular_run(water, sea, period, answer, progress)
+        return
+    for number in range(water.time.realisations):
+        progress(f"realisations, {water.at.name}, {sea.name}", number, water.time.realisations)
+        yield irregular_run(water, sea, number, answers[0], progress)
+
+
+def _carried(run: TimeRun) -> Carried:
+    found = run.run
+    return Carried(
+        found.time, found.position, found.velocity @ found.model.at.free.T, found.tension, run.waves, run.begin,
+        2.0 * np.pi / run.omega,
+    )  # fmt: skip
+
+
+def _in_motion(
+    water: Water3D, sea: IrregularSea, data: xr.Dataset, carried: list[Carried], progress: Progress
+) -> tuple[xr.Dataset, list[Notice]]:
+    """Put the tensions of lines in motion in the place of those at rest where these do not serve."""
+    at, where = water.at, f"{water.at.name}, {sea.name}"
+    try:
+        found = rerun_events(at, carried, progress, f", {where}")
+    except (InputError, ConvergenceError) as error:
+        message = f"{where}: {error.fault.message}; lines stay at rest at every instant"
+        return data, [Notice("lines-stay-at-rest", message, remedy=error.fault.remedy)]
+    if found is None:
+        return data, []
+    moved = np.asarray(np.isfinite(found.tension).all(axis=0))
+    still = data["line_tension_maximum_of_realisation"].values
+    each = np.where(moved, found.tension, still)
+    data = data.assign(
+        line_tension_maximum_of_realisation=(("member", "line"), each),
+        line_tension_bound_of_realisation=(("member", "line"), np.where(moved, found.bound, each)),
+        line_tension_maximum=("line", each.mean(axis=0)),
+        line_tension_maximum_lines_at_rest=("line", still.mean(axis=0)),
+        lines_in_motion=("line", moved.astype(np.int8)),
+    )
+    names = ", ".join(name for name, there in zip(at.line_names, moved.tolist()) if there)
+    words = (
+        f"{where}: {found.count} events were run with one line in motion ({names}), its fairlead as with lines at "
+        "rest, until no further one could pass the largest"
+    )
+    return labelled(data), [Notice("lines-set-in-motion", words, severity="information")]
+
+
+def _notices(water: Water3D, sea: RegularSea | IrregularSea, data: xr.Dataset, runs: list[Kept]) -> list[Notice]:
+    where = f"{water.at.name}, {sea.name}"
+    out: list[Notice] = []
+    if not all(item.contacts for item in runs):
+        out.append(
+            Notice(
+                "contacts-not-resolved",
+                f"{where}: a stiff connector comes tight within fewer than ten steps; its largest load is uncertain",
+                remedy="give a shorter settings.time.time_step",
+            )
+        )
+    if data.sizes["line"]:
+        named = "line_tension_maximum_of_realisation"
+        largest = data[named if named in data else "line_tension_maximum"].values
+        mean = np.broadcast_to(data["line_tension_mean"].values, largest.shape)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            ratio = np.nan_to_num(largest / mean)
+        if "lines_in_motion" in data:
+            # the others were found to stay under the largest in motion
+            ratio = np.zeros_like(ratio)
+        if float(ratio.max()) > SNAP_RATIO:
+            line = str(data["line"].values[int(np.unravel_index(ratio.argmax(), ratio.shape)[-1])])
+            out.append(
+                Notice(
+                    "snaps",
+                    f"{where}: line '{line}' is pulled to {float(ratio.max()):.3g} times its mean tension, beyond the "
+                    "range of lines at rest at every instant: its largest tension is higher than what is shown",
+                    value=float(ratio.max()), limit=SNAP_RATIO,
+                    remedy="use longer or softer lines; in irregular seas lines are set in motion where their segments "
+                    "tell mass, diameter, drag_normal, drag_tangential and added_mass_normal",
+                )
+            )  # fmt: skip
+    if isinstance(sea, IrregularSea):
+        waves = sea.duration * float(sea.spectrum.peak_omega) / (2.0 * np.pi)
+        if waves < LEAST_WAVES:
+            out.append(
+                Notice(
+                    "short-record",
+                    f"{where}: the record of {sea.duration:g} s holds {waves:.3g} peak periods; its largest values are "
+                    "none of the sea state",
+                    value=waves, limit=LEAST_WAVES, severity="error", remedy="give a longer duration",
+                )
+            )  # fmt: skip
+    return out

@@ -1,0 +1,240 @@
+"""What the time domain found: numbers of every run, means over realisations, the record that is kept."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from moyai.core.arrays import Array
+from moyai.design.fatigue import damage
+from moyai.sea.states import IrregularSea, RegularSea
+from moyai.series.rainflow import count_cycles
+from moyai.structures.units.assembly import RowAtLevel
+from moyai.structures.units.datasets import coords_of
+from moyai.structures.units.time.memory import RowMemory
+from moyai.structures.units.time.seas import TimeRun
+from moyai.structures.units.variables import labelled
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+#: Rows of a stored time series
+MOST_ROWS = 20_000
+#: Of a mean that is taken over realisations: also kept one by one
+_SCATTER = (
+    "connector_resultant_largest", "connector_moment_resultant_largest", "line_tension_maximum", "largest_offset",
+    "gap_motion_largest", "connector_damage_rate",
+)  # fmt: skip
+_LOWEST = ("elongation_lowest",)
+_HIGHEST = ("elongation_highest",)
+_CONNECTOR, _COMPONENT = ("connector",), ("connector", "component")
+
+
+def memory_dataset(at: RowAtLevel, memory: RowMemory, omega: Array) -> xr.Dataset:
+    """Return poles, residues and the coefficients that they give."""
+    import xarray as xr
+
+    added, damping = memory.coefficients(omega)
+    names = [f"unit {number + 1} {dof}" for number in range(at.row.count) for dof in _dofs(at)]
+    pair = ("influenced_dof", "radiating_dof")
+    data = xr.Dataset(
+        {
+            "memory_pole": ("pole", memory.poles),
+            "memory_residue": (("pole", *pair), memory.residues),
+            "infinite_frequency_added_mass": (pair, memory.infinite_added_mass),
+            "added_mass": (("omega", *pair), added),
+            "radiation_damping": (("omega", *pair), damping),
+        },
+        coords={
+            "pole": np.arange(1, len(memory.poles) + 1), "omega": omega, "influenced_dof": names,
+            "radiating_dof": names,
+        },
+    )  # fmt: skip
+    data.attrs |= {"fit_error": memory.error, "fit_error_outside": memory.error_outside}
+    return labelled(data)
+
+
+def _dofs(at: RowAtLevel) -> list[str]:
+    return list(coords_of(at)["dof"])
+
+
+def run_numbers(given: TimeRun) -> dict[str, tuple[tuple[str, ...], Array]]:
+    """Return the numbers of one run after its ramp, by their names."""
+    run, part = given.run, given.kept
+    at = run.model.at
+    motion = at.in_unit_axes(run.position[part])
+    mean = motion.mean(axis=0)
+    loads = run.joint_loads[part]
+    relative = np.array([run.relative(joint)[part] for joint in at.joints]).reshape(len(at.joints), -1, 6)
+    relative = relative.swapaxes(0, 1)
+    moved = np.abs(relative - relative.mean(axis=0)).max(axis=0)
+    low, high = np.full(len(at.joints), np.nan), np.full(len(at.joints), np.nan)
+    for number, joint in enumerate(at.joints):
+        if joint.connector.curve is not None:
+            elongation = relative[:, number, :3] @ np.asarray(joint.connector.axis)
+            low[number], high[number] = elongation.min(), elongation.max()
+    tension = run.tension[part]
+    most = np.abs(loads).max(axis=0)
+    out: dict[str, tuple[tuple[str, ...], Array]] = {
+        "mean_offset": (("unit", "dof"), mean),
+        "largest_offset": (("unit",), np.abs(motion[..., 0]).max(axis=0)),
+        "maximum_motion": (("unit", "dof"), np.abs(motion - mean).max(axis=0)),
+        "connector_force_mean": (_COMPONENT, loads[..., :3].mean(axis=0)),
+        "connector_moment_mean": (_COMPONENT, loads[..., 3:].mean(axis=0)),
+        "connector_force_largest": (_COMPONENT, most[:, :3]),
+        "connector_moment_largest": (_COMPONENT, most[:, 3:]),
+        "connector_resultant_largest": (_CONNECTOR, np.linalg.norm(loads[..., :3], axis=2).max(axis=0)),
+        "connector_moment_resultant_largest": (_CONNECTOR, np.linalg.norm(loads[..., 3:], axis=2).max(axis=0)),
+        "connector_damage_rate": (_CONNECTOR, _damage(at, run.time[part], loads)),
+        "elongation_lowest": (_CONNECTOR, low),
+        "elongation_highest": (_CONNECTOR, high),
+        "relative_motion_largest": (_COMPONENT, moved[:, :3]),
+        "relative_turn_largest": (_COMPONENT, moved[:, 3:]),
+        "gap_motion_largest": (_CONNECTOR, moved[:, 1]),
+        "line_tension_mean": (("line",), tension.mean(axis=0)),
+        "line_tension_maximum": (("line",), tension.max(axis=0)),
+        "line_tension_minimum": (("line",), tension.min(axis=0)),
+    }
+    if given.seed >= 0:
+        out["significant_motion"] = (("unit", "dof"), 4.0 * motion.std(axis=0))
+        out["significant_height"] = ((), np.asarray(4.0 * given.elevation[part].std()))
+    else:
+        turned = np.exp(1j * given.omega * run.time[part][:-1])
+        harmonic = 2.0 * np.mean(motion[:-1] * turned[:, None, None], axis=0)
+        out["motion_amplitude"] = (("unit", "dof"), np.abs(harmonic))
+    return out
+
+
+def _damage(at: RowAtLevel, time: Array, loads: Array) -> Array:
+    """Return the share of life (joints,) that a second of the run takes; NaN of connectors without endurance.
+
+    Cycles of the component of force that varies most.
+    """
+    out = np.full(len(at.joints), np.nan)
+    for number, joint in enumerate(at.joints):
+        curve = joint.connector.endurance
+        if curve is None:
+            continue
+        varied = loads[:, number, :3] - loads[:, number, :3].mean(axis=0)
+        direction = np.linalg.eigh(varied.T @ varied)[1][:, -1]
+        ranges, _, counts = count_cycles(loads[:, number, :3] @ direction)
+        out[number] = damage(ranges, counts, curve) / (time[-1] - time[0])
+    return out
+
+
+@dataclass(frozen=True)
+class Kept:
+    """What is kept of a run: its numbers, its record, how it ended.
+
+    Parameters
+    ----------
+    numbers : dict
+        As :func:`run_numbers` gives them.
+    series : Dataset
+    seed : int
+    status, message : str
+    contacts : bool
+        As of :class:`moyai.structures.units.time.seas.TimeRun`.
+    """
+
+    numbers: dict[str, tuple[tuple[str, ...], Array]]
+    series: xr.Dataset
+    seed: int
+    status: str
+    message: str
+    contacts: bool
+
+    @classmethod
+    def of(cls, given: TimeRun) -> Kept:
+        """Take the numbers and the record of a run."""
+        run = given.run
+        return cls(
+            run_numbers(given), series_dataset(run.model.at, given), given.seed, run.status, run.message,
+            given.contacts,
+        )  # fmt: skip
+
+
+def regular_time_dataset(at: RowAtLevel, sea: RegularSea, runs: list[Kept]) -> xr.Dataset:
+    """Return the numbers of regular waves, one entry a period."""
+    import xarray as xr
+
+    out = {
+        name: (("period", *dims), np.array([item.numbers[name][1] for item in runs]))
+        for name, (dims, _) in runs[0].numbers.items()
+    }
+    coords = coords_of(at) | {"period": np.array(sea.periods[: len(runs)])}
+    data = labelled(xr.Dataset(out, coords=coords))
+    data.attrs |= {"kind": "regular", "heading": sea.heading, "status": status_of(runs)}
+    return data
+
+
+def irregular_time_dataset(at: RowAtLevel, sea: IrregularSea, runs: list[Kept]) -> xr.Dataset:
+    """Return means over the realisations with what each gave."""
+    import xarray as xr
+
+    out: dict[str, Any] = {}
+    for name, (dims, _) in runs[0].numbers.items():
+        values = np.array([item.numbers[name][1] for item in runs])
+        over = values.min if name in _LOWEST else values.max if name in _HIGHEST else values.mean
+        out[name] = (dims, over(axis=0))
+        if name in _SCATTER:
+            out[f"{name}_of_realisation"] = (("member", *dims), values)
+    out["seed_of_realisation"] = ("member", np.array([item.seed for item in runs], dtype=np.int64))
+    data = labelled(xr.Dataset(out, coords=coords_of(at)))
+    data.attrs |= {
+        "kind": "irregular", "heading": sea.heading, "duration": sea.duration, "realisations": len(runs),
+        "seed": sea.seed, "shown_seed": runs[shown_run(runs)].seed, "status": status_of(runs),
+    }  # fmt: skip
+    return data
+
+
+def status_of(runs: list[Kept]) -> str:
+    """Return the worst status of the runs as results have it."""
+    found = {item.status for item in runs}
+    return "interrupted" if "interrupted" in found else "not_converged" if "diverged" in found else "converged"
+
+
+def shown_run(runs: list[Kept]) -> int:
+    """Return the number of the run whose largest load of a connector (tension, sway) is nearest to the mean."""
+
+    def followed(item: Kept) -> float:
+        for name in ("connector_resultant_largest", "line_tension_maximum", "largest_offset"):
+            if item.numbers[name][1].size:
+                return float(item.numbers[name][1].max())
+        return 0.0
+
+    values = np.array([followed(item) for item in runs])
+    return int(np.abs(values - values.mean()).argmin())
+
+
+def series_dataset(at: RowAtLevel, given: TimeRun) -> xr.Dataset:
+    """Return the record of a run, thinned."""
+    import xarray as xr
+
+    run = given.run
+    every = max(1, math.ceil(len(run.time) / MOST_ROWS))
+    kept = slice(None, None, every)
+    loads = run.joint_loads[kept]
+    data = labelled(
+        xr.Dataset(
+            {
+                "position": (("time", "unit", "dof"), at.in_unit_axes(run.position[kept])),
+                "connector_force": (("time", "connector", "component"), loads[..., :3]),
+                "connector_moment": (("time", "connector", "component"), loads[..., 3:]),
+                "tension": (("time", "line"), run.tension[kept]),
+                "surface_elevation": ("time", given.elevation[kept]),
+                "wave_amplitude": ("wave", given.waves.amplitude),
+                "wave_omega": ("wave", given.waves.omega),
+                "wave_number": ("wave", given.waves.wave_number),
+                "wave_heading": ("wave", given.waves.heading),
+                "wave_phase": ("wave", given.waves.phase),
+            },
+            coords=coords_of(at) | {"time": run.time[kept]},
+        )
+    )
+    data.attrs |= {"time_step": run.time_step, "status": run.status, "message": run.message, "seed": given.seed,
+                   "analysis_start": given.begin, "ramp": given.ramp}  # fmt: skip
+    return data

@@ -1,0 +1,255 @@
+"""Compiled steps of the row in time: arrays in, arrays out.
+
+Average acceleration for the motions that the constraints leave, exact exponentials for the memory, whose part of the
+new velocity stands with the damping [eq:units-step]. Lines and connectors with a curve are solved within the step.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from moyai.core.compiled import njit
+from moyai.mooring.space_kernel import space_line_force
+
+RUNNING, DIVERGED, UNSETTLED = 0, 1, 2
+_PASSES, _TURNS, _SWEEPS, _HALVINGS = 40, 60, 400, 80
+_SETTLED = 1e-8
+
+
+@njit(cache=True, error_model="numpy")
+def joint_force(elongation: float, rate: float, x: Any, f: Any, dashpot: float, side: float) -> tuple[float, float]:
+    """Return force [N] and tangent [N/m] of a connector with a curve and its dashpot; the tangent leaves the rate out.
+
+    ``side`` is 1 of what only pulls, -1 of what only pushes, 0 of what does both: the former two bear nothing until
+    they are tight, and their dashpots neither.
+    """
+    last = x.size - 1
+    place = 0
+    while place < last - 1 and elongation > x[place + 1]:
+        place += 1
+    slope = (f[place + 1] - f[place]) / (x[place + 1] - x[place])
+    force = f[place] + slope * (elongation - x[place])
+    if side != 0.0:
+        if force * side <= 0.0:
+            return 0.0, 0.0
+        force += dashpot * rate
+        if force * side <= 0.0:
+            return 0.0, 0.0
+        return force, slope
+    return force + dashpot * rate, slope
+
+
+@njit(cache=True, error_model="numpy")
+def _solve_joints(
+    start: Any, reach: Any, speed: Any, step: float, compliance: Any, joints: Any, alpha: Any, force: Any
+) -> bool:
+    """Find accelerations ``alpha`` and forces of all connectors with a curve at the end of the step.
+
+    alpha = start - compliance force(reach + step^2/4 alpha, speed + step/2 alpha). Newton; where it does not settle,
+    one connector after the other, each by halving: the problem is one of a convex energy.
+    """
+    x, f, ends, dashpots, sides = joints
+    count = start.size
+    beta, gamma = 0.25 * step * step, 0.5 * step
+    alpha[:] = start
+    matrix = np.empty((count, count))
+    left, slopes = np.empty(count), np.empty(count)
+    size = 1e-300
+    for j in range(count):
+        size = max(size, abs(start[j]))
+    for _ in range(_TURNS):
+        for j in range(count):
+            first, after = ends[j], ends[j + 1]
+            force[j], slopes[j] = joint_force(
+                reach[j] + beta * alpha[j], speed[j] + gamma * alpha[j], x[first:after], f[first:after], dashpots[j],
+                sides[j],
+            )  # fmt: skip
+            slopes[j] = beta * slopes[j] + (gamma * dashpots[j] if force[j] != 0.0 or sides[j] == 0.0 else 0.0)
+        worst = 0.0
+        for j in range(count):
+            total = alpha[j] - start[j]
+            for i in range(count):
+                total += compliance[j, i] * force[i]
+                matrix[j, i] = compliance[j, i] * slopes[i]
+            matrix[j, j] += 1.0
+            left[j] = total
+            worst = max(worst, abs(total))
+        if worst <= _SETTLED * size:
+            return True
+        alpha -= np.linalg.solve(matrix, left)
+    for _ in range(_SWEEPS):
+        worst = 0.0
+        for j in range(count):
+            first, after = ends[j], ends[j + 1]
+            target = start[j]
+            for i in range(count):
+                if i != j:
+                    target -= compliance[j, i] * force[i]
+            # the force grows with alpha: the root lies between the target and what the force there leads to
+            pull, _ = joint_force(
+                reach[j] + beta * target, speed[j] + gamma * target, x[first:after], f[first:after], dashpots[j],
+                sides[j],
+            )  # fmt: skip
+            low = min(target, target - compliance[j, j] * pull)
+            high = max(target, target - compliance[j, j] * pull)
+            for _ in range(_HALVINGS):
+                middle = 0.5 * (low + high)
+                pull, _ = joint_force(
+                    reach[j] + beta * middle, speed[j] + gamma * middle, x[first:after], f[first:after], dashpots[j],
+                    sides[j],
+                )  # fmt: skip
+                if middle - target + compliance[j, j] * pull > 0.0:
+                    high = middle
+                else:
+                    low = middle
+            worst = max(worst, abs(low - alpha[j]))
+            alpha[j] = low
+            force[j] = (target - low) / compliance[j, j]
+        if worst <= _SETTLED * size:
+            return True
+    return False
+
+
+@njit(cache=True, error_model="numpy", pointer=True)
+def march(
+    y: Any, v: Any, a: Any, z: Any, first: int, steps: int, h: float, load: Any, body: Any, memory: Any, held: Any,
+    lines: Any, joints: Any, limit: float, saved: Any,
+) -> tuple[int, int]:  # fmt: skip
+    """Advance ``steps`` steps from step number ``first``; y, v, a, z change in place.
+
+    Parameters
+    ----------
+    y, v, a : ndarray (r,)
+        Motions that the constraints leave, their velocities and accelerations.
+    z : ndarray (k, r), complex
+        States of the memory.
+    load : ndarray (n, r)
+        Forces at the steps.
+    body : tuple
+        Inverse of M + h/2 (C + D) + h^2/4 K; damping C + D with the part D of the memory; stiffness K; basis Z (m, r);
+        tangent stiffness of the lines that K holds (r, r); force that the lines balance at rest (m,).
+    memory : tuple
+        Factors of the states and of the velocities at both ends of the step (k,); residues (k, r, r).
+    held : ndarray (k, c, r), complex
+        Residues of the loads of the constraints.
+    lines : tuple
+        Body of every line, parameters, index, nodes, last tensions.
+    joints : tuple
+        Elongation by y (j, r), its place at rest (j,), then points of all curves, where each begins, dashpots, sides.
+    saved : tuple
+        y, v, a (n, r), memory on the constraints (n, c), line force (n, m), tension (n, lines), force of joints (n, j).
+    """
+    inverse, damping, stiffness, basis, tangent, balanced = body
+    decay, before, after, residues = memory
+    holder, parameters, index, nodes, last = lines
+    along, place, xs, fs, ends, dashpots, sides = joints
+    r, k, m, j = y.size, decay.size, basis.shape[0], along.shape[0]
+    c = held.shape[1]
+    history, right, free, new = np.empty(r), np.empty(r), np.empty(r), np.empty(r)
+    y_p, v_p, pushed, former = np.empty(r), np.empty(r), np.zeros(r), np.empty(r)
+    ahead, q, pull, tension = np.empty(r), np.empty(m), np.empty(m), np.zeros(parameters.shape[0])
+    alpha, start, force = np.zeros(j), np.empty(j), np.zeros(j)
+    reach, speed = np.empty(j), np.empty(j)
+    answer = inverse @ np.ascontiguousarray(along.T)
+    compliance = along @ answer
+    curves = (xs, fs, ends, dashpots, sides)
+    has_lines = parameters.shape[0] > 0
+    for step in range(steps):
+        number = first + step + 1
+        for i in range(r):
+            y_p[i] = y[i] + h * v[i] + 0.25 * h * h * a[i]
+            v_p[i] = v[i] + 0.5 * h * a[i]
+            history[i] = 0.0
+        for p in range(k):
+            for i in range(r):
+                z[p, i] = decay[p] * z[p, i] + before[p] * v[i]
+            for i in range(r):
+                total = 0.0
+                for n in range(r):
+                    total += residues[p, i, n].real * z[p, n].real - residues[p, i, n].imag * z[p, n].imag
+                history[i] += total
+        for i in range(r):
+            total = load[number, i] - history[i]
+            for n in range(r):
+                total -= damping[i, n] * v_p[n] + stiffness[i, n] * y_p[n]
+            right[i] = total
+        for i in range(j):
+            total, rate = place[i], 0.0
+            for n in range(r):
+                total += along[i, n] * y_p[n]
+                rate += along[i, n] * v_p[n]
+            reach[i], speed[i] = total, rate
+        settled = False
+        for _ in range(_PASSES):
+            for i in range(r):
+                total = 0.0
+                for n in range(r):
+                    total += inverse[i, n] * (right[n] + pushed[n])
+                free[i] = total
+                new[i] = total
+            if j > 0:
+                for i in range(j):
+                    total = 0.0
+                    for n in range(r):
+                        total += along[i, n] * free[n]
+                    start[i] = total
+                if not _solve_joints(start, reach, speed, h, compliance, curves, alpha, force):
+                    return UNSETTLED, step
+                for i in range(r):
+                    for n in range(j):
+                        new[i] -= answer[i, n] * force[n]
+            if not has_lines:
+                settled = True
+                break
+            for i in range(r):
+                ahead[i] = y_p[i] + 0.25 * h * h * new[i]
+            for i in range(m):
+                total = 0.0
+                for n in range(r):
+                    total += basis[i, n] * ahead[n]
+                q[i] = total
+                pull[i] = 0.0
+            space_line_force(q, holder, parameters, index, nodes, last, pull, tension)
+            size, apart = 1e-300, 0.0
+            former[:] = pushed
+            for i in range(r):
+                total = 0.0
+                for n in range(r):
+                    total += tangent[i, n] * ahead[n]
+                pushed[i] = total
+            for i in range(m):
+                total = pull[i] - balanced[i]
+                size = max(size, abs(total))
+                for n in range(r):
+                    pushed[n] += basis[i, n] * total
+            for i in range(r):
+                apart = max(apart, abs(pushed[i] - former[i]))
+            if apart <= 1e-7 * size:
+                settled = True
+                break
+        if not settled:
+            return UNSETTLED, step
+        for i in range(r):
+            y[i] = y_p[i] + 0.25 * h * h * new[i]
+            v[i] = v_p[i] + 0.5 * h * new[i]
+            a[i] = new[i]
+            # written so that NaN is lost too
+            if not (abs(y[i]) <= limit):
+                return DIVERGED, step
+        for p in range(k):
+            for i in range(r):
+                z[p, i] += after[p] * v[i]
+        saved[0][number], saved[1][number], saved[2][number] = y, v, a
+        for i in range(c):
+            total = 0.0
+            for p in range(k):
+                for n in range(r):
+                    total += held[p, i, n].real * z[p, n].real - held[p, i, n].imag * z[p, n].imag
+            saved[3][number, i] = total
+        if has_lines:
+            saved[4][number] = pull
+            saved[5][number] = tension
+        saved[6][number] = force
+    return RUNNING, steps

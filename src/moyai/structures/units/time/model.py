@@ -1,0 +1,312 @@
+"""The row in time: matrices for the motions that the constraints leave, runs, loads that follow from them."""
+
+from __future__ import annotations
+
+import math
+import time as clock
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Literal
+
+import numpy as np
+
+from moyai.core.arrays import Array, ComplexArray
+from moyai.core.progress import Progress, silent
+from moyai.mooring.system import LineSystem
+from moyai.mooring.table import compile_lines
+from moyai.structures.units.assembly import RowAtLevel, held_load
+from moyai.structures.units.connectors import Joint, spring_matrices
+from moyai.structures.units.response import own_damping
+from moyai.structures.units.time import kernel
+from moyai.structures.units.time.memory import RowMemory, check_mass
+
+Status = Literal["converged", "diverged", "interrupted"]
+#: A motion beyond this many lengths of a unit is lost
+LIMIT = 10.0
+#: Steps of a contact between two units, of a period of the shortest waves
+STEPS_OF_CONTACT, STEPS_OF_WAVE = 20, 40
+SECONDS_BETWEEN_LOOKS = 0.3
+_SIDES = {"chain": 1.0, "fender": -1.0}
+
+
+@dataclass(frozen=True, eq=False)
+class RowInTime:
+    """The row at one level with the memory of its water [eq:units-cummins].
+
+    Parameters
+    ----------
+    at : RowAtLevel
+    memory : RowMemory
+    position : ndarray (m,)
+        Mean position, where lines have the stiffness that damping is a fraction of, and where runs start.
+    damping_frequency : float
+        Frequency [rad/s] whose added mass a fraction of critical damping is taken with.
+    """
+
+    at: RowAtLevel
+    memory: RowMemory
+    position: Array
+    damping_frequency: float
+
+    def __post_init__(self) -> None:
+        check_mass(self.at.inertia, self.memory)
+
+    @cached_property
+    def mass(self) -> Array:
+        """Mass and added mass at infinite frequency (m, m)."""
+        return np.asarray(self.at.inertia + self.memory.infinite_added_mass)
+
+    @cached_property
+    def damping(self) -> Array:
+        """Damping (m, m) but that of waves and of connectors with a curve."""
+        at = self.at
+        added = self.memory.coefficients(np.array([self.damping_frequency]))[0]
+        restoring = at.hydrostatic + at.line_stiffness(self.position)
+        linear = tuple(joint for joint in at.joints if joint.connector.curve is None)
+        return np.asarray(own_damping(at, added, restoring)[0] + spring_matrices(linear, at.size)[1])
+
+    @cached_property
+    def stiffness(self) -> Array:
+        """Stiffness (m, m) of buoyancy and springs; lines and curves apart."""
+        return np.asarray(self.at.hydrostatic + self.at.springs[0])
+
+    @cached_property
+    def curved(self) -> tuple[Joint, ...]:
+        """Connectors with a curve."""
+        return tuple(joint for joint in self.at.joints if joint.connector.curve is not None)
+
+    @cached_property
+    def along(self) -> Array:
+        """Elongation of the connectors with a curve (j, m) by all motions."""
+        return np.array([joint.along for joint in self.curved]).reshape(-1, self.at.size)
+
+    @property
+    def balanced(self) -> Array:
+        """Part of the force of the lines (m,) that weight and buoyancy bear at rest."""
+        out = np.zeros(self.at.size)
+        out[2::6] = self.at.line_force(np.zeros(self.at.size))[2::6]
+        return out
+
+    def contact_step(self) -> float:
+        """Return the step [s] that resolves the shortest contact of connectors with a curve; infinite without."""
+        if not self.curved:
+            return math.inf
+        free = self.at.free
+        mass = np.linalg.inv(free.T @ self.mass @ free)
+        light = np.einsum("jr,rs,js->j", self.along @ free, mass, self.along @ free)
+        steep = [
+            float(np.max(np.diff(joint.connector.curve.force) / np.diff(joint.connector.curve.elongation)))
+            for joint in self.curved
+            if joint.connector.curve is not None
+        ]
+        fastest = float(np.sqrt(np.max(light * np.array(steep))))
+        return 2.0 * math.pi / fastest / STEPS_OF_CONTACT if fastest > 0.0 else math.inf
+
+    def _lines(self) -> tuple[Any, ...]:
+        every = [line for lines in self.at.lines for line in lines]
+        holder = np.array([n for n, lines in enumerate(self.at.lines) for _ in lines], dtype=np.int64)
+        depth = self.at.water.depth + float(self.at.centres[0, 2])
+        packed = compile_lines(LineSystem(tuple(every), depth))
+        return holder, packed.parameters, packed.index, packed.nodes, np.zeros(len(every))
+
+    def _joints(self) -> tuple[Any, ...]:
+        xs, fs, ends = [np.zeros(0)], [np.zeros(0)], [0]
+        for joint in self.curved:
+            curve = joint.connector.curve
+            assert curve is not None
+            xs.append(np.array(curve.elongation, dtype=float))
+            fs.append(np.array(curve.force, dtype=float))
+            ends.append(ends[-1] + len(curve.elongation))
+        free = self.at.free
+        return (
+            np.ascontiguousarray(self.along @ free), np.zeros(len(self.curved)), np.concatenate(xs),
+            np.concatenate(fs), np.array(ends, dtype=np.int64),
+            np.array([joint.connector.linear_damping for joint in self.curved], dtype=float),
+            np.array([_SIDES.get(joint.connector.kind, 0.0) for joint in self.curved], dtype=float),
+        )  # fmt: skip
+
+    def run(
+        self, load: Array, step: float, *, start: Array | None = None, progress: Progress = silent, name: str = ""
+    ) -> RowRun:
+        """Integrate the row under given forces.
+
+        Parameters
+        ----------
+        load : ndarray (n, m)
+            Forces at the times ``step * arange(n)``, row axes; memory, buoyancy, lines and connectors apart.
+        step : float
+            [s].
+        start : ndarray (m,) or None
+            Position from which it is let go; ``position`` without.
+        progress : Progress
+        name : str
+            Of the run, for the listener.
+        """
+        at, free = self.at, self.at.free
+        poles = self.memory.poles
+        decay, before, after = step_weights(poles, step)
+        reduced = np.ascontiguousarray(np.einsum("mr,kmn,ns->krs", free, self.memory.residues, free))
+        g = at.constraint
+        share = np.linalg.solve(g @ g.T, g) if len(g) else np.zeros((0, at.size))
+        held = np.ascontiguousarray(np.einsum("cm,kmn,ns->kcs", share, self.memory.residues, free))
+        mass = free.T @ self.mass @ free
+        damping = free.T @ self.damping @ free + np.einsum("k,krs->rs", after, reduced).real
+        tangent = free.T @ at.line_stiffness(self.position) @ free
+        stiffness = free.T @ self.stiffness @ free + tangent
+        inverse = np.linalg.inv(mass + 0.5 * step * damping + 0.25 * step**2 * stiffness)
+        lines, joints = self._lines(), self._joints()
+        count, size, joint_count = len(load), free.shape[1], len(self.curved)
+        saved = (
+            np.zeros((count, size)), np.zeros((count, size)), np.zeros((count, size)), np.zeros((count, len(g))),
+            np.zeros((count, at.size)), np.zeros((count, len(lines[0]))), np.zeros((count, joint_count)),
+        )  # fmt: skip
+        y = free.T @ (self.position if start is None else np.asarray(start, dtype=float))
+        v, z = np.zeros(size), np.zeros((len(poles), size), dtype=complex)
+        self._first(load[0], y, mass, saved)
+        a = saved[2][0].copy()
+        body = (
+            np.ascontiguousarray(inverse), np.ascontiguousarray(damping), np.ascontiguousarray(stiffness),
+            np.ascontiguousarray(free), np.ascontiguousarray(tangent), self.balanced,
+        )  # fmt: skip
+        given = np.ascontiguousarray(load @ free)
+        arguments = (given, body, (decay, before, after, reduced), held, lines, joints, LIMIT * at.row.length, saved)
+        done, status, message = _driven(
+            lambda first, steps: kernel.march(y, v, a, z, first, steps, step, *arguments), count - 1, step, progress,
+            name,
+        )  # fmt: skip
+        end = done + 1
+        y_s, v_s, a_s, memory_s, line_s, tension_s, joint_s = (item[:end] for item in saved)
+        return RowRun(
+            self, np.asarray(step * np.arange(end), dtype=float), load[:end], y_s, v_s, a_s, memory_s, line_s,
+            tension_s, joint_s, step, status, message,
+        )  # fmt: skip
+
+    def _first(self, load: Array, y: Array, mass: Array, saved: tuple[Array, ...]) -> None:
+        """Write position, acceleration, lines and connectors at the start; the row lies still."""
+        at, free = self.at, self.at.free
+        position = free @ y
+        saved[0][0] = y
+        force = load - self.stiffness @ position
+        if at.line_names:
+            saved[4][0] = at.line_force(position)
+            saved[5][0] = at.tensions(position)
+            force = force + saved[4][0] - self.balanced
+        for number, joint in enumerate(self.curved):
+            assert joint.connector.curve is not None
+            saved[6][0, number] = float(joint.connector.curve.at(np.array(joint.along @ position)))
+        force = force - saved[6][0] @ self.along
+        saved[2][0] = np.linalg.solve(mass, free.T @ force)
+
+
+def step_weights(poles: ComplexArray, step: float) -> tuple[ComplexArray, ComplexArray, ComplexArray]:
+    """Return factors of the states, of the velocity before and after a step in which it is a straight line."""
+    q = poles * step
+    decay = np.exp(q)
+    small = np.abs(q) < 1e-3
+    safe = np.where(small, 1.0, q)
+    one = np.where(small, 1.0 + q / 2.0 + q**2 / 6.0, (decay - 1.0) / safe)
+    two = np.where(small, 0.5 + q / 6.0 + q**2 / 24.0, (decay - 1.0 - q) / safe**2)
+    weights = (decay, step * (one - two), step * two)
+    first, second, third = (np.asarray(item, dtype=complex) for item in weights)
+    return first, second, third
+
+
+def _driven(advance: Any, steps: int, step: float, progress: Progress, name: str) -> tuple[int, Status, str]:
+    """Call the kernel in pieces of a fraction of a second, so that an interrupt and the listener get their turn."""
+    done, piece = 0, 32
+    try:
+        while done < steps:
+            count = min(piece, steps - done)
+            began = clock.perf_counter()
+            code, good = advance(done, count)
+            done += good
+            if code != kernel.RUNNING:
+                words = "grew without bound" if code == kernel.DIVERGED else "found no balance within a step"
+                return done, "diverged", f"the motion {words} after {done * step:.4g} s; what is before it is good"
+            spent = clock.perf_counter() - began
+            progress(f"time domain{name}", done * step, steps * step)
+            if spent < SECONDS_BETWEEN_LOOKS:
+                piece = min(4 * piece, max(32, int(count * SECONDS_BETWEEN_LOOKS / max(spent, 1e-6))))
+    except KeyboardInterrupt:
+        return done, "interrupted", f"interrupted at {done * step:.4g} s of {steps * step:.4g} s"
+    return done, "converged", ""
+
+
+@dataclass(frozen=True, eq=False)
+class RowRun:
+    """Motions and loads over time.
+
+    Parameters
+    ----------
+    model : RowInTime
+    time : ndarray (n,)
+    load : ndarray (n, m)
+    reduced, velocity, acceleration : ndarray (n, r)
+        Of the motions that the constraints leave.
+    held_memory : ndarray (n, c)
+        Force of the memory on the constraints.
+    line_force : ndarray (n, m)
+    tension : ndarray (n, lines)
+        At the fairleads.
+    joint_force : ndarray (n, j)
+        Of the connectors with a curve.
+    time_step : float
+    status, message : str
+    """
+
+    model: RowInTime
+    time: Array
+    load: Array
+    reduced: Array
+    velocity: Array
+    acceleration: Array
+    held_memory: Array
+    line_force: Array
+    tension: Array
+    joint_force: Array
+    time_step: float
+    status: Status
+    message: str
+
+    @cached_property
+    def position(self) -> Array:
+        """All motions (n, m), row axes."""
+        return np.asarray(self.reduced @ self.model.at.free.T)
+
+    @cached_property
+    def held(self) -> Array:
+        """Loads of the constraints (n, c) [eq:units-held], pulling positive."""
+        model, free = self.model, self.model.at.free
+        if not len(model.at.constraint):
+            return np.zeros((len(self.time), 0))
+        left = self.load - self.position @ model.stiffness
+        left -= self.acceleration @ (free.T @ model.mass) + self.velocity @ (free.T @ model.damping)
+        if model.at.line_names:
+            left += self.line_force - model.balanced
+        left -= self.joint_force @ model.along
+        return np.asarray(held_load(model.at, left) - self.held_memory)
+
+    def relative(self, joint: Joint) -> Array:
+        """Return the relative motion (n, 6) of a connector."""
+        return np.asarray(self.position @ joint.relative.T)
+
+    @cached_property
+    def joint_loads(self) -> Array:
+        """Loads (n, joints, 6) of all connectors on the unit before each."""
+        joints = self.model.at.joints
+        out = np.zeros((len(self.time), len(joints), 6))
+        rate = self.velocity @ self.model.at.free.T
+        first = curve = 0
+        for number, joint in enumerate(joints):
+            connector = joint.connector
+            if len(joint.held):
+                out[:, number] += self.held[:, first : first + len(joint.held)] @ joint.held
+                first += len(joint.held)
+            if connector.stiffness is not None:
+                out[:, number] += self.relative(joint) @ connector.stiffness.T
+            if connector.damping is not None:
+                out[:, number] += rate @ (connector.damping @ joint.relative).T
+            if connector.curve is not None:
+                out[:, number, :3] += self.joint_force[:, [curve]] * np.asarray(connector.axis)
+                curve += 1
+        return out

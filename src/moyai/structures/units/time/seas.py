@@ -1,0 +1,197 @@
+"""Seas over the row in time: forces on it, runs, and the numbers of each run."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+
+from moyai.core.arrays import Array
+from moyai.core.progress import Progress, silent
+from moyai.floating.forcing import IrregularForcing, cosine_ramp
+from moyai.sea.components import WaveComponents
+from moyai.sea.dispersion import wave_number
+from moyai.sea.irregular import realisation_seed, synthesise
+from moyai.sea.states import IrregularSea, RegularSea
+from moyai.sea.synthesis import choose_band
+from moyai.structures.units.assembly import RowAtLevel
+from moyai.structures.units.hydrodynamics import RowHydrodynamics
+from moyai.structures.units.model import Settings, TimeSettings
+from moyai.structures.units.seas import SeaAnswer, columns_of, share_drift
+from moyai.structures.units.time.memory import RowMemory
+from moyai.structures.units.time.model import STEPS_OF_WAVE, RowInTime, RowRun
+
+#: Periods of the ramp, of the whole run in regular waves
+RAMP, PERIODS = 10.0, 50.0
+#: Share of the step of the waves that a contact may ask for
+_LEAST_STEP = 0.1
+#: Share of the energy of a sea in waves that the step resolves
+_RESOLVED = 0.99
+
+
+@dataclass(frozen=True, eq=False)
+class Water3D:
+    """The water around the row in time.
+
+    Parameters
+    ----------
+    at : RowAtLevel
+    hydro : RowHydrodynamics
+        Over the band of the memory.
+    memory : RowMemory
+    steady : ndarray (m,)
+        Wind and current.
+    settings : Settings
+    """
+
+    at: RowAtLevel
+    hydro: RowHydrodynamics
+    memory: RowMemory
+    steady: Array
+    settings: Settings
+
+    @property
+    def time(self) -> TimeSettings:
+        """Settings of the time domain."""
+        return self.settings.time
+
+
+@dataclass(frozen=True, eq=False)
+class TimeRun:
+    """One run with its waves.
+
+    Parameters
+    ----------
+    run : RowRun
+    waves : WaveComponents
+        Incident waves.
+    elevation : ndarray (n,)
+        Theirs at the origin of the row [m].
+    ramp : float
+        Length of their ramp [s].
+    begin : float
+        Of the analysis [s].
+    omega : float
+        Of regular waves [rad/s]; of an irregular sea that of its peak.
+    seed : int
+        Of an irregular sea; -1 of regular waves.
+    contacts : bool
+        Whether the step resolves the contacts of stiff connectors.
+    """
+
+    run: RowRun
+    waves: WaveComponents
+    elevation: Array
+    ramp: float
+    begin: float
+    omega: float
+    seed: int = -1
+    contacts: bool = True
+
+    @property
+    def kept(self) -> slice:
+        """Rows that are analysed."""
+        return slice(int(np.searchsorted(self.run.time, self.begin - 1e-9)), len(self.run.time))
+
+    @property
+    def complete(self) -> bool:
+        """Whether the run came to its end."""
+        return self.run.status == "converged"
+
+
+def time_step(wanted: float | None, shortest: float, model: RowInTime) -> tuple[float, bool]:
+    """Return the step [s], and whether it resolves contacts of connectors."""
+    if wanted is not None:
+        return wanted, wanted <= 2.0 * model.contact_step()
+    waves, contact = shortest / STEPS_OF_WAVE, model.contact_step()
+    step = min(waves, max(contact, _LEAST_STEP * waves))
+    return step, step <= 2.0 * contact
+
+
+def regular_run(
+    water: Water3D, sea: RegularSea, period: float, answer: SeaAnswer, progress: Progress = silent
+) -> TimeRun:
+    """Run the row in regular waves, from its mean position of the frequency domain [eq:units-cummins]."""
+    settings, at = water.time, water.at
+    omega = 2.0 * math.pi / period
+    model = RowInTime(at, water.memory, answer.rest.position, omega)
+    step, resolved = time_step(settings.time_step, period, model)
+    per_period = math.ceil(period / step - 1e-9)
+    step = period / per_period
+    ramp = RAMP * period if settings.ramp is None else settings.ramp
+    analysed = settings.analysed_periods * period
+    duration = settings.duration or max(PERIODS * period, ramp + 20.0 * period + analysed)
+    periods = max(math.ceil(duration / period - 1e-9), settings.analysed_periods + 1)
+    count = periods * per_period + 1
+    k = np.array([float(wave_number(omega, at.water.depth, at.water.gravity))])
+    column = columns_of(water.hydro, np.array([sea.heading]))[0]
+    excitation = water.hydro.at(np.array([omega]), k)[2][0, column]
+    time = step * np.arange(count)
+    wave = cosine_ramp(time, ramp) * 0.5 * sea.height * np.exp(-1j * omega * time)
+    load = (wave[:, None] * excitation).real + water.steady + share_drift(at, answer.drift)
+    run = model.run(load, step, progress=progress, name=f", {at.name}, {sea.name}, {period:.3g} s")
+    one = WaveComponents(
+        np.array([omega]), np.array([0.5 * sea.height]), np.zeros(1), np.array([sea.heading]), k, at.water
+    )
+    begin = float(time[-1] - analysed)
+    return TimeRun(run, one, wave.real[: len(run.time)], ramp, begin, omega, contacts=resolved)
+
+
+def irregular_run(
+    water: Water3D, sea: IrregularSea, number: int, answer: SeaAnswer, progress: Progress = silent
+) -> TimeRun:
+    """Run one realisation of an irregular sea with slow drift after Newman [eq:units-slow-drift]."""
+    settings, at = water.time, water.at
+    peak = float(sea.spectrum.peak_omega)
+    model = RowInTime(at, water.memory, answer.rest.position, peak)
+    ramp = RAMP * 2.0 * math.pi / peak if settings.ramp is None else settings.ramp
+    duration = sea.duration + ramp
+    seed = realisation_seed(sea.seed, number)
+    waves, forcing = forcing_of(water, sea, answer, seed, ramp, duration)
+    step, resolved = time_step(settings.time_step, forcing.shortest_period, model)
+    step = forcing.fitted_step(step)
+    count = math.ceil(duration / step) + 1
+    load, elevation = forcing.sample(step, count)
+    mean = forcing.mean_drift()
+    shape = cosine_ramp(step * np.arange(count), ramp)
+    load += water.steady + (1.0 - shape)[:, None] * mean
+    run = model.run(load, step, progress=progress, name=f", {at.name}, {sea.name}, seed {seed}")
+    return TimeRun(run, waves, elevation[: len(run.time)], ramp, ramp, peak, seed, resolved)
+
+
+def forcing_of(
+    water: Water3D, sea: IrregularSea, answer: SeaAnswer, seed: int, ramp: float, duration: float
+) -> tuple[WaveComponents, IrregularForcing]:
+    """Return the waves of a realisation and their forces; a component travels along the nearest heading solved."""
+    at, hydro = water.at, water.hydro
+    low, high = choose_band(sea.spectrum, None, None)
+    components: WaveComponents = synthesise(
+        sea.spectrum, at.water, duration=duration, seed=seed, heading=sea.heading, spreading=sea.spreading,
+        lower_omega=max(low, float(hydro.omega[0])), upper_omega=min(high, float(hydro.omega[-1])),
+    )  # fmt: skip
+    apart = np.abs(np.angle(np.exp(1j * (components.heading[:, None] - answer.headings[None, :]))))
+    own = apart.argmin(axis=1)
+    components = replace(components, heading=answer.headings[own])
+    column = columns_of(hydro, answer.headings)[own]
+    every = hydro.at(components.omega, components.wave_number)[2]
+    excitation = every[np.arange(len(column)), column]
+    drift: Array | None = None
+    law: Literal["newman", "none"] = "none"
+    if water.settings.drift:
+        law = "newman"
+        coarse = answer.coarse.omega
+        table = np.array(
+            [
+                [np.interp(components.omega, coarse, answer.far.drift[:, heading, part]) for part in range(3)]
+                for heading in range(answer.far.drift.shape[1])
+            ]
+        )
+        per_square = table[own, :, np.arange(len(own))]
+        unit = np.array([share_drift(at, row) for row in np.eye(3)])
+        drift = per_square @ unit
+    return components, IrregularForcing(
+        omega=components.omega, amplitude=components.complex_amplitude, excitation=excitation, drift=drift,
+        steady=np.zeros(at.size), drift_law=law, ramp=ramp,
+    )  # fmt: skip

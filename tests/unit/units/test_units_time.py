@@ -1,0 +1,320 @@
+"""The row in time: memory, steps, connectors that come tight, lines, against programs and sums of their own."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+pytest.importorskip("capytaine", reason="Capytaine is not installed")
+
+from moyai.flexible import BarType
+from moyai.mooring import Line, LineSystem, LineType, Segment, SpringLine
+from moyai.mooring.space_kernel import space_line_force
+from moyai.mooring.table import compile_lines
+from moyai.sea.components import WaveComponents
+from moyai.sea.environment import Environment
+from moyai.structures.units.assembly import assemble
+from moyai.structures.units.bem import panels_of
+from moyai.structures.units.hydrodynamics import solve_row
+from moyai.structures.units.mesh import row_mesh
+from moyai.structures.units.model import Connector, Curve, UnitLine
+from moyai.structures.units.response import RowModel, respond
+from moyai.structures.units.time.kernel import joint_force
+from moyai.structures.units.time.lines import Carried, events_of, moving_line, rerun, rerun_events
+from moyai.structures.units.time.memory import fit_row_memory
+from moyai.structures.units.time.model import RowInTime, step_weights
+from moyai.validation.units import WATER, row
+
+HINGE = Connector("h", "hinge", ((0, 1),), 0.0, 3.0, (1.0, 0.0, 0.0))
+BAND = (0.6, 1.9)
+OMEGA = np.concatenate([np.linspace(0.3, 2.2, 20), np.linspace(2.4, 3.0, 3)])
+
+
+def at_rest(*connectors, lines=()):
+    return assemble(replace(row(connectors), lines=tuple(lines)), Environment(WATER), "SWL", 0.0)
+
+
+@pytest.fixture(scope="module")
+def hydro():
+    at = at_rest()
+    mesh = row_mesh(at.section, at.row.length, at.row.placements, 2.8, lid=True, gap_lid=False)
+    return solve_row(panels_of(mesh, at.centres), WATER, at.centres, OMEGA, np.radians([0.0, 40.0]))
+
+
+@pytest.fixture(scope="module")
+def memory(hydro):
+    return fit_row_memory(hydro.omega, hydro.added_mass, hydro.damping, band=BAND)
+
+
+def own_memory(generator, size, count, dashpot=0.0):
+    """Return poles and residues of a passive memory: dampers behind springs, each on one direction."""
+    poles, residues = [], []
+    for _ in range(count):
+        along = generator.normal(size=size)
+        frequency, fraction = generator.uniform(0.5, 2.0), generator.uniform(0.1, 0.6)
+        pole = frequency * (-fraction + 1j * np.sqrt(1.0 - fraction**2))
+        # s / (s^2 + 2 zeta w s + w^2): zero at rest and far away, real part never negative
+        residues.append(2.0 * pole / (2j * pole.imag) * np.outer(along, along))
+        poles.append(pole)
+    return np.array(poles), np.array(residues)
+
+
+def response_of(poles, residues, omega):
+    s = -1j * omega[:, None]
+    first = np.einsum("tk,kij->tij", 0.5 / (s - poles), residues)
+    return first + np.einsum("tk,kij->tij", 0.5 / (s - poles.conj()), residues.conj())
+
+
+def test_a_memory_of_few_poles_is_found_again():
+    generator = np.random.default_rng(3)
+    poles, residues = own_memory(generator, 5, 4)
+    omega = np.linspace(0.2, 3.0, 30)
+    values = response_of(poles, residues, omega)
+    infinite = np.diag(generator.uniform(1.0, 2.0, 5))
+    added = infinite - values.imag / omega[:, None, None]
+    found = fit_row_memory(omega, added, values.real, goal=1e-8)
+    assert found.error < 1e-6
+    assert np.allclose(found.infinite_added_mass, infinite, atol=1e-6)
+    elsewhere = np.linspace(0.01, 20.0, 200)
+    assert np.allclose(found.coefficients(elsewhere)[1], response_of(poles, residues, elsewhere).real, atol=1e-5)
+
+
+def test_the_memory_of_data_with_negative_damping_is_passive():
+    generator = np.random.default_rng(4)
+    poles, residues = own_memory(generator, 4, 3)
+    omega = np.linspace(0.2, 3.0, 25)
+    values = response_of(poles, residues, omega).real
+    error = generator.normal(size=values.shape) * 0.03 * np.abs(values).max()
+    given = values + 0.5 * (error + error.transpose(0, 2, 1))
+    assert np.linalg.eigvalsh(given).min() < 0.0
+    added = 2.0 * np.eye(4) - response_of(poles, residues, omega).imag / omega[:, None, None]
+    found = fit_row_memory(omega, added, given, most=10)
+    everywhere = np.concatenate([np.linspace(0.001, 6.0, 4001), np.geomspace(6.0, 500.0, 200)])
+    damping = found.coefficients(everywhere)[1]
+    assert np.linalg.eigvalsh(damping).min() > -1e-5 * np.abs(damping).max()
+    assert np.abs(found.coefficients(omega)[1] - values).max() < 0.15 * np.abs(values).max()
+
+
+def test_ogilvie_holds_between_the_memory_and_the_panels(hydro, memory):
+    """A_inf = A + (1/omega) int K sin(omega t) dt with A of the panels, K of the memory by quadrature."""
+    assert memory.error < 0.02
+    time = np.linspace(0.0, 400.0, 40001)
+    kernel = memory.kernel(time)
+    scale = np.abs(hydro.added_mass).max(axis=0).diagonal()
+    scale = np.sqrt(np.outer(scale, scale))
+    for omega, added in zip(hydro.omega, hydro.added_mass):
+        if BAND[0] < omega < BAND[1]:
+            part = np.trapezoid(kernel * np.sin(omega * time)[:, None, None], time, axis=0) / omega
+            assert np.abs(added + part - memory.infinite_added_mass).max() < 0.02 * scale.max()
+            assert (np.abs(added + part - memory.infinite_added_mass) / scale).max() < 0.02
+
+
+def test_factors_of_a_step_integrate_a_straight_velocity():
+    poles = np.array([-0.3 + 2.0j, -1e-6 + 0.0j, -5.0 + 0.0j])
+    decay, before, after = step_weights(poles, 0.2)
+    time = np.linspace(0.0, 0.2, 20001)
+    for number, pole in enumerate(poles):
+        faded = np.exp(pole * (0.2 - time))
+        assert np.trapezoid(faded * (1.0 - time / 0.2), time) == pytest.approx(before[number], rel=1e-7)
+        assert np.trapezoid(faded * time / 0.2, time) == pytest.approx(after[number], rel=1e-7)
+    assert np.allclose(decay, np.exp(0.2 * poles))
+
+
+@pytest.mark.parametrize("heading", [0, 1])
+def test_regular_waves_move_the_row_as_in_the_frequency_domain(hydro, memory, heading):
+    """Coefficients of the memory itself in both: what differs is the step; those of the panels: the fit as well."""
+    at, omega = at_rest(HINGE), 1.1
+    k = np.array([hydro.wave_number[np.argmin(np.abs(hydro.omega - omega))]])
+    frequency = np.array([omega])
+    own = replace(hydro, solutions=tuple(_with(item, memory) for item in hydro.solutions))
+    period = 2.0 * np.pi / omega
+    step, count = period / 80, 80 * 60
+    time = step * np.arange(count)
+    excitation = hydro.at(frequency, k)[2][0, heading]
+    shape = 0.5 * (1.0 - np.cos(np.pi * np.minimum(time / (15.0 * period), 1.0)))
+    load = shape[:, None] * np.real(excitation * np.exp(-1j * omega * time)[:, None])
+    run = RowInTime(at, memory, np.zeros(at.size), omega).run(load, step)
+    last = slice(count - 800, count)
+    turn = np.exp(1j * omega * time[last])[:, None]
+    moved = 2.0 * np.mean(run.position[last] * turn, axis=0)
+    loads = 2.0 * np.mean(run.joint_loads[last, 0] * turn, axis=0)
+    for coefficients, allowed in ((own, 4e-3), (hydro, 0.03)):
+        model = RowModel(at, coefficients, np.zeros(at.size))
+        answer = respond(model, frequency, np.zeros(1))
+        expected, force = answer.motion[0, heading], answer.load[0, heading, 0]
+        assert np.abs(moved - expected).max() < allowed * np.abs(expected).max()
+        if heading == 1:
+            assert np.abs(loads - force)[:3].max() < allowed * np.abs(force[:3]).max()
+            assert np.abs(loads - force)[3:].max() < allowed * np.abs(force[3:]).max()
+
+
+def _with(item, memory):
+    added, damping = memory.coefficients(np.array([item.omega]))
+    return replace(item, added_mass=added[0], damping=damping[0])
+
+
+def plain_newmark(at, memory, load, step, chain):
+    """Two bodies with a hinge as Lagrange multipliers, the memory as a sum over the past, the chain explicit."""
+    count, m = load.shape
+    omega = np.linspace(0.0, 30.0, 12001)[1:]
+    # kernel by the cosine transform of the damping, not by the poles
+    damping = memory.coefficients(omega)[1]
+    length = round(40.0 / step)
+    kernel = np.empty((length, m, m))
+    for number in range(length):
+        weight = np.cos(omega * step * number)
+        kernel[number] = 2.0 / np.pi * np.trapezoid(damping * weight[:, None, None], omega, axis=0)
+    kernel[0] *= 0.5
+    flat = kernel.transpose(1, 0, 2).reshape(m, -1)
+    g = at.constraint
+    mass = at.inertia + memory.infinite_added_mass
+    model = RowInTime(at, memory, np.zeros(m), 1.1)
+    own, stiffness = model.damping, at.hydrostatic
+    matrix = mass + 0.5 * step * (own + step * kernel[0]) + 0.25 * step**2 * stiffness
+    whole = np.block([[matrix, g.T], [g, np.zeros((len(g), len(g)))]])
+    inverse = np.linalg.inv(whole)
+    past = np.zeros((length, m))
+    q, v, a = np.zeros(m), np.zeros(m), np.zeros(m)
+    positions, held, pulls = np.zeros((count, m)), np.zeros((count, len(g))), np.zeros(count)
+    for number in range(1, count):
+        ahead, speed = q + step * v + 0.25 * step**2 * a, v + 0.5 * step * a
+        past[0] = 0.0
+        memory_force = step * flat @ past.reshape(-1)
+        pull = 0.0
+        for _ in range(30):
+            right = load[number] - (own + step * kernel[0]) @ speed - memory_force - stiffness @ ahead
+            right = right - pull * chain.along
+            solved = inverse @ np.concatenate([right, np.zeros(len(g))])
+            after = max(0.0, float(chain.connector.curve.at(chain.along @ (ahead + 0.25 * step**2 * solved[:m]))))
+            if abs(after - pull) < 1e-6 * (abs(pull) + 1.0):
+                break
+            pull = after
+        q, v, a = ahead + 0.25 * step**2 * solved[:m], speed + 0.5 * step * solved[:m], solved[:m]
+        past[0] = v
+        past = np.roll(past, 1, axis=0)
+        positions[number], held[number], pulls[number] = q, solved[m:], pull
+    return positions, held, pulls
+
+
+def test_two_hinged_bodies_with_a_slack_chain_against_a_plain_program(hydro, memory):
+    curve = Curve((-1.0, 0.02, 1.0), (0.0, 0.0, 0.98 * 4e6))
+    chain = Connector("c", "chain", ((0, 1),), 0.0, 0.5, (0.0, 1.0, 0.0), curve=curve)
+    at, omega, step, count = at_rest(HINGE, chain), 1.1, 0.02, 2500
+    time = step * np.arange(count)
+    k = np.array([hydro.wave_number[np.argmin(np.abs(hydro.omega - omega))]])
+    excitation = hydro.at(np.array([omega]), k)[2][0, 1]
+    load = np.minimum(time / 10.0, 1.0)[:, None] * np.real(0.6 * excitation * np.exp(-1j * omega * time)[:, None])
+    run = RowInTime(at, memory, np.zeros(at.size), omega).run(load, step)
+    position, held, pull = plain_newmark(at, memory, load, step, at.joints[1])
+    assert pull.max() > 1e5
+    assert (pull == 0.0).mean() > 0.3
+    assert np.abs(run.position - position).max() < 0.01 * np.abs(position).max()
+    assert np.abs(run.joint_force[:, 0] - pull).max() < 0.02 * pull.max()
+    # the largest loads: the records differ by the time of an impact
+    assert np.abs(np.abs(run.held).max(axis=0) - np.abs(held).max(axis=0)).max() < 0.01 * np.abs(held).max()
+    assert run.joint_force.max() == pytest.approx(pull.max(), rel=0.01)
+
+
+def test_a_row_that_is_let_go_never_has_more_energy_than_at_first(memory):
+    fender = Connector(
+        "f", "fender", ((0, 1),), 0.0, 3.0, (0.0, 1.0, 0.0), curve=Curve((-1.0, -0.01, 1.0), (-9.9e6, 0.0, 0.0))
+    )
+    spring = SpringLine("s", (-40.0, 0.0, 0.0), (-5.0, 0.0, 0.0), 1e5, 0.0)
+    lines = [UnitLine("s", 1, (0, 1), (-5.0, 0.0, 0.7), (-40.0, 0.0, 0.7 - 3.0), stiffness=spring.stiffness)]
+    at = at_rest(fender, lines=lines)
+    start = np.zeros(at.size)
+    start[[0, 1, 2, 7, 10]] = 0.3, 0.4, 0.5, -0.5, 0.05
+    model = RowInTime(at, memory, np.zeros(at.size), 1.1)
+    run = model.run(np.zeros((4000, at.size)), 0.02, start=start)
+    curve = at.joints[0].connector.curve
+    elongation = run.position @ at.joints[0].along
+    stored = np.where(elongation < -0.01, 0.5 * 1e7 * (elongation + 0.01) ** 2, 0.0)
+    assert np.allclose(run.joint_force[:, 0], np.minimum(curve.at(elongation), 0.0), atol=1.0)
+    pull = [system.tensions(run.position[:, 6 * n : 6 * n + 6])[:, 0] for n, system in enumerate(at.systems)]
+    stored = stored + sum(0.5 * one**2 / 1e5 for one in pull)
+    kinetic = 0.5 * np.einsum("ti,ij,tj->t", run.velocity, model.mass, run.velocity)
+    total = kinetic + 0.5 * np.einsum("ti,ij,tj->t", run.position, at.hydrostatic, run.position) + stored
+    assert run.joint_force.min() < -1e4
+    assert total.max() <= total[0] * (1.0 + 1e-3)
+    assert total[-1] < 0.5 * total[0]
+
+
+@pytest.mark.parametrize(
+    ("elongation", "rate", "side", "expected"),
+    [(0.5, 0.0, 1.0, 2.0), (0.5, -1.0, 1.0, 0.0), (0.2, 3.0, 1.0, 0.0), (0.2, 3.0, 0.0, 9.0), (0.5, 1.0, 0.0, 5.0)],
+)
+def test_a_chain_pulls_only_and_its_dashpot_only_when_tight(elongation, rate, side, expected):
+    x, f = np.array([-1.0, 0.3, 1.0]), np.array([0.0, 0.0, 7.0])
+    assert joint_force(elongation, rate, x, f, 3.0, side)[0] == pytest.approx(expected)
+
+
+def test_compiled_lines_in_space_are_the_lines():
+    generator = np.random.default_rng(8)
+    chain = LineType("chain", submerged_weight=900.0, axial_stiffness=3e7)
+    rope = LineType("rope", submerged_weight=20.0, axial_stiffness=5e6)
+    lines = (
+        Line("one", (-50.0, 12.0, -10.0), (-5.0, 8.0, -1.0), (Segment(chain, 48.0),), count=2),
+        Line("two", (30.0, 45.0, -10.0), (5.0, 9.0, 0.5), (Segment(chain, 40.0), Segment(rope, 15.0))),
+        SpringLine("three", (20.0, -3.0, 2.0), (4.0, -9.0, 1.0), 2e4, 1e3),
+    )
+    system = LineSystem(lines, 10.0)
+    packed = compile_lines(system)
+    body, last = np.array([1, 1, 1]), np.zeros(3)
+    for _ in range(20):
+        position = np.zeros(12)
+        position[6:] = generator.normal(size=6) * np.array([1.0, 1.0, 0.5, 0.05, 0.1, 0.1])
+        force, tension = np.zeros(12), np.zeros(3)
+        space_line_force(position, body, packed.parameters, packed.index, packed.nodes, last, force, tension)
+        exact = system.forces(position[6:])
+        assert np.all(force[:6] == 0.0)
+        assert np.allclose(force[6:], exact, rtol=1e-6, atol=1e-6 * np.abs(exact).max())
+        assert np.allclose(tension, system.tensions(position[6:]), rtol=1e-6)
+
+
+CHAIN = LineType("chain", submerged_weight=280.0, axial_stiffness=3e7, breaking_load=1e6)
+BAR = BarType(
+    "chain", 32.0, 3e7, 0.04, drag_normal=1.2, drag_tangential=0.3, added_mass_normal=1.0,
+    volume_per_length=(32.0 - 280.0 / 9.81) / 1025.0,
+)  # fmt: skip
+
+
+def moored():
+    lines = [
+        UnitLine(name, 1, (0, 1), (x, 0.0, 0.7), (10.0 * x, 0.0, 0.0), (Segment(CHAIN, 46.9),), bar_types=(BAR,))
+        for name, x in (("west", -5.0), ("east", 5.0))
+    ]
+    return at_rest(HINGE, lines=lines)
+
+
+def swaying(at, period, amplitude):
+    time = 0.05 * np.arange(round(14.0 * period / 0.05))
+    position, velocity = np.zeros((len(time), at.size)), np.zeros((len(time), at.size))
+    for unit in (0, 6):
+        position[:, unit] = amplitude * np.sin(2.0 * np.pi * time / period)
+        velocity[:, unit] = amplitude * 2.0 * np.pi / period * np.cos(2.0 * np.pi * time / period)
+    tension = np.concatenate([system.tensions(position[:, :6]) for system in at.systems], axis=1)
+    still = WaveComponents(*(np.array([value]) for value in (1.0, 0.0, 0.0, 0.0, 0.12)), WATER)
+    return Carried(time, position, velocity, tension, still, 6.0 * period, period)
+
+
+def test_a_line_moved_slowly_has_the_tension_of_the_line_at_rest():
+    at = moored()
+    given = swaying(at, 40.0, 1.0)
+    moving = moving_line(at, 0)
+    event, expected = events_of(given, 0)[0]
+    assert rerun(at, moving, given, event) == pytest.approx(expected, rel=0.04)
+
+
+def test_events_of_a_snapping_line_are_rerun_and_the_largest_is_kept():
+    at = moored()
+    given = swaying(at, 6.0, 1.7)
+    mean, largest = given.tension.mean(axis=0), given.tension.max(axis=0)
+    assert (largest > 5.0 * mean).all()
+    found = rerun_events(at, [given], lambda *_: None, "")
+    assert found is not None
+    first = int(np.argmax(largest))
+    assert np.isfinite(found.tension[0, first])
+    # the inertia of the chain is in it, in either direction
+    assert 0.5 * largest[first] < found.tension[0, first] < 3.0 * largest[first]
+    assert found.bound[0, first] >= found.tension[0, first]
+    assert rerun_events(at, [swaying(at, 40.0, 0.1)], lambda *_: None, "") is None
