@@ -15,6 +15,8 @@ sys.dont_write_bytecode = False
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 # The workers of the tests take all cores
 os.environ.setdefault("MOYAI_COMPILE_PROCESSES", "0")
+# Messages are held against English, whatever the locale
+os.environ["MOYAI_LANGUAGE"] = "en"
 
 
 @pytest.fixture(scope="session")

@@ -5,6 +5,7 @@ from source_files import FILES, SOURCE, findings, findings_of_text
 
 LEVELS = {
     "core": 0,
+    "language": 1,
     "sea": 1,
     "tables": 1,
     "series": 2,

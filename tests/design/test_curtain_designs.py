@@ -18,7 +18,14 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 import moyai
+from moyai.case.builder import build
 from moyai.structures.curtain import hierarchy as models
+from moyai.structures.curtain.analyses.dynamic import SpanLoad
+from moyai.structures.curtain.analyses.impact import solve_impact
+from moyai.structures.curtain.analyses.limits import impact_load
+from moyai.structures.curtain.analyses.loads import loads_dataset
+from moyai.structures.curtain.assembly import assemble
+from moyai.structures.curtain.seas.loads import drag_curve
 
 GRAVITY, STEEL, SEA = 9.81, 7850.0, 1025.0
 CASE = """moyai: 1
@@ -388,3 +395,48 @@ def test_the_whole_span_governs_where_it_is_run(designs, tmp_path: Path) -> None
     # the highest crest of the storm lies in what counts
     attrs = result.tree["/SWL/dynamic/storm"].attrs
     assert attrs["counted_from"] == pytest.approx(7.0 * attrs["period"])
+
+
+def test_a_stronger_current_never_lowers_the_load(tmp_path: Path) -> None:
+    """Weaker currents come with every stronger one: the impact in them counts where the plate is a bound in it."""
+    design = DESIGNS["held toe"] | {
+        "analyses": "statics, impact",
+        "more": f"{BASE['more']}  impact: {{start: slack_phase}}\n",
+    }
+    found = []
+    for speed in (0.25, 0.45):
+        folder = tmp_path / f"{speed:g}"
+        folder.mkdir()
+        _, result = ran(folder, **design | {"speed": speed})
+        share = float(result.tree["SWL/models"]["model_value"].sel(model=models.IMPACT))
+        loads = result.tree["SWL/loads"].to_dataset().sel(component=["upper cable", "lower cable", "anchor line"])
+        found.append((share, loads["governing_high"].values, [str(word) for word in loads["impact_source"].values]))
+    (upright, weak, _), (flared, strong, words) = found
+    assert upright >= models.STRAIGHT > flared
+    assert np.all(strong >= weak)
+    # a bound in its own current stands where it is above the value of the weaker one
+    assert all("weaker current" in word or "impact" in word for word in words)
+
+
+def test_the_plate_in_a_weaker_current_decides_where_the_whole_span_gives_less(tmp_path: Path) -> None:
+    design = DESIGNS["held toe"] | {
+        "analyses": "statics, impact",
+        "more": f"{BASE['more']}  impact: {{start: slack_phase}}\n",
+    }
+    folder = tmp_path / "case"
+    folder.mkdir()
+    given = BASE | design | {"speed": 0.45}
+    (folder / "case.yaml").write_text(CASE.format(**given), encoding="utf-8")
+    problem = build(moyai.load_case(folder / "case.yaml"))
+    (unit,) = [assemble(problem, name, level) for name, level in problem.environment.water_levels]
+    answer = solve_impact(unit, problem.settings.impact)
+    curve = drag_curve(unit, 1.001 * unit.normal_speed)
+    moved = {name: SpanLoad(1.0, "storm") for name in ("upper cable", "lower cable", "anchor line")}
+    table, _ = loads_dataset(unit, problem.settings, (), (), answer, answer, curve, moved)
+    row = table.sel(component="anchor line")
+    speed = models.upright_in(unit)
+    assert 0.25 < speed < 0.45 and models.straight_share(unit, speed) >= models.STRAIGHT
+    assert f"in a weaker current of {speed:.3g} m/s" in str(row["impact_source"].values)
+    there = impact_load(unit, answer, problem.settings).at(unit.unit_normal_speed * speed)
+    steady = unit.site.statics(unit.hanging, speed).anchor_line_tension
+    assert float(row["governing_load"]) == pytest.approx(there.anchor_line + steady, rel=0.02)

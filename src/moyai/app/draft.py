@@ -12,10 +12,13 @@ from typing import TYPE_CHECKING, Any
 from moyai.app.edits import with_number
 from moyai.app.folder import refuse_foreign_files
 from moyai.app.sliders import sliders_of
+from moyai.case.builder import build
 from moyai.case.reader import case_of
 from moyai.case.yaml_reader import Document, parse_yaml
 from moyai.core.errors import CaseError, Fault, MoyaiError
+from moyai.core.kinds import structure_kind
 from moyai.core.progress import Progress
+from moyai.core.validity import Notice
 
 if TYPE_CHECKING:
     from moyai.core.results import Result
@@ -34,6 +37,7 @@ CHEAP: dict[str, tuple[tuple[str, ...], ...]] = {
 REGULAR_ONLY = ("member",)
 """Kinds whose drafts leave irregular seas out, where there are regular ones."""
 PINNED = "pinned"
+NOMINAL = "nominal numbers only, without ranges, bands, other laws or speeds: the whole answer may judge otherwise"
 _TEXT_LIMIT = 2_000_000
 
 Run = Callable[..., "Result"]
@@ -63,7 +67,7 @@ class Drafts:
     Parameters
     ----------
     run : callable
-        ``run(case, progress, keep=folder)`` gives the result of a case.
+        ``run(case, progress, keep=folder, problem=problem)`` gives the result of a case, or of a problem in its place.
     keep : Path
         Folder of coefficients.
     rest : callable
@@ -93,11 +97,12 @@ class Drafts:
             sliders = sliders_of(document, case.kind, drafts[-1].data)
             yield _checked(text, (), case.warnings, sliders=sliders, kind=case.kind, title=case.title)
             checked = True
-            for place, draft in enumerate(drafts, 1):
+            stages = [(draft, problem) for draft in drafts for problem in _problems(draft, wish)]
+            for place, (draft, problem) in enumerate(stages, 1):
                 if place > 1:
                     self._rest()
-                report = self._drawn(draft, document, wish, progress)
-                more = {"last": place == len(drafts), "seconds": round(time.perf_counter() - started, 4)}
+                report = self._drawn(draft, problem, document, wish, progress)
+                more = {"last": place == len(stages), "seconds": round(time.perf_counter() - started, 4)}
                 yield {**report, **more}
         except MoyaiError as error:
             faults = error.faults if isinstance(error, CaseError) else (error.fault,)
@@ -108,13 +113,17 @@ class Drafts:
             else:
                 yield {"message": "not drawn", "faults": [asdict(fault) for fault in faults]}
 
-    def _drawn(self, document: Document, whole: Document, wish: Wish, progress: Progress) -> dict[str, Any]:
+    def _drawn(
+        self, document: Document, problem: Any, whole: Document, wish: Wish, progress: Progress
+    ) -> dict[str, Any]:
         from moyai.report.html import render_parts
         from moyai.report.writer import compose_document
 
-        result = self._run(case_of(document, wish.file), progress, keep=self._keep)
+        result = self._run(case_of(document, wish.file), progress, keep=self._keep, problem=problem)
         if result.status == "interrupted":
             raise KeyboardInterrupt
+        if problem is not None:
+            result = result.with_notices(Notice("draft", NOMINAL, severity="warning"))
         composed = compose_document(result)
         if wish.pinned and wish.pinned != whole.text:
             other = self._other(wish, document, progress)
@@ -124,6 +133,7 @@ class Drafts:
         return {
             "message": "drawn",
             "analyses": list(document.data["analyses"]),
+            "nominal": problem is not None,
             "left_out": document.data.get("waves") != whole.data.get("waves"),
             "status": result.status,
             "headlines": [headline.as_dict() for headline in result.headlines],
@@ -149,6 +159,13 @@ class Drafts:
                 self._pinned.pop(next(iter(self._pinned)))
             self._pinned[mark] = Other(PINNED, result, compose_document(result))
         return self._pinned[mark]
+
+
+def _problems(document: Document, wish: Wish) -> tuple[Any, ...]:
+    """Return what a stage runs: its nominal problem where it has one, and then its own, None."""
+    case = case_of(document, wish.file)
+    nominal = structure_kind(case.kind).nominal(build(case))
+    return (None,) if nominal is None else (nominal, None)
 
 
 def _like(document: Document, shown: Document, kind: str, analyses: tuple[str, ...]) -> dict[str, Any]:

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
 #: Beyond it waves run along the structure and reflection and transmission lose their meaning
 LARGEST_HEADING_DEG = 89.5
+#: From the normal of a structure; beyond it less than a quarter of a velocity acts across it
+LARGEST_USUAL_ANGLE_DEG = 75.0
 #: [m/s]; strongest gust and strongest tidal stream on record are near 113 and 10 m/s
 LARGEST_SPEED = {"wind": 113.0, "current": 10.0}
 
@@ -54,6 +56,30 @@ def check_surroundings(model: Any, findings: Findings, folder: Path) -> None:
         speed = getattr(entry, "speed", None)
         if speed is not None and abs(speed) > LARGEST_SPEED[key]:
             findings.warn((key, "speed"), f"{speed:g} m/s is more than has been measured")
+
+
+def along(path: KeyPath, what: str, degrees: float, structure: str, findings: Findings) -> None:
+    """Warn of waves or a current that run nearly along a structure.
+
+    Parameters
+    ----------
+    path : KeyPath
+        Of the heading.
+    what : str
+        Whose heading it is.
+    degrees : float
+        From the normal of the structure.
+    structure : str
+        With its article.
+    findings : Findings
+    """
+    findings.warn(
+        path,
+        f"the heading of the {what} lies {abs(degrees):.4g} degrees from the normal of {structure}, nearly along it: "
+        f"{100.0 * math.cos(math.radians(degrees)):.1f} % of the horizontal velocity acts across",
+        allowed=f"usually at most {LARGEST_USUAL_ANGLE_DEG:g} degrees",
+        remedy="check the heading; what comes from the front loads it most",
+    )
 
 
 def check_level_names(model: Any, findings: Findings) -> None:
@@ -174,9 +200,12 @@ def _check_current(model: Any, findings: Findings) -> None:
 def _check_heading(state: Any, heading: float, path: KeyPath, findings: Findings) -> None:
     """Check that waves meet the structure from the side of negative x, as the two-dimensional theory takes them."""
     degrees = math.degrees(math.remainder(heading, 2.0 * math.pi))
-    if abs(degrees) <= LARGEST_HEADING_DEG:
+    if abs(degrees) <= LARGEST_USUAL_ANGLE_DEG:
         return
     key = "from_bearing_deg" if getattr(state, "from_bearing_deg", None) is not None else "heading_deg"
+    if abs(degrees) <= LARGEST_HEADING_DEG:
+        along((*path, key), "waves", degrees, "the structure", findings)
+        return
     findings.fault(
         (*path, key),
         f"the waves travel at {degrees:.4g} degrees to +x, along the structure or towards -x",

@@ -16,6 +16,8 @@ from moyai.case.yaml_reader import Document, KeyPath, dotted
 from moyai.core.errors import Fault
 from moyai.core.units import plain_text
 
+#: Most keys of the other forms of a block that are listed
+_MOST_FORMS = 5
 # What engineers call a key elsewhere, where the spelling alone would not lead to it
 _SYNONYMS = {
     "width": "beam", "breadth": "beam", "draft": "draught", "weight": "mass", "displacement": "mass",
@@ -141,13 +143,20 @@ class Translator:
             self.renamed[path] = found
         else:
             self.dropped.append(path)
-            elsewhere = places_of_keys(self.root).get(key, ())
+            here = dotted(tuple(step for step in path[:-1] if isinstance(step, str)))
+            places = places_of_keys(self.root)
+            elsewhere = places.get(key, {})
+            forms = [name for name, homes in places.items() if here in homes and name not in allowed]
             if ":" in key or "=" in key:
                 remedy = "a space belongs behind ':'"
             elif nearest(key, allowed) and allowed:
                 remedy = f"'{nearest(key, allowed)}' is given already"
-            elif elsewhere:
-                remedy = f"'{key}' belongs under '{elsewhere[0]}'"
+            elif elsewhere.get(here):
+                remedy = f"'{key}' is for 'kind: {elsewhere[here]}'"
+            elif len(elsewhere) == 1 and here not in elsewhere:
+                remedy = f"'{key}' belongs under '{next(iter(elsewhere))}'"
+            elif 0 < len(forms) <= _MOST_FORMS:
+                remedy = f"another form of '{here}' has {', '.join(repr(name) for name in forms)}"
             else:
                 remedy = ""
         listed = ", ".join(allowed) if len(allowed) <= 25 and not found else ""
@@ -320,21 +329,23 @@ def _blocks(data: Any, path: KeyPath) -> Iterable[tuple[KeyPath, Any]]:
 
 
 @cache
-def places_of_keys(root: type[Block]) -> dict[str, tuple[str, ...]]:
-    """Return for every key the blocks of a case file that it may stand in."""
-    found: dict[str, list[str]] = {}
+def places_of_keys(root: type[Block]) -> dict[str, dict[str, str]]:
+    """Return for every key the blocks of a case file that it may stand in, each with the ``kind`` that has it there."""
+    found: dict[str, dict[str, str]] = {}
 
-    def walk(model: type[Block], path: KeyPath) -> None:
+    def walk(model: type[Block], path: KeyPath, kind: str) -> None:
+        own = typing.get_args(model.model_fields["kind"].annotation) if "kind" in model.model_fields else ()
+        kind = str(own[0]) if len(own) == 1 and path != ("structure",) else kind
         for name, field in model.model_fields.items():
             key = field.alias or name
             if path:
-                found.setdefault(key, []).append(dotted(path))
+                found.setdefault(key, {}).setdefault(dotted(path), kind)
             for inner in _models_in(field.annotation):
                 if len(path) < 6:
-                    walk(inner, (*path, key))
+                    walk(inner, (*path, key), kind)
 
-    walk(root, ())
-    return {key: tuple(dict.fromkeys(places)) for key, places in found.items()}
+    walk(root, (), "")
+    return found
 
 
 def _models_in(annotation: Any) -> Iterable[type[Block]]:

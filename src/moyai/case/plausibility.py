@@ -7,6 +7,7 @@ keys was reported of already says nothing more. What a default gives is not judg
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -22,6 +23,8 @@ from moyai.tables.plausible_ranges import Factor, PlausibleRange, plausible_rang
 
 #: Slips that are looked for where a number is out of its usual range: thousands, hundreds, millions
 _SLIPS = (1e-3, 1e3, 1e-2, 1e2, 1e-6, 1e6)
+#: A number that follows from more keys is written without them
+_MOST_KEYS = 5
 
 
 @dataclass(frozen=True)
@@ -36,6 +39,16 @@ class Entry:
     of: tuple[KeyPath, ...] = ()
 
 
+@dataclass(frozen=True)
+class Odd:
+    """A quantity outside of its usual range."""
+
+    row: PlausibleRange
+    paths: list[KeyPath]
+    entries: list[Entry]
+    value: float
+
+
 def check_plausibility(model: Block, findings: Findings) -> None:
     """Record what is impossible as a fault and what is unusual as a warning, with range and source."""
     numbers = {path: Entry(value, place_of(path, findings.document)) for path, value in _numbers(model, ())}
@@ -46,13 +59,21 @@ def check_plausibility(model: Block, findings: Findings) -> None:
     for path in numbers:
         last = next((step for step in reversed(path) if isinstance(step, str)), "")
         ends.setdefault(last, []).append(path)
-    reported: set[KeyPath] = set()
+    odd: list[Odd] = []
     for row in plausible_ranges(kind):
         last = row.factors[0].steps[-1]
         for first in list(numbers) if last == "*" else ends.get(last, ()):
             captured = _matched(first, row.factors[0].steps)
-            if captured is not None:
-                _judge(row, first, captured, numbers, reported, findings)
+            found = None if captured is None else _odd(row, first, captured, numbers)
+            if found is not None:
+                odd.append(found)
+    # Kinds of ratio: a slip in two lines alike is no slip in what both are held against
+    ratios = {(one.row.quantity, key) for one in odd if len(one.paths) > 1 for key in _keys(one)}
+    shared = Counter(key for _, key in ratios)
+    told: dict[KeyPath, bool] = {}
+    for one in odd:
+        _tell(one, shared, told, numbers, findings)
+    _tell_radians(numbers, told, findings)
 
 
 def place_of(path: KeyPath, document: Document) -> KeyPath | None:
@@ -113,36 +134,62 @@ def _path_of(factor: Factor, first: KeyPath, captured: tuple[str | int, ...]) ->
     return tuple(next(stars) if step == "*" else step for step in factor.steps)
 
 
-def _judge(
-    row: PlausibleRange,
-    first: KeyPath,
-    captured: tuple[str | int, ...],
-    numbers: dict[KeyPath, Entry],
-    reported: set[KeyPath],
-    findings: Findings,
-) -> None:
+def _odd(
+    row: PlausibleRange, first: KeyPath, captured: tuple[str | int, ...], numbers: dict[KeyPath, Entry]
+) -> Odd | None:
+    """Return the quantity of a row where it leaves its usual range; ``None`` where it keeps it or is not there."""
     paths = [first, *(_path_of(factor, first, captured) for factor in row.factors[1:])]
-    entries = [numbers.get(path) for path in paths]
+    entries: list[Entry] = []
     value = 1.0
-    for factor, path, entry in zip(row.factors, paths, entries):
+    for factor, path in zip(row.factors, paths):
+        entry = numbers.get(path)
         if entry is None or not math.isfinite(entry.value) or entry.value == 0.0:
-            return
-        if any(path[: len(bad)] == bad or any(_overlap(bad, key) for key in entry.of) for bad in reported):
-            return
+            return None
         try:
             value *= abs(entry.value) ** factor.power
         except OverflowError:
-            return
-    if row.usual[0] <= value <= row.usual[1]:
+            return None
+        entries.append(entry)
+    return None if row.usual[0] <= value <= row.usual[1] else Odd(row, paths, entries, value)
+
+
+def _keys(odd: Odd) -> set[KeyPath]:
+    """Return the keys that a quantity follows from, without those of the site: many quantities share these."""
+    keys = {key for path, entry in zip(odd.paths, odd.entries) for key in (entry.of or (path,))}
+    return {key for key in keys if key[0] != "site"}
+
+
+def _tell(
+    odd: Odd, shared: Counter[KeyPath], told: dict[KeyPath, bool], numbers: dict[KeyPath, Entry], findings: Findings
+) -> None:
+    """Record an odd quantity, unless one of its keys was told of.
+
+    Parameters
+    ----------
+    odd : Odd
+    shared : Counter
+        How many kinds of odd ratios a key stands in.
+    told : dict of tuple to bool
+        Keys that were told of, and whether as impossible; what is impossible is said of one that was only unusual.
+    numbers : dict of tuple to Entry
+    findings : Findings
+    """
+    row, paths, entries, value = odd.row, odd.paths, odd.entries, odd.value
+    possible = row.possible[0] * (1.0 - 1e-9) <= value <= row.possible[1] * (1.0 + 1e-9)
+    before = [
+        grave
+        for bad, grave in told.items()
+        if any(path[: len(bad)] == bad for path in paths) or any(_overlap(bad, k) for e in entries for k in e.of)
+    ]
+    if any(before) or (before and possible):
         return
-    blamed = _blamed(paths, entries, findings.document)
+    blamed = _blamed(odd, shared, told, findings.document)
     if blamed is None:
         return
-    reported.add(blamed[0])
-    possible = row.possible[0] * (1.0 - 1e-9) <= value <= row.possible[1] * (1.0 + 1e-9)
+    told[blamed[0]] = not possible
     number = f"{value:.3g}{' ' + row.unit if row.unit else ''}"
     message = f"the {row.what} is {number}"
-    if len(paths) > 1 or first != blamed[0]:
+    if len(paths) > 1 or paths[0] != blamed[0]:
         message += f" ({_written(paths, entries, numbers, findings.document)})"
     message += ", which is unusual" if possible else ", which is impossible"
     power = next(factor.power for factor, path in zip(row.factors, paths) if path == blamed[0]) if blamed[2] else 0
@@ -157,31 +204,34 @@ def _overlap(one: KeyPath, other: KeyPath) -> bool:
 
 
 def _blamed(
-    paths: list[KeyPath], entries: list[Entry | None], document: Document
+    odd: Odd, shared: Counter[KeyPath], told: dict[KeyPath, bool], document: Document
 ) -> tuple[KeyPath, KeyPath, bool] | None:
-    """Return path in the model and place in the file of the number to tell of, and whether it is a factor itself."""
-    first = entries[0]
-    if first is None or (not first.of and first.place is None):
+    """Return path in the model and place in the file of the number to tell of, and whether it is a factor itself.
+
+    That is the first key of the quantity; another one where it was told of before, or where it stands in more odd
+    ratios than the first, whose own value no slip of a unit explains.
+    """
+    first = odd.entries[0]
+    if first.place is None and not first.of:
         return None  # a default: nobody wrote it
-    if first.place is not None:
-        return paths[0], first.place, True
-    for entry in entries:
-        for path in entry.of if entry is not None else ():
-            place = place_of(path, document)
-            if place is not None:
-                return path, place, False
-    return None
+    own = [(path, entry.place, True) for path, entry in zip(odd.paths, odd.entries) if entry.place is not None]
+    through = [(path, place, False) for entry in odd.entries for path in entry.of
+               if (place := place_of(path, document)) is not None]  # fmt: skip
+    choices = [*own, *through] if first.place is not None else through
+    known = [choice for choice in choices if choice[0] in told]
+    if known or not choices:
+        return known[0] if known else None
+    return max(choices, key=lambda choice: shared[choice[0]]) if _near(odd.row, odd.value) else choices[0]
 
 
-def _written(
-    paths: list[KeyPath], entries: list[Entry | None], numbers: dict[KeyPath, Entry], document: Document
-) -> str:
+def _written(paths: list[KeyPath], entries: list[Entry], numbers: dict[KeyPath, Entry], document: Document) -> str:
     """Return the numbers of a ratio as the file writes them."""
     said = []
     for path, entry in zip(paths, entries):
-        if entry is not None and entry.of and (len(entry.of) > 1 or entry.of[0] not in numbers):
+        if entry.of and (len(entry.of) > 1 or entry.of[0] not in numbers):
             said.append(f"{str(path[-1]).removeprefix('@').replace('_', ' ')} {entry.value:.4g}")
-        for place in [entry.place] if entry and entry.place else [place_of(key, document) for key in entry.of]:  # type: ignore[union-attr]
+        of = entry.of if len(entry.of) <= _MOST_KEYS else ()
+        for place in [entry.place] if entry.place else [place_of(key, document) for key in of]:
             if place is None:
                 continue
             data = value_at(document.data, place)
@@ -207,6 +257,11 @@ def _allowed(row: PlausibleRange, possible: bool) -> str:
     return f"{_between(row.possible, row.unit)}, {usual} (source: {source})"
 
 
+def _near(row: PlausibleRange, value: float) -> bool:
+    """Whether a value lies too near to its usual range for a slip of a unit."""
+    return 0.1 * row.usual[0] <= value <= 10.0 * row.usual[1]
+
+
 def _remedy(row: PlausibleRange, value: float, power: int, place: KeyPath, findings: Findings) -> str:
     """Return what was probably meant: the same number in another unit."""
     written: Any = value_at(findings.document.data, place)
@@ -222,8 +277,7 @@ def _remedy(row: PlausibleRange, value: float, power: int, place: KeyPath, findi
         number = float(written)
     else:
         return "check it"
-    near = 0.1 * row.usual[0] <= value <= 10.0 * row.usual[1]
-    for slip in () if near else _SLIPS:
+    for slip in () if _near(row, value) else _SLIPS:
         if power and row.usual[0] <= value * slip**power <= row.usual[1]:
             meant = f"{number * slip:.6g}{' ' + unit if unit else ''}"
             if plain and row.unit:
@@ -233,3 +287,23 @@ def _remedy(row: PlausibleRange, value: float, power: int, place: KeyPath, findi
                 )
             return f"check the number and its unit: {meant} would be usual"
     return "check the number and its unit"
+
+
+def _tell_radians(numbers: dict[KeyPath, Entry], told: dict[KeyPath, bool], findings: Findings) -> None:
+    """Warn of an angle in degrees whose decimals are those of a round angle in radians: 0.7854, 1.5708."""
+    for path, entry in numbers.items():
+        if entry.place is None or path in told or not str(path[-1]).endswith("_deg"):
+            continue
+        decimals = len(repr(entry.value).partition(".")[2])
+        step = 5 if decimals > 2 else 15
+        degrees = step * round(math.degrees(abs(entry.value)) / step)
+        exact = math.radians(degrees)
+        if decimals < 2 or not 0 < degrees <= 360 or abs(abs(entry.value) - exact) > 0.6 * 10.0**-decimals:
+            continue
+        turned = int(math.copysign(degrees, entry.value))
+        findings.warn(
+            entry.place,
+            f"the angle is {entry.value:g} degrees, which are the digits of {turned} degrees in radians",
+            allowed="degrees",
+            remedy=f"write {turned}, or '{entry.value:g} rad'",
+        )

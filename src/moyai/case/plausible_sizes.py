@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import Any
 
 from moyai.case.yaml_reader import KeyPath
@@ -62,6 +63,37 @@ def _seas(model: Any, sizes: Sizes) -> Periods:
             sizes[(*base, "@deep_length")] = length, (shortest[1], _GRAVITY)
         found += here
     return found
+
+
+@dataclass(frozen=True)
+class FastestWater:
+    """How fast the water moves about at the surface, in deep water."""
+
+    #: [m/s], of the fastest wave and the current.
+    speed: float
+    #: [m/s2], of that wave.
+    acceleration: float
+    #: Keys that it follows from.
+    of: tuple[KeyPath, ...]
+
+
+def fastest_water(model: Any, periods: Periods) -> FastestWater | None:
+    """Return how fast waves and current move the water; ``None`` where the file does not tell: a spectrum of a file."""
+    current = getattr(model.current, "speed", None) or 0.0
+    found: list[tuple[float, float, tuple[KeyPath, ...]]] = []
+    for index, state in enumerate(model.waves):
+        key = next((key for key in ("height", "heights", "significant_height") if getattr(state, key, None)), "")
+        height = max(getattr(state, key)) if key == "heights" else getattr(state, key, 0.0)
+        here = [entry for entry in periods if entry[1][:2] == ("waves", index)]
+        if not key or not here:
+            return None
+        found += [(height, period, (("waves", index, key), path)) for period, path in here]
+    if not (found or current):
+        return None
+    height, period, of = max(found, key=lambda wave: wave[0] / wave[1], default=(0.0, 1.0, ()))
+    speed = math.pi * height / period + current
+    keys = (*of, *((("current", "speed"),) if current else ()))
+    return FastestWater(speed, 2.0 * math.pi**2 * height / period**2, keys)
 
 
 def nested(rows: Any, base: KeyPath) -> Iterator[tuple[KeyPath, float]]:

@@ -9,7 +9,7 @@ from typing import Annotated, Any
 
 import typer
 
-from moyai.cli.console import OK, guard, print_json, progress_bars, rich_console, say
+from moyai.cli.console import OK, guard, print_json, progress_bars, put, rich_console
 from moyai.cli.files import decimal_sign
 from moyai.core.errors import InputError
 
@@ -124,7 +124,7 @@ def _two_results(here: Path, there: Path, output: Path | None, *, as_json: bool,
         print_table(rich_console(), table)
     for path in files:
         if path.suffix != ".csv":
-            say(f"  {path}")
+            put(f"  {path}")
 
 
 def _name(path: Path) -> str:

@@ -5,17 +5,19 @@ from __future__ import annotations
 import json
 import math
 import os
+import re
 import sys
 import threading
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from typing import TYPE_CHECKING, Any, NoReturn
 
 import typer
 
 from moyai.core.errors import CaseError, ConvergenceError, Fault, InputError
 from moyai.core.progress import Pace, Progress, duration_words, silent
+from moyai.language import language_of_the_locale, require_language, said, spoken_in, spoken_language
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -28,6 +30,12 @@ class Debug:
     """Whether faults of the program itself show their traceback (``--debug``)."""
 
     on = False
+
+
+class Spoken:
+    """The language that ``moyai --language`` asks of every command."""
+
+    language: str | None = None
 
 
 def prepare_streams() -> None:
@@ -60,13 +68,31 @@ def _finite(value: Any) -> Any:
 
 
 def say(text: str = "") -> None:
-    """Print a line on standard output."""
+    """Print a line on standard output, in the language in force."""
+    put(said(text))
+
+
+def put(text: str) -> None:
+    """Print a line on standard output as it is: a file, a name, data."""
     sys.stdout.write(text + "\n")
 
 
 def tell(text: str) -> None:
-    """Print a line on standard error."""
-    sys.stderr.write(text + "\n")
+    """Print a line on standard error, in the language in force."""
+    sys.stderr.write(said(text) + "\n")
+    sys.stderr.flush()
+
+
+def complain(fault: Fault, label: str = "") -> None:
+    """Print a fault on standard error, in the language in force; keys and values of files stay as they are."""
+    allowed = fault.allowed
+    if not re.fullmatch(r"[\w.-]+(, [\w.-]+)+", allowed):
+        allowed = said(allowed)
+    spoken = replace(fault, message=said(fault.message), allowed=allowed, remedy=said(fault.remedy))
+    text = str(spoken)
+    if spoken_language() != "en":
+        text = text.replace("; allowed: ", f"; {said('allowed')}: ")
+    sys.stderr.write(f"{said(label)}: {text}\n" if label else f"{text}\n")
     sys.stderr.flush()
 
 
@@ -91,15 +117,29 @@ def stop(faults: Iterable[Fault], code: int, *, as_json: bool) -> NoReturn:
         print_json({"faults": fault_records(listed)})
     else:
         for fault in listed:
-            tell(str(fault))
+            complain(fault)
         if code == BAD_INPUT and len(listed) > 1:
             tell(f"{len(listed)} faults")
     raise typer.Exit(code)
 
 
 @contextmanager
-def guard(as_json: bool = False) -> Iterator[None]:
-    """Turn everything that can go wrong in a command into one clear message and an exit code."""
+def guard(as_json: bool = False, language: str | None = None) -> Iterator[None]:
+    """Turn everything that can go wrong in a command into one clear message and an exit code.
+
+    Messages are in the language given, else in that of the locale.
+    """
+    try:
+        asked = language or Spoken.language
+        spoken = spoken_in(require_language(asked) if asked else language_of_the_locale())
+    except InputError as error:
+        stop([error.fault], BAD_INPUT, as_json=as_json)
+    with spoken, _guarded(as_json):
+        yield
+
+
+@contextmanager
+def _guarded(as_json: bool) -> Iterator[None]:
     try:
         yield
     except CaseError as error:
@@ -161,8 +201,8 @@ def _bars() -> Iterator[Progress]:
         """Time left by the rate since the stage began."""
 
         def render(self, task: Task) -> Text:
-            left = pace.left(task.description)
-            return Text(f"{duration_words(left)} left" if math.isfinite(left) else "")
+            left = pace.left(str(task.fields["stage"]))
+            return Text(said(f"{duration_words(left)} left") if math.isfinite(left) else "")
 
     columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:>3.0f} %"), Left())
     with Bars(*columns, console=rich_console(to_error=True), transient=True) as bars:
@@ -171,7 +211,7 @@ def _bars() -> Iterator[Progress]:
         def listen(what: str, done: float, total: float) -> None:
             pace.tell(what, done, total)
             if what not in tasks:
-                tasks[what] = bars.add_task(what, total=total)
+                tasks[what] = bars.add_task(said(what), total=total, stage=what)
             bars.update(tasks[what], completed=done, total=total, visible=done < total)
 
         yield listen

@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from moyai.cli.console import FAILED, OK, guard, print_json, progress_bars, say
+from moyai.cli.console import FAILED, OK, guard, print_json, progress_bars, put, say
 
 
 def fit(
@@ -76,5 +76,5 @@ def fit(
             for notice in result.notices:
                 say(f"  {notice.severity}: {notice.message}" + (f"; {notice.remedy}" if notice.remedy else ""))
             for path in files:
-                say(f"  {path}")
+                put(f"  {path}")
         raise typer.Exit(OK if result.status == "converged" else FAILED)

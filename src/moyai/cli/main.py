@@ -28,11 +28,14 @@ from moyai.cli.console import (
     NOT_HELD,
     OK,
     Debug,
+    Spoken,
+    complain,
     fault_records,
     guard,
     prepare_streams,
     print_json,
     progress_bars,
+    put,
     rich_console,
     say,
     tell,
@@ -41,12 +44,14 @@ from moyai.cli.convert import Duration, Motion, case_of_deck, convert
 from moyai.cli.fit import fit
 from moyai.cli.measuring import measure
 from moyai.cli.query import query
-from moyai.cli.report import Units
+from moyai.cli.report import Language, Units
 from moyai.cli.report import report as report_command
 from moyai.cli.reproduce import reproduce
 from moyai.cli.scale import scale
 from moyai.cli.study import study
 from moyai.core.wording import counted
+from moyai.language import said, speak
+from moyai.language.comments import with_comments
 
 if TYPE_CHECKING:
     from moyai.core.results import Result
@@ -97,8 +102,13 @@ def _options(
         bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version.")
     ] = False,
     debug: Annotated[bool, typer.Option("--debug", help="Show the traceback of an internal error.")] = False,
+    language: Annotated[
+        str | None,
+        typer.Option("--language", metavar="en|ja", help="Language of reports and messages, of any command."),
+    ] = None,
 ) -> None:
     Debug.on = Debug.on or debug
+    Spoken.language = language
 
 
 @app.command()
@@ -110,6 +120,7 @@ def new(
         Path | None, typer.Option("--output", "-o", help="File to write; standard output when absent.")
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace a file that exists.")] = False,
+    language: Language = None,
     as_json: AsJson = False,
 ) -> None:
     """Print a commented file to start from.
@@ -117,7 +128,7 @@ def new(
     Kinds: breakwater, units, curtain, cage, rigid_cage, network, member; records, nets, streaks, forces, snaps;
     study, fit.
     """
-    with guard(as_json):
+    with guard(as_json, language):
         from moyai.case.templates import kinds_of_files, next_command, template
 
         if kind is None:
@@ -126,29 +137,30 @@ def new(
                 print_json({"kinds": [{"kind": name, "file": words} for name, words in known]})
             else:
                 for name, words in known:
-                    say(f"  {name:<12} {words}")
+                    put(f"  {name:<12} {said(words)}")
                 say("for instance: moyai new breakwater -o breakwater.yaml")
             return
-        text = template(kind)
+        text = with_comments(template(kind))
         if output is not None:
             _write_text(output, text, force)
         if as_json:
             print_json({"kind": kind, "file": None if output is None else str(output), "text": text})
         elif output is None:
-            say(text.rstrip("\n"))
+            put(text.rstrip("\n"))
         else:
             tell(f"wrote {output}; next: {next_command(kind, output)}")
 
 
 @app.command()
-def check(file: CaseFile, as_json: AsJson = False) -> None:
+def check(file: CaseFile, language: Language = None, as_json: AsJson = False) -> None:
     """Report all faults of a case file at once, and the numbers that follow from it."""
-    with guard(as_json):
+    with guard(as_json, language):
         from moyai.case.criteria import criteria_of
         from moyai.case.derived import derived_numbers
         from moyai.case.reader import load_case
 
         case = load_case(file)
+        _speak_as(case, language)
         numbers = derived_numbers(case)
         criteria = criteria_of(case.model)
         if as_json:
@@ -168,7 +180,7 @@ def check(file: CaseFile, as_json: AsJson = False) -> None:
         from moyai.cli.tables import print_criteria, print_derived
 
         for warning in case.warnings:
-            tell(f"warning: {warning}")
+            complain(warning, "warning")
         print_derived(rich_console(), case.title, numbers)
         print_criteria(rich_console(), criteria)
         count = len(case.warnings)
@@ -197,7 +209,7 @@ def schema(
 
         text = json.dumps(json_schema() if kind is None else file_json_schema(kind), indent=2)
         if output is None:
-            say(text)
+            put(text)
         else:
             _write_text(output, text + "\n", force=True)
             tell(f"wrote {output}")
@@ -216,6 +228,7 @@ def run(
         bool, typer.Option("--require-hold", help="Leave with exit code 3 unless the design holds.")
     ] = False,
     units: Units = None,
+    language: Language = None,
     quiet: Quiet = False,
     motion: Motion = None,
     duration: Duration = None,
@@ -233,7 +246,7 @@ def run(
     Exit code 0 when it was computed, whether the design holds or not; 1 when it did not converge or was interrupted;
     2 for faults of the case; with --require-hold 3 unless the design holds.
     """
-    with guard(as_json):
+    with guard(as_json, language):
         from moyai.case.reader import load_case
         from moyai.cli.runner import prepare_output
         from moyai.cli.runner import run as run_case
@@ -245,6 +258,7 @@ def run(
         file = _deck_or_case(file, folder, motion or [], duration)
         with _compiling(_kind_in(file), quiet):
             case = load_case(file)
+            _speak_as(case, language)
             others = _others(beside, report)
             if units is not None:
                 require_system(units)
@@ -259,6 +273,8 @@ def run(
                     result = run_case(case, progress, keep=folder / "coefficients")
                 if units is not None:
                     result = result.shown_in(units)
+                if (asked := language or Spoken.language) is not None:
+                    result = result.said_in(asked)
                 files = [result.write(staged / "results.nc")]
                 if report:
                     document, pages = _report(result, staged, others, pdf=pdf, quiet=quiet)
@@ -282,6 +298,13 @@ def run(
             if result.verdict.outcome == "does not hold":
                 tell(f"design does not hold: {result.verdict.message}")
         raise typer.Exit(exit_code(result, require_hold=require_hold))
+
+
+def _speak_as(case: Any, language: str | None) -> None:
+    """Go on in the language that a case names, unless the command names one."""
+    display = getattr(case.model, "display", None)
+    if (language or Spoken.language) is None and display is not None and display.language is not None:
+        speak(display.language)
 
 
 def _kind_in(file: Path) -> str:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from moyai.cli.console import FAILED, OK, guard, print_json, rich_console, say
+from moyai.cli.console import FAILED, OK, guard, print_json, put, rich_console, say
 
 if TYPE_CHECKING:
     from moyai.records.forces.identification import Identification
@@ -107,4 +107,4 @@ def _print(found: Identification, result: Any, files: list[Path]) -> None:
         say(f"{notice.severity}: {notice.message}" + (f"; {notice.remedy}" if notice.remedy else ""))
     for path in files:
         if path.suffix != ".csv":
-            say(f"  {path}")
+            put(f"  {path}")

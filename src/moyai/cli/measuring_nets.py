@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from moyai.cli.console import guard, progress_bars, rich_console, say
+from moyai.cli.console import guard, progress_bars, put, rich_console, say
 from moyai.cli.measured import AsJson, Output, Pdf, Quiet, Report, hand_back
 
 if TYPE_CHECKING:
@@ -192,4 +192,4 @@ def _print(found: NetFindings, result: Any, files: list[Path]) -> None:
         say(f"{notice.severity}: {notice.message}" + (f"; {notice.remedy}" if notice.remedy else ""))
     for path in files:
         if path.suffix != ".csv":
-            say(f"  {path}")
+            put(f"  {path}")

@@ -8,13 +8,22 @@ from typing import Annotated
 
 import typer
 
-from moyai.cli.console import OK, guard, print_json, progress_bars, rich_console
+from moyai.cli.console import OK, Spoken, guard, print_json, progress_bars, rich_console
 from moyai.core.errors import InputError
+from moyai.language import speak
 
 Units = Annotated[
     str | None,
     typer.Option(
         "--units", metavar="SI|tf", help="Units shown: SI, or forces in tf and kgf; those of the case when absent."
+    ),
+]
+
+
+Language = Annotated[
+    str | None,
+    typer.Option(
+        "--language", metavar="en|ja", help="Language of report and messages; that of the case, else of the computer."
     ),
 ]
 
@@ -38,11 +47,12 @@ def report(
         bool, typer.Option("--vtk", help="Write structures in space over time as VTK too (ParaView).")
     ] = False,
     units: Units = None,
+    language: Language = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, faults included.")] = False,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No progress bars and no summary.")] = False,
 ) -> None:
     """Write the report of a result again, without running: page, workbook and tables; PDF, Word, DXF on request."""
-    with guard(as_json):
+    with guard(as_json, language):
         if template is not None and not docx:
             raise InputError("a template is for Word", path="--template", remedy="add --docx")
         from moyai.cli.runner import prepare_output
@@ -54,6 +64,10 @@ def report(
         result = read_result(results)
         if units is not None:
             result = result.shown_in(units)
+        if (asked := language or Spoken.language) is not None:
+            result = result.said_in(asked)
+        elif result.provenance.get("display_language"):
+            speak(str(result.provenance["display_language"]))
         folder = prepare_output(output if output is not None else results.parent)
         with progress_bars(quiet) as progress:
             progress("report", 0, 1)

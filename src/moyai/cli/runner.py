@@ -6,7 +6,7 @@ import re
 import tempfile
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from moyai.report.views import ReportedResult
 
 
-def run(case: Case, progress: Progress = silent, *, keep: Path | None = None) -> ReportedResult:
+def run(case: Case, progress: Progress = silent, *, keep: Path | None = None, problem: Any = None) -> ReportedResult:
     """Run all analyses that a case names.
 
     Parameters
@@ -28,6 +28,8 @@ def run(case: Case, progress: Progress = silent, *, keep: Path | None = None) ->
         Listener reported of every step. KeyboardInterrupt ends the run with what there is, status ``interrupted``.
     keep : Path or None
         Folder where coefficients that took long are kept under their hash and looked for by the next run.
+    problem : object or None
+        Taken in place of the problem that the case builds (:meth:`moyai.core.kinds.StructureKind.nominal`).
 
     Returns
     -------
@@ -43,7 +45,7 @@ def run(case: Case, progress: Progress = silent, *, keep: Path | None = None) ->
     from moyai.core.kinds import structure_kind
     from moyai.report.views import with_views
 
-    problem = build(case)
+    problem = build(case) if problem is None else problem
     try:
         result = structure_kind(case.kind).run(problem, progress, keep)
     except InputError as error:
@@ -61,6 +63,8 @@ def run(case: Case, progress: Progress = silent, *, keep: Path | None = None) ->
     result = result.with_notices(*warnings) if warnings else result
     if (display := getattr(case.model, "display", None)) is not None and display.units != "SI":
         result = replace(result, provenance={**result.provenance, "display_units": display.units})
+    if display is not None and display.language is not None:
+        result = replace(result, provenance={**result.provenance, "display_language": display.language})
     return with_views(result)
 
 

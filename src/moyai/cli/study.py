@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from moyai.cli.console import BAD_INPUT, FAILED, OK, guard, print_json, progress_bars, say, tell
+from moyai.cli.console import BAD_INPUT, FAILED, OK, guard, print_json, progress_bars, put, say, tell
 from moyai.core.errors import InputError
 from moyai.core.wording import counted
 
@@ -96,7 +96,7 @@ def study(
                 say(words)
             say(f"{result.status}: {result.message} in {seconds:.1f} s")
             for path in files:
-                say(f"  {path}")
+                put(f"  {path}")
             if result.status == "interrupted":
                 say("give the same command again to go on")
         raise typer.Exit(OK if result.status == "converged" else FAILED)

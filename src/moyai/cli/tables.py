@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, get_args
 
 from moyai.cli.console import say
 from moyai.core.validation import ReferenceKind
+from moyai.language import said
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -28,7 +29,7 @@ def _table(*columns: tuple[str, str]) -> Table:
 
     table = Table(box=box.SIMPLE, pad_edge=False)
     for title, justify in columns:
-        table.add_column(title, justify=justify, overflow="fold")  # type: ignore[arg-type]
+        table.add_column(said(title), justify=justify, overflow="fold")  # type: ignore[arg-type]
     return table
 
 
@@ -41,7 +42,7 @@ def print_derived(console: Console, title: str, numbers: Sequence[Number]) -> No
         table = _table((group, "left"), *((level, "right") for level in levels), ("", "left"))
         for label, unit in dict.fromkeys((number.label, number.unit) for number in members):
             texts = {number.column: number.text for number in members if (number.label, number.unit) == (label, unit)}
-            table.add_row(label, *(texts.get(level, "") for level in levels), unit)
+            table.add_row(said(label), *(texts.get(level, "") for level in levels), unit)
         console.print(table)
 
 
@@ -49,7 +50,7 @@ def print_table(console: Console, table: ReportTable) -> None:
     """Print a table of a report with its title."""
     from moyai.report.formatting import format_number
 
-    console.print(table.title, style="bold", markup=False)
+    console.print(said(table.title), style="bold", markup=False)
     shown = _table(
         *(
             (column.label, "left" if any(isinstance(v, str) for v in column.values) else "right")
@@ -59,7 +60,10 @@ def print_table(console: Console, table: ReportTable) -> None:
     for number in range(table.row_count):
         cells = [(column.values[number], column.digits) for column in table.columns]
         shown.add_row(
-            *(format_number(float(v), digits) if isinstance(v, int | float) else str(v or "") for v, digits in cells)
+            *(
+                format_number(float(v), digits) if isinstance(v, int | float) else said(str(v or ""))
+                for v, digits in cells
+            )
         )
     console.print(shown)
 
@@ -97,29 +101,30 @@ def print_summary(
     if figures:
         table = _table(("", "left"), ("", "right"), ("", "left"))
         for item in figures:
-            table.add_row(item.label, item.text, item.detail)
+            table.add_row(said(item.label), said(item.text), said(item.detail))
         console.print(table)
     print_judgements(console, result)
     for group in grouped(first_page_notices(result)):
         where = f" ({group.where})" if group.where else ""
-        console.print(f"{group.severity}: {group.notice.message}{where}", markup=False, soft_wrap=True)
+        console.print(said(f"{group.severity}: {group.notice.message}{where}"), markup=False, soft_wrap=True)
     failed = [check for check in result.checks if not check.passed]
     for check in failed:
-        console.print(f"failed check: {check.name}: {check.value:.2e} > {check.tolerance:.2e}", markup=False)
+        text = f"failed check: {check.name}: {check.value:.2e} > {check.tolerance:.2e}"
+        console.print(said(text), markup=False)
     if result.checks:
-        console.print(f"{len(result.checks) - len(failed)} of {len(result.checks)} identity checks passed")
+        console.print(said(f"{len(result.checks) - len(failed)} of {len(result.checks)} identity checks passed"))
     if units := UNITS_NOTES.get(units_of(result)):
-        console.print(units, markup=False, soft_wrap=True)
+        console.print(said(units), markup=False, soft_wrap=True)
     for badge in badges(result):
-        said = f"{badge.label}: {badge.word.lower()}" + (f": {badge.message}" if badge.message else "")
-        console.print(said, markup=False, soft_wrap=True)
+        line = f"{badge.label}: {badge.word.lower()}" + (f": {badge.message}" if badge.message else "")
+        console.print(said(line), markup=False, soft_wrap=True)
     console.print(f"{seconds:.1f} s", markup=False)
     shown = [path for path in files if path.suffix not in (".csv", ".vtp")]
     tables = sum(path.suffix == ".csv" and path.parent == files[-1].parent for path in files)
     for path in shown:
         console.print(f"  {path}", markup=False, soft_wrap=True)
     if tables:
-        console.print(f"  {files[-1].parent} ({tables} tables)", markup=False, soft_wrap=True)
+        console.print(f"  {files[-1].parent} ({said(f'{tables} tables')})", markup=False, soft_wrap=True)
 
 
 def print_judgements(console: Console, result: Result) -> None:
@@ -136,10 +141,10 @@ def print_judgements(console: Console, result: Result) -> None:
     )
     columns = {column.label: column.values for column in found.columns}
     for row in zip(*(columns[name] for name in ("Criterion", "Limit", "Found", "Outcome", "Source")), strict=True):
-        table.add_row(*map(str, row))
+        table.add_row(*(said(str(cell)) for cell in row))
     console.print(table)
     if missing := without_limit(result):
-        console.print(missing, markup=False, soft_wrap=True)
+        console.print(said(missing), markup=False, soft_wrap=True)
 
 
 def print_criteria(console: Console, criteria: Sequence[Criterion]) -> None:
@@ -148,12 +153,12 @@ def print_criteria(console: Console, criteria: Sequence[Criterion]) -> None:
     from moyai.report.first_page import limit_and_found, sentence
 
     if not criteria:
-        console.print("No criteria: the design will not be judged.", markup=False)
+        console.print(said("No criteria: the design will not be judged."), markup=False)
         return
     table = _table(("Criteria", "left"), ("Limit", "left"), ("Source", "left"))
     for criterion in criteria:
         limit, _ = limit_and_found(Judgement(criterion, math.nan, "not judged"))
-        table.add_row(sentence(criterion.words), limit, criterion.source)
+        table.add_row(*map(said, (sentence(criterion.words), limit, criterion.source)))
     console.print(table)
 
 

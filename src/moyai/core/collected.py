@@ -43,6 +43,22 @@ class Collected:
         self.failures: list[str] = []
         self.interrupted = ""
 
+    def take(self, steps: Iterable[None], stopped: str = STOPPED) -> None:
+        """Go through the steps of a run; KeyboardInterrupt ends it with what there is.
+
+        Parameters
+        ----------
+        steps : iterable of None
+            One for each piece of work that stands in the groups when it is done.
+        stopped : str
+            What is said of a run that was interrupted.
+        """
+        try:
+            for _ in steps:
+                pass
+        except KeyboardInterrupt:
+            self.interrupted = self.interrupted or stopped
+
     def status(self, fulfilled: str) -> tuple[Status, str]:
         """Return the status of the run and the sentence behind it.
 

@@ -110,6 +110,13 @@ class StructureKind(Kind):
     def derived(self, case: Any) -> Any:
         """Return the numbers that ``moyai check`` shows, a tuple of :class:`moyai.case.derived.Number`."""
 
+    def nominal(self, problem: Any) -> Any | None:
+        """Return a problem without what only tells how far its answer varies: ranges, bands, other laws, other speeds.
+
+        For a first draft, marked as such. None where there is nothing of it to leave out.
+        """
+        return None
+
     @abstractmethod
     def run(self, problem: Any, progress: Progress, keep: Path | None) -> Result:
         """Run all analyses of a problem; what took long is kept in the folder ``keep`` for the next run."""

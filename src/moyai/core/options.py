@@ -64,7 +64,8 @@ def checks_words(decorated: Decorated) -> Decorated:
     """
     if inspect.isclass(decorated):
         return _check_fields(decorated)  # type: ignore[return-value]
-    signature = inspect.signature(decorated)
+    kinds = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD)
+    by_place = [name for name, one in inspect.signature(decorated).parameters.items() if one.kind in kinds]
     rules: dict[str, tuple[bool, tuple[object, ...]]] | None = None
 
     @functools.wraps(decorated)
@@ -72,11 +73,7 @@ def checks_words(decorated: Decorated) -> Decorated:
         nonlocal rules
         if rules is None:
             rules = _rules(decorated.__annotations__, decorated.__module__)
-        try:
-            given = signature.bind_partial(*args, **kwargs).arguments
-        except TypeError:
-            given = {}  # the call itself raises it, with its own words
-        _check(given, rules)
+        _check({**dict(zip(by_place, args, strict=False)), **kwargs}, rules)
         return decorated(*args, **kwargs)
 
     return checked  # type: ignore[return-value]

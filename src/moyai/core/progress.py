@@ -30,6 +30,8 @@ class _Stage:
     total: float
     started: float
     reported: float
+    #: Done between the last two reports.
+    step: float = 1.0
 
 
 class Pace:
@@ -58,7 +60,7 @@ class Pace:
         # The last one reported stands last: the innermost
         self._stages[what] = self._stages.pop(what)
         if done > stage.done:
-            stage.reported = now
+            stage.reported, stage.step = now, done - stage.done
         stage.done, stage.total = done, total
 
     def left(self, what: str) -> float:
@@ -68,8 +70,10 @@ class Pace:
             return math.nan
         each, waited = (stage.reported - stage.started) / (stage.done - stage.first), self._clock() - stage.reported
         # a step that takes longer than those before says that they were quick; what is not done takes some time
-        each, remaining = max(each, waited), stage.total - stage.done
-        return max(remaining * each - waited, 0.25 * min(remaining, 1.0) * each)
+        remaining = stage.total - stage.done
+        step = min(stage.step, remaining) or 1.0
+        each = max(each, waited / step)
+        return max(remaining * each - waited, 0.25 * step * each)
 
     def line(self) -> str:
         """Return where the run stands in one line, empty before the first report."""

@@ -212,13 +212,13 @@ class Vocabulary:
         Words that a variable brings stay: those of one row of a table may be closer than the declaration.
         """
         out = dataset.copy()
-        for name in list(out.variables):
-            held, known = out[name], self.variables.get(str(name))
+        for name, held in out.variables.items():
+            known = self.variables.get(str(name))
             if known is None:
                 continue
             number = held.dtype.kind in "iufcb"
             said = {"units": known.units, "long_name": known.long_name} if number else {"long_name": known.long_name}
-            out[name].attrs = {**said, **held.attrs}
+            held.attrs = {**said, **held.attrs}
         return out
 
     def described(self, groups: Mapping[str, xr.Dataset]) -> tuple[dict[str, xr.Dataset], tuple[str, ...]]:

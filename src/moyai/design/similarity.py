@@ -171,68 +171,6 @@ def mass_to_add(prototype_mass: float, model_mass: float, scale: Scale, unit: st
     return scale.to_model(prototype_mass, unit) - model_mass
 
 
-@dataclass(frozen=True)
-class UnkeptNumber:
-    """A number that Froude scaling in water cannot keep."""
-
-    #: Whose number.
-    name: str
-    #: Values [-].
-    prototype: float
-    #: Values [-].
-    model: float
-    #: What suffers.
-    meaning: str
-
-
-def unkept_numbers(
-    scale: Scale,
-    *,
-    speed: float,
-    length: float,
-    density: float,
-    viscosity_prototype: float,
-    viscosity_model: float,
-    surface_tension_prototype: float,
-    surface_tension_model: float,
-) -> tuple[UnkeptNumber, ...]:
-    """Return Reynolds and Weber numbers of both sizes, and the scale that a given material's stretch would need.
-
-    Parameters
-    ----------
-    scale : Scale
-        Ratios.
-    speed, length, density : float
-        Of the prototype [m/s], [m], [kg/m3]; the length on which drag or capillarity acts (toe chain, twine, draught).
-    viscosity_prototype, viscosity_model : float
-        Kinematic [m2/s].
-    surface_tension_prototype, surface_tension_model : float
-        [N/m].
-    """
-    small_speed, small = scale.to_model(speed, "m/s"), scale.to_model(length, "m")
-    light = density / scale.density
-    return (
-        UnkeptNumber(
-            "Reynolds",
-            speed * length / viscosity_prototype,
-            small_speed * small / viscosity_model,
-            "drag coefficients of chain, twine, edges; laminar layers in the model",
-        ),
-        UnkeptNumber(
-            "Weber",
-            density * speed**2 * length / surface_tension_prototype,
-            light * small_speed**2 * small / surface_tension_model,
-            "short waves, meniscus at floats and gauges",
-        ),
-        UnkeptNumber(
-            "Cauchy of one material",
-            1.0,
-            scale.length * scale.density * scale.gravity,
-            "the prototype's own material, scaled in thickness, is too stiff by this factor: modulus over rho g L",
-        ),
-    )
-
-
 def check_model(scale: Scale, *, period: float, water_depth: float, reynolds: float) -> tuple[Notice, ...]:
     """Tell where a model is too small: capillary waves, shallow water, laminar drag.
 

@@ -20,6 +20,8 @@ from moyai.floating.arrays import finite, increasing
 if TYPE_CHECKING:
     import xarray as xr
 
+    from moyai.potential.solution import RadiationDiffraction
+
 
 @dataclass(frozen=True)
 class Hydrodynamics:
@@ -201,6 +203,29 @@ class Hydrodynamics:
         rows = np.arange(len(frequency))
         left_values, right_values = spread[rows, right - 1], spread[rows, right]
         return np.asarray((1.0 - weight)[:, None] * left_values + weight[:, None] * right_values, dtype=np.complex128)
+
+    @classmethod
+    def from_section(cls, solution: RadiationDiffraction) -> Hydrodynamics:
+        """Take the solution of a section at its first heading, per metre, as :meth:`from_dataset` does its dataset.
+
+        Parameters
+        ----------
+        solution : RadiationDiffraction
+            With motion uniform along the structure.
+        """
+        order, first = np.argsort(solution.omega), slice(0, 1)
+        return cls(
+            omega=solution.omega[order],
+            added_mass=np.ascontiguousarray(solution.added_mass[order].swapaxes(1, 2)),
+            radiation_damping=np.ascontiguousarray(solution.radiation_damping[order].swapaxes(1, 2)),
+            excitation=solution.excitation_force[order, first],
+            heading=np.asarray(solution.heading, dtype=float)[first],
+            modes=tuple(solution.modes.names),
+            infinite_frequency_added_mass=np.ascontiguousarray(solution.infinite_frequency_added_mass.T),
+            reflection=solution.reflection_coefficient[order, first],
+            transmission=solution.transmission_coefficient[order, first],
+            radiated_wave=solution.radiated_wave[order],
+        )
 
     @classmethod
     def from_dataset(

@@ -108,8 +108,12 @@ def _answer(
     start: Array | None,
     with_drift: bool,
     density: Array | None,
+    near: _State | None = None,
 ) -> _State:
-    """Return the motions about the offset of a given drift, and the drift that they cause."""
+    """Return the motions about the offset of a given drift, and the drift that they cause.
+
+    ``near`` is the state in a drift nearby, from which the linearisation goes on.
+    """
     size = hydro.size
     load = np.zeros(size) if problem.steady_force is None else np.array(problem.steady_force, dtype=float)
     load[0] += drift
@@ -139,6 +143,7 @@ def _answer(
             line_damping=problem.line_damping,
             wave_amplitude=amplitude[:, None] if nonlinear else None,
             water_motion=problem.water_motion,
+            start=None if near is None else near.motions,
         )
     far = far_field(hydro, motions.displacement)
     per_square = drift_force_per_amplitude_squared(far, hydro.omega, hydro.heading, problem.water, hydro.length)[:, 0]
@@ -224,7 +229,7 @@ def _loop(
     used = 1
     while used < maximum_iterations:
         start = state.offset.position if state.offset.status == "converged" else None
-        state = _answer(problem, hydro, force, weight, amplitude, start, with_drift, density)
+        state = _answer(problem, hydro, force, weight, amplitude, start, with_drift, density, state)
         used += 1
         gap = state.force - force
         if not np.isfinite(gap) or state.offset.status != "converged":

@@ -72,12 +72,18 @@ def solve_scaled(matrix: ComplexArray, right: ComplexArray) -> tuple[ComplexArra
     solution : ndarray (..., m)
         NaN where the matrix is singular to rounding.
     condition : ndarray (...)
-        Condition number of the matrix with rows and columns scaled by their largest entries.
+        Condition number of the matrix with rows and columns scaled by their largest entries; a bound of it where that
+        is far from singular.
     """
     size = np.sqrt(np.max(np.abs(matrix), axis=-1))
     # Symmetric scaling keeps the units of a mode together; a mode without any restoring or inertia keeps scale one
     size = np.where(size > 0.0, size, 1.0)
     scaled = matrix / (size[..., :, None] * size[..., None, :])
+    with np.errstate(divide="ignore"):
+        # no singular value is above m, and their product is the determinant
+        condition = np.asarray(float(matrix.shape[-1]) ** matrix.shape[-1] / np.abs(np.linalg.det(scaled)))
+    if np.max(condition, initial=0.0) <= 1e-3 * SINGULAR:
+        return np.linalg.solve(scaled, (right / size)[..., None])[..., 0] / size, condition
     singular_values = np.linalg.svd(scaled, compute_uv=False)
     smallest = singular_values[..., -1]
     with np.errstate(divide="ignore"):
@@ -99,6 +105,7 @@ def solve_motions(
     line_damping: EquivalentDamping | None = None,
     wave_amplitude: ArrayLike | None = None,
     water_motion: ComplexArray | None = None,
+    start: Motions | None = None,
     tolerance: float = 1e-10,
     maximum_iterations: int = 200,
 ) -> Motions:
@@ -122,6 +129,8 @@ def solve_motions(
         Scalar, (n, 1) or (n, h) [m]; needed with ``quadratic`` or ``line_damping``.
     water_motion : ndarray (n, h, k) or None
         What the water does in the measures of ``quadratic``, per unit wave amplitude; still water when absent.
+    start : Motions or None
+        With a stiffness nearby, from which the iteration goes on.
     tolerance : float
         Relative change of the velocities at which the iteration ends.
     maximum_iterations : int
@@ -172,11 +181,13 @@ def solve_motions(
         right = hydrodynamics.excitation + carried
         return solve_scaled(dynamic_stiffness(omega, mass, radiation + extra, stiffness), right)
 
-    extra = constant
-    displacement, condition = solution(extra, carried)
+    extra, added, started_near = constant, np.zeros_like(constant), start is not None and iterated
+    if start is not None and iterated:
+        added = start.damping - constant
+        carried = carried if start.drag_excitation is None else start.drag_excitation
+    displacement, condition = solution(extra + added, carried)
     iterations, change = 0, 0.0
     if iterated:
-        added = np.zeros_like(constant)
         if np.any(condition > SINGULAR):
             # A finite first velocity even at an undamped resonance; the iteration forgets it
             first = LinearDamping(np.zeros((size, size)), np.full(size, 0.1))
@@ -189,8 +200,9 @@ def solve_motions(
             velocity = -1j * np.abs(amplitude)[..., None] * omega[..., None] * displacement
             target, driven = _equivalent(velocity, omega, quadratic, line_damping, water_motion, amplitude)
             # Half steps: near resonance the full step overshoots by as much as it should have gone
-            added = 0.5 * (added + target) if iterations > 1 else target
-            carried = 0.5 * (carried + driven) if iterations > 1 else driven
+            goes_on = started_near or iterations > 1
+            added = 0.5 * (added + target) if goes_on else target
+            carried = 0.5 * (carried + driven) if goes_on else driven
             extra = constant + added
             updated, condition = solution(extra, carried)
             bad = np.isnan(updated)

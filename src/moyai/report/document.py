@@ -368,6 +368,8 @@ class Document:
     badges: tuple[Badge, ...] = ()
     #: System of units that it was composed in, and is shown in; one of "SI", "tf".
     units: str = "SI"
+    #: Language that it is shown in; its texts are English until it is rendered. One of "en", "ja".
+    language: str = "en"
 
     def tables(self) -> tuple[Table, ...]:
         """Return every table of the report, once."""

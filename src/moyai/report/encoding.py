@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.arrays import Array
+from moyai.language import said
 from moyai.report.document import Cell, Column, Figure, Series, Table
 from moyai.report.formatting import DisplayUnit, axis_label, display_unit, plain_number
 
@@ -247,7 +248,7 @@ def _csv_cell(value: Cell, factor: float) -> str:
     if isinstance(value, str):
         return value
     if isinstance(value, bool | np.bool_):
-        return "yes" if value else "no"
+        return said("yes" if value else "no")
     return plain_number(float(value) * factor)
 
 

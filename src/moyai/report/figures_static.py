@@ -3,42 +3,24 @@
 from __future__ import annotations
 
 import io
-from functools import cache
 from typing import Any
 
 import numpy as np
 
+from moyai.language import spoken_language
 from moyai.report.document import Figure, Mark, Series
+from moyai.report.fonts import matplotlib_families, require_japanese
 from moyai.report.formatting import pretty_unit, subscripted
 
 TONES = ("#0072b2", "#d55e00", "#009e73", "#b5609a", "#b98500", "#4aa3d8", "#5a5f66")
 _MARKERS = ("o", "s", "^", "D", "P", "X", "*")
 _DASHES: dict[str, Any] = {"solid": "-", "dash": (0, (5, 2)), "dot": (0, (1, 1.5)), "dashdot": (0, (5, 1.5, 1, 1.5))}
 _INK, _MUTED, _RULE = "#1b2430", "#5b6775", "#d8dee5"
-_FONTS = (
-    "Noto Sans CJK JP",
-    "Noto Sans JP",
-    "Yu Gothic",
-    "Hiragino Sans",
-    "Meiryo",
-    "IPAexGothic",
-    "IPAGothic",
-    "Takao Gothic",
-)
-
-
-@cache
-def _font_families() -> tuple[str, ...]:
-    """Return a Latin face and whichever Japanese face the machine has, so that no title turns into boxes."""
-    from matplotlib import font_manager
-
-    present = {font.name for font in font_manager.fontManager.ttflist}
-    return ("DejaVu Sans", *(name for name in _FONTS if name in present))
 
 
 def _settings() -> Any:
     return {
-        "font.family": list(_font_families()),
+        "font.family": list(matplotlib_families()),
         "font.size": 8.0,
         "axes.linewidth": 0.6,
         "axes.edgecolor": _MUTED,
@@ -81,11 +63,18 @@ def draw_figure(figure: Figure, *, image_format: str = "svg", width: float = 17.
     -------
     bytes
         The image file.
+
+    Raises
+    ------
+    InputError
+        When the language in force is Japanese and no font has its letters.
     """
     import matplotlib
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure as Canvas
 
+    if spoken_language() == "ja":
+        require_japanese(matplotlib_families())
     inches = width / 2.54
     with matplotlib.rc_context(rc=_settings()):
         canvas = Canvas(figsize=(inches, inches * figure.height / 760.0))

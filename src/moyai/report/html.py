@@ -12,6 +12,7 @@ from importlib import resources
 from typing import Any
 
 from moyai.core.validity import IdentityCheck, Notice
+from moyai.language import said
 from moyai.report.document import (
     Animation,
     Badge,
@@ -32,15 +33,35 @@ from moyai.report.document import (
 )
 from moyai.report.encoding import column_unit, figure_specification, page_json, slug, table_csv
 from moyai.report.first_page import COMPUTATION
+from moyai.report.fonts import embedded_style
 from moyai.report.formatting import DASH, column_decimals, format_fixed, format_number, pretty_unit, trimmed
+from moyai.report.language import for_its_reader
 from moyai.report.notices import grouped
-from moyai.report.systems import in_its_units
 
 STATUS_WORDS = {status: word for status, (word, _) in COMPUTATION.items()}
 LEAST_LETTER = 9.0
 _ONE_LINE = 24  # letters of a cell that is not broken
 _HYPHENATED = re.compile(r"(?<![\w-])(?=[\w.-]{3,40}(?![\w.-]))\w[\w.]*(?:-[\w.]+)+")
 """Height of the smallest letters of a drawing on a narrow screen [CSS px]; the drawing moves sideways there."""
+_JAPANESE_FACES = (
+    '"Segoe UI","Helvetica Neue",Helvetica,Arial,"Hiragino Sans","Yu Gothic",Meiryo,'
+    '"Noto Sans CJK JP","moyai-ja",sans-serif'
+)  # fmt: skip
+SCRIPT_WORDS = (
+    "Copied", "Refused", "maximum", "max", "Maximum", "sway, heave, roll", "Play", "Pause", "Space", "Time",
+    "Speed (plus, minus)", "Save this picture", "Show window", "Whole record", "tension", "slack", "plan", "to",
+    "section at mid-span", "tension of both cables", "tension, both cables", "View (V)", "Farther", "Nearer", "waves",
+    "current", "grid", "bar",
+    "Animation. Space plays, arrows step, M jumps to the maximum, V changes the view, W the span, plus and minus the "
+    "speed.",
+    "Drag to turn, shift-drag to move, click and scroll to zoom, double-click to return.",
+    "Drag to turn, shift-drag to move, click and scroll to zoom, double-click to return; click the trace to go to a "
+    "time.",
+    "The figure could not be drawn; its data are in the CSV. A browser of 2023 or newer is needed.",
+)  # fmt: skip
+"""What the scripts of the page say of themselves."""
+_PASTE = "Copy the data, ready to paste into a spreadsheet"
+_NO_SCRIPT = "Figures and the animation need JavaScript; tables and text are complete without it."
 SCRIPTS = ("report.js", "figures.js", "curtain.js", "scene_3d.js", "scene_3d_paint.js", "player.js")
 
 
@@ -49,7 +70,7 @@ def asset(name: str) -> str:
     return (resources.files("moyai.report") / "assets" / name).read_text(encoding="utf-8")
 
 
-@in_its_units
+@for_its_reader
 def render_parts(document: Document) -> tuple[str, dict[str, Any]]:
     """Return the inner part of the page and its data, for a page that has styles and scripts of the report already.
 
@@ -66,7 +87,7 @@ def render_parts(document: Document) -> tuple[str, dict[str, Any]]:
     """
     page = _Page()
     sections = "\n".join(page.section(section) for section in document.sections)
-    data = {"figures": page.figures, "scenes": page.scenes, "tables": page.tables}
+    data = page.data()
     return f"{_badges(document)}\n{sections}", data
 
 
@@ -78,7 +99,7 @@ def packed_plotly() -> str:
     return base64.b64encode(gzip.compress(get_plotlyjs().encode("utf-8"), 9, mtime=0)).decode("ascii")
 
 
-@in_its_units
+@for_its_reader
 def render_html(document: Document) -> str:
     """Return the report as one HTML page.
 
@@ -98,9 +119,9 @@ def render_html(document: Document) -> str:
     )
     plotly = f'<script type="text/plain" id="packed-plotly">{packed_plotly()}</script>' if page.figures else ""
     scripts = "\n".join(f"<script>\n{asset(name)}</script>" for name in SCRIPTS)
-    data = page_json({"figures": page.figures, "scenes": page.scenes, "tables": page.tables})
-    return f"""<!DOCTYPE html>
-<html lang="en">
+    data = page_json(page.data())
+    page_text = f"""<!DOCTYPE html>
+<html lang="{document.language}">
 <head>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
@@ -112,7 +133,7 @@ def render_html(document: Document) -> str:
 {asset("report.css")}</style>
 </head>
 <body>
-<a class="skip" href="#content">To the content</a>
+<a class="skip" href="#content">{escape(said("To the content"))}</a>
 <header class="masthead">
 <div>
 <h1>{escape(document.title)}</h1>
@@ -121,12 +142,11 @@ def render_html(document: Document) -> str:
 {_badges(document)}
 </header>
 <div class="frame">
-<nav aria-label="Contents"><ol>
+<nav aria-label="{escape(said("Contents"))}"><ol>
 {contents}
 </ol></nav>
 <main id="content">
-<noscript><p class="notice warning">Figures and the animation need JavaScript; tables and text are complete without
-it.</p></noscript>
+<noscript><p class="notice warning">{escape(said(_NO_SCRIPT))}</p></noscript>
 {sections}
 </main>
 </div>
@@ -137,6 +157,10 @@ it.</p></noscript>
 </body>
 </html>
 """
+    if document.language != "ja":
+        return page_text
+    faces = f"{embedded_style(page_text)}body,svg{{font-family:{_JAPANESE_FACES}}}\n"
+    return page_text.replace("</style>", f"{faces}</style>", 1)
 
 
 def badges_of(document: Document) -> tuple[Badge, ...]:
@@ -162,7 +186,7 @@ def foot_text(document: Document) -> str:
     for key, label in (("moyai_version", "moyai"), ("created", ""), ("case_hash", "case")):
         value = str(document.provenance.get(key, ""))
         if value:
-            parts.append(f"{label} {value[:25]}".strip())
+            parts.append(f"{said(label)} {value[:25]}".strip())
     return " · ".join(parts)
 
 
@@ -187,7 +211,7 @@ def column_texts(column: Column) -> list[str]:
         if isinstance(value, str):
             return value
         if isinstance(value, bool):
-            return "yes" if value else "no"
+            return said("yes" if value else "no")
         number = float(value) * factor
         shown = format_number(number, column.digits) if decimals is None else format_fixed(number, decimals)
         return trimmed(shown) if column.trim else shown
@@ -214,6 +238,15 @@ class _Page:
         self.tables: dict[str, str] = {}
         self._used: set[str] = set()
         self._choices = 0
+
+    def data(self) -> dict[str, Any]:
+        """Return what the scripts read: figures, scenes, tables and, in another language, their words."""
+        found: dict[str, Any] = {"figures": self.figures, "scenes": self.scenes, "tables": self.tables}
+        views = [view for scene in self.scenes.values() for view in scene.get("extents", {})]
+        spoken = {text: said(text) for text in (*SCRIPT_WORDS, *views)}
+        if words := {text: told for text, told in spoken.items() if told != text}:
+            found["words"] = words
+        return found
 
     def _unique(self, key: str) -> str:
         name, count = slug(key), 2
@@ -263,9 +296,10 @@ class _Page:
                 f"{escape(a.label)}</button>"
                 for i, a in enumerate(figure.abscissae)
             )
-            switch = f'<span class="segmented" role="group" aria-label="Plot against">{buttons}</span>'
+            switch = f'<span class="segmented" role="group" aria-label="{said("Plot against")}">{buttons}</span>'
+        shown = said("Shown part of the record")
         overview = (
-            '<canvas class="overview" tabindex="0" role="slider" aria-label="Shown part of the record"></canvas>'
+            f'<canvas class="overview" tabindex="0" role="slider" aria-label="{shown}"></canvas>'
             if figure.slider
             else ""
         )
@@ -273,8 +307,8 @@ class _Page:
 <figcaption><h3>{words(figure.title)}</h3>{_caption(figure.caption)}{hint}</figcaption>
 <div class="plot" style="height:{figure.height}px" role="img" aria-label="{escape(figure.title)}"></div>{overview}
 <div class="tools">{switch}<span class="spring"></span>
-<button type="button" data-do="csv" title="Download the data of this figure">CSV</button>
-<button type="button" data-do="copy" title="Copy the data, ready to paste into a spreadsheet">Copy data</button>
+<button type="button" data-do="csv" title="{said("Download the data of this figure")}">CSV</button>
+<button type="button" data-do="copy" title="{said(_PASTE)}">{said("Copy data")}</button>
 <button type="button" data-do="svg">SVG</button><button type="button" data-do="png">PNG</button></div>
 </figure>"""
 
@@ -299,11 +333,12 @@ class _Page:
                     kind, shown = _unbroken(shown_texts[row], shown)
                 cells.append(f"<td{kind}>" + (f'<a href="{escape(link)}">{shown}</a>' if link else shown) + "</td>")
             rows.append(f'<tr class="{" ".join(kinds)}">' + "".join(cells) + "</tr>")
+        copy = said("Copy data")
         body = f"""<div class="scroll" tabindex="0" role="region" aria-label="{escape(table.title)}"><table>
 <thead><tr>{"".join(heads)}</tr></thead>
 <tbody>{"".join(rows)}</tbody></table></div>
 <div class="tools">{_caption(table.note)}<span class="spring"></span>
-<button type="button" data-do="csv">CSV</button><button type="button" data-do="copy">Copy data</button></div>"""
+<button type="button" data-do="csv">CSV</button><button type="button" data-do="copy">{copy}</button></div>"""
         if table.collapsed:
             return (
                 f'<details class="table" id="{name}" data-table="{name}"><summary>{words(table.title)}</summary>'
@@ -422,7 +457,8 @@ def notice_items(block: NoticeBlock) -> list[tuple[str, str, str]]:
     block : NoticeBlock
     """
     items = [("error", *check_text(check)) for check in block.failed_checks]
-    return items + [(group.severity, *notice_text(group.notice, group.where)) for group in grouped(block.notices)]
+    items += [(group.severity, *notice_text(group.notice, group.where)) for group in grouped(block.notices)]
+    return [(severity, said(first), said(second)) for severity, first, second in items]
 
 
 def check_text(check: IdentityCheck) -> tuple[str, str]:
@@ -439,7 +475,7 @@ def _notices(block: NoticeBlock) -> str:
     return (
         '<ul class="notices">'
         + "".join(
-            f'<li class="notice {severity}"><strong>{kinds.get(severity, severity)}</strong><span>{words(first)}'
+            f'<li class="notice {severity}"><strong>{said(kinds.get(severity, severity))}</strong><span>{words(first)}'
             + (f"<small>{words(second)}</small>" if second else "")
             + "</span></li>"
             for severity, first, second in items

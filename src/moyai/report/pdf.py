@@ -7,6 +7,7 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
+from moyai.language import said
 from moyai.report.document import (
     Animation,
     Block,
@@ -22,6 +23,7 @@ from moyai.report.document import (
 )
 from moyai.report.encoding import column_unit
 from moyai.report.figures_static import draw_figure
+from moyai.report.fonts import JAPANESE, font_folders, require_japanese
 from moyai.report.formatting import pretty_unit
 from moyai.report.html import (
     asset,
@@ -31,23 +33,14 @@ from moyai.report.html import (
     is_text_column,
     notice_items,
 )
-from moyai.report.systems import in_its_units
+from moyai.report.language import for_its_reader
 
 TEXT_FONTS = ("Noto Sans", "Segoe UI", "Helvetica Neue", "Arial", "Liberation Sans", "Noto Sans CJK JP", "DejaVu Sans")
-JAPANESE_FONTS = (
-    "Noto Sans CJK JP",
-    "Noto Sans JP",
-    "Yu Gothic",
-    "Hiragino Sans",
-    "Meiryo",
-    "IPAexGothic",
-    "IPAGothic",
-)
 MONO_FONTS = ("DejaVu Sans Mono", "Consolas", "Menlo")
 LONG_TEXT = 24  # a column with longer texts than this may break its lines
 
 
-@in_its_units
+@for_its_reader
 def render_pdf(document: Document) -> bytes:
     """Return the report as PDF.
 
@@ -59,6 +52,11 @@ def render_pdf(document: Document) -> bytes:
     Returns
     -------
     bytes
+
+    Raises
+    ------
+    InputError
+        When the document is in Japanese and no font has its letters.
     """
     import typst
 
@@ -70,6 +68,8 @@ def render_pdf(document: Document) -> bytes:
             for section in document.sections
         ]
         present = _present_fonts()
+        if document.language == "ja":
+            require_japanese(present)
         data = {
             "title": document.title,
             "subtitle": document.subtitle,
@@ -79,20 +79,21 @@ def render_pdf(document: Document) -> bytes:
                 for badge in badges_of(document)
             ],
             "foot": foot_text(document),
-            "fonts": _choose(TEXT_FONTS, present)[:1] + _choose(JAPANESE_FONTS, present)[:1],
-            "mono": _choose(MONO_FONTS, present)[:1] + _choose(JAPANESE_FONTS, present)[:1],
+            "fonts": _choose(TEXT_FONTS, present)[:1] + _choose(JAPANESE, present)[:1],
+            "mono": _choose(MONO_FONTS, present)[:1] + _choose(JAPANESE, present)[:1],
+            "language": document.language,
             "sections": sections,
         }
         (folder / "data.json").write_text(json.dumps(data, ensure_ascii=False, allow_nan=False), encoding="utf-8")
         (folder / "report.typ").write_text(asset("report.typ"), encoding="utf-8")
-        return bytes(typst.compile(str(folder / "report.typ"), root=str(folder)))
+        return bytes(typst.compile(str(folder / "report.typ"), root=str(folder), font_paths=font_folders()))
 
 
 def _present_fonts() -> set[str]:
-    """Return the families that typst finds: its own and the machine's."""
+    """Return the families that typst finds: its own, the machine's and that of the extra ``moyai[ja]``."""
     import typst
 
-    return {str(family) for family in typst.Fonts().families()}
+    return {str(family) for family in typst.Fonts(font_paths=font_folders()).families()}
 
 
 def _choose(wanted: tuple[str, ...], present: set[str]) -> list[str]:
@@ -123,7 +124,9 @@ class _Writer:
                 if not block.still:
                     return []
                 return [
-                    self._picture(f"{block.title}: the governing moment", block.caption, block.still.encode("utf-8"))
+                    self._picture(
+                        f"{block.title}: {said('the governing moment')}", block.caption, block.still.encode("utf-8")
+                    )
                 ]
             case Table():
                 return [_table(block)]
@@ -160,7 +163,7 @@ class _Writer:
             items += [item for block in option.blocks for item in self.block(block)]
         if not choice.print_all:
             others = ", ".join(option.label for option in choice.options if option is not options[0])
-            items.append({"type": "text", "text": f"Also in the interactive report: {others}.", "quiet": True})
+            items.append({"type": "text", "text": said(f"Also in the interactive report: {others}."), "quiet": True})
         return items
 
     def _picture(self, title: str, caption: str, svg: bytes) -> dict[str, Any]:
@@ -184,4 +187,7 @@ def _table(table: Table) -> dict[str, Any]:
 
 
 def _notices(block: NoticeBlock) -> list[dict[str, str]]:
-    return [{"kind": kind, "first": first, "second": second} for kind, first, second in notice_items(block)]
+    return [
+        {"kind": kind, "word": said(kind.capitalize()), "first": first, "second": second}
+        for kind, first, second in notice_items(block)
+    ]

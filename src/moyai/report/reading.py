@@ -68,7 +68,7 @@ class Group:
     @property
     def exists(self) -> bool:
         """Whether the group is there and holds anything."""
-        return self.node is not None and (len(self.node.data_vars) > 0 or len(self.node.children) > 0)
+        return self.node is not None and bool(self.node)
 
     @property
     def attributes(self) -> dict[str, Any]:
@@ -90,7 +90,7 @@ class Group:
             else tuple(Group(name, node, self.vocabulary) for name, node in self.node.children.items())
         )
 
-    def variable(self, name: str) -> xr.DataArray | None:
+    def variable(self, name: str) -> xr.Variable | None:
         """Return a variable or coordinate, ``None`` where it is absent or not numeric.
 
         Raises
@@ -102,12 +102,22 @@ class Group:
         # columns of a file of the user's have names of the user's
         if own is not None and (self.node is None or own.at(self.node.path) is not None):
             own.require(name)
-        if self.node is None:
+        # a variable as it stands: with its coordinates about it a report would take twice as long
+        found = None if self.node is None else self.node.variables.get(name)
+        if found is None:
             return None
-        if name not in self.node.data_vars and name not in self.node.coords:
-            return None
-        found: Any = self.node[name]
         return found if np.issubdtype(found.dtype, np.number) or np.issubdtype(found.dtype, np.bool_) else None
+
+    def selected(self, name: str, **choice: str) -> xr.Variable | None:
+        """Return a variable at the labels of ``choice``; ``None`` where it is absent or lacks a dimension or label."""
+        found = self.variable(name)
+        for dim, label in choice.items():
+            known = None if self.node is None else self.node.variables.get(dim)
+            if found is None or known is None or dim not in found.dims:
+                return None
+            places = np.flatnonzero(known.values == label)
+            found = found.isel({dim: int(places[0])}) if places.size else None
+        return found
 
     def require(self, name: str, *dims: str, **choice: str) -> Array:
         """As :meth:`real`, for what the group holds whenever its analysis was run.
@@ -127,14 +137,8 @@ class Group:
 
         ``None`` where the variable is absent, has other dimensions or lacks a label.
         """
-        found = self.variable(name)
-        if found is None:
-            return None
-        for dim, label in choice.items():
-            if dim not in found.dims or dim not in found.coords or label not in found.coords[dim].values:
-                return None
-            found = found.sel({dim: label})
-        if set(found.dims) != set(dims):
+        found = self.selected(name, **choice)
+        if found is None or set(found.dims) != set(dims):
             return None
         return np.asarray(found.transpose(*dims).values)
 
@@ -168,8 +172,9 @@ class Group:
         """Return the labels along a dimension, their numbers where it has none."""
         if self.node is None or dim not in self.node.sizes:
             return ()
-        if dim in self.node.coords:
-            return tuple(str(label) for label in self.node.coords[dim].values)
+        known = self.node.variables.get(dim)
+        if known is not None:
+            return tuple(str(label) for label in known.values)
         return tuple(str(number + 1) for number in range(self.node.sizes[dim]))
 
     def dims(self, name: str) -> tuple[str, ...]:

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from functools import wraps
-from typing import Any, TypeVar
 
 from moyai.core.errors import InputError
 from moyai.core.units import parse_unit
@@ -22,7 +20,6 @@ _system: ContextVar[str] = ContextVar("system", default="SI")
 _LEAST_TONNE = 0.1  # forces whose largest is smaller are shown in kgf [tf]
 # a force or a pressure among the factors of a unit, with its prefix
 _FORCE = re.compile(r"\b[kMG]?(N|Pa)\b")
-_R = TypeVar("_R")
 
 
 def require_system(name: str) -> None:
@@ -45,17 +42,6 @@ def displayed_in(system: str) -> Iterator[str]:
         yield system
     finally:
         _system.reset(mark)
-
-
-def in_its_units(render: Callable[..., _R]) -> Callable[..., _R]:
-    """Return a function of a document that shows it in the units it was composed in."""
-
-    @wraps(render)
-    def rendered(document: Any, *arguments: Any, **options: Any) -> _R:
-        with displayed_in(document.units):
-            return render(document, *arguments, **options)
-
-    return rendered
 
 
 def in_tonnes_force(unit: str, largest: float) -> tuple[str, float] | None:

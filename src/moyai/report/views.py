@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Generic, TypeVar
 
 from moyai.core.results import Result
 from moyai.core.results import read_result as read_stored
+from moyai.language import require_language
 from moyai.report.document import Document, Figure, KeyFigure, KeyFigures, Table
 from moyai.report.encoding import column_unit, scaled_cell, unique_slugs
 from moyai.report.first_page import badges, criteria_table, units_of
@@ -100,6 +101,16 @@ class ReportedResult(Result):
         """
         require_system(units)
         return replace(self, provenance={**self.provenance, "display_units": units})
+
+    def said_in(self, language: str) -> ReportedResult:
+        """Return the result with its report in ``en`` or ``ja``; its data, tables and figures in Python stay English.
+
+        Raises
+        ------
+        InputError
+            For a language of another name.
+        """
+        return replace(self, provenance={**self.provenance, "display_language": require_language(language)})
 
     def _repr_html_(self) -> str:
         return summary_html(self)

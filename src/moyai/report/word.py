@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from moyai.core.errors import InputError
+from moyai.language import said
 from moyai.report.document import (
     Animation,
     Block,
@@ -27,15 +28,17 @@ from moyai.report.document import (
 )
 from moyai.report.encoding import column_unit
 from moyai.report.figures_static import draw_figure
+from moyai.report.fonts import font_folders
 from moyai.report.formatting import pretty_unit
 from moyai.report.html import badges_of, column_texts, foot_text, is_text_column, notice_items
-from moyai.report.systems import in_its_units
+from moyai.report.language import for_its_reader
 
 WIDTH = 16.0  # of images and tables [cm], on a page that is no wider than A4
+_JAPANESE_FACE = "Yu Gothic"
 _DOTS = 160  # per inch
 
 
-@in_its_units
+@for_its_reader
 def render_docx(document: Document, template: Path | None = None) -> bytes:
     """Return the report as DOCX.
 
@@ -83,6 +86,8 @@ class _Writer:
     def write(self, document: Document) -> None:
         """Write title, badges, sections and foot."""
         paper = self._paper
+        if document.language == "ja":
+            _name_japanese_face(paper)
         paper.core_properties.title = document.title
         self._text(document.title, "Title")
         if document.subtitle:
@@ -91,7 +96,7 @@ class _Writer:
             line = paper.add_paragraph()
             line.add_run(f"{badge.label}: {badge.word}".removeprefix(": ")).bold = True
             line.add_run(f". {badge.message}" if badge.message else "")
-        _field(paper.add_paragraph(), r'TOC \o "1-2" \h', "Contents: press F9 to fill in")
+        _field(paper.add_paragraph(), r'TOC \o "1-2" \h', said("Contents: press F9 to fill in"))
         for section in document.sections:
             self._heading(section.title, 1)
             for block in section.blocks:
@@ -116,12 +121,17 @@ class _Writer:
                 self._picture(block.title, block.caption, _rasterised(block.fixed_svg))
             case Animation():
                 if block.still:
-                    self._picture(f"{block.title}: the governing moment", block.caption, _rasterised(block.still))
+                    self._picture(
+                        f"{block.title}: {said('the governing moment')}", block.caption, _rasterised(block.still)
+                    )
             case Table():
                 self._table(block)
             case KeyFigures():
                 rows = [(item.label[:1].upper() + item.label[1:], item.text, item.detail) for item in block.items]
-                self._grid((("Governing number", "Value", "Where, model and band"), *rows), widths=(0.3, 0.2, 0.5))
+                self._grid(
+                    (tuple(map(said, ("Governing number", "Value", "Where, model and band"))), *rows),
+                    widths=(0.3, 0.2, 0.5),
+                )
             case Paragraph():
                 self._text(block.text)
             case Listing():
@@ -130,7 +140,7 @@ class _Writer:
             case NoticeBlock():
                 for severity, first, second in notice_items(block):
                     line = self._paper.add_paragraph()
-                    line.add_run(f"{severity.capitalize()}: ").bold = True
+                    line.add_run(f"{said(severity.capitalize())}: ").bold = True
                     line.add_run(f"{first}. {second}".strip().removesuffix(" "))
             case Choice():
                 self._choice(block, level)
@@ -145,12 +155,12 @@ class _Writer:
                 self._block(block, level + several)
         if len(options) < len(choice.options):
             others = ", ".join(option.label for option in choice.options if option is not options[0])
-            self._text(f"Also in the interactive report: {others}.")
+            self._text(said(f"Also in the interactive report: {others}."))
 
     def _caption(self, kind: str, text: str, keep: bool = False) -> None:
         """Write a caption with a number that Word counts and can refer to."""
         self._count[kind] += 1
-        line = self._text(f"{kind} ", "Caption")
+        line = self._text(f"{said(kind)} ", "Caption")
         line.paragraph_format.keep_with_next = keep
         _field(line, f"SEQ {kind} \\* ARABIC", str(self._count[kind]))
         line.add_run(f". {text}")
@@ -223,6 +233,15 @@ def _field(paragraph: Any, code: str, shown: str) -> None:
     paragraph.add_run()._r.append(part("end"))
 
 
+def _name_japanese_face(paper: Any) -> None:
+    """Name the face of Japanese letters where the template names none; a reader without it takes another."""
+    from docx.oxml.ns import qn
+
+    fonts = paper.styles["Normal"].element.get_or_add_rPr().get_or_add_rFonts()
+    if fonts.get(qn("w:eastAsia")) is None:
+        fonts.set(qn("w:eastAsia"), _JAPANESE_FACE)
+
+
 def _rasterised(svg: str) -> bytes:
     """Return a drawing as PNG."""
     import typst
@@ -234,5 +253,7 @@ def _rasterised(svg: str) -> bytes:
             f'#set page(width: auto, height: auto, margin: 0pt)\n#image("drawing.svg", width: {WIDTH}cm)\n',
             encoding="utf-8",
         )
-        found = typst.compile(str(folder / "drawing.typ"), root=name, format="png", ppi=float(_DOTS))
+        found = typst.compile(
+            str(folder / "drawing.typ"), root=name, format="png", ppi=float(_DOTS), font_paths=font_folders()
+        )
         return bytes(found if isinstance(found, bytes) else found[0])

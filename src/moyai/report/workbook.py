@@ -12,12 +12,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from moyai.core.arrays import Array
+from moyai.language import said
 from moyai.report.decimate import envelope_indices
 from moyai.report.document import Block, Cell, Choice, Document, Figure, KeyFigures, Listing, NoticeBlock, Table
 from moyai.report.encoding import column_unit, figure_columns, scaled_cell
 from moyai.report.formatting import axis_label
 from moyai.report.html import badges_of, foot_text, notice_items
-from moyai.report.systems import UNITS_NOTES, in_its_units
+from moyai.report.language import for_its_reader
+from moyai.report.systems import UNITS_NOTES
 
 if TYPE_CHECKING:
     from xlsxwriter.format import Format
@@ -30,7 +32,7 @@ LONGEST = 2000
 _WIDEST = 60
 
 
-@in_its_units
+@for_its_reader
 def render_workbook(document: Document) -> bytes:
     """Return the report as XLSX.
 
@@ -74,7 +76,7 @@ class _Book:
 
     def write(self) -> None:
         """Write every sheet, the summary as the first."""
-        summary = self._sheet("Summary", "")
+        summary = self._sheet(said("Summary"), "")
         for section in self._document.sections:
             for block in section.blocks:
                 self._block(block, section.title)
@@ -124,7 +126,7 @@ class _Book:
 
     def _figure(self, figure: Figure, place: str) -> None:
         thinned, words = _thinned(figure)
-        sheet = self._sheet(figure.title, f"{place}: data of the figure '{figure.title}'{words}")
+        sheet = self._sheet(figure.title, f"{place}: {said('data of the figure')} '{figure.title}'{words}")
         self._columns(sheet, figure_columns(thinned), {})
 
     def _columns(
@@ -146,10 +148,10 @@ class _Book:
         sheet.set_column(2, 2, 90)
         sheet.write_string(0, 0, document.title, self._title)
         sheet.write_string(1, 0, document.subtitle)
-        sheet.write_string(2, 0, UNITS_NOTES.get(document.units, ""), self._quiet)
+        sheet.write_string(2, 0, said(UNITS_NOTES.get(document.units, "")), self._quiet)
         row = 3
         for badge in badges_of(document):
-            sheet.write_string(row, 0, badge.label or "Status", self._top)
+            sheet.write_string(row, 0, badge.label or said("Status"), self._top)
             sheet.write_string(row, 1, badge.word, self._bold)
             sheet.write_string(row, 2, badge.message, self._wrapped)
             row += 1
@@ -165,7 +167,7 @@ class _Book:
         for block in document.blocks():
             if isinstance(block, NoticeBlock):
                 for severity, first, second in notice_items(block):
-                    sheet.write_string(row, 0, severity.capitalize(), self._top)
+                    sheet.write_string(row, 0, said(severity.capitalize()), self._top)
                     sheet.write_string(row, 2, f"{first}\n{second}" if second else first, self._wrapped)
                     row += 1
         row += 1
@@ -204,13 +206,13 @@ def _thinned(figure: Figure) -> tuple[Figure, str]:
         for item in figure.series
     )
     most = max(lengths)
-    words = f", {len(kept[most])} of {most} samples, every extreme kept"
+    words = said(f", {len(kept[most])} of {most} samples, every extreme kept")
     return replace(figure, series=series), words
 
 
 def _scaled(value: Cell, factor: float) -> Cell:
     if isinstance(value, bool | np.bool_):
-        return "yes" if value else "no"
+        return said("yes" if value else "no")
     return scaled_cell(value, factor)
 
 

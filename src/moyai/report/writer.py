@@ -12,13 +12,15 @@ from moyai.core.files import write_whole
 from moyai.core.kinds import kind_of_result
 from moyai.core.results import Result
 from moyai.core.vocabulary import MEASURED_GROUP
+from moyai.language import require_language, spoken_in, spoken_language
 from moyai.report.document import Document
 from moyai.report.encoding import slug, table_csv, unique_slugs
 from moyai.report.first_page import units_of, with_first_page
+from moyai.report.language import in_the_language
 from moyai.report.systems import displayed_in
 
 
-def compose_document(result: Result, units: str | None = None) -> Document:
+def compose_document(result: Result, units: str | None = None, language: str | None = None) -> Document:
     """Turn a result into a document.
 
     Parameters
@@ -26,20 +28,24 @@ def compose_document(result: Result, units: str | None = None) -> Document:
     result : Result
     units : {"SI", "tf"}, optional
         System of units of the document; that of the case when left out, else SI.
+    language : {"en", "ja"}, optional
+        Language that the document is shown in; that of the case when left out, else the one in force, English.
 
     Returns
     -------
     Document
+        With English texts: they are translated where it is rendered.
 
     Raises
     ------
     InputError
-        For units of another name.
+        For units or a language of another name.
     """
     if units is not None:
         result = replace(result, provenance={**result.provenance, "display_units": units})
     with displayed_in(units_of(result)) as units:
-        document = replace(_composed(result), units=units)
+        language = require_language(language or str(result.provenance.get("display_language") or spoken_language()))
+        document = replace(_composed(result), units=units, language=language)
         if MEASURED_GROUP.strip("/") in result.tree.children:
             from moyai.report.overlay import with_measured_points
 
@@ -68,6 +74,7 @@ def write_report(
     vtk: bool = False,
     name: str = "report",
     units: str | None = None,
+    language: str | None = None,
     document: Document | None = None,
 ) -> list[Path]:
     """Write the report of a result.
@@ -94,6 +101,8 @@ def write_report(
         Name of the files without ending; the tables go to ``<name>_tables``.
     units : {"SI", "tf"}, optional
         System of units that is shown; that of the case when left out, else SI.
+    language : {"en", "ja"}, optional
+        Language of the report; that of the case when left out, else English.
     document : Document, optional
         The result composed before; composed here when left out.
 
@@ -113,7 +122,7 @@ def write_report(
     from moyai.report.workbook import render_workbook
 
     folder = Path(directory)
-    document = document or compose_document(result, units)
+    document = document or compose_document(result, units, language)
     drawings: list[tuple[str, bytes]] = []
     if dxf is not None:
         from moyai.report.dxf import document_dxf
@@ -138,8 +147,8 @@ def write_report(
     written += [write_whole(folder / f"{name}_drawings" / f"{slug(key)}.dxf", data) for key, data in drawings]
     written += [write_whole(folder / f"{name}_vtk" / key, data) for key, data in moments]
     written.append(write_whole(folder / f"{name}.xlsx", render_workbook(document)))
-    tables = document.tables()
-    with displayed_in(document.units):
+    with displayed_in(document.units), spoken_in(document.language):
+        tables = in_the_language(document).tables()
         for key, table in zip(unique_slugs(table.key for table in tables), tables, strict=True):
             # the byte order mark makes spreadsheets read the file as UTF-8
             data = table_csv(table).encode("utf-8-sig")

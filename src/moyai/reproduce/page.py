@@ -7,6 +7,7 @@ from pathlib import Path
 
 from moyai.core.files import write_whole
 from moyai.core.results import Result
+from moyai.language import spoken_in, spoken_language
 from moyai.report.document import (
     Badge,
     Block,
@@ -21,6 +22,7 @@ from moyai.report.document import (
     Table,
 )
 from moyai.report.encoding import figure_csv, slug, table_csv
+from moyai.report.language import in_the_language
 from moyai.reproduce.inputs import case_files
 from moyai.reproduce.reproduction import Reproduction, Row
 
@@ -62,6 +64,7 @@ def compose(found: Reproduction, result: Result) -> Document:
         sections=sections,
         provenance=result.provenance,
         badges=(badge,),
+        language=spoken_language(),
     )
 
 
@@ -192,7 +195,9 @@ def write(found: Reproduction, result: Result, folder: Path) -> list[Path]:
     document = compose(found, result)
     written = [write_whole(folder / "report.html", render_html(document).encode("utf-8"))]
     written.append(result.write(folder / "results.nc"))
-    for table in document.tables():
+    with spoken_in(document.language):
+        tables = in_the_language(document).tables()
+    for table in tables:
         content = table_csv(table).encode("utf-8-sig")
         written.append(write_whole(folder / "tables" / f"{slug(table.key)}.csv", content))
     for one in found.figures:

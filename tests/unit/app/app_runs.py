@@ -32,13 +32,13 @@ analyses: [forces]
 """
 
 
-def run_slowly(case: Any, progress: Progress = silent, *, keep: Path | None = None) -> Any:
+def run_slowly(case: Any, progress: Progress = silent, *, keep: Path | None = None, problem: Any = None) -> Any:
     """Take ten seconds for a case whose title says so; it can be stopped at any time."""
     if "slow" in case.title:
         for step in range(200):
             progress("waiting", step, 200)
             time.sleep(0.05)
-    return run(case, progress, keep=keep)
+    return run(case, progress, keep=keep, problem=problem)
 
 
 def deaf_work(pipe: Any, stop: Any, order: Any, run: Any) -> None:

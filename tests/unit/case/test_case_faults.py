@@ -183,7 +183,7 @@ def test_warnings_do_not_stop_a_case():
     text = changed(("fairlead: {x: -5 m, above_keel: 0 m}", "fairlead: {x: -5.5 m, above_keel: 0 m}"))
     case = read(text)
     assert any(
-        "the fairlead of 'seaward' at x = -5.5 m, 0 m above the keel, lies outside the hull" in str(warning)
+        "line 'seaward': its fairlead at x = -5.5 m, 0 m above the keel, lies outside the hull" in str(warning)
         for warning in case.warnings
     )
     assert all(warning.line > 0 for warning in case.warnings)

@@ -42,7 +42,7 @@ SLIPS = {
     ),
     "bow tie": ((CIRCLE, "{shape: polygon, points: [[0, 0], [1, 1], [1, 0], [0, 1.2]]}"), "meets itself"),
     "law of circles": ((CIRCLE, "{shape: square, width: 1 m}"), "speaks of circles"),
-    "above the surface": (("start: {y: -10 m, z: -5 m}", "start: {y: -10 m, z: 5 m}"), None),
+    "above the surface": (("start: {y: -10 m, z: -5 m}", "start: {y: -10 m, z: 0.5 m}"), None),
     "both ends above": (
         ("start: {y: -10 m, z: -5 m}              # ends of the axis; x and y are 0 when absent, z from datum\n"
          "  end: {y: 10 m, z: -5 m}", "start: {y: -10 m, z: 2 m}\n  end: {y: 10 m, z: 2 m}"),

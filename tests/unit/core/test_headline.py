@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 import xarray as xr
 
 from moyai.core.collected import Collected
-from moyai.core.headline import Band, Criterion, Headline, Verdict, governing, judge
+from moyai.core.headline import SEAS_LEFT_OUT, Band, Criterion, Headline, Verdict, governing, judge
 from moyai.core.results import read_result
 from moyai.core.vocabulary import Vocabulary
 
@@ -117,3 +118,18 @@ def test_of_one_number_the_worst_end_is_judged_in_either_sense() -> None:
     # scatter that does not decide is judged at its interval alone
     mean = transmission(0.4, band=Band(0.3, 0.9, "5 seeds", decides=False))
     assert governing([mean, transmission(0.45)]) == [transmission(0.45)]
+
+
+def test_what_was_left_out_proves_only_that_a_limit_is_broken() -> None:
+    light = Headline("line_utilisation", "use", 0.1, "1")
+    strength = Criterion("line_safety_factor", "line_utilisation", 0.5, "at most", "case file", as_factor=True)
+    stable = Headline("metacentric_height", "GM", 1.0, "m", without_waves=True)
+    height = Criterion("least_metacentric_height", "metacentric_height", 0.5, "at least", "case file")
+    verdict = judge([light, stable], [strength, height], computed=True, left_out=SEAS_LEFT_OUT)
+    assert [item.outcome for item in verdict.judgements] == ["not judged", "holds"]
+    assert verdict.message == f"line safety factor: {SEAS_LEFT_OUT}"
+    heavy = replace(light, value=0.6)
+    assert judge([heavy], [strength], computed=True, left_out=SEAS_LEFT_OUT).outcome == "does not hold"
+    shallow = Headline("effective_depth", "depth", 3.0, "m")
+    assert judge([shallow], [LEAST], computed=True, left_out=SEAS_LEFT_OUT).outcome == "does not hold"
+    assert judge([replace(shallow, value=5.0)], [LEAST], computed=True, left_out=SEAS_LEFT_OUT).outcome == "not judged"

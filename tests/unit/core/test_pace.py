@@ -67,3 +67,16 @@ def test_work_that_is_not_done_takes_some_time():
     pace.tell("runs", 9, 10)
     clock.now += 100.0
     assert pace.left("runs") > 10.0
+
+
+def test_rows_that_are_told_in_thousands_wait_by_their_thousands():
+    """A report of half of 4,000 rows after 20 s, then 10 s of silence: some 20 s are left, not hours."""
+    clock = Clock()
+    pace = Pace(clock)
+    pace.tell("time", 0, 4000)
+    clock.now = 20.0
+    pace.tell("time", 2000, 4000)
+    clock.now = 30.0
+    assert pace.left("time") == pytest.approx(10.0)
+    clock.now = 60.0
+    assert 5.0 <= pace.left("time") <= 20.0

@@ -23,7 +23,8 @@ from moyai.structures.curtain.statics.drag import (
 )
 from moyai.structures.curtain.statics.load_laws import section_laws
 from moyai.structures.curtain.statics.plan import PlanLoad, cosine_squared_load, section_load, solve_plan
-from moyai.structures.curtain.statics.section import Skirt, _climb, solve_section
+from moyai.structures.curtain.statics.section import Skirt, solve_section
+from moyai.structures.curtain.statics.section_kernels import climb
 
 DEEP = Water(math.inf, 1000.0, 9.81)
 DRAG = constant_drag(1.5, (0.8, 1.3), "test")
@@ -154,7 +155,7 @@ def test_fourth_order_of_the_integration(friction: float) -> None:
     ends = []
     for count in (10, 20, 40, 80, 1280):
         path = np.empty((count + 1, 4))
-        _climb(-5.0, 0.0, 120.0, np.linspace(0.0, 5.0, count + 1), -10.0, 3.0, pressure, data, path)
+        climb(-5.0, 0.0, 120.0, np.linspace(0.0, 5.0, count + 1), -10.0, 3.0, pressure, data, path)
         ends.append(path[-1].copy())
     errors = [np.linalg.norm(end - ends[-1]) for end in ends[:-1]]
     orders = np.log2(np.array(errors[:-1]) / np.array(errors[1:]))

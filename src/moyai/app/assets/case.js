@@ -172,7 +172,8 @@ export class CaseView {
     this.live.draw(said.html, said.data);
     this.listSections();
     const seas = said.left_out ? ", without irregular seas" : "";
-    this.say(`Draft of ${said.analyses.join(", ")}${seas}, in ${said.seconds.toFixed(2)} s.${said.last ? " Run computes the rest." : " More follows."}`);
+    const plain = said.nominal ? ", nominal numbers only (no band, range or comparison)" : "";
+    this.say(`Draft of ${said.analyses.join(", ")}${seas}${plain}, in ${said.seconds.toFixed(2)} s.${said.last ? " Run computes the rest." : " More follows."}`);
     this.report.dataset.sequence = said.sequence;
     if (said.sequence === this.sequence && this.flying) {
       this.pace = performance.now() - this.flying;

@@ -31,7 +31,7 @@ class CurtainSnap {
     pen.fillStyle = theme.ink;
     pen.fillText(`t = ${t.toFixed(2)} s`, 10, 16);
     pen.textAlign = "right";
-    const { factor, unit } = this.scene, state = load > 1e-6 * this.maximum ? `tension ${MOYAI.number(load * factor)} ${unit}` : "slack";
+    const { factor, unit } = this.scene, state = load > 1e-6 * this.maximum ? `${MOYAI.say("tension")} ${MOYAI.number(load * factor)} ${unit}` : MOYAI.say("slack");
     pen.fillStyle = load >= 0.995 * this.maximum ? MOYAI.style("--bad") : theme.ink;
     pen.fillText(state, width - 10, 16);
   }
@@ -80,7 +80,7 @@ class CurtainSnap {
     this.dot(pen, X(p[0]), Z(p[n]), 6, s("--buoy"), theme);
     this.dot(pen, X(p[n - 1]), Z(p[2 * n - 1]), 4, theme.ink, theme);
     this.arrow(pen, area[0] + 12, Z(0) + 22, 46, 0, s("--water-line"));
-    pen.fillStyle = theme.ink; pen.textAlign = "left"; pen.fillText("section at mid-span", area[0] + 10, area[1] + area[3] - 6);
+    pen.fillStyle = theme.ink; pen.textAlign = "left"; pen.fillText(MOYAI.say("section at mid-span"), area[0] + 10, area[1] + area[3] - 6);
     pen.restore();
   }
   paintPlan(pen, area, place, load, theme) {
@@ -97,7 +97,7 @@ class CurtainSnap {
     for (const k of [0, n - 1]) this.dot(pen, X(turned[k]), Z(turned[n + k]), 5, s("--buoy"), theme);
     const y = area[1] + 12;
     for (const share of [0.2, 0.5, 0.8]) this.arrow(pen, area[0] + share * area[2], y, 0, 30, s("--water-line"));
-    pen.fillStyle = theme.ink; pen.textAlign = "left"; pen.fillText("plan", area[0] + 10, area[1] + area[3] - 6);
+    pen.fillStyle = theme.ink; pen.textAlign = "left"; pen.fillText(MOYAI.say("plan"), area[0] + 10, area[1] + area[3] - 6);
     pen.restore();
   }
   // The tension over the part that is played, with the moment shown.
@@ -112,8 +112,8 @@ class CurtainSnap {
     const place = MOYAI.placeInTime(this.times, t);
     pen.strokeStyle = theme.rule; pen.beginPath(); pen.moveTo(X(t), y0); pen.lineTo(X(t), y0 + h); pen.stroke();
     this.dot(pen, X(t), Y(this.load(place)), 3.5, MOYAI.loadColour(this.load(place) / this.maximum), theme);
-    pen.fillStyle = theme.muted; pen.textAlign = "left"; pen.fillText("tension of both cables", x0, y0 + h + 14);
-    pen.textAlign = "right"; pen.fillText(`${a.toFixed(1)} to ${b.toFixed(1)} s`, x0 + w, y0 + h + 14);
+    pen.fillStyle = theme.muted; pen.textAlign = "left"; pen.fillText(MOYAI.say("tension of both cables"), x0, y0 + h + 14);
+    pen.textAlign = "right"; pen.fillText(`${a.toFixed(1)} ${MOYAI.say("to")} ${b.toFixed(1)} s`, x0 + w, y0 + h + 14);
   }
   shown(t) {
     const [a, b] = this.scene.window;
@@ -121,7 +121,7 @@ class CurtainSnap {
   }
   readouts(t) {
     const place = MOYAI.placeInTime(this.times, t), theme = MOYAI.theme(false), { factor, unit } = this.scene, load = this.load(place);
-    const rows = [{ label: "tension, both cables", value: `${MOYAI.number(load * factor)} ${unit}`, extreme: `max ${MOYAI.number(this.maximum * factor)} ${unit}`, colour: MOYAI.loadColour(load / this.maximum) }];
+    const rows = [{ label: MOYAI.say("tension, both cables"), value: `${MOYAI.number(load * factor)} ${unit}`, extreme: `${MOYAI.say("max")} ${MOYAI.number(this.maximum * factor)} ${unit}`, colour: MOYAI.loadColour(load / this.maximum) }];
     if (this.position) {
       const now = this.position[place.i] * (1 - place.u) + this.position[place.i + 1] * place.u;
       rows.push({ label: "mid-span downstream", value: `${MOYAI.number(now)} m`, extreme: `taut at ${MOYAI.number(this.scene.taut_position)} m`, colour: theme.ink });

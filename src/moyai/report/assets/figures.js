@@ -178,7 +178,7 @@ class Figure {
       for (const b of this.element.querySelectorAll("[data-abscissa]")) b.setAttribute("aria-pressed", String(b === button));
       this.draw();
     } else if (button.dataset.do === "csv") MOYAI.saveCsv(name, this.csv());
-    else if (button.dataset.do === "copy") MOYAI.acknowledge(button, (await MOYAI.copy(MOYAI.tabbed(this.csv()))) ? "Copied" : "Refused");
+    else if (button.dataset.do === "copy") MOYAI.acknowledge(button, (await MOYAI.copy(MOYAI.tabbed(this.csv()))) ? MOYAI.say("Copied") : MOYAI.say("Refused"));
     else if (button.dataset.do) MOYAI.save(`${name}.${button.dataset.do}`, await this.picture(button.dataset.do));
   }
 }
@@ -277,5 +277,5 @@ MOYAI.ready = (async () => {
   document.head.append(script);
   MOYAI.drawVisible();
 })().catch((fault) => {
-  for (const figure of MOYAI.figures.values()) figure.plot.textContent = `The figure could not be drawn (${fault.message}); its data are in the CSV. A browser of 2023 or newer is needed.`;
+  for (const figure of MOYAI.figures.values()) figure.plot.textContent = `${MOYAI.say("The figure could not be drawn; its data are in the CSV. A browser of 2023 or newer is needed.")} (${fault.message})`;
 });

@@ -89,7 +89,7 @@ class SideView {
     if (load) {
       pen.textAlign = "right";
       pen.fillStyle = load.atMaximum ? s("--bad") : theme.ink;
-      pen.fillText(`${load.atMaximum ? "maximum: " : ""}${load.name} ${load.text}`, width - 10, 17);
+      pen.fillText(`${load.atMaximum ? `${MOYAI.say("maximum")}: ` : ""}${load.name} ${load.text}`, width - 10, 17);
     }
   }
   paintWater(pen, X, Z, place, floor, width, s) {
@@ -170,13 +170,13 @@ class SideView {
     const place = MOYAI.placeInTime(this.times, t), theme = MOYAI.theme(false), rows = [];
     for (const body of this.bodies) {
       const p = body.track.at(place);
-      rows.push({ label: "sway, heave, roll", value: `${MOYAI.number(p[0])} m, ${MOYAI.number(p[1])} m, ${MOYAI.number((p[2] * 180) / Math.PI)}°`, extreme: "", colour: theme.ink });
+      rows.push({ label: MOYAI.say("sway, heave, roll"), value: `${MOYAI.number(p[0])} m, ${MOYAI.number(p[1])} m, ${MOYAI.number((p[2] * 180) / Math.PI)}°`, extreme: "", colour: theme.ink });
     }
     for (const line of this.lines) {
       const now = this.tensionAt(line, place);
       const used = (load) => Number.isFinite(line.breaking) && line.breaking ? ` (${MOYAI.number((100 * load) / line.breaking, 2)} %)` : "";
       const said = (load) => `${MOYAI.number(load * line.factor)} ${line.unit}${used(load)}`;
-      rows.push({ label: line.name, value: said(now), extreme: `max ${said(line.maximum)}`, colour: MOYAI.loadColour(now / this.scale) });
+      rows.push({ label: line.name, value: said(now), extreme: `${MOYAI.say("max")} ${said(line.maximum)}`, colour: MOYAI.loadColour(now / this.scale) });
     }
     return rows;
   }
@@ -190,7 +190,7 @@ class Player {
     this.view = Object.keys(scene.extents)[0];
     holder.tabIndex = 0;
     holder.setAttribute("role", "group");
-    holder.setAttribute("aria-label", "Animation. Space plays, arrows step, M jumps to the maximum, V changes the view, W the span, plus and minus the speed.");
+    holder.setAttribute("aria-label", MOYAI.say("Animation. Space plays, arrows step, M jumps to the maximum, V changes the view, W the span, plus and minus the speed."));
     this.build();
     this.visibilityChanged();
     new ResizeObserver(() => this.repaint()).observe(holder);
@@ -203,20 +203,20 @@ class Player {
   build() {
     const button = (text, title, act) => this.element("button", { type: "button", textContent: text, title, onclick: act });
     this.canvas = this.element("canvas", {});
-    this.playButton = button("▶ Play", "Space", () => this.toggle());
+    this.playButton = button(`▶ ${MOYAI.say("Play")}`, MOYAI.say("Space"), () => this.toggle());
     this.playButton.className = "play";
     this.scrub = this.element("input", { type: "range", min: 0, max: 1000, step: "any", oninput: () => this.seek(this.fromScrub()) });
-    this.scrub.setAttribute("aria-label", "Time");
+    this.scrub.setAttribute("aria-label", MOYAI.say("Time"));
     this.clock = this.element("span", { className: "clock" });
     this.speeds = [0.02, 0.05, 0.1, 0.25, 0.5, 1, 2, 5, 10, 20];
-    this.speedSelect = this.element("select", { title: "Speed (plus, minus)", onchange: () => { this.speed = Number(this.speedSelect.value); } },
+    this.speedSelect = this.element("select", { title: MOYAI.say("Speed (plus, minus)"), onchange: () => { this.speed = Number(this.speedSelect.value); } },
       ...this.speeds.map((v) => this.element("option", { value: v, textContent: `${v}×` })));
     this.speedSelect.value = this.speed;
     this.spanButton = button("", "W", () => { this.whole = !this.whole; this.repaint(); });
     this.viewButton = button("", "V", () => this.nextView());
     const bar = this.element("div", { className: "transport" }, this.playButton, this.scrub, this.clock, this.speedSelect,
-      button("Maximum", "M", () => this.toMaximum()), this.spanButton, this.viewButton,
-      button("PNG", "Save this picture", () => this.still()));
+      button(MOYAI.say("Maximum"), "M", () => this.toMaximum()), this.spanButton, this.viewButton,
+      button("PNG", MOYAI.say("Save this picture"), () => this.still()));
     this.readouts = this.element("div", { className: "readouts" });
     this.holder.append(this.canvas, bar, this.readouts);
     this.holder.addEventListener("keydown", (event) => this.key(event));
@@ -252,12 +252,12 @@ class Player {
   toggle() { if (this.playing) this.pause(); else this.play(); }
   pause() {
     this.playing = false;
-    this.playButton.textContent = "▶ Play";
+    this.playButton.textContent = `▶ ${MOYAI.say("Play")}`;
   }
   play() {
     this.playing = true;
     this.last = performance.now();
-    this.playButton.textContent = "❚❚ Pause";
+    this.playButton.textContent = `❚❚ ${MOYAI.say("Pause")}`;
     const [a, b] = this.span();
     if (this.t >= b || this.t < a) this.t = a;
     const turn = (now) => {
@@ -311,10 +311,10 @@ class Player {
     this.scrub.value = (1000 * (this.t - a)) / (b - a || 1);
     this.clock.textContent = `${this.t.toFixed(2)} s`;
     this.scrub.setAttribute("aria-valuetext", this.clock.textContent);
-    this.spanButton.textContent = this.whole ? "Show window" : "Whole record";
+    this.spanButton.textContent = MOYAI.say(this.whole ? "Show window" : "Whole record");
     this.spanButton.hidden = this.scene.window[0] <= this.painter.times[0] && this.scene.window[1] >= this.painter.times[this.painter.times.length - 1];
     const views = Object.keys(this.scene.extents);
-    this.viewButton.textContent = views[(views.indexOf(this.view) + 1) % views.length];
+    this.viewButton.textContent = MOYAI.say(views[(views.indexOf(this.view) + 1) % views.length]);
     this.viewButton.hidden = views.length < 2;
     this.tell(this.painter.readouts(this.t));
   }

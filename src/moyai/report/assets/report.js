@@ -25,6 +25,8 @@ MOYAI.number = (v, digits = 3) => {
   const text = size >= digits ? v.toFixed(0) : size < -3 ? v.toExponential(digits - 1) : v.toFixed(digits - 1 - size);
   return text.replace("-", "−");
 };
+// A word of the page in its language; see SCRIPT_WORDS of html.py.
+MOYAI.say = (text) => ((MOYAI.data && MOYAI.data.words) || {})[text] || text;
 MOYAI.style = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 MOYAI.pretty = (unit) => unit.replace(/\bdeg/g, "°").replace(/([A-Za-z°])(\d)/g, (m, a, d) => a + "⁰¹²³⁴⁵⁶⁷⁸⁹"[d]).replace(/ per /g, "\n").replace(/ /g, "·").replace(/\n/g, " per ");
 
@@ -103,7 +105,7 @@ document.addEventListener("click", async (event) => {
   const table = button.closest("[data-table]"), drawing = button.closest("[data-drawing]");
   if (table && act === "csv") MOYAI.saveCsv(table.dataset.table, MOYAI.data.tables[table.dataset.table]);
   if (table && act === "copy") {
-    MOYAI.acknowledge(button, (await MOYAI.copy(MOYAI.tabbed(MOYAI.data.tables[table.dataset.table]))) ? "Copied" : "Refused");
+    MOYAI.acknowledge(button, (await MOYAI.copy(MOYAI.tabbed(MOYAI.data.tables[table.dataset.table]))) ? MOYAI.say("Copied") : MOYAI.say("Refused"));
   }
   if (drawing && act === "svg") MOYAI.save(drawing.dataset.drawing + ".svg", MOYAI.standaloneSvg(drawing.querySelector("svg")), "image/svg+xml");
 });

@@ -129,7 +129,7 @@ class Scene3D {
     return this.traces.map((trace, i) => {
       const used = (load) => (trace.breaking ? ` (${MOYAI.number((100 * load) / trace.breaking, 2)} %)` : "");
       const now = this.traceAt(trace, t);
-      return { label: trace.name, value: now > 0 ? `${MOYAI.number(now * factor)} ${unit}${used(now)}` : "slack", extreme: `max ${MOYAI.number(trace.maximum * factor)} ${unit}${used(trace.maximum)}`, colour: tones[i % tones.length] };
+      return { label: trace.name, value: now > 0 ? `${MOYAI.number(now * factor)} ${unit}${used(now)}` : MOYAI.say("slack"), extreme: `${MOYAI.say("max")} ${MOYAI.number(trace.maximum * factor)} ${unit}${used(trace.maximum)}`, colour: tones[i % tones.length] };
     });
   }
   aspect() { return 0.58; }
@@ -183,15 +183,15 @@ class Scene3D {
   addButtons(player) {
     const group = player.element("span", { className: "segmented" });
     group.setAttribute("role", "group");
-    group.setAttribute("aria-label", "View (V)");
-    this.viewButtons = Object.keys(this.scene.extents).map((view) => player.element("button", { type: "button", textContent: view, onclick: () => { if (player.view === view) this.home(); player.view = view; player.repaint(); } }));
+    group.setAttribute("aria-label", MOYAI.say("View (V)"));
+    this.viewButtons = Object.keys(this.scene.extents).map((view) => player.element("button", { type: "button", textContent: MOYAI.say(view), value: view, onclick: () => { if (player.view === view) this.home(); player.view = view; player.repaint(); } }));
     group.append(...this.viewButtons);
     const zoom = (text, title, factor) => player.element("button", { type: "button", textContent: text, title, onclick: () => { this.zoomBy(factor, null); player.repaint(); } });
-    const nearer = player.element("span", { className: "segmented" }, zoom("−", "Farther", 0.8), zoom("+", "Nearer", 1.25));
+    const nearer = player.element("span", { className: "segmented" }, zoom("−", MOYAI.say("Farther"), 0.8), zoom("+", MOYAI.say("Nearer"), 1.25));
     player.viewButton.replaceWith(group, nearer);
     player.viewButton = player.element("button", {});
     if (this.scene.still) for (const part of [player.playButton, player.scrub, player.clock, player.speedSelect, player.spanButton, ...player.holder.querySelectorAll('[title="M"]')]) part.style.display = "none";
-    player.readouts.before(player.element("p", { className: "hint player-hint", textContent: "Drag to turn, shift-drag to move, click and scroll to zoom, double-click to return" + (this.traces.length ? "; click the trace to go to a time." : ".") }));
+    player.readouts.before(player.element("p", { className: "hint player-hint", textContent: MOYAI.say(this.traces.length ? "Drag to turn, shift-drag to move, click and scroll to zoom, double-click to return; click the trace to go to a time." : "Drag to turn, shift-drag to move, click and scroll to zoom, double-click to return.") }));
   }
   turn(dx, dy) {
     const { player } = this;

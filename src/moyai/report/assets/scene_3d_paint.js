@@ -35,7 +35,7 @@ Object.assign(Scene3D.prototype, {
     this.paintWords(view, area);
     if (this.strip) this.paintStrip();
     this.paintHover();
-    if (this.viewButtons) for (const b of this.viewButtons) b.setAttribute("aria-pressed", String(b.textContent === view));
+    if (this.viewButtons) for (const b of this.viewButtons) b.setAttribute("aria-pressed", String(b.value === view));
     this.slow = 0.8 * this.slow + 0.2 * (performance.now() - started);
   },
   projectNodes() {
@@ -322,7 +322,7 @@ Object.assign(Scene3D.prototype, {
         pen.strokeStyle = pen.fillStyle = label === "waves" ? paper.line : theme.accent; pen.lineWidth = 2;
         pen.beginPath(); pen.moveTo(x, y); pen.lineTo(x + long - head, y); pen.stroke();
         this.polygon([[x + long, y], [x + long - head, y - 4], [x + long - head, y + 4]]); pen.fill();
-        pen.fillStyle = theme.ink; pen.textAlign = "right"; pen.fillText(label, 62, y + 4);
+        pen.fillStyle = theme.ink; pen.textAlign = "right"; pen.fillText(MOYAI.say(label), 62, y + 4);
       });
       return;
     }
@@ -340,7 +340,7 @@ Object.assign(Scene3D.prototype, {
       let line = ty + 4; // words keep clear of each other where the arrows lie close
       for (const [px, py] of placed) if (Math.abs(px - tx) < 48 && Math.abs(py - line) < 13) line = py + (line < py ? -13 : 13);
       placed.push([tx, line]);
-      pen.globalAlpha = 1; pen.fillStyle = theme.ink; pen.fillText(label, tx + 5, line);
+      pen.globalAlpha = 1; pen.fillStyle = theme.ink; pen.fillText(MOYAI.say(label), tx + 5, line);
     });
   },
   paintWords(view, area) {
@@ -352,12 +352,12 @@ Object.assign(Scene3D.prototype, {
     for (let k = 0; k < long; k++) { pen.fillStyle = MOYAI.loadColour(k / long); pen.fillRect(x + k, y, 1.5, 7); }
     pen.fillStyle = theme.muted; pen.font = `11px ${this.font}`;
     pen.fillText("0", x, y + 18); pen.textAlign = "right"; pen.fillText(`${MOYAI.number(scene.scale * factor)} ${unit}`, x + long, y + 18);
-    pen.fillStyle = theme.ink; pen.fillText("tension", x - 8, y + 8);
+    pen.fillStyle = theme.ink; pen.fillText(MOYAI.say("tension"), x - 8, y + 8);
     pen.strokeStyle = theme.muted; pen.lineWidth = 1.2; pen.setLineDash([3, 4]);
     pen.beginPath(); pen.moveTo(x - 112, y + 4); pen.lineTo(x - 90, y + 4); pen.stroke(); pen.setLineDash([]);
-    pen.fillText("slack", x - 116, y + 8);
+    pen.fillText(MOYAI.say("slack"), x - 116, y + 8);
     let down = y + 34;
-    for (const f of this.faces) if (f.load) { pen.fillStyle = theme.muted; pen.fillText(`${f.name}: to ${MOYAI.number(f.load.scale * f.load.factor)} ${MOYAI.pretty(f.load.unit)}`, x + long, down); down += 14; }
+    for (const f of this.faces) if (f.load) { pen.fillStyle = theme.muted; pen.fillText(`${f.name}: ${MOYAI.say("to")} ${MOYAI.number(f.load.scale * f.load.factor)} ${MOYAI.pretty(f.load.unit)}`, x + long, down); down += 14; }
     // axes
     const [ox, oy] = [30, area[1] + area[3] + 4], axis = 20;
     pen.textAlign = "center"; pen.lineWidth = 1.3; pen.font = `italic 11px ${this.font}`;
@@ -374,7 +374,7 @@ Object.assign(Scene3D.prototype, {
     const { pen, theme } = this, y = area[1] + area[3] + 9;
     pen.font = `11px ${this.font}`; pen.textAlign = "left"; pen.fillStyle = pen.strokeStyle = theme.muted;
     if (!c.parallel) {
-      if (this.hasBed) pen.fillText(`grid ${Number(this.gridSize.toPrecision(6))} m`, 66, y);
+      if (this.hasBed) pen.fillText(`${MOYAI.say("grid")} ${Number(this.gridSize.toPrecision(6))} m`, 66, y);
       return;
     }
     const length = MOYAI.niceStep(110 / c.scale), long = length * c.scale;
@@ -419,10 +419,10 @@ Object.assign(Scene3D.prototype, {
   paintHover() {
     if (!this.hover || this.hover.bar >= this.level.length) return;
     const { pen, theme, scene, screen: s, place: p, bars: b } = this, { bar, at } = this.hover, i = 3 * b[2 * bar], j = 3 * b[2 * bar + 1];
-    const tension = this.tensionOf(bar), name = this.named ? scene.names[this.named[bar]] : "bar";
+    const tension = this.tensionOf(bar), name = this.named ? scene.names[this.named[bar]] : MOYAI.say("bar");
     pen.strokeStyle = theme.ink; pen.lineWidth = 5; pen.globalAlpha = 0.35; pen.beginPath(); pen.moveTo(s[i], s[i + 1]); pen.lineTo(s[j], s[j + 1]); pen.stroke(); pen.globalAlpha = 1;
     const middle = [0, 1, 2].map((k) => MOYAI.number(0.5 * (p[i + k] + p[j + k])));
-    const words = [name, tension > 0 ? `${MOYAI.number(tension * scene.factor)} ${scene.unit}` : "slack", `x ${middle[0]}, y ${middle[1]}, z ${middle[2]} m`];
+    const words = [name, tension > 0 ? `${MOYAI.number(tension * scene.factor)} ${scene.unit}` : MOYAI.say("slack"), `x ${middle[0]}, y ${middle[1]}, z ${middle[2]} m`];
     pen.font = `12px ${this.font}`;
     const wide = Math.max(...words.map((v) => pen.measureText(v).width)) + 16, x = Math.min(at[0] + 14, this.width - wide - 4), y = Math.max(4, Math.min(at[1] - 58, this.height - 64));
     pen.fillStyle = theme.page; pen.globalAlpha = 0.94; pen.fillRect(x, y, wide, 54); pen.globalAlpha = 1;

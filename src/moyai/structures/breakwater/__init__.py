@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,13 @@ class BreakwaterKind(FolderKind):
     package = __name__
     templates = (("breakwater", "template.yaml"),)
     root_schema = "BreakwaterCase"
+
+    def nominal(self, problem: Any) -> Any | None:
+        given = problem.breakwater.damping
+        if given.band == (1.0, 1.0) or "frequency" not in problem.analyses:
+            return None
+        damping = replace(given, band=(1.0, 1.0))
+        return replace(problem, breakwater=replace(problem.breakwater, damping=damping))
 
     def run(self, problem: Any, progress: Progress, keep: Path | None) -> Result:
         from moyai.core.store import DatasetStore

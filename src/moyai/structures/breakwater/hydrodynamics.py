@@ -202,6 +202,12 @@ def solve_unit(
     )
 
 
+def coefficients_in_calm(unit: FloatingUnit, problem: BreakwaterProblem) -> Hydrodynamics:
+    """Return the coefficients of the normal heading of :func:`solve_unit`, whatever seas the case has."""
+    omega = np.concatenate([operator_frequencies(unit, problem), band(unit).omega])
+    return Hydrodynamics.from_section(_solve_band(unit, omega, silent)).scaled_to(unit.breakwater.length)
+
+
 def _oblique(
     unit: FloatingUnit, omega: Array, headings: Array, store: DatasetStore | None, progress: Progress
 ) -> tuple[xr.Dataset, tuple[IdentityCheck, ...]]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from moyai.core.collected import STOPPED, Collected
+from moyai.core.collected import Collected
 from moyai.core.headline import SEAS_LEFT_OUT
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
@@ -82,11 +82,7 @@ def run(
     collected = Collected()
     collected.notices.extend((*check_problem(problem), *notices))
     steps = _steps(problem, collected, _Sources(coefficients, store), progress)
-    try:
-        for _ in steps:
-            pass
-    except KeyboardInterrupt:
-        collected.interrupted = STOPPED
+    collected.take(steps)
     return _result(problem, collected)
 
 

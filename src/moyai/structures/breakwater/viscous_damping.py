@@ -114,6 +114,8 @@ def band_factors(model: FrequencyModel) -> tuple[float, ...]:
 def band_words(model: FrequencyModel) -> str:
     """Return what the band of transmission and motion stands for."""
     given, factors = model.unit.breakwater.damping, band_factors(model)
+    if not factors and given.band == (1.0, 1.0):
+        return "no band: the damping is not varied"
     if not factors:
         return "no band: no damping beyond wave radiation that could be varied"
     what = []

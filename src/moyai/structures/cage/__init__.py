@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -33,6 +34,12 @@ class CageKind(FolderKind):
         if case.model.structure.model == "rigid":
             return derived_rigid.derived_numbers(case)
         return derived_flexible.derived_numbers(case)
+
+    def nominal(self, problem: Any) -> Any | None:
+        settings = problem.settings
+        if "statics" not in settings.analyses or not hasattr(settings, "other_laws"):
+            return None
+        return replace(problem, settings=replace(settings, current_speeds=(), other_laws=False))
 
     def vocabulary(self) -> Vocabulary:
         return joined("cage", _vocabularies().values())

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from typing import Any
+
 from moyai.core.kinds import FolderKind
 
 
@@ -12,6 +15,11 @@ class CurtainKind(FolderKind):
     package = __name__
     templates = (("curtain", "template.yaml"),)
     root_schema = "CurtainCase"
+
+    def nominal(self, problem: Any) -> Any | None:
+        if "statics" not in problem.settings.analyses:
+            return None
+        return replace(problem, settings=replace(problem.settings, nominal=True))
 
 
 KIND = CurtainKind()

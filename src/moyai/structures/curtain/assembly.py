@@ -16,7 +16,7 @@ from moyai.structures.curtain.limits.utilisation import Requirements, Site, drow
 from moyai.structures.curtain.model import UNJUDGED, Curtain, CurtainProblem
 from moyai.structures.curtain.statics.hanging import CurtainStatics, HangingCurtain
 from moyai.structures.curtain.statics.on_bed import lies_on_bed
-from moyai.structures.curtain.statics.steady_load import SteadyLoad, steady_load
+from moyai.structures.curtain.statics.steady_load import SteadyLoad, given_alone, steady_load
 
 #: Speed up to which a drowning current is sought [m/s]; no tidal stream on record is faster
 _FASTEST = 10.0
@@ -40,6 +40,8 @@ class LevelCurtain:
     site: Site
     #: Of the current of the case [m/s]; 0 without one.
     surface_speed: float
+    #: Without band: :attr:`moyai.structures.curtain.model.Settings.nominal`.
+    nominal: bool = False
 
     @property
     def flow_angle(self) -> float:
@@ -75,9 +77,16 @@ class LevelCurtain:
         """The governing steady load in the current of the case, with its band."""
         surface = self.site.current(self.surface_speed).component(np.zeros(1), self.curtain.normal)
         hanging = self.hanging
+        if self.nominal:
+            return given_alone(hanging, self.statics)
+
+        def solve(curtain: HangingCurtain) -> CurtainStatics:
+            alike = (curtain.skirt, curtain.law, curtain.friction) == (hanging.skirt, hanging.law, hanging.friction)
+            return self.site.statics(curtain, self.surface_speed, by_curve=alike)
+
         return steady_load(
             hanging,
-            lambda curtain: self.statics if curtain is hanging else self.site.statics(curtain, self.surface_speed),
+            solve,
             self.water,
             toe_range=self.curtain.toe_range,
             passing_fraction=self.curtain.passing_fraction,
@@ -171,6 +180,7 @@ def assemble(problem: CurtainProblem, name: str, level: float) -> LevelCurtain:
         hanging=hanging,
         site=Site(water, family, heading, curtain.normal, curtain.passing_fraction, on_bed=long),
         surface_speed=0.0 if given is None else reference,
+        nominal=problem.settings.nominal,
     )
 
 

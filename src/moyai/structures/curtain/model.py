@@ -265,6 +265,8 @@ class Settings:
     anchor_loads: AnchorLoadSettings | None = None
     limits: LimitSettings = field(default_factory=LimitSettings)
     dynamic: DynamicSettings | None = None
+    #: Leave out what only tells how far the statics vary: ends of the drag, band of the steady load, largest spacing.
+    nominal: bool = False
 
     @property
     def direction(self) -> tuple[DirectionRule, float]:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from moyai.core.collected import STOPPED, Collected
+from moyai.core.collected import Collected
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
 from moyai.core.validity import Notice
@@ -68,11 +68,7 @@ def run(problem: CurtainProblem, progress: Progress = silent) -> Result:
         impact of a curtain that is never slack.
     """
     collected = _Collected()
-    try:
-        for _ in _steps(problem, collected, progress):
-            pass
-    except KeyboardInterrupt:
-        collected.interrupted = STOPPED
+    collected.take(_steps(problem, collected, progress))
     return _result(problem, collected)
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from moyai.core.collected import STOPPED, Collected, most_severe
+from moyai.core.collected import Collected, most_severe
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
 from moyai.core.validity import IdentityCheck, Notice
@@ -55,11 +55,7 @@ def run(problem: MemberProblem, progress: Progress = silent) -> Result:
     collected = Collected()
     for name, level in problem.environment.water_levels:
         require_in_water(problem.member_at(level), problem.environment.water_at(level), name)
-    try:
-        for _ in _steps(problem, collected, progress):
-            pass
-    except KeyboardInterrupt:
-        collected.interrupted = STOPPED
+    collected.take(_steps(problem, collected, progress))
     return _result(problem, collected)
 
 

@@ -62,7 +62,7 @@ def headlines_of(problem: NetworkProblem, groups: Mapping[str, xr.Dataset]) -> t
         items += _tension(problem, groups, peak)
         items += _start_up(groups, peak)
         items += _utilisation(problem, groups, peaks)
-    items += _anchor(groups)
+    items += _anchor(groups, peaks)
     items += _offsets(groups)
     items += _mode(groups)
     left = [_NOT_JUDGED] if problem.lines and peaks else []
@@ -267,25 +267,36 @@ def mesh_checked(groups: Mapping[str, xr.Dataset]) -> bool:
     return all(_rest_band(groups, peak) is not None for peak in peaks)
 
 
-def _anchor(groups: Mapping[str, xr.Dataset]) -> list[Headline]:
-    """Return the largest pull on a fixed point with its horizontal and upward part."""
-    best: tuple[float, str, str] | None = None
+def _anchor(groups: Mapping[str, xr.Dataset], peaks: list[_Peak]) -> list[Headline]:
+    """Return the largest pull on a fixed point with its parts; its band is that of the highest tension of its run."""
+    found = []
     for level, summary in _levels(groups, "dynamic"):
         network = groups[f"/{level}/network"]
         fixed = [str(n) for n, kind in zip(network["point"].values, network["point_kind"].values) if kind == "fixed"]
         if "load_peak" not in summary:
             continue
         for run in (str(name) for name in summary["run"].values):
+            mine = [peak for peak in peaks if (peak.level, peak.run) == (level, run)]
+            most = max(mine, key=lambda peak: peak.value, default=None)
+            band = None if most is None else _band(groups, most)[0]
             for point in fixed:
                 row = summary.sel(run=run, point=point)
                 value = float(row["load_peak"])
-                if math.isfinite(value) and (best is None or value > best[0]):
-                    parts = (float(row["load_horizontal"]) / 1e3, float(row["load_upwards"]) / 1e3)
-                    said = f"horizontal {parts[0]:.3g} kN, upwards {parts[1]:.3g} kN, each at its own largest"
-                    best = (value, f"{point}, {run}", said)
-    if best is None:
-        return []
-    return [Headline("anchor_load", "largest pull on a fixed point", best[0], "N", best[1], DYNAMIC, detail=best[2])]
+                if not math.isfinite(value):
+                    continue
+                parts = (float(row["load_horizontal"]) / 1e3, float(row["load_upwards"]) / 1e3)
+                said = f"horizontal {parts[0]:.3g} kN, upwards {parts[1]:.3g} kN, each at its own largest"
+                own = None
+                if band is not None and most is not None and most.value > 0.0:
+                    low, high = (value * end / most.value for end in (band.low, band.high))
+                    own = Band(low, high, f"in proportion to the tension of {most.line}")
+                found.append(
+                    Headline(
+                        "anchor_load", "largest pull on a fixed point", value, "N", f"{point}, {run}", DYNAMIC, own,
+                        detail=said,
+                    )
+                )  # fmt: skip
+    return governing(found)
 
 
 def _offsets(groups: Mapping[str, xr.Dataset]) -> list[Headline]:

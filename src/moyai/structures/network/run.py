@@ -79,11 +79,7 @@ def run(
     problem, notices, checks = with_coefficients(problem, coefficients or {})
     collected.notices.extend(notices)
     collected.checks.extend(checks)
-    try:
-        for _ in _steps(problem, collected, progress):
-            pass
-    except KeyboardInterrupt:
-        collected.interrupted = collected.interrupted or "interrupted"
+    collected.take(_steps(problem, collected, progress), "interrupted")
     return _result(problem, collected)
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from moyai.core.arrays import Array
-from moyai.core.collected import STOPPED, Collected
+from moyai.core.collected import Collected
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
@@ -144,11 +144,7 @@ def run(problem: UnitsProblem, progress: Progress = silent, *, store: DatasetSto
         When the case is impossible, or Capytaine is not installed.
     """
     collected = Collected()
-    try:
-        for _ in _steps(problem, collected, store, progress):
-            pass
-    except KeyboardInterrupt:
-        collected.interrupted = STOPPED
+    collected.take(_steps(problem, collected, store, progress))
     return _result(problem, collected)
 
 

@@ -13,7 +13,13 @@ from moyai.case.schema_environment import PeriodRange
 from moyai.case.schema_lines import CatalogueSegment, CatenaryLine, SpringLine
 from moyai.case.yaml_reader import KeyPath
 from moyai.core.errors import ConvergenceError, InputError
-from moyai.structures.breakwater.case.check_lines import across_the_hull, check_chain_on_bed, check_sides, count_panels
+from moyai.structures.breakwater.case.check_lines import (
+    across_the_hull,
+    check_chain_on_bed,
+    check_sides,
+    count_panels,
+    off_the_hull,
+)
 from moyai.structures.breakwater.case.schema import MeasuredColumns
 
 if TYPE_CHECKING:
@@ -236,14 +242,13 @@ def _draught_of_mass(model: BreakwaterCase, hull: Hull, findings: Findings) -> f
 def _check_places_of_lines(model: BreakwaterCase, hull: Hull, draught: float | None, findings: Findings) -> None:
     """Check fairleads against the hull, and anchors against the hull and the water."""
     left, right, _, top = hull.bounds
-    margin = 1e-6 * max(hull.beam, hull.height)
     for index, line in enumerate(model.lines):
         fairlead: KeyPath = ("lines", index, "fairlead")
-        x, z = line.fairlead.x, line.fairlead.above_keel
-        if not (left - margin <= x <= right + margin and -margin <= z <= top + margin):
+        outside = off_the_hull(line, hull.bounds)
+        if outside:
             findings.warn(
                 fairlead,
-                f"the fairlead of '{line.name}' at x = {x:g} m, {z:g} m above the keel, lies outside the hull",
+                f"line '{line.name}': {outside}",
                 allowed=f"x from {left:g} to {right:g} m, 0 to {top:g} m above the keel",
             )
         if abs(line.fairlead.y) > 0.5 * model.structure.length * (1.0 + 1e-9):
@@ -404,4 +409,9 @@ def _check_lines_at_rest(model: BreakwaterCase, unit: Breakwater, environment: E
                 # What the line then does at rest follows from the side of its anchor
                 path, message = ("lines", places[line], "anchor"), f"{across}; {message}"
                 remedy = "check the sign of the anchor's x; a line meant to cross needs the length for it"
+            outside = off_the_hull(model.lines[places[line]], unit.hull.bounds)
+            if outside and notice.severity == "error":
+                left, right, _, deck = unit.hull.bounds
+                path, message = ("lines", places[line], "fairlead"), f"{outside}; {message}"
+                remedy = f"check it: x from {left:g} to {right:g} m, 0 to {deck:g} m above the keel are on the hull"
             record(path, f"line '{line}': {message}{where}", remedy=remedy)

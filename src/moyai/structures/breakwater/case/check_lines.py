@@ -95,6 +95,23 @@ def across_the_hull(entry: Any) -> str:
     )
 
 
+def off_the_hull(entry: Any, bounds: tuple[float, float, float, float]) -> str:
+    """Say where a fairlead stands that lies outside of the hull; empty for others.
+
+    Parameters
+    ----------
+    entry : block of ``lines``
+    bounds : tuple of float
+        Of the hull: left, right, keel, deck [m].
+    """
+    left, right, _, deck = bounds
+    x, z = float(entry.fairlead.x), float(entry.fairlead.above_keel)
+    margin = 1e-6 * max(right - left, deck)
+    if left - margin <= x <= right + margin and -margin <= z <= deck + margin:
+        return ""
+    return f"its fairlead at x = {x:g} m, {z:g} m above the keel, lies outside the hull"
+
+
 def check_sides(model: Any, findings: Findings) -> None:
     """Warn of anchors that all lie on one side: nothing then holds the unit against loads towards it."""
     sides = {float(entry.anchor.x) > 0.0 for entry in model.lines if entry.anchor.x}

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import Any
 
 from moyai.case.builder import build
@@ -55,12 +54,11 @@ def _natural_periods(level: str, unit: FloatingUnit, problem: BreakwaterProblem)
         # Coefficients of another program are fetched by the run itself
         return
     from moyai.floating.modes import natural_modes
-    from moyai.structures.breakwater.hydrodynamics import solve_unit
+    from moyai.structures.breakwater.hydrodynamics import coefficients_in_calm
 
-    calm = replace(problem, environment=replace(problem.environment, sea_states=()))
-    hydro = solve_unit(unit, calm)
+    hydro = coefficients_in_calm(unit, problem)
     stiffness = unit.statics.stiffness + unit.mooring_stiffness
-    for label, period in zip(("sway", "heave", "roll"), natural_modes(hydro.unit, unit.inertia, stiffness).period):
+    for label, period in zip(("sway", "heave", "roll"), natural_modes(hydro, unit.inertia, stiffness).period):
         if math.isfinite(period) and period > 0.0:
             yield Number("Unit at rest", level, f"natural period, {label}", float(period), "s")
 

@@ -19,9 +19,10 @@ def add_sizes(model: Any, sizes: Sizes, periods: Periods) -> None:
     section: KeyPath = ("structure", "section")
     length: KeyPath = ("structure", "length")
     beam, height = _extent(unit.section)
-    sizes[("structure", "@beam")] = beam, (section,)
-    sizes[("structure", "@height")] = height, (section,)
-    sizes[("structure", "@diagonal")] = math.hypot(beam, height), (section,)
+    sides = tuple((*section, name) if hasattr(unit.section, name) else section for name in ("beam", "height"))
+    sizes[("structure", "@beam")] = beam, sides[:1]
+    sizes[("structure", "@height")] = height, sides[1:]
+    sizes[("structure", "@diagonal")] = math.hypot(beam, height), sides
     block = site.density * beam * height * unit.length
     of = (section, length, _DENSITY)
     rate = math.sqrt(site.gravity / beam) if beam > 0.0 else 0.0

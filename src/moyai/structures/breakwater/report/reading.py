@@ -196,14 +196,9 @@ def _beyond_range(level: Level, group: Group, domain: str) -> float:
 def _largest(group: Group, names: tuple[str, ...], absolute: bool = True, **choice: str) -> float:
     """Return the largest of the first variable that is there, over whatever dimensions it has."""
     for name in names:
-        found = group.variable(name)
+        found = group.selected(name, **choice)
         if found is None:
             continue
-        if choice:
-            dim, label = next(iter(choice.items()))
-            if dim not in found.coords or label not in found.coords[dim].values:
-                continue
-            found = found.sel({dim: label})
         values = np.asarray(found.values)
         values = np.abs(values) if absolute or np.iscomplexobj(values) else values
         known = values[np.isfinite(values)]

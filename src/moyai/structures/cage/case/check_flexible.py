@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 from moyai.case.check_catalogue import check_catalogue
-from moyai.case.faults import did_you_mean
 from moyai.case.findings import Findings
 from moyai.case.yaml_reader import KeyPath
 from moyai.core.errors import InputError
 from moyai.structures.cage.case import schema
+from moyai.structures.cage.case.check_rigid import check_law_and_water
 from moyai.structures.cage.case.schema_flexible import FlexibleCageStructure, GridEntry, RopeEntry
 
-#: Kinematic viscosity of water from boiling to freezing, salt included, with room [m2/s]
-_WATER_VISCOSITY = (2e-7, 3e-6)
+#: Share of the way that anchor lines may lack at rest; fibre ropes bear it as a pretension
+_USUAL_STRETCH = 0.02
 
 
 def _check_ropes(unit: FlexibleCageStructure, findings: Findings) -> None:
@@ -27,29 +28,45 @@ def _check_ropes(unit: FlexibleCageStructure, findings: Findings) -> None:
             check_catalogue(("structure", "mooring", *path), rope.catalogue, rope.diameter, findings)
 
 
+def _check_sinkers(model: schema.CageCase, unit: FlexibleCageStructure, findings: Findings) -> None:
+    """Refuse sinkers that are lighter than water."""
+    density = None if unit.sinkers is None else unit.sinkers.density
+    if density is not None and density <= model.site.density:
+        findings.fault(
+            ("structure", "sinkers", "density"),
+            f"sinkers of {density:g} kg/m3 float in water of {model.site.density:g} kg/m3",
+            allowed=f"more than {model.site.density:g} kg/m3",
+            remedy="steel has 7850 kg/m3, concrete 2400",
+        )
+
+
+def _check_anchor_lines(model: schema.CageCase, unit: FlexibleCageStructure, findings: Findings) -> None:
+    """Warn of anchor lines that are much shorter than the way from frame to anchor: they start pulled taut."""
+    mooring = unit.mooring
+    if not isinstance(mooring, GridEntry):
+        return
+    length = sum(part.length for part in mooring.anchor_line)
+    name, level = max(model.site.water_levels.items(), key=lambda entry: entry[1])
+    way = math.hypot(mooring.anchor_distance, model.site.water_depth + level - mooring.frame_depth)
+    if math.isfinite(way) and length < (1.0 - _USUAL_STRETCH) * way:
+        findings.warn(
+            ("structure", "mooring", "anchor_distance"),
+            f"the anchors stand farther than their lines of {length:g} m reach: {way:.4g} m from frame to anchor at "
+            f"{name}, a stretch of {100.0 * (way / length - 1.0):.3g} % before any load",
+            allowed=f"usually a way of at most {length / (1.0 - _USUAL_STRETCH):.4g} m",
+            remedy="bring the anchors nearer or lengthen the lines",
+        )
+
+
 def check(model: schema.CageCase, findings: Findings, folder: Path) -> None:
     """Record every fault and warning of a flexible cage case in ``findings``."""
     from moyai.morison.net_fouling import check_fouling
-    from moyai.morison.net_law_names import available_net_laws, known_net_law
     from moyai.structures.cage.case.build_flexible import build_problem
     from moyai.structures.cage.flexible.checks import problem_notices
 
     unit = model.structure
     assert isinstance(unit, FlexibleCageStructure)
-    law = unit.net.law
-    if not known_net_law(law):
-        findings.fault(
-            ("structure", "net", "law"),
-            f"there is no net law '{law}'",
-            allowed=", ".join(available_net_laws()),
-            remedy=did_you_mean(law, available_net_laws()),
-        )
-    if not _WATER_VISCOSITY[0] <= unit.kinematic_viscosity <= _WATER_VISCOSITY[1]:
-        findings.warn(
-            ("structure", "kinematic_viscosity"),
-            f"{unit.kinematic_viscosity:.3g} m2/s is not the kinematic viscosity of water",
-            remedy="water has 0.3e-6 to 2e-6 m2/s",
-        )
+    check_law_and_water(("structure", "net", "law"), unit.net.law, unit.kinematic_viscosity, findings)
     needs = [name for name in ("time", "sensitivity") if name in model.analyses]
     if needs and not model.waves:
         findings.fault(
@@ -64,6 +81,8 @@ def check(model: schema.CageCase, findings: Findings, folder: Path) -> None:
             remedy="give 'current', whose profile and heading they scale",
         )
     _check_ropes(unit, findings)
+    _check_sinkers(model, unit, findings)
+    _check_anchor_lines(model, unit, findings)
     if not findings.sound("structure", "settings", "analyses", "site"):
         return
     try:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from moyai.case.check_sea import wave_path
 from moyai.case.faults import did_you_mean
 from moyai.case.findings import Findings, duplicates
+from moyai.case.yaml_reader import KeyPath
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.structures.cage.case import schema
 from moyai.structures.cage.case.schema_parts import LinesMooring
@@ -21,28 +22,33 @@ if TYPE_CHECKING:
 _WATER_VISCOSITY = (2e-7, 3e-6)
 
 
+def check_law_and_water(path: KeyPath, law: str, viscosity: float, findings: Findings) -> None:
+    """Record a net law that is not known, and a viscosity that water does not have."""
+    from moyai.morison.net_law_names import available_net_laws, known_net_law
+
+    if not known_net_law(law):
+        findings.fault(
+            path,
+            f"there is no net law '{law}'",
+            allowed=", ".join(available_net_laws()),
+            remedy=did_you_mean(law, available_net_laws()),
+        )
+    if not _WATER_VISCOSITY[0] <= viscosity <= _WATER_VISCOSITY[1]:
+        findings.warn(
+            ("structure", "kinematic_viscosity"),
+            f"{viscosity:.3g} m2/s is not the kinematic viscosity of water",
+            remedy="water has 0.3e-6 to 2e-6 m2/s",
+        )
+
+
 def check(model: schema.CageCase, findings: Findings, folder: Path) -> None:
     """Record every fault and warning of a rigid cage case in ``findings``."""
-    from moyai.morison.net_law_names import available_net_laws, known_net_law
     from moyai.structures.cage.case.build_rigid import build_problem
     from moyai.structures.cage.rigid.statics import require_floating
 
     unit = model.structure
     assert isinstance(unit, schema.RigidCageStructure)
-    law = unit.net.drag.law
-    if not known_net_law(law):
-        findings.fault(
-            ("structure", "net", "drag", "law"),
-            f"there is no net law '{law}'",
-            allowed=", ".join(available_net_laws()),
-            remedy=did_you_mean(law, available_net_laws()),
-        )
-    if not _WATER_VISCOSITY[0] <= unit.kinematic_viscosity <= _WATER_VISCOSITY[1]:
-        findings.warn(
-            ("structure", "kinematic_viscosity"),
-            f"{unit.kinematic_viscosity:.3g} m2/s is not the kinematic viscosity of water",
-            remedy="water has 0.3e-6 to 2e-6 m2/s",
-        )
+    check_law_and_water(("structure", "net", "drag", "law"), unit.net.drag.law, unit.kinematic_viscosity, findings)
     if isinstance(unit.mooring, LinesMooring):
         for index in duplicates([line.name for line in unit.mooring.lines]):
             name = unit.mooring.lines[index].name

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from moyai.case.plausible_sizes import Periods, Sizes
+from moyai.case.plausible_sizes import Periods, Sizes, fastest_water
 from moyai.case.yaml_reader import KeyPath
 
 _DENSITY: KeyPath = ("site", "density")
@@ -26,6 +26,10 @@ def add_sizes(model: Any, sizes: Sizes, periods: Periods) -> None:
         if unit.collar is not None:
             of: KeyPath = ("structure", "collar", "pipe", "diameter")
             sizes[("structure", "collar", "@pipe_diameter")] = unit.collar.pipe.diameter, (of,)
+        if (water := fastest_water(model, periods)) is not None:
+            of_net: tuple[KeyPath, ...] = (("structure", "size"), ("structure", "net", "wall_depth"))
+            wall = unit.size * unit.net.wall_depth
+            sizes[("structure", "@flow_force")] = site.density * wall * water.speed**2, (*water.of, *of_net, _DENSITY)
         if unit.mooring.kind == "grid":
             _grid(unit.mooring, site, sizes)
         return

@@ -26,6 +26,8 @@ class FlexibleSettings:
     #: Speeds at the surface that the profile of the current is scaled to for ``statics`` [m/s]; the current as it is
     #: when empty.
     current_speeds: tuple[float, ...] = ()
+    #: Whether the rest in the current of the site is found under every law of nets that is valid there.
+    other_laws: bool = True
     #: Wave periods that are run in regular waves after the ramp.
     periods: int = 8
     #: Periods over which the waves grow.

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from moyai.core.collected import STOPPED, Collected
+from moyai.core.collected import Collected
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.headline import SEAS_LEFT_OUT
 from moyai.core.progress import Progress, silent
@@ -26,7 +26,7 @@ from moyai.structures.cage.flexible.equilibrium import CageRest, solve_rest
 from moyai.structures.cage.flexible.laws import laws_dataset
 from moyai.structures.cage.flexible.model import FlexibleCage
 from moyai.structures.cage.flexible.problem import FlexibleCageProblem
-from moyai.structures.cage.flexible.sensitivity import mesh_dataset, sensitivity_dataset
+from moyai.structures.cage.flexible.sensitivity import REST, mesh_dataset, rest_mesh_dataset, sensitivity_dataset
 from moyai.structures.cage.flexible.statics import cage_dataset, statics_dataset
 from moyai.structures.cage.flexible.time import CageRun, run_cage, time_dataset
 from moyai.structures.cage.flexible.variables import VOCABULARY
@@ -59,11 +59,7 @@ def run(problem: FlexibleCageProblem, progress: Progress = silent) -> Result:
         For a cage that does not float or does not come to rest.
     """
     collected = Collected()
-    try:
-        for _ in _steps(problem, collected, progress):
-            pass
-    except KeyboardInterrupt:
-        collected.interrupted = STOPPED
+    collected.take(_steps(problem, collected, progress))
     return _result(problem, collected)
 
 
@@ -100,6 +96,7 @@ def _steps(problem: FlexibleCageProblem, collected: Collected, progress: Progres
     import xarray as xr
 
     levels = problem.environment.water_levels
+    waved = bool(problem.seas) and bool({"time", "sensitivity"} & set(problem.settings.analyses))
     collected.notices.extend(problem_notices(problem))
     for index, (name, level) in enumerate(levels):
         progress("water levels", index, len(levels))
@@ -130,10 +127,14 @@ def _steps(problem: FlexibleCageProblem, collected: Collected, progress: Progres
             collected.notices.extend(rest_notices(name, model, statics, speed))
             close = [rest for rest, value in zip(rests, speeds, strict=True) if abs(value - speed) < 1e-9]
             rest = close[0] if close else None
-            if rest is not None and speed > 0.0:
+            if rest is not None and speed > 0.0 and problem.settings.other_laws:
                 collected.groups[f"{root}/laws"] = laws_dataset(model, rest, rests[0], speed, heading, progress)
                 yield
-        if problem.seas and {"time", "sensitivity"} & set(problem.settings.analyses):
+                if not waved:
+                    # a sea that is run checks the mesh itself
+                    collected.groups[f"{root}/sensitivity/{REST}"] = rest_mesh_dataset(model, rest)
+                    yield
+        if waved:
             rest = rest or solve_rest(model, built, profile)
             for sea in problem.seas:
                 yield from _sea_steps(problem, model, rest, sea, collected, root, progress)

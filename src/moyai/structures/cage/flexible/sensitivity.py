@@ -18,6 +18,8 @@ from moyai.structures.cage.rigid.waves import Wave
 if TYPE_CHECKING:
     import xarray as xr
 
+#: Name of the group of a cage at rest.
+REST = "at rest"
 #: What is changed, in the order of the result.
 COARSER = "coarser mesh"
 VARIANTS = ("as given", "half the step", COARSER, "twice the damping of the mesh")
@@ -65,10 +67,7 @@ def _numbers(model: FlexibleCage, run: CageRun) -> dict[str, float]:
         for cage in built.cages
     ]
     out[OFFSET] = float(np.max(moved))
-    out[VOLUME_IN_CURRENT] = float(
-        np.min([cage.volume(run.rest.state.position) / cage.rest_volume for cage in built.cages])
-    )
-    out[DRAG_IN_CURRENT] = float(np.linalg.norm(horizontal_balance(run.rest)[0].sum(axis=0)[:2]))
+    out |= _in_current(run.rest)
     if built.cages[0].collar_bars and not model.design.collar.rigid:
         rows = np.flatnonzero(steady)[:: max(1, int(steady.sum()) // 100)]
         out[STRESS] = float(
@@ -80,6 +79,29 @@ def _numbers(model: FlexibleCage, run: CageRun) -> dict[str, float]:
             )
         )
     return out
+
+
+def _in_current(rest: CageRest) -> dict[str, float]:
+    """Return volume and drag of a cage at rest in a current."""
+    place, cages = rest.state.position, rest.built.cages
+    return {
+        VOLUME_IN_CURRENT: float(np.min([cage.volume(place) / cage.rest_volume for cage in cages])),
+        DRAG_IN_CURRENT: float(np.linalg.norm(horizontal_balance(rest)[0].sum(axis=0)[:2])),
+    }
+
+
+def rest_mesh_dataset(model: FlexibleCage, rest: CageRest) -> xr.Dataset:
+    """Return volume and drag at rest on the mesh of the case and on one that is coarser by a third.
+
+    Parameters
+    ----------
+    model : FlexibleCage
+    rest : CageRest
+        As the case gives it.
+    """
+    other = replace(model, mesh=_coarser(model.mesh))
+    again = solve_rest(other, build_cage(other), rest.current)
+    return _dataset((VARIANTS[0], COARSER), [_in_current(rest), _in_current(again)])
 
 
 def sensitivity_dataset(
@@ -136,7 +158,7 @@ def mesh_dataset(
     return _dataset((VARIANTS[0], COARSER), [_numbers(model, run), _numbers(other, again)], run)
 
 
-def _dataset(variants: tuple[str, ...], found: list[dict[str, float]], first: CageRun) -> xr.Dataset:
+def _dataset(variants: tuple[str, ...], found: list[dict[str, float]], first: CageRun | None = None) -> xr.Dataset:
     import xarray as xr
 
     names = list(found[0])
@@ -144,5 +166,5 @@ def _dataset(variants: tuple[str, ...], found: list[dict[str, float]], first: Ca
     return xr.Dataset(
         {"value": (("variant", "quantity"), values, {"units": "1", "long_name": "see the quantity"})},
         coords={"variant": list(variants), "quantity": names},
-        attrs={"wave": first.wave.name, "step": first.history.step},
+        attrs={} if first is None else {"wave": first.wave.name, "step": first.history.step},
     )

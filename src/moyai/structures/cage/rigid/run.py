@@ -63,11 +63,7 @@ def run(problem: RigidCageProblem, progress: Progress = silent) -> Result:
     """
     collected = Collected()
     lines = lines_of(problem)
-    try:
-        for _ in _steps(problem, lines, collected, progress):
-            pass
-    except KeyboardInterrupt:
-        collected.interrupted = STOPPED
+    collected.take(_steps(problem, lines, collected, progress))
     return _result(problem, collected)
 
 

@@ -46,6 +46,8 @@ def drag_cases(unit: LevelCurtain) -> tuple[CurtainStatics, CurtainStatics, Curt
     InputError
         When one of them has no equilibrium.
     """
+    if unit.nominal:
+        return unit.statics, unit.statics, unit.statics
     law = unit.hanging.drag
     low, high = (
         unit.site.statics(replace(unit.hanging, drag=law.scaled(factor)), unit.surface_speed) for factor in law.range
@@ -184,6 +186,8 @@ def _anchor_spacing(unit: LevelCurtain) -> Limit:
     strengths = unit.curtain.strengths
     if all(part is UNJUDGED for part in (strengths.upper_cable, strengths.anchor_line, strengths.anchor)):
         return Limit(math.nan, "no strength given")
+    if unit.nominal:
+        return Limit(math.nan, "left out of a draft")
     return anchor_spacing(
         unit.hanging,
         unit.site,

@@ -6,7 +6,14 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from moyai.case.check_sea import check_file, check_level_names, check_surroundings, check_waves
+from moyai.case.check_sea import (
+    LARGEST_USUAL_ANGLE_DEG,
+    along,
+    check_file,
+    check_level_names,
+    check_surroundings,
+    check_waves,
+)
 from moyai.case.findings import Findings
 from moyai.case.schema_environment import PeriodRange
 from moyai.case.yaml_reader import KeyPath
@@ -194,12 +201,6 @@ def _check_slack(model: CurtainCase, findings: Findings) -> None:
             allowed=f"more than {unit.span:g} m",
             remedy="give more length, or EA of the cables",
         )
-    if unit.length > 3.0 * unit.span:
-        findings.warn(
-            ("structure", "length"),
-            f"the curtain is {unit.length / unit.span:.3g} times as long as its span",
-            allowed="1.1 to 1.2 in practice",
-        )
     from moyai.structures.curtain.impact.skirt import LEAST_CHORD
 
     chord = model.settings.impact.chord
@@ -223,11 +224,14 @@ def _check_directions(model: CurtainCase, findings: Findings) -> None:
     except InputError:
         return
     angle = math.degrees(math.remainder(heading - math.radians(model.structure.normal_deg), 2.0 * math.pi))
-    if abs(angle) < 90.0 - 1e-9:
+    if abs(angle) <= LARGEST_USUAL_ANGLE_DEG:
         return
     key = next(
         key for key in ("heading_deg", "from_bearing_deg", "to_bearing_deg") if getattr(model.current, key) is not None
     )
+    if abs(angle) < 90.0 - 1e-9:
+        along(("current", key), "current", angle, "the curtain", findings)
+        return
     findings.fault(
         ("current", key),
         f"the current flows {abs(angle):.4g} degrees from the normal of the curtain",
@@ -350,9 +354,12 @@ def _check_record(model: CurtainCase, findings: Findings, folder: Path) -> None:
 def _heading_check(normal_deg: float) -> Any:
     def judge(state: Any, heading: float, path: KeyPath, findings: Findings) -> None:
         angle = math.degrees(math.remainder(heading - math.radians(normal_deg), 2.0 * math.pi))
-        if abs(angle) <= 90.0 + 1e-9:
+        if abs(angle) <= LARGEST_USUAL_ANGLE_DEG:
             return
         key = "from_bearing_deg" if getattr(state, "from_bearing_deg", None) is not None else "heading_deg"
+        if abs(angle) <= 90.0 + 1e-9:
+            along((*path, key), "waves", angle, "the curtain", findings)
+            return
         findings.fault(
             (*path, key),
             f"the waves travel {abs(angle):.4g} degrees from the normal of the curtain",

@@ -17,7 +17,7 @@ def check_in_water(problem: CurtainProblem, findings: Findings) -> None:
         where = f" (water level {name})" if len(problem.environment.water_levels) > 1 else ""
         try:
             unit = assemble(problem, name, level)
-            _check_floats(unit, findings, where)
+            _check_floats(unit, findings, said, where)
             if unit.surface_speed > 0.0 and not findings.faults:
                 _check_at_rest(unit, findings, where)
             if not findings.faults:
@@ -52,17 +52,18 @@ def _check_span(problem: CurtainProblem, unit: LevelCurtain) -> None:
     span_of(unit, given)
 
 
-def _check_floats(unit: LevelCurtain, findings: Findings, where: str) -> None:
+def _check_floats(unit: LevelCurtain, findings: Findings, said: set[str], where: str) -> None:
     """Refuse floats that do not carry the curtain in still water."""
     net, buoyancy = unit.hanging.net_weight, unit.curtain.floats.buoyancy
     if net >= buoyancy:
-        findings.fault(
-            ("structure", "floats", "buoyancy"),
+        sinks = InputError(
             f"the floats lift {buoyancy:.4g} N/m under {net:.4g} N/m of skirt, toe and fittings: the curtain sinks in "
-            f"still water{where}",
+            "still water",
+            path="structure.floats.buoyancy",
             allowed=f"more than {net:.4g} N/m",
             remedy="give larger floats or a lighter toe",
         )
+        _once(findings, said, sinks, where)
 
 
 def _check_at_rest(unit: LevelCurtain, findings: Findings, where: str) -> None:

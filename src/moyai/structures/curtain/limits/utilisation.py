@@ -189,8 +189,11 @@ class Site:
         default_factory=dict, init=False, repr=False, compare=False
     )
 
-    def statics(self, curtain: HangingCurtain, speed: float) -> CurtainStatics:
-        """Return the curtain at rest at a surface speed [m/s]; solved once, its sections once for all spans."""
+    def statics(self, curtain: HangingCurtain, speed: float, *, by_curve: bool = True) -> CurtainStatics:
+        """Return the curtain at rest at a surface speed [m/s]; solved once, its sections once for all spans.
+
+        Without ``by_curve`` the sections are solved one by one, which is less work for a skirt in a single current.
+        """
         key = (curtain, speed)
         if key not in self.solved:
             current, headings = self.current(speed), (self.flow_heading, self.chord_normal)
@@ -200,7 +203,7 @@ class Site:
             else:
                 alike = (curtain.skirt, curtain.drag, curtain.law, curtain.toe, curtain.friction, speed)
                 if alike not in self.loaded:
-                    self.loaded[alike] = loaded_section(curtain, current, *headings, self.water)
+                    self.loaded[alike] = loaded_section(curtain, current, *headings, self.water, by_curve=by_curve)
                 self.solved[key] = solve_statics(
                     curtain, current, *headings, self.water, passing_fraction=passing, loaded=self.loaded[alike]
                 )

@@ -115,11 +115,8 @@ def attribute(group: Group, name: str) -> float:
 
 def texts(group: Group, name: str, *dims: str) -> NDArray[np.str_] | None:
     """Return a variable of words with its dimensions in the order of ``dims``, ``None`` where it is absent."""
-    node = group.node
-    if node is None or (name not in node.data_vars and name not in node.coords):
-        return None
-    found = node[name]
-    if set(found.dims) != set(dims):
+    found = None if group.node is None else group.node.variables.get(name)
+    if found is None or set(found.dims) != set(dims):
         return None
     return np.asarray(found.transpose(*dims).values).astype(str)
 

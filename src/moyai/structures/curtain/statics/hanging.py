@@ -14,7 +14,8 @@ from moyai.sea.current import CurrentProfile
 from moyai.sea.water import Water
 from moyai.structures.curtain.statics.drag import DragLaw, under_toe_flow
 from moyai.structures.curtain.statics.plan import PlanLoad, PlanShape, section_load, solve_plan
-from moyai.structures.curtain.statics.section import LoadLaw, SectionShape, Skirt, solve_section
+from moyai.structures.curtain.statics.section import LoadLaw, SectionShape, SectionStart, Skirt, solve_section
+from moyai.structures.curtain.statics.section_curve import section_family
 
 
 @dataclass(frozen=True)
@@ -236,20 +237,37 @@ def loaded_section(
     *,
     top_depth: float = 0.0,
     below_bed: bool = False,
+    by_curve: bool = True,
 ) -> tuple[SectionShape, PlanLoad]:
     """Return the section across the flow and the load of sections at every angle to it, whatever the span is.
 
-    Arguments and errors as :func:`solve_statics`.
+    Arguments and errors as :func:`solve_statics`, and ``by_curve`` as
+    :func:`moyai.structures.curtain.statics.plan.section_load`.
     """
     settings = _settings(curtain, top_depth, below_bed)
-    section = solve_section(curtain.skirt, current, flow_heading, water, curtain.drag, **settings)
+    near = _start(curtain, current, flow_heading, water, top_depth) if by_curve else None
+    section = solve_section(curtain.skirt, current, flow_heading, water, curtain.drag, near=near, **settings)
     if section.load <= 0.0:
         raise InputError(
             f"the current loads the curtain with {section.load:g} N/m along its heading",
             parameter="current",
             remedy="give a current, and the heading in which it flows",
         )
-    return section, section_load(curtain.skirt, current, flow_heading, chord_normal, water, curtain.drag, **settings)
+    load = section_load(
+        curtain.skirt, current, flow_heading, chord_normal, water, curtain.drag, by_curve=by_curve, **settings
+    )
+    return section, load
+
+
+def _start(
+    curtain: HangingCurtain, current: CurrentProfile, heading: float, water: Water, top_depth: float
+) -> SectionStart | None:
+    """Return where the search for a section begins by the curve of such sections, None where there is none."""
+    family = section_family(
+        curtain.skirt, current, water.depth, water.density, curtain.drag,
+        law=curtain.law, toe=curtain.toe, top_depth=top_depth, friction=curtain.friction,
+    )  # fmt: skip
+    return None if family is None else family.start(heading)
 
 
 def _settings(curtain: HangingCurtain, top_depth: float, below_bed: bool) -> dict[str, Any]:

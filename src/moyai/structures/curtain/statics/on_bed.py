@@ -17,9 +17,7 @@ from moyai.sea.current import CurrentProfile
 from moyai.sea.water import Water
 from moyai.structures.curtain.statics.hanging import CurtainStatics, HangingCurtain, solve_statics, supported
 from moyai.structures.curtain.statics.plan import PlanLoad, section_load, solve_plan
-from moyai.structures.curtain.statics.section import SectionShape, Skirt, solve_section
-
-_STEPS = 80
+from moyai.structures.curtain.statics.section import SectionShape, SectionStart, Skirt, solve_section
 
 
 def lies_on_bed(curtain: HangingCurtain, current: CurrentProfile, flow_heading: float, water: Water) -> bool:
@@ -52,9 +50,11 @@ def solve_on_bed(
     if not lies_on_bed(curtain, current, flow_heading, water):
         return _lifted(curtain, current, flow_heading, chord_normal, water, passing_fraction)
     hanging, section = _hanging_part(curtain, current, flow_heading, water)
+    # what hangs is another skirt in every current: its curve would serve this one alone
     load = section_load(
-        hanging, current, flow_heading, chord_normal, water, curtain.drag, law=curtain.law, toe="held", below_bed=True
-    )
+        hanging, current, flow_heading, chord_normal, water, curtain.drag,
+        law=curtain.law, toe="held", below_bed=True, by_curve=False,
+    )  # fmt: skip
     # the bed keeps its share wherever the curtain stands in the flow
     share = section.top_load / section.load
     carried = PlanLoad(load.across * share, load.flow_angle, load.angle, load.ratio)
@@ -80,25 +80,26 @@ def _hanging_part(
 ) -> tuple[Skirt, SectionShape]:
     """Return the part of the skirt that hangs between top and bed, its lower end held under the top."""
 
+    from scipy.optimize import brentq
+
+    near: SectionStart | None = None
+
     def reach(length: float) -> SectionShape:
+        nonlocal near
         part = replace(curtain.skirt, length=length)
-        return solve_section(
-            part, current, flow_heading, water, curtain.drag, law=curtain.law, toe="held", below_bed=True
+        found = solve_section(
+            part, current, flow_heading, water, curtain.drag, law=curtain.law, toe="held", below_bed=True, near=near
         )
+        near = found.start
+        return found
 
     # the held part bulges, so it takes more skirt than the water is deep, or less where it stretches
     low, high = 0.5 * water.depth, curtain.skirt.length
     whole = reach(high)
     if whole.toe_depth <= water.depth:
         return whole.skirt, whole
-    for _ in range(_STEPS):
-        middle = 0.5 * (low + high)
-        if reach(middle).toe_depth < water.depth:
-            low = middle
-        else:
-            high = middle
-        if high - low <= 1e-12 * water.depth:
-            break
+    if reach(low).toe_depth < water.depth:
+        low = float(brentq(lambda length: reach(length).toe_depth - water.depth, low, high, xtol=1e-12 * water.depth))
     found = reach(low)
     return found.skirt, found
 

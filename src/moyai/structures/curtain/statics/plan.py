@@ -1,7 +1,8 @@
 """Plan shape of a curtain between two supports, in a current at any angle, the load depending on the local angle.
 
 Where the load is normal to the curtain the tension is the same everywhere, and T d(phi)/ds = -p(phi) turns the shape
-into three integrals over the angle [eq:curtain-plan]. No marching, no mesh: two nested roots, each with a sure bracket.
+into three integrals over the angle [eq:curtain-plan]. No marching, no mesh: two unknowns by Newton's steps, which two
+nested roots in sure brackets stand in for.
 """
 
 from __future__ import annotations
@@ -9,7 +10,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -20,8 +21,10 @@ from moyai.sea.current import CurrentProfile
 from moyai.sea.water import Water
 from moyai.structures.curtain.statics.drag import DragLaw
 from moyai.structures.curtain.statics.section import LoadLaw, Skirt, solve_section
+from moyai.structures.curtain.statics.section_curve import current_shape, section_family
 
 _WIDEST = math.radians(85.0)
+_MOST_STEPS = 30
 # sixteen points in each of twelve pieces of (-1, 1): the curve of sections is smooth in pieces only
 _PIECES = 12
 _INNER, _SHARES = np.polynomial.legendre.leggauss(16)
@@ -65,17 +68,22 @@ class PlanLoad:
             )
 
     @cached_property
-    def _curve(self) -> object:
+    def _pieces(self) -> Array:
+        """Coefficients of the cubics between the points, the highest power first, shape (4, n-1)."""
         from scipy.interpolate import CubicSpline
 
-        return CubicSpline(self.angle, self.ratio)
+        return np.asarray(CubicSpline(self.angle, self.ratio).c)
 
-    def factor(self, v: Array) -> Array:
-        """Return c at v = arsinh(tan(angle))."""
+    def factor(self, slope: Array) -> Array:
+        """Return c at the tangent of an angle."""
         if self.ratio.size == 1:
-            return np.full(np.shape(v), self.ratio[0])
-        turn = np.clip(np.arctan(np.sinh(v)), self.angle[0], self.angle[-1])
-        return np.asarray(self._curve(turn))  # type: ignore[operator]
+            return np.full(np.shape(slope), self.ratio[0])
+        turn = np.clip(np.arctan(slope), self.angle[0], self.angle[-1])
+        row = np.clip(np.searchsorted(self.angle, turn, side="right") - 1, 0, self.angle.size - 2)
+        third, second, first, value = self._pieces[:, row]
+        past = turn - self.angle[row]
+        found: Array = ((third * past + second) * past + first) * past + value
+        return found
 
 
 def cosine_squared_load(line_load: float, flow_angle: float) -> PlanLoad:
@@ -97,6 +105,7 @@ def section_load(
     top_depth: float = 0.0,
     below_bed: bool = False,
     friction: float = 0.0,
+    by_curve: bool = True,
     count: int = 49,
 ) -> PlanLoad:
     """Return the load from sections of the skirt turned against the current: an oblique part flares less.
@@ -109,26 +118,33 @@ def section_load(
         Heading of the flow near the surface [rad], about which the local angle counts.
     chord_normal : float
         Heading of the downstream normal of the line between the supports [rad].
+    by_curve : bool
+        Take the sections from their curve (:mod:`moyai.structures.curtain.statics.section_curve`), which pays where
+        other currents follow; else each is solved.
     count : int
         Sections between -85 and 85 degrees, odd.
     """
     angle = np.linspace(-_WIDEST, _WIDEST, count)
+    settings: dict[str, Any] = {"law": law, "toe": toe, "top_depth": top_depth, "friction": friction}
+    room = water.depth - top_depth
 
     def loads(turns: Array) -> Array:
-        found: list[float] = []
+        found = np.full(turns.size, math.nan)
+        # a skirt that has no room is refused by the direct solution
+        if by_curve and top_depth >= 0.0 and (below_bed or skirt.length <= room):
+            family = section_family(skirt, current, water.depth, water.density, drag, **settings)
+            if family is not None:
+                found = family.loads(flow_heading - turns, math.inf if below_bed else room)
         near = None
-        for turn in turns:
-            near = solve_section(
-                skirt, current, flow_heading - turn, water, drag, law=law, toe=toe, top_depth=top_depth,
-                below_bed=below_bed, friction=friction, near=near,
-            )  # fmt: skip
-            found.append(near.load)
-        return np.array(found)
+        for place in np.flatnonzero(np.isnan(found)):
+            heading = flow_heading - turns[place]
+            section = solve_section(skirt, current, heading, water, drag, below_bed=below_bed, near=near, **settings)
+            near, found[place] = section.start, section.load
+        return found
 
-    heights = np.linspace(-min(water.depth, top_depth + 2.0 * skirt.length), -top_depth, 60)
-    if np.max(np.abs(current.component(heights, flow_heading + 0.5 * math.pi))) <= 1e-12 * np.max(
-        current.speed(heights), initial=1e-300
-    ):
+    shape = current_shape(current)
+    across = math.inf if shape is None else abs(float(shape.speeds(np.array([flow_heading + 0.5 * math.pi]))[0]))
+    if shape is not None and across <= 1e-12 * math.hypot(*shape.velocity):
         # a current of one direction loads both sides alike
         half = loads(angle[count // 2 :])
         load = np.concatenate([half[:0:-1], half])
@@ -189,20 +205,110 @@ class _Integrals:
         self.slope = math.tan(load.flow_angle)
         self.centre = math.asinh(self.slope)
 
-    def over(self, m: float, w: float) -> tuple[float, float, float]:
-        v = m + w * _POINTS
-        weight = w * _WEIGHTS / self.load.factor(v)
-        return float(weight.sum()), float(weight @ np.sinh(v)), float(weight @ np.cosh(v))
+    def over(self, m: float, w: float) -> Array:
+        slope = np.sinh(m + w * _POINTS)
+        weight = w * _WEIGHTS / self.load.factor(slope)
+        return np.array([weight.sum(), weight @ slope, weight @ np.sqrt(1.0 + slope * slope)])
+
+    def ends(self, m: float, w: float) -> tuple[Array, Array]:
+        """Return what is integrated, at both ends."""
+        slope = np.sinh(np.array([m - w, m + w]))
+        both = np.stack([np.ones(2), slope, np.sqrt(1.0 + slope * slope)]) / self.load.factor(slope)
+        return both[:, 0], both[:, 1]
 
     def middle(self, w: float) -> float:
         from scipy.optimize import brentq
 
         def lean(m: float) -> float:
             across, along, _ = self.over(m, w)
-            return along - self.slope * across
+            return float(along - self.slope * across)
 
         # the chord's direction lies between the directions of the ends
         return float(brentq(lean, self.centre - w, self.centre + w, xtol=1e-14, rtol=1e-14))
+
+
+@dataclass(frozen=True)
+class _Span:
+    """What the plan shape of a load must fit."""
+
+    #: Extent of the span across the flow, and unstretched length [m].
+    chord: float
+    length: float
+    axial_stiffness: float
+    integrals: _Integrals
+
+    def tension(self, across: float) -> float:
+        return self.chord * self.integrals.load.across / across
+
+    def excess(self, tension: float, arc: float) -> float:
+        """Return by how much a shape is longer than the stretched curtain [m]."""
+        return tension / self.integrals.load.across * arc - self.length * (1.0 + tension / self.axial_stiffness)
+
+    def start(self) -> tuple[float, float]:
+        """Return m and w of a load without c, which has closed integrals; NaN where they are out of reach."""
+        slope, load = self.integrals.slope, self.integrals.load.across
+        low, high = 1e-6, 20.0
+        for _ in range(40):
+            w = math.sqrt(low * high)
+            m = math.asinh(slope * w / math.sinh(w))
+            tension = 0.5 * self.chord * load / w
+            if self.excess(tension, 2.0 * math.cosh(m) * math.sinh(w)) > 0.0:
+                high = w
+            else:
+                low = w
+            if high < low * 1.001:
+                break
+        return m, w
+
+    def by_steps(self) -> tuple[float, float] | None:
+        """Return m and w by Newton's steps, None where they do not arrive."""
+        integrals, load, slope = self.integrals, self.integrals.load.across, self.integrals.slope
+        m, w = self.start()
+        last = math.inf
+        for _ in range(_MOST_STEPS):
+            across, along, arc = integrals.over(m, w)
+            first, second = integrals.ends(m, w)
+            tension = self.tension(across)
+            # derivatives of the integrals by m and by w
+            by_m, by_w = second - first, second + first
+            lean = along - slope * across
+            lean_m, lean_w = by_m[1] - slope * by_m[0], by_w[1] - slope * by_w[0]
+            excess = self.excess(tension, arc)
+            per_across = -tension / across * (arc / load - self.length / self.axial_stiffness)
+            excess_m = per_across * by_m[0] + tension / load * by_m[2]
+            excess_w = per_across * by_w[0] + tension / load * by_w[2]
+            whole = lean_m * excess_w - lean_w * excess_m
+            if not (math.isfinite(whole) and whole != 0.0):
+                return None
+            step_m = -(lean * excess_w - lean_w * excess) / whole
+            step_w = -(lean_m * excess - lean * excess_m) / whole
+            size = max(abs(step_m), abs(step_w)) / w
+            if size > 1.0:
+                step_m, step_w = step_m / size, step_w / size
+            m, w = m + step_m, max(w + step_w, 0.3 * w)
+            if size <= 1e-14 or (size <= 1e-12 and size >= 0.5 * last):
+                return m, w
+            last = size
+        return None
+
+    def by_brackets(self) -> tuple[float, float]:
+        """Return m and w by two nested roots, each with a sure bracket."""
+        from scipy.optimize import brentq
+
+        integrals = self.integrals
+
+        def excess(w: float) -> float:
+            across, _, arc = integrals.over(integrals.middle(w), w)
+            return self.excess(self.tension(across), arc)
+
+        high = 0.1
+        while excess(high) < 0.0:
+            high *= 1.6
+        low = min(high, 0.1)
+        while excess(low) > 0.0:
+            low *= 0.25
+        width = float(brentq(excess, low, high, xtol=1e-15, rtol=1e-14)) if high > low else low
+        return integrals.middle(width), width
 
 
 def solve_plan(
@@ -230,8 +336,6 @@ def solve_plan(
     -----
     For the load sigma cos^2 across the span this is :func:`moyai.structures.curtain.statics.closed_forms.solve_cable`.
     """
-    from scipy.optimize import brentq
-
     for name, value in (("span", span), ("length", length), ("axial_stiffness", axial_stiffness)):
         if not value > 0.0 or (math.isinf(value) and name != "axial_stiffness"):
             raise InputError(f"{name} is {value:g}", parameter=f"plan.{name}", allowed="greater than 0")
@@ -243,22 +347,9 @@ def solve_plan(
             remedy="give more length, or the stiffness of the cables",
         )
     integrals = _Integrals(load)
-    chord = span * math.cos(load.flow_angle)
-
-    def state(w: float) -> tuple[float, float, float]:
-        m = integrals.middle(w)
-        across, _, arc = integrals.over(m, w)
-        tension = chord * load.across / across
-        return m, tension, tension / load.across * arc - length * (1.0 + tension / axial_stiffness)
-
-    high = 0.1
-    while state(high)[2] < 0.0:
-        high *= 1.6
-    low = min(high, 0.1)
-    while state(low)[2] > 0.0:
-        low *= 0.25
-    width = float(brentq(lambda w: state(w)[2], low, high, xtol=1e-15, rtol=1e-14)) if high > low else low
-    middle, tension, _ = state(width)
+    within = _Span(span * math.cos(load.flow_angle), length, axial_stiffness, integrals)
+    middle, width = within.by_steps() or within.by_brackets()
+    tension = within.tension(float(integrals.over(middle, width)[0]))
     return _draw(span, length, axial_stiffness, load, middle, width, tension, intervals)
 
 
@@ -276,12 +367,13 @@ def _draw(
     edges = np.linspace(middle + width, middle - width, intervals + 1)
     half = 0.5 * (edges[:-1] - edges[1:])
     v = 0.5 * (edges[:-1] + edges[1:])[:, None] + half[:, None] * _PIECE_NODES
-    weight = tension / load.across * half[:, None] * _PIECE_WEIGHTS / load.factor(v)
+    slope = np.sinh(v)
+    weight = tension / load.across * half[:, None] * _PIECE_WEIGHTS / load.factor(slope)
 
     def along(values: Array) -> Array:
         return np.concatenate([[0.0], np.cumsum(np.sum(weight * values, axis=1))])
 
-    across, down, arc = along(np.ones_like(v)), along(np.sinh(v)), along(np.cosh(v))
+    across, down, arc = along(np.ones_like(v)), along(slope), along(np.sqrt(1.0 + slope * slope))
     c, s = math.cos(load.flow_angle), math.sin(load.flow_angle)
     angle = np.arctan(np.sinh(edges)) - load.flow_angle
     return PlanShape(span, length, axial_stiffness, down * s + across * c, down * c - across * s, arc, angle, tension)

@@ -11,152 +11,24 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal
+from functools import cached_property
+from typing import Any, Literal
 
 import numpy as np
 
 from moyai.core.arrays import Array
-from moyai.core.compiled import njit
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.options import checks_words
 from moyai.sea.current import CurrentProfile
 from moyai.sea.water import Water
 from moyai.structures.curtain.statics.drag import DragLaw, sample_pressure
+from moyai.structures.curtain.statics.section_kernels import hang, hang_held
 
 LoadLaw = Literal["normal_velocity", "uniform_normal", "free_streamline"]
 LAW_CODES: dict[LoadLaw, float] = {"normal_velocity": 0.0, "uniform_normal": 1.0, "free_streamline": 2.0}
 """Of the laws in the kernel."""
 
 _SAMPLES = 4001
-
-
-@njit(cache=True, error_model="numpy")
-def _pressure_at(z: float, low: float, step: float, pressure: Array) -> float:
-    place = (z - low) / step
-    if place <= 0.0:
-        return pressure[0]
-    i = int(place)
-    if i >= pressure.size - 1:
-        return pressure[pressure.size - 1]
-    part = place - i
-    return pressure[i] * (1.0 - part) + pressure[i + 1] * part
-
-
-@njit(cache=True, error_model="numpy")
-def _slopes(state: Array, out: Array, low: float, step: float, pressure: Array, data: Array) -> None:
-    """Derivatives of x, z, F_x, F_z along the unstretched skirt, upwards [eq:curtain-section]."""
-    scale, weight, flexibility, law, friction = data[0], data[1], data[2], data[3], data[4]
-    tension = math.sqrt(state[2] ** 2 + state[3] ** 2)
-    tx, tz = state[2] / tension, state[3] / tension
-    stretch = 1.0 + tension * flexibility
-    head = _pressure_at(state[1], low, step, pressure) * stretch
-    load = scale * head
-    if law == 0.0:
-        load *= tz * abs(tz)
-    elif law == 2.0:
-        load *= (4.0 + math.pi) * tz / (4.0 + math.pi * abs(tz))
-    drag = friction * head * tx * abs(tx)
-    out[0] = stretch * tx
-    out[1] = stretch * tz
-    out[2] = -load * tz - drag * tx
-    out[3] = weight + load * tx - drag * tz
-
-
-@njit(cache=True, error_model="numpy")
-def _climb(
-    toe_height: float,
-    hold: float,
-    toe_load: float,
-    nodes: Array,
-    low: float,
-    step: float,
-    pressure: Array,
-    data: Array,
-    path: Array,
-) -> None:
-    """Follow the skirt from the toe at x = 0 to its top by Runge and Kutta's fourth order; fills ``path`` (n+1, 4)."""
-    count = path.shape[0] - 1
-    k1, k2, k3, k4, trial = np.empty(4), np.empty(4), np.empty(4), np.empty(4), np.empty(4)
-    path[0, 0], path[0, 1], path[0, 2], path[0, 3] = 0.0, toe_height, hold, toe_load
-    for i in range(count):
-        h = nodes[i + 1] - nodes[i]
-        state = path[i]
-        _slopes(state, k1, low, step, pressure, data)
-        for j in range(4):
-            trial[j] = state[j] + 0.5 * h * k1[j]
-        _slopes(trial, k2, low, step, pressure, data)
-        for j in range(4):
-            trial[j] = state[j] + 0.5 * h * k2[j]
-        _slopes(trial, k3, low, step, pressure, data)
-        for j in range(4):
-            trial[j] = state[j] + h * k3[j]
-        _slopes(trial, k4, low, step, pressure, data)
-        for j in range(4):
-            path[i + 1, j] = state[j] + h / 6.0 * (k1[j] + 2.0 * k2[j] + 2.0 * k3[j] + k4[j])
-
-
-@njit(cache=True, error_model="numpy")
-def _hang(
-    top_height: float,
-    reach: float,
-    hold: float,
-    toe_load: float,
-    nodes: Array,
-    low: float,
-    step: float,
-    pressure: Array,
-    data: Array,
-    path: Array,
-    guess: float,
-) -> float:
-    """Find the height of the toe whose skirt ends at ``top_height``; returns the miss [m], NaN without a solution.
-
-    ``guess`` is the height in a load nearby, or NaN.
-    """
-    a, b = top_height - reach, top_height
-    length = nodes[nodes.size - 1]
-    if a < guess < b:
-        # secants from nearby take a third of the climbs; what they do not find is left to the bracket
-        c, last, old = guess, math.nan, math.nan
-        for _ in range(8):
-            _climb(c, hold, toe_load, nodes, low, step, pressure, data, path)
-            f = path[-1, 1] - top_height
-            if abs(f) <= 1e-13 * length:
-                return f
-            # the top moves with the toe where nothing else is known
-            move = -f if math.isnan(old) else -f * (c - last) / (f - old)
-            last, old = c, f
-            c += move
-            if not a < c < b:
-                break
-    _climb(a, hold, toe_load, nodes, low, step, pressure, data, path)
-    fa = path[-1, 1] - top_height
-    _climb(b, hold, toe_load, nodes, low, step, pressure, data, path)
-    fb = path[-1, 1] - top_height
-    if not (fa <= 0.0 <= fb):
-        return math.nan
-    side = 0
-    f = fb
-    for _ in range(200):
-        c = (fa * b - fb * a) / (fa - fb)
-        if not a < c < b:
-            c = 0.5 * (a + b)
-        _climb(c, hold, toe_load, nodes, low, step, pressure, data, path)
-        f = path[-1, 1] - top_height
-        if abs(f) <= 1e-13 * length or b - a <= 1e-15 * length:
-            break
-        # Illinois: an end that stays twice loses half of its weight
-        if f > 0.0:
-            b, fb = c, f
-            if side == 1:
-                fa *= 0.5
-            side = 1
-        else:
-            a, fa = c, f
-            if side == -1:
-                fb *= 0.5
-            side = -1
-    return f
 
 
 @dataclass(frozen=True)
@@ -249,24 +121,49 @@ class SectionShape:
         return self.top_load + self.toe_hold
 
     @property
+    def start(self) -> SectionStart:
+        """Where the search for a section in a current nearby begins."""
+        return SectionStart(float(self.z[-1]), self.hold_share)
+
+    @property
     def sheet_tension(self) -> float:
         """Largest tension of the sheet per span [N/m]."""
         return float(np.max(self.tension))
 
 
 @dataclass(frozen=True)
-class _Pressure:
-    """rho/2 u|u| on an even grid of heights, for the kernel."""
+class Pressure:
+    """rho/2 u|u| on an even grid of heights, for the kernels."""
 
+    #: ``low``, ``step``: Lowest height of the grid and its step [m].
     low: float
+    #: ``low``, ``step``: Lowest height of the grid and its step [m].
     step: float
+    #: [N/m2].
     values: Array
 
 
-def _sample(current: CurrentProfile, heading: float, low: float, high: float, density: float) -> _Pressure:
-    z = np.linspace(low, high, _SAMPLES)
+@dataclass(frozen=True)
+class SectionStart:
+    """Where the search for a section begins; the solution is the same to its tolerance."""
+
+    #: Height of the toe [m].
+    toe_height: float
+    #: Hold of the toe over that of a straight sheet [-], NaN where it is not known.
+    hold_share: float = math.nan
+    #: Of this current on this skirt, where it has been sampled before.
+    pressure: Pressure | None = None
+
+
+def sampled(
+    skirt: Skirt, current: CurrentProfile, heading: float, water_depth: float, density: float, top_depth: float
+) -> Pressure:
+    """Return the pressure of a current along a heading [rad] on all heights that a skirt can reach."""
+    most = skirt.toe_load + max(skirt.submerged_weight, 0.0) * skirt.length
+    low = max(-water_depth, -top_depth - skirt.length * (1.0 + 2.0 * most / skirt.stiffness))
+    z = np.linspace(low, -top_depth, _SAMPLES)
     values = sample_pressure(current, heading, z, density)
-    return _Pressure(low, float(z[1] - z[0]), np.ascontiguousarray(values))
+    return Pressure(low, float(z[1] - z[0]), np.ascontiguousarray(values))
 
 
 def _nodes(skirt: Skirt, largest: float) -> Array:
@@ -282,37 +179,52 @@ def _nodes(skirt: Skirt, largest: float) -> Array:
     return nodes
 
 
-class _Problem:
-    """One skirt in one current: solutions for any drag coefficient and hold."""
+class HangingSkirt:
+    """One skirt in one current: solutions for any drag coefficient and hold.
+
+    Parameters
+    ----------
+    skirt : Skirt
+    pressure : Pressure
+    law : LoadLaw
+    top_depth : float
+        [m].
+    friction : float
+        [-].
+    start : SectionStart, optional
+    """
 
     def __init__(
         self,
         skirt: Skirt,
-        current: CurrentProfile,
-        heading: float,
-        water: Water,
+        pressure: Pressure,
         law: LoadLaw,
         top_depth: float,
         friction: float,
-        share: float = math.nan,
+        start: SectionStart | None = None,
     ) -> None:
-        self.skirt, self.top, self.friction = skirt, -top_depth, friction
+        self.skirt, self.top, self.pressure, self.friction = skirt, -top_depth, pressure, friction
         #: Hold of the toe over that of a straight sheet, as guessed and then as found.
-        self.share = share
+        self.share = start.hold_share if start is not None else math.nan
         self.law = LAW_CODES[law]
-        most = skirt.toe_load + max(skirt.submerged_weight, 0.0) * skirt.length
-        low = max(-water.depth, self.top - skirt.length * (1.0 + 2.0 * most / skirt.stiffness))
-        self.pressure = _sample(current, heading, low, self.top, water.density)
         self.largest = float(np.max(np.abs(self.pressure.values)))
         #: Height of the toe found last, NaN before; rise of the lean with the hold, at first of a toe load alone.
-        self._toe, self._slope = math.nan, skirt.length / skirt.toe_load
+        self.toe, self._slope = start.toe_height if start is not None else math.nan, skirt.length / skirt.toe_load
+        self._turned = np.full((2, 2), math.nan)
 
     def nodes(self, drag: float) -> Array:
         """Return the steps of a solution, from the toe."""
         return _nodes(self.skirt, drag * self.largest)
 
-    def solve(self, drag: float, hold: float) -> tuple[Array, float]:
-        """Return the path (n+1, 4) from the toe up and the miss of the top [m]."""
+    @cached_property
+    def straight(self) -> float:
+        """Hold that a straight sheet needs by moments about its top, per drag coefficient [N/m]."""
+        z = np.linspace(self.top - self.skirt.length, self.top, 200)
+        values = np.interp(z, self.pressure.low + self.pressure.step * np.arange(_SAMPLES), self.pressure.values)
+        return float(np.mean(values * (self.top - z)))
+
+    def _arguments(self, drag: float, hold: float) -> tuple[float, tuple[Any, ...], Array]:
+        """Return how far the toe can reach, what the kernels take, and the path that they fill."""
         skirt, pressure = self.skirt, self.pressure
         data = np.array([drag, skirt.submerged_weight, 1.0 / skirt.stiffness, self.law, self.friction])
         nodes = self.nodes(drag)
@@ -322,35 +234,29 @@ class _Problem:
             abs(hold) + drag * self.largest * skirt.length * 2.0,
         )
         reach = skirt.length * (1.0 + 1.5 * most / skirt.stiffness) * (1.0 + 1e-9)
-        miss = _hang(
-            self.top,
-            reach,
-            hold,
-            skirt.toe_load,
-            nodes,
-            pressure.low,
-            pressure.step,
-            pressure.values,
-            data,
-            path,
-            self._toe,
-        )
-        self._toe = float(path[0, 1]) if math.isfinite(miss) else math.nan
+        return reach, (skirt.toe_load, nodes, pressure.low, pressure.step, pressure.values, data, path), path
+
+    def free(self, drag: float, hold: float = 0.0) -> tuple[Array, float]:
+        """Return the path (n+1, 4) from the toe up and the miss of the top [m]."""
+        reach, arguments, path = self._arguments(drag, hold)
+        miss = hang(self.top, reach, hold, *arguments, self.toe)
+        self.toe = float(path[0, 1]) if math.isfinite(miss) else math.nan
         return path, miss
 
     def held(self, drag: float) -> tuple[Array, float, float]:
         """Return path, miss and hold of a skirt whose toe hangs under its top [eq:curtain-section-held]."""
         limit = 2.0 * drag * self.largest * self.skirt.length
         if limit == 0.0:
-            return *self.solve(drag, 0.0), 0.0
-        # a straight sheet needs this much by moments about its top; too far from it the sheet may have no shape at all
-        z = np.linspace(self.top - self.skirt.length, self.top, 200)
-        values = np.interp(z, self.pressure.low + self.pressure.step * np.arange(_SAMPLES), self.pressure.values)
-        straight = drag * float(np.mean(values * (self.top - z)))
+            return *self.free(drag, 0.0), 0.0
+        # too far from the hold of a straight sheet the sheet may have no shape at all
+        straight = drag * self.straight
+        quick = self._held_by_steps(drag, straight)
+        if quick is not None:
+            return quick
         found: list[tuple[Array, float]] = []
 
         def lean(hold: float) -> float:
-            found[:] = [self.solve(drag, hold)]
+            found[:] = [self.free(drag, hold)]
             path, miss = found[0]
             # the top lies at path[-1, 0] from the toe: upstream of it (negative) while the hold is too small
             return float(path[-1, 0]) if math.isfinite(miss) else math.copysign(math.inf, hold - straight)
@@ -364,6 +270,33 @@ class _Problem:
             self._slope = slope
             self.share = hold / straight if straight != 0.0 else math.nan
         return path, miss, hold
+
+    def _held_by_steps(self, drag: float, straight: float) -> tuple[Array, float, float] | None:
+        """Return what :meth:`held` does by Newton's steps, None where they do not arrive."""
+        skirt = self.skirt
+        share = self.share if math.isfinite(self.share) else 1.0
+        reach, arguments, path = self._arguments(drag, straight * share)
+        toe = self.toe if math.isfinite(self.toe) else self.top - skirt.length
+        start = np.array([max(toe, self.top - reach * (1.0 - 1e-12)), straight * share / skirt.toe_load])
+        miss = hang_held(start, self._turned, self.top, reach, *arguments)
+        if math.isnan(miss):
+            self._turned = np.full((2, 2), math.nan)
+            return None
+        hold = float(start[1]) * skirt.toe_load
+        self.toe, self.share = float(start[0]), hold / straight if straight != 0.0 else math.nan
+        return path, miss, hold
+
+
+def overturned(path: Array, miss: float) -> bool:
+    """Return whether a path has no end, or turns over."""
+    return math.isnan(miss) or bool(np.max(np.abs(_angle(path))) >= math.pi)
+
+
+def _angle(path: Array) -> Array:
+    """Return the angle of a path from the vertical [rad], from the toe up."""
+    if np.min(path[:, 3]) > 0.0:
+        return np.arctan(-path[:, 2] / path[:, 3])
+    return np.unwrap(np.arctan2(-path[:, 2], path[:, 3]))
 
 
 def _crossing(
@@ -424,7 +357,7 @@ def solve_section(
     top_depth: float = 0.0,
     below_bed: bool = False,
     friction: float = 0.0,
-    near: SectionShape | None = None,
+    near: SectionStart | None = None,
 ) -> SectionShape:
     """Return the section of a hanging skirt at rest in a current.
 
@@ -453,8 +386,8 @@ def solve_section(
         (:mod:`moyai.structures.curtain.statics.on_bed`).
     friction : float
         Coefficient of the load along the sheet from the velocity along it, both faces together [-]; 0 leaves it out.
-    near : SectionShape, optional
-        The same skirt in a current nearby, from which the search starts; the solution is the same to its tolerance.
+    near : SectionStart, optional
+        From a current nearby, where the search starts; the solution is the same to its tolerance.
 
     Raises
     ------
@@ -475,19 +408,18 @@ def solve_section(
             allowed=f"at most {room:g} m",
             remedy="shorten the skirt, or let it lie on the bed",
         )
-    share = near.hold_share if near is not None else math.nan
-    problem = _Problem(skirt, current, heading, water, law, top_depth, friction, share)
+    pressure = near.pressure if near is not None else None
+    if pressure is None:
+        pressure = sampled(skirt, current, heading, water.depth, water.density, top_depth)
+    problem = HangingSkirt(skirt, pressure, law, top_depth, friction, near)
 
     def solve(coefficient: float) -> tuple[Array, float, float]:
         if toe == "held":
             return problem.held(coefficient)
-        path, miss = problem.solve(coefficient, 0.0)
-        return path, miss, 0.0
+        return *problem.free(coefficient), 0.0
 
     finite = math.isfinite(water.depth)
     low, high = 0.0, skirt.length / water.depth if finite else 0.0
-    coefficient = drag.coefficient(high)
-    path, miss, hold = solve(coefficient)
     if finite and len(drag.blockage) > 1:
         # a deeper curtain is loaded more and reaches less deep: one crossing
         found: list[tuple[float, Array, float, float]] = []
@@ -498,12 +430,18 @@ def solve_section(
             found[:] = [(coefficient, path, miss, hold)]
             return blockage - ((path[-1, 1] - path[0, 1]) / water.depth if math.isfinite(miss) else 0.0)
 
-        reached = (path[-1, 1] - path[0, 1]) / water.depth if math.isfinite(miss) else 0.5 * high
+        if near is not None and math.isfinite(near.toe_height):
+            reached = (-top_depth - near.toe_height) / water.depth
+        else:
+            reached = high - surplus(high)
+            reached = reached if math.isfinite(found[0][2]) else 0.5 * high
         _crossing(surplus, low, high, min(max(reached, low), high), 1.0, 1e-13, 1e-13)
         coefficient, path, miss, hold = found[0]
+    else:
+        coefficient = drag.coefficient(high)
+        path, miss, hold = solve(coefficient)
     down = path[::-1]
-    angle = np.unwrap(np.arctan2(-down[::-1, 2], down[::-1, 3]))[::-1]
-    if math.isnan(miss) or np.max(np.abs(angle)) >= math.pi:
+    if overturned(path, miss):
         ratio = coefficient * problem.largest * skirt.length / skirt.toe_load
         raise InputError(
             f"the current overturns the skirt (load ratio qL/W = {ratio:.3g})",
@@ -529,7 +467,7 @@ def solve_section(
         x=down[:, 0] - down[0, 0],
         z=down[:, 1].copy(),
         tension=np.hypot(down[:, 2], down[:, 3]),
-        angle=angle,
+        angle=_angle(path)[::-1],
         top_load=float(-down[0, 2]),
         toe_hold=float(hold),
         top_pull=float(down[0, 3]),

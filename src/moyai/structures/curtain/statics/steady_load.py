@@ -283,11 +283,9 @@ def steady_load(
     -----
     Everything that raises the load acts together at the upper end: an envelope, no probability.
     """
-    given = SteadyState("as given", solve(curtain))
-    middle, left_out = given.quantity("line_load"), []
-    free = curtain.toe == "free" and given.statics.toe_gap != 0.0
-    skirt = curtain.skirt
-    bound = skirt.toe_load + max(skirt.submerged_weight, 0.0) * skirt.length if free else math.inf
+    alone = given_alone(curtain, solve(curtain))
+    given, bound, left_out = alone.governing, alone.bound, []
+    middle, free = given.quantity("line_load"), math.isfinite(bound)
     causes: list[SteadyState] = []
     lower: dict[str, tuple[float, _Change]] = {}
     raised: dict[str, tuple[float, _Change]] = {}
@@ -319,6 +317,14 @@ def steady_load(
         highest = SteadyState("all that raises the load, added", given.statics, afloat + unknown_law, scale)
         left_out.append("all that raises the load has no common equilibrium: the increases are added")
     return SteadyLoad(given, tuple(causes), lowest, highest, bound, tuple(left_out))
+
+
+def given_alone(curtain: HangingCurtain, statics: CurtainStatics) -> SteadyLoad:
+    """Return a steady load without band: what is at rest as the case gives it."""
+    given, skirt = SteadyState("as given", statics), curtain.skirt
+    free = curtain.toe == "free" and statics.toe_gap != 0.0
+    bound = skirt.toe_load + max(skirt.submerged_weight, 0.0) * skirt.length if free else math.inf
+    return SteadyLoad(given, (), given, given, bound, ("drafted without band",))
 
 
 def _together(

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from moyai.case.check_sea import check_level_names, check_surroundings, wave_path
+from moyai.case.check_sea import LARGEST_USUAL_ANGLE_DEG, along, check_level_names, check_surroundings, wave_path
 from moyai.case.findings import Findings
+from moyai.case.headings import heading_of
 from moyai.case.schema_environment import PeriodRange, SpectrumFile
 from moyai.case.yaml_reader import KeyPath
 from moyai.core.errors import ConvergenceError, InputError
@@ -24,6 +25,10 @@ if TYPE_CHECKING:
 _WATER_VISCOSITY = (2e-7, 3e-6)
 #: Roughness over width above which it is no roughness any more
 _LARGEST_ROUGHNESS = 0.1
+#: Slope from which a member through the surface is a pile or a brace, and up to which it lies flat [deg]
+_STEEP_DEG, _FLAT_DEG = 30.0, 20.0
+#: Share of such a member in the air that a lost sign explains better than its design
+_MUCH_DRY = 0.2
 
 
 def check(model: schema.MemberCase, findings: Findings, folder: Path) -> None:
@@ -42,6 +47,7 @@ def check(model: schema.MemberCase, findings: Findings, folder: Path) -> None:
         return
     _check_place(problem, findings)
     _check_support(model, problem, findings)
+    _check_lie(model, problem, findings)
     _check_section(problem, findings)
     if findings.sound("structure"):
         _check_waves(model, problem, findings)
@@ -108,6 +114,43 @@ def _check_support(model: schema.MemberCase, problem: MemberProblem, findings: F
             "both ends",
             remedy=f"give support: {lower[0]} for a pile fixed in the bed, support: both_ends where its head is held",
         )
+
+
+def _check_lie(model: schema.MemberCase, problem: MemberProblem, findings: Findings) -> None:
+    """Warn of a flat member with one end in the air, and of waves or a current that run along a flat member."""
+    if not findings.sound("structure"):
+        return
+    member = problem.member
+    axis = np.asarray(member.end) - np.asarray(member.start)
+    flat = math.hypot(axis[0], axis[1])
+    slope = math.degrees(math.atan2(abs(axis[2]), flat))
+    levels = [level for _, level in problem.environment.water_levels]
+    low, high = sorted((float(member.start[2]), float(member.end[2])))
+    dry = (high - max(levels)) / (high - low) if high > low else 0.0
+    if slope < _STEEP_DEG and low < min(levels) and dry > _MUCH_DRY:
+        key = "start" if member.start[2] > member.end[2] else "end"
+        findings.warn(
+            ("structure", key, "z"),
+            f"one end stands {high - max(levels):.4g} m above still water and the other {min(levels) - low:.4g} m "
+            f"below it, in a member that rises by {slope:.3g} degrees: {100.0 * dry:.2g} % of it is dry",
+            allowed=f"piles and braces rise by {_STEEP_DEG:g} degrees and more",
+            remedy="check the sign of z; heights below datum are negative",
+        )
+    if slope > _FLAT_DEG or flat == 0.0:
+        return
+    ways: list[tuple[KeyPath, str, Any]] = [
+        (wave_path(findings, index), f"waves of '{sea.name}'", state)
+        for index, (state, sea) in enumerate(zip(model.waves, problem.seas))
+    ]
+    ways += [] if model.current is None else [(("current",), "current", model.current)]
+    for path, what, entry in ways:
+        keys = ("heading_deg", "from_bearing_deg", "to_bearing_deg")
+        key = next(key for key in keys if getattr(entry, key, None) is not None)
+        heading = heading_of(entry, model.site.x_axis_bearing_deg, ".".join(map(str, path)))
+        across = abs(axis[0] * math.sin(heading) - axis[1] * math.cos(heading)) / flat
+        angle = math.degrees(math.acos(min(across, 1.0)))
+        if angle > LARGEST_USUAL_ANGLE_DEG:
+            along((*path, key), what, angle, "the member", findings)
 
 
 def _check_section(problem: MemberProblem, findings: Findings) -> None:

@@ -13,7 +13,14 @@ from moyai.case.faults import did_you_mean
 from moyai.case.findings import Findings
 from moyai.core.errors import InputError
 from moyai.structures.network.case import schema_parts as parts
-from moyai.structures.network.case.check_parts import check_bodies, check_corners, check_floats, check_sheets
+from moyai.structures.network.case.check_parts import (
+    check_bars,
+    check_bodies,
+    check_corners,
+    check_floats,
+    check_sheets,
+    check_starts,
+)
 from moyai.structures.network.case.schema import NetworkCase
 
 if TYPE_CHECKING:
@@ -36,6 +43,8 @@ def check(model: NetworkCase, findings: Findings, folder: Path) -> None:
     _check_nets(model, findings)
     check_bodies(model, findings, folder)
     check_floats(model, findings)
+    check_starts(model, findings)
+    check_bars(model, findings)
     check_corners(model, findings)
     check_sheets(model, findings)
     _check_files(model, findings, folder)
@@ -63,6 +72,8 @@ def check(model: NetworkCase, findings: Findings, folder: Path) -> None:
                     allowed="automatic, linear", remedy="remove 'theory', or give the body added_mass in their place",
                 )  # fmt: skip
     check_waves(model, problem.environment, findings, lambda *_: None)
+    if not findings.sound("waves"):
+        return
     _check_runs(problem, findings)
     _check_places(model, problem, findings)
 
@@ -254,6 +265,13 @@ def _check_runs(problem: NetworkProblem, findings: Findings) -> None:
                     findings.fault(
                         ("settings", "duration"), f"the run '{plan.name}' of {plan.duration:g} s never ends",
                         allowed=f"at most {_LONGEST_RUN:g} s", remedy="run shorter pieces",
+                    )  # fmt: skip
+                    return
+                if (problem.settings.skip or 0.0) >= plan.duration:
+                    findings.fault(
+                        ("settings", "skip"),
+                        f"{problem.settings.skip:g} s leave nothing of the run '{plan.name}' of {plan.duration:g} s",
+                        allowed=f"less than {plan.duration:g} s", remedy="shorten 'skip', or run longer",
                     )  # fmt: skip
                     return
                 if plan.output_step > plan.duration:

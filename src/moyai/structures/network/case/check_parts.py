@@ -13,9 +13,12 @@ from moyai.case.findings import Findings, duplicates
 from moyai.structures.network.case import schema_bodies as bodies
 from moyai.structures.network.case import schema_parts as parts
 from moyai.structures.network.case.schema import NetworkCase
+from moyai.structures.network.case.sizes import places_of
 
 #: Share of its mass by which a body may displace more or less at the draught of its coefficients.
 _FAR_FROM_AFLOAT = 0.1
+#: Share of the largest distance of two points over which a line is no link any more.
+_LONG_BAR = 0.3
 
 
 def _volume(body: bodies.BoxBody | bodies.CylinderBody) -> float:
@@ -104,6 +107,44 @@ def check_floats(model: NetworkCase, findings: Findings) -> None:
                 ("structure", "points", name, "mass"),
                 f"the {point.kind} of {point.mass:.4g} kg sinks: wholly under water it displaces {most:.4g} kg",
                 remedy="check mass and diameter; a clump weight is a point of kind 'free'",
+            )  # fmt: skip
+
+
+def check_starts(model: NetworkCase, findings: Findings) -> None:
+    """Refuse floats that start in the air, higher over the water than they are themselves, without a line upwards."""
+    places = {name: place for name, (place, _) in places_of(model.structure, model.site).items()}
+    highest = max(model.site.water_levels.values(), default=0.0)
+    ends = [(line.start, line.end) for line in model.structure.lines.values()]
+    for name, point in model.structure.points.items():
+        if not isinstance(point, parts.SphereFloat | parts.CylinderFloat) or "z" in point.held:
+            continue
+        tall = point.height if isinstance(point, parts.CylinderFloat) else point.diameter
+        bottom = places[name][2] - 0.5 * tall
+        others = [b if a == name else a for a, b in ends if name in (a, b)]
+        # knots of nets and points of turned bodies are not looked for: they may well hold it
+        hung = any(other not in places or places[other][2] > places[name][2] for other in others)
+        if bottom > highest + tall and not hung:
+            findings.fault(
+                ("structure", "points", name, "position"),
+                f"the {point.kind} '{name}' of {tall:g} m starts {bottom - highest:.4g} m over the highest water and "
+                "falls: no line holds it from above",
+                allowed=f"z of at most {highest + 1.5 * tall:.4g} m",
+                remedy="heights under datum are negative; a float starts about the water level",
+            )  # fmt: skip
+
+
+def check_bars(model: NetworkCase, findings: Findings) -> None:
+    """Warn of long lines of one straight bar: without sag, and with weight and drag at the ends alone."""
+    places = [place for place, _ in places_of(model.structure, model.site).values()]
+    extent = max((math.dist(a, b) for number, a in enumerate(places) for b in places[:number]), default=0.0)
+    for name, line in model.structure.lines.items():
+        if line.segments == 1 and line.length is not None and line.length > _LONG_BAR * extent:
+            findings.warn(
+                ("structure", "lines", name, "segments"),
+                f"the line '{name}' of {line.length:g} m is one straight bar: it cannot sag, and its weight and drag "
+                "act at its ends",
+                allowed=f"one bar up to {_LONG_BAR * extent:.3g} m, {_LONG_BAR:g} of the network; usually 10 or more",
+                remedy="give more segments",
             )  # fmt: skip
 
 

@@ -26,7 +26,7 @@ def add_sizes(model: Any, sizes: Sizes, periods: Periods) -> None:
 
 def _places_and_parts(model: Any, sizes: Sizes) -> None:
     unit, site = model.structure, model.site
-    places = _places(unit, site)
+    places = places_of(unit, site)
     chords: list[float] = []
     for name, line in unit.lines.items():
         base: KeyPath = ("structure", "lines", name)
@@ -78,7 +78,7 @@ def _duration(model: Any, sizes: Sizes, periods: Periods) -> None:
         sizes[("@duration",)] = 20.0 * period, (key,)
 
 
-def _places(unit: Any, site: Any) -> dict[str, tuple[Place, tuple[KeyPath, ...]]]:
+def places_of(unit: Any, site: Any) -> dict[str, tuple[Place, tuple[KeyPath, ...]]]:
     """Return every point, knots at corners among them, with the keys of its place."""
     depth = site.water_depth if math.isfinite(site.water_depth) else 0.0
     places: dict[str, tuple[Place, tuple[KeyPath, ...]]] = {}

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from moyai.case.check_catalogue import SAID_OTHERWISE, line_place
 from moyai.case.check_sea import check_level_names, check_surroundings, check_waves
 from moyai.case.findings import Findings, duplicates
+from moyai.case.schema_environment import sea_names
 from moyai.case.yaml_reader import KeyPath
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.sea.states import RegularSea
@@ -154,6 +155,59 @@ def _check_map(model: schema.UnitsCase, findings: Findings) -> None:
     line = model.map.line
     if line is not None and line.start == line.end:
         findings.fault(("map", "line"), "both ends of the line are the same point", remedy="give two points")
+    if findings.sound("structure", "map", "waves", "site"):
+        _check_named_points(model, findings)
+        _check_line_behind(model, findings)
+
+
+def _check_named_points(model: schema.UnitsCase, findings: Findings) -> None:
+    """Refuse named points inside of a unit, where there is no water."""
+    assert model.map is not None
+    half = 0.5 * model.structure.units.length
+    try:
+        hull = model.structure.section.hull()
+    except InputError:
+        return  # told by the checks of the section
+    left, right = hull.bounds[0], hull.bounds[1]
+    for index, point in enumerate(model.map.points):
+        for number, place in enumerate(_places(model)):
+            dx, dy = point.x - place.x, point.y - place.y
+            cos, sin = math.cos(place.heading), math.sin(place.heading)
+            across, lengthwise = dx * cos + dy * sin, dy * cos - dx * sin
+            if left < across < right and abs(lengthwise) < half:
+                findings.fault(
+                    ("map", "points", index),
+                    f"the point '{point.name}' at x = {point.x:g} m, y = {point.y:g} m lies inside of unit "
+                    f"{number + 1}, where there is no water",
+                    allowed="points outside of the units", remedy="move it",
+                )  # fmt: skip
+
+
+def _check_line_behind(model: schema.UnitsCase, findings: Findings) -> None:
+    """Warn of a line of transmission that a sea meets before the row."""
+    from moyai.case.headings import heading_of
+
+    assert model.map is not None
+    line, places = model.map.line, _places(model)
+    if line is None:
+        return
+    names = sea_names(model.waves)
+    for index, state in enumerate(model.waves):
+        try:
+            heading = heading_of(state, model.site.x_axis_bearing_deg, f"waves[{index}]")
+        except InputError:
+            continue
+        cos, sin = math.cos(heading), math.sin(heading)
+        row = min(place.x * cos + place.y * sin for place in places)
+        before = [row - x * cos - y * sin for x, y in (line.start, line.end)]
+        if min(before) >= 0.0:
+            findings.warn(
+                ("map", "line"),
+                f"the line lies on the seaward side: '{names[index]}' meets it {min(before):.4g} to "
+                f"{max(before):.4g} m before the first unit; its transmission would hold reflected waves",
+                allowed="a line behind the row, as the waves travel", remedy="check the sign of its x",
+            )  # fmt: skip
+            return
 
 
 def _hull(model: schema.UnitsCase, findings: Findings) -> Hull | None:

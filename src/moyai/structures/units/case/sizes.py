@@ -19,9 +19,10 @@ def add_sizes(model: Any, sizes: Sizes, periods: Periods) -> None:
     except ValueError:
         return
     beam, height = hull.beam, hull.height
-    sizes[("structure", "@beam")] = beam, (section,)
-    sizes[("structure", "@height")] = height, (section,)
-    sizes[("structure", "@diagonal")] = math.hypot(beam, height), (section,)
+    sides = tuple((*section, name) if hasattr(unit.section, name) else section for name in ("beam", "height"))
+    sizes[("structure", "@beam")] = beam, sides[:1]
+    sizes[("structure", "@height")] = height, sides[1:]
+    sizes[("structure", "@diagonal")] = math.hypot(beam, height), sides
     sizes[("structure", "@unit_length")] = unit.units.length, (length,)
     count = unit.units.count or max(len(unit.units.places), 1)
     sizes[("structure", "@row_length")] = count * unit.units.length, (length,)

@@ -1,0 +1,71 @@
+"""The language in force: set for a command or a page, and what a text says in it."""
+
+from __future__ import annotations
+
+import locale
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+
+from moyai.core.errors import InputError
+from moyai.language.catalogue import LANGUAGES
+
+_language: ContextVar[str] = ContextVar("language", default="en")
+
+
+def require_language(name: str) -> str:
+    """Return a name that is one of :data:`~moyai.language.catalogue.LANGUAGES`.
+
+    Raises
+    ------
+    InputError
+    """
+    if name not in LANGUAGES:
+        raise InputError(f"'{name}' is no language of reports", path="language", allowed=" or ".join(LANGUAGES))
+    return name
+
+
+@contextmanager
+def spoken_in(language: str) -> Iterator[str]:
+    """Let :func:`said` speak one of the languages inside; see :func:`require_language`."""
+    mark = _language.set(require_language(language))
+    try:
+        yield language
+    finally:
+        _language.reset(mark)
+
+
+def speak(language: str) -> None:
+    """Let :func:`said` speak a language until the :func:`spoken_in` around it ends."""
+    _language.set(require_language(language))
+
+
+def spoken_language() -> str:
+    """Return the language in force."""
+    return _language.get()
+
+
+def said(text: str) -> str:
+    """Return an English text in the language in force; what no catalogue knows stays English."""
+    language = _language.get()
+    if language == "en" or not text:
+        return text
+    from moyai.language.translator import translator
+
+    return translator(language).text(text)
+
+
+def language_of_the_locale() -> str:
+    """Return the language of the user: that of ``MOYAI_LANGUAGE``, else of the locale, English where neither is known.
+
+    ``LC_ALL``, ``LC_MESSAGES`` and ``LANG`` are read in this order, on Windows the locale of the user.
+    """
+    own = os.environ.get("MOYAI_LANGUAGE", "")
+    if own:
+        return require_language(own)
+    name = next((os.environ[key] for key in ("LC_ALL", "LC_MESSAGES", "LANG") if os.environ.get(key)), "")
+    if not name and sys.platform == "win32":
+        name = locale.getlocale()[0] or ""
+    return "ja" if name.lower().startswith(("ja", "japanese")) else "en"

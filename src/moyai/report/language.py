@@ -1,0 +1,131 @@
+"""A document in the language of its reader: its texts translated, its data, keys and the reader's own words kept."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import fields, is_dataclass, replace
+from functools import wraps
+from html import escape, unescape
+from typing import Any, TypeVar
+
+from moyai.language import said, spoken_in, spoken_language
+from moyai.report.document import (
+    Abscissa,
+    Animation,
+    Badge,
+    Choice,
+    Column,
+    Distance,
+    Document,
+    Drawing,
+    Figure,
+    KeyFigure,
+    Listing,
+    Mark,
+    Option,
+    Panel,
+    Paragraph,
+    Section,
+    Series,
+    Table,
+    Words,
+)
+from moyai.report.systems import displayed_in
+
+_T = TypeVar("_T")
+_R = TypeVar("_R")
+_TEXTS: dict[type, tuple[str, ...]] = {
+    Document: ("subtitle", "message"),
+    Section: ("title",),
+    Badge: ("label", "word", "message"),
+    Figure: ("title", "caption", "hint"),
+    Abscissa: ("label",),
+    Panel: ("label",),
+    Series: ("label", "belongs_to"),
+    Mark: ("label",),
+    Table: ("title", "note"),
+    Column: ("label",),
+    KeyFigure: ("label", "text", "detail"),
+    Paragraph: ("text",),
+    Listing: ("title",),
+    Drawing: ("title", "caption"),
+    Words: ("text",),
+    Distance: ("text",),
+    Animation: ("title", "caption"),
+    Choice: ("label",),
+    Option: ("label",),
+}
+"""Texts of each record that a person reads. The title of a report is the user's own; notices are read in English first,
+for their places, and translated by :func:`moyai.report.html.notice_items`."""
+_OF_LINKS = {"open": "open the report"}
+"""What a word means in a cell that leads somewhere; elsewhere a statement is open."""
+_SCENE_TEXTS = ("name", "names", "label", "title", "words")
+_SVG_TEXT = re.compile(r"(<(?:text|title|tspan)\b[^>]*>)([^<]+)(?=<)")
+
+
+def for_its_reader(render: Callable[..., _R]) -> Callable[..., _R]:
+    """Return a function of a document that shows it in the units and in the language that the document names."""
+
+    @wraps(render)
+    def rendered(document: Document, *arguments: Any, **options: Any) -> _R:
+        with displayed_in(document.units), spoken_in(document.language):
+            return render(in_the_language(document), *arguments, **options)
+
+    return rendered
+
+
+def in_the_language(item: _T) -> _T:
+    """Return a document or a part of it with its texts in the language in force.
+
+    Parameters
+    ----------
+    item : dataclass
+        :class:`~moyai.report.document.Document` or what it holds.
+    """
+    if spoken_language() == "en":
+        return item
+    found: _T = _translated(item)
+    return found
+
+
+def _translated(item: Any) -> Any:
+    if isinstance(item, tuple):
+        return tuple(map(_translated, item))
+    if not is_dataclass(item) or isinstance(item, type):
+        return item
+    kind = type(item)
+    changes: dict[str, Any] = {name: said(getattr(item, name)) for name in _TEXTS.get(kind, ())}
+    for entry in fields(item):
+        value = getattr(item, entry.name)
+        if entry.name not in changes and isinstance(value, tuple) and value and is_dataclass(value[0]):
+            changes[entry.name] = _translated(value)
+    if isinstance(item, Column):
+        meant = _OF_LINKS if item.links else {}
+        changes["values"] = [
+            said(meant.get(value, value)) if isinstance(value, str) else value for value in item.values
+        ]
+    elif isinstance(item, Figure):
+        changes["categories"] = tuple(map(said, item.categories))
+    elif isinstance(item, Drawing):
+        changes |= {"svg": _svg(item.svg), "fixed_svg": _svg(item.fixed_svg)}
+    elif isinstance(item, Animation):
+        changes |= {"scene": _scene(item.scene), "still": _svg(item.still)}
+    return replace(item, **changes)
+
+
+def _svg(text: str) -> str:
+    return _SVG_TEXT.sub(lambda match: match[1] + escape(said(unescape(match[2])), quote=False), text)
+
+
+def _named(value: Any) -> Any:
+    if isinstance(value, list | tuple):
+        return [_named(entry) for entry in value]
+    return said(value) if isinstance(value, str) else _scene(value)
+
+
+def _scene(value: Any) -> Any:
+    """Return a scene with its names and labels translated, wherever they stand."""
+    if isinstance(value, Mapping):
+        return {key: _named(entry) if key in _SCENE_TEXTS else _scene(entry) for key, entry in value.items()}
+    return [_scene(entry) for entry in value] if isinstance(value, list | tuple) else value
