@@ -26,6 +26,7 @@ _SHOWN = frozenset((
 _KEYS = frozenset((
     "key", "name", "path", "code", "group", "belongs_to", "style", "dash", "tone", "severity", "structure",
     "unit",
+    "parameter", "argument",
 ))  # fmt: skip
 _TEXT = re.compile(r"[A-Za-z]{2,}[ ,:;.-]+(?:[a-z]|\{)|\{\d+\} [a-z]{2,}|^[A-Z][a-z]+$")
 _NO_TEXT = re.compile(

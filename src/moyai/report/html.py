@@ -159,7 +159,7 @@ def render_html(document: Document) -> str:
 """
     if document.language != "ja":
         return page_text
-    faces = f"{embedded_style(page_text)}body{{font-family:{_JAPANESE_FACES}}}\n"
+    faces = f"{embedded_style(page_text)}body,svg{{font-family:{_JAPANESE_FACES}}}\n"
     return page_text.replace("</style>", f"{faces}</style>", 1)
 
 

@@ -62,6 +62,8 @@ def test_the_page_brings_every_japanese_letter_that_it_shows(result: Result) -> 
     shown = set(JAPANESE.findall(page))
     assert len(shown) > 150
     assert {letter for letter in shown if ord(letter) not in known} == set()
+    # drawings name faces of their own, which a rule of the page has to replace
+    assert 'body,svg{font-family:"Segoe UI"' in page
 
 
 def test_figures_have_all_their_letters(result: Result) -> None:
