@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from moyai.core.arrays import Array
-from moyai.core.headline import Band, Bound, Headline
+from moyai.core.headline import Band, Bound, Headline, governing
 from moyai.core.wording import spoken
 from moyai.series.realisations import seeds
 from moyai.structures.units.model import SNAP_RATIO
@@ -75,6 +75,9 @@ def _not_judged(seas: Seas) -> Headline:
     if not any(np.isfinite(data["connector_damage_rate"].values).any() for data in timed):
         words.append("fatigue")
         detail.append("no fatigue of connectors and lines")
+    if any(np.nan_to_num(data["connector_moment_largest"].values).any() for _, data in seas):
+        words.append("moments in connectors")
+        detail.append("the moment in a connector is a number of the page, no strength of the case is held against it")
     words.append("one line lost")
     detail.append("no row with a line or a connector lost")
     return Headline("not_judged", "Not judged", math.nan, "1", text=", ".join(words), detail="; ".join(detail))
@@ -163,27 +166,39 @@ def _largest(seas: Seas, name: str, over: Array | None = None) -> _Largest | Non
     return _Largest(value, where, path, data, index, name, 1.0 if over is None else float(over[index[-1]]))
 
 
+def _each(seas: Seas, name: str, over: Array | None = None) -> list[_Largest]:
+    """Return the largest value of every sea."""
+    return [found for sea in seas if (found := _largest([sea], name, over)) is not None]
+
+
+def _all_judged(items: list[Headline]) -> list[Headline]:
+    """Return what governs of one number of every sea, and, not shown, every sea of which only a bound is known.
+
+    A sea whose number may be larger than shown is no less open because another one pulls harder.
+    """
+    kept = governing(items)
+    open_ones = [item for item in items if item.bound and item.where not in {one.where for one in kept}]
+    return [*kept, *(replace(item, shown=False, sea="") for item in open_ones)]
+
+
 def _connectors(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Headline]:
-    found = _largest(seas, "connector_resultant_largest")
-    if found is None:
+    each = _each(seas, "connector_resultant_largest")
+    if not each:
         return
-    words = (
-        "largest of the record, all components together"
-        if found.timed
-        else "mean and waves together, along the direction that bears most"
-    )
-    yield Headline(
-        "connector_force", "Largest force in a connector", found.value, "N", found.where, _model(found),
-        band=found.band, detail=words,
-    )  # fmt: skip
-    load = np.asarray(groups[f"/{found.path.split('/')[1]}/statics"]["connector_breaking_load"].values, dtype=float)
-    share = _largest(seas, "connector_resultant_largest", over=load) if np.isfinite(load).any() else None
-    if share is not None:
-        yield Headline(
-            "connector_utilisation", "Largest force over breaking load of a connector", share.value, "1", share.where,
-            _model(share), band=share.band,
-        )  # fmt: skip
+    yield from _all_judged([_connector_force(found) for found in each])
+    load = np.asarray(groups[f"/{each[0].path.split('/')[1]}/statics"]["connector_breaking_load"].values, dtype=float)
     moment = _largest(seas, "connector_moment_largest")
+    if np.isfinite(load).any():
+        bent = moment is not None and moment.value > 0.0
+        yield from _all_judged(
+            [
+                Headline(
+                    "connector_utilisation", "Largest force over breaking load of a connector", share.value, "1",
+                    share.where, _model(share), band=share.band, judged_on="its force alone, without the moment" * bent,
+                )
+                for share in _each(seas, "connector_resultant_largest", over=load)
+            ]
+        )  # fmt: skip
     if moment is not None and moment.value > 0.0:
         yield Headline(
             "connector_moment", "Largest moment in a connector", moment.value, "N m", moment.where, _model(moment)
@@ -208,31 +223,45 @@ def _connectors(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Headli
         )  # fmt: skip
 
 
+def _connector_force(found: _Largest) -> Headline:
+    words = (
+        "largest of the record, all components together"
+        if found.timed
+        else "mean and waves together, along the direction that bears most"
+    )
+    return Headline(
+        "connector_force", "Largest force in a connector", found.value, "N", found.where, _model(found),
+        band=found.band, detail=words,
+    )  # fmt: skip
+
+
 def _model(found: _Largest) -> str:
     return TIME if found.timed else MODEL
 
 
 def _lines(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Headline]:
-    found = _largest(seas, "line_tension_maximum")
-    if found is None:
+    each = _each(seas, "line_tension_maximum")
+    if not each:
         return
+    yield from _all_judged([_line_tension(found) for found in each])
+    load = np.asarray(groups[f"/{each[0].path.split('/')[1]}/statics"]["breaking_load"].values, dtype=float)
+    if not np.isfinite(load).any():
+        return
+    shares = _each(seas, "line_tension_maximum", over=load)
+    yield from _all_judged([_utilisation(share, True) for share in shares])
+    if any(_moved(share) for share in shares):
+        # codes ask another factor of lines at rest: the highest of them is judged too
+        still = [(path, _at_rest(data)) for path, data in seas]
+        yield from (_utilisation(share, False) for share in _each(still, "line_tension_maximum", over=load))
+
+
+def _line_tension(found: _Largest) -> Headline:
     mean = float(found.data["line_tension_mean"].values[found.index])
     bound, words = _of_line(found, mean)
-    yield Headline(
+    return Headline(
         "line_tension", "Largest tension of a line", found.value, "N", found.where, _line_model(found), mean=mean,
         bound=bound, band=_line_band(found), detail=f"mean {spoken(mean, 'N', 3)}{words}", analysis=_analysis(found),
     )  # fmt: skip
-    load = np.asarray(groups[f"/{found.path.split('/')[1]}/statics"]["breaking_load"].values, dtype=float)
-    share = _largest(seas, "line_tension_maximum", over=load) if np.isfinite(load).any() else None
-    if share is None:
-        return
-    yield _utilisation(share, True)
-    if _moved(share):
-        # codes ask another factor of lines at rest: the highest of them is judged too
-        still = [(path, _at_rest(data)) for path, data in seas]
-        other = _largest(still, "line_tension_maximum", over=load)
-        if other is not None:
-            yield _utilisation(other, False)
 
 
 def _utilisation(share: _Largest, shown: bool) -> Headline:
@@ -288,14 +317,17 @@ def _of_line(found: _Largest, mean: float) -> tuple[Bound, str]:
 
 
 def _motions(seas: Seas) -> Iterator[Headline]:
-    offset = _largest(seas, "largest_offset")
-    if offset is not None:
+    offsets = []
+    for offset in _each(seas, "largest_offset"):
         left_out = offset.without_drift
         words = "mean, slow drift and waves" if offset.timed else "mean and waves"
-        yield Headline(
-            "offset", "Largest sway of a unit from rest", offset.value, "m", offset.where, _model(offset),
-            bound="at least" if left_out else "", band=offset.band, detail=words + _WITHOUT_DRIFT * left_out,
+        offsets.append(
+            Headline(
+                "offset", "Largest sway of a unit from rest", offset.value, "m", offset.where, _model(offset),
+                bound="at least" if left_out else "", band=offset.band, detail=words + _WITHOUT_DRIFT * left_out,
+            )
         )  # fmt: skip
+    yield from _all_judged(offsets)
     rolls = []
     for path, data in seas:
         name = "significant_motion" if "significant_motion" in data else "motion_amplitude"
