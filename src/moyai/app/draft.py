@@ -21,6 +21,7 @@ from moyai.core.progress import Progress
 from moyai.core.validity import Notice
 
 if TYPE_CHECKING:
+    from moyai.case.reader import Case
     from moyai.core.results import Result
     from moyai.report.differences import Other
 
@@ -97,12 +98,12 @@ class Drafts:
             sliders = sliders_of(document, case.kind, drafts[-1].data)
             yield _checked(text, (), case.warnings, sliders=sliders, kind=case.kind, title=case.title)
             checked = True
-            stages = [(draft, problem) for draft in drafts for problem in _problems(draft, wish)]
-            for place, (draft, problem) in enumerate(stages, 1):
-                if place > 1:
+            for place, stage in enumerate(_stages(drafts, wish)):
+                if place > 0:
                     self._rest()
-                report = self._drawn(draft, problem, document, wish, progress)
-                more = {"last": place == len(stages), "seconds": round(time.perf_counter() - started, 4)}
+                report = self._drawn(stage, document, wish, progress)
+                last = stage[0] is drafts[-1] and stage[2] is None
+                more = {"last": last, "seconds": round(time.perf_counter() - started, 4)}
                 yield {**report, **more}
         except MoyaiError as error:
             faults = error.faults if isinstance(error, CaseError) else (error.fault,)
@@ -114,12 +115,13 @@ class Drafts:
                 yield {"message": "not drawn", "faults": [asdict(fault) for fault in faults]}
 
     def _drawn(
-        self, document: Document, problem: Any, whole: Document, wish: Wish, progress: Progress
+        self, stage: tuple[Document, Case, Any], whole: Document, wish: Wish, progress: Progress
     ) -> dict[str, Any]:
         from moyai.report.html import render_parts
         from moyai.report.writer import compose_document
 
-        result = self._run(case_of(document, wish.file), progress, keep=self._keep, problem=problem)
+        document, case, problem = stage
+        result = self._run(case, progress, keep=self._keep, problem=problem)
         if result.status == "interrupted":
             raise KeyboardInterrupt
         if problem is not None:
@@ -161,11 +163,14 @@ class Drafts:
         return self._pinned[mark]
 
 
-def _problems(document: Document, wish: Wish) -> tuple[Any, ...]:
-    """Return what a stage runs: its nominal problem where it has one, and then its own, None."""
-    case = case_of(document, wish.file)
-    nominal = structure_kind(case.kind).nominal(build(case))
-    return (None,) if nominal is None else (nominal, None)
+def _stages(drafts: list[Document], wish: Wish) -> Iterator[tuple[Document, Case, Any]]:
+    """Yield what is drawn one after the other: case and problem, None for its own; the nominal problem comes first."""
+    for draft in drafts:
+        case = case_of(draft, wish.file)
+        nominal = structure_kind(case.kind).nominal(build(case))
+        if nominal is not None:
+            yield draft, case, nominal
+        yield draft, case, None
 
 
 def _like(document: Document, shown: Document, kind: str, analyses: tuple[str, ...]) -> dict[str, Any]:

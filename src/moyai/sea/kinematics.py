@@ -115,21 +115,21 @@ def linear_velocity_acceleration(
     # 1 - e^{-2kh} belongs to the component, not to the node
     whole = -np.expm1(-2.0 * wave_number * water_depth)
     endless = math.isinf(water_depth)
+    surface, quarter = np.empty(count), np.empty(count)
     for node in range(x.size):
         level = z[node]
+        eta = 0.0
+        for i in range(count):
+            argument = wave_number[i] * (x[node] * cosines[i] + y[node] * sines[i]) - omega[i] * time + phase[i]
+            surface[i], quarter[i] = amplitude[i] * math.cos(argument), amplitude[i] * math.sin(argument)
+            eta += surface[i]
         if stretching == 2:
-            eta = 0.0
-            for i in range(count):
-                along = x[node] * cosines[i] + y[node] * sines[i]
-                eta += amplitude[i] * math.cos(wave_number[i] * along - omega[i] * time + phase[i])
             level = wheeler_elevation_scalar(level, eta, water_depth)
         above = level if (stretching == 1 and level > 0.0) else 0.0
         level = min(max(level, -water_depth), 0.0)
-        eta = u = v = w = du = dv = dw = 0.0
+        u = v = w = du = dv = dw = 0.0
         for i in range(count):
-            k, sigma = wave_number[i], intrinsic_omega[i]
-            argument = k * (x[node] * cosines[i] + y[node] * sines[i]) - omega[i] * time + phase[i]
-            real, imaginary = amplitude[i] * math.cos(argument), amplitude[i] * math.sin(argument)
+            k, sigma, real, imaginary = wave_number[i], intrinsic_omega[i], surface[i], quarter[i]
             horizontal = vertical = math.exp(k * level)
             if not endless:
                 # the depth functions of depth_functions_scalar [eq:sea-depth-functions]
@@ -138,7 +138,6 @@ def linear_velocity_acceleration(
             if above > 0.0:
                 # the slope of each function at z = 0 is k times the other one
                 horizontal, vertical = horizontal + above * k * vertical, vertical + above * k * horizontal
-            eta += real
             across, forward, upward = sigma * horizontal * imaginary, sigma * horizontal * real, sigma * vertical
             u += forward * cosines[i]
             v += forward * sines[i]

@@ -25,8 +25,8 @@ FEWEST, MOST = 6, 60
 ORDERS = (6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 28, 32, 38, 44, 52, 60)
 _COLUMNS = 48
 _KEPT = 1e-4
-#: Rounds of the search for a passive fit, and the weight of the nearest passive damping in it over that of the data
-_ROUNDS, _PULL = 50, 3.0
+#: Most and fewest rounds of the search for a passive fit; weight of the nearest passive damping over that of the data
+_ROUNDS, _LEAST, _PULL = 50, 15, 1.0
 _MARGIN = 1e-7
 _BEYOND = 30.0
 _OUTSIDE = 0.3
@@ -247,9 +247,9 @@ def _passive(basis: _Basis, s: ComplexArray, weight: Array, found: Array, slope:
     pull = _PULL * np.trace(normal) / np.trace(rows.T @ rows)
     inverse = np.linalg.inv(normal + pull * rows.T @ rows)
     now, held = first, np.zeros((len(rows), size * size))
-    for _ in range(_ROUNDS):
+    for turn in range(_ROUNDS):
         own = (rows @ now).reshape(-1, size, size)
-        if float(np.linalg.eigvalsh(own)[:, 0].min()) >= -0.1 * PASSIVE * scale:
+        if float(np.linalg.eigvalsh(own)[:, 0].min()) >= -0.1 * PASSIVE * scale and (turn == 0 or turn >= _LEAST):
             break
         values, vectors = np.linalg.eigh(own + held.reshape(-1, size, size))
         nearest = (vectors * np.maximum(values, _MARGIN * scale)[:, None, :]) @ vectors.swapaxes(1, 2)
