@@ -82,7 +82,9 @@ def test_a_flume_cage_of_lader_and_enerhaug():
     assert drag.value < 0.9 * stiff_drag(0.225, 1.435, 1.44, 0.4, 1000.0)
     assert headline(fast, "volume_left").value < 0.6
     assert drag.band.low <= drag.value <= drag.band.high
-    assert "aarsnes" in headline(fast, "volume_left").band.of and drag.band.of == "the same net laws as for the volume"
+    assert "aarsnes" in headline(fast, "volume_left").band.of
+    # no sea is run: the mesh is checked at rest
+    assert drag.band.of.startswith("the same net laws as for the volume; mesh ±")
 
 
 def test_a_tow_of_a_dense_net_leaves_the_range_of_its_law():

@@ -22,7 +22,7 @@ from moyai.structures.cage.rigid.runs import run_wave
 from moyai.structures.cage.rigid.setup import resolve
 from moyai.structures.cage.rigid.statics import free_floating, reserve_buoyancy, rest_with_lines
 from moyai.structures.cage.rigid.time import march
-from moyai.structures.cage.rigid.waves import regular_wave
+from moyai.structures.cage.rigid.waves import wave_of
 
 ROOT = Path(__file__).parents[2]
 GRAM = 9.81e-3  # N in a gram-force
@@ -71,7 +71,7 @@ def numbers(kind, period, height, reach=0.3, stiffness=2000.0, pull=0.011, drag=
     moored = () if kind == "slack" else lines(kind, reach, stiffness, pull)
     rest = rest_with_lines(cage, moored, water, viscosity) if moored else free_floating(cage, water, viscosity)
     settings = replace(case.settings, tolerance=1e-5, settled_periods=10)
-    wave = regular_wave(height, period, 0.0, water, 0.0, 30)
+    wave = wave_of("linear", height, period, 0.0, water, 0.0, 30)
     found = run_wave(replace(case, settings=settings), moored, rest, water, wave).numbers
     turn = math.degrees(np.angle(np.exp(1j * (found.first_phase[0] - found.first_phase[1]))))
     peaks = found.line_tension_maximum[:, 0] / GRAM if moored else np.zeros(2)
@@ -174,7 +174,7 @@ def test_without_drag_the_slack_cage_follows_the_orbit():
     """Its mass is that of the water it displaces, so that it moves with it; 2.0 H (prototype) is not reproduced."""
     for period in (1.2, 1.5, 2.0):
         water = problem().environment.water
-        wave = regular_wave(0.03, period, 0.0, water, 0.0, 1)
+        wave = wave_of("linear", 0.03, period, 0.0, water, 0.0, 1)
         orbit = 1.0 / math.tanh(2.0 * math.pi / wave.wavelength * water.depth)
         assert numbers("slack", period, 0.03, drag=False)["sway"] == pytest.approx(orbit, rel=0.05)
 
@@ -196,7 +196,7 @@ def test_printed_equations_fail_as_told(fault):
     kind = "outward" if fault == "line_signs" else "crossed"
     moored = lines(kind, 0.3 if kind == "crossed" else 0.475, 2000.0)
     rest = rest_with_lines(cage, moored, water, case.kinematic_viscosity)
-    wave = regular_wave(0.03, 1.1, 0.0, water, 0.0, 20)
+    wave = wave_of("linear", 0.03, 1.1, 0.0, water, 0.0, 20)
     sound = pack(cage, moored, water, case.kinematic_viscosity, waves=wave.components, ramp=5.5)
     chosen = tuple(FAULTS) if fault == "all" else (fault,)
     broken = literal_pack(sound, cage, water, chosen)
