@@ -173,7 +173,7 @@ def test_the_tension_of_the_sea_governs():
     found = result_of(text)
     tension = headline(found, "line_tension")
     rest = float(found.tree["SWL/statics"].to_dataset()["utilisation"].values.max())
-    assert tension.model == "run through time"
+    assert tension.model == "run through time, stream function"
     assert headline(found, "line_utilisation").value > rest * 0.5
     assert headline(found, "line_tension").band is not None
     assert found.status == "converged", found.message

@@ -121,7 +121,8 @@ class NonlinearWave:
     def _fields(self, time: ArrayLike, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> tuple[Array, tuple[int, ...]]:
         px, py, pz = np.broadcast_arrays(*(np.asarray(item, dtype=np.float64) for item in (x, y, z)))
         angle, shape = self._angle(time, px, py)
-        level = np.ascontiguousarray(np.broadcast_to(pz.reshape(-1), angle.shape)).reshape(-1)
+        # copies: a view that cannot be written to would be another kernel
+        level = np.array(np.broadcast_to(pz.reshape(-1), angle.shape)).reshape(-1)
         out = np.empty((4, angle.size))
         fourier_wave_kernel(np.ascontiguousarray(angle).reshape(-1), level, *self.kernel_arguments(), out)
         return out, shape
