@@ -123,7 +123,7 @@ def test_what_is_near_to_a_mistake_is_left_alone(name):
 
 
 def test_numbers_without_their_unit_are_named_not_the_size_that_they_share():
-    text = BASES["curtain"].replace("holding_force: 120 kN", "holding_force: 12")
+    text = BASES["curtain"].replace("holding_force: 150 kN", "holding_force: 15")
     text = text.replace("joints: {distance: 10 m, strength: 180 kN}", "joints: {distance: 10 m, strength: 180}")
     found = case_of(parse_yaml(text, "case.yaml"), Path("case.yaml")).warnings
     assert {"structure.anchors.holding_force", "structure.joints.strength"} <= {warning.path for warning in found}
