@@ -42,8 +42,8 @@ def _breakwater(tables: Tables) -> float:
 
 
 def _curtain(tables: Tables) -> float:
-    """Return the governing load of the anchor over its holding force, of the least favourable level."""
-    rows = [table.sel(component="anchor") for path, table in tables.items() if path.endswith("/loads")]
+    """Return the governing load of the anchor line over its breaking load, of the least favourable level."""
+    rows = [table.sel(component="anchor line") for path, table in tables.items() if path.endswith("/loads")]
     return max(float(row["governing_load"] / row["capacity"]) for row in rows)
 
 
@@ -91,7 +91,7 @@ JOURNEYS = {
             (_between("  - name: winter", "structure:"), ""),
             (r"analyses: \[.*?\]", "analyses: [statics]"),
         ),
-        "anchor_utilisation",
+        "anchor_line_utilisation",
         _curtain,
     ),
     "cage": Journey(
