@@ -397,28 +397,8 @@ def test_the_whole_span_governs_where_it_is_run(designs, tmp_path: Path) -> None
     assert attrs["counted_from"] == pytest.approx(7.0 * attrs["period"])
 
 
-def test_a_stronger_current_never_lowers_the_load(tmp_path: Path) -> None:
-    """Weaker currents come with every stronger one: the impact in them counts where the plate is a bound in it."""
-    design = DESIGNS["held toe"] | {
-        "analyses": "statics, impact",
-        "more": f"{BASE['more']}  impact: {{start: slack_phase}}\n",
-    }
-    found = []
-    for speed in (0.25, 0.45):
-        folder = tmp_path / f"{speed:g}"
-        folder.mkdir()
-        _, result = ran(folder, **design | {"speed": speed})
-        share = float(result.tree["SWL/models"]["model_value"].sel(model=models.IMPACT))
-        loads = result.tree["SWL/loads"].to_dataset().sel(component=["upper cable", "lower cable", "anchor line"])
-        found.append((share, loads["governing_high"].values, [str(word) for word in loads["impact_source"].values]))
-    (upright, weak, _), (flared, strong, words) = found
-    assert upright >= models.STRAIGHT > flared
-    assert np.all(strong >= weak)
-    # a bound in its own current stands where it is above the value of the weaker one
-    assert all("weaker current" in word or "impact" in word for word in words)
-
-
 def test_the_plate_in_a_weaker_current_decides_where_the_whole_span_gives_less(tmp_path: Path) -> None:
+    """Weaker currents come with every stronger one, twice a tide."""
     design = DESIGNS["held toe"] | {
         "analyses": "statics, impact",
         "more": f"{BASE['more']}  impact: {{start: slack_phase}}\n",
@@ -437,6 +417,7 @@ def test_the_plate_in_a_weaker_current_decides_where_the_whole_span_gives_less(t
     speed = models.upright_in(unit)
     assert 0.25 < speed < 0.45 and models.straight_share(unit, speed) >= models.STRAIGHT
     assert f"in a weaker current of {speed:.3g} m/s" in str(row["impact_source"].values)
+    assert row["load_bound"] == "" and float(row["governing_high"]) > float(row["governing_load"])
     there = impact_load(unit, answer, problem.settings).at(unit.unit_normal_speed * speed)
     steady = unit.site.statics(unit.hanging, speed).anchor_line_tension
-    assert float(row["governing_load"]) == pytest.approx(there.anchor_line + steady, rel=0.02)
+    assert float(row["governing_load"]) == pytest.approx(there.anchor_line + steady, rel=1e-9)
