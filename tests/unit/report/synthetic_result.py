@@ -324,7 +324,7 @@ def notices() -> tuple[Notice, ...]:
 
 def build(
     *,
-    duration: float = 1200.0,
+    duration: float = 240.0,
     title: str = "Pontoon at the harbour mouth (港口の浮防波堤)",
     breaking: float = 2.6e6,
     levels: tuple[tuple[str, float], ...] = (("HWL", 1.2), ("LWL", 0.0)),
