@@ -455,6 +455,7 @@ def slack_span_in_oblique_waves(tmp_path: Path, cells: str) -> Path:
     )
 
 
+@pytest.mark.slow
 def test_gathered_cloth_goes_on_with_turning_sections(tmp_path: Path) -> None:
     """Loads held over too many steps once blew this mesh up; now it runs, and takes no energy from nowhere."""
     result = moyai.run(moyai.load_case(slack_span_in_oblique_waves(tmp_path, "cells_along: 32, cells_down: 4")))
@@ -641,6 +642,18 @@ def test_a_run_that_had_to_stop_gives_no_peak(tmp_path: Path, monkeypatch: pytes
     moyai.write_report(result, tmp_path / "report")
 
 
+def test_a_peak_of_the_start_is_told_apart_from_those_of_the_sea() -> None:
+    """A snap, then little: with the waves of a sea its first peak is one of the start; counted later it is not."""
+    run = snap(CurtainSpan(**BASE), Mesh(8, 4), 4.0)  # type: ignore[arg-type]
+    sea = replace(run, flow=Flow(waves=RegularWave(0.01, 2.0, 0.0, FLUME).components()))
+    (reported,) = [n for n in run_notices(sea, "here", 1.0, False) if n.code == "dynamic-start"]
+    late = run.both[run.history.time > 0.5 * run.history.time[-1]]
+    assert reported.value == pytest.approx(run.peak("both")[0] / late.max(), rel=1e-3)
+    later = replace(sea, from_time=0.6 * float(run.history.time[-1]))
+    assert not [n for n in run_notices(later, "here", 1.0, False) if n.code == "dynamic-start"]
+
+
+@pytest.mark.slow
 def test_the_start_of_an_irregular_sea_is_told(tmp_path: Path) -> None:
     """A strong current that comes up in one period pulls harder than the small sea after it."""
     sea = (

@@ -196,9 +196,9 @@ def test_too_few_particles_are_told(folder):
         measure_campaign(campaign)
 
 
-def test_amplitude_outside_the_range_warns(folder):
+def test_amplitude_outside_the_range_warns(folder, batch):
     campaign, _ = load_streaks(changed(folder, "weak", ("keulegan_carpenter: 1\n", "keulegan_carpenter: 0.7\n")))
-    result = measure_campaign(campaign, store=DatasetStore(folder / "out" / "recordings"))
+    result = measure_campaign(campaign, store=batch[-1])
     notice = next(item for item in result.notices if item.code == "streaks-amplitude")
     assert "KC = 0.7" in notice.message
     assert math.isfinite(result.tree["law"].attrs["coefficient"])

@@ -322,6 +322,10 @@ def notices() -> tuple[Notice, ...]:
     )  # fmt: skip
 
 
+#: Levels of a small result.
+ONE = (("LWL", 0.0),)
+
+
 def build(
     *,
     duration: float = 240.0,

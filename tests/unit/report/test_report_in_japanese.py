@@ -13,7 +13,7 @@ import pytest
 import synthetic_curtain
 from fontTools.ttLib import TTFont
 from japanese import compared, drawn_without_boxes
-from synthetic_result import build
+from synthetic_result import ONE, build
 from typer.testing import CliRunner
 
 import moyai
@@ -94,7 +94,7 @@ def test_without_a_font_a_message_says_what_helps(monkeypatch: pytest.MonkeyPatc
 
 
 def test_the_command_takes_a_language(tmp_path: Path) -> None:
-    build().write(tmp_path / "results.nc")
+    build(levels=ONE).write(tmp_path / "results.nc")
     before = (tmp_path / "results.nc").read_bytes()
     found = CliRunner().invoke(app, ["report", str(tmp_path / "results.nc"), "--language", "ja"])
     assert found.exit_code == 0, found.output
@@ -117,7 +117,7 @@ def test_the_locale_is_taken_where_nothing_else_names_a_language(
     assert JAPANESE.search(missing.output)
     english = CliRunner().invoke(app, ["run", str(tmp_path / "none.yaml"), "--language", "en"])
     assert not JAPANESE.search(english.output)
-    assert compose_document(build()).language == "en"
+    assert compose_document(build(levels=ONE, time=False)).language == "en"
 
 
 def test_a_case_names_its_language_and_keeps_its_hash() -> None:

@@ -30,7 +30,7 @@ HINGE = Connector("h", "hinge", ((0, 1),), 0.0, 3.0, (1.0, 0.0, 0.0))
 
 
 # each of these takes seconds; `moyai validate` and the slow tests compute them
-LONGER = ("five wave", "barrier", "gap of two", "cut in two halves", "ten times the stiffness", "Haskind's relation")
+LONGER = ("five wave", "barrier", "gap of two", "cut in two halves", "ten times the stiffness", "fine panels")
 QUICK = [item for item in known.CASES if not any(words in item.name for words in LONGER)]
 SLOW = [item for item in known.CASES if any(words in item.name for words in LONGER)] + list(in_time.CASES)
 
