@@ -103,7 +103,7 @@ def test_long_waves_pass_and_carry_the_body(pontoon_problem):
     assert float(data.drift_coefficient[0]) == pytest.approx(0.0, abs=1e-3)
 
 
-@pytest.mark.parametrize("heading", [0.0, pytest.param(0.4, marks=pytest.mark.slow), -0.7])
+@pytest.mark.parametrize("heading", [0.0, *(pytest.param(h, marks=pytest.mark.slow) for h in (0.4, -0.7))])
 def test_energy_of_the_moving_body_in_oblique_waves(pontoon_problem, heading):
     problem = changed(
         pontoon_problem,
@@ -198,7 +198,8 @@ def test_impossible_units_are_refused(pontoon_problem, breakwater, environment, 
         run(changed(pontoon_problem, breakwater=breakwater, environment=environment))
 
 
-def test_infinite_depth_with_springs(pontoon_problem):
+@pytest.mark.parametrize("domain", ["frequency", pytest.param("time", marks=pytest.mark.slow)])
+def test_infinite_depth_with_springs(pontoon_problem, domain):
     round_unit = {"hull": circle(0.2), "mass": None, "draught": 0.2, "centre_of_gravity": (0.0, 0.15)}
     problem = changed(
         pontoon_problem,
@@ -208,10 +209,11 @@ def test_infinite_depth_with_springs(pontoon_problem):
             "sea_states": (RegularSea("waves", 0.02, (0.9,)),),
         },
         settings={"time": TimeSettings(analysed_periods=5)},
+        analyses=("statics", domain),
     )
     result = run(problem)
     assert result.status == "converged", result.message
-    assert np.all(np.isfinite(result.tree["SWL/time/waves"].to_dataset().motion_amplitude.values))
+    assert np.all(np.isfinite(result.tree[f"SWL/{domain}/waves"].to_dataset().motion_amplitude.values))
 
 
 def test_interrupt_keeps_what_was_done(pontoon_problem, tmp_path):
@@ -363,7 +365,12 @@ def test_oblique_regular_waves_in_time_are_those_of_frequency_with_springs(ponto
 
 
 @pytest.mark.parametrize(
-    ("hull", "draught"), [(trapezoid(0.8, 0.4, 0.3), 0.2), (circle(0.2), 0.26), (circle(0.2), 0.33)]
+    ("hull", "draught"),
+    [
+        pytest.param(trapezoid(0.8, 0.4, 0.3), 0.2, marks=pytest.mark.slow),
+        (circle(0.2), 0.26),
+        pytest.param(circle(0.2), 0.33, marks=pytest.mark.slow),
+    ],
 )
 def test_sections_that_narrow_upwards_have_a_memory(pontoon_problem, hull, draught):
     problem = changed(

@@ -208,6 +208,7 @@ def example(name):
         sys.path.remove(str(EXAMPLES))
 
 
+@pytest.mark.slow
 def test_a_short_campaign_gives_its_ratios_back(tmp_path):
     """One block in forty at 5 Hz: what needs no long record."""
     module = example("campaign")
