@@ -139,6 +139,7 @@ def test_irregular_sea_of_one_frequency_is_a_regular_sea(pontoon_problem):
     assert narrow_sea.significant_motion.values == pytest.approx(significant, rel=1e-2)
 
 
+@pytest.mark.slow
 def test_same_seed_same_sea_bit_for_bit(pontoon_problem):
     sea = IrregularSea("storm", jonswap(0.02, 1.0, 3.3), duration=40.0, seed=3)
     problem = changed(
@@ -353,6 +354,7 @@ def test_mean_drift_of_a_spread_sea_is_the_sum_over_its_waves(pontoon_problem):
     assert float(spread.mean_drift_force) == pytest.approx(total, rel=0.03)
 
 
+@pytest.mark.slow
 def test_oblique_regular_waves_in_time_are_those_of_frequency_with_springs(pontoon_problem):
     sea = RegularSea("oblique", 0.003, (0.8, 1.1), -0.7)
     problem = changed(

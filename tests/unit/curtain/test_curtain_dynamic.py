@@ -147,6 +147,7 @@ def test_slack_curtain_in_still_water_stays() -> None:
     assert np.max(np.abs(moved)) < 0.02
 
 
+@pytest.mark.slow
 def test_anchored_span_in_a_current_ends_at_its_drag() -> None:
     """Anchor lines carry the drag of the whole span in the end: all four together, both halves of the neighbours."""
     water = Water(10.0, 1025.0, 9.81)
