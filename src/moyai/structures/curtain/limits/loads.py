@@ -32,7 +32,7 @@ def impact_load(unit: LevelCurtain, answer: ImpactAnswer, settings: Settings) ->
         answer.design_tension / peak_by_energy(answer.impact).tension,
         answer.shares,
         ratio,
-        answer.half_angle,
+        answer.skirt,
         unit.hanging.anchor_slope,
         answer.uncertainty,
     )
