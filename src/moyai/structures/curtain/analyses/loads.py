@@ -12,7 +12,7 @@ from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.structures.curtain.analyses.anchor import rope_model, steady_tension
 from moyai.structures.curtain.analyses.dynamic import SpanLoad
-from moyai.structures.curtain.analyses.impact import ImpactAnswer, bulging_skirt
+from moyai.structures.curtain.analyses.impact import ImpactAnswer
 from moyai.structures.curtain.analyses.limits import impact_load
 from moyai.structures.curtain.assembly import LevelCurtain
 from moyai.structures.curtain.governing import governing_load
@@ -125,19 +125,18 @@ def _in_weaker_current(
     top = 0.0 if answer is None else upright_in(unit)
     if answer is None or not top > 0.0:
         return {}
+    load = impact_load(unit, answer, settings)
     rows: dict[str, list[dict[str, float | str]]] = {}
     for part in _WEAKER:
         speed = part * top
         if speed >= unit.surface_speed:
             continue
         there = replace(unit, surface_speed=speed)
-        skirt = bulging_skirt(there, settings.impact) or answer.skirt
-        load = replace(impact_load(unit, answer, settings), skirt=skirt)
         struck = load.at(unit.unit_normal_speed * speed)
         source = f"impact, model {answer.design_model}, in a weaker current of {speed:.3g} m/s"
         for component in COMPONENTS:
             hit = _factor(unit, component) * getattr(struck, _FIELDS[component])
-            if component == "skirt" and skirt is None:
+            if component == "skirt" and answer.skirt is None:
                 continue
             ends = (hit, answer.uncertainty[0] * hit, answer.uncertainty[1] * hit)
             steady = _steady(there, component)

@@ -125,6 +125,9 @@ class ImpactLoad:
     anchor_slope: float
     #: Ends of the band of the tension over its value [-] [eq:impact-band].
     uncertainty: tuple[float, float] = (1.0, 1.0)
+    #: The skirt at a speed of the water along the normal [m/s], which hangs straighter in a weaker current; None: as in
+    #: that of the case.
+    skirt_at: Callable[[float], Skirt | None] | None = None
 
     def at(self, speed: float) -> AddedLoads:
         """Return the loads when the water moves with a speed [m/s] along the normal."""
@@ -132,16 +135,20 @@ class ImpactLoad:
         if start <= 0.0:
             return AddedLoads()
         impact = replace(self.impact, speed=start)
-        return self.of_tension(self.factor * peak_by_energy(impact).tension)
+        skirt = self.skirt if self.skirt_at is None else self.skirt_at(speed)
+        return self._of(self.factor * peak_by_energy(impact).tension, skirt)
 
     def of_tension(self, tension: float) -> AddedLoads:
         """Return the loads that go with a sum of the cable tensions [N]; both spans of a support act at once."""
+        return self._of(tension, self.skirt)
+
+    def _of(self, tension: float, skirt: Skirt | None) -> AddedLoads:
         b = taut_shape(self.impact.span_ratio)
         load = 2.0 * b * tension / self.impact.span
         return AddedLoads(
             self.shares[0] * tension,
             self.shares[1] * tension,
-            0.0 if self.skirt is None else self.skirt.edge_tension(0.5 * load),
+            0.0 if skirt is None else skirt.edge_tension(0.5 * load),
             2.0 * tension * math.tanh(b) / math.cos(self.anchor_slope),
             load,
         )
