@@ -23,11 +23,11 @@ def planar_coefficients(problem: BreakwaterProblem) -> tuple[Callable[[Any], Any
     from moyai.interop.checks import import_notices
     from moyai.interop.limits import match_site
     from moyai.interop.planar import to_planar
-    from moyai.interop.read import read_coefficients
+    from moyai.interop.read import read_body
 
     options = dict(given.options)
     sea, origin = options.pop("sea"), options.pop("origin")
-    dataset = read_coefficients(given.program, given.path, options)
+    dataset = read_body(given.program, given.path, options)
 
     notices = list(import_notices(dataset))
     environment = problem.environment
