@@ -14,11 +14,12 @@ _BODY = (
 )
 
 
-def _word(value: Any) -> Any:
+def word_of(value: Any) -> Any:
+    """Return a number of a body as a word, anything else as it is."""
     return str(value) if isinstance(value, int) and not isinstance(value, bool) else value
 
 
-BodyOfFile = Annotated[str | None, BeforeValidator(_word)]
+BodyOfFile = Annotated[str | None, BeforeValidator(word_of)]
 
 
 class OfCapytaine(Block):

@@ -81,7 +81,7 @@ def convert(
         typer.Option(
             "--to",
             metavar="wamit|nemoh|bemio",
-            help="Write the coefficients of the floating body of a result as files of this program.",
+            help="Write the coefficients of the floating body, or of all units, of a result as files of this program.",
         ),
     ] = None,
     sea: Annotated[
@@ -145,10 +145,17 @@ def _write_coefficients(
     found = coefficients_of_result(read_result(file), water_level=water_level, sea=sea)  # type: ignore[arg-type]
     files = write_coefficients(program, found, file.parent / program if folder is None else folder, replace=force)
     facts = {name: float(found[name]) for name in ("rho", "g", "water_depth")}
-    point = [float(value) for value in found["reference_point"].values]
+    points = found["reference_point"].values.tolist()
+    several = "body" in found.dims
     if as_json:
-        print_json({"files": list(map(str, files)), **facts, "reference_point": point, "faults": []})
+        print_json({"files": list(map(str, files)), **facts, "reference_point": points, "faults": []})
         return
     for path in files:
         tell(f"wrote {path}")
-    tell(f"whole unit, density {facts['rho']:g} kg/m3, moments about x, y, z = {', '.join(f'{x:g}' for x in point)} m")
+    tell(f"{'all units' if several else 'whole unit'}, density {facts['rho']:g} kg/m3")
+    for name, point in zip(found["body"].values if several else [""], points if several else [points]):
+        tell(f"{name} moments about x, y, z = {', '.join(f'{x:g}' for x in point)} m".strip())
+    if program == "bemio" and "infinite_frequency_added_mass" not in found:
+        tell("the added mass at infinite frequency was found from the damping of the band")
+    if several and program == "nemoh":
+        tell("files of NEMOH have no place for mean drift")

@@ -158,7 +158,8 @@ def moved_axes(dataset: xr.Dataset, origin: Sequence[float], angle: float) -> xr
         values = dataset[name].values
         force = values[..., :2] @ turn[:2, :2].T
         moment = values[..., 2] + place[0] * force[..., 1] - place[1] * force[..., 0]
-        out[name] = dataset[name].copy(data=np.concatenate([force, moment[..., None]], axis=-1))
+        turned = np.concatenate([force, moment[..., None]], axis=-1)
+        out = out.assign({name: (dataset[name].dims, turned, dataset[name].attrs)})
     return out.sortby("wave_direction")
 
 

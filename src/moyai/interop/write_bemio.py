@@ -16,6 +16,7 @@ import xarray as xr
 from moyai.core.errors import InputError
 from moyai.interop.bodies import bodies_of, modes_of
 from moyai.interop.coefficients import dof_names
+from moyai.interop.limits import FEWEST_FREQUENCIES, complete_limits
 
 _PARTS = {"Froude_Krylov_force": "froude-krylov", "diffraction_force": "scattering"}
 
@@ -31,10 +32,13 @@ def bemio_files(dataset: xr.Dataset) -> dict[str, bytes]:
     Raises
     ------
     InputError
-        When the added mass at infinite frequency is not known, which the format asks for.
+        When the added mass at infinite frequency is not known, which the format asks for, and the frequencies are too
+        few to find it from the damping.
     """
     import h5py
 
+    if "infinite_frequency_added_mass" not in dataset and dataset.sizes["omega"] >= FEWEST_FREQUENCIES:
+        dataset = complete_limits(dataset)
     if "infinite_frequency_added_mass" not in dataset:
         raise InputError(
             "BEMIO asks for the added mass at infinite frequency, which the coefficients lack",

@@ -219,6 +219,10 @@ def test_other_axes_do_the_same_work() -> None:
         )
     np.testing.assert_allclose(found["wave_direction"], given["wave_direction"] + angle)
     np.testing.assert_allclose(found["reference_point"], POINTS @ turn.T + [4.0, -7.0, 0.0])
+    force, moved = given["mean_drift_of_all_bodies"].values, found["mean_drift_of_all_bodies"].values
+    np.testing.assert_allclose(moved[..., :2], force[..., :2] @ turn[:2, :2].T, rtol=1e-10)
+    lever = 4.0 * moved[..., 1] + 7.0 * moved[..., 0]
+    np.testing.assert_allclose(moved[..., 2], force[..., 2] + lever, rtol=1e-9)
     # with its crest over the origin of the file at time zero the wave meets a body as before
     k = wave_number(given["omega"].values, float(given["water_depth"]), float(given["g"]))
     for h, heading in enumerate(found["wave_direction"].values):
