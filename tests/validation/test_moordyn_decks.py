@@ -58,7 +58,7 @@ RUNS_HERE = (
 REFUSED = {
     "3D_seafloor/hanging_lines.txt": ((50, "not flat"), (55, "no wave_elevation.txt")),
     "polyester/visco.txt": ((5, "depends on rate"),),
-    "seafloor.txt": ((23, "no file"),),
+    "seafloor.txt": ((23, "not flat"),),
     "syrope/quadratic_wc/line.txt": ((5, "depends on rate"), (15, "SYROPE IC")),
     "viv/viv.txt": ((6, "vortex-induced"),),
 }  # fmt: skip

@@ -39,14 +39,21 @@ def motions_of(options: list[str]) -> dict[int | str, Path]:
 
 
 def case_of_deck(
-    deck: Path, target: Path, motions: list[str], duration: float | None, output_step: float | None, *, replace: bool
+    deck: Path,
+    target: Path,
+    motions: list[str],
+    duration: float | None,
+    output_step: float | None,
+    *,
+    replace: bool,
+    depth: float | None = None,
 ) -> Path:
     """Write the case file of a deck and return its path; what is worth knowing goes to standard error."""
     from moyai.cli.files import write_text
     from moyai.interop.moordyn_case import case_text
     from moyai.interop.moordyn_reader import read_deck
 
-    read, moved = read_deck(deck), motions_of(motions)
+    read, moved = read_deck(deck).in_depth(depth), motions_of(motions)
     text = case_text(read, motions=moved, duration=duration, output_step=output_step, folder=deck.parent)
     for name, file in moved.items():
         if not file.is_file():
@@ -62,6 +69,10 @@ Motion = Annotated[
         metavar="POINT=FILE",
         help="Motion of a coupled point, body (body1=FILE) or rod of a deck: time, x, y, z; repeat.",
     ),
+]
+Depth = Annotated[
+    float | None,
+    typer.Option("--depth", help="Water depth of a deck [m], which decks of OpenFAST take from elsewhere.", min=1e-6),
 ]
 Duration = Annotated[float | None, typer.Option("--duration", help="Length of the run of a deck [s].", min=0.0)]
 
@@ -93,6 +104,7 @@ def convert(
     ] = "beam",
     motion: Motion = None,
     duration: Duration = None,
+    depth: Depth = None,
     water_level: Annotated[
         str | None, typer.Option(help="Water level of the deck or the coefficients; the first when absent.")
     ] = None,
@@ -113,7 +125,7 @@ def convert(
         notes: tuple[str, ...] = ()
         if is_deck(file):
             target = case_of_deck(
-                file, output or file.with_suffix(".yaml"), motion or [], duration, None, replace=force
+                file, output or file.with_suffix(".yaml"), motion or [], duration, None, replace=force, depth=depth
             )
             following = f"moyai run {target}"
         else:

@@ -7,7 +7,7 @@ Read with :func:`moyai.interop.moordyn_reader.read_deck`; turned into a network 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Literal
 
@@ -148,6 +148,13 @@ class MoorDynDeck:
             if option.key == key and isinstance(option.value, float):
                 return option.value
         return FORMAT_DEFAULTS.get(key)
+
+    def in_depth(self, depth: float | None) -> MoorDynDeck:
+        """Return the deck in water of a depth [m]; as it is for ``None``. A grid of depths gives way to it."""
+        if depth is None:
+            return self
+        kept = tuple(option for option in self.options if option.key not in ("WtrDpth", "SeafloorFile"))
+        return replace(self, options=(*kept, DeckOption("WtrDpth", depth)), seafloor_depth=None)
 
     def point(self, number: int) -> DeckPoint:
         """Return the point of an ID.

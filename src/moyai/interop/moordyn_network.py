@@ -40,7 +40,7 @@ from moyai.sea.water import Water
 #: Part of the stable step of the explicit scheme here that MoorDyn is given, and the longest step at all [s].
 SAFE_SHARE, LONGEST_STEP = 0.25, 0.05
 #: Density that stands for no water at all [kg/m3].
-TRACE = 1e-9
+TRACE = 1e-3
 
 
 def point_name(number: int) -> str:
@@ -64,7 +64,9 @@ def water_of(deck: MoorDynDeck) -> Water:
     depth = deck.seafloor_depth if deck.seafloor_depth is not None else deck.number("WtrDpth")
     if depth is None:
         raise InputError(
-            f"{deck.source or 'the deck'} gives no water depth", path="WtrDpth", remedy="pass the water to to_network"
+            f"{deck.source or 'the deck'} gives no water depth",
+            path="WtrDpth",
+            remedy="give it: --depth of moyai run and moyai convert, in_depth of the deck, or water of to_network",
         )
     density, gravity = deck.number("WtrDnsty"), deck.number("g")
     # a deck without water is run in a trace of it

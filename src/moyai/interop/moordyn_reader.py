@@ -1,7 +1,8 @@
 """Read MoorDyn input files; all faults of a file come at once, each with its line.
 
-MoorDyn itself passes over what it does not know and takes columns by their place. Here unknown sections, keys and
-columns are faults, and columns go by their headings; where the place would have given other values a note says so.
+MoorDyn itself passes over what it does not know and takes columns by their place. Here columns go by their headings;
+where a heading is not known by its place, and where the place would have given other values, a note says so. Options
+that are not known are noted and skipped, unless they look like one that a run needs.
 """
 
 from __future__ import annotations
@@ -26,10 +27,11 @@ from moyai.interop.moordyn_bodies import (
     read_bodies,
     read_rod_types,
     read_rods,
+    unnumbered,
 )
 from moyai.interop.moordyn_deck import DeckLine, DeckLineType, DeckPoint, MoorDynDeck
 from moyai.interop.moordyn_records import CURRENT_FILE, DeckOption
-from moyai.interop.moordyn_rows import Faults, Row, read_current, read_flat_depth, read_stiffness
+from moyai.interop.moordyn_rows import Faults, Row, file_of, read_current, read_flat_depth, read_stiffness
 from moyai.interop.moordyn_waves import read_waves
 from moyai.interop.textfiles import parse_number, read_lines
 
@@ -57,6 +59,7 @@ def _split(lines: list[str], faults: Faults) -> dict[str, tuple[int, list[tuple[
                 body.append((number, text))
             continue
         title = " ".join(rule[1].strip("- ").upper().split())
+        title = _section_of(title)
         name = keys.SECTIONS.get(title)
         if title in keys.REFUSED_SECTIONS:
             body = []
@@ -81,6 +84,17 @@ def _split(lines: list[str], faults: Faults) -> dict[str, tuple[int, list[tuple[
     return sections
 
 
+def _section_of(title: str) -> str:
+    """Return the section that a title begins with, or holds as two words; the title itself where it names none."""
+    known = sorted([*keys.SECTIONS, *keys.REFUSED_SECTIONS], key=len, reverse=True)
+    if title in known:
+        return title
+    for name in known:
+        if re.match(rf"{name}\b", title) or (" " in name and re.search(rf"\b{name}\b", title)):
+            return name
+    return title
+
+
 def _meant(
     title: str, number: int, sections: dict[str, tuple[int, list[tuple[int, str]]]]
 ) -> list[tuple[int, str]] | None:
@@ -94,8 +108,64 @@ def _meant(
     return body
 
 
+def _is_data(text: str, names: list[str] | None) -> bool:
+    """Whether a row holds the entries of a table: numbers wherever its columns hold numbers."""
+    cells = _tokens(text)
+    if names is None:
+        return False
+    fewest = len(names) - (1 if names[-1] == "outputs" else 0)
+    return fewest <= len(cells) <= len(names) and all(
+        parse_number(cell) is not None for name, cell in zip(names, cells) if name not in keys.WORDS
+    )
+
+
+def _names(
+    section: str, head: tuple[int, str], columns: Mapping[str, str], faults: Faults, notes: list[str]
+) -> list[str]:
+    """Return the columns of a section by their headings, those with unknown headings by their place; none if faulty."""
+    words = _tokens(head[1])
+    names: list[str] = []
+    for word in words:
+        # the third angle of a body has the name of its second coordinate
+        second = section == "bodies" and word.lower() == "y0" and "y" in names
+        names.append("yaw" if second else columns.get(word.lower(), ""))
+    if "" in names:
+        odd = [word for word, name in zip(words, names) if not name]
+        layout = next(
+            (
+                row[: len(names)]
+                for row in keys.LAYOUTS[section]
+                if len(names) <= len(row) and all(name in ("", place) for name, place in zip(names, row))
+            ),
+            None,
+        )
+        if layout is None:
+            for word in odd:
+                faults.add(
+                    head[0], f"unknown column {word!r}", ", ".join(columns), _suggest(word.lower(), columns), section
+                )
+            faults.broken.add(section)
+            return []
+        names = list(layout)
+        notes.append(f"line {head[0]}: columns {', '.join(odd)} of {section.upper()} are taken by their place")
+    for index, name in enumerate(names):
+        if name in names[:index]:
+            faults.add(head[0], f"column {words[index]!r} comes a second time", path=section)
+    missing = [c for c in dict.fromkeys(columns.values()) if c not in names and c not in keys.MAY_MISS.get(section, ())]
+    if missing:
+        faults.add(head[0], f"no column for {', '.join(m.replace('_', ' ') for m in missing)}", path=section)
+        # its rows, and what refers to them, would be reported as faults that follow from this one
+        faults.broken.add(section)
+        return []
+    return names
+
+
 def _table(
-    section: str, sections: dict[str, tuple[int, list[tuple[int, str]]]], columns: Mapping[str, str], faults: Faults
+    section: str,
+    sections: dict[str, tuple[int, list[tuple[int, str]]]],
+    columns: Mapping[str, str],
+    faults: Faults,
+    notes: list[str],
 ) -> tuple[list[str], list[Row]]:
     """Return the columns and the rows of a section: names, units, then rows."""
     if section not in sections:
@@ -104,38 +174,33 @@ def _table(
         faults.add(0, f"section {section.upper()} is missing", path=section)
         return [], []
     top, body = sections[section]
-    if len(body) < 2:
+    if not body or (len(body) < 2 and not _is_data(body[0][1], None)):
         faults.add(
             top, f"section {section.upper()} is empty", "a row of names, a row of units, then rows", path=section
         )
         return [], []
-    head, units = body[0], body[1]
-    names: list[str] = []
-    for word in _tokens(head[1]):
-        # the third angle of a body has the name of its second coordinate
-        second = section == "bodies" and word.lower() == "y0" and "y" in names
-        column = "yaw" if second else columns.get(word.lower())
-        if column is None:
-            faults.add(
-                head[0], f"unknown column {word!r}", ", ".join(columns), _suggest(word.lower(), columns), section
-            )
-        elif column in names:
-            faults.add(head[0], f"column {word!r} comes a second time", path=section)
-        names.append(column or word)
-    missing = [c for c in dict.fromkeys(columns.values()) if c not in names and c not in keys.MAY_MISS[section]]
-    if missing:
-        faults.add(head[0], f"no column for {', '.join(m.replace('_', ' ') for m in missing)}", path=section)
-        # its rows, and what refers to them, would be reported as faults that follow from this one
-        faults.broken.add(section)
+    head = body[0]
+    names = _names(section, head, columns, faults, notes)
+    if not names:
         return [], []
-    if not units[1].lstrip().startswith("("):
-        faults.add(
-            units[0], f"the row under the names of {section.upper()} holds no units",
-            "a row such as (-) (m) ..., which the format passes over", path=section,
-        )  # fmt: skip
+    rest = body[1:]
+    if rest and not rest[0][1].lstrip().startswith("("):
+        number, text = rest[0]
+        if _is_data(text, names):
+            notes.append(f"line {number}: {section.upper()} has no row of units; MoorDyn would skip this row")
+        elif any(parse_number(word) is not None for word in _tokens(text)):
+            faults.add(
+                number, f"the row under the names of {section.upper()} holds no units",
+                "a row such as (-) (m) ..., which the format passes over", path=section,
+            )  # fmt: skip
+            rest = rest[1:]
+        else:
+            rest = rest[1:]
+    else:
+        rest = rest[1:]
     rows = []
     fewest = len(names) - (1 if names and names[-1] == "outputs" else 0)
-    for number, text in body[2:]:
+    for number, text in rest:
         cells = _tokens(text)
         if not cells:
             continue
@@ -185,7 +250,7 @@ def _points(rows: list[Row], bodies: tuple[DeckBody, ...], faults: Faults) -> tu
     for row in rows:
         word = row.cells.get("kind", "")
         body = body_number(word)
-        kind = "body" if body else keys.POINT_KINDS.get(word.lower())
+        kind = "body" if body else keys.POINT_KINDS.get(unnumbered(word))
         if body and body not in known and "bodies" not in faults.broken:
             faults.add(
                 row.line, f"the point is on body {body}, which is not there", ", ".join(map(str, known)) or "none"
@@ -255,38 +320,49 @@ def _lines(
     return tuple(found)
 
 
-def _options(body: list[tuple[int, str]], faults: Faults, notes: list[str]) -> tuple[DeckOption, ...]:
+def _options(body: list[tuple[int, str]], folder: Path, faults: Faults, notes: list[str]) -> tuple[DeckOption, ...]:
     found: list[DeckOption] = []
     known = {**keys.OPTIONS_USED, **keys.OPTIONS_WITHOUT_MEANING}
     unused: list[str] = []
+    skipped: list[str] = []
     for number, text in body:
-        words = _tokens(text)
+        words = [word.strip("\"'") for word in _tokens(text.replace("=", " "))]
         if not words:
             continue
         if len(words) < 2:
             faults.add(number, f"option {words[0]!r} has no key", "a value, then its key", path="options")
             continue
+        if words[1].lower() not in known and words[0].lower() in known:
+            notes.append(f"line {number}: {words[0]} stands before its value; MoorDyn would pass over it")
+            words[:2] = words[1::-1]
         key = known.get(words[1].lower())
         if key is None:
-            turned = "the value stands before its key" if words[0].lower() in known else ""
-            close = difflib.get_close_matches(words[1].lower(), list(known), n=1)
-            remedy = turned or (f"did you mean {known[close[0]]!r}?" if close else "")
-            allowed = "" if close else ", ".join(dict.fromkeys(known.values()))
-            faults.add(number, f"unknown option {words[1]!r}", allowed, remedy, "options")
+            close = difflib.get_close_matches(words[1].lower(), list(keys.OPTIONS_USED), n=1, cutoff=0.75)
+            if close:
+                meant = f"did you mean {known[close[0]]!r}?"
+                faults.add(number, f"unknown option {words[1]!r}", remedy=meant, path="options")
+            else:
+                skipped.append(f"{words[1]} (line {number})")
+            continue
+        if words[0].upper() == "DEFAULT":
             continue
         before = next((option for option in found if option.key == key), None)
         if before is not None:
             # some decks of MoorDyn's own give the density twice under two names: the last one counts
             notes.append(f"line {number}: {words[1]} replaces {key} of line {before.line}")
             found.remove(before)
-        value = parse_number(words[0])
+        value = {"true": 1.0, "t": 1.0, "false": 0.0, "f": 0.0}.get(words[0].lower(), parse_number(words[0]))
+        if key == "WtrDpth" and value is None and file_of(words[0], folder) is not None:
+            # the Fortran version takes the name of a depth file here
+            key = "SeafloorFile"
         if words[1].lower() in keys.OPTIONS_WITHOUT_MEANING:
             unused.append(key)
         elif key != "SeafloorFile" and (value is None or not math.isfinite(value)):
-            # the Fortran version takes the name of a depth file here
             faults.add(number, f"{key} is {words[0]!r}, which is no number", path=key)
             continue
         found.append(DeckOption(key, words[0] if value is None else value, number))
+    if skipped:
+        notes.append(f"not known, and skipped: {', '.join(skipped)}")
     if unused:
         notes.append(f"kept, without meaning here: {', '.join(dict.fromkeys(unused))}")
     return tuple(found)
@@ -361,19 +437,19 @@ def read_deck(path: str | Path) -> MoorDynDeck:
         if why and title in sections and len(sections[title][1]) > 2:
             top, body = sections[title]
             faults.add(top, f"section {title} with {len(body) - 2} row(s): {why}", path=title.lower())
-    names, kind_rows = _table("line types", sections, keys.LINE_TYPE_COLUMNS, faults)
+    names, kind_rows = _table("line types", sections, keys.LINE_TYPE_COLUMNS, faults, notes)
     kinds = _line_types(names, kind_rows, place.parent, faults)
     if names and tuple(names[: len(keys.LINE_TYPE_ORDER)]) != keys.LINE_TYPE_ORDER:
         notes.append(
             f"line {kind_rows[0].line - 2 if kind_rows else 0}: the columns of LINE TYPES stand in another order than "
             "MoorDyn v2 takes them; they are read by their headings"
         )
-    rod_types = read_rod_types(_table("rod types", sections, ROD_TYPE_COLUMNS, faults)[1], faults)
-    bodies = read_bodies(_table("bodies", sections, BODY_COLUMNS, faults)[1], faults)
-    rods = read_rods(_table("rods", sections, ROD_COLUMNS, faults)[1], rod_types, bodies, faults)
-    points = _points(_table("points", sections, keys.POINT_COLUMNS, faults)[1], bodies, faults)
-    rows = _lines(_table("lines", sections, keys.LINE_COLUMNS, faults)[1], kinds, points, rods, faults)
-    options = _options(sections.get("options", (0, []))[1], faults, notes)
+    rod_types = read_rod_types(_table("rod types", sections, ROD_TYPE_COLUMNS, faults, notes)[1], faults)
+    bodies = read_bodies(_table("bodies", sections, BODY_COLUMNS, faults, notes)[1], faults)
+    rods = read_rods(_table("rods", sections, ROD_COLUMNS, faults, notes)[1], rod_types, bodies, faults)
+    points = _points(_table("points", sections, keys.POINT_COLUMNS, faults, notes)[1], bodies, faults)
+    rows = _lines(_table("lines", sections, keys.LINE_COLUMNS, faults, notes)[1], kinds, points, rods, faults)
+    options = _options(sections.get("options", (0, []))[1], place.parent, faults, notes)
     _check_option_values(options, faults)
     current, depth, waves = None, None, None
     steps = [option.value for option in options if option.key == "dtWave" and isinstance(option.value, float)]

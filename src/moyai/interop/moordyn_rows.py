@@ -129,9 +129,16 @@ def read_current(option: DeckOption, folder: Path, faults: Faults) -> DeckCurren
     return DeckCurrent(tuple(r[0] for r in rows), tuple((r[1], r[2]) for r in rows))
 
 
+def file_of(name: str, folder: Path) -> Path | None:
+    """Return a file that a deck names from wherever its program was started: next to the deck, or below it."""
+    parts = Path(name.strip("\"'").replace("\\", "/")).parts
+    tries = (folder.joinpath(*parts[first:]) for first in range(len(parts)))
+    return next((place for place in tries if place.is_file()), None)
+
+
 def read_flat_depth(option: DeckOption, folder: Path, faults: Faults) -> float | None:
     """Return the depth of a grid file that is flat."""
-    place = next((p for p in (folder / str(option.value), folder / Path(str(option.value)).name) if p.is_file()), None)
+    place = file_of(str(option.value), folder)
     if place is None:
         faults.add(option.line, f"there is no file {option.value!s} next to the deck", path="SeafloorFile")
         return None

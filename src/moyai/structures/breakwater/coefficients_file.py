@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.structures.breakwater.model import BreakwaterProblem
 
@@ -27,7 +28,10 @@ def planar_coefficients(problem: BreakwaterProblem) -> tuple[Callable[[Any], Any
 
     options = dict(given.options)
     sea, origin = options.pop("sea"), options.pop("origin")
-    dataset = read_body(given.program, given.path, options)
+    try:
+        dataset = read_body(given.program, given.path, options)
+    except InputError as error:
+        raise error.at("coefficients_file") from None
 
     notices = list(import_notices(dataset))
     environment = problem.environment

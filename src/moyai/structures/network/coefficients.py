@@ -221,5 +221,8 @@ def coefficients_of_bodies(problem: NetworkProblem) -> dict[str, xr.Dataset]:
     for body in problem.bodies:
         given = body.coefficients
         if given is not None:
-            found[body.name] = read_body(given.program, given.path, given.options)
+            try:
+                found[body.name] = read_body(given.program, given.path, given.options)
+            except InputError as error:
+                raise error.at(f"bodies.{body.name}.coefficients_file") from None
     return found
