@@ -84,11 +84,13 @@ def case_text(
         *(f"# {note}" for note in (*deck.notes, *said)),
         "moyai: 1",
         f"title: {_word(deck.title or deck.source or 'Moored lines')}",
+        "plausibility: warn",
         "",
         f"site: {{water_depth: {_number(water.depth)}, density: {_number(water.density)}, "
         f"gravity: {_number(water.gravity)}}}",
         *_waves(deck, folder),
         *_current(deck),
+        *_current_field(deck),
         "",
         "structure:",
         "  kind: network",
@@ -113,7 +115,7 @@ def case_text(
         f"type: {_word(line.line_type)}, length: {_number(line.length)}, segments: {line.segments}}}"
         for line in deck.lines
     ]
-    dynamic = bool(moved) or duration is not None or deck.waves is not None
+    dynamic = bool(moved) or duration is not None or deck.waves is not None or deck.current_field is not None
     # what moves in a deck without a search for rest starts where the deck has it
     as_built = any(body.moves for body in bodies) and deck.number("TmaxIC") == 0.0
     analyses = [*([] if as_built and dynamic else ["statics"]), *(["modes"] if deck.lines and not bodies else [])]
@@ -121,7 +123,7 @@ def case_text(
     if dynamic:
         start = "as_built" if as_built else "rest_in_current" if deck.current is not None else "rest"
         settings = [f"start: {start}"]
-        if deck.waves is not None:
+        if deck.waves is not None or deck.current_field is not None:
             # in MoorDyn waves stand from the start, and their kinematics end at still water
             settings += ["ramp: 0", "stretching: constant"]
         if duration is not None:
@@ -322,6 +324,13 @@ def _waves(deck: MoorDynDeck, folder: Path | None) -> list[str]:
             for omega, a, angle, heading in rows
         ),
     ]  # fmt: skip
+
+
+def _current_field(deck: MoorDynDeck) -> list[str]:
+    given = deck.current_field
+    if given is None:
+        return []
+    return [f"current_field: {{file: {_word(str(Path(given.folder) / given.file))}, form: {given.form}}}"]
 
 
 def _current(deck: MoorDynDeck) -> list[str]:

@@ -18,6 +18,7 @@ from moyai.interop.moordyn_records import (
     CURRENT_FILE,
     FREQUENCY_FILE,
     DeckCurrent,
+    DeckCurrentField,
     DeckOption,
     DeckWaves,
     StiffnessTable,
@@ -139,6 +140,8 @@ class MoorDynDeck:
     source: str = field(default="", compare=False)
     #: What the reader says about the file that is no fault: options without meaning here, columns in another order.
     notes: tuple[str, ...] = field(default=(), compare=False)
+    #: When the option Currents is 2 or 5.
+    current_field: DeckCurrentField | None = None
     #: When the option WaveKin is 2, 3 or 7. Decks are written with 7, which needs no grid.
     waves: DeckWaves | None = None
 
@@ -346,6 +349,12 @@ def write_deck(deck: MoorDynDeck, path: str | Path) -> Path:
             "the deck takes its depth from a grid file, which is not written",
             path="options.SeafloorFile",
             remedy="replace it by WtrDpth",
+        )
+    if deck.current_field is not None:
+        raise InputError(
+            f"the deck takes its current from {deck.current_field.file}, which is not written",
+            path="options.Currents",
+            remedy="replace it by a steady current (Currents 1)",
         )
     place.write_text(deck_text(deck), encoding="utf-8")
     for kind in deck.line_types:

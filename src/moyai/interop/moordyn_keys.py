@@ -159,13 +159,11 @@ WAVES_READ = {
 
 #: Values of WaveKin and Currents that are refused, in words.
 WAVE_KINEMATICS = {
-    4.0: "Fourier sums at the nodes",
-    5.0: "kinematics at the nodes",
-    6.0: "kinematics on a grid",
+    4.0: "Fourier sums at the nodes, which MoorDyn has not either",
+    5.0: "kinematics at the nodes, which MoorDyn has not either",
+    6.0: "kinematics on a grid, which MoorDyn has not either",
 }
 CURRENT_KINDS = {
-    2.0: "a profile that changes with time",
-    3.0: "a steady current at the nodes",
-    4.0: "a changing current at the nodes",
-    5.0: "currents on a grid of places and times",
+    3.0: "a steady current at the nodes, which MoorDyn has not either",
+    4.0: "a changing current at the nodes, which MoorDyn has not either",
 }

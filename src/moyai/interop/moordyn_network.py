@@ -16,6 +16,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 
@@ -25,6 +26,7 @@ from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import DRIVEN, FIXED, BarType, Bed, Network, RopeCurve
 from moyai.flexible.result import State
+from moyai.interop.moordyn_currents import read_current_field
 from moyai.interop.moordyn_deck import (
     DeckLine,
     DeckLineType,
@@ -86,8 +88,12 @@ def flow_of(deck: MoorDynDeck, water: Water | None = None) -> Flow:
         Instead of the deck's own.
     """
     waves = None if deck.waves is None else wave_components(deck.waves, water or water_of(deck))
+    field = None
+    if deck.current_field is not None:
+        given = deck.current_field
+        field = read_current_field(Path(given.folder) / given.file, given.form)
     if deck.current is None:
-        return Flow(waves=waves, stretching="constant")
+        return Flow(waves=waves, stretching="constant", field=field)
     z, velocity = np.array(deck.current.z), np.array(deck.current.velocity)
     wet = z <= 0.0
     if not wet.all() and wet.any() and z[wet][-1] < 0.0:

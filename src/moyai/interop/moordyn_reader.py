@@ -12,9 +12,9 @@ import math
 import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
-from moyai.core.errors import CaseError
+from moyai.core.errors import CaseError, InputError
 from moyai.core.foreign_files import reads
 from moyai.interop import moordyn_keys as keys
 from moyai.interop.moordyn_bodies import (
@@ -29,8 +29,9 @@ from moyai.interop.moordyn_bodies import (
     read_rods,
     unnumbered,
 )
+from moyai.interop.moordyn_currents import FIELD_FILES, read_current_field
 from moyai.interop.moordyn_deck import DeckLine, DeckLineType, DeckPoint, MoorDynDeck
-from moyai.interop.moordyn_records import CURRENT_FILE, DeckOption
+from moyai.interop.moordyn_records import CURRENT_FILE, DeckCurrentField, DeckOption
 from moyai.interop.moordyn_rows import Faults, Row, file_of, read_current, read_flat_depth, read_stiffness
 from moyai.interop.moordyn_waves import read_waves
 from moyai.interop.textfiles import parse_number, read_lines
@@ -368,6 +369,22 @@ def _options(body: list[tuple[int, str]], folder: Path, faults: Faults, notes: l
     return tuple(found)
 
 
+def _current_field(option: DeckOption, folder: Path, faults: Faults) -> DeckCurrentField | None:
+    """Return the current that changes with time of the file next to the deck, once it was read without a fault."""
+    form: Literal["profile", "grid"] = "profile" if option.value == 2.0 else "grid"
+    name = FIELD_FILES[form]
+    if not (folder / name).is_file():
+        words = f"Currents is {option.value:g}, but there is no {name} next to the deck"
+        faults.add(option.line, words, path="Currents")
+        return None
+    try:
+        read_current_field(folder / name, form)
+    except InputError as error:
+        faults.add(option.line, error.fault.message, error.fault.allowed, path="Currents")
+        return None
+    return DeckCurrentField(name, form, str(folder.resolve()))
+
+
 def _check_option_values(deck_options: tuple[DeckOption, ...], faults: Faults) -> None:
     positive, not_negative = ("WtrDpth", "kBot"), ("g", "WtrDnsty", "cBot", "FrictionCoefficient")
     for option in deck_options:
@@ -382,11 +399,12 @@ def _check_option_values(deck_options: tuple[DeckOption, ...], faults: Faults) -
             words = keys.WAVE_KINEMATICS.get(value, "unknown")
             allowed = ", ".join(f"{number:g}: {text}" for number, text in keys.WAVES_READ.items())
             faults.add(option.line, f"WaveKin {value:g} ({words}) is not read", allowed, path="WaveKin")
-        if option.key == "Currents" and value not in (0.0, 1.0):
+        if option.key == "Currents" and value not in (0.0, 1.0, 2.0, 5.0):
             words = keys.CURRENT_KINDS.get(value, "unknown")
             faults.add(
-                option.line, f"Currents {value:g} ({words}) is not read", f"0, or 1: {CURRENT_FILE}", path="Currents"
-            )
+                option.line, f"Currents {value:g} ({words}) is not read",
+                f"0, 1: {CURRENT_FILE}, 2: {FIELD_FILES['profile']}, 5: {FIELD_FILES['grid']}", path="Currents",
+            )  # fmt: skip
         if option.key == "dtWave" and value <= 0.0:
             faults.add(option.line, f"dtWave is {value:g}", "greater than 0", path="dtWave")
         if option.key == "StatDynFricScale" and value != 1.0:
@@ -451,7 +469,7 @@ def read_deck(path: str | Path) -> MoorDynDeck:
     rows = _lines(_table("lines", sections, keys.LINE_COLUMNS, faults, notes)[1], kinds, points, rods, faults)
     options = _options(sections.get("options", (0, []))[1], place.parent, faults, notes)
     _check_option_values(options, faults)
-    current, depth, waves = None, None, None
+    current, field, depth, waves = None, None, None, None
     steps = [option.value for option in options if option.key == "dtWave" and isinstance(option.value, float)]
     for option in options:
         if option.key == "WaveKin" and option.value in (2.0, 3.0, 7.0):
@@ -461,6 +479,8 @@ def read_deck(path: str | Path) -> MoorDynDeck:
             notes.append(f"line {option.line}: WaveKin 1: the waves come from the program that runs MoorDyn; none here")
         if option.key == "Currents" and option.value == 1.0:
             current = read_current(option, place.parent, faults)
+        if option.key == "Currents" and option.value in (2.0, 5.0):
+            field = _current_field(option, place.parent, faults)
         if option.key == "SeafloorFile":
             depth = read_flat_depth(option, place.parent, faults)
     outputs = [word for _, text in sections.get("outputs", (0, []))[1] for word in text.replace(",", " ").split()]
@@ -468,7 +488,7 @@ def read_deck(path: str | Path) -> MoorDynDeck:
     title = lines[1].strip() if len(lines) > 1 and not _RULE.match(lines[1]) else ""
     deck = MoorDynDeck(
         kinds, points, rows, options, tuple(outputs), current, depth, rod_types, bodies, rods, title, place.name,
-        tuple(notes), waves,
+        tuple(notes), field, waves,
     )  # fmt: skip
     _check_site(deck, faults)
     if faults.found:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Literal
 
 #: Name that MoorDyn gives the profile of a steady current, next to the deck.
 CURRENT_FILE = "current_profile.txt"
@@ -40,6 +41,18 @@ class DeckCurrent:
     z: tuple[float, ...]
     #: Horizontal components at them [m/s].
     velocity: tuple[tuple[float, float], ...]
+
+
+@dataclass(frozen=True)
+class DeckCurrentField:
+    """A current that changes with time, in a file next to the deck."""
+
+    #: Name of the file.
+    file: str
+    #: ``profile`` over the height, or ``grid`` in space.
+    form: Literal["profile", "grid"]
+    #: Where the file stands.
+    folder: str = field(default="", compare=False)
 
 
 #: Names that MoorDyn gives the files of waves, next to the deck.

@@ -18,6 +18,7 @@ from moyai.core.errors import InputError
 from moyai.coupled.assembly import RodPart, VolumePart
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import BarType, RopeCurve
+from moyai.sea.current_field import CurrentField
 from moyai.sea.elevation_record import components_of_record
 from moyai.sea.environment import Environment
 from moyai.sea.states import ComponentSea, RegularSea, SeaState
@@ -81,7 +82,21 @@ def build_problem(case: NetworkCase, folder: Path, *, case_text: str = "", case_
         case_text=case_text,
         case_hash=case_hash,
         criteria=criteria_of(case),
+        current_field=_current_field(case, folder),
     )
+
+
+def _current_field(case: NetworkCase, folder: Path) -> CurrentField | None:
+    """Return the current that changes with time, from its file."""
+    given = case.current_field
+    if given is None:
+        return None
+    from moyai.interop.moordyn_currents import read_current_field
+
+    try:
+        return read_current_field(folder / given.file, given.form)
+    except InputError as error:
+        raise error.at("current_field.file") from None
 
 
 def _settings(case: NetworkCase, folder: Path) -> model.Settings:

@@ -133,6 +133,16 @@ NetworkSea = Annotated[
 ]  # fmt: skip
 
 
+class CurrentInTime(Block):
+    """A current that changes with time, from a file in a form of MoorDyn."""
+
+    file: FileName = Field(description="Text file, relative to the case file.")
+    form: Literal["profile", "grid"] = Field(
+        description="profile: velocities over the height at several times (current_profile_dynamic.txt of MoorDyn); "
+        "grid: on a grid of x, y, z and time (current_profile_4d.txt)."
+    )
+
+
 class NetworkSettings(Block):
     """How the analyses are run."""
 
@@ -210,9 +220,16 @@ class NetworkCase(Block):
         default=(), description="One sea state, or a list of them; each is run. Still water when left out."
     )
     current: Current | None = Field(default=None, description="Steady current.")
+    current_field: CurrentInTime | None = Field(
+        default=None, description="A current that changes with time, in place of 'current'; it acts in 'dynamic'."
+    )
     structure: NetworkStructure = Field(description="The network.")
     analyses: Annotated[tuple[NetworkAnalysis, ...], Field(min_length=1), AfterValidator(once_each)] = Field(
         description="What is computed.", examples=[["statics", "modes", "dynamic"]]
+    )
+    plausibility: Literal["refuse", "warn"] = Field(
+        default="refuse",
+        description="What is done with impossible numbers; cases made from decks are warned. Default: refuse.",
     )
     criteria: NetworkKeeps = Field(default_factory=NetworkCriteria, description=CRITERIA)
     settings: NetworkSettings = Field(default_factory=NetworkSettings, description="How the analyses are run.")
