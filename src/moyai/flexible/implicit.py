@@ -19,6 +19,7 @@ from moyai.flexible.network import Network
 from moyai.flexible.parts import kernel_parts, network_parts
 from moyai.flexible.relaxation import kernel_bed, kernel_plan, kernel_system, mean_size, plan_of
 from moyai.flexible.result import State
+from moyai.flexible.slow_stretch import SlowBars
 from moyai.flexible.tableaus import TABLEAUS
 from moyai.flexible.watch import watch_of
 
@@ -47,6 +48,7 @@ class ImplicitRun:
                 allowed="'explicit' for this network",
             )
         self.arrays = kernel_arrays(network)
+        self.slow = SlowBars.of(network, start.position, self.arrays)
         self.system = kernel_system(self.arrays)
         plan = plan_of(network, self.arrays, network_parts(network))
         self.plan, self.parts = kernel_plan(plan), kernel_parts(network, plan.pairs[2:])
@@ -136,6 +138,9 @@ class ImplicitRun:
         self.time = reached if status != kernel.GOOD else end
         if not self.flow.steady:
             self.water = np.ascontiguousarray(self.flow.at(end, self._place.T))
+        if self.slow is not None:
+            self.arrays.bar("length")[self.slow.bars] = self.slow.advance(self.place, self.speed, rows * row_interval)
+            saved[3][first : first + rows, 1] += self.slow.energy
         return int(good)
 
     def state(self) -> State:

@@ -275,6 +275,11 @@ def _line_type(kind: DeckLineType) -> list[str]:
         parts.append(f"curve: {{table: [{', '.join(f'[{_number(e)}, {_number(t)}]' for e, t in rows)}]}}")
     else:
         parts.append(f"axial_stiffness: {_number(kind.stiffness)}")
+    if kind.slow is not None:
+        parts.append(
+            f"slow_stretch: {{static_stiffness: {_number(kind.slow.stiffness)}, "
+            f"viscosity: {_number(kind.slow.damping)}, growth: {_number(kind.slow.growth)}}}"
+        )
     # a negative BA is minus the part of the critical damping of a segment
     parts.append(
         f"viscosity: {_number(kind.damping)}" if kind.damping >= 0.0 else f"damping_ratio: {_number(-kind.damping)}"

@@ -20,6 +20,7 @@ from moyai.interop.moordyn_records import (
     DeckCurrent,
     DeckCurrentField,
     DeckOption,
+    DeckSlowStretch,
     DeckWaves,
     StiffnessTable,
 )
@@ -60,6 +61,8 @@ class DeckLineType:
     added_mass_axial: float
     #: Line of the file, 0 for a record that was not read.
     line: int = field(default=0, compare=False)
+    #: Of a viscoelastic rope, whose ``stiffness`` and ``damping`` are the dynamic ones.
+    slow: DeckSlowStretch | None = None
 
 
 @checks_words
@@ -268,12 +271,21 @@ def _value(option: DeckOption, waves: DeckWaves | None) -> str:
     return option.value if isinstance(option.value, str) else _digits(option.value)
 
 
+def _stiffness(kind: DeckLineType) -> str:
+    if isinstance(kind.stiffness, StiffnessTable):
+        return kind.stiffness.file
+    if kind.slow is None:
+        return _digits(kind.stiffness)
+    parts = [kind.slow.stiffness, kind.stiffness, *([kind.slow.growth] if kind.slow.growth else [])]
+    return "|".join(map(_digits, parts))
+
+
 def deck_text(deck: MoorDynDeck) -> str:
     """Return the text of a MoorDyn v2 input file; every number keeps all its digits."""
     kinds = [
         (
             t.name, _digits(t.diameter), _digits(t.mass_per_length),
-            t.stiffness.file if isinstance(t.stiffness, StiffnessTable) else _digits(t.stiffness), _digits(t.damping),
+            _stiffness(t), _digits(t.damping) if t.slow is None else f"{_digits(t.slow.damping)}|{_digits(t.damping)}",
             _digits(t.bending_stiffness), _digits(t.drag_normal), _digits(t.added_mass_normal), _digits(t.drag_axial),
             _digits(t.added_mass_axial),
         )

@@ -24,7 +24,7 @@ from moyai.core.errors import CaseError, Fault, InputError
 from moyai.flexible.build import NetworkBuilder
 from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import DRIVEN, FIXED, BarType, Bed, Network, RopeCurve
+from moyai.flexible.network import DRIVEN, FIXED, BarType, Bed, Network, RopeCurve, SlowStretch
 from moyai.flexible.result import State
 from moyai.interop.moordyn_currents import read_current_field
 from moyai.interop.moordyn_deck import (
@@ -34,7 +34,7 @@ from moyai.interop.moordyn_deck import (
     MoorDynDeck,
     PointKind,
 )
-from moyai.interop.moordyn_records import DeckOption, StiffnessTable
+from moyai.interop.moordyn_records import DeckOption, DeckSlowStretch, StiffnessTable
 from moyai.interop.moordyn_waves import wave_components
 from moyai.sea.current import table as current_table
 from moyai.sea.water import Water
@@ -133,6 +133,7 @@ def bar_type(kind: DeckLineType, segment_length: float) -> BarType:
         added_mass_tangential=kind.added_mass_axial,
         bending_stiffness=kind.bending_stiffness,
         curve=curve,
+        slow=None if kind.slow is None else SlowStretch(kind.slow.stiffness, kind.slow.damping, kind.slow.growth),
     )
 
 
@@ -383,6 +384,8 @@ def _line_types(network: Network, equivalent: list[float]) -> tuple[tuple[DeckLi
         made = DeckLineType(
             name, diameter, kind.mass_per_length, stiffness, kind.viscosity, kind.bending_stiffness, kind.drag_normal,
             kind.added_mass_normal, kind.drag_tangential / math.pi, kind.added_mass_tangential,
+            slow=None if kind.slow is None
+            else DeckSlowStretch(kind.slow.static_stiffness, kind.slow.viscosity, kind.slow.growth),
         )  # fmt: skip
         ratio = kind.diameter / diameter
         if abs(ratio - 1.0) > 1e-12:

@@ -224,15 +224,17 @@ def _line_types(names: list[str], rows: list[Row], folder: Path, faults: Faults)
         name = row.cells.get("name", "")
         if any(kind.name == name for kind in found):
             faults.add(row.line, f"two line types are named {name!r}", path="line types")
-        damping = row.cells.get("damping", "0")
-        if parse_number(damping) is None:
-            faults.add(row.line, f"damping is {damping!r}", "one number: BA in N s, or minus a damping ratio")
+        stiffness, slow = read_stiffness(row, folder, faults)
+        damping = row.cells.get("damping", "0").split("|")[-1]
+        if slow is None and (parse_number(damping) is None or "|" in row.cells.get("damping", "")):
+            words = f"damping is {row.cells.get('damping', '')!r}"
+            faults.add(row.line, words, "one number: BA in N s, or minus a damping ratio")
         found.append(
             DeckLineType(
                 name,
                 faults.number(row, "diameter", above=0.0),
                 faults.number(row, "mass_per_length", above=0.0),
-                read_stiffness(row, folder, faults),
+                stiffness,
                 parse_number(damping) or 0.0,
                 faults.number(row, "bending_stiffness", least=0.0),
                 faults.number(row, "drag_normal", least=0.0),
@@ -240,6 +242,7 @@ def _line_types(names: list[str], rows: list[Row], folder: Path, faults: Faults)
                 faults.number(row, "drag_axial", least=0.0),
                 faults.number(row, "added_mass_axial", least=0.0),
                 row.line,
+                slow,
             )
         )
     return tuple(found)

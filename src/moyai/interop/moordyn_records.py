@@ -22,6 +22,17 @@ class StiffnessTable:
 
 
 @dataclass(frozen=True)
+class DeckSlowStretch:
+    """Numbers parted by | in a line type: static stiffness and damping of a viscoelastic rope."""
+
+    #: EA_s [N], BA_s [N s].
+    stiffness: float
+    damping: float
+    #: EA_D_Lm, by which the dynamic stiffness grows with the mean load [-].
+    growth: float = 0.0
+
+
+@dataclass(frozen=True)
 class DeckOption:
     """A row of OPTIONS."""
 

@@ -136,7 +136,7 @@ def test_line_ends_and_foreign_letters(tmp_path):
         ("500    0.1 ", "-500   0.1 ", 12, ("mass is -500", "0 or more")),
         ("500    0.1     0.4    0.5", "500    0.1     0.4", 12, ("8 columns", "9: ID Type")),
         ("5.1e8 ", "-5.1e8 ", 6, ("stiffness is -5.1e+08",)),
-        ("5.1e8 ", "1e8|2e8|0.4 ", 6, ("depends on rate",)),
+        ("5.1e8 ", "1e8|2e8|0.4 ", 6, ("EA_s|EA_d",)),
         ("5.1e8 ", "rope.txt ", 6, ("'rope.txt'", "neither a number nor a file")),
         ("0.08    126.0 ", "0.08    heavy ", 6, ("mass per length is 'heavy'",)),
         ("0.08    126.0 ", "nan     126.0 ", 6, ("diameter is 'nan'",)),

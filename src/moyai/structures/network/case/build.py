@@ -17,7 +17,7 @@ from moyai.case.schema_environment import sea_names
 from moyai.core.errors import InputError
 from moyai.coupled.assembly import RodPart, VolumePart
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import BarType, RopeCurve
+from moyai.flexible.network import BarType, RopeCurve, SlowStretch
 from moyai.sea.current_field import CurrentField
 from moyai.sea.elevation_record import components_of_record
 from moyai.sea.environment import Environment
@@ -235,9 +235,13 @@ def bar_type_of(
     made["axial_stiffness"] = stiffness
     bar = BarType(
         name, viscosity=viscosity, bending_stiffness=entry.bending_stiffness, tension_only=tension_only, curve=curve,
-        **made,
+        slow=_slow_stretch(getattr(entry, "slow_stretch", None)), **made,
     )  # fmt: skip
     return bar, breaking
+
+
+def _slow_stretch(entry: parts.SlowStretch | None) -> SlowStretch | None:
+    return None if entry is None else SlowStretch(entry.static_stiffness, entry.viscosity, entry.growth)
 
 
 def _known(name: str, types: Any, path: str) -> Any:
