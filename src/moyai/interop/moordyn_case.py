@@ -16,7 +16,7 @@ from moyai.coupled.assembly import RodPart, VolumePart
 from moyai.interop.moordyn_deck import DeckLineType, DeckPoint, MoorDynDeck
 from moyai.interop.moordyn_keys import SECTIONS
 from moyai.interop.moordyn_network import line_name, point_name, water_of
-from moyai.interop.moordyn_records import StiffnessTable
+from moyai.interop.moordyn_records import DeckFailure, StiffnessTable
 from moyai.interop.moordyn_system import BodyOfDeck, bodies_of, end_name, rod_knots
 from moyai.interop.moordyn_waves import amplitude_and_phase
 from moyai.interop.textfiles import read_lines
@@ -115,7 +115,11 @@ def case_text(
         f"type: {_word(line.line_type)}, length: {_number(line.length)}, segments: {line.segments}}}"
         for line in deck.lines
     ]
+    if deck.failures:
+        lines.append("  failures:")
+    lines += [f"    - {_failure(deck, item)}" for item in deck.failures]
     dynamic = bool(moved) or duration is not None or deck.waves is not None or deck.current_field is not None
+    dynamic = dynamic or any(item.time for item in deck.failures)
     # what moves in a deck without a search for rest starts where the deck has it
     as_built = any(body.moves for body in bodies) and deck.number("TmaxIC") == 0.0
     analyses = [*([] if as_built and dynamic else ["statics"]), *(["modes"] if deck.lines and not bodies else [])]
@@ -329,6 +333,13 @@ def _waves(deck: MoorDynDeck, folder: Path | None) -> list[str]:
             for omega, a, angle, heading in rows
         ),
     ]  # fmt: skip
+
+
+def _failure(deck: MoorDynDeck, item: DeckFailure) -> str:
+    line = next(line for line in deck.lines if line.number == item.line_number)
+    parts = [f"line: {line_name(line.number)}", f"at: {'start' if line.start == item.point else 'end'}"]
+    parts += [f"{key}: {_number(value)}" for key, value in (("time", item.time), ("tension", item.tension)) if value]
+    return f"{{{', '.join(parts)}}}"
 
 
 def _current_field(deck: MoorDynDeck) -> list[str]:

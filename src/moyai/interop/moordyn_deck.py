@@ -19,6 +19,7 @@ from moyai.interop.moordyn_records import (
     FREQUENCY_FILE,
     DeckCurrent,
     DeckCurrentField,
+    DeckFailure,
     DeckOption,
     DeckSlowStretch,
     DeckWaves,
@@ -143,6 +144,8 @@ class MoorDynDeck:
     source: str = field(default="", compare=False)
     #: What the reader says about the file that is no fault: options without meaning here, columns in another order.
     notes: tuple[str, ...] = field(default=(), compare=False)
+    #: Rows of FAILURE.
+    failures: tuple[DeckFailure, ...] = ()
     #: When the option Currents is 2 or 5.
     current_field: DeckCurrentField | None = None
     #: When the option WaveKin is 2, 3 or 7. Decks are written with 7, which needs no grid.
@@ -324,6 +327,16 @@ def deck_text(deck: MoorDynDeck) -> str:
             "(#) (name) (#) (#) (m) (-) (-)",
             lines,
             keep,
+        ),
+        *_section(
+            "FAILURE",
+            "FailureID Point Line(s) FailTime FailTen",
+            "() () (,) (s) (N)",
+            [
+                (str(f.number), str(f.point), str(f.line_number), _digits(f.time), _digits(f.tension))
+                for f in deck.failures
+            ],
+            False,
         ),
         _title("OPTIONS"),
         *[f"{_value(o, deck.waves):<24}{o.key}" for o in deck.options],

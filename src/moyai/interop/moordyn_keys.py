@@ -26,13 +26,15 @@ SECTIONS = {
     "BODY PROPERTIES": "bodies",
     "OPTIONS": "options",
     "SOLVER OPTIONS": "options",
+    "FAILURE": "failure",
+    "FAILURES": "failure",
+    "LINE FAILURE": "failure",
     "OUTPUTS": "outputs",
     "OUTPUT": "outputs",
 }
 
 #: Sections whose rows this reader refuses, and why.
 REFUSED_SECTIONS = {
-    "FAILURE": "failing lines are not read",
     "CONTROL": "lines of controlled length are not read",
     "EXTERNAL LOADS": "external loads are not read",
     "SYROPE IC": "the working curves of polyester ropes are not read",
@@ -72,6 +74,14 @@ LINE_COLUMNS = {
     "outputs": "outputs", "lineoutputs": "outputs", "flags/outputs": "outputs",
 }  # fmt: skip
 
+FAILURE_COLUMNS = {
+    "failureid": "number", "id": "number",
+    "point": "point", "node": "point", "attachment": "point",
+    "line(s)": "lines", "lines": "lines", "line": "lines",
+    "failtime": "time", "time": "time",
+    "failten": "tension", "tension": "tension",
+}  # fmt: skip
+
 #: Columns in the order in which MoorDyn v2 takes them, whatever their headings say.
 LINE_TYPE_ORDER = (
     "name", "diameter", "mass_per_length", "stiffness", "damping", "bending_stiffness", "drag_normal",
@@ -101,6 +111,7 @@ LAYOUTS: dict[str, tuple[tuple[str, ...], ...]] = {
         ("number", "kind", "x", "y", "z", "roll", "pitch", "yaw", "mass", "centre", "inertia", "volume", "drag_area",
          "added_mass"),
     ),
+    "failure": (("number", "point", "lines", "time", "tension"),),
     "rods": (
         ("number", "rod_type", "kind", "xa", "ya", "za", "xb", "yb", "zb", "segments", "outputs"),
     ),
@@ -109,7 +120,7 @@ LAYOUTS: dict[str, tuple[tuple[str, ...], ...]] = {
 #: Columns that hold words, or numbers parted by |.
 WORDS = frozenset(
     ("name", "kind", "line_type", "rod_type", "stiffness", "damping", "outputs", "start", "end", "centre", "inertia",
-     "drag_area", "added_mass")
+     "drag_area", "added_mass", "point", "lines")
 )  # fmt: skip
 
 #: Columns that a section may go without (version 1 had no bending stiffness, OUTPUTS flags may be left out).

@@ -41,8 +41,8 @@ from moyai.sea.water import Water
 
 #: Part of the stable step of the explicit scheme here that MoorDyn is given, and the longest step at all [s].
 SAFE_SHARE, LONGEST_STEP = 0.25, 0.05
-#: Density that stands for no water at all [kg/m3].
-TRACE = 1e-3
+#: Density [kg/m3] and gravity [m/s2] that stand for none at all.
+TRACE, TRACE_OF_GRAVITY = 1e-3, 1e-6
 
 
 def point_name(number: int) -> str:
@@ -73,7 +73,8 @@ def water_of(deck: MoorDynDeck) -> Water:
     density, gravity = deck.number("WtrDnsty"), deck.number("g")
     # a deck without water is run in a trace of it
     thin = TRACE if density == 0.0 else density
-    return Water(depth, thin if thin is not None else math.nan, gravity if gravity is not None else math.nan)
+    pull = TRACE_OF_GRAVITY if gravity == 0.0 else gravity
+    return Water(depth, thin if thin is not None else math.nan, pull if pull is not None else math.nan)
 
 
 def flow_of(deck: MoorDynDeck, water: Water | None = None) -> Flow:

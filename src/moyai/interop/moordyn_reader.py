@@ -31,7 +31,7 @@ from moyai.interop.moordyn_bodies import (
 )
 from moyai.interop.moordyn_currents import FIELD_FILES, read_current_field
 from moyai.interop.moordyn_deck import DeckLine, DeckLineType, DeckPoint, MoorDynDeck
-from moyai.interop.moordyn_records import CURRENT_FILE, DeckCurrentField, DeckOption
+from moyai.interop.moordyn_records import CURRENT_FILE, DeckCurrentField, DeckFailure, DeckOption
 from moyai.interop.moordyn_rows import Faults, Row, file_of, read_current, read_flat_depth, read_stiffness
 from moyai.interop.moordyn_waves import read_waves
 from moyai.interop.textfiles import parse_number, read_lines
@@ -324,6 +324,30 @@ def _lines(
     return tuple(found)
 
 
+def _failures(rows: list[Row], lines: tuple[DeckLine, ...], faults: Faults) -> tuple[DeckFailure, ...]:
+    """Return the rows of FAILURE; one line a row, which hangs on the point that it names."""
+    found: list[DeckFailure] = []
+    for row in rows:
+        word = row.cells.get("point", "")
+        on_rod = re.fullmatch(r"(?:rod|r)(\d+)([ab])", word.lower())
+        point: int | str = f"R{on_rod[1]}{on_rod[2].upper()}" if on_rod else faults.whole(row, "point")
+        numbers = [parse_number(part) for part in row.cells.get("lines", "").split(",") if part]
+        if len(numbers) != 1 or numbers[0] is None:
+            faults.add(
+                row.line, f"lines {row.cells.get('lines', '')!r} part together", "one line a row", path="failure",
+                remedy="lines that stay joined to each other are not run: give each its row where they part singly",
+            )  # fmt: skip
+            continue
+        line = next((item for item in lines if item.number == numbers[0]), None)
+        if "lines" not in faults.broken and (line is None or point not in (line.start, line.end)):
+            faults.add(row.line, f"line {numbers[0]:g} does not hang on {word}", path="failure")
+        time, tension = faults.number(row, "time", least=0.0), faults.number(row, "tension", least=0.0)
+        if not time and not tension:
+            continue  # it never parts
+        found.append(DeckFailure(faults.whole(row, "number"), point, int(numbers[0]), time, tension, row.line))
+    return tuple(found)
+
+
 def _options(body: list[tuple[int, str]], folder: Path, faults: Faults, notes: list[str]) -> tuple[DeckOption, ...]:
     found: list[DeckOption] = []
     known = {**keys.OPTIONS_USED, **keys.OPTIONS_WITHOUT_MEANING}
@@ -470,6 +494,7 @@ def read_deck(path: str | Path) -> MoorDynDeck:
     rods = read_rods(_table("rods", sections, ROD_COLUMNS, faults, notes)[1], rod_types, bodies, faults)
     points = _points(_table("points", sections, keys.POINT_COLUMNS, faults, notes)[1], bodies, faults)
     rows = _lines(_table("lines", sections, keys.LINE_COLUMNS, faults, notes)[1], kinds, points, rods, faults)
+    failures = _failures(_table("failure", sections, keys.FAILURE_COLUMNS, faults, notes)[1], rows, faults)
     options = _options(sections.get("options", (0, []))[1], place.parent, faults, notes)
     _check_option_values(options, faults)
     current, field, depth, waves = None, None, None, None
@@ -491,7 +516,7 @@ def read_deck(path: str | Path) -> MoorDynDeck:
     title = lines[1].strip() if len(lines) > 1 and not _RULE.match(lines[1]) else ""
     deck = MoorDynDeck(
         kinds, points, rows, options, tuple(outputs), current, depth, rod_types, bodies, rods, title, place.name,
-        tuple(notes), field, waves,
+        tuple(notes), failures, field, waves,
     )  # fmt: skip
     _check_site(deck, faults)
     if faults.found:

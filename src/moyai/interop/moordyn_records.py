@@ -33,6 +33,23 @@ class DeckSlowStretch:
 
 
 @dataclass(frozen=True)
+class DeckFailure:
+    """A row of FAILURE: a line that parts from a point."""
+
+    number: int
+    #: ID of a point, or end of a rod such as ``R1A``.
+    point: int | str
+    #: ID of the line.
+    line_number: int
+    #: [s], 0 for none.
+    time: float
+    #: [N], 0 for none.
+    tension: float
+    #: Line of the file.
+    line: int = field(default=0, compare=False)
+
+
+@dataclass(frozen=True)
 class DeckOption:
     """A row of OPTIONS."""
 

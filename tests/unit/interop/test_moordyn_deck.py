@@ -143,8 +143,7 @@ def test_line_ends_and_foreign_letters(tmp_path):
         ("Ca     CdAx    CaAx", "CdAx   CuAx    CaAx", 4, ("unknown column 'CuAx'",)),
         ("(name)     (m)     (kg/m)", "chain2     0.1     100.0", 5, ("holds no units",)),
         ("--- OUTPUTS ---", "--- OUTPUUTS ---", 23, ("unknown section 'OUTPUUTS'", "OUTPUTS")),
-        ("--- OUTPUTS ---", "--- FAILURE ---\nID Point Line\n(#) (#) (#)\n1 7 1\n--- OUTPUTS ---", 23,
-         ("FAILURE", "not read")),
+        ("--- OUTPUTS ---", "--- CONTROL ---\nID Line\n(#) (#)\n1 1\n--- OUTPUTS ---", 23, ("CONTROL", "not read")),
         ("--- POINTS ---", "--- LINE TYPES ---", 7, ("a second time",)),
     ],
 )  # fmt: skip

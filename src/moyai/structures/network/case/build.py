@@ -16,6 +16,7 @@ from moyai.case.headings import heading_of
 from moyai.case.schema_environment import sea_names
 from moyai.core.errors import InputError
 from moyai.coupled.assembly import RodPart, VolumePart
+from moyai.flexible.failures import LineFailure
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import BarType, RopeCurve, SlowStretch
 from moyai.sea.current_field import CurrentField
@@ -83,7 +84,14 @@ def build_problem(case: NetworkCase, folder: Path, *, case_text: str = "", case_
         case_hash=case_hash,
         criteria=criteria_of(case),
         current_field=_current_field(case, folder),
-    )
+        failures=tuple(
+            LineFailure(
+                item.line, item.at == "end", math.inf if item.time is None else item.time,
+                math.inf if item.tension is None else item.tension,
+            )
+            for item in unit.failures
+        ),
+    )  # fmt: skip
 
 
 def _current_field(case: NetworkCase, folder: Path) -> CurrentField | None:
@@ -105,7 +113,8 @@ def _settings(case: NetworkCase, folder: Path) -> model.Settings:
         analyses=case.analyses, duration=given.duration, output_step=given.output_step, ramp=given.ramp,
         start=given.start, resume=None if given.resume is None else folder / given.resume, method=given.method,
         step=given.step, wave_front=given.wave_front, tolerance=given.tolerance, stretching=given.stretching,
-        skip=given.skip, sensitivity=given.sensitivity, mesh_check=given.mesh_check, peak_goal=given.peak_goal,
+        skip=given.skip, sensitivity=given.sensitivity,
+        mesh_check="off" if case.structure.failures else given.mesh_check, peak_goal=given.peak_goal,
         slack_level=given.slack_level,
         snap_threshold=given.snap_threshold, modes=given.modes, stiffness_step=given.stiffness_step,
     )  # fmt: skip

@@ -61,6 +61,17 @@ Phase = Annotated[float, QuantityOf(quantities.ANGLE_DEGREES)]
 Tolerance = Annotated[float, QuantityOf(quantities.NUMBER, above=0.0, below=1.0)]
 
 
+class LineFails(Block):
+    """A line that parts from the point at one of its ends, at a time or a tension, whichever comes first."""
+
+    at_least_one: ClassVar[KeyGroups] = (("time", "tension"),)
+
+    line: Name = Field(description="Name of the line.")
+    at: Literal["start", "end"] = Field(description="End of the line at which it parts.")
+    time: NonNegativeDuration | None = Field(default=None, description="When it parts.")
+    tension: PositiveForce | None = Field(default=None, description="Tension at that end at which it parts.")
+
+
 class NetworkStructure(Block):
     """Points joined by lines and nets."""
 
@@ -89,6 +100,9 @@ class NetworkStructure(Block):
         max_length=50,
     )
     bed: NetworkBed | None = Field(default=None, description="Contact with the bed; none when left out.")
+    failures: Annotated[tuple[LineFails, ...], Field(max_length=1000)] = Field(
+        default=(), description="Lines that part in the course of a run."
+    )
 
 
 class SingleWave(_FromBearing):
