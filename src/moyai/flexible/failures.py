@@ -48,7 +48,7 @@ class LineFailure:
             )  # fmt: skip
 
 
-@dataclass(eq=False)
+@dataclass(frozen=True, eq=False)
 class Failing:
     """The bars of a run that part."""
 

@@ -30,7 +30,7 @@ def at_rest(network: Network) -> Network:
     return replace(network, bars=replace(network.bars, types=types))
 
 
-@dataclass(eq=False)
+@dataclass(frozen=True, eq=False)
 class SlowBars:
     """The slow stretch of some bars of a run."""
 
@@ -99,5 +99,5 @@ class SlowBars:
         pull = (self.fast * (size - self.present) + self.fast_viscosity * rate) / self.length
         tension = np.where(size > self.present, np.maximum(pull, 0.0), 0.0)
         goal = tension / self.stiffness
-        self.strain = goal + (self.strain - goal) * np.exp(-time * self.stiffness / self.viscosity)
+        self.strain[:] = goal + (self.strain - goal) * np.exp(-time * self.stiffness / self.viscosity)
         return self.present
