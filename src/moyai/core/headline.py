@@ -280,7 +280,7 @@ def judge(
             members = given
         if not members:
             found.append(Judgement(criterion, math.nan, "not judged", _absent(criterion)))
-        found.extend(_judge_part(criterion, member, left_out) for member in members)
+        found.extend(_distinct([_judge_part(criterion, member, left_out) for member in members]))
     judgements = tuple(found)
     failing = [item for item in found if item.outcome == "does not hold"]
     if failing:
@@ -298,6 +298,19 @@ def judge(
         message = "; ".join(f"{', '.join(names)}: {reason}" for reason, names in reasons.items())
         return Verdict("not judged", message, judgements)
     return Verdict("holds", _holding([item.criterion for item in found]) + _narrow(found), judgements)
+
+
+def _distinct(found: list[Judgement]) -> list[Judgement]:
+    """Return judgements of one criterion without those that say the same of the same value, as twin lines do."""
+    kept: list[Judgement] = []
+    for item in found:
+        alike = (
+            item.outcome == other.outcome and item.bound == other.bound and item.judged_on == other.judged_on
+            and math.isclose(item.value, other.value, rel_tol=1e-3) for other in kept
+        )  # fmt: skip
+        if not any(alike):
+            kept.append(item)
+    return kept
 
 
 def _holding(criteria: list[Criterion]) -> str:

@@ -15,7 +15,7 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.core.headline import Band, Bound, Headline, governing
 from moyai.core.wording import spoken
-from moyai.series.realisations import seeds
+from moyai.series.realisations import ALONE, alone, seeds
 from moyai.structures.units.model import SNAP_RATIO
 
 if TYPE_CHECKING:
@@ -144,13 +144,21 @@ class _Largest:
         return _in_time(self.path)
 
     @property
+    def scatter(self) -> Array:
+        """The value of each realisation, none where the number is of no random sea in time."""
+        scatter = self.data.get(f"{self.name}_of_realisation")
+        rows = () if scatter is None else np.asarray(scatter.values, dtype=float)
+        return np.array([row[self.index] for row in rows]) / self.scale
+
+    @property
     def band(self) -> Band | None:
         """What the realisations give."""
-        scatter = self.data.get(f"{self.name}_of_realisation")
-        if scatter is None:
-            return None
-        rows = np.asarray(scatter.values, dtype=float)
-        return seeds(np.array([row[self.index] for row in rows]) / self.scale)
+        return seeds(self.scatter)
+
+    @property
+    def bound(self) -> Bound:
+        """What one realisation alone proves."""
+        return alone(self.scatter)
 
     @property
     def without_drift(self) -> bool:
@@ -194,7 +202,8 @@ def _connectors(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Headli
             [
                 Headline(
                     "connector_utilisation", "Largest force over breaking load of a connector", share.value, "1",
-                    share.where, _model(share), band=share.band, judged_on="its force alone, without the moment" * bent,
+                    share.where, _model(share), band=share.band, bound=share.bound,
+                    judged_on="its force alone, without the moment" * bent,
                 )
                 for share in _each(seas, "connector_resultant_largest", over=load)
             ]
@@ -231,7 +240,7 @@ def _connector_force(found: _Largest) -> Headline:
     )
     return Headline(
         "connector_force", "Largest force in a connector", found.value, "N", found.where, _model(found),
-        band=found.band, detail=words,
+        band=found.band, bound=found.bound, detail="; ".join(filter(None, (words, ALONE if found.bound else ""))),
     )  # fmt: skip
 
 
@@ -309,6 +318,8 @@ def _of_line(found: _Largest, mean: float) -> tuple[Bound, str]:
     """Return the bound of a tension and its reason: slow drift left out, or snaps that lines at rest do not see."""
     if found.without_drift:
         return "at least", _WITHOUT_DRIFT
+    if found.bound:
+        return found.bound, f"; {ALONE}"
     if _moved(found):
         still = float(found.data["line_tension_maximum_lines_at_rest"].values[found.index[-1]])
         return "", f"; {spoken(still, 'N', 3)} with lines at rest at every instant"
@@ -324,7 +335,8 @@ def _motions(seas: Seas) -> Iterator[Headline]:
         offsets.append(
             Headline(
                 "offset", "Largest sway of a unit from rest", offset.value, "m", offset.where, _model(offset),
-                bound="at least" if left_out else "", band=offset.band, detail=words + _WITHOUT_DRIFT * left_out,
+                bound="at least" if left_out else offset.bound, band=offset.band,
+                detail=words + _WITHOUT_DRIFT * left_out,
             )
         )  # fmt: skip
     yield from _all_judged(offsets)

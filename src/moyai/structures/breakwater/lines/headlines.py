@@ -13,7 +13,7 @@ from moyai.core.arrays import Array
 from moyai.core.headline import Headline, governing, unfavourable
 from moyai.mooring.anchors import gravity_anchor_weight
 from moyai.series.intervals import reach_of_mean
-from moyai.series.realisations import seeds
+from moyai.series.realisations import ALONE, alone, seeds
 from moyai.structures.breakwater.responses import SNAP_RATIO
 from moyai.tables.design_codes import anchor_factor, holding_data
 
@@ -167,7 +167,7 @@ def line_headlines(peaks: list[LinePeak]) -> list[Headline]:
     also = _other_level(highest, peaks)
     tension = Headline(
         "line_tension", "Largest line tension", highest.tension, "N", highest.where, highest.model,
-        band=seeds(highest.scatter, highest.bound),
+        band=seeds(highest.scatter, highest.bound), bound=alone(highest.scatter),
         detail="; ".join(part for part in (_mean_of(highest.scatter, highest.duration), _open(highest), also) if part),
         analysis=highest.analysis,
     )  # fmt: skip
@@ -199,7 +199,7 @@ def _utilisation(peak: LinePeak) -> Headline:
     load = peak.breaking_load
     return Headline(
         "line_utilisation", "Utilisation of the breaking load", peak.utilisation, "1", peak.where, peak.model,
-        band=seeds(peak.scatter / load, peak.bound / load),
+        band=seeds(peak.scatter / load, peak.bound / load), bound=alone(peak.scatter),
         detail=f"breaking load {kilonewton(load)}, no corrosion or wear taken off", mean=peak.mean / load,
         analysis=peak.analysis,
     )  # fmt: skip
@@ -278,7 +278,7 @@ def anchor_headlines(groups: Mapping[str, xr.Dataset], levels: list[str], peaks:
     capacity = Headline(
         "anchor_capacity_required", "Horizontal holding capacity that an anchor needs",
         factor.value * hardest.horizontal, "N", hardest.where, hardest.model,
-        band=seeds(factor.value * hardest.horizontal_scatter),
+        band=seeds(factor.value * hardest.horizontal_scatter), bound=alone(hardest.horizontal_scatter),
         detail=(
             f"{asked}; {bed} at the peak; or {sinker}"
             if hardest.vertical <= 0.0
@@ -288,7 +288,7 @@ def anchor_headlines(groups: Mapping[str, xr.Dataset], levels: list[str], peaks:
     pull = [
         Headline(
             "anchor_horizontal_load", "Horizontal pull on an anchor", peak.horizontal, "N", peak.where, peak.model,
-            band=seeds(peak.horizontal_scatter),
+            band=seeds(peak.horizontal_scatter), bound=alone(peak.horizontal_scatter),
         )
         for peak in pulled
         if peak.known
@@ -308,12 +308,12 @@ def anchor_headlines(groups: Mapping[str, xr.Dataset], levels: list[str], peaks:
     uplift = Headline(
         "anchor_uplift", "Uplift at an anchor", max(lifted.vertical, 0.0), "N", lifted.where, lifted.model,
         band=None if none else seeds(np.maximum(lifted.vertical_scatter, 0.0)), detail=said,
-        text="none" if none else "",
+        text="none" if none else "", bound=alone(lifted.vertical_scatter),
     )  # fmt: skip
     lifts = [
         replace(
             uplift, value=peak.vertical, where=peak.where, model=peak.model, text="", detail="",
-            band=seeds(np.maximum(peak.vertical_scatter, 0.0)), shown=False,
+            band=seeds(np.maximum(peak.vertical_scatter, 0.0)), bound=alone(peak.vertical_scatter), shown=False,
         )
         for peak in pulled
         if peak.known and peak.vertical > 0.0 and peak is not lifted
@@ -365,7 +365,7 @@ def _standard_error(scatter: Array) -> float:
 
 def _mean_of(scatter: Array, duration: float) -> str:
     if scatter.size < 2:
-        return ""
+        return ALONE if scatter.size else ""
     share = 100.0 * _standard_error(scatter) / float(scatter.mean())
     within = f" in {storm_words(duration)}" if math.isfinite(duration) else ""
     return f"mean of the largest{within} of {scatter.size} realisations, its standard error {share:.2g} %"

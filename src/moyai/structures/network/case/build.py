@@ -18,7 +18,7 @@ from moyai.core.errors import InputError
 from moyai.coupled.assembly import RodPart, VolumePart
 from moyai.flexible.failures import LineFailure
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import BarType, RopeCurve, SlowStretch
+from moyai.flexible.network import BOX, SPHERE, BarType, RopeCurve, SlowStretch
 from moyai.sea.current_field import CurrentField
 from moyai.sea.elevation_record import components_of_record
 from moyai.sea.environment import Environment
@@ -267,10 +267,19 @@ def _known(name: str, types: Any, path: str) -> Any:
 
 
 def _attached(entry: Any) -> model.Attached:
+    """Return what a clump, a float of a row or a free point carries: a sphere where no height is given."""
+    height, form = entry.height, BOX
+    if height is None:
+        height, form = _diameter(entry.volume), SPHERE
     return model.Attached(
-        entry.mass, entry.volume, entry.height, drag_area=entry.drag_area,
+        entry.mass, entry.volume, height, form, drag_area=entry.drag_area,
         added_mass_coefficient=entry.added_mass_coefficient, contact_area=getattr(entry, "bed_contact_area", 0.0),
     )  # fmt: skip
+
+
+def _diameter(volume: float) -> float:
+    """Return the diameter of a sphere of a volume."""
+    return float((6.0 / math.pi * volume) ** (1.0 / 3.0))
 
 
 def _place(position: Sequence[float | None]) -> tuple[float, float, float]:
@@ -298,7 +307,7 @@ def _point(name: str, entry: Any) -> model.PointPlan:
         diameter = entry.diameter
     else:
         carried = _attached(entry)
-        diameter = (6.0 / math.pi * carried.volume) ** (1.0 / 3.0)
+        diameter = _diameter(carried.volume)
     carried = replace(carried, contact_area=entry.bed_contact_area)
     # free points start from still water, wherever it stands
     return model.PointPlan(name, "free", place, "", True, carried, held, diameter)  # type: ignore[arg-type]

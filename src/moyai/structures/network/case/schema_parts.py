@@ -247,15 +247,20 @@ class _Moving(Block):
     bed_contact_area: Area = Field(default=0.0, description="Area that bears on the bed. Default: 0.")
 
 
+_Height = Annotated[float, QuantityOf(quantities.LENGTH, least=0.0)]
+_HEIGHT = (
+    "Vertical extent of a box that comes out of the water; 0 keeps it wholly wet wherever it is. Default: a sphere of "
+    "the volume."
+)
+
+
 class FreePoint(_Moving):
     """A joint, or a small body."""
 
     kind: Literal["free"] = Field(description="A joint, clump weight or small buoy.")
     mass: AddedMass = Field(default=0.0, description="Mass in air. Default: 0.")
     volume: Volume = Field(default=0.0, description="Displaced volume when wholly wet. Default: 0.")
-    height: Annotated[float, QuantityOf(quantities.LENGTH, least=0.0)] = Field(
-        default=0.0, description="Vertical extent for partial immersion (box); 0 keeps it wholly wet. Default: 0."
-    )
+    height: _Height | None = Field(default=None, description=_HEIGHT)
     drag_area: Area = Field(default=0.0, description="Drag coefficient times area. Default: 0.")
     added_mass_coefficient: NonNegativeNumber = Field(default=0.0, description="On the volume. Default: 0.")
 
@@ -290,9 +295,7 @@ class Weight(Block):
 
     mass: AddedMass = Field(description="Mass in air.")
     volume: Volume = Field(default=0.0, description="Displaced volume. Default: 0.")
-    height: Annotated[float, QuantityOf(quantities.LENGTH, least=0.0)] = Field(
-        default=0.0, description="Vertical extent for partial immersion. Default: 0, wholly wet."
-    )
+    height: _Height | None = Field(default=None, description=_HEIGHT)
     drag_area: Area = Field(default=0.0, description="Drag coefficient times area. Default: 0.")
     added_mass_coefficient: NonNegativeNumber = Field(default=0.0, description="On the volume. Default: 0.")
 
