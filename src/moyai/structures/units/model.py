@@ -8,8 +8,10 @@ about y, yaw about z.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal
+from pathlib import Path
+from typing import Any, Literal
 
 import numpy as np
 
@@ -287,9 +289,35 @@ class Settings:
     time: TimeSettings = field(default_factory=TimeSettings)
 
 
+@dataclass(frozen=True)
+class RowCoefficients:
+    """Coefficients of all units together from the file of another program.
+
+    Parameters
+    ----------
+    program : str
+    path : Path
+    options : mapping
+        Of the reader.
+    bodies : tuple of str
+        Bodies of the file in the order of the units; empty for that of the file.
+    origin : tuple of two float
+        Origin of the axes of the file in those of the row [m].
+    heading : float
+        From the x axis of the row to that of the file [rad].
+    """
+
+    program: str
+    path: Path
+    options: Mapping[str, Any] = field(default_factory=dict)
+    bodies: tuple[str, ...] = ()
+    origin: tuple[float, float] = (0.0, 0.0)
+    heading: float = 0.0
+
+
 @dataclass(frozen=True, eq=False)
 class UnitsProblem:
-    """The whole problem."""
+    """The whole problem; ``coefficients`` stand in place of a computation by panels."""
 
     title: str
     row: FloatingRow
@@ -299,6 +327,7 @@ class UnitsProblem:
     criteria: tuple[Criterion, ...] = ()
     case_text: str = ""
     case_hash: str = ""
+    coefficients: RowCoefficients | None = None
 
 
 def straight_row(count: int, length: float, gap: float) -> tuple[Placement, ...]:
@@ -309,5 +338,5 @@ def straight_row(count: int, length: float, gap: float) -> tuple[Placement, ...]
 
 __all__ = [
     "DOFS", "SNAP_RATIO", "Analysis", "Connector", "ConnectorKind", "Curve", "FloatingRow", "MapArea", "Placement",
-    "Settings", "TimeSettings", "UnitLine", "UnitsProblem", "straight_row",
+    "RowCoefficients", "Settings", "TimeSettings", "UnitLine", "UnitsProblem", "straight_row",
 ]  # fmt: skip

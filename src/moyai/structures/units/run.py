@@ -153,17 +153,24 @@ def _steps(
 ) -> Iterator[None]:
     environment = problem.environment
     levels = [assemble(problem.row, environment, name, level) for name, level in environment.water_levels]
+    of_file = None
     if WITH_WAVES & set(problem.settings.analyses):
-        green_function()
+        if problem.coefficients is None:
+            green_function()
+        else:
+            from moyai.structures.units.coefficients_file import read_row
+
+            of_file = read_row(problem.coefficients)
     for index, at in enumerate(levels):
         progress("water levels", index, len(levels))
-        yield from _level_steps(problem, at, collected, store, progress)
+        yield from _level_steps(problem, at, of_file, collected, store, progress)
     progress("water levels", len(levels), len(levels))
 
 
 def _level_steps(
-    problem: UnitsProblem, at: RowAtLevel, collected: Collected, store: DatasetStore | None, progress: Progress
-) -> Iterator[None]:
+    problem: UnitsProblem, at: RowAtLevel, of_file: xr.Dataset | None, collected: Collected,
+    store: DatasetStore | None, progress: Progress,
+) -> Iterator[None]:  # fmt: skip
     import xarray as xr
 
     root, settings, environment = f"/{at.name}", problem.settings, problem.environment
@@ -175,11 +182,21 @@ def _level_steps(
     if not WITH_WAVES & set(settings.analyses) or not environment.sea_states:
         return
     omega, headings = frequencies_of(environment, settings), headings_of(environment)
-    panels = row_panels(at, settings, highest_frequency(omega, settings))
-    collected.notices.extend(check_resolution(at, panels, omega))
-    hydro = solve_row(panels, at.water, at.centres, omega, headings, store=store, progress=progress)
+    if of_file is None:
+        panels = row_panels(at, settings, highest_frequency(omega, settings))
+        collected.notices.extend(check_resolution(at, panels, omega))
+        hydro = solve_row(panels, at.water, at.centres, omega, headings, store=store, progress=progress)
+    else:
+        from moyai.structures.units.coefficients_file import row_from_file
+
+        found = row_from_file(of_file, at, omega, headings)
+        hydro = found.hydro
+        collected.notices.extend(replace(item, message=f"{at.name}: {item.message}") for item in found.notices)
+        # what the file does not know moves nothing
+        settings = replace(settings, drift=settings.drift and hydro.drift is not None)
+        problem = replace(problem, settings=settings)
     collected.checks.extend(replace(check, name=f"{at.name}: {check.name}") for check in hydro.checks)
-    collected.notices.extend(_notices(problem, at, panels))
+    collected.notices.extend(_notices(problem, at))
     collected.groups[f"{root}/hydrodynamics"] = hydrodynamics_dataset(at, hydro)
     yield
     answers: dict[str, list[SeaAnswer]] = {}
@@ -187,7 +204,7 @@ def _level_steps(
         progress("seas", len(answers), len(environment.sea_states))
         if isinstance(sea, RegularSea):
             answers[sea.name] = regular_answer(at, hydro, sea, wind + current, settings)
-            data = regular_dataset(at, sea, answers[sea.name])
+            data = regular_dataset(at, sea, answers[sea.name], hydro)
         else:
             answers[sea.name] = [irregular_answer(at, hydro, sea, wind + current, settings)]
             data = irregular_dataset(at, sea, answers[sea.name][0])
@@ -258,7 +275,7 @@ def _balance(
     at: RowAtLevel, sea: RegularSea | IrregularSea, answers: list[SeaAnswer], hydro: RowHydrodynamics
 ) -> list[IdentityCheck]:
     """Hold what the far waves lose against what damping takes; the surface damped in gaps takes a part unknown here."""
-    if at.row.gap_damping_lid > 0.0:
+    if at.row.gap_damping_lid > 0.0 or hydro.panels is None:
         return []
     worst = max(float(np.abs(item.far.balance).max()) for item in answers)
     return [
@@ -305,10 +322,10 @@ def _beyond_curves(at: RowAtLevel, sea: str, data: xr.Dataset) -> list[Notice]:
     return out
 
 
-def _notices(problem: UnitsProblem, at: RowAtLevel, panels: Panels) -> list[Notice]:
+def _notices(problem: UnitsProblem, at: RowAtLevel) -> list[Notice]:
     out = []
     row = at.row
-    if row.count > 1 and row.gap_damping_lid == 0.0:
+    if row.count > 1 and row.gap_damping_lid == 0.0 and problem.coefficients is None:
         out.append(
             Notice(
                 "gaps-without-damping",
