@@ -318,6 +318,33 @@ def _status(answers: list[SeaAnswer]) -> str:
     return "converged" if all(item.converged for item in answers) else "not_converged"
 
 
+#: Numbers that are given a band of the damping.
+_BANDED = (
+    "significant_motion", "motion_amplitude", "largest_offset", "line_tension_maximum", "connector_resultant_largest",
+    "transmission_coefficient", "wave_height_ratio_of_point",
+)  # fmt: skip
+
+
+def with_damping_band(data: xr.Dataset, others: list[xr.Dataset]) -> xr.Dataset:
+    """Return a dataset with the range of its numbers over its own damping and that at the ends of its band.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        With the damping as given.
+    others : list of xarray.Dataset
+        The same with the damping at the ends; none where there is none to vary.
+    """
+    if not others:
+        return data
+    found = {}
+    for name in (name for name in _BANDED if name in data):
+        values = np.array([item[name].values for item in (data, *others)])
+        for end, pick in (("low", np.fmin), ("high", np.fmax)):
+            found[f"{name}_{end}"] = (data[name].dims, pick.reduce(values, axis=0))
+    return labelled(data.assign(found))
+
+
 def map_dataset(
     at: RowAtLevel,
     hydro: RowHydrodynamics,
@@ -394,4 +421,11 @@ def map_dataset(
     return data
 
 
-__all__ = ["hydrodynamics_dataset", "irregular_dataset", "map_dataset", "regular_dataset", "statics_dataset"]
+__all__ = [
+    "hydrodynamics_dataset",
+    "irregular_dataset",
+    "map_dataset",
+    "regular_dataset",
+    "statics_dataset",
+    "with_damping_band",
+]

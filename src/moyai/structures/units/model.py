@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Literal
 
@@ -28,6 +28,8 @@ from moyai.sea.environment import Environment
 DOFS = ("sway", "surge", "heave", "pitch", "roll", "yaw")
 #: Largest tension over the mean up to which a line at rest at every instant serves
 SNAP_RATIO = 5.0
+#: Factors on the damping of the units beyond waves for the band of an answer, as for a single breakwater.
+DAMPING_BAND = (0.5, 2.0)
 ConnectorKind = Literal["rigid", "hinge", "ball", "spring", "rubber", "chain", "fender"]
 Analysis = Literal["statics", "frequency", "map", "time"]
 
@@ -207,6 +209,17 @@ class FloatingRow:
     def count(self) -> int:
         """Number of units."""
         return len(self.placements)
+
+    def damped(self, factor: float) -> FloatingRow:
+        """Return the row with its damping beyond wave radiation times a factor."""
+        return replace(
+            self, damping_fraction=factor * self.damping_fraction, linear_damping=factor * self.linear_damping
+        )
+
+    @property
+    def damping_band(self) -> tuple[float, ...]:
+        """Factors on the damping that answers are given a band for, those of a single breakwater; none without it."""
+        return DAMPING_BAND if np.any(self.damping_fraction) or np.any(self.linear_damping) else ()
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
 from moyai.core.store import DatasetStore
 from moyai.core.validity import IdentityCheck, Notice
-from moyai.sea.states import IrregularSea, RegularSea
+from moyai.sea.states import IrregularSea, RegularSea, SeaState
 from moyai.structures.units.assembly import RowAtLevel, assemble, level_notices, steady_load
 from moyai.structures.units.bem import Panels, green_function, panels_of
 from moyai.structures.units.datasets import (
@@ -25,6 +25,7 @@ from moyai.structures.units.datasets import (
     map_dataset,
     regular_dataset,
     statics_dataset,
+    with_damping_band,
 )
 from moyai.structures.units.field import map_points, wave_field
 from moyai.structures.units.headlines import headlines_of
@@ -200,14 +201,28 @@ def _level_steps(
     collected.groups[f"{root}/hydrodynamics"] = hydrodynamics_dataset(at, hydro)
     yield
     answers: dict[str, list[SeaAnswer]] = {}
+    # the same row with its damping at the ends of its band
+    others = [replace(at, row=at.row.damped(factor)) for factor in at.row.damping_band]
+    varied: dict[str, list[list[SeaAnswer]]] = {}
+
+    def answer(row: RowAtLevel, sea: SeaState) -> list[SeaAnswer]:
+        if isinstance(sea, RegularSea):
+            return regular_answer(row, hydro, sea, wind + current, settings)
+        return [irregular_answer(row, hydro, sea, wind + current, settings)]
+
+    def numbers(row: RowAtLevel, sea: SeaState, found: list[SeaAnswer]) -> xr.Dataset:
+        if isinstance(sea, RegularSea):
+            return regular_dataset(row, sea, found, hydro)
+        return irregular_dataset(row, sea, found[0])
+
     for sea in environment.sea_states:
         progress("seas", len(answers), len(environment.sea_states))
-        if isinstance(sea, RegularSea):
-            answers[sea.name] = regular_answer(at, hydro, sea, wind + current, settings)
-            data = regular_dataset(at, sea, answers[sea.name], hydro)
-        else:
-            answers[sea.name] = [irregular_answer(at, hydro, sea, wind + current, settings)]
-            data = irregular_dataset(at, sea, answers[sea.name][0])
+        answers[sea.name] = answer(at, sea)
+        varied[sea.name] = [answer(row, sea) for row in others]
+        data = with_damping_band(
+            numbers(at, sea, answers[sea.name]),
+            [numbers(row, sea, found) for row, found in zip(others, varied[sea.name], strict=True)],
+        )
         collected.groups[f"{root}/frequency/{sea.name}"] = data
         if data.attrs["status"] != "converged":
             collected.failures.append(f"not settled: {at.name}/frequency/{sea.name}")
@@ -223,8 +238,12 @@ def _level_steps(
         points = map_points(problem.map_area, at)
         field = wave_field(points, hydro, store=store, progress=progress)
         for sea in environment.sea_states:
-            collected.groups[f"{root}/map/{sea.name}"] = map_dataset(
-                at, hydro, sea, answers[sea.name], points, problem.map_area, field, section
+            collected.groups[f"{root}/map/{sea.name}"] = with_damping_band(
+                map_dataset(at, hydro, sea, answers[sea.name], points, problem.map_area, field, section),
+                [
+                    map_dataset(row, hydro, sea, found, points, problem.map_area, field, None)
+                    for row, found in zip(others, varied[sea.name], strict=True)
+                ],
             )
         yield
 
