@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.interop.textfiles import parse_number, read_lines
 from moyai.sea.current_field import CurrentField
 
@@ -18,6 +19,7 @@ FIELD_FILES: dict[str, str] = {"profile": "current_profile_dynamic.txt", "grid":
 MOST = 20_000_000
 
 
+@checks_words
 def read_current_field(path: str | Path, form: Literal["profile", "grid"]) -> CurrentField:
     """Read a current that changes with time.
 

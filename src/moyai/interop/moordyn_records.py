@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Literal
 
+from moyai.core.options import checks_words
+
 #: Name that MoorDyn gives the profile of a steady current, next to the deck.
 CURRENT_FILE = "current_profile.txt"
 
@@ -71,6 +73,7 @@ class DeckCurrent:
     velocity: tuple[tuple[float, float], ...]
 
 
+@checks_words
 @dataclass(frozen=True)
 class DeckCurrentField:
     """A current that changes with time, in a file next to the deck."""
