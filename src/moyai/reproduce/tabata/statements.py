@@ -187,9 +187,9 @@ def _stands(runs: Runs) -> Finding:
     return judged(
         share < 1.0,
         f"{part} used to {100.0 * share:.0f} % of its strength, anchor rope {_pulls(runs, '890 kN')}, at 60 degrees, "
-        "with 890 kN taken for a strain of one: over 46 m the 890 kN/m of the print are a rope of 41 MN, many times what a "
-        f"rope of this size has, and {other} would be used to {100.0 * printed:.0f} %. Strengths are not in the paper "
-        f"and filled in: rope {strengths.anchor_line.capacity / 1e3:.0f} kN, anchor "
+        "with 890 kN taken for a strain of one: over 46 m the 890 kN/m of the print are a rope of 41 MN, many times "
+        f"what a rope of this size has, and {other} would be used to {100.0 * printed:.0f} %. Strengths are not in the "
+        f"paper and filled in: rope {strengths.anchor_line.capacity / 1e3:.0f} kN, anchor "
         f"{strengths.anchor.capacity / 1e3:.0f} kN, wire {strengths.upper_cable.capacity / 1e3:.0f} kN, sheet "
         f"{strengths.sheet.capacity / 1e3:.0f} kN/m",
     )
