@@ -30,7 +30,8 @@ _KEYS = frozenset((
 ))  # fmt: skip
 _TEXT = re.compile(r"[A-Za-z]{2,}[ ,:;.-]+(?:[a-z]|\{)|\{\d+\} [a-z]{2,}|^[A-Z][a-z]+$")
 _NO_TEXT = re.compile(
-    r"^[\w./*\\{}\[\]=\"'<>:-]*$|^<|^\s*[.#][\w-]+\{|[{};]\s*--|</|->|^(?:dash|solid|line\+points)$|^(?:%|r?/|\$)|^https?:|^data:|::|^@|\(\?|\\[dwsb]"
+    r"^[\w./*\\{}\[\]=\"'<>:-]*$|^<|^\s*[.#][\w-]+\{|[{};]\s*--|</|->|^(?:dash|solid|line\+points)$|^(?:%|r?/|\$)"
+    r"|^https?:|^data:|::|^@|\(\?|\\[dwsb]|^pip install |^tag:|[a-z]=\"|^#set "
 )
 FOLDERS = {
     "case": "errors and checks of files", "cli": "command line", "report": "reports, common", "core": "common",
@@ -104,6 +105,8 @@ class _Finder(ast.NodeVisitor):
 
     def visit_Call(self, node: ast.Call) -> None:
         name = node.func.id if isinstance(node.func, ast.Name) else getattr(node.func, "attr", "")
+        if name in ("compile", "exports"):
+            return  # patterns, and names of modules with what they export
         before, shows = self._shown, name in _SHOWN
         self.visit(node.func)
         for number, value in enumerate(node.args):
