@@ -71,8 +71,30 @@ def texts(package: Path) -> Iterator[Text]:
             group = "schemas"
         elif group in ("structures", "records", "studies"):
             group += ": errors and checks of files" if "case" in parts else ": reports and notices"
-        for template, line in templates(path.read_text(encoding="utf-8")):
+        source = path.read_text(encoding="utf-8")
+        for template, line in templates(source):
             yield Text(template, group, f"{'/'.join(parts)}:{line}")
+        if parts[0] == "cli":
+            for text, line in helps(source):
+                yield Text(text, "help of the command line", f"{'/'.join(parts)}:{line}")
+
+
+def helps(source: str) -> Iterator[tuple[str, int]]:
+    """Give what ``--help`` says of the commands of a module and of their options, with lines.
+
+    Parameters
+    ----------
+    source : str
+    """
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.keyword) and node.arg == "help" and isinstance(node.value, ast.Constant):
+            yield str(node.value.value), node.value.lineno
+        elif isinstance(node, ast.FunctionDef) and any(
+            isinstance(item.annotation, (ast.Subscript, ast.Name)) and "Annotated" in ast.dump(item.annotation)
+            for item in node.args.args
+        ):
+            for part in re.split(r"\n\s*\n", ast.get_docstring(node) or ""):
+                yield " ".join(part.split()), node.lineno
 
 
 def templates(source: str) -> Iterator[tuple[str, int]]:

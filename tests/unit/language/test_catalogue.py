@@ -80,6 +80,7 @@ def test_the_share_that_is_translated_does_not_fall() -> None:
 
 
 LEAST = {
+    "help of the command line": 1.0,
     COMMENTS: 0.95,
     "command line": 0.95,
     "codes": 0.85,
