@@ -335,8 +335,8 @@ def _mesh_band(table: xr.Dataset, load: _Load, value: float) -> Band | None:
     factor = value / whole
     low, high = factor * low, max(factor * high, value)
     if count < 2:
-        return Band(low, high, "two meshes, the larger counts")
-    of = f"{count} realisations and two meshes; judged at the 95 % end of the larger mean"
+        return Band(low, high, "two meshes, the larger counts; drag at its value")
+    of = f"{count} realisations and two meshes; drag at its value; judged at the 95 % end of the larger mean"
     return Band(low, high, of, decides=False, judged=(low, factor * judged))
 
 
