@@ -261,3 +261,36 @@ def test_chain_below_the_range_of_its_source_is_warned_of():
     case = case_of(parse_yaml(text, "case.yaml"), Path("case.yaml"))
     (warning,) = [item for item in case.warnings if "outside" in item.message]
     assert warning.path == "structure.line_types.chain.diameter" and "34 to 162 mm" in warning.message
+
+
+FLOATING = """
+    left: {kind: fixed, position: [0, 0, -1]}
+    right: {kind: fixed, position: [40, 0, -1]}"""
+BUOYANT = (
+    "rope: {diameter: 20 mm, mass: 0.2 kg/m, axial_stiffness: 1 MN, viscosity: 0, drag_normal: 1.2, "
+    "drag_tangential: 0, added_mass_normal: 0}"
+)
+FLOW = "current: {speed: 0.8 m/s, heading_deg: 90}"
+LINE = "    line: {start: left, end: right, type: rope, length: 41 m, segments: 40, along: [ALONG]}"
+
+
+def line_of_floats(along):
+    return result_of(case(FLOATING, LINE.replace("ALONG", along), current=FLOW, types=BUOYANT))
+
+
+def test_floats_of_a_row_lie_at_the_surface():
+    """Nine floats of 15 l on a line between two points a metre down rise until they carry what hangs on them.
+
+    By hand: a float of 3 kg and its share of the rope, 0.9 kg, are carried by 3.9/1025 m3 less what the rope displaces:
+    2.5 l of 15, so that it swims a fourth of its diameter deep; the line can stand above the water nowhere by more.
+    """
+    row = "{count: 9, mass: 3 kg, volume: 0.015 m3}"
+    found = line_of_floats(row)
+    diameter = (6.0 / math.pi * 0.015) ** (1.0 / 3.0)
+    assert float(found.tree["SWL/statics"]["position"].values[..., 2].max()) < 0.5 * diameter
+    assert not [notice for notice in found.notices if notice.code == "wet-in-air"]
+    # an explicit nought keeps the old meaning, and is outside of the range where it stands above the water
+    flying = line_of_floats(row.replace("}", ", height: 0 m}"))
+    assert flying.status == "outside_validity"
+    notice = next(notice for notice in flying.notices if notice.code == "wet-in-air")
+    assert notice.value > 0.5 * diameter

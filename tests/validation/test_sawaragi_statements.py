@@ -230,14 +230,16 @@ def test_statement_12_scale_law_of_the_cube(length):
 
 @pytest.mark.slow
 def test_the_whole_span_let_go_slack_comes_to_the_level_of_drag():
-    """Spike and its instant stand on a finer mesh, the steady level is the catenary's 2.92 N.
-
-    How often the record passes a level hangs on the level and on how the slack was gathered: no count is held.
-    """
+    """One spike, whose height and instant stand on a finer mesh; the steady level is the catenary's 2.92 N."""
     case = problem_of("sawaragi", "flume")
     runs = Runs(span_of(case), case, 5)
     coarse = runs.whole_line
     assert coarse.plateau == pytest.approx(2.92, rel=0.08)
+    assert coarse.spikes() == 1
     fine = runs.span_released(150.0, (48, 16), duration=1.8)
     assert fine.spike == pytest.approx(coarse.spike, rel=0.05)
     assert fine.spike_time == pytest.approx(coarse.spike_time, rel=0.05)
+    assert np.all(np.diff(fine.before_spike()) > 0.0)
+    assert fine.before_spike()[0] > 0.0
+    half_way = runs.span_released(150.0, (24, 8), share=0.5, duration=2.5)
+    assert half_way.spikes() == 1

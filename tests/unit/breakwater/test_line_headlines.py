@@ -76,3 +76,28 @@ def test_without_uplift_the_line_that_leaves_least_on_the_bed_is_named():
     calm = replace(GOVERNS, level="LWL", sea="operation", vertical=-0.5, grounded=40.0)
     uplift = headline(anchor_headlines({}, [], [calm, GOVERNS]), "anchor_uplift")
     assert uplift.where == GOVERNS.where and uplift.detail.startswith("5 m of line stays on the bed")
+
+
+def test_one_realisation_proves_that_a_limit_is_broken_and_nothing_else():
+    one = replace(
+        GOVERNS, tension=300e3, scatter=SCATTER[:1], bound=SCATTER[:1], vertical_scatter=-SCATTER[:1],
+        horizontal_scatter=0.97 * SCATTER[:1],
+    )  # fmt: skip
+    numbers = page(one)
+    tension = headline(numbers, "line_tension")
+    assert tension.bound == "at least" and "one realisation: others may give more" in tension.detail
+    assert judge(numbers, (FACTOR,), computed=True).outcome == "not judged"
+    strict = replace(FACTOR, limit=0.05)
+    assert judge(numbers, (strict,), computed=True).outcome == "does not hold"
+    # a regular wave has no chance in it
+    regular = replace(one, scatter=np.zeros(0), bound=np.zeros(0))
+    assert judge(line_headlines([regular]), (FACTOR,), computed=True).outcome == "holds"
+
+
+def test_a_sea_without_its_slow_drift_proves_no_strength():
+    numbers = page(replace(GOVERNS, without_drift=True))
+    tension = headline(numbers, "line_tension")
+    assert tension.bound == "at least" and "slow drift of the sea is not in it" in tension.detail
+    assert judge(numbers, (FACTOR,), computed=True).outcome == "not judged"
+    assert judge(numbers, (UPLIFT,), computed=True).outcome == "not judged"
+    assert judge(numbers, (replace(FACTOR, limit=0.05),), computed=True).outcome == "does not hold"

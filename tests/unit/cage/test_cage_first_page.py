@@ -9,7 +9,7 @@ from moyai.case.templates import template
 from moyai.core.headline import Band, Headline
 from moyai.series.block_maxima import maximum_of
 from moyai.structures.cage.flexible.sensitivity import COARSER, STRESS, VOLUME_IN_CURRENT, tension_of
-from moyai.structures.cage.headlines import _band_in_sea, _mesh_factors, _with_mesh, chance
+from moyai.structures.cage.headlines import _band_in_sea, _mesh_factors, _State, _tension, _with_mesh, chance
 
 
 def run_of(regular: bool, duration: float = 600.0) -> tuple[xr.Dataset, np.ndarray]:
@@ -85,3 +85,30 @@ def test_the_band_holds_the_answer_of_a_finer_mesh(tmp_path):
         assert coarse[name].band.low <= fine[name].value <= coarse[name].band.high, name
     # the pull on an anchor is told in its two parts
     assert coarse["anchor_load"].detail.startswith("upwards ")
+
+
+def test_each_line_carries_the_band_of_its_own_tension():
+    """Two lines under two laws: the one nearest to its breaking load is not the one that pulls hardest."""
+    statics = xr.Dataset(
+        {
+            "line_tension_maximum": (("current_speed", "line"), [[5.0e3, 11.0e3]]),
+            "utilisation": (("current_speed", "line"), [[0.05, 0.04]]),
+        },
+        coords={"current_speed": [0.5], "line": ["bridle", "anchor"]},
+    )
+    laws = xr.Dataset(
+        {
+            "law_line_tension": (("law", "line"), [[5.0e3, 11.0e3], [4.0e3, 15.0e3]]),
+            "law_line_tension_maximum": ("law", [11.0e3, 15.0e3]),
+        },
+        coords={"law": ["own", "other"], "line": ["bridle", "anchor"]},
+    )
+    state = _State("SWL", 0.5, 0, xr.Dataset(), statics, laws)
+    tensions, used = _tension([state], [])
+    assert (tensions[0].value, tensions[0].band.low, tensions[0].band.high) == (5.0e3, 4.0e3, 5.0e3)
+    assert (used[0].value, used[0].band.low, used[0].band.high) == pytest.approx((0.05, 0.04, 0.05))
+    # under the other law the anchor line comes nearest to its breaking load: it is judged too
+    judged = [item for item in used if not item.shown]
+    assert [item.where.split(",")[0] for item in judged] == ["anchor"]
+    assert judged[0].band.high == pytest.approx(0.04 * 15.0 / 11.0)
+    assert state.moved("line_tension_maximum", 6.0e3, 6.0e3, 1)[:2] == (6.0e3, 10.0e3)

@@ -269,3 +269,24 @@ def test_misuse_is_refused_before_any_work(call, path) -> None:
     with pytest.raises(InputError) as caught:
         call(Impact(12.0, 13.5, 4.0, 3e5, 3e5, 0.2, Water(8.0, 1025.0, 9.81)))
     assert caught.value.fault.path == path
+
+
+@pytest.mark.parametrize("slack", [1e-6, 1e-3, 0.03, 0.25])
+def test_a_struck_skirt_stretches_until_its_edges_bear_the_load(slack):
+    """T sin(a) = F on an arc 2 r a = d (1 + T/EA) over the chord 2 r sin(a), solved for r by bisection."""
+    length, stiffness, load = 5.0, 9e5, 2.1e3
+    chord = length * (1.0 - slack)
+
+    def excess(angle):
+        tension = load / math.sin(angle)
+        return chord * angle / math.sin(angle) - length * (1.0 + tension / stiffness)
+
+    low, high = 1e-9, 0.5 * math.pi
+    for _ in range(200):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if excess(middle) < 0.0 else (low, middle)
+    found = Skirt(length, chord, stiffness).edge_tension(load)
+    assert found == pytest.approx(load / math.sin(low), rel=1e-9)
+    assert Skirt(length, chord, stiffness).edge_tension(4.0 * load) > found
+    # the arc would close: no tension carries it
+    assert Skirt(length, chord, 100.0).edge_tension(load) == math.inf

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
+from scipy.signal import find_peaks
 
 from moyai.core.arrays import Array
 from moyai.core.progress import Progress, silent
@@ -80,10 +81,13 @@ class SpanRecord:
             ]
         )
 
-    def passes(self, level: float) -> int:
-        """Return how often the tension passes a level [N] upward."""
-        above = self.tension > level
-        return int(np.sum(above[1:] & ~above[:-1]))
+    def spikes(self, share: float = 0.5) -> int:
+        """Return how many peaks rise by this share of the highest tension over the valleys that part them from others.
+
+        Their prominence: a level that the record passes would count the ripple of the pick-up where it lies at that
+        level, and the steady level of this record is itself about half of the highest.
+        """
+        return int(find_peaks(self.tension, prominence=share * self.spike)[0].size)
 
 
 @dataclass(frozen=True)

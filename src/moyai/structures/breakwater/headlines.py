@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from moyai.core.headline import Band, Headline, governing, unfavourable
-from moyai.series.realisations import seeds
+from moyai.series.realisations import ALONE, alone, seeds
 from moyai.structures.breakwater.largest_motion import LargestOfPeriods
 from moyai.structures.breakwater.lines.headlines import (
     AT_REST,
@@ -23,8 +23,10 @@ from moyai.structures.breakwater.lines.headlines import (
     FREQUENCY,
     IN_MOTION,
     STILL,
+    WITHOUT_DRIFT,
     LinePeak,
     anchor_headlines,
+    drift_left_out,
     governing_group,
     kilonewton,
     line_headlines,
@@ -220,11 +222,11 @@ def _motion_headlines(groups: Mapping[str, xr.Dataset], levels: list[str]) -> li
 def _offset(domain: str, data: xr.Dataset, level: str, sea: str, frequency: xr.Dataset | None) -> list[Headline]:
     mean = np.atleast_2d(data["mean_offset"].values)[:, 0] if "mean_offset" in data else np.array([math.nan])
     model = _motion_model(domain, data)
-    band = None
+    band, bound = None, alone(np.zeros(0))
     if "maximum_excursion" in data:
         value = float(data["maximum_excursion"].values[0])
         scatter = np.asarray(data["maximum_excursion_of_realisation"].values[:, 0], dtype=float)
-        band, motion = seeds(scatter), _in_motion(data)
+        band, bound, motion = seeds(scatter), alone(scatter), _in_motion(data)
         if motion > 1.0:
             # what lines in motion add to the offset of lines at rest in the same events
             band = band or Band(value, value, "lines in motion in the events rerun")
@@ -232,14 +234,18 @@ def _offset(domain: str, data: xr.Dataset, level: str, sea: str, frequency: xr.D
             band = replace(band, high=band.high * motion, judged=ends)
         within = float(data.attrs.get("duration", math.nan))
         detail = f"largest in {storm_words(within)}; " if math.isfinite(within) else ""
-        detail += "; ".join(filter(None, (_motion_words(data), _slow_words(frequency))))
+        detail += "; ".join(filter(None, (ALONE if bound else "", _motion_words(data), _slow_words(frequency))))
     elif "largest_offset" in data:
         value = float(data["largest_offset"])
         detail = _slow_words(data)
     else:
         return []
+    if drift_left_out(data):
+        bound, detail = "at least", "; ".join(filter(None, (detail, WITHOUT_DRIFT)))
     words = "; ".join(part for part in (f"mean {mean[0]:.3g} m", detail) if part)
-    return [Headline("offset", "Largest offset in sway", value, "m", place(level, sea), model, band, detail=words)]
+    return [
+        Headline("offset", "Largest offset in sway", value, "m", place(level, sea), model, band, bound, detail=words)
+    ]
 
 
 def _in_motion(data: xr.Dataset) -> float:
@@ -285,7 +291,8 @@ def _roll(domain: str, data: xr.Dataset, level: str, sea: str, frequency: xr.Dat
         return []
     value, significant = float(data[name].values[2]), float(data["significant_motion"].values[2])
     each = f"{name}_of_realisation"
-    band = seeds(np.asarray(data[each].values[:, 2], dtype=float)) if each in data else None
+    scatter = np.asarray(data[each].values[:, 2], dtype=float) if each in data else np.zeros(0)
+    band = seeds(scatter)
     if frequency is not None and "significant_motion_low" in frequency:
         # the frequency domain tells by how much damping moves roll; the time domain is run at its nominal value
         own = float(frequency["significant_motion"].values[2])
@@ -300,7 +307,9 @@ def _roll(domain: str, data: xr.Dataset, level: str, sea: str, frequency: xr.Dat
             )  # fmt: skip
     detail = f"significant double amplitude {math.degrees(significant):.3g}\u00b0"
     model = _motion_model(domain, data)
-    return [Headline("roll", "Largest roll", value, "rad", place(level, sea), model, band, detail=detail)]
+    return [
+        Headline("roll", "Largest roll", value, "rad", place(level, sea), model, band, alone(scatter), detail=detail)
+    ]
 
 
 def _steady_offset(groups: Mapping[str, xr.Dataset], levels: list[str]) -> Headline | None:

@@ -55,36 +55,44 @@ class _State:
         """Current and level."""
         return f"current {self.speed:.3g} m/s, {self.level}"
 
-    def band(self, name: str) -> Band | None:
-        """Return the range of a number over the laws valid for this net."""
+    def _by_law(self, name: str, line: int | None) -> Array | None:
+        """Return a number, that of one line where it is named, under every valid law; None without a second one."""
         if self.laws is None or self.laws.sizes["law"] < 2:
             return None
-        values = self.laws[f"law_{name}"].values
+        if line is not None:
+            return np.asarray(self.laws["law_line_tension"].values[:, line])
+        return np.asarray(self.laws[f"law_{name}"].values)
+
+    def band(self, name: str, line: int | None = None) -> Band | None:
+        """Return the range of a number, of one line where it is named, over the laws valid for this net."""
+        values = self._by_law(name, line)
+        if values is None or self.laws is None:
+            return None
         words = laws_text(self.laws) if name == "volume_share" else _SAME_LAWS
         return Band(float(np.min(values)), float(np.max(values)), words)
 
-    def moved(self, name: str, low: float, high: float) -> tuple[float, float, str]:
+    def moved(self, name: str, low: float, high: float, line: int | None = None) -> tuple[float, float, str]:
         """Return a range in the sea with what the laws change in the current alone added.
 
         The sea moves the cage about its place in the current. The words are empty where no second law is valid or the
         number is not known in the current alone.
         """
-        if self.laws is None or self.laws.sizes["law"] < 2:
-            return low, high, ""
-        values = self.laws[f"law_{name}"].values
-        if not np.isfinite(values).all():
+        values = self._by_law(name, line)
+        if values is None or not np.isfinite(values).all():
             return low, high, ""
         change = values - float(values[0])
         words = f"{_SAME_LAWS}, by their change in the current alone"
         return max(low + float(change.min()), 0.0), high + float(change.max()), words
 
 
-def _band_in_sea(state: _State | None, name: str, run: xr.Dataset, value: float, series: Array) -> Band | None:
+def _band_in_sea(
+    state: _State | None, name: str, run: xr.Dataset, value: float, series: Array, line: int | None = None
+) -> Band | None:
     """Return the band of a number found in the sea: chance of its seed, and the laws of the net."""
     low, high, seed = chance(run, value, series)
     words = [seed] if seed else []
     if state is not None:
-        low, high, text = state.moved(name, low, high)
+        low, high, text = state.moved(name, low, high, line)
         words += [text] if text else []
     return Band(max(low, 0.0), high, "; ".join(words)) if words else None
 
@@ -237,43 +245,46 @@ def _drag(states: list[_State], runs: Runs) -> list[Headline]:
 
 
 def _tension(states: list[_State], runs: Runs) -> tuple[list[Headline], list[Headline]]:
-    """Return the governing tension and its utilisation: of the seas where they were run, else of the current."""
-    found: list[tuple[float, float, Headline, _State | None]] = []
+    """Return the governing tension and its utilisation: of the seas where they were run, else of the current.
+
+    Each line carries its own band; the one whose judged end is nearest to its breaking load is judged.
+    """
+    used: dict[str, Headline] = {}
+    tensions: dict[str, Headline] = {}
+
+    def add(item: Headline, share: float) -> None:
+        if not share > 0.0:
+            return
+        factor = share / item.value
+        band = item.band
+        used[item.where] = Headline(
+            "line_utilisation", "tension over breaking load", share, "1", item.where, item.model,
+            None if band is None else replace(band, low=band.low * factor, high=band.high * factor),
+            detail=f"breaking load of new rope {1e-3 / factor:.4g} kN, without a safety factor",
+        )  # fmt: skip
+        tensions[item.where] = item
+
     by_level = {state.level: state for state in states}
     for level, where, run in runs:
-        if "utilisation" not in run or not run["utilisation"].size:
-            continue
-        line = int(np.argmax(run["utilisation"].values))
-        state = by_level.get(level)
-        item = _dynamic_tension(run, line, where, state)
-        found.append((float(run["utilisation"].values[line]), item.value, item, state))
-    for state in [] if found else states:
-        used = state.statics["utilisation"].values[state.row]
-        if not used.size:
-            continue
-        line = int(np.argmax(used))
-        value = float(state.statics["line_tension_maximum"].values[state.row, line])
-        name = str(state.statics["line"].values[line])
-        item = Headline(
-            "line_tension", "tension of the governing line", value, "N", f"{name}, {state.where}", STATICS,
-            state.band("line_tension_maximum"), detail="no sea was run: waves are not in it",
-        )  # fmt: skip
-        found.append((float(used[line]), value, item, state))
-    if not found:
+        if "utilisation" in run:
+            for line, share in enumerate(run["utilisation"].values):
+                add(_dynamic_tension(run, line, where, by_level.get(level)), float(share))
+    for state in [] if tensions else states:
+        for line, name in enumerate(state.statics["line"].values):
+            add(_static_tension(state, line, str(name)), float(state.statics["utilisation"].values[state.row, line]))
+    if not used:
         return [], []
-    item = max(found, key=lambda entry: entry[0])[2]
-    utilisations = [
-        Headline(
-            "line_utilisation", "tension over breaking load", share, "1", one.where, one.model,
-            None if one.band is None else replace(
-                one.band, low=one.band.low * share / value, high=one.band.high * share / value
-            ),
-            detail=f"breaking load of new rope {value / share / 1e3:.4g} kN, without a safety factor",
-        )
-        for share, value, one, _ in found
-        if share > 0.0
-    ]  # fmt: skip
-    return [item], governing(utilisations)
+    utilisations = governing(used.values())
+    return [replace(tensions[item.where], shown=item.shown) for item in utilisations], utilisations
+
+
+def _static_tension(state: _State, line: int, name: str) -> Headline:
+    """Return the tension of a line in the current of the site with the band of the law of the net."""
+    value = float(state.statics["line_tension_maximum"].values[state.row, line])
+    return Headline(
+        "line_tension", "tension of the governing line", value, "N", f"{name}, {state.where}", STATICS,
+        state.band("line_tension_maximum", line), detail="no sea was run: waves are not in it",
+    )  # fmt: skip
 
 
 def _dynamic_tension(run: xr.Dataset, line: int, where: str, state: _State | None) -> Headline:
@@ -288,8 +299,8 @@ def _dynamic_tension(run: xr.Dataset, line: int, where: str, state: _State | Non
     if slack > 0.0:
         details.append(f"slack for {100.0 * slack:.2g} % of the time" + (f", {snaps} snaps" if snaps else ""))
     series = run["line_tension_peak_since_row"].values[:, line]
-    band = _band_in_sea(state, "line_tension_maximum", run, value, series)
     name = str(run["line"].values[line])
+    band = _band_in_sea(state, "line_tension_maximum", run, value, series, line)
     return Headline(
         "line_tension", "tension of the governing line", value, "N", f"{name}, {where}",
         f"{DYNAMIC}, {run.attrs['theory']}", band, detail="; ".join(details),
@@ -334,7 +345,8 @@ def _anchor(states: list[_State], runs: Runs) -> list[Headline]:
             # the lower end has no series of its own: the chance is that of the line's largest tension
             line = run["line_tension_peak_since_row"].values[:, anchors[at]]
             share = pull / max(float(run["line_tension_maximum"].values[anchors[at]]), 1e-300)
-            band = _band_in_sea(by_level.get(level), "anchor_pull", run, pull, share * line)
+            state = by_level.get(level)
+            band = _band_in_sea(state, "anchor_pull", run, pull, share * line, anchors[at])
             up = float(run["line_uplift_lower"].values[anchors].max())
             detail = f"upwards {up / 1e3:.3g} kN at most, of all anchors"
             found.append((pull, f"lower end of {names[anchors[at]]}, {where}", DYNAMIC, detail, band))

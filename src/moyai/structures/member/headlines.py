@@ -20,6 +20,7 @@ from moyai.core.wording import spoken
 from moyai.morison.coefficient_ranges import CIRCULATION, MeasuredRange, drag_range, inertia_range
 from moyai.morison.coefficients import DNV_CREST, dnv_drag, dnv_steady_drag
 from moyai.series.intervals import reach_of_mean
+from moyai.series.realisations import ALONE, alone
 from moyai.structures.member.model import MemberProblem
 from moyai.structures.member.supports import held_at
 
@@ -178,7 +179,9 @@ def _crest(problem: MemberProblem, found: _Largest) -> float:
 
 
 def _bound(problem: MemberProblem, found: _Largest) -> Bound:
-    """Return ``at most`` where drag decides and its amplification is kept at its crest."""
+    """Return ``at most`` where drag decides and its amplification is kept at its crest, and what one sea proves."""
+    if found.sea.attrs.get("kind") != "regular" and alone(found.scatter):
+        return alone(found.scatter)
     return "at most" if _crest(problem, found) > 1.0 and abs(_shares(found)[1]) >= DECIDES else ""
 
 
@@ -272,7 +275,7 @@ def _chance_text(found: _Largest) -> str:
         return ""
     scatter = found.scatter
     if scatter.size < 2:
-        return "; one realisation, the scatter of others is not known"
+        return f"; {ALONE}"
     deviation = spoken(float(scatter.std(ddof=1)), "N", 2)
     return f"; mean of the largest of {scatter.size} realisations, their standard deviation {deviation}"
 

@@ -37,7 +37,7 @@ from moyai.structures.network.equilibrium import (
 from moyai.structures.network.headlines import headlines_of, mesh_checked
 from moyai.structures.network.model import NetworkProblem
 from moyai.structures.network.resume import earlier_run, read_earlier
-from moyai.structures.network.run_notices import OVER, overturned
+from moyai.structures.network.run_notices import OVER, overturned, wet_in_air
 from moyai.structures.network.runs import run_plans, steady_flow, theory_limit
 from moyai.structures.network.summary import contacts_dataset, lean_of, summary_dataset
 from moyai.structures.network.variables import VOCABULARY, labelled
@@ -104,6 +104,7 @@ def _steps(problem: NetworkProblem, collected: Collected, progress: Progress) ->
             rest = rests.get("current", rests.get("still water"))
             assert rest is not None
             if problem.bodies:
+                collected.groups[root].attrs["bodies_held"] = len(problem.bodies)
                 collected.notices.append(
                     Notice("bodies-held", "natural modes are those with the bodies held where they rest",
                            severity="information")
@@ -230,6 +231,7 @@ def _at_rest(
                 "largest force left on a free node over the largest force at work",
             )
         )  # fmt: skip
+        collected.notices.extend(wet_in_air(assembly.network, rest.state.position, said))
     if found and ("statics" in wanted):
         stiffness = _stiffness(problem, assembly, water, found, said, collected)
         rested = rest_dataset(assembly, found, stiffness)
@@ -276,16 +278,10 @@ def _weight_check(assembly: Assembly, found: dict[str, Equilibrium], said: str, 
     """Hold the loads on all held points against the weight in water, where nothing lies on a bed or floats."""
     network = assembly.network
     carried = any(name in network.points for name in network.motion_names)
-    if (
-        carried
-        or network.sheets is not None
-        or network.bed is not None
-        or np.any(network.nodes.height > 0.0)
-        or network.nodes.held.any()
-    ):
+    if carried or network.sheets is not None or network.bed is not None or network.nodes.held.any():
         return
     rest = found.get("still water")
-    if rest is None or np.any(rest.state.position[:, 2] > -1e-6):
+    if rest is None or np.any(rest.state.position[:, 2] + 0.5 * network.nodes.height > -1e-6):
         return
     held = np.flatnonzero(network.nodes.kind != 0)
     if held.size == 0:

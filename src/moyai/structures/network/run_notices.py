@@ -10,8 +10,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.validity import Notice
 from moyai.core.wording import spoken
+from moyai.flexible.network import Network
 from moyai.flexible.result import History
 from moyai.sea.validity import check_realised_height
 from moyai.series.snaps import SnapRecord
@@ -29,6 +31,33 @@ INSIDE = 1.2
 ACROSS = 0.5
 #: Lean from which a body counts as turned over [rad].
 OVER = math.radians(60.0)
+
+
+def wet_in_air(network: Network, position: Array, said: str = "") -> list[Notice]:
+    """Return what stands above still water with all of its buoyancy, since it has a height of nought.
+
+    Parameters
+    ----------
+    network : Network
+    position : ndarray, shape (n, 3)
+        Of the nodes at rest [m].
+    said : str
+        In front of the message.
+    """
+    nodes = network.nodes
+    over = np.flatnonzero((nodes.volume > 0.0) & (nodes.height == 0.0) & (position[:, 2] > 1e-3))
+    if not over.size:
+        return []
+    node = int(over[np.argmax(position[over, 2])])
+    name = next((name for name, place in network.points.items() if place == node), f"node {node}")
+    return [
+        Notice(
+            "wet-in-air",
+            f"{said}{over.size} bodies with volume and 'height: 0' stand above still water with all of their buoyancy, "
+            f"'{name}' the highest: tensions are not those of floats at the surface",
+            float(position[node, 2]), 0.0, "error", "leave 'height' out, or give the height of the body",
+        )
+    ]  # fmt: skip
 
 
 def run_notices(

@@ -15,8 +15,8 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.core.headline import Band, Bound, Headline, governing
 from moyai.core.wording import spoken
-from moyai.series.realisations import seeds
-from moyai.structures.units.model import SNAP_RATIO
+from moyai.series.realisations import ALONE, alone, seeds
+from moyai.structures.units.model import DAMPING_BAND, SNAP_RATIO
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -124,6 +124,7 @@ def _greatest(
 #: Groups of waves move a row on chains slowly and far about its mean place; a single unit with it has several times the
 #: tension. Without it tensions and offsets of an irregular sea prove no strength.
 _WITHOUT_DRIFT = "; slow drift about the mean is not computed and adds to it, on chains several times over"
+_DAMPING = f"damping of the units beyond waves times {DAMPING_BAND[0]:g} to {DAMPING_BAND[1]:g}"
 _SNAPS = f"; pulled beyond {SNAP_RATIO:g} times its mean, where a line at rest at every instant says too little"
 
 
@@ -144,18 +145,34 @@ class _Largest:
         return _in_time(self.path)
 
     @property
-    def band(self) -> Band | None:
-        """What the realisations give."""
+    def scatter(self) -> Array:
+        """The value of each realisation, none where the number is of no random sea in time."""
         scatter = self.data.get(f"{self.name}_of_realisation")
-        if scatter is None:
-            return None
-        rows = np.asarray(scatter.values, dtype=float)
-        return seeds(np.array([row[self.index] for row in rows]) / self.scale)
+        rows = () if scatter is None else np.asarray(scatter.values, dtype=float)
+        return np.array([row[self.index] for row in rows]) / self.scale
+
+    @property
+    def band(self) -> Band | None:
+        """What the realisations give, in the frequency domain what the damping is worth."""
+        return seeds(self.scatter) if self.scatter.size else _damping_band(self.data, self.name, self.index, self.scale)
+
+    @property
+    def bound(self) -> Bound:
+        """What one realisation alone proves."""
+        return alone(self.scatter)
 
     @property
     def without_drift(self) -> bool:
         """Whether it is of an irregular sea without slow drift."""
         return not self.timed and "significant_motion" in self.data
+
+
+def _damping_band(data: xr.Dataset, name: str, index: tuple[int, ...], scale: float = 1.0) -> Band | None:
+    """Return the band of a number over the damping of the units; None where there was none to vary."""
+    if f"{name}_low" not in data:
+        return None
+    low, high = (abs(float(data[f"{name}_{end}"].values[index])) / scale for end in ("low", "high"))
+    return Band(low, high, _DAMPING)
 
 
 def _largest(seas: Seas, name: str, over: Array | None = None) -> _Largest | None:
@@ -194,7 +211,8 @@ def _connectors(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Headli
             [
                 Headline(
                     "connector_utilisation", "Largest force over breaking load of a connector", share.value, "1",
-                    share.where, _model(share), band=share.band, judged_on="its force alone, without the moment" * bent,
+                    share.where, _model(share), band=share.band, bound=share.bound,
+                    judged_on="its force alone, without the moment" * bent,
                 )
                 for share in _each(seas, "connector_resultant_largest", over=load)
             ]
@@ -231,7 +249,7 @@ def _connector_force(found: _Largest) -> Headline:
     )
     return Headline(
         "connector_force", "Largest force in a connector", found.value, "N", found.where, _model(found),
-        band=found.band, detail=words,
+        band=found.band, bound=found.bound, detail="; ".join(filter(None, (words, ALONE if found.bound else ""))),
     )  # fmt: skip
 
 
@@ -309,6 +327,8 @@ def _of_line(found: _Largest, mean: float) -> tuple[Bound, str]:
     """Return the bound of a tension and its reason: slow drift left out, or snaps that lines at rest do not see."""
     if found.without_drift:
         return "at least", _WITHOUT_DRIFT
+    if found.bound:
+        return found.bound, f"; {ALONE}"
     if _moved(found):
         still = float(found.data["line_tension_maximum_lines_at_rest"].values[found.index[-1]])
         return "", f"; {spoken(still, 'N', 3)} with lines at rest at every instant"
@@ -324,7 +344,8 @@ def _motions(seas: Seas) -> Iterator[Headline]:
         offsets.append(
             Headline(
                 "offset", "Largest sway of a unit from rest", offset.value, "m", offset.where, _model(offset),
-                bound="at least" if left_out else "", band=offset.band, detail=words + _WITHOUT_DRIFT * left_out,
+                bound="at least" if left_out else offset.bound, band=offset.band,
+                detail=words + _WITHOUT_DRIFT * left_out,
             )
         )  # fmt: skip
     yield from _all_judged(offsets)
@@ -332,12 +353,15 @@ def _motions(seas: Seas) -> Iterator[Headline]:
     for path, data in seas:
         name = "significant_motion" if "significant_motion" in data else "motion_amplitude"
         factor = 1.0 if name == "significant_motion" else 2.0
-        rolls.append((path, data.assign(roll=factor * data[name].sel(dof="roll"))))
+        ends = {end: f"{name}{end}" for end in ("", "_low", "_high") if f"{name}{end}" in data}
+        rolls.append(
+            (path, data.assign({f"roll{end}": factor * data[own].sel(dof="roll") for end, own in ends.items()}))
+        )
     roll = _largest(rolls, "roll")
     if roll is not None:
         yield Headline(
             "roll", "Largest roll of a unit (double amplitude, significant in seas)", roll.value, "rad", roll.where,
-            _model(roll),
+            _model(roll), band=roll.band,
         )  # fmt: skip
 
 
@@ -349,17 +373,20 @@ def _waves(maps: list[tuple[str, xr.Dataset]]) -> Iterator[Headline]:
         words = "root mean square of K along the line behind"
         if math.isfinite(alone):
             words += f"; the section alone, without ends and gaps, {alone:.3g}"
-        yield Headline("transmission", "Transmission over the line behind", value, "1", where, MODEL, detail=words)
+        yield Headline(
+            "transmission", "Transmission over the line behind", value, "1", where, MODEL,
+            band=_damping_band(data, "transmission_coefficient", index), detail=words,
+        )  # fmt: skip
         for path, data in maps:
             if not data["transmission_coefficient"].dims:
                 level, _, sea = path.split("/")[1:]
                 yield Headline(
                     "transmission", "Transmission over the line behind", float(data["transmission_coefficient"]), "1",
-                    level, MODEL, sea=sea, shown=False,
+                    level, MODEL, band=_damping_band(data, "transmission_coefficient", ()), sea=sea, shown=False,
                 )  # fmt: skip
     point = _greatest(maps, "wave_height_ratio_of_point")
     if point is not None:
         yield Headline(
             "berth_wave_height", "Largest wave height at a named point over the incident one", point[0], "1", point[1],
-            MODEL,
+            MODEL, band=_damping_band(point[2][1], "wave_height_ratio_of_point", point[2][2]),
         )  # fmt: skip

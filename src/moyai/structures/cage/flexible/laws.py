@@ -53,14 +53,15 @@ def laws_dataset(
 
     choice = choice_of(model, speed)
     laws: tuple[NetLaw, ...] = (choice.chosen, *choice.others)
-    rows = []
+    rows, lines = [], []
     for number, law in enumerate(laws):
         progress("laws of nets", number, len(laws))
         found = rest
         if number:
             other = replace(model, design=replace(model.design, net=replace(model.design.net, law=law)))
             found = solve_rest(other, build_cage(other), rest.current, start=rest.state)
-        rows.append(_numbers(model, found, calm, heading))
+        lines.append(_line_tensions(found))
+        rows.append(_numbers(model, found, calm, heading, lines[-1]))
     progress("laws of nets", len(laws), len(laws))
     coefficients = [
         float(law.coefficients(0.0, speed, model.design.net.net, model.kinematic_viscosity)[0]) for law in laws
@@ -69,20 +70,28 @@ def laws_dataset(
         xr.Dataset(
             {
                 "normal_drag_coefficient": ("law", np.array(coefficients)),
+                "law_line_tension": (("law", "line"), np.array(lines)),
                 **{f"law_{name}": ("law", np.array([row[name] for row in rows])) for name in rows[0]},
             },
-            coords={"law": [law.name for law in laws]},
+            coords={"law": [law.name for law in laws], "line": [part.name for part in rest.built.lines]},
             attrs={"speed": speed, "valid": choice.named, "reynolds": choice.reynolds},
         )
     )
 
 
-def _numbers(model: FlexibleCage, rest: CageRest, calm: CageRest, heading: float) -> dict[str, float]:
+def _line_tensions(rest: CageRest) -> list[float]:
+    """Return the largest tension of each line [N]."""
+    strands = rest.built.network.strands
+    return [float(rest.tension[strands[part.strand].bars].max()) for part in rest.built.lines]
+
+
+def _numbers(
+    model: FlexibleCage, rest: CageRest, calm: CageRest, heading: float, lines: list[float]
+) -> dict[str, float]:
     """Return what the first page shows of one rest."""
     built, position = rest.built, rest.state.position
     along = np.array([math.cos(heading), math.sin(heading), 0.0])
     split, _ = horizontal_balance(rest)
-    strands = built.network.strands
     places = [
         ring_shape(cage, place, built.network.nodes.position)[0]
         for place in (position, calm.state.position) for cage in built.cages
@@ -90,13 +99,10 @@ def _numbers(model: FlexibleCage, rest: CageRest, calm: CageRest, heading: float
     half = len(built.cages)
     offset = max(float(np.linalg.norm((now - before)[:2])) for now, before in zip(places[:half], places[half:]))
     pulls = pull_on_anchors(built, rest.network, position, rest.tension)
-    lines = [float(rest.tension[strands[part.strand].bars].max()) for part in built.lines]
-    used = [pull / part.breaking_load for pull, part in zip(lines, built.lines, strict=True)]
     return {
         "volume_share": min(float(cage.volume(position)) / cage.rest_volume for cage in built.cages),
         "drag": float(split.sum(axis=0) @ along),
         "line_tension_maximum": max(lines, default=math.nan),
-        "utilisation": max(used, default=math.nan),
         "offset": offset,
         "anchor_pull": float(np.linalg.norm(pulls, axis=1).max()) if built.anchors.size else math.nan,
         "collar_stress": _collar_stress(model, rest),

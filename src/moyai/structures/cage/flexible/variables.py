@@ -59,7 +59,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "law_volume_share": ("1", "smallest volume over that as built, in the current of the site"),
     "law_drag": ("N", "drag of all parts along the current of the site"),
     "law_line_tension_maximum": ("N", "largest tension of all lines in the current of the site"),
-    "law_utilisation": ("1", "largest tension over breaking load in the current of the site"),
+    "law_line_tension": ("N", "largest tension of each line in the current of the site"),
     "law_offset": ("m", "largest offset of a collar in the current of the site"),
     "law_anchor_pull": ("N", "largest pull on an anchor in the current of the site"),
     "law_collar_stress": ("Pa", "largest von Mises stress of the collar in the current of the site"),

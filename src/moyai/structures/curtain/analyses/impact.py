@@ -17,7 +17,6 @@ from moyai.structures.curtain.impact.march import march_impact
 from moyai.structures.curtain.impact.release import slack_phase
 from moyai.structures.curtain.impact.skirt import Skirt as BulgingSkirt
 from moyai.structures.curtain.model import ImpactSettings
-from moyai.structures.curtain.statics.closed_forms import arc_half_angle
 
 _NO_CABLE = 1e-6
 #: A skirt reaches at most so much of the depth in the impact models, whose plate ends above the bed
@@ -38,8 +37,8 @@ class ImpactAnswer:
     design_model: str
     #: Of both cables together [N].
     design_tension: float
-    #: Of the just-taut arc of the skirt [rad]; NaN where no chord is known.
-    half_angle: float
+    #: The skirt that bulges; None where no chord is known.
+    skirt: BulgingSkirt | None
     #: Ends of the band of the tension over ``design_tension`` [-]: the lowest of the models that count with the start
     #: speed of low drag, and the design model with that of high drag [eq:impact-band].
     uncertainty: tuple[float, float]
@@ -182,9 +181,8 @@ def solve_impact(unit: LevelCurtain, settings: ImpactSettings, speed: float | No
     design = max(fit, key=lambda item: item.tension)
     slow, fast = start_speed_range(unit, settings) if speed is None else (1.0, 1.0)
     least = min(item.tension for item in fit) / design.tension
-    angle = math.nan if skirt is None else float(arc_half_angle(skirt.chord / skirt.length))
     band = (slow * least, fast)
-    return ImpactAnswer(impact, comparison, edge_impact(impact), design.model, design.tension, angle, band)
+    return ImpactAnswer(impact, comparison, edge_impact(impact), design.model, design.tension, skirt, band)
 
 
 def counts(model: str) -> bool:
@@ -199,12 +197,9 @@ def counts(model: str) -> bool:
 def skirt_tension(answer: ImpactAnswer, tension: float) -> float:
     """Return the tension of the skirt per width [N/m] that goes with a sum of cable tensions [N].
 
-    Each cable bears half of the load on the section, sigma d0/2, and the skirt is an arc: T_s = F_c / sin(alpha)
-    [eq:curtain-edge-load].
+    Each cable bears half of the load on the section, sigma d0/2; the skirt is an arc that stretches.
     """
-    if math.isnan(answer.half_angle):
-        return math.nan
-    return 0.5 * line_load(answer, tension) / math.sin(answer.half_angle)
+    return math.nan if answer.skirt is None else answer.skirt.edge_tension(0.5 * line_load(answer, tension))
 
 
 def line_load(answer: ImpactAnswer, tension: float) -> float:
@@ -232,7 +227,7 @@ def impact_notices(unit: LevelCurtain, settings: ImpactSettings, answer: ImpactA
                 source="model A2",
             )
         )
-    if math.isnan(answer.half_angle):
+    if answer.skirt is None:
         notices.append(
             Notice(
                 "impact-no-arc",

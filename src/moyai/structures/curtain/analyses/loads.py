@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
@@ -94,7 +94,7 @@ def loads_dataset(
         best = max(sources, key=lambda item: getattr(item.loads, field), default=_Added(AddedLoads(), ""))
         factor = _factor(unit, component)
         wave, hit = factor * getattr(best.loads, field), factor * getattr(struck, field)
-        if component == "skirt" and proportions is not None and math.isnan(proportions.half_angle):
+        if component == "skirt" and proportions is not None and proportions.skirt is None:
             hit = math.nan
         ends = (1.0, 1.0) if answer is None else answer.uncertainty
         rows.append(_row(unit, component, steady, wave, (hit, ends[0] * hit, ends[1] * hit), best.source, name))
@@ -109,44 +109,67 @@ def dynamic_loads_dataset(unit: LevelCurtain, moved: DynamicLoads) -> xr.Dataset
     return _table(unit, rows, moved, ())
 
 
+#: Parts of the strongest current in which an upright plate governs, at which the impact is held against its own.
+_WEAKER = (0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0)
+
+
 def _in_weaker_current(
     unit: LevelCurtain, settings: Settings, answer: ImpactAnswer | None
-) -> dict[str, dict[str, float | str]]:
-    """Return the rows of the impact in the strongest current up to that of the case in which an upright plate governs.
+) -> dict[str, list[dict[str, float | str]]]:
+    """Return the rows of the impact in weaker currents than that of the case, up to the strongest of an upright plate.
 
     Weaker currents come with every stronger one, twice a tide: where the current of the case leaves the plate as a
-    bound alone, its load in the weaker current is a value all the same [eq:curtain-hierarchy].
+    bound alone, its load in the weaker current is a value all the same, and a skirt that hangs straighter may bear more
+    in a weaker one [eq:curtain-hierarchy].
     """
-    speed = 0.0 if answer is None else upright_in(unit)
-    if answer is None or not 0.0 < speed < unit.surface_speed:
+    top = 0.0 if answer is None else upright_in(unit)
+    if answer is None or not top > 0.0:
         return {}
-    there = replace(unit, surface_speed=speed)
-    struck = impact_load(unit, answer, settings).at(unit.unit_normal_speed * speed)
-    source = f"impact, model {answer.design_model}, in a weaker current of {speed:.3g} m/s"
-    rows = {}
-    for component in COMPONENTS:
-        hit = _factor(unit, component) * getattr(struck, _FIELDS[component])
-        if component == "skirt" and math.isnan(answer.half_angle):
+    load = impact_load(unit, answer, settings)
+    rows: dict[str, list[dict[str, float | str]]] = {}
+    for part in _WEAKER:
+        speed = part * top
+        if speed >= unit.surface_speed:
             continue
-        ends = (hit, answer.uncertainty[0] * hit, answer.uncertainty[1] * hit)
-        rows[component] = _row(unit, component, _steady(there, component), 0.0, ends, "", source)
+        there = replace(unit, surface_speed=speed)
+        struck = load.at(unit.unit_normal_speed * speed)
+        source = f"impact, model {answer.design_model}, in a weaker current of {speed:.3g} m/s"
+        for component in COMPONENTS:
+            hit = _factor(unit, component) * getattr(struck, _FIELDS[component])
+            if component == "skirt" and answer.skirt is None:
+                continue
+            ends = (hit, answer.uncertainty[0] * hit, answer.uncertainty[1] * hit)
+            steady = _steady(there, component)
+            rows.setdefault(component, []).append(_row(unit, component, steady, 0.0, ends, "", source))
     return rows
 
 
 def _table(
     unit: LevelCurtain, rows: list[dict[str, float | str]], moved: DynamicLoads, roles: tuple[ModelRole, ...],
-    weaker: Mapping[str, dict[str, float | str]] = MappingProxyType({}),
+    weaker: Mapping[str, list[dict[str, float | str]]] = MappingProxyType({}),
 ) -> xr.Dataset:  # fmt: skip
     import xarray as xr
 
     decided = [_decided(unit, row, moved, roles) for row in rows]
     plate = (ModelRole(IMPACT, "governs", "", ""),)
     for number, row in enumerate(decided):
-        other = weaker.get(str(row["component"]))
-        if other is not None and row["component"] != "float":
+        least: dict[str, Any] = {"weaker_load": math.nan, "weaker_high": math.nan, "weaker_source": ""}
+        for other in [] if row["component"] == "float" else weaker.get(str(row["component"]), []):
             found = _decided(unit, other, NOT_MOVED, plate)
-            if float(found["governing_high"]) > float(row["governing_high"]):
+            high = float(found["governing_high"])
+            if high > float(decided[number]["governing_high"]):
                 decided[number] = found
+            elif (
+                decided[number]["load_bound"] == "at most"
+                and row["component"] != "joint"
+                and not high <= least["weaker_high"]
+            ):
+                # a value below a bound: the bound proves nothing that it passes, the value does
+                least = {
+                    "weaker_load": found["governing_load"], "weaker_high": high,
+                    "weaker_source": other["impact_source"],
+                }  # fmt: skip
+        decided[number] = decided[number] | least
     rows = _with_joint(unit, decided)
     columns = {key: [row[key] for row in rows] for key in rows[0]}
     known = [row for row in rows if math.isfinite(row["utilisation"])]  # type: ignore[arg-type]
@@ -178,7 +201,10 @@ def _decided(
         above += float(row["impact_high"]) - float(row["impact_load"])
     if row["governing"] == "dynamic":
         above = max(one for one in (governing, high, factor * span.judged) if math.isfinite(one))
-    row |= {"governing_high": above}
+    if row["load_bound"] == "at most":
+        # a bound stands at the upper end of all that it varies with
+        governing = above
+    row |= {"governing_load": governing, "governing_high": above}
     judged = math.isfinite(float(row["capacity"])) and math.isfinite(governing)
     strength = _strength(unit, component)
     return row | {

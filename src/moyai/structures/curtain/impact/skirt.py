@@ -15,7 +15,7 @@ from moyai.core.validity import Notice
 from moyai.structures.curtain.impact.added_mass import LARGEST_SAGITTA, ArcMass, arc_skirt_mass
 from moyai.structures.curtain.impact.cable import Impact, ImpactPeak, peak_by_energy
 from moyai.structures.curtain.impact.kernels import cable_and_skirt, sag_ratio, shape_of_sag, spring, taut_shape
-from moyai.structures.curtain.statics.closed_forms import arc_half_angle
+from moyai.structures.curtain.statics.closed_forms import arc_half_angle, solve_skirt_arc
 
 Variant = Literal["literal", "energy_mid", "energy_proj"]
 
@@ -64,6 +64,20 @@ class Skirt:
         """Sagitta f0 of the just-taut arc [m]."""
         half_angle = float(arc_half_angle(self.chord / self.length))
         return 0.5 * self.chord * math.tan(0.5 * half_angle)
+
+    def edge_tension(self, load: float) -> float:
+        """Return the tension of the arc [N/m] whose edges each bear a load [N/m] [eq:curtain-edge-load].
+
+        T_s = F_c / sin(alpha), with the half angle of equation (2) and not that of the just-taut arc: a skirt that
+        hangs nearly straight stretches until it can carry the load. Infinite where it would stretch to a full circle.
+        """
+        if not load > 0.0:
+            return 0.0
+        pressure = 2.0 * load / self.chord
+        # the arc closes where the stiffness is below pressure times length over 2 pi
+        if self.stiffness <= pressure * self.length / (2.0 * math.pi):
+            return math.inf
+        return float(solve_skirt_arc(self.chord, self.length, pressure, self.stiffness).tension)
 
     def arc(self, sagitta: float) -> tuple[float, float]:
         """Return radius [m] and tension [N/m] at a sagitta [m]; slack below the taut one [eq:impact-skirt-spring]."""

@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache
 
 import numpy as np
 
+from moyai.core.errors import ConvergenceError, InputError
 from moyai.sea.breaking import breaking_limit
 from moyai.structures.curtain.analyses.anchor import rope_model
-from moyai.structures.curtain.analyses.impact import ImpactAnswer, drag_coefficient
+from moyai.structures.curtain.analyses.impact import ImpactAnswer, bulging_skirt, drag_coefficient
 from moyai.structures.curtain.assembly import LevelCurtain
 from moyai.structures.curtain.impact.cable import peak_by_energy
 from moyai.structures.curtain.impact.cycle_table import CycleTable
+from moyai.structures.curtain.impact.skirt import Skirt
 from moyai.structures.curtain.model import Settings
 from moyai.structures.curtain.seas.loads import DragCurve, ImpactLoad, SeaLoads
 from moyai.structures.curtain.seas.squared_velocity import effective_height, squared_velocity
@@ -19,6 +24,8 @@ from moyai.structures.curtain.seas.states import DesignWave
 
 #: Without impact at a standstill the start speed keeps this ratio to the water's [-]
 _PAPER_RATIO = 1.0
+#: Step of the logarithm of the speed between chords that are solved, and the chord of a straight skirt over its length.
+_STEP, _STRAIGHT = 0.1, 1.0 - 1e-9
 
 
 def impact_load(unit: LevelCurtain, answer: ImpactAnswer, settings: Settings) -> ImpactLoad:
@@ -32,10 +39,40 @@ def impact_load(unit: LevelCurtain, answer: ImpactAnswer, settings: Settings) ->
         answer.design_tension / peak_by_energy(answer.impact).tension,
         answer.shares,
         ratio,
-        answer.half_angle,
+        answer.skirt,
         unit.hanging.anchor_slope,
         answer.uncertainty,
+        _skirt_in_current(unit, settings, answer),
     )
+
+
+def _skirt_in_current(
+    unit: LevelCurtain, settings: Settings, answer: ImpactAnswer
+) -> Callable[[float], Skirt | None] | None:
+    """Return the skirt at any speed of the water along the normal [m/s]; None where its chord is given or not known."""
+    known = answer.skirt
+    if known is None or settings.impact.chord is not None:
+        return None
+
+    @cache
+    def chord(step: int) -> float:
+        there = replace(unit, surface_speed=math.exp(step * _STEP) / unit.unit_normal_speed)
+        try:
+            found = bulging_skirt(there, settings.impact)
+        except (InputError, ConvergenceError):
+            found = None
+        # nearly straight where the arc is not resolved, as deep as in the case where there is no equilibrium
+        return known.length * _STRAIGHT if found is None and there.surface_speed < unit.surface_speed else (
+            known.chord if found is None else found.chord
+        )  # fmt: skip
+
+    def at(speed: float) -> Skirt:
+        place = math.log(speed) / _STEP
+        below = math.floor(place)
+        share = place - below
+        return replace(known, chord=(1.0 - share) * chord(below) + share * chord(below + 1))
+
+    return at
 
 
 def fastest_water(unit: LevelCurtain, settings: Settings, waves: tuple[DesignWave, ...]) -> float:

@@ -22,6 +22,7 @@ from moyai.structures.curtain.assembly import LevelCurtain
 from moyai.structures.curtain.impact.cable import Impact, peak_by_energy
 from moyai.structures.curtain.impact.cycle_table import CycleTable
 from moyai.structures.curtain.impact.kernels import taut_shape
+from moyai.structures.curtain.impact.skirt import Skirt
 from moyai.structures.curtain.limits.utilisation import AddedLoads
 from moyai.structures.curtain.seas.anchor_energy import EnergyModel
 from moyai.structures.curtain.seas.squared_velocity import DirectionRule, effective_height, squared_velocity
@@ -118,12 +119,15 @@ class ImpactLoad:
     shares: tuple[float, float]
     #: Start speed over the speed of the water [-].
     start_ratio: float
-    #: Of the skirt's arc [rad]; NaN: the skirt's share is not known and left out.
-    half_angle: float
+    #: The skirt that bulges; None: its share is not known and left out.
+    skirt: Skirt | None
     #: Of the anchor line [rad].
     anchor_slope: float
     #: Ends of the band of the tension over its value [-] [eq:impact-band].
     uncertainty: tuple[float, float] = (1.0, 1.0)
+    #: The skirt at a speed of the water along the normal [m/s], which hangs straighter in a weaker current; None: as in
+    #: that of the case.
+    skirt_at: Callable[[float], Skirt | None] | None = None
 
     def at(self, speed: float) -> AddedLoads:
         """Return the loads when the water moves with a speed [m/s] along the normal."""
@@ -131,17 +135,20 @@ class ImpactLoad:
         if start <= 0.0:
             return AddedLoads()
         impact = replace(self.impact, speed=start)
-        return self.of_tension(self.factor * peak_by_energy(impact).tension)
+        skirt = self.skirt if self.skirt_at is None else self.skirt_at(speed)
+        return self._of(self.factor * peak_by_energy(impact).tension, skirt)
 
     def of_tension(self, tension: float) -> AddedLoads:
         """Return the loads that go with a sum of the cable tensions [N]; both spans of a support act at once."""
+        return self._of(tension, self.skirt)
+
+    def _of(self, tension: float, skirt: Skirt | None) -> AddedLoads:
         b = taut_shape(self.impact.span_ratio)
         load = 2.0 * b * tension / self.impact.span
-        known = math.isfinite(self.half_angle)
         return AddedLoads(
             self.shares[0] * tension,
             self.shares[1] * tension,
-            0.5 * load / math.sin(self.half_angle) if known else 0.0,
+            0.0 if skirt is None else skirt.edge_tension(0.5 * load),
             2.0 * tension * math.tanh(b) / math.cos(self.anchor_slope),
             load,
         )

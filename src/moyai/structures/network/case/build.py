@@ -16,8 +16,10 @@ from moyai.case.headings import heading_of
 from moyai.case.schema_environment import sea_names
 from moyai.core.errors import InputError
 from moyai.coupled.assembly import RodPart, VolumePart
+from moyai.flexible.failures import LineFailure
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import BarType, RopeCurve
+from moyai.flexible.network import BOX, SPHERE, BarType, RopeCurve, SlowStretch
+from moyai.sea.current_field import CurrentField
 from moyai.sea.elevation_record import components_of_record
 from moyai.sea.environment import Environment
 from moyai.sea.states import ComponentSea, RegularSea, SeaState
@@ -81,7 +83,28 @@ def build_problem(case: NetworkCase, folder: Path, *, case_text: str = "", case_
         case_text=case_text,
         case_hash=case_hash,
         criteria=criteria_of(case),
-    )
+        current_field=_current_field(case, folder),
+        failures=tuple(
+            LineFailure(
+                item.line, item.at == "end", math.inf if item.time is None else item.time,
+                math.inf if item.tension is None else item.tension,
+            )
+            for item in unit.failures
+        ),
+    )  # fmt: skip
+
+
+def _current_field(case: NetworkCase, folder: Path) -> CurrentField | None:
+    """Return the current that changes with time, from its file."""
+    given = case.current_field
+    if given is None:
+        return None
+    from moyai.interop.moordyn_currents import read_current_field
+
+    try:
+        return read_current_field(folder / given.file, given.form)
+    except InputError as error:
+        raise error.at("current_field.file") from None
 
 
 def _settings(case: NetworkCase, folder: Path) -> model.Settings:
@@ -90,7 +113,8 @@ def _settings(case: NetworkCase, folder: Path) -> model.Settings:
         analyses=case.analyses, duration=given.duration, output_step=given.output_step, ramp=given.ramp,
         start=given.start, resume=None if given.resume is None else folder / given.resume, method=given.method,
         step=given.step, wave_front=given.wave_front, tolerance=given.tolerance, stretching=given.stretching,
-        skip=given.skip, sensitivity=given.sensitivity, mesh_check=given.mesh_check, peak_goal=given.peak_goal,
+        skip=given.skip, sensitivity=given.sensitivity,
+        mesh_check="off" if case.structure.failures else given.mesh_check, peak_goal=given.peak_goal,
         slack_level=given.slack_level,
         snap_threshold=given.snap_threshold, modes=given.modes, stiffness_step=given.stiffness_step,
     )  # fmt: skip
@@ -220,9 +244,13 @@ def bar_type_of(
     made["axial_stiffness"] = stiffness
     bar = BarType(
         name, viscosity=viscosity, bending_stiffness=entry.bending_stiffness, tension_only=tension_only, curve=curve,
-        **made,
+        slow=_slow_stretch(getattr(entry, "slow_stretch", None)), **made,
     )  # fmt: skip
     return bar, breaking
+
+
+def _slow_stretch(entry: parts.SlowStretch | None) -> SlowStretch | None:
+    return None if entry is None else SlowStretch(entry.static_stiffness, entry.viscosity, entry.growth)
 
 
 def _known(name: str, types: Any, path: str) -> Any:
@@ -239,10 +267,19 @@ def _known(name: str, types: Any, path: str) -> Any:
 
 
 def _attached(entry: Any) -> model.Attached:
+    """Return what a clump, a float of a row or a free point carries: a sphere where no height is given."""
+    height, form = entry.height, BOX
+    if height is None:
+        height, form = _diameter(entry.volume), SPHERE
     return model.Attached(
-        entry.mass, entry.volume, entry.height, drag_area=entry.drag_area,
+        entry.mass, entry.volume, height, form, drag_area=entry.drag_area,
         added_mass_coefficient=entry.added_mass_coefficient, contact_area=getattr(entry, "bed_contact_area", 0.0),
     )  # fmt: skip
+
+
+def _diameter(volume: float) -> float:
+    """Return the diameter of a sphere of a volume."""
+    return float((6.0 / math.pi * volume) ** (1.0 / 3.0))
 
 
 def _place(position: Sequence[float | None]) -> tuple[float, float, float]:
@@ -270,7 +307,7 @@ def _point(name: str, entry: Any) -> model.PointPlan:
         diameter = entry.diameter
     else:
         carried = _attached(entry)
-        diameter = (6.0 / math.pi * carried.volume) ** (1.0 / 3.0)
+        diameter = _diameter(carried.volume)
     carried = replace(carried, contact_area=entry.bed_contact_area)
     # free points start from still water, wherever it stands
     return model.PointPlan(name, "free", place, "", True, carried, held, diameter)  # type: ignore[arg-type]

@@ -111,6 +111,16 @@ class CatalogueType(_Internal):
     bending_stiffness: BendingStiffness = Field(default=0.0, description="EI. Default: 0.")
 
 
+class SlowStretch(Block):
+    """A spring beside a dashpot, in series with the quick stiffness."""
+
+    static_stiffness: PositiveForce = Field(description="EA of the whole rope under a load that stays.")
+    viscosity: Viscosity = Field(description="Of the dashpot beside the slow spring: force per rate of strain.")
+    growth: NonNegativeNumber = Field(
+        default=0.0, description="Quick stiffness per tension at rest that it grows with. Default: 0."
+    )
+
+
 class OwnType(_Internal):
     """A line with its own properties."""
 
@@ -120,6 +130,11 @@ class OwnType(_Internal):
     mass: PositiveMassPerLength = Field(description="Mass in air per length.")
     axial_stiffness: PositiveForce | None = Field(default=None, description="EA.")
     curve: RopeTable | None = Field(default=None, description="Tension over strain in place of EA.")
+    slow_stretch: SlowStretch | None = Field(
+        default=None,
+        description="How a synthetic rope gives way under loads that stay; axial_stiffness then is that of quick "
+        "changes.",
+    )
     volume: Annotated[float, QuantityOf(quantities.AREA, least=0.0)] | None = Field(
         default=None, description="Displaced volume per length. Default: that of the diameter."
     )
@@ -232,15 +247,20 @@ class _Moving(Block):
     bed_contact_area: Area = Field(default=0.0, description="Area that bears on the bed. Default: 0.")
 
 
+_Height = Annotated[float, QuantityOf(quantities.LENGTH, least=0.0)]
+_HEIGHT = (
+    "Vertical extent of a box that comes out of the water; 0 keeps it wholly wet wherever it is. Default: a sphere of "
+    "the volume."
+)
+
+
 class FreePoint(_Moving):
     """A joint, or a small body."""
 
     kind: Literal["free"] = Field(description="A joint, clump weight or small buoy.")
     mass: AddedMass = Field(default=0.0, description="Mass in air. Default: 0.")
     volume: Volume = Field(default=0.0, description="Displaced volume when wholly wet. Default: 0.")
-    height: Annotated[float, QuantityOf(quantities.LENGTH, least=0.0)] = Field(
-        default=0.0, description="Vertical extent for partial immersion (box); 0 keeps it wholly wet. Default: 0."
-    )
+    height: _Height | None = Field(default=None, description=_HEIGHT)
     drag_area: Area = Field(default=0.0, description="Drag coefficient times area. Default: 0.")
     added_mass_coefficient: NonNegativeNumber = Field(default=0.0, description="On the volume. Default: 0.")
 
@@ -275,9 +295,7 @@ class Weight(Block):
 
     mass: AddedMass = Field(description="Mass in air.")
     volume: Volume = Field(default=0.0, description="Displaced volume. Default: 0.")
-    height: Annotated[float, QuantityOf(quantities.LENGTH, least=0.0)] = Field(
-        default=0.0, description="Vertical extent for partial immersion. Default: 0, wholly wet."
-    )
+    height: _Height | None = Field(default=None, description=_HEIGHT)
     drag_area: Area = Field(default=0.0, description="Drag coefficient times area. Default: 0.")
     added_mass_coefficient: NonNegativeNumber = Field(default=0.0, description="On the volume. Default: 0.")
 
