@@ -76,6 +76,8 @@ class Change:
         """Return the text of the file with the change."""
         lines = text.split("\n")
         places = [number for number, line in enumerate(lines) if line.strip() == self.old]
+        if len(places) < self.which:
+            raise LookupError(f"{self.file} no longer holds {self.old!r}: write the line of {LIST.name} again")
         place = places[self.which - 1]
         lines[place] = lines[place].replace(self.old, self.new)
         return "\n".join(lines)

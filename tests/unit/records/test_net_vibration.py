@@ -151,7 +151,7 @@ def test_steady_window_by_speed_and_by_force():
 
 @pytest.mark.parametrize("memory", [0.8, 0.9, 0.95])
 def test_degrees_of_freedom_of_a_mean_with_correlated_errors(memory: float) -> None:
-    """Errors of order one: their autocorrelation is followed to six of its times tau; 1.5 n over 12 tau is n / 8 tau."""
+    """Errors of order one: the autocorrelation is followed to six of its times tau; 1.5 n over 12 tau is n / 8 tau."""
     count = 200_000
     noise = lfilter([1.0], [1.0, -memory], np.random.default_rng(1).standard_normal(count))
     covariance, freedom = correlated_covariance(np.full((1, count), 1.0 / count), noise - noise.mean(), 1.0)
