@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from moyai.core.arrays import Array
+from moyai.core.arrays import Array, BoolArray
 from moyai.core.errors import InputError
 from moyai.flexible.ground_kernel import levels
 
@@ -53,6 +53,36 @@ class Ground:
             f"levels of shape {self.level.shape} on a grid of {self.x.size} by {self.y.size} lines",
             "bed.ground.level", "a finite level at every crossing",
         )  # fmt: skip
+
+    @classmethod
+    def of_rows(cls, rows: Array) -> Ground:
+        """Return the ground of rows x, y, level [m], one a crossing of the grid lines, in any order.
+
+        Raises
+        ------
+        InputError
+            When a crossing is named twice or left out.
+        """
+        x, i = np.unique(rows[:, 0], return_inverse=True)
+        y, j = np.unique(rows[:, 1], return_inverse=True)
+        known = np.zeros((x.size, y.size), dtype=np.int64)
+        np.add.at(known, (i, j), 1)
+        odd = np.argwhere(known != 1)
+        if odd.size:
+            a, b = odd[0]
+            said = "twice" if known[a, b] > 1 else "nowhere"
+            raise InputError(
+                f"x = {x[a]:g} m, y = {y[b]:g} m stands {said} in a grid of {x.size} by {y.size} lines",
+                parameter="bed.ground", allowed="every crossing of the grid lines once",
+            )  # fmt: skip
+        level = np.empty(known.shape)
+        level[i, j] = rows[:, 2]
+        return cls(x, y, level)
+
+    def beyond(self, place: Array) -> BoolArray:
+        """Whether places (n, 2 or 3) stand outside the grid."""
+        x, y = place[:, 0], place[:, 1]
+        return np.asarray((x < self.x[0]) | (x > self.x[-1]) | (y < self.y[0]) | (y > self.y[-1]))
 
     @property
     def steepest(self) -> float:
@@ -128,6 +158,16 @@ class Bed:
         flat[:, :2] = where[..., :2].reshape(-1, 2)
         found = self.contact_at(flat)
         return np.asarray(found[:, 0] / found[:, 3]).reshape(where.shape[:-1])
+
+    def level_for(self, low: Array) -> float:
+        """Return the height of the flat bed on which the first guess of a line with this lower end hangs [m]."""
+        return self.level if self.ground is None else min(float(self.level_at(low)), float(low[2]))
+
+    def carried(self, points: Array) -> Array:
+        """Return points of a first guess (n, 3) on or above a bed that varies [m]."""
+        if self.ground is None:
+            return points
+        return np.column_stack([points[:, :2], np.maximum(points[:, 2], self.level_at(points))])
 
     def __post_init__(self) -> None:
         _require(math.isfinite(self.level), f"bed level is {self.level:g}", "bed.level", "a finite height")
