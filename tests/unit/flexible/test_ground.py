@@ -49,7 +49,7 @@ def test_levels_are_bilinear_between_grid_lines_and_flat_outside():
     np.testing.assert_allclose(bed.level_at([[-50.0, 100.0], [90.0, -7.0]]), ground.level[[0, -1], [-1, 0]], rtol=1e-14)
     # at a line the turn of the slope moves the level by the change of slope times a quarter of its half width
     steps = np.diff(ground.level[:, 2]) / np.diff(ground.x)
-    half = 0.05 * np.minimum(np.diff(ground.x)[:-1], np.diff(ground.x)[1:])
+    half = 0.02 * np.minimum(np.diff(ground.x)[:-1], np.diff(ground.x)[1:])
     place = np.stack([ground.x[1:-1], np.full(4, 0.5 * (ground.y[2] + ground.y[3]))], axis=-1)
     one = bed.level_at(place) - exact(place)
     two = 0.5 * sum(np.diff(np.diff(ground.level[:, k]) / np.diff(ground.x)) * half / 4.0 for k in (2, 3))
@@ -62,7 +62,7 @@ def test_slopes_and_curvatures_are_the_derivatives_of_the_level(where):
     ground = random_ground()
     if where == (0.0, 0.0):
         # on two grid lines at once
-        where = (ground.x[2] + 0.02, ground.y[3] - 0.01)
+        where = (ground.x[2] + 0.01, ground.y[3] - 0.005)
     bed, h = Bed.on(ground, 1e5).numbers(), 1e-6
     here = np.array(ground_shape(bed, *where))
     for axis, rows in ((0, (1, 3, 4)), (1, (2, 4, 5))):
@@ -228,9 +228,9 @@ def test_tension_and_strain_energy_over_a_hump_follow_the_height():
         middles = 0.5 * (rest.state.position[strand.nodes[1:]] + rest.state.position[strand.nodes[:-1]])
         head = rest.tension[strand.bars] + rest.tension[strand.bars] ** 2 / (2.0 * ROPE.axial_stiffness)
         misses.append(np.abs(head - head[0] - 50.0 * 9.81 * (middles[:, 2] - middles[0, 2])).max())
-    assert misses[1] < 0.3 * misses[0]
-    assert misses[2] < 0.3 * misses[1]
-    assert misses[2] < 0.005 * 50.0 * 9.81 * 6.0
+    assert misses[1] < 0.5 * misses[0]
+    assert misses[2] < 0.5 * misses[1]
+    assert misses[2] < 0.01 * 50.0 * 9.81 * 6.0
 
 
 @pytest.mark.parametrize("method", ["explicit", "tr_bdf2"])

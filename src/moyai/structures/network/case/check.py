@@ -384,12 +384,13 @@ def _check_ground(network: Network, depth: float, findings: Findings) -> None:
     beyond = bed.ground.beyond(network.nodes.position)
     if beyond.any():
         named = [name for name, node in network.points.items() if beyond[node]]
+        one = named[0] if named else network.strands[0].name
         findings.warn(
             ("structure", "bed"),
-            f"{int(beyond.sum())} nodes of the network stand beyond the grid of the bed"
-            + (f", among them '{named[0]}'" if named else "") + ": the bed is flat there",
+            f"{int(beyond.sum())} nodes of the network, some of '{one}' among them, stand beyond the grid of the bed, "
+            "which is flat there",
             remedy="give a grid that covers the network",
-        )  # fmt: skip
+        )
     lowest = float(levels.min())
     if lowest < -depth * 1.05:
         findings.warn(
