@@ -149,12 +149,17 @@ class Bed:
         """Return depth in the bed along its normal [m] and the normal at places (n, 3), shape (n, 4)."""
         where = np.ascontiguousarray(np.atleast_2d(np.asarray(place, dtype=np.float64)))
         out = np.empty((len(where), 4))
+        if self.ground is None:
+            out[:, 0], out[:, 1:] = self.level - where[:, 2], (0.0, 0.0, 1.0)
+            return out
         levels(self.numbers(), where, out)
         return out
 
     def level_at(self, place: ArrayLike) -> Array:
         """Return the height of the bed under places (..., 2 or 3) [m]."""
         where = np.asarray(place, dtype=np.float64)
+        if self.ground is None:
+            return np.full(where.shape[:-1], self.level)
         flat = np.zeros((where[..., 0].size, 3))
         flat[:, :2] = where[..., :2].reshape(-1, 2)
         found = self.contact_at(flat)

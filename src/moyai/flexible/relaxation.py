@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from moyai.core.arrays import Array
-from moyai.flexible import force_kernel, front_kernel, ground_kernel, rest_kernel
+from moyai.flexible import force_kernel, front_kernel, rest_kernel
 from moyai.flexible.arrays import KernelArrays, kernel_arrays, kernel_bed
 from moyai.flexible.flow import Flow
 from moyai.flexible.network import Network
@@ -200,9 +200,9 @@ class Relaxation:
         force_kernel.laws(place, self.still, self.system, self.fluid, self.bed, 0.0, 1.0, law, node_law)
         pull = np.where(law[0] > 0.0, law[0], self.arrays.bar("spring") * (size - self.length))
         pull = np.clip(pull, -load, load)
-        depth = np.empty((len(place), 4))
-        ground_kernel.levels(self.bed, place, depth)
-        push = np.clip(self.arrays.node("bed_stiffness") * depth[:, 0], -load, load)
+        bed = self.network.bed
+        depth = np.zeros(len(place)) if bed is None else bed.contact_at(place)[:, 0]
+        push = np.clip(self.arrays.node("bed_stiffness") * depth, -load, load)
         rounded = 0.5 * (pull + np.sqrt(pull**2 + soft**2))
         return np.where(only, rounded, pull), 0.5 * (push + np.sqrt(push**2 + soft**2))
 
