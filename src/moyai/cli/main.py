@@ -42,6 +42,7 @@ from moyai.cli.console import (
 )
 from moyai.cli.convert import Depth, Duration, Motion, case_of_deck, convert
 from moyai.cli.fit import fit
+from moyai.cli.help_pages import SpokenGroup
 from moyai.cli.measuring import measure
 from moyai.cli.query import query
 from moyai.cli.report import Language, Units
@@ -65,6 +66,7 @@ for _threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
 
 app = typer.Typer(
     name="moyai",
+    cls=SpokenGroup,
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,

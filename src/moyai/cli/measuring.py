@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import typer
 
+from moyai.cli.help_pages import SpokenGroup
 from moyai.cli.measuring_decay import decay
 from moyai.cli.measuring_forces import forces
 from moyai.cli.measuring_nets import nets
@@ -13,6 +14,7 @@ from moyai.cli.measuring_streaks import streaks
 
 measure = typer.Typer(
     name="measure",
+    cls=SpokenGroup,
     no_args_is_help=True,
     rich_markup_mode=None,
     help="Turn records and pictures into statistics and coefficients.",

@@ -30,7 +30,8 @@ _KEYS = frozenset((
 ))  # fmt: skip
 _TEXT = re.compile(r"[A-Za-z]{2,}[ ,:;.-]+(?:[a-z]|\{)|\{\d+\} [a-z]{2,}|^[A-Z][a-z]+$")
 _NO_TEXT = re.compile(
-    r"^[\w./*\\{}\[\]=\"'<>:-]*$|^<|^\s*[.#][\w-]+\{|[{};]\s*--|</|->|^(?:dash|solid|line\+points)$|^(?:%|r?/|\$)|^https?:|^data:|::|^@|\(\?|\\[dwsb]"
+    r"^[\w./*\\{}\[\]=\"'<>:-]*$|^<|^\s*[.#][\w-]+\{|[{};]\s*--|</|->|^(?:dash|solid|line\+points)$|^(?:%|r?/|\$)"
+    r"|^https?:|^data:|::|^@|\(\?|\\[dwsb]|^pip install |^tag:|[a-z]=\"|^#set "
 )
 FOLDERS = {
     "case": "errors and checks of files", "cli": "command line", "report": "reports, common", "core": "common",
@@ -70,8 +71,30 @@ def texts(package: Path) -> Iterator[Text]:
             group = "schemas"
         elif group in ("structures", "records", "studies"):
             group += ": errors and checks of files" if "case" in parts else ": reports and notices"
-        for template, line in templates(path.read_text(encoding="utf-8")):
+        source = path.read_text(encoding="utf-8")
+        for template, line in templates(source):
             yield Text(template, group, f"{'/'.join(parts)}:{line}")
+        if parts[0] == "cli":
+            for text, line in helps(source):
+                yield Text(text, "help of the command line", f"{'/'.join(parts)}:{line}")
+
+
+def helps(source: str) -> Iterator[tuple[str, int]]:
+    """Give what ``--help`` says of the commands of a module and of their options, with lines.
+
+    Parameters
+    ----------
+    source : str
+    """
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.keyword) and node.arg == "help" and isinstance(node.value, ast.Constant):
+            yield str(node.value.value), node.value.lineno
+        elif isinstance(node, ast.FunctionDef) and any(
+            isinstance(item.annotation, (ast.Subscript, ast.Name)) and "Annotated" in ast.dump(item.annotation)
+            for item in node.args.args
+        ):
+            for part in re.split(r"\n\s*\n", ast.get_docstring(node) or ""):
+                yield " ".join(part.split()), node.lineno
 
 
 def templates(source: str) -> Iterator[tuple[str, int]]:
@@ -104,6 +127,8 @@ class _Finder(ast.NodeVisitor):
 
     def visit_Call(self, node: ast.Call) -> None:
         name = node.func.id if isinstance(node.func, ast.Name) else getattr(node.func, "attr", "")
+        if name in ("compile", "exports"):
+            return  # patterns, and names of modules with what they export
         before, shows = self._shown, name in _SHOWN
         self.visit(node.func)
         for number, value in enumerate(node.args):

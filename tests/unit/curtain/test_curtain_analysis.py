@@ -260,7 +260,8 @@ def test_limit_height_is_where_a_component_is_used_up(small):
 def test_impact_tightens_the_limits(tmp_path):
     hard = SMALL.replace("start_speed: 0.05 m/s", "start: current")
     hard = hard.replace("[statics, impact, waves, anchor_loads, limits]", "[impact, limits]")
-    without = hard.replace("highest_height: 2 m}", "highest_height: 2 m, impact: false}")
+    hard = hard.replace("highest_height: 2 m}", "highest_height: 2 m, speeds: [0.1 m/s, 0.3 m/s]}")
+    without = hard.replace("highest_height: 2 m,", "highest_height: 2 m, impact: false,")
     limits = [run(problem_of(tmp_path, text)).tree["SWL/limits"] for text in (hard, without)]
     assert float(limits[0]["speed_limit"]) < float(limits[1]["speed_limit"])
     assert limits[0].attrs["with_impact"] == 1 and limits[1].attrs["with_impact"] == 0

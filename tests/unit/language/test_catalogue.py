@@ -80,6 +80,7 @@ def test_the_share_that_is_translated_does_not_fall() -> None:
 
 
 LEAST = {
+    "help of the command line": 1.0,
     COMMENTS: 0.95,
     "command line": 0.95,
     "codes": 0.85,
@@ -90,7 +91,11 @@ LEAST = {
     "structures: reports and notices": 0.95,
     "studies: reports and notices": 0.95,
     "papers": 0.95,
-    "records: reports and notices": 0.45,
+    "records: reports and notices": 0.98,
+    "records: errors and checks of files": 0.98,
+    "schemas": 0.99,
+    "physics": 0.95,
+    "files of other programs": 0.85,
 }
 """Least share of each group that has to be translated."""
 

@@ -1,0 +1,153 @@
+"""Pages of ``--help`` in the language asked for: by ``--language`` at any place, else that of the locale.
+
+Texts of commands and options stay English in the source and are put into the language where the page is laid out;
+lines of Japanese are broken between letters, by their width on the screen.
+"""
+
+from __future__ import annotations
+
+import inspect
+import re
+import sys
+import unicodedata
+from collections.abc import Sequence
+from typing import Any
+
+from typer.core import TyperGroup
+
+from moyai.core.errors import InputError
+from moyai.language import language_of_the_locale, said, spoken_in, spoken_language
+from moyai.language.catalogue import LANGUAGES
+
+_Context: Any = TyperGroup.context_class
+_Formatter: Any = _Context.formatter_class
+
+#: What no line begins with.
+_NOT_FIRST = "、。；：，．）」』〕】％・～ーっょゃゅ)],.;:%"
+#: What may stand beyond the end of a line.
+_HANGING = "、。"
+_NOT_LAST = "（「『〔【(["
+_PIECES = re.compile(r"[!-~]+ ?|.", re.DOTALL)
+#: What click puts behind the help of an option: [required], [default: 3].
+_EXTRA = re.compile(r"^(.*?)(\s\s\[[^\[\]]*\])$", re.DOTALL)
+
+
+def width(text: str) -> int:
+    """Return the columns that a text takes on the screen.
+
+    Parameters
+    ----------
+    text : str
+    """
+    return sum(2 if unicodedata.east_asian_width(letter) in "WF" else 1 for letter in text)
+
+
+def wrapped(text: str, columns: int) -> list[str]:
+    """Break a text of Japanese and Latin words into lines.
+
+    Parameters
+    ----------
+    text : str
+    columns : int
+        Width of a line on the screen.
+    """
+    lines = [""]
+    for piece in _PIECES.findall(" ".join(text.split())):
+        last = lines[-1]
+        over = width(last) + width(piece.rstrip()) - columns
+        if over > 0 and last and not (piece in _HANGING and over <= width(piece) and last[-1] not in _NOT_FIRST):
+            moved = last[-1] if last[-1] in _NOT_LAST or piece[0] in _NOT_FIRST else ""
+            lines[-1] = last[: len(last) - len(moved)].rstrip()
+            lines.append(moved)
+        lines[-1] += piece
+    return [line.rstrip() for line in lines]
+
+
+class SpokenFormatter(_Formatter):  # type: ignore[misc]
+    """Lays out the page of a command in the language in force."""
+
+    def write_usage(self, prog: str, args: str = "", prefix: str | None = None) -> None:
+        """Write the line of usage."""
+        super().write_usage(prog, args, prefix if spoken_language() == "en" else f"{said('Usage')}: ")
+
+    def write_heading(self, heading: str) -> None:
+        """Write the heading of a list."""
+        super().write_heading(said(heading))
+
+    def write_text(self, text: str) -> None:
+        """Write paragraphs."""
+        if spoken_language() == "en":
+            super().write_text(text)
+            return
+        paragraphs = re.split(r"\n\s*\n", text)
+        indent = " " * self.current_indent
+        pages = [
+            "".join(f"{indent}{line}\n" for line in wrapped(said(" ".join(part.split())), self.width - len(indent)))
+            for part in paragraphs
+        ]
+        self.write("\n".join(pages))
+
+    def write_dl(self, rows: Sequence[tuple[str, str]], col_max: int = 30, col_spacing: int = 2) -> None:
+        """Write a list of names and what they mean."""
+        if spoken_language() == "en":
+            super().write_dl(rows, col_max, col_spacing)
+            return
+        first = min(max(width(name) for name, _ in rows), col_max) + col_spacing
+        indent = " " * self.current_indent
+        for name, text in rows:
+            lines = wrapped(_spoken_help(text), max(self.width - first - 2, 10))
+            head = f"{indent}{name}"
+            if width(name) > first - col_spacing:
+                self.write(f"{head}\n")
+                head = ""
+            pad = " " * (first + len(indent))
+            self.write(f"{head}{pad[width(head) :]}{lines[0]}\n")
+            self.write("".join(f"{pad}{line}\n" for line in lines[1:]))
+
+
+def _spoken_help(text: str) -> str:
+    """Return the help of an option; what stands in brackets behind it word by word."""
+    found = _EXTRA.match(text)
+    if found is None:
+        return said(text)
+    parts = (part.partition(": ") for part in found[2].strip()[1:-1].split("; "))
+    return f"{said(found[1].strip())} [{'; '.join(f'{said(head)}{colon}{value}' for head, colon, value in parts)}]"
+
+
+class SpokenContext(_Context):  # type: ignore[misc]
+    """A context whose pages are laid out in the language in force."""
+
+    formatter_class = SpokenFormatter
+
+
+class SpokenGroup(TyperGroup):
+    """A group of commands whose pages are in the language asked for."""
+
+    context_class = SpokenContext
+
+    def main(self, args: Sequence[str] | None = None, *rest: Any, **named: Any) -> Any:
+        """Run the command; the language of help is that of ``--language`` at any place, else of the locale."""
+        with spoken_in(_language_of_help(sys.argv[1:] if args is None else args)):
+            return super().main(args, *rest, **named)
+
+    def get_command(self, ctx: Any, cmd_name: str) -> Any:
+        """Return a command, its page and its line in the list of commands in the language in force."""
+        command = super().get_command(ctx, cmd_name)
+        if command is not None:
+            command.context_class = SpokenContext
+            if spoken_language() != "en" and command.help:
+                first = re.split(r"\n\s*\n", inspect.cleandoc(command.help))[0]
+                command.short_help = said(" ".join(first.split()))
+        return command
+
+
+def _language_of_help(arguments: Sequence[str]) -> str:
+    for at, word in enumerate(arguments):
+        name, _, value = word.partition("=")
+        if name == "--language":
+            asked = value or "".join(arguments[at + 1 : at + 2])
+            return asked if asked in LANGUAGES else "en"
+    try:
+        return language_of_the_locale()
+    except InputError:  # the command itself says so
+        return "en"
