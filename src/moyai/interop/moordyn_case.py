@@ -162,7 +162,7 @@ def _check_bed(deck: MoorDynDeck, bodies: tuple[BodyOfDeck, ...]) -> None:
     faults = [
         Fault(f"{name} at z = {place[2]:g} m lies under the bed", "z", f"{level:g} m or more", "", deck.source, line, 1)
         for (name, place, line), level in zip(placed, levels, strict=True)
-        if level is not None and place[2] < level - 1e-9 * abs(level)
+        if level is not None and place[2] < level - deck.bed_tolerance
     ]
     if faults:
         raise CaseError(faults)

@@ -191,6 +191,12 @@ class MoorDynDeck:
             return float(Bed.on(ground, 1.0).level_at(np.asarray(place, dtype=float)))
         return None if self.depth is None else -self.depth
 
+    @property
+    def bed_tolerance(self) -> float:
+        """How far under the bed a point may stand that is meant to stand on it [m]."""
+        ground = None if self.seafloor is None else self.seafloor.ground
+        return 1e-9 * (self.depth or 0.0) + (0.0 if ground is None else ground.rounding)
+
     def point(self, number: int) -> DeckPoint:
         """Return the point of an ID.
 

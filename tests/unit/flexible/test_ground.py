@@ -55,6 +55,9 @@ def test_levels_are_bilinear_between_grid_lines_and_flat_outside():
     two = 0.5 * sum(np.diff(np.diff(ground.level[:, k]) / np.diff(ground.x)) * half / 4.0 for k in (2, 3))
     np.testing.assert_allclose(one, two, atol=1e-13)
     assert steps.size == 5
+    crossings = np.stack(np.meshgrid(ground.x, ground.y, indexing="ij"), axis=-1)
+    moved = np.abs(bed.level_at(crossings) - ground.level).max()
+    assert 0.3 * ground.rounding < moved <= ground.rounding * (1.0 + 1e-9)
 
 
 @pytest.mark.parametrize("where", [(3.0, 4.0), (7.02, 6.9), (-3.0, 5.0), (0.0, 0.0)])
