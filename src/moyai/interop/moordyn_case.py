@@ -123,6 +123,12 @@ def case_text(
     as_built = any(body.moves for body in bodies) and deck.number("TmaxIC") == 0.0
     analyses = [*([] if as_built and dynamic else ["statics"]), *(["modes"] if deck.lines and not bodies else [])]
     lines += ["", f"analyses: [{', '.join([*analyses, *(['dynamic'] if dynamic else [])])}]"]
+    worn = sorted({line.line_type for line in deck.lines if deck.line_type(line.line_type).syrope is not None})
+    if dynamic and worn:
+        raise InputError(
+            f"line type {worn[0]!r} is a Syrope rope, which is run at rest only: its quick changes are stiffer",
+            path="line types", remedy="run the deck without motions, waves and --duration, or give EA",
+        )  # fmt: skip
     if dynamic:
         start = "as_built" if as_built else "rest_in_current" if deck.current is not None else "rest"
         settings = [f"start: {start}"]
