@@ -59,7 +59,8 @@ def stopping_at(moment):
 
 def test_a_run_with_bodies_goes_on_from_where_it_was_stopped(tmp_path):
     problem = problem_of(tmp_path, bars=4)
-    problem = replace(problem, settings=replace(problem.settings, duration=3.0))
+    # a whole period of the wave at its height counts
+    problem = replace(problem, settings=replace(problem.settings, duration=3.6, ramp=0.3))
     whole = run(problem)
     part = run(problem, stopping_at(1.3))
     assert part.status == "interrupted"
@@ -128,8 +129,11 @@ def test_a_body_that_turns_over_is_told(tmp_path):
 
 
 def test_what_a_peak_is_worth_is_told_with_bodies(tmp_path):
-    text = CASE.format(analyses="[dynamic]", more=", sensitivity: true, skip: 0.5 s, peak_goal: 0.3", bars=4)
+    text = CASE.format(
+        analyses="[dynamic]", more=", sensitivity: true, skip: 0.5 s, peak_goal: 0.3, ramp: 0.2 s", bars=4
+    )
     path = tmp_path / "case.yaml"
+    text = text.replace("height: 0.6 m, period: 3.2 s", "height: 0.2 m, period: 1.4 s")
     path.write_text(text.replace("duration: 5 s", "duration: 2 s"), encoding="utf-8")
     result = run(build(load_case(path)))
     assert result.status == "converged", result.message
