@@ -2,6 +2,7 @@
 
 import math
 from importlib import import_module
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -40,6 +41,14 @@ def test_keys_are_unique_and_cases_are_there(one):
     for keys in ([row.key for row in one.statements], list(one.plotted), [row.number for row in one.equations]):
         assert len(set(keys)) == len(keys)
     assert case_files(one.key)
+
+
+@pytest.mark.parametrize("one", papers(), ids=lambda one: one.key)
+def test_inputs_stand_under_the_examples(one):
+    folder = Path(__file__).resolve().parents[3] / "examples" / "papers" / one.key
+    assert [path.name for path in sorted(folder.glob("*.yaml"))] == [path.name for path in case_files(one.key)]
+    for path, own in zip(sorted(folder.glob("*.yaml")), case_files(one.key), strict=True):
+        assert path.read_bytes() == own.read_bytes()
 
 
 def test_unknown_paper_says_which_there_are():

@@ -14,7 +14,7 @@ from moyai.reproduce.tabata.campaign import CONVENTIONAL, CURTAIN_DEPTH, NEW, WA
 from moyai.reproduce.tabata.runs import CHOSEN, ROPES, Pulls, Runs
 from moyai.series.regressions import correlation, fit_by_direction, fit_cosine, fit_power, type_ratio
 from moyai.structures.curtain.seas.anchor_energy import EnergyModel, product_needed
-from moyai.structures.curtain.seas.squared_velocity import effective_height
+from moyai.structures.curtain.seas.squared_velocity import effective_height, fit_proportional
 
 PLANTED = "planted in a synthetic campaign"
 _TAKEN = "10 % longer than its span, waves at 60 degrees, T_1/3 of 6.75 s, stiffness and drag of the case"
@@ -74,6 +74,40 @@ def _squared(runs: Runs) -> Finding:
         "of u^2; the two "
         "statements of the paper exclude each other but for scatter",
     )  # fmt: skip
+
+
+def _flume_line(runs: Runs) -> Finding:
+    fit = fit_proportional(runs.squared, runs.new.averaged("maximum"))
+    return measured(
+        f"{fit.factor / 1e3:.2f} kN for 1 m2/s2 through the origin in the synthetic campaign",
+        "the line of the flume tests is drawn without numbers; lay your own points over the figure with --points",
+    )
+
+
+def _compared(runs: Runs) -> Finding:
+    tension, speed = runs.observed
+    model = math.sqrt(CONVENTIONAL.energy_factor * CONVENTIONAL.float_mass * CONVENTIONAL.rope_stiffness) * speed
+    words = (
+        f"computed with 0.2 over observed by the rule of the paper: {float(np.mean(model / tension)):.2f} in the mean"
+    )
+    return measured(f"{words}, 0.2 {PLANTED}")
+
+
+def _waves_govern(runs: Runs) -> Finding:
+    tenth = runs.new.averaged("tenth")
+    height = correlation(runs.new.significant_height, tenth)
+    flow = correlation(np.abs(runs.new.current_normal), tenth)
+    words = f"T_1/10 is correlated with H_1/3 by {height.value:+.2f}, with the current by {flow.value:+.2f}"
+    return judged(height.low > flow.high, f"{words}, {PLANTED}")
+
+
+def _design_height(runs: Runs) -> Finding:
+    new = _worked(replace(CONVENTIONAL, type_factor=NEW.type_factor), 60.0)
+    old = _worked(replace(CONVENTIONAL, type_factor=1.0), 60.0, height=2.5)
+    return judged(
+        new < old,
+        f"by the energy model the new type pulls in 3.06 m {new / old:.2f} of what the conventional one pulls in 2.5 m",
+    )
 
 
 def _seven_tenths(runs: Runs) -> Finding:
@@ -202,8 +236,8 @@ def _along(_runs: Runs) -> Finding:
     return judged(load[1] < 0.5 * load[0], words)
 
 
-def _worked(model: EnergyModel, angle: float, period: float = 7.0) -> float:
-    height = float(effective_height(3.06, math.radians(angle), "paper", 1.8))
+def _worked(model: EnergyModel, angle: float, period: float = 7.0, height: float = 3.06) -> float:
+    height = float(effective_height(height, math.radians(angle), "paper", 1.8))
     return float(model.fluctuating_tension(model.float_speed(height, period, 0.2, WATER), 0.0))
 
 
@@ -217,9 +251,11 @@ STATEMENTS = (
     Statement("linear", "3 (1), figure 4", "T_1/10 is nearly linear in H_1/3.", _linear),
     Statement("uncorrelated", "3 (1), figure 4", "Steady tension has nothing to do with the current.", _uncorrelated),
     Statement("weak", "3 (1)", "The current is too weak to draw the curtain taut.", _weak),
+    Statement("waves-govern", "3 (1)", "Waves, not the current, govern the tension that was measured.", _waves_govern),
     Statement("near-normal", "3 (1), figure 4", "Waves near normal incidence leave the line.", _near_normal),
     Statement("cosine", "3 (1), figure 5", "Tension goes with cos^2 of the angle.", _cosine),
     Statement("squared", "3 (2), figure 6", "The largest tension is proportional to the squared velocity.", _squared),
+    Statement("flume-line", "3 (2), figure 6", "The largest tensions lie near the line of flume tests.", _flume_line),
     Statement(
         "types", "3 (3), figure 7", "The new type has 0.7 of the tension of the conventional one.", _seven_tenths
     ),
@@ -227,6 +263,7 @@ STATEMENTS = (
     Statement("waves", "2", "H_max is 1.8 H_1/3.", _waves),
     Statement("tenths", "2", "T_max is 1.7 T_1/10.", _tenths),
     Statement("factor", "4, figure 8", "M = 0.2 makes the error of the energy model least.", _factor),
+    Statement("compared", "4, figure 9", "With M = 0.2 computed tensions are those measured.", _compared),
     Statement("flume", "4", "Flume tests gave M = 0.5.", _flume),
     Statement("wire", "4", "The wire bears 0.6 of the anchor rope.", _wire),
     Statement(
@@ -234,6 +271,12 @@ STATEMENTS = (
         "3 (1), figure 3",
         "The fluctuating tension of an anchor rope reaches 14.7 kN, the steady one 13.7 kN.",
         _highest,
+    ),
+    Statement(
+        "design-height",
+        "3 (3)",
+        "The new type stood in more than the 2.5 m that the conventional one is designed for.",
+        _design_height,
     ),
     Statement("stands", "3 (3), 5", "The curtain stood in H_1/3 = 3.06 m.", _stands),
     Statement("along", "5", "It stood since the high waves ran along it.", _along),
