@@ -95,9 +95,9 @@ def _compared(runs: Runs) -> Finding:
 
 def _waves_govern(runs: Runs) -> Finding:
     tenth = runs.new.averaged("tenth")
-    height = correlation(runs.new.significant_height, tenth)
+    height = correlation(effective_height(runs.new.significant_height, runs.new.angle, "paper", 1.0), tenth)
     flow = correlation(np.abs(runs.new.current_normal), tenth)
-    words = f"T_1/10 is correlated with H_1/3 by {height.value:+.2f}, with the current by {flow.value:+.2f}"
+    words = f"T_1/10 is correlated with H_1/3 cos^2 by {height.value:+.2f}, with the current by {flow.value:+.2f}"
     return judged(height.low > flow.high, f"{words}, {PLANTED}")
 
 
