@@ -101,6 +101,19 @@ def test_points_beside_every_curve_are_refused(tmp_path):
         agreements(drawn, read_points(f"1={points_file(tmp_path, '5 1')}", ("1",)))
 
 
+def test_points_over_paths_are_drawn_and_not_compared(tmp_path):
+    """A loop has no value at a place; a curve beside it is compared, and refuses points that it does not reach."""
+    angle = np.linspace(0.0, 6.0, 30)
+    loop = curve("loop", {"x": np.cos(angle)}, np.sin(angle))
+    drawn = figure("1", "paths", (Abscissa("x", "x"),), Panel("y"), [loop])
+    points = read_points(f"1={points_file(tmp_path, '0.5 1')}", ("1",))
+    assert agreements(drawn, points) == ()
+    assert laid_over(drawn, points).series[-1].y == pytest.approx([1.0])
+    with_line = figure("1", "both", (Abscissa("x", "x"),), Panel("y"), [loop, curve("a", {"x": angle}, angle)])
+    (found,) = agreements(with_line, points)
+    assert (found.curve, found.bias) == ("a", pytest.approx(-0.5))
+
+
 def test_lift_on_the_members_by_hand():
     """Density 1000, V = KC 0.045 m 0.95 Hz, circulation 18 KC^2 cm2/s, 79 cm: 6.08e-2 KC^3 N."""
     from moyai.reproduce.arai.figures import lift

@@ -25,7 +25,7 @@ from moyai.reproduce.drawing import curve, figure
 from moyai.reproduce.model import PaperFigure
 
 NUMBER = (Abscissa("kc", "Keulegan-Carpenter number KC"),)
-PLOTTED = ("2", "2a", "2b", "2c", "3", "6", "7", "12", "13", "14")
+PLOTTED = ("2", "2a", "2b", "2c", "3", "6", "7", "10a", "10b", "12", "13", "14")
 LARGEST, LAMINAR_END = 4.0, 1.0  # KC of the paper's axes; to which laminar theory of planar flow holds
 PLANAR_WORDS = (
     "Planar flow is laminar theory, which holds below KC = 1; the curve of Sarpkaya that the paper shows is measured, "
@@ -128,6 +128,29 @@ def _paths(runs: Runs) -> Figure:
     )  # fmt: skip
 
 
+def _drift(runs: Runs, number: str, keulegan_carpenter: float) -> Figure:
+    """Draw the drift of particles on rings, each from its mean place."""
+    arrows = []
+    for ratio in (1.3, 1.6, 2.0, 2.5):
+        _, paths = runs.paths(keulegan_carpenter, ratio, 16)
+        middle = np.trapezoid(paths, axis=1) / (paths.shape[1] - 1)
+        arrows.append(np.stack([middle, middle + paths[:, -1] - paths[:, 0], np.full_like(middle, np.nan)], axis=1))
+    ends = 1e3 * np.concatenate(arrows).reshape(-1, 2)
+    heads = ends[1::3]
+    angle = np.linspace(0.0, 2.0 * math.pi, 121)
+    return figure(
+        number, f"drift of particles about the circle, KC = {keulegan_carpenter:g}", (Abscissa("x", "x", "mm"),),
+        Panel("z", "mm"),
+        [
+            curve("way of the mean place in a period", {"x": ends[:, 0]}, ends[:, 1], 0),
+            curve("its end", {"x": heads[:, 0]}, heads[:, 1], 0, points=True),
+            curve("circle", {"x": 500 * BREADTH * np.cos(angle)}, 500 * BREADTH * np.sin(angle), 7, dash="dash"),
+        ],
+        "Potential flow with the paper's circulation; it holds the Stokes drift, as the beads of the paper do. "
+        "moyai measure streaks draws the same from pictures.", 520,
+    )  # fmt: skip
+
+
 def _contour(runs: Runs) -> Figure:
     ratio = np.array(CONTOURS)
     series = []
@@ -216,7 +239,8 @@ def figures(runs: Runs) -> tuple[PaperFigure, ...]:
         PaperFigure("7", _paths(runs)),
         PaperFigure("8", None, "sketch of the interpolation; the table of statements gives its error"),
         PaperFigure("9", None, "drift without a model: settling and mass transport, measured in each campaign"),
-        PaperFigure("10", None, "arrows of the drift; moyai measure streaks draws them from pictures"),
+        PaperFigure("10a", _drift(runs, "10a", 1.0), "the circle alone; flow of the other sections is not modelled"),
+        PaperFigure("10b", _drift(runs, "10b", 1.5)),
         PaperFigure("11", None, "sketch of the lift"),
         PaperFigure("12", _contour(runs)),
         PaperFigure("13", _circulation(runs)),

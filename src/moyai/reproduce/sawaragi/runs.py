@@ -152,6 +152,17 @@ class Runs:
         """The release with steel wire."""
         return self.released(STEEL)
 
+    @cached_property
+    def peaks(self) -> tuple[Array, Array]:
+        """Peak of model A over currents, and that of a release less its steady level, both cables of line [N]."""
+        found = []
+        for speed in np.linspace(0.1, 0.5, 9).tolist():
+            other = replace(self, span=replace(self.span, speed=speed))
+            record = other.released(LINE)
+            found.append((peak_by_energy(other.with_stiffness(LINE)).tension, record.spike - record.plateau))
+        computed, released = np.array(found).T
+        return computed, released
+
     def span_released(
         self, total: float, cells: tuple[int, int], share: float = 0.0, duration: float = RELEASE
     ) -> SpanRecord:
