@@ -239,7 +239,7 @@ def figures(runs: Runs) -> tuple[PaperFigure, ...]:
         PaperFigure("7", _paths(runs)),
         PaperFigure("8", None, "sketch of the interpolation; the table of statements gives its error"),
         PaperFigure("9", None, "drift without a model: settling and mass transport, measured in each campaign"),
-        PaperFigure("10a", _drift(runs, "10a", 1.0), "the circle alone; flow of the other sections is not modelled"),
+        PaperFigure("10a", _drift(runs, "10a", 1.0), "the circle alone"),
         PaperFigure("10b", _drift(runs, "10b", 1.5)),
         PaperFigure("11", None, "sketch of the lift"),
         PaperFigure("12", _contour(runs)),

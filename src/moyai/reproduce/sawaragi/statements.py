@@ -10,7 +10,7 @@ import numpy as np
 from moyai.design.similarity import Scale, scale_water
 from moyai.reproduce.model import FilledInput, Finding, Statement, judged, measured
 from moyai.reproduce.sawaragi.figures import log_slope
-from moyai.reproduce.sawaragi.runs import DRAG, LINE, STEEL, Record, Runs, SpanRecord
+from moyai.reproduce.sawaragi.runs import DRAG, LINE, SHEET_MASS, STEEL, TOE_MASS, Record, Runs, SpanRecord
 from moyai.structures.curtain.impact.cable import Impact, impact_numbers, peak_by_energy
 from moyai.structures.curtain.impact.march import iterate_first_step
 from moyai.structures.curtain.impact.skirt import Skirt, cable_and_skirt_impact, curved_impact, skirt_impact
@@ -323,6 +323,9 @@ def filled(runs: Runs) -> tuple[FilledInput, ...]:
                     f"{curved.tension:.2f} N{plain}"),
         FilledInput("slack at the release", "gathered evenly, straight between the supports", "half of the way to taut",
                     f"{_spike_words(runs.span_released(LINE, runs.cells, 0.5))} "
+                    f"(taken: {_spike_words(runs.whole_line)})"),
+        FilledInput("mass of sheet and lower edge", f"{SHEET_MASS:g} kg/m2, {TOE_MASS:g} kg/m", "twice as heavy",
+                    f"{_spike_words(runs.span_released(LINE, runs.cells, heavier=2.0))} "
                     f"(taken: {_spike_words(runs.whole_line)})"),
         FilledInput("drag coefficient", f"{DRAG:g}", "1.2 to 2 in practice", "proportional to the steady level, "
                                                                              "none on A"),
