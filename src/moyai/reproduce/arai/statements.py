@@ -156,11 +156,10 @@ def _turns(runs: Runs) -> Finding:
 
 
 def _drifts(runs: Runs) -> Finding:
-    found = [1e4 * runs.contours[number][1] for number in (1.0, 1.5)]
-    words = (
-        f"drift circulates {found[0]:.0f} cm2/s clockwise at KC = 1 and {found[1]:.0f} at 1.5, on 1.4 times the circle"
-    )
-    return judged(0.0 < found[0] < found[1], words)
+    found = {name: [1e4 * runs.contour(number, 1.6, name) for number in (1.0, 1.5)] for name in SECTIONS}
+    parts = ", ".join(f"{name} {first:.0f} and {second:.0f}" for name, (first, second) in found.items())
+    words = f"circulation of the drift, clockwise, on 1.6 times the breadth at KC = 1 and 1.5: {parts} cm2/s"
+    return judged(all(0.0 < first < second for first, second in found.values()), words)
 
 
 def _paths(runs: Runs) -> Finding:
