@@ -11,7 +11,7 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.reproduce.model import FilledInput, Finding, Statement, judged, measured
 from moyai.reproduce.tabata.campaign import CONVENTIONAL, CURTAIN_DEPTH, NEW, WATER
-from moyai.reproduce.tabata.runs import CHOSEN, ROPES, Pulls, Runs
+from moyai.reproduce.tabata.runs import CHOSEN, ROPES, TYPHOON, Pulls, Runs
 from moyai.series.regressions import correlation, fit_by_direction, fit_cosine, fit_power, type_ratio
 from moyai.structures.curtain.seas.anchor_energy import EnergyModel, product_needed
 from moyai.structures.curtain.seas.squared_velocity import effective_height, fit_proportional
@@ -190,6 +190,14 @@ def _pulls(runs: Runs, rope: str) -> str:
     return f"{found.mean():.0f} kN{several}"
 
 
+def _factor_of_span(runs: Runs, rope: str) -> float:
+    """Return M that gives the energy model the pull of the span in the typhoon, mean of the realisations."""
+    height = float(effective_height(TYPHOON, math.radians(60.0), "paper", 1.8))
+    speed = CONVENTIONAL.float_speed(height, 6.75, 0.2, WATER)
+    product = product_needed(float(_ropes(runs, rope).mean()) - STEADY, speed, 0.0)
+    return float(product) / (CONVENTIONAL.float_mass * ROPES[rope])
+
+
 def _highest(runs: Runs) -> Finding:
     # the print is not clear on whether its highest value is T_max or T_1/10, of which T_max is 1.7
     most = STEADY + 1.7 * FLUCTUATING
@@ -197,7 +205,8 @@ def _highest(runs: Runs) -> Finding:
     words = (
         f"the span in the typhoon pulls an anchor rope of 890 kN/m with {_pulls(runs, '890 kN/m')}, one of 890 kN for "
         f"a strain of one with {_pulls(runs, '890 kN')}; measured {(STEADY + FLUCTUATING) / 1e3:.0f} to "
-        f"{most / 1e3:.0f} kN with the steady part"
+        f"{most / 1e3:.0f} kN with the steady part; over the steady part the span has the M = "
+        f"{_factor_of_span(runs, '890 kN/m'):.2g} and {_factor_of_span(runs, '890 kN'):.2g} of the energy model"
     )
     return judged(
         float(printed.mean()) < most, words,
