@@ -25,6 +25,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "point_node": ("1", "node of the point"),
     "point_diameter": ("m", "diameter of the point, for drawing"),
     "position": ("m", "place of the node, z above still water"),
+    "bed_level": ("m", "height of the bed under the node, above still water"),
     "velocity": ("m/s", "velocity of the node"),
     "tension": ("N", "tension of the bar"),
     "sheet_tension": ("N/m", "higher principal tension of the sheet, 0 where it is slack"),
