@@ -231,6 +231,7 @@ def test_a_chain_that_goes_slack_on_the_bed_is_not_called_converged():
     assert tension.band.low < 5.6e3 < tension.band.high
 
 
+@pytest.mark.slow
 def test_an_event_by_itself_is_worth_what_the_whole_run_is(monkeypatch):
     """The highest tension run again alone, with half the step and twice the bars, against the whole run made again."""
     from moyai.structures.network import dynamics, refinement

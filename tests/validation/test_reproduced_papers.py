@@ -56,17 +56,14 @@ def found(key):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("paper", papers(), ids=lambda paper: paper.key)
-def test_every_statement_is_judged_as_documented(paper):
+def test_every_statement_is_judged_as_documented_and_every_figure_is_drawn(paper):
     exceptions = EXCEPTIONS[paper.key]
     for row in found(paper.key).rows:
         wanted = next((word for word, keys in exceptions.items() if row.statement.key in keys), "agrees")
         assert row.finding.verdict == wanted, f"{row.statement.key}: {row.finding.found}"
         assert row.finding.verdict == "agrees" or row.finding.why
 
-
-@pytest.mark.slow
-@pytest.mark.parametrize("paper", papers(), ids=lambda paper: paper.key)
-def test_the_page_holds_every_figure_and_its_numbers(paper):
+    # the page holds every figure and its numbers
     run = found(paper.key)
     assert tuple(one.number for one in run.figures if isinstance(one.drawn, Figure)) == paper.plotted
     assert all(one.drawn is not None or one.note for one in run.figures)
