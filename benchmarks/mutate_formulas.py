@@ -1,9 +1,13 @@
-"""Change formulas one at a time and see whether a test notices.
+"""Change formulas one at a time and see whether a fast test notices.
 
-``python benchmarks/mutate_formulas.py --count 60 --seed 1`` copies the package, changes an operator, a constant or a
-function in a formula that names its equation, runs the fast tests that import the changed module, and sets the formula
-back. It prints a line for every change; the last line is the part that was noticed. Survivors are to be looked at: a
-change may be without effect (a guard, a tolerance, a start value), or a test is missing.
+``python benchmarks/mutate_formulas.py`` takes the hundred changes of ``formulas.txt`` one after the other: it copies
+the package, changes a line, runs the fast tests that import the changed module, and sets the line back. It prints a
+line for every change and at the end a table by package. Results are kept in ``--results``; what stands there is not
+run again. Survivors are to be looked at: a change may be without effect (a guard, a tolerance, a start value), or a
+test is missing.
+
+``--count 60 --seed 1`` draws other changes instead: an operator, a constant or a function in a formula that names its
+equation.
 """
 
 from __future__ import annotations
@@ -17,10 +21,12 @@ import shutil
 import subprocess
 import sys
 import tempfile
+from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
+LIST = Path(__file__).with_name("formulas.txt")
 PACKAGES = [
     "sea",
     "series",
@@ -47,18 +53,38 @@ FUNCTIONS = {"sin": "cos", "cos": "sin", "sinh": "cosh", "cosh": "sinh", "tanh":
 
 @dataclass(frozen=True)
 class Change:
-    """One change of one formula."""
+    """One change of one line."""
 
     #: File below the package.
     file: str
-    line: int
-    #: Name of the function that holds the formula.
-    function: str
-    start: int
-    end: int
-    #: Text in the file, and what stands there instead.
+    #: Which of the lines that read alike, from 1.
+    which: int
+    #: The line without its indent, and what stands there instead.
     old: str
     new: str
+
+    @property
+    def package(self) -> str:
+        parts = self.file.split("/")
+        return "/".join(parts[: 2 if parts[0] == "structures" else 1])
+
+    def __str__(self) -> str:
+        """Return the change in one line, which is its key among the results."""
+        return f"{self.file}: {self.old}  ->  {self.new}" + (f"  ({self.which})" if self.which > 1 else "")
+
+    def applied(self, text: str) -> str:
+        """Return the text of the file with the change."""
+        lines = text.split("\n")
+        places = [number for number, line in enumerate(lines) if line.strip() == self.old]
+        place = places[self.which - 1]
+        lines[place] = lines[place].replace(self.old, self.new)
+        return "\n".join(lines)
+
+
+def listed(path: Path = LIST) -> list[Change]:
+    """Return the changes of the list: file, which of lines that read alike or nothing, line, changed line; tabs."""
+    rows = [line.split("\t") for line in path.read_text(encoding="utf-8").splitlines()]
+    return [Change(file, int(which or 1), old, new) for file, which, old, new in rows]
 
 
 def offsets(text: str) -> list[int]:
@@ -73,12 +99,15 @@ def changes_of(path: Path, package: Path) -> list[Change]:
     """Return every change of the formulas of a module that name an equation."""
     text = path.read_text(encoding="utf-8")
     raw, begin = text.encode(), offsets(text)
+    lines = text.splitlines()
     found: dict[tuple[int, int], Change] = {}
 
-    def note(function: ast.FunctionDef, line: int, start: int, end: int, new: str) -> None:
-        old = raw[start:end].decode()
-        change = Change(str(path.relative_to(package)), line, function.name, start, end, old, new)
-        found.setdefault((start, end), change)
+    def note(start: int, end: int, new: str) -> None:
+        number = raw[:start].count(b"\n")
+        changed = (raw[:start] + new.encode() + raw[end:]).decode().splitlines()[number]
+        old = lines[number].strip()
+        which = sum(line.strip() == old for line in lines[: number + 1])
+        found.setdefault((start, end), Change(str(path.relative_to(package)), which, old, changed.strip()))
 
     for function in ast.walk(ast.parse(text)):
         if not isinstance(function, ast.FunctionDef) or "[eq:" not in (ast.get_docstring(function) or ""):
@@ -91,28 +120,35 @@ def changes_of(path: Path, package: Path) -> list[Change]:
                 end = begin[right.lineno - 1] + right.col_offset
                 place = raw[start:end].decode().find(sign)
                 if place >= 0:
-                    note(function, node.lineno, start + place, start + place + 1, other)
+                    note(start + place, start + place + 1, other)
             elif isinstance(node, ast.Constant) and isinstance(node.value, float) and node.value not in (0.0, 1.0):
                 start = begin[node.lineno - 1] + node.col_offset
                 end = begin[node.lineno - 1] + (node.end_col_offset or 0)
                 if 1e-3 <= abs(node.value) <= 1e3:
-                    note(function, node.lineno, start, end, repr(1.1 * node.value))
+                    note(start, end, repr(1.1 * node.value))
             elif isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr in FUNCTIONS:
                 end = begin[(node.func.end_lineno or 1) - 1] + (node.func.end_col_offset or 0)
-                note(function, node.lineno, end - len(node.func.attr), end, FUNCTIONS[node.func.attr])
+                note(end - len(node.func.attr), end, FUNCTIONS[node.func.attr])
     return list(found.values())
 
 
 def tests_of(file: str, most: int) -> list[str]:
-    """Return the test files that import a module, else those of its package."""
-    module = "moyai." + file.removesuffix(".py").replace("/", ".")
-    stem = module.rsplit(".", 1)
-    direct = re.compile(rf"{re.escape(module)}\b|from {re.escape(stem[0])} import [^\n]*\b{stem[1]}\b")
+    """Return test files: those that import a module, those of its package, those that import what imports it."""
+
+    def importers(name: str, paths: list[Path]) -> list[Path]:
+        module = "moyai." + name.removesuffix(".py").replace("/", ".")
+        package, last = module.rsplit(".", 1)
+        direct = re.compile(rf"{re.escape(module)}\b|from {re.escape(package)} import [^\n]*\b{last}\b")
+        return [path for path in paths if direct.search(path.read_text(encoding="utf-8"))]
+
     tests = sorted((ROOT / "tests").rglob("test_*.py"))
-    found = [path for path in tests if direct.search(path.read_text(encoding="utf-8"))]
+    sources = sorted((ROOT / "src" / "moyai").rglob("*.py"))
     package = file.split("/")[1 if file.startswith("structures/") else 0]
-    found += [path for path in tests if path.parent.name == package and path not in found]
-    return [str(path.relative_to(ROOT)) for path in found[:most]]
+    found = importers(file, tests)
+    found += [path for path in tests if path.parent.name == package]
+    for source in importers(file, sources):
+        found += importers(source.relative_to(ROOT / "src" / "moyai").as_posix(), tests)
+    return list(dict.fromkeys(str(path.relative_to(ROOT)) for path in found))[:most]
 
 
 def outcome(source: Path, tests: list[str], seconds: float) -> str:
@@ -126,38 +162,61 @@ def outcome(source: Path, tests: list[str], seconds: float) -> str:
     return "noticed" if done.returncode == 1 else "SURVIVED" if done.returncode == 0 else "NOT RUN"
 
 
+def drawn(source: Path, packages: list[str], count: int, seed: int) -> list[Change]:
+    """Return changes drawn from the formulas of all packages in turn."""
+    chosen, pools = random.Random(seed), []
+    for package in packages:
+        files = [path for path in sorted((source / package).rglob("*.py")) if not QUIET & set(path.parts)]
+        pool = [change for path in files for change in changes_of(path, source)]
+        chosen.shuffle(pool)
+        pools.append(pool)
+    return [pool[k] for k in range(count) for pool in pools if k < len(pool)][:count]
+
+
+def table(results: dict[Change, str]) -> str:
+    """Return how many changes of each package were tried and noticed."""
+    tried = Counter(change.package for change in results)
+    noticed = Counter(change.package for change, words in results.items() if words == "noticed")
+    rows = [f"{name:<24} {tried[name]:>5} {noticed[name]:>8}" for name in sorted(tried)]
+    head = f"{'package':<24} {'tried':>5} {'noticed':>8}"
+    return "\n".join([head, *rows, f"{'all':<24} {len(results):>5} {sum(noticed.values()):>8}"])
+
+
 def main() -> None:
     """Run the command."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--count", type=int, default=60)
+    parser.add_argument("--count", type=int, help="draw as many changes instead of those of the list")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--most", type=int, default=12, help="test files run for a change, those that import it first")
     parser.add_argument("--seconds", type=float, default=900.0, help="after which a run is given up")
-    parser.add_argument("--packages", nargs="*", default=PACKAGES)
+    parser.add_argument("--packages", nargs="*", help="of which changes are tried")
+    parser.add_argument("--results", type=Path, default=Path("formulas_noticed.tsv"))
     given = parser.parse_args()
-    chosen = random.Random(given.seed)
-    with tempfile.TemporaryDirectory() as folder:
+    kept = given.results.read_text(encoding="utf-8").splitlines() if given.results.exists() else []
+    before = dict(line.split("\t", 1)[::-1] for line in kept)
+    results: dict[Change, str] = {}
+    with tempfile.TemporaryDirectory() as folder, given.results.open("a", encoding="utf-8") as file:
         source = Path(folder) / "moyai"
-        shutil.copytree(ROOT / "src" / "moyai", source, ignore=shutil.ignore_patterns("__pycache__"))
-        pools = []
-        for package in given.packages:
-            files = [path for path in sorted((source / package).rglob("*.py")) if not QUIET & set(path.parts)]
-            pool = [change for path in files for change in changes_of(path, source)]
-            chosen.shuffle(pool)
-            pools.append(pool)
-        changes = [pool[k] for k in range(given.count) for pool in pools if k < len(pool)][: given.count]
-        killed = 0
+        # with the kernels that are compiled: what a change does not reach is not compiled again
+        shutil.copytree(ROOT / "src" / "moyai", source)
+        drawing = given.packages or PACKAGES
+        changes = listed() if given.count is None else drawn(source, drawing, given.count, given.seed)
         for change in changes:
-            path = source / change.file
-            raw = path.read_bytes()
-            path.write_bytes(raw[: change.start] + change.new.encode() + raw[change.end :])
-            words = outcome(source, tests_of(change.file, given.most), given.seconds)
-            path.write_bytes(raw)
-            killed += words == "noticed"
-            place = f"{change.file}:{change.line} {change.function}"
-            sys.stdout.write(f"{words:<8} {place}: {change.old} -> {change.new}\n")
+            if given.packages and change.package not in given.packages:
+                continue
+            if str(change) not in before:
+                path = source / change.file
+                text = path.read_text(encoding="utf-8")
+                path.write_text(change.applied(text), encoding="utf-8")
+                words = outcome(source, tests_of(change.file, given.most), given.seconds)
+                path.write_text(text, encoding="utf-8")
+                before[str(change)] = words
+                file.write(f"{words}\t{change}\n")
+                file.flush()
+            results[change] = before[str(change)]
+            sys.stdout.write(f"{results[change]:<8} {change}\n")
             sys.stdout.flush()
-        sys.stdout.write(f"{killed} of {len(changes)} noticed\n")
+    sys.stdout.write(table(results) + "\n")
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 import re
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -21,6 +22,7 @@ from moyai.case.yaml_reader import parse_yaml
 from moyai.structures.cage.run import run
 
 
+@cache
 def result_of(text):
     return run(build(case_of(parse_yaml(text, "case.yaml"), Path("case.yaml"))))
 

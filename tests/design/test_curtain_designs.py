@@ -298,8 +298,12 @@ def test_daily_waves_do_not_count_the_release(designs, tmp_path: Path) -> None:
     assert float(storm["maximum_tension"]) > numbers[0].max()
     cable = headline(late, "cable_tension")
     seas = [float(late.tree[f"/SWL/waves/{name}"]["maximum_tension"].max()) for name in ("daily", "storm")]
-    # the upper cable alone; the table holds the share of the lower one too, a 1e-6 of its EA where the toe is free
-    assert cable.value == pytest.approx(max(seas), rel=1e-5) and "storm" in cable.where
+    # the upper cable alone; the table holds the share of the lower one too, a 1e-6 of its EA where the toe is free;
+    # as a bound it stands at the upper end of the steady part
+    row = late.tree["/SWL/loads"].to_dataset().sel(component="upper cable")
+    more = float(row["steady_high"] - row["steady_load"])
+    assert cable.bound == "at most" and 0.0 < more < 0.02 * cable.value
+    assert cable.value == pytest.approx(max(seas) + more, rel=1e-5) and "storm" in cable.where
 
 
 @pytest.mark.slow
@@ -459,3 +463,25 @@ def test_a_weaker_current_asks_no_more_of_the_sheet(tmp_path):
     assert all(later > 0.985 * earlier for earlier, later in pairwise(used))
     # 1 m of curtain by hand at 0.2 m/s: half the load line on an arc that stretches, 4.8 kN/m of 30
     assert used[-1] == pytest.approx(4.8e3 / 30e3, rel=0.25)
+
+
+def test_what_fails_in_a_weaker_current_fails_in_a_stronger_one(tmp_path):
+    """Past the current in which the plate still stands upright its load is a bound, which alone proves nothing."""
+    rope = "  anchors: {line_length: 30 m, axial_stiffness: 3 MN, breaking_load: 400 kN, holding_force: FORCE}\n"
+
+    def page(speed, force="130 kN"):
+        text = HELD.replace("SPEED", f"{speed:g}").replace("  drag:", rope.replace("FORCE", force) + "  drag:")
+        file = tmp_path / f"{speed:g}.yaml"
+        file.write_text(text + "criteria: {anchor_safety_factor: 1.5}\n", encoding="utf-8")
+        found = moyai.run(moyai.load_case(file))
+        anchors = [item.outcome for item in found.verdict.judgements if item.criterion.headline == "anchor_utilisation"]
+        return found, min(anchors, key=("does not hold", "not judged", "holds").index)
+
+    stronger, _ = page(0.6)
+    row = stronger.tree["/SWL/loads"].to_dataset().sel(component="anchor")
+    assert str(row["load_bound"].values) == "at most" and float(row["weaker_high"]) < float(row["governing_load"])
+    # between the value of the weaker current and the bound of the case
+    force = 1.5 * float(row["weaker_high"]) * 0.99
+    assert page(0.6, f"{force:.0f} N")[1] == "does not hold"
+    assert page(0.6, f"{1.02 * force:.0f} N")[1] == "not judged"
+    assert page(0.6, f"{1.6 * float(row['governing_load']):.0f} N")[1] == "holds"

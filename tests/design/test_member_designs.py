@@ -7,6 +7,7 @@ member), 200 steps of a period and stretching alone: 1 % unless said otherwise.
 from __future__ import annotations
 
 import math
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -19,6 +20,7 @@ from moyai.structures.member.run import run
 G, RHO = 9.81, 1025.0
 
 
+@cache
 def result_of(text):
     return run(build(case_of(parse_yaml(text, "case.yaml"), Path("case.yaml"))))
 

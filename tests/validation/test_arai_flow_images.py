@@ -135,7 +135,9 @@ def stokes_along(section, ratio):
     return np.array(found) / (flow.amplitude_x**2 * PERIOD)
 
 
-@pytest.mark.parametrize(("name", "leftover"), [("circle", 1e-3), ("square", 0.055), ("rectangle", 0.11)])
+@pytest.mark.parametrize(
+    ("name", "leftover"), [("circle", 1e-3), ("square", 0.055), pytest.param("rectangle", 0.11, marks=pytest.mark.slow)]
+)
 def test_stokes_drift_falls_with_the_fourth_power_for_every_section(name, leftover):
     """Far away exactly; where the fit is made, what a polygon's higher orders leave in G is small."""
     far = np.array([8.0, 10.0, 12.0])

@@ -155,6 +155,7 @@ def test_tension_swings_of_shore_and_offshore_line():
         assert found["least"] == 0.0
 
 
+@pytest.mark.slow
 def test_peaks_grow_with_the_root_of_the_stiffness():
     """230, 367, 646, 1097 gf at 1, 3, 10, 30 kN/m (prototype, outward): anchors at 0.5 m, 12 mm, 1.1 s give them."""
     wanted = {1e3: 230.0, 3e3: 367.0, 1e4: 646.0, 3e4: 1097.0}

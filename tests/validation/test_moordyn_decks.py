@@ -52,14 +52,14 @@ RUNS_HERE = (
     "BeamSimplySupported.txt", "BodiesAndRods.dat", "body_tests/bodyDrag.txt", "body_tests/pinnedBody.txt",
     "cabledyn_shared_anchor/moordyn.txt", "lines.txt", "local_euler/complex_system.txt",
     "lowe_and_langley_2006/line.txt", "openfast_output/TestInput.MD.dat", "pendulum.txt", "polyester/simple.txt",
+    "polyester/visco.txt",
     "riser/riser.txt", "RodHanging.txt", "RodPinnedFloating.txt", "tripod.txt", "wavekin_current_1.txt",
     "wavekin_wave_1.txt", "WD0050_Chain.txt", "WD0200_Chain.txt",
 )  # fmt: skip
 REFUSED = {
     "3D_seafloor/hanging_lines.txt": ((50, "not flat"), (55, "no wave_elevation.txt")),
-    "polyester/visco.txt": ((5, "depends on rate"),),
-    "seafloor.txt": ((23, "no file"),),
-    "syrope/quadratic_wc/line.txt": ((5, "depends on rate"), (15, "SYROPE IC")),
+    "seafloor.txt": ((23, "not flat"),),
+    "syrope/quadratic_wc/line.txt": ((5, "depends on their history"), (15, "SYROPE IC")),
     "viv/viv.txt": ((6, "vortex-induced"),),
 }  # fmt: skip
 

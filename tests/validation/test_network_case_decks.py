@@ -22,6 +22,7 @@ def test_all_cycles_of_the_arrested_mass():
     assert network_cases._mass_peaks() == pytest.approx((76.26e3, 76.23e3, 76.35e3), rel=5e-3)
 
 
+@pytest.mark.slow
 def test_towed_net_of_twenty_by_twenty():
     assert network_cases.net_peak(20) == pytest.approx(120.0, rel=5e-3)
 

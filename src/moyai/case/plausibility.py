@@ -50,7 +50,10 @@ class Odd:
 
 
 def check_plausibility(model: Block, findings: Findings) -> None:
-    """Record what is impossible as a fault and what is unusual as a warning, with range and source."""
+    """Record what is impossible as a fault and what is unusual as a warning, with range and source.
+
+    A case that says ``plausibility: warn`` is only warned.
+    """
     numbers = {path: Entry(value, place_of(path, findings.document)) for path, value in _numbers(model, ())}
     kind = str(model.structure.kind)  # type: ignore[attr-defined]
     for path, (value, of) in derived_sizes(model).items():
@@ -72,7 +75,7 @@ def check_plausibility(model: Block, findings: Findings) -> None:
     shared = Counter(key for _, key in ratios)
     told: dict[KeyPath, bool] = {}
     for one in odd:
-        _tell(one, shared, told, numbers, findings)
+        _tell(one, shared, told, numbers, findings, lenient=getattr(model, "plausibility", "") == "warn")
     _tell_radians(numbers, told, findings)
 
 
@@ -160,7 +163,13 @@ def _keys(odd: Odd) -> set[KeyPath]:
 
 
 def _tell(
-    odd: Odd, shared: Counter[KeyPath], told: dict[KeyPath, bool], numbers: dict[KeyPath, Entry], findings: Findings
+    odd: Odd,
+    shared: Counter[KeyPath],
+    told: dict[KeyPath, bool],
+    numbers: dict[KeyPath, Entry],
+    findings: Findings,
+    *,
+    lenient: bool,
 ) -> None:
     """Record an odd quantity, unless one of its keys was told of.
 
@@ -173,6 +182,8 @@ def _tell(
         Keys that were told of, and whether as impossible; what is impossible is said of one that was only unusual.
     numbers : dict of tuple to Entry
     findings : Findings
+    lenient : bool
+        Whether impossible numbers are warnings as well.
     """
     row, paths, entries, value = odd.row, odd.paths, odd.entries, odd.value
     possible = row.possible[0] * (1.0 - 1e-9) <= value <= row.possible[1] * (1.0 + 1e-9)
@@ -193,7 +204,7 @@ def _tell(
         message += f" ({_written(paths, entries, numbers, findings.document)})"
     message += ", which is unusual" if possible else ", which is impossible"
     power = next(factor.power for factor, path in zip(row.factors, paths) if path == blamed[0]) if blamed[2] else 0
-    record = findings.warn if possible else findings.fault
+    record = findings.warn if possible or lenient else findings.fault
     record(blamed[1], message, allowed=_allowed(row, possible), remedy=_remedy(row, value, power, blamed[1], findings))
 
 

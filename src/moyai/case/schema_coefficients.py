@@ -2,11 +2,24 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import Field
+from pydantic import BeforeValidator, Field
 
 from moyai.case.schema_types import Block, Length, PositiveLength
+
+_BODY = (
+    "Body to take from a file with several, by name or by number from 1; the others are then held, their coupling is "
+    "left out."
+)
+
+
+def word_of(value: Any) -> Any:
+    """Return a number of a body as a word, anything else as it is."""
+    return str(value) if isinstance(value, int) and not isinstance(value, bool) else value
+
+
+BodyOfFile = Annotated[str | None, BeforeValidator(word_of)]
 
 
 class OfCapytaine(Block):
@@ -16,7 +29,7 @@ class OfCapytaine(Block):
     reference_point: tuple[Length, Length, Length] | None = Field(
         default=None, description="Rotation centre [x, y, z] where the file does not say it."
     )
-    body: str | None = Field(default=None, description="Body to take from a file with several.")
+    body: BodyOfFile = Field(default=None, description=_BODY)
 
 
 class OfWamit(Block):
@@ -30,9 +43,11 @@ class OfWamit(Block):
     first_column: Literal["period", "angular_frequency", "wave_number"] | None = Field(
         default=None, description="Meaning of the first column; must be given for HAMS."
     )
+    body: BodyOfFile = Field(default=None, description=_BODY)
 
 
 class OfNemoh(Block):
     """What a folder of NEMOH asks for."""
 
     program: Literal["nemoh"] = Field(description="Folder with Nemoh.cal and Results.")
+    body: BodyOfFile = Field(default=None, description=_BODY)

@@ -39,14 +39,21 @@ def motions_of(options: list[str]) -> dict[int | str, Path]:
 
 
 def case_of_deck(
-    deck: Path, target: Path, motions: list[str], duration: float | None, output_step: float | None, *, replace: bool
+    deck: Path,
+    target: Path,
+    motions: list[str],
+    duration: float | None,
+    output_step: float | None,
+    *,
+    replace: bool,
+    depth: float | None = None,
 ) -> Path:
     """Write the case file of a deck and return its path; what is worth knowing goes to standard error."""
     from moyai.cli.files import write_text
     from moyai.interop.moordyn_case import case_text
     from moyai.interop.moordyn_reader import read_deck
 
-    read, moved = read_deck(deck), motions_of(motions)
+    read, moved = read_deck(deck).in_depth(depth), motions_of(motions)
     text = case_text(read, motions=moved, duration=duration, output_step=output_step, folder=deck.parent)
     for name, file in moved.items():
         if not file.is_file():
@@ -62,6 +69,10 @@ Motion = Annotated[
         metavar="POINT=FILE",
         help="Motion of a coupled point, body (body1=FILE) or rod of a deck: time, x, y, z; repeat.",
     ),
+]
+Depth = Annotated[
+    float | None,
+    typer.Option("--depth", help="Water depth of a deck [m], which decks of OpenFAST take from elsewhere.", min=1e-6),
 ]
 Duration = Annotated[float | None, typer.Option("--duration", help="Length of the run of a deck [s].", min=0.0)]
 
@@ -81,7 +92,7 @@ def convert(
         typer.Option(
             "--to",
             metavar="wamit|nemoh|bemio",
-            help="Write the coefficients of the floating body of a result as files of this program.",
+            help="Write the coefficients of the floating body, or of all units, of a result as files of this program.",
         ),
     ] = None,
     sea: Annotated[
@@ -93,6 +104,7 @@ def convert(
     ] = "beam",
     motion: Motion = None,
     duration: Duration = None,
+    depth: Depth = None,
     water_level: Annotated[
         str | None, typer.Option(help="Water level of the deck or the coefficients; the first when absent.")
     ] = None,
@@ -113,7 +125,7 @@ def convert(
         notes: tuple[str, ...] = ()
         if is_deck(file):
             target = case_of_deck(
-                file, output or file.with_suffix(".yaml"), motion or [], duration, None, replace=force
+                file, output or file.with_suffix(".yaml"), motion or [], duration, None, replace=force, depth=depth
             )
             following = f"moyai run {target}"
         else:
@@ -145,10 +157,17 @@ def _write_coefficients(
     found = coefficients_of_result(read_result(file), water_level=water_level, sea=sea)  # type: ignore[arg-type]
     files = write_coefficients(program, found, file.parent / program if folder is None else folder, replace=force)
     facts = {name: float(found[name]) for name in ("rho", "g", "water_depth")}
-    point = [float(value) for value in found["reference_point"].values]
+    points = found["reference_point"].values.tolist()
+    several = "body" in found.dims
     if as_json:
-        print_json({"files": list(map(str, files)), **facts, "reference_point": point, "faults": []})
+        print_json({"files": list(map(str, files)), **facts, "reference_point": points, "faults": []})
         return
     for path in files:
         tell(f"wrote {path}")
-    tell(f"whole unit, density {facts['rho']:g} kg/m3, moments about x, y, z = {', '.join(f'{x:g}' for x in point)} m")
+    tell(f"{'all units' if several else 'whole unit'}, density {facts['rho']:g} kg/m3")
+    for name, point in zip(found["body"].values if several else [""], points if several else [points]):
+        tell(f"{name} moments about x, y, z = {', '.join(f'{x:g}' for x in point)} m".strip())
+    if program == "bemio" and "infinite_frequency_added_mass" not in found:
+        tell("the added mass at infinite frequency was found from the damping of the band")
+    if several and program == "nemoh":
+        tell("files of NEMOH have no place for mean drift")

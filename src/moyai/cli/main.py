@@ -40,7 +40,7 @@ from moyai.cli.console import (
     say,
     tell,
 )
-from moyai.cli.convert import Duration, Motion, case_of_deck, convert
+from moyai.cli.convert import Depth, Duration, Motion, case_of_deck, convert
 from moyai.cli.fit import fit
 from moyai.cli.help_pages import SpokenGroup
 from moyai.cli.measuring import measure
@@ -234,6 +234,7 @@ def run(
     quiet: Quiet = False,
     motion: Motion = None,
     duration: Duration = None,
+    depth: Depth = None,
     beside: Annotated[
         list[Path] | None,
         typer.Option(
@@ -257,7 +258,7 @@ def run(
 
         started = time.perf_counter()
         folder = output if output is not None else Path("out") / file.stem
-        file = _deck_or_case(file, folder, motion or [], duration)
+        file = _deck_or_case(file, folder, motion or [], duration, depth)
         with _compiling(_kind_in(file), quiet):
             case = load_case(file)
             _speak_as(case, language)
@@ -377,7 +378,7 @@ def exit_code(result: Result, *, require_hold: bool) -> int:
     return NOT_HELD if require_hold and result.verdict.outcome != "holds" else OK
 
 
-def _deck_or_case(file: Path, folder: Path, motions: list[str], duration: float | None) -> Path:
+def _deck_or_case(file: Path, folder: Path, motions: list[str], duration: float | None, depth: float | None) -> Path:
     """Return the case file: FILE itself, or that of a deck of MoorDyn, written into the folder of the results."""
     deck = False
     if file.suffix.lower() not in (".yaml", ".yml"):
@@ -386,11 +387,11 @@ def _deck_or_case(file: Path, folder: Path, motions: list[str], duration: float 
 
         deck = is_deck(file)
     if deck:
-        return case_of_deck(file, folder / "case.yaml", motions, duration, None, replace=True)
-    if motions or duration is not None:
+        return case_of_deck(file, folder / "case.yaml", motions, duration, None, replace=True, depth=depth)
+    if motions or duration is not None or depth is not None:
         from moyai.core.errors import InputError
 
-        raise InputError("a case file has its motions and durations in itself", path="--motion, --duration")
+        raise InputError("a case file has its motions, durations and depth in itself", path="--motion, --duration")
     return file
 
 

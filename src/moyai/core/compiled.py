@@ -13,9 +13,9 @@ from __future__ import annotations
 
 import hashlib
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -167,3 +167,43 @@ def when_compiling(call: Callable[[], None]) -> Iterator[None]:
 
     with event.install_listener("numba:compile", Once()):
         yield
+
+
+class _Pointer:
+    """A compiled function for arguments of given types as another one takes it; numba asks for these two methods."""
+
+    def __init__(self, function: Any, arguments: tuple[Any, ...]) -> None:
+        kinds = tuple(numba.typeof(value) for value in arguments)
+        function.compile(kinds)
+        compiled = function.overloads[kinds]
+        self._signature = compiled.signature.return_type(*kinds)
+        self._address = compiled.library.get_pointer_to_function(compiled.fndesc.llvm_cfunc_wrapper_name)
+
+    def __wrapper_address__(self) -> int:
+        return int(self._address)
+
+    def signature(self) -> Any:
+        """Return the signature."""
+        return self._signature
+
+
+def with_pointers(
+    kernel: Any, called: Sequence[tuple[Any, tuple[Any, ...]]], arguments: tuple[Any, ...]
+) -> Callable[..., Any]:
+    """Return a kernel whose first arguments are other kernels, compiled for arguments of these types.
+
+    The others come as addresses, so that they are not compiled again and the kernel is kept for the next process; with
+    kernels as they are it is not.
+
+    Parameters
+    ----------
+    kernel : kernel
+    called : sequence of (kernel, tuple)
+        Kernels that it takes, of ``njit(pointer=True)``, and arguments of the types that they are called with.
+    arguments : tuple
+        Arguments after those kernels.
+    """
+    pointers = [_Pointer(*each) for each in called]
+    kinds = (*(numba.types.FunctionType(each.signature()) for each in pointers), *map(numba.typeof, arguments))
+    kernel.compile(kinds)
+    return partial(kernel.overloads[kinds].entry_point, *pointers)

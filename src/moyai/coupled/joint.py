@@ -15,6 +15,9 @@ from moyai.core.errors import ConvergenceError
 MOST_PASSES, MOST_CUTS = 12, 10
 #: Differences of passes that the quasi-Newton step looks back on.
 MEMORY = 6
+#: Bodies that are lighter than what hangs on their points: once a step was cut so often, so many passes that look back
+#: on all of their step.
+PATIENT_CUTS, PATIENT_PASSES = 3, 40
 
 
 class Joint:
@@ -46,6 +49,8 @@ class Joint:
         self.reaction, self.before, self.carry = np.zeros((2, count, 3)), np.zeros((2, count, 3)), np.zeros((count, 3))
         self.largest, self.passes, self.steps = least, 0, 0
         self.length = 0.0
+        #: Passes that a step is given, and those that the last one took
+        self.patience, self.last_passes = MOST_PASSES, 0
         #: Work exchanged at the points, all of it positive, work given and not taken [J], impulse owed [N s]
         self.work, self.lost, self.impulse = 0.0, 0.0, 0.0
         self.oldest, self.slips = np.zeros((2, count, 3)), np.zeros(2)
@@ -89,7 +94,12 @@ class Joint:
         """
         begin = self.network.time
         length = end - begin
-        if not self._agree(end, length):
+        patient = PATIENT_PASSES if cuts >= PATIENT_CUTS else self.patience
+        agreed = self._agree(end, length, patient)
+        if agreed and patient > self.patience and self.last_passes > MOST_PASSES:
+            # more would have been needed before the cuts: the next steps are given them at once
+            self.patience = patient
+        if not agreed:
             if cuts >= MOST_CUTS:
                 raise ConvergenceError(
                     "bodies and network do not agree on their reaction",
@@ -99,8 +109,8 @@ class Joint:
             self.advance(middle, cuts + 1)
             self.advance(end, cuts + 1)
 
-    def _agree(self, end: float, length: float) -> bool:
-        """Try one step; accept it and return whether both sides agree."""
+    def _agree(self, end: float, length: float, patience: int) -> bool:
+        """Try one step in so many passes; accept it and return whether both sides agree."""
         guess = self.reaction.copy()
         forecasts: list[Array] = []
         if self.length > 0.0:
@@ -114,7 +124,7 @@ class Joint:
         inputs: list[Array] = []
         misses: list[Array] = []
         settled = False
-        for _ in range(MOST_PASSES):
+        for self.last_passes in range(1, patience + 1):
             given = guess.copy()
             given[0] += owed
             place, speed = self._bodies_try(end, given)
@@ -175,7 +185,8 @@ class Joint:
             moved, change = [*known[0], *moved], [*known[1], *change]
         if not moved:
             return inputs[-1] + misses[-1]
-        steps, answers = np.stack(moved[-MEMORY:], axis=1), np.stack(change[-MEMORY:], axis=1)
+        look = MEMORY if len(inputs) <= MOST_PASSES else len(inputs)
+        steps, answers = np.stack(moved[-look:], axis=1), np.stack(change[-look:], axis=1)
         weight, *_ = np.linalg.lstsq(answers, misses[-1], rcond=1e-6)
         return np.asarray(inputs[-1] + misses[-1] - (steps + answers) @ weight)
 

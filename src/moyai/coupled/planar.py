@@ -5,7 +5,7 @@ The step is that of :mod:`moyai.floating.time`, to the letter: the lines come fr
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.arrays import Array
+from moyai.core.compiled import with_pointers
 from moyai.core.errors import InputError
 from moyai.coupled import planar_kernel as step_kernel
 from moyai.flexible.flow import Flow
@@ -138,6 +139,7 @@ class PlanarCarrier:
         self._weights: dict[float, tuple[NDArray[np.complex128], ...]] = {}
         self._tried = (self.q.copy(), self.v.copy(), self.z.copy(), time)
         self._guess: tuple[float, Array] | None = None
+        self._step: Callable[..., Any] | None = None
         self._outside: tuple[tuple[float, float], Array] = ((np.nan, np.nan), np.zeros((3, 3)))
         #: Rate of the velocity over the last step
         self.rate = np.zeros(3)
@@ -217,10 +219,17 @@ class PlanarCarrier:
             self._outside = ((self.time, end), self.force_at(np.array([self.time, self.time + 0.5 * h, end])))
         tried = (np.empty(3), np.empty(3), np.empty_like(self.z))
         place, speed = np.empty((2, len(self.arms), 3))
-        step_kernel.try_body(
-            run_state_space, self.q, self.v, self.z, self._guess[1], h, np.ascontiguousarray(reaction),
-            self._outside[1], self.carried, self.system(h), tried, place, speed, np.full(3, 1e30),
+        force, body, limit = self._outside[1], self.system(h), np.full(3, 1e30)
+        arguments = (
+            self.q, self.v, self.z, self._guess[1], h, np.ascontiguousarray(reaction), force, self.carried, body,
+            tried, place, speed, limit,
         )  # fmt: skip
+        if self._step is None:
+            constants, lines, rest, weights, inputs, outputs, saved = body
+            stepped = (*tried, 0, 1, h, force, constants, lines, rest, weights, inputs, outputs, limit,
+                       step_kernel.NEVER, saved)  # fmt: skip
+            self._step = with_pointers(step_kernel.try_body, ((run_state_space, stepped),), arguments)
+        self._step(*arguments)
         self._tried = (*tried, end)
         return place, speed
 

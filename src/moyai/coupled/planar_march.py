@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from functools import partial
 from typing import Any
 
 import numpy as np
 
 from moyai.core.arrays import Array
+from moyai.core.compiled import with_pointers
 from moyai.coupled import planar_kernel as kernel
 from moyai.coupled.bodies import BodyLog
 from moyai.coupled.joint import MOST_PASSES, Joint
@@ -118,8 +118,6 @@ def _compiled(arguments: tuple[Any, ...]) -> Callable[..., int]:
     It calls the kernels of body and network through pointers, in the form in which they are compiled for their own
     runs: compiled into it they would cost the first run half a minute.
     """
-    from numba import typeof, types
-
     _, first, begin, h, force, _carried, body, motion, network, points, _sea, choice, *_, rows = arguments
     system, (ledger, *watched), water = network[:13], network[13:18], network[-1]
     constants, lines, rest, weights, inputs, outputs, saved = body
@@ -133,27 +131,4 @@ def _compiled(arguments: tuple[Any, ...]) -> Callable[..., int]:
     stepped = (
         *motion[:3], 0, 1, h, force, constants, lines, rest, weights, inputs, outputs, motion[0], kernel.NEVER, saved
     )  # fmt: skip
-    pointers = [_Pointer(march, marched), _Pointer(run_state_space, stepped)]
-    kinds = (*(types.FunctionType(pointer.signature()) for pointer in pointers), *map(typeof, arguments))
-    kernel.march_together.compile(kinds)
-    return partial(kernel.march_together.overloads[kinds].entry_point, *pointers)
-
-
-class _Pointer:
-    """A compiled function for arguments of given types as another one takes it; numba asks for these two methods."""
-
-    def __init__(self, function: Any, arguments: tuple[Any, ...]) -> None:
-        from numba import typeof
-
-        kinds = tuple(typeof(value) for value in arguments)
-        function.compile(kinds)
-        compiled = function.overloads[kinds]
-        self._signature = compiled.signature.return_type(*kinds)
-        self._address = compiled.library.get_pointer_to_function(compiled.fndesc.llvm_cfunc_wrapper_name)
-
-    def __wrapper_address__(self) -> int:
-        return int(self._address)
-
-    def signature(self) -> Any:
-        """Return the signature."""
-        return self._signature
+    return with_pointers(kernel.march_together, ((march, marched), (run_state_space, stepped)), arguments)

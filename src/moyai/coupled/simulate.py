@@ -125,6 +125,11 @@ def simulate_coupled(
         raise InputError(f"step of the bodies is {body_step:g} s", parameter="body_step", allowed="greater than 0")
     if not 0.0 < tolerance < 1.0:
         raise InputError(f"tolerance is {tolerance:g}", parameter="tolerance", allowed="above 0, below 1")
+    if any(kind.slow is not None for kind in network.bars.types):
+        raise InputError(
+            "ropes that give way slowly are not run next to bodies", parameter="bodies",
+            remedy="leave 'slow_stretch' out: the quick stiffness holds in waves, the static one for slow offsets",
+        )  # fmt: skip
     flow, start = flow or Flow(), start or State.at_rest(network)
     check_points(network, bodies, carriers or {}, start)
     moving = {

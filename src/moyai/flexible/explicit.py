@@ -16,7 +16,8 @@ from moyai.flexible.explicit_kernel import march, survey
 from moyai.flexible.explicit_loads import loads
 from moyai.flexible.explicit_motion import drive, kick_and_drift
 from moyai.flexible.explicit_parts import elastic_energy_of_sheets, kick_sections, section_energy, section_loads
-from moyai.flexible.explicit_rows import LEDGER, PEAK, PULL, WU, U, X
+from moyai.flexible.explicit_rows import LEDGER, LENGTH, PEAK, PULL, SPRING, VISCOUS, WU, U, X
+from moyai.flexible.failures import Failing
 from moyai.flexible.flow import Flow
 from moyai.flexible.mass_blocks import pack_blocks
 from moyai.flexible.motion import Motion
@@ -26,6 +27,7 @@ from moyai.flexible.panels import PanelArrays
 from moyai.flexible.result import State
 from moyai.flexible.ring_kernel import ring_forces
 from moyai.flexible.rings import RingArrays
+from moyai.flexible.slow_stretch import SlowBars
 from moyai.flexible.stability import step_limit
 from moyai.flexible.watch import watch_of
 
@@ -84,6 +86,9 @@ class ExplicitRun:
     ) -> None:
         self.network, self.flow, self.load_steps = network, flow, load_steps
         self.arrays = kernel_arrays(network)
+        self.slow = SlowBars.of(network, start.position, self.arrays)
+        #: Lines that part in the course of the run.
+        self.failing: Failing | None = None
         self.packed = pack(self.arrays)
         self.rings = RingArrays.of(network.rings)
         self.driving = driving_tables(network, motions)
@@ -274,6 +279,22 @@ class ExplicitRun:
 
     def advance(self, rows: int, first: int, row_interval: float, wanted: float | None, saved: Any) -> int:
         """March ``rows`` rows of the result; return how many were good."""
+        good = self._advance(rows, first, row_interval, wanted, saved)
+        if self.slow is not None:
+            lengths = self.slow.advance(self.place, self.speed, rows * row_interval)
+            self.packed.memory[LENGTH + self.packed.place[self.slow.bars]] = lengths
+            saved[3][first : first + rows, 1] += self.slow.energy
+        self.part()
+        return good
+
+    def part(self) -> None:
+        """Take the stiffness from the bars that part now."""
+        if self.failing is not None:
+            gone = self.packed.place[self.failing.look(self.place, self.speed, self.time)]
+            for row in (SPRING, VISCOUS):
+                self.packed.memory[row + gone] = 0.0
+
+    def _advance(self, rows: int, first: int, row_interval: float, wanted: float | None, saved: Any) -> int:
         begin, done, left = self.time, 0, row_interval
         self.taken, self.parted, idle = 0, False, 0
         while done < rows:

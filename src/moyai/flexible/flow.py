@@ -13,6 +13,7 @@ from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.sea.components import WaveComponents
+from moyai.sea.current_field import CurrentField
 from moyai.sea.kinematics import Stretching, linear_velocity_acceleration, stretching_code
 from moyai.sea.permanent_wave import NonlinearWave
 
@@ -52,6 +53,8 @@ class Flow:
     interval: float | None = None
     #: Time over which the waves alone grow from zero, while the current stands [s].
     wave_ramp: float = 0.0
+    #: A current that changes with time and place, on top of the others.
+    field: CurrentField | None = None
 
     def __post_init__(self) -> None:
         given = np.array(self.velocity, dtype=np.float64)
@@ -78,13 +81,17 @@ class Flow:
     @property
     def steady(self) -> bool:
         """Whether the water at a node changes neither with time nor with its place."""
-        return self.waves is None and self.current is None and self.ramp == 0.0
+        return self.waves is None and self.current is None and self.field is None and self.ramp == 0.0
 
     @property
     def update_interval(self) -> float:
         """Time between two evaluations [s]."""
         if self.interval is not None:
             return self.interval
+        return self._own_interval if self.field is None else min(self._own_interval, self.field.interval)
+
+    @property
+    def _own_interval(self) -> float:
         if self.steep is not None:
             return self.steep.period / 100.0
         if self.waves is not None:
@@ -128,6 +135,10 @@ class Flow:
         out = np.zeros((7, count))
         grown, rate = self.growth(time)
         out[:3] = self.steady_velocity(position)
+        if self.field is not None:
+            velocity, rate_of_field = self.field.at(time, position)
+            out[:3] += velocity
+            out[3:6] += rate_of_field
         if self.waves is not None and self.waves.water is not None:
             elevation, velocity, acceleration = self._orbital_motion(self.waves, time, position)
             swell, pace = 1.0, 0.0
@@ -135,7 +146,7 @@ class Flow:
                 angle = math.pi * max(time, 0.0) / self.wave_ramp
                 swell, pace = 0.5 * (1.0 - math.cos(angle)), 0.5 * math.pi / self.wave_ramp * math.sin(angle)
             out[:3] += swell * velocity.T
-            out[3:6] = swell * acceleration.T + pace * velocity.T
+            out[3:6] += swell * acceleration.T + pace * velocity.T
             out[6] = swell * elevation
         if grown < 1.0:
             out[3:6] = grown * out[3:6] + rate * out[:3]

@@ -13,12 +13,14 @@ from moyai.core.errors import InputError
 from moyai.flexible import implicit_kernel as kernel
 from moyai.flexible.arrays import kernel_arrays
 from moyai.flexible.explicit import driving_tables
+from moyai.flexible.failures import Failing
 from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import Network
 from moyai.flexible.parts import kernel_parts, network_parts
 from moyai.flexible.relaxation import kernel_bed, kernel_plan, kernel_system, mean_size, plan_of
 from moyai.flexible.result import State
+from moyai.flexible.slow_stretch import SlowBars
 from moyai.flexible.tableaus import TABLEAUS
 from moyai.flexible.watch import watch_of
 
@@ -47,6 +49,9 @@ class ImplicitRun:
                 allowed="'explicit' for this network",
             )
         self.arrays = kernel_arrays(network)
+        self.slow = SlowBars.of(network, start.position, self.arrays)
+        #: Lines that part in the course of the run.
+        self.failing: Failing | None = None
         self.system = kernel_system(self.arrays)
         plan = plan_of(network, self.arrays, network_parts(network))
         self.plan, self.parts = kernel_plan(plan), kernel_parts(network, plan.pairs[2:])
@@ -136,7 +141,18 @@ class ImplicitRun:
         self.time = reached if status != kernel.GOOD else end
         if not self.flow.steady:
             self.water = np.ascontiguousarray(self.flow.at(end, self._place.T))
+        if self.slow is not None:
+            self.arrays.bar("length")[self.slow.bars] = self.slow.advance(self.place, self.speed, rows * row_interval)
+            saved[3][first : first + rows, 1] += self.slow.energy
+        self.part()
         return int(good)
+
+    def part(self) -> None:
+        """Take the stiffness from the bars that part now."""
+        if self.failing is not None:
+            gone = self.failing.look(self.place, self.speed, self.time)
+            for name in ("spring", "viscous"):
+                self.arrays.bar(name)[gone] = 0.0
 
     def state(self) -> State:
         """Return the state at the present time."""

@@ -87,6 +87,30 @@ class RopeCurve:
         return np.diff(self.tension) / np.diff(self.strain)
 
 
+@dataclass(frozen=True)
+class SlowStretch:
+    """How a rope gives way slowly: a spring beside a dashpot, in series with the fast one [eq:flexible-slow-stretch].
+
+    Raises
+    ------
+    InputError
+        For values that are not positive, a growth below zero.
+    """
+
+    #: EA of the whole rope under a load that stays [N], below its axial stiffness.
+    static_stiffness: float
+    #: Of the dashpot beside the slow spring [N s].
+    viscosity: float
+    #: Axial stiffness per mean tension that it grows with [-].
+    growth: float = 0.0
+
+    def __post_init__(self) -> None:
+        for key in ("static_stiffness", "viscosity"):
+            value = getattr(self, key)
+            _require(math.isfinite(value) and value > 0.0, f"{key} of a slow rope is {value:g}", key, "greater than 0")
+        _require(math.isfinite(self.growth) and self.growth >= 0.0, f"growth is {self.growth:g}", "growth", "0 or more")
+
+
 @dataclass(frozen=True, eq=False)
 class BarType:
     """What a bar is made of.
@@ -123,6 +147,8 @@ class BarType:
     tension_only: bool = True
     #: Nonlinear tension over strain.
     curve: RopeCurve | None = None
+    #: How it gives way slowly; ``axial_stiffness`` then is that of quick changes.
+    slow: SlowStretch | None = None
 
     def __post_init__(self) -> None:
         if self.volume_per_length == -1.0:
@@ -133,6 +159,15 @@ class BarType:
             value = getattr(self, key)
             _require(
                 math.isfinite(value) and value > 0.0, f"{key} of {self.name!r} is {value:g}", key, "greater than 0"
+            )
+        if self.slow is not None:
+            _require(self.curve is None, f"{self.name!r} has a curve and slow stretch", "slow", "one of them")
+            _require(
+                self.slow.static_stiffness < self.axial_stiffness,
+                f"the static stiffness of {self.name!r} is {self.slow.static_stiffness:g} N, that of quick changes "
+                f"{self.axial_stiffness:g} N",
+                "slow.static_stiffness",
+                "less than axial_stiffness",
             )
         for key in (
             "diameter", "volume_per_length", "viscosity", "drag_normal", "drag_tangential", "added_mass_normal",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from os import PathLike
 from typing import Literal
 
@@ -16,6 +16,7 @@ from moyai.core.progress import Progress, silent
 from moyai.core.validity import IdentityCheck
 from moyai.flexible.checks import name_of_node, whole_number, whole_numbers
 from moyai.flexible.explicit import LOAD_STEPS, ExplicitRun
+from moyai.flexible.failures import LOOK, Failing, LineFailure
 from moyai.flexible.flow import Flow
 from moyai.flexible.implicit import TOLERANCE, ImplicitRun
 from moyai.flexible.motion import Motion
@@ -117,6 +118,7 @@ def simulate(
     keep_nodes: ArrayLike | None = None,
     keep_bars: ArrayLike | None = None,
     state_file: str | PathLike[str] | None = None,
+    failures: Sequence[LineFailure] = (),
     progress: Progress = silent,
 ) -> History:
     """Run a network through time.
@@ -155,6 +157,8 @@ def simulate(
     state_file : path, optional
         Where the last good state is kept when the run stops before its end; a run can start from it
         (:func:`moyai.flexible.recovery.read_state`).
+    failures : sequence of LineFailure
+        Lines that part in the course of the run.
     progress : Progress
         Told the simulated time.
 
@@ -201,6 +205,8 @@ def simulate(
         run = ExplicitRun(network, motions or {}, flow, start, safety=safety, load_steps=load_steps)
     else:
         run = ImplicitRun(network, motions or {}, flow, start, method=method, tolerance=tolerance)
+    run.failing = Failing.of(network, failures)
+    run.part()
     saved = (
         np.full((rows + 1, nodes.size, 3), np.nan),
         np.full((rows + 1, bars.size), np.nan),
@@ -211,9 +217,18 @@ def simulate(
     )
     run.first_row(saved)
     look = LONGEST_LOOK if flow.steady else min(LONGEST_LOOK, flow.update_interval)
+    if run.failing is not None:
+        look = min(look, LOOK)
+    if run.slow is not None:
+        look = min(look, run.slow.interval)
+        saved[3][0, 1] += run.slow.energy
     per_chunk = max(1, min(rows // 20, int(look / interval + 1e-9)))
     # rows further apart than that are marched in parts, but for the pace of the wave: whole steps fill its rows
-    parts = 1 if flow.steady and safety == 1.0 else max(1, math.ceil(interval / look - 1e-9))
+    parts = (
+        1
+        if flow.steady and safety == 1.0 and run.slow is None and run.failing is None
+        else max(1, math.ceil(interval / look - 1e-9))
+    )
     status: RunStatus = "converged"
     done, message, steps, smallest = 0, "", 0, math.inf
     sound, fastest = start, _fastest(network, run)
@@ -366,5 +381,8 @@ def _history(
         status,
         message,
         (check,),
-        peak_notices(network, run, saved[5], saved[2][:last], check, status == "converged"),
+        (
+            *peak_notices(network, run, saved[5], saved[2][:last], check, status == "converged"),
+            *(run.failing.notices if run.failing is not None else ()),
+        ),
     )

@@ -18,6 +18,7 @@ from moyai.flexible.network import FREE, Network
 from moyai.flexible.relaxation import Attempt, Relaxation
 from moyai.flexible.rest_diagnosis import advice, refuse_impossible
 from moyai.flexible.result import State
+from moyai.flexible.slow_stretch import at_rest
 
 #: Part of the largest force that may be left when the tolerance is out of reach.
 _GOOD_ENOUGH = 1e-5
@@ -130,6 +131,7 @@ def solve_equilibrium(
     >>> round(float(found.state.position[:, 2].min()), 2)            # deepest point of the hanging rope [m]
     -4.79
     """
+    network = at_rest(network)
     place = np.array(network.nodes.position if start is None else start.position)
     fixed = network.nodes.kind != 0
     place[fixed] = network.nodes.position[fixed]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -114,8 +115,21 @@ class SeaMotions:
     converged: bool
 
 
+def _joined(parts: list[Motions]) -> Motions:
+    """Put motions of several headings side by side."""
+    if len(parts) == 1:
+        return parts[0]
+    return replace(
+        parts[0],
+        heading=np.concatenate([part.heading for part in parts]),
+        displacement=np.concatenate([part.displacement for part in parts], axis=1),
+        damping=np.concatenate([part.damping for part in parts], axis=1),
+        wave_amplitude=np.concatenate([part.wave_amplitude for part in parts], axis=1),
+    )
+
+
 def linearised_in_sea(
-    hydrodynamics: Hydrodynamics,
+    hydrodynamics: Hydrodynamics | Sequence[Hydrodynamics],
     inertia: ArrayLike,
     stiffness: ArrayLike,
     density: ArrayLike,
@@ -131,7 +145,10 @@ def linearised_in_sea(
 
     Parameters
     ----------
-    hydrodynamics, inertia, stiffness, damping
+    hydrodynamics : Hydrodynamics or sequence of Hydrodynamics
+        Several where the radiation is another for each heading, as along a unit in oblique waves; in the order of the
+        headings of ``density``, all at the same frequencies.
+    inertia, stiffness, damping
         As in :func:`moyai.floating.frequency.solve_motions`.
     density : array_like (n,) or (n, h)
         Wave spectrum at the frequencies of the coefficients, as in :func:`response_statistics`.
@@ -146,19 +163,21 @@ def linearised_in_sea(
         Relative change of the standard deviations.
     maximum_iterations : int
     """
-    linear = LinearDamping.none(hydrodynamics.size) if damping is None else damping
+    parts = [hydrodynamics] if isinstance(hydrodynamics, Hydrodynamics) else list(hydrodynamics)
+    omega, size = parts[0].omega, parts[0].size
+    linear = LinearDamping.none(size) if damping is None else damping
     wave = np.asarray(density, dtype=float)
     if wave.ndim == 1:
         wave = wave[:, None]
-    if wave.shape[1] != len(hydrodynamics.heading):
+    ends = np.cumsum([len(part.heading) for part in parts])
+    if wave.shape[1] != ends[-1]:
         raise InputError(
-            f"the spectrum has {wave.shape[1]} headings, the coefficients {len(hydrodynamics.heading)}",
+            f"the spectrum has {wave.shape[1]} headings, the coefficients {ends[-1]}",
             parameter="density",
         )
-    size = hydrodynamics.size
     rows = np.eye(size) if quadratic is None else np.vstack([np.eye(size), quadratic.directions])
     equivalent, previous = np.zeros((size, size)), np.zeros(len(rows))
-    drag = np.zeros(hydrodynamics.excitation.shape, dtype=np.complex128)
+    drag = np.zeros((len(omega), ends[-1], size), dtype=np.complex128)
     moving = np.zeros((1, 1, len(rows)), dtype=np.complex128)
     if water_motion is not None and quadratic is not None:
         moving = np.concatenate([np.zeros((*water_motion.shape[:2], size)), water_motion], axis=2)
@@ -166,10 +185,14 @@ def linearised_in_sea(
     while True:
         used += 1
         total = LinearDamping(linear.matrix + equivalent, linear.critical_fraction)
-        driven = replace(hydrodynamics, excitation=hydrodynamics.excitation + drag)
-        motions = solve_motions(driven, inertia, stiffness, damping=total)
+        motions = _joined(
+            [
+                solve_motions(replace(part, excitation=part.excitation + push), inertia, stiffness, damping=total)
+                for part, push in zip(parts, np.split(drag, ends[:-1], axis=1), strict=True)
+            ]
+        )
         measure: ComplexArray = np.nan_to_num(motions.velocity) @ rows.T - moving
-        statistics = response_statistics(hydrodynamics.omega, measure, wave)
+        statistics = response_statistics(omega, measure, wave)
         deviation = statistics.standard_deviation
         largest = np.where(np.maximum(deviation, previous) > 0.0, np.maximum(deviation, previous), 1.0)
         change = float(np.max(np.abs(deviation - previous) / largest))

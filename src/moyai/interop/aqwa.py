@@ -1,34 +1,51 @@
-"""ANSYS AQWA's .AH1 file: coefficients of one structure, SI, about its centre of gravity.
+"""ANSYS AQWA's .AH1 file: coefficients of one or several structures, SI, each about its centre of gravity.
 
 AQWA's time factor is exp(-i omega t), like ours: the heave force of a floating body leads the crest, its phase is
-negative. Phases refer to the wave at the centre of gravity; a centre of gravity off x = y = 0 would need a shift that
-could not be tested, and is refused.
+negative. Where a centre of gravity lies off x = y = 0 the file does not say whether phases refer to it or to the
+origin: this is taken from the user or refused.
 """
 
 from __future__ import annotations
 
 import math
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 import xarray as xr
+from scipy.linalg import block_diag
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.foreign_files import reads
-from moyai.interop.coefficients import DOFS, assemble
+from moyai.core.options import checks_words
+from moyai.interop.bodies import one_body, refer_phase
+from moyai.interop.coefficients import assemble, dof_names
 from moyai.interop.textfiles import parse_number, read_lines
 
+#: Structures of a file; beyond, the number is taken for a mistake
+MOST_BODIES = 60
 Sections = dict[str, list[list[float]]]
 
 
+@checks_words
 @reads("a file of AQWA", named="coefficients")
-def read_aqwa(path: str | Path) -> xr.Dataset:
-    """Read one structure from an .AH1 file.
+def read_aqwa(
+    path: str | Path,
+    *,
+    phase_at: Literal["centre_of_gravity", "origin"] | None = None,
+    body: int | str | None = None,
+) -> xr.Dataset:
+    """Read the structures of an .AH1 file.
 
     Parameters
     ----------
     path : path
         File.
+    phase_at : {"centre_of_gravity", "origin"}, optional
+        Where the crest of the wave is that phases refer to; needed when a centre of gravity lies off x = y = 0.
+    body : int or str, optional
+        Number of one of several structures, from 1; all of them when absent.
 
     Returns
     -------
@@ -38,7 +55,7 @@ def read_aqwa(path: str | Path) -> xr.Dataset:
     Raises
     ------
     InputError
-        Not such a file, several structures, a centre of gravity off the origin.
+        Not such a file, no such structure, a centre of gravity off the origin without ``phase_at``.
     """
     file = Path(path)
     sections = _read_sections(file)
@@ -47,46 +64,74 @@ def read_aqwa(path: str | Path) -> xr.Dataset:
             raise InputError(f"{file.name} has no section {name or 'of frequencies'}", path="coefficients")
     header = [value for row in sections[""] for value in row]
     structures, headings, count = (int(value) for value in header[:3])
-    if structures != 1:
-        raise InputError(f"{file.name}: {structures} structures", path="coefficients", allowed="one")
+    if not 1 <= structures <= MOST_BODIES:
+        raise InputError(f"{file.name}: {structures} structures", path="coefficients", allowed=f"1 to {MOST_BODIES}")
     directions = np.array(header[3 : 3 + headings])
     omega = np.array(header[3 + headings : 3 + headings + count])
     depth, density, gravity = sections["GENERAL"][0][1:4]
-    centre = sections["COG"][0][1:4]
-    if abs(centre[0]) > 1e-9 or abs(centre[1]) > 1e-9:
+    centres = np.array([row[-3:] for row in sections["COG"]])
+    if centres.shape != (structures, 3):
         raise InputError(
-            f"{file.name}: centre of gravity at x = {centre[0]:g}, y = {centre[1]:g} m",
-            path="coefficients",
-            allowed="x = y = 0",
-            remedy="run AQWA with the body centred, and place it with origin of to_planar",
+            f"{file.name}: {len(centres)} centres of gravity", path="coefficients", allowed=f"{structures}"
         )
-    added_mass = _matrices(sections["ADDEDMASS"], count, file)
-    damping = _matrices(sections["DAMPING"], count, file)
-    force_rows = np.array([row[-6:] for row in sections["FORCERAO"]]).reshape(headings, count, 2, 6)
-    excitation = np.moveaxis(force_rows[:, :, 0] * np.exp(1j * np.radians(force_rows[:, :, 1])), 0, 1)
+    off = np.flatnonzero(np.abs(centres[:, :2]).max(axis=1) > 1e-9)
+    if off.size and phase_at is None:
+        x, y = centres[off[0], :2]
+        raise InputError(
+            f"{file.name}: centre of gravity at x = {x:g}, y = {y:g} m: do phases refer to it?",
+            path="phase_at",
+            allowed="centre_of_gravity, origin",
+            remedy="look up the wave phase of the run of AQWA and give phase_at",
+        )
+    names = tuple(str(number) for number in range(1, structures + 1)) if structures > 1 else ()
+    size = 6 * structures
+    force_rows = np.array([row[-6:] for row in sections["FORCERAO"]])
+    if len(force_rows) != 2 * structures * headings * count:
+        raise InputError(
+            f"{file.name}: {len(force_rows)} rows of forces of {structures} structures in {headings} directions at "
+            f"{count} frequencies",
+            path="coefficients",
+        )
+    force_rows = force_rows.reshape(structures, headings, count, 2, 6)
+    each = force_rows[:, :, :, 0] * np.exp(1j * np.radians(force_rows[:, :, :, 1]))
+    excitation = each.transpose(2, 1, 0, 3).reshape(count, headings, size)
     limits = {}
     for name, key in (("zero_frequency_added_mass", "ADDEDMASS_LF"), ("infinite_frequency_added_mass", "ADDEDMASS_HF")):
         if key in sections:
-            limits[name] = np.array([row[-6:] for row in sections[key]]).reshape(6, 6).T
+            limits[name] = _matrices(sections[key], 1, structures, file)[0]
     # -180 and 180 degrees are the same wave
     _, kept = np.unique(np.round(np.mod(directions, 360.0), 6), return_index=True)
-    stiffness = np.array([row[-6:] for row in sections["HYDSTIFFNESS"]]) if "HYDSTIFFNESS" in sections else None
-    return assemble(
+    stiffness = None
+    if "HYDSTIFFNESS" in sections:
+        rows = np.array([row[-6:] for row in sections["HYDSTIFFNESS"]]).reshape(structures, 6, 6)
+        stiffness = block_diag(*rows)
+    dataset = assemble(
         program="AQWA",
         source=file.name,
-        dofs=DOFS,
+        dofs=dof_names(names),
         omega=omega,
-        added_mass=added_mass,
-        radiation_damping=damping,
+        added_mass=_matrices(sections["ADDEDMASS"], count, structures, file),
+        radiation_damping=_matrices(sections["DAMPING"], count, structures, file),
         wave_direction=np.radians(directions[kept]),
         forces={"excitation_force": excitation[:, kept]},
         density=density,
         gravity=gravity,
         water_depth=depth if depth > 0.0 else math.inf,
-        reference_point=centre,
+        reference_point=centres,
         limits=limits,
         hydrostatic_stiffness=stiffness,
+        bodies=names,
     )
+    if phase_at == "centre_of_gravity":
+        dataset = _from_centres(dataset, centres)
+    return dataset if body is None else one_body(dataset, body)
+
+
+def _from_centres(dataset: xr.Dataset, centres: Array) -> xr.Dataset:
+    """Refer phases that refer to each centre of gravity to x = y = 0."""
+    shifted = [refer_phase(dataset, -centre[:2])["excitation_force"].values for centre in centres]
+    parts = [values[:, :, 6 * number : 6 * number + 6] for number, values in enumerate(shifted)]
+    return dataset.assign(excitation_force=dataset["excitation_force"].copy(data=np.concatenate(parts, axis=2)))
 
 
 def _read_sections(path: Path) -> Sections:
@@ -109,8 +154,13 @@ def _read_sections(path: Path) -> Sections:
     return sections
 
 
-def _matrices(rows: list[list[float]], count: int, path: Path) -> np.ndarray:
-    """Return (frequency, radiating, influenced): six rows a frequency, row i the force in i."""
-    if len(rows) != 6 * count:
-        raise InputError(f"{path.name}: {len(rows)} rows of a 6 x 6 matrix at {count} frequencies", path="coefficients")
-    return np.array([row[-6:] for row in rows]).reshape(count, 6, 6).transpose(0, 2, 1)
+def _matrices(rows: list[list[float]], count: int, structures: int, path: Path) -> Array:
+    """Return (frequency, radiating, influenced): of each pair of structures six rows a frequency, row i the force."""
+    if len(rows) != 6 * count * structures**2:
+        raise InputError(
+            f"{path.name}: {len(rows)} rows of 6 x 6 matrices of {structures} structures at {count} frequencies",
+            path="coefficients",
+        )
+    blocks = np.array([row[-6:] for row in rows]).reshape(structures, structures, count, 6, 6)
+    size = 6 * structures
+    return np.asarray(blocks.transpose(2, 1, 4, 0, 3).reshape(count, size, size))

@@ -1,7 +1,8 @@
 """BEMIO's HDF5 files, the common form of WEC-Sim and its relatives.
 
 Added mass is divided by rho, damping by rho omega, exciting force and stiffness by rho g (unless the file says that it
-is scaled). The time factor is WAMIT's, exp(+i omega t): forces are conjugated.
+is scaled). Of several bodies each has its rows, the forces on it, for the motions of all. The time factor is WAMIT's,
+exp(+i omega t): forces are conjugated.
 """
 
 from __future__ import annotations
@@ -13,25 +14,35 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
+from scipy.linalg import block_diag
 
 from moyai.core.arrays import ComplexArray
 from moyai.core.errors import InputError
 from moyai.core.foreign_files import open_hdf5, reads, require_plausible_size
-from moyai.interop.coefficients import DOFS, assemble
+from moyai.interop.bodies import distinct, one_body
+from moyai.interop.coefficients import assemble, dof_names
 
 
 @reads("a file of BEMIO", named="coefficients")
-def read_bemio(path: str | Path, *, reference_point: Sequence[float], body: int = 1) -> xr.Dataset:
-    """Read one body of a BEMIO file.
+def read_bemio(
+    path: str | Path,
+    *,
+    reference_point: Sequence[float] | Sequence[Sequence[float]],
+    body: int | str | None = None,
+) -> xr.Dataset:
+    """Read the bodies of a BEMIO file.
 
     Parameters
     ----------
     path : path
         HDF5 file.
     reference_point : sequence of three float
-        Point that the program behind the file took moments about [m]; the file does not tell.
-    body : int
-        Number of the body, from 1.
+        Point that the program behind the file took moments about [m], one for each of several bodies; the file does
+        not tell.
+    body : int or str, optional
+        One of several bodies, by number from 1 or by its name; all of them when absent. Three numbers as reference
+        point are then those of this body.
 
     Returns
     -------
@@ -41,63 +52,98 @@ def read_bemio(path: str | Path, *, reference_point: Sequence[float], body: int 
     Raises
     ------
     InputError
-        Not such a file, no such body, coupling with other bodies.
+        Not such a file, no such body, modes beyond those of rigid bodies.
     """
     file = Path(path)
     if not file.is_file():
         raise InputError(f"no such file: {file}", path="coefficients")
     with open_hdf5(file) as stored:
         stored.visititems(lambda name, item: _require_size(file, name, item))
-        for name in ("simulation_parameters", f"body{body}/hydro_coeffs/added_mass/all"):
+        count = 1
+        while f"body{count + 1}/hydro_coeffs" in stored:
+            count += 1
+        for name in ("simulation_parameters", *(f"body{n}/hydro_coeffs/added_mass/all" for n in range(1, count + 1))):
             if name not in stored:
                 raise InputError(f"{file.name} holds no {name}", path="body", remedy="was it written by BEMIO?")
         parameters = stored["simulation_parameters"]
-        coefficients = stored[f"body{body}/hydro_coeffs"]
+        groups = [stored[f"body{n}/hydro_coeffs"] for n in range(1, count + 1)]
         density, gravity = _scalar(parameters["rho"]), _scalar(parameters["g"])
         omega = np.ravel(parameters["w"][()]).astype(float)
         scaled = bool(_scalar(parameters["scaled"])) if "scaled" in parameters else False
-        added_mass = np.moveaxis(coefficients["added_mass/all"][()], -1, 0)
-        damping = np.moveaxis(coefficients["radiation_damping/all"][()], -1, 0)
-        infinite = np.asarray(coefficients["added_mass/inf_freq"][()], dtype=float)
-        stiffness = np.asarray(coefficients["linear_restoring_stiffness"][()], dtype=float)
+        # Rows are the forces on this body, columns the motions of all of them
+        added_mass = np.concatenate([_rows(group, "added_mass/all", count, file) for group in groups])
+        damping = np.concatenate([_rows(group, "radiation_damping/all", count, file) for group in groups])
+        infinite = np.concatenate([_rows(group, "added_mass/inf_freq", count, file) for group in groups])
+        stiffness = block_diag(*(np.asarray(group["linear_restoring_stiffness"][()], dtype=float) for group in groups))
         directions = np.radians(np.ravel(parameters["wave_dir"][()]).astype(float))
-        forces = {"excitation_force": _force(coefficients["excitation"])}
+        forces = {"excitation_force": np.concatenate([_force(group["excitation"]) for group in groups], axis=2)}
         for name, key in (("Froude_Krylov_force", "froude-krylov"), ("diffraction_force", "scattering")):
-            group = coefficients["excitation"].get(key)
+            parts = [group["excitation"].get(key) for group in groups]
             # Programs that do not part the force leave zeros or NaN
-            if group is None or "re" not in group:
+            if any(part is None or "re" not in part for part in parts):
                 continue
-            values = _force(group)
+            values = np.concatenate([_force(part) for part in parts], axis=2)
             if np.all(np.isfinite(values)) and np.any(values):
                 forces[name] = values
+        drift = _drift(groups)
         depth = _depth(parameters["water_depth"][()])
         code = stored["bem_data/code"][()] if "bem_data/code" in stored else b"unknown program"
-    if added_mass.shape[1:] != (6, 6):
-        raise InputError(
-            f"{file.name}: matrices of {added_mass.shape[1]} x {added_mass.shape[2]}: several bodies or modes",
-            path="coefficients",
-            allowed="one rigid body",
-        )
+        names = [_text(stored[f"body{n}/properties/name"][()]) if f"body{n}/properties/name" in stored else ""
+                 for n in range(1, count + 1)]  # fmt: skip
     mass_scale = 1.0 if scaled else density
     force_scale = 1.0 if scaled else density * gravity
     damping_scale = np.ones_like(omega) if scaled else density * omega
-    transpose = (0, 2, 1)
-    return assemble(
+    bodies = distinct(names) if count > 1 else ()
+    points = np.atleast_2d(np.asarray(reference_point, dtype=float))
+    if bodies and body is not None and points.shape == (1, 3):
+        points = np.repeat(points, count, axis=0)
+    dataset = assemble(
         program=f"BEMIO ({_text(code)})",
         source=file.name,
-        dofs=DOFS,
+        dofs=dof_names(bodies),
         omega=omega,
-        added_mass=added_mass.transpose(transpose) * mass_scale,
-        radiation_damping=damping.transpose(transpose) * damping_scale[:, None, None],
+        added_mass=np.moveaxis(added_mass, -1, 0).transpose(0, 2, 1) * mass_scale,
+        radiation_damping=np.moveaxis(damping, -1, 0).transpose(0, 2, 1) * damping_scale[:, None, None],
         wave_direction=directions,
-        forces={name: values * force_scale for name, values in forces.items()},
+        forces={name: np.asarray(values * force_scale, dtype=complex) for name, values in forces.items()},
         density=density,
         gravity=gravity,
         water_depth=depth,
-        reference_point=reference_point,
+        reference_point=points,
         limits={"infinite_frequency_added_mass": infinite.T * mass_scale},
         hydrostatic_stiffness=stiffness * force_scale,
+        mean_drift_of_all_bodies=None if drift is None or not bodies else drift * (density * gravity),
+        bodies=bodies,
     )
+    return dataset if body is None else one_body(dataset, body)
+
+
+def _rows(group: Any, name: str, count: int, file: Path) -> NDArray[np.float64]:
+    values = np.asarray(group[name][()], dtype=float)
+    if values.shape[:2] != (6, 6 * count):
+        raise InputError(
+            f"{file.name}: matrices of {values.shape[0]} x {values.shape[1]} of {count} bodies",
+            path="coefficients",
+            allowed=f"6 x {6 * count}, rigid bodies",
+        )
+    return values
+
+
+def _drift(groups: list[Any]) -> NDArray[np.float64] | None:
+    """Return the mean drift of all bodies together (frequency, direction, 3), where momentum gave it.
+
+    The far field gives their sum alone, which stands with the first body, the moment about the vertical through
+    x = y = 0.
+    """
+    key = "mean_drift/momentum_conservation/val"
+    if key not in groups[0]:
+        return None
+    values = np.asarray(groups[0][key][()], dtype=float)
+    if values.ndim != 3 or values.shape[0] != 6 or not np.any(values):
+        return None
+    if any(key in group and np.any(np.nan_to_num(group[key][()])) for group in groups[1:]):
+        return None
+    return np.moveaxis(values[[0, 1, 5]], (0, 1, 2), (2, 1, 0))
 
 
 def _require_size(file: Path, name: str, item: Any) -> None:

@@ -12,6 +12,7 @@ from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.foreign_files import open_netcdf, reads
 from moyai.core.results import join_complex
+from moyai.interop.bodies import distinct, one_body
 from moyai.interop.coefficients import assemble, require
 
 _FORCES = ("excitation_force", "Froude_Krylov_force", "diffraction_force")
@@ -19,7 +20,10 @@ _FORCES = ("excitation_force", "Froude_Krylov_force", "diffraction_force")
 
 @reads("a file of Capytaine", named="coefficients")
 def read_capytaine(
-    path: str | Path, *, reference_point: Sequence[float] | None = None, body: str | None = None
+    path: str | Path,
+    *,
+    reference_point: Sequence[float] | Sequence[Sequence[float]] | None = None,
+    body: int | str | None = None,
 ) -> xr.Dataset:
     """Read a NetCDF file written by Capytaine (version 1.4 and later).
 
@@ -28,9 +32,11 @@ def read_capytaine(
     path : path
         File, NetCDF 3 or 4.
     reference_point : sequence of three float, optional
-        Rotation centre of the body's degrees of freedom [m]; from ``rotation_center`` in the file where it is there.
-    body : str, optional
-        Body to take from a file with several; the coupling with the others is left out then.
+        Rotation centre of the body's degrees of freedom [m], one for each of several bodies; from ``rotation_center``
+        in the file where it is there.
+    body : int or str, optional
+        Body to take from a file with several, by name or by number from 1; the coupling with the others is left out
+        then. Three numbers as reference point are then those of this body. All bodies when absent.
 
     Returns
     -------
@@ -40,7 +46,7 @@ def read_capytaine(
     Raises
     ------
     InputError
-        Not such a file; several bodies and none named; forward speed; missing reference point.
+        Not such a file; no such body; forward speed; missing reference point.
     """
     file = Path(path)
     if not file.is_file():
@@ -58,13 +64,14 @@ def read_capytaine(
     raw = raw.squeeze([name for name in ("rho", "g", "water_depth", "forward_speed") if name in raw.dims])
     if float(raw.get("forward_speed", 0.0)) != 0.0:
         raise InputError(f"{file.name} was computed with forward speed", path="coefficients", allowed="forward speed 0")
-    raw = _one_body(raw, file.name, body)
+    raw, bodies = _named(raw)
     if "omega" not in raw.dims:
         raw = raw.expand_dims("omega") if raw["omega"].ndim == 0 else raw.swap_dims({raw["omega"].dims[0]: "omega"})
     raw = raw.transpose("omega", "wave_direction", "radiating_dof", "influenced_dof", ..., missing_dims="ignore")
+    count = max(len(bodies), 1)
     if reference_point is None and "rotation_center" in raw:
-        centre = np.asarray(raw["rotation_center"].values, dtype=float).ravel()
-        reference_point = tuple(centre) if centre.size == 3 else None
+        centres = np.asarray(raw["rotation_center"].values, dtype=float).ravel()
+        reference_point = centres.reshape(count, 3).tolist() if centres.size == 3 * count else None
     stated = {name: raw[name].item() if name in raw else None for name in ("rho", "g", "water_depth")}
     require(file.name, **stated, reference_point=reference_point)
     assert reference_point is not None
@@ -76,7 +83,10 @@ def read_capytaine(
         )
     omega = np.asarray(raw["omega"].values, dtype=float)
     ordinary = np.isfinite(omega) & (omega > 0.0)
-    return assemble(
+    points = np.atleast_2d(np.asarray(reference_point, dtype=float))
+    if bodies and body is not None and points.shape == (1, 3):
+        points = np.repeat(points, count, axis=0)
+    dataset = assemble(
         program=f"Capytaine {raw.attrs.get('capytaine_version', '')}".strip(),
         source=file.name,
         dofs=[str(name) for name in raw["radiating_dof"].values],
@@ -88,12 +98,14 @@ def read_capytaine(
         density=float(raw["rho"]),
         gravity=float(raw["g"]),
         water_depth=float(raw["water_depth"]),
-        reference_point=reference_point,
+        reference_point=points,
         limits=_limits(raw, omega),
         hydrostatic_stiffness=raw["hydrostatic_stiffness"].transpose("influenced_dof", "radiating_dof").values
         if "hydrostatic_stiffness" in raw
         else None,
+        bodies=bodies,
     )
+    return dataset if body is None else one_body(dataset, body)
 
 
 def _limits(raw: xr.Dataset, omega: Array) -> dict[str, Array]:
@@ -109,29 +121,18 @@ def _limits(raw: xr.Dataset, omega: Array) -> dict[str, Array]:
     return limits
 
 
-def _one_body(raw: xr.Dataset, source: str, body: str | None) -> xr.Dataset:
-    """Return the coefficients of one body, its degrees of freedom without the prefix ``body__``."""
+def _named(raw: xr.Dataset) -> tuple[xr.Dataset, tuple[str, ...]]:
+    """Return motions and forces in one order with the names of several bodies; of one the prefix ``body__`` goes."""
     names = [str(name) for name in raw["radiating_dof"].values]
-    bodies = sorted({name.split("__")[0] for name in names if "__" in name})
+    bodies = tuple(dict.fromkeys(name.rsplit("__", 1)[0] for name in names if "__" in name))
+    raw = raw.assign_coords(radiating_dof=names, influenced_dof=[str(name) for name in raw["influenced_dof"].values])
+    raw = raw.sel(influenced_dof=names)
+    if len(bodies) == 1:
+        short = [name.rsplit("__", 1)[-1] for name in names]
+        return raw.assign_coords(radiating_dof=short, influenced_dof=short), ()
     if not bodies:
-        raw = raw.assign_coords(
-            {"radiating_dof": names, "influenced_dof": [str(n) for n in raw["influenced_dof"].values]}
-        )
-    elif len(bodies) > 1 and body is None:
-        raise InputError(
-            f"{source} holds the bodies {', '.join(bodies)}",
-            path="body",
-            remedy="name one; its coupling with the others is left out",
-        )
-    else:
-        chosen = bodies[0] if body is None else body
-        kept = [name for name in names if name.startswith(f"{chosen}__")]
-        if not kept:
-            raise InputError(f"{source} has no body {chosen!r}", path="body", allowed=", ".join(bodies))
-        short = [name.split("__", 1)[1] for name in kept]
-        raw = raw.assign_coords(
-            influenced_dof=[str(name) for name in raw["influenced_dof"].values], radiating_dof=names
-        )
-        raw = raw.sel(radiating_dof=kept, influenced_dof=kept).assign_coords(radiating_dof=short, influenced_dof=short)
-    order = [str(name) for name in raw["radiating_dof"].values]
-    return raw.sel(influenced_dof=order)
+        return raw, ()
+    # Names within this package hold no further '__'
+    plain = dict(zip(bodies, distinct(bodies)))
+    full = [f"{plain[name.rsplit('__', 1)[0]]}__{name.rsplit('__', 1)[1]}" for name in names]
+    return raw.assign_coords(radiating_dof=full, influenced_dof=full), tuple(plain.values())

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import xarray as xr
 
 from moyai.core.validity import IdentityCheck, Notice
+from moyai.interop.bodies import each_body
 from moyai.sea.dispersion import group_velocity, wave_number
 
 
@@ -65,7 +67,20 @@ def import_notices(dataset: xr.Dataset) -> tuple[Notice, ...]:
         with another time factor or direction.
     """
     failed = [check for check in check_coefficients(dataset) if not check.passed]
+    dropped = int(dataset.attrs.get("dropped_frequencies", 0))
     return (
+        *(
+            (
+                Notice(
+                    "coefficients-dropped",
+                    f"coefficients from files: the {dropped} lowest frequencies are no numbers and were left out; the "
+                    f"lowest left is {dataset['omega'].values[0]:.4g} rad/s",
+                    severity="information",
+                ),
+            )
+            if dropped
+            else ()
+        ),
         *(
             Notice(
                 "coefficients-identity",
@@ -77,7 +92,11 @@ def import_notices(dataset: xr.Dataset) -> tuple[Notice, ...]:
             )
             for check in failed
         ),
-        *check_time_convention(dataset),
+        *(
+            notice if name is None else replace(notice, message=f"body '{name}': {notice.message}")
+            for name, part in each_body(dataset)
+            for notice in check_time_convention(part)
+        ),
     )
 
 

@@ -146,6 +146,11 @@ def body_number(word: str) -> int:
     return int(found[1]) if found else 0
 
 
+def unnumbered(word: str) -> str:
+    """Return a word in lower case without a number at its end: OpenFAST and its kin write Vessel1, Coupled1."""
+    return re.sub(r"(?<=[a-z])\d+$", "", word.lower())
+
+
 def read_rod_types(rows: list[Row], faults: Faults) -> tuple[DeckRodType, ...]:
     """Return the rows of ROD TYPES."""
     found: list[DeckRodType] = []
@@ -176,7 +181,7 @@ def read_bodies(rows: list[Row], faults: Faults) -> tuple[DeckBody, ...]:
         if number and any(body.number == number for body in found):
             faults.add(row.line, f"two bodies have the ID {number}", path="bodies")
         word = row.cells.get("kind", "")
-        kind = BODY_KINDS.get(word.lower())
+        kind = BODY_KINDS.get(unnumbered(word))
         if kind is None:
             faults.add(row.line, f"attachment of body is {word!r}", "Fixed, Coupled, CoupledPinned, Free", path="kind")
         x, y, z = (faults.number(row, key) for key in "xyz")
@@ -211,7 +216,7 @@ def read_rods(
         word = row.cells.get("kind", "")
         pinned = re.fullmatch(r"((?:body|bod|b)\d+)(?:pinned|pin)", word.lower())
         body = body_number(pinned[1] if pinned else word)
-        kind = ("body pinned" if pinned else "body") if body else ROD_KINDS.get(word.lower())
+        kind = ("body pinned" if pinned else "body") if body else ROD_KINDS.get(unnumbered(word))
         if kind is None:
             faults.add(
                 row.line, f"attachment of rod is {word!r}",

@@ -16,7 +16,7 @@ from moyai.coupled.assembly import RodPart, VolumePart
 from moyai.interop.moordyn_deck import DeckLineType, DeckPoint, MoorDynDeck
 from moyai.interop.moordyn_keys import SECTIONS
 from moyai.interop.moordyn_network import line_name, point_name, water_of
-from moyai.interop.moordyn_records import StiffnessTable
+from moyai.interop.moordyn_records import DeckFailure, StiffnessTable
 from moyai.interop.moordyn_system import BodyOfDeck, bodies_of, end_name, rod_knots
 from moyai.interop.moordyn_waves import amplitude_and_phase
 from moyai.interop.textfiles import read_lines
@@ -84,11 +84,13 @@ def case_text(
         *(f"# {note}" for note in (*deck.notes, *said)),
         "moyai: 1",
         f"title: {_word(deck.title or deck.source or 'Moored lines')}",
+        "plausibility: warn",
         "",
         f"site: {{water_depth: {_number(water.depth)}, density: {_number(water.density)}, "
         f"gravity: {_number(water.gravity)}}}",
         *_waves(deck, folder),
         *_current(deck),
+        *_current_field(deck),
         "",
         "structure:",
         "  kind: network",
@@ -113,7 +115,11 @@ def case_text(
         f"type: {_word(line.line_type)}, length: {_number(line.length)}, segments: {line.segments}}}"
         for line in deck.lines
     ]
-    dynamic = bool(moved) or duration is not None or deck.waves is not None
+    if deck.failures:
+        lines.append("  failures:")
+    lines += [f"    - {_failure(deck, item)}" for item in deck.failures]
+    dynamic = bool(moved) or duration is not None or deck.waves is not None or deck.current_field is not None
+    dynamic = dynamic or any(item.time for item in deck.failures)
     # what moves in a deck without a search for rest starts where the deck has it
     as_built = any(body.moves for body in bodies) and deck.number("TmaxIC") == 0.0
     analyses = [*([] if as_built and dynamic else ["statics"]), *(["modes"] if deck.lines and not bodies else [])]
@@ -121,7 +127,7 @@ def case_text(
     if dynamic:
         start = "as_built" if as_built else "rest_in_current" if deck.current is not None else "rest"
         settings = [f"start: {start}"]
-        if deck.waves is not None:
+        if deck.waves is not None or deck.current_field is not None:
             # in MoorDyn waves stand from the start, and their kinematics end at still water
             settings += ["ramp: 0", "stretching: constant"]
         if duration is not None:
@@ -273,6 +279,11 @@ def _line_type(kind: DeckLineType) -> list[str]:
         parts.append(f"curve: {{table: [{', '.join(f'[{_number(e)}, {_number(t)}]' for e, t in rows)}]}}")
     else:
         parts.append(f"axial_stiffness: {_number(kind.stiffness)}")
+    if kind.slow is not None:
+        parts.append(
+            f"slow_stretch: {{static_stiffness: {_number(kind.slow.stiffness)}, "
+            f"viscosity: {_number(kind.slow.damping)}, growth: {_number(kind.slow.growth)}}}"
+        )
     # a negative BA is minus the part of the critical damping of a segment
     parts.append(
         f"viscosity: {_number(kind.damping)}" if kind.damping >= 0.0 else f"damping_ratio: {_number(-kind.damping)}"
@@ -322,6 +333,20 @@ def _waves(deck: MoorDynDeck, folder: Path | None) -> list[str]:
             for omega, a, angle, heading in rows
         ),
     ]  # fmt: skip
+
+
+def _failure(deck: MoorDynDeck, item: DeckFailure) -> str:
+    line = next(line for line in deck.lines if line.number == item.line_number)
+    parts = [f"line: {line_name(line.number)}", f"at: {'start' if line.start == item.point else 'end'}"]
+    parts += [f"{key}: {_number(value)}" for key, value in (("time", item.time), ("tension", item.tension)) if value]
+    return f"{{{', '.join(parts)}}}"
+
+
+def _current_field(deck: MoorDynDeck) -> list[str]:
+    given = deck.current_field
+    if given is None:
+        return []
+    return [f"current_field: {{file: {_word(str(Path(given.folder) / given.file))}, form: {given.form}}}"]
 
 
 def _current(deck: MoorDynDeck) -> list[str]:

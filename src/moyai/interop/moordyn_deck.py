@@ -7,7 +7,7 @@ Read with :func:`moyai.interop.moordyn_reader.read_deck`; turned into a network 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Literal
 
@@ -18,7 +18,10 @@ from moyai.interop.moordyn_records import (
     CURRENT_FILE,
     FREQUENCY_FILE,
     DeckCurrent,
+    DeckCurrentField,
+    DeckFailure,
     DeckOption,
+    DeckSlowStretch,
     DeckWaves,
     StiffnessTable,
 )
@@ -59,6 +62,8 @@ class DeckLineType:
     added_mass_axial: float
     #: Line of the file, 0 for a record that was not read.
     line: int = field(default=0, compare=False)
+    #: Of a viscoelastic rope, whose ``stiffness`` and ``damping`` are the dynamic ones.
+    slow: DeckSlowStretch | None = None
 
 
 @checks_words
@@ -139,6 +144,10 @@ class MoorDynDeck:
     source: str = field(default="", compare=False)
     #: What the reader says about the file that is no fault: options without meaning here, columns in another order.
     notes: tuple[str, ...] = field(default=(), compare=False)
+    #: Rows of FAILURE.
+    failures: tuple[DeckFailure, ...] = ()
+    #: When the option Currents is 2 or 5.
+    current_field: DeckCurrentField | None = None
     #: When the option WaveKin is 2, 3 or 7. Decks are written with 7, which needs no grid.
     waves: DeckWaves | None = None
 
@@ -148,6 +157,13 @@ class MoorDynDeck:
             if option.key == key and isinstance(option.value, float):
                 return option.value
         return FORMAT_DEFAULTS.get(key)
+
+    def in_depth(self, depth: float | None) -> MoorDynDeck:
+        """Return the deck in water of a depth [m]; as it is for ``None``. A grid of depths gives way to it."""
+        if depth is None:
+            return self
+        kept = tuple(option for option in self.options if option.key not in ("WtrDpth", "SeafloorFile"))
+        return replace(self, options=(*kept, DeckOption("WtrDpth", depth)), seafloor_depth=None)
 
     def point(self, number: int) -> DeckPoint:
         """Return the point of an ID.
@@ -258,12 +274,21 @@ def _value(option: DeckOption, waves: DeckWaves | None) -> str:
     return option.value if isinstance(option.value, str) else _digits(option.value)
 
 
+def _stiffness(kind: DeckLineType) -> str:
+    if isinstance(kind.stiffness, StiffnessTable):
+        return kind.stiffness.file
+    if kind.slow is None:
+        return _digits(kind.stiffness)
+    parts = [kind.slow.stiffness, kind.stiffness, *([kind.slow.growth] if kind.slow.growth else [])]
+    return "|".join(map(_digits, parts))
+
+
 def deck_text(deck: MoorDynDeck) -> str:
     """Return the text of a MoorDyn v2 input file; every number keeps all its digits."""
     kinds = [
         (
             t.name, _digits(t.diameter), _digits(t.mass_per_length),
-            t.stiffness.file if isinstance(t.stiffness, StiffnessTable) else _digits(t.stiffness), _digits(t.damping),
+            _stiffness(t), _digits(t.damping) if t.slow is None else f"{_digits(t.slow.damping)}|{_digits(t.damping)}",
             _digits(t.bending_stiffness), _digits(t.drag_normal), _digits(t.added_mass_normal), _digits(t.drag_axial),
             _digits(t.added_mass_axial),
         )
@@ -303,6 +328,16 @@ def deck_text(deck: MoorDynDeck) -> str:
             lines,
             keep,
         ),
+        *_section(
+            "FAILURE",
+            "FailureID Point Line(s) FailTime FailTen",
+            "() () (,) (s) (N)",
+            [
+                (str(f.number), str(f.point), str(f.line_number), _digits(f.time), _digits(f.tension))
+                for f in deck.failures
+            ],
+            False,
+        ),
         _title("OPTIONS"),
         *[f"{_value(o, deck.waves):<24}{o.key}" for o in deck.options],
     ]
@@ -339,6 +374,12 @@ def write_deck(deck: MoorDynDeck, path: str | Path) -> Path:
             "the deck takes its depth from a grid file, which is not written",
             path="options.SeafloorFile",
             remedy="replace it by WtrDpth",
+        )
+    if deck.current_field is not None:
+        raise InputError(
+            f"the deck takes its current from {deck.current_field.file}, which is not written",
+            path="options.Currents",
+            remedy="replace it by a steady current (Currents 1)",
         )
     place.write_text(deck_text(deck), encoding="utf-8")
     for kind in deck.line_types:

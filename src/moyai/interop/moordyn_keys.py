@@ -26,13 +26,15 @@ SECTIONS = {
     "BODY PROPERTIES": "bodies",
     "OPTIONS": "options",
     "SOLVER OPTIONS": "options",
+    "FAILURE": "failure",
+    "FAILURES": "failure",
+    "LINE FAILURE": "failure",
     "OUTPUTS": "outputs",
     "OUTPUT": "outputs",
 }
 
 #: Sections whose rows this reader refuses, and why.
 REFUSED_SECTIONS = {
-    "FAILURE": "failing lines are not read",
     "CONTROL": "lines of controlled length are not read",
     "EXTERNAL LOADS": "external loads are not read",
     "SYROPE IC": "the working curves of polyester ropes are not read",
@@ -65,17 +67,60 @@ POINT_COLUMNS = {
 LINE_COLUMNS = {
     "id": "number", "line": "number",
     "linetype": "line_type",
-    "attacha": "start", "nodea": "start", "nodeanch": "start",
-    "attachb": "end", "nodeb": "end", "nodefair": "end",
-    "unstrlen": "length",
-    "numsegs": "segments",
+    "attacha": "start", "nodea": "start", "nodeanch": "start", "enda": "start", "attachanch": "start",
+    "attachb": "end", "nodeb": "end", "nodefair": "end", "endb": "end", "attachfair": "end",
+    "unstrlen": "length", "unstretchedlength": "length",
+    "numsegs": "segments", "nseg": "segments", "segments": "segments",
     "outputs": "outputs", "lineoutputs": "outputs", "flags/outputs": "outputs",
+}  # fmt: skip
+
+FAILURE_COLUMNS = {
+    "failureid": "number", "id": "number",
+    "point": "point", "node": "point", "attachment": "point",
+    "line(s)": "lines", "lines": "lines", "line": "lines",
+    "failtime": "time", "time": "time",
+    "failten": "tension", "tension": "tension",
 }  # fmt: skip
 
 #: Columns in the order in which MoorDyn v2 takes them, whatever their headings say.
 LINE_TYPE_ORDER = (
     "name", "diameter", "mass_per_length", "stiffness", "damping", "bending_stiffness", "drag_normal",
     "added_mass_normal", "drag_axial", "added_mass_axial",
+)  # fmt: skip
+
+#: Orders in which versions 2 and 1 take the columns of each section, whatever their headings say.
+LAYOUTS: dict[str, tuple[tuple[str, ...], ...]] = {
+    "line types": (
+        (*LINE_TYPE_ORDER, "lift", "lift_range", "lift_frequency"),
+        ("name", "diameter", "mass_per_length", "stiffness", "damping", "added_mass_normal", "added_mass_axial",
+         "drag_normal", "drag_axial"),
+    ),
+    "points": (
+        ("number", "kind", "x", "y", "z", "mass", "volume", "drag_area", "added_mass_coefficient"),
+        ("number", "kind", "x", "y", "z", "mass", "volume", "force x", "force y", "force z", "drag_area",
+         "added_mass_coefficient"),
+    ),
+    "lines": (
+        ("number", "line_type", "start", "end", "length", "segments", "outputs"),
+        ("number", "line_type", "length", "segments", "start", "end", "outputs"),
+    ),
+    "rod types": (
+        ("name", "diameter", "mass_per_length", "drag_normal", "added_mass_normal", "drag_end", "added_mass_end"),
+    ),
+    "bodies": (
+        ("number", "kind", "x", "y", "z", "roll", "pitch", "yaw", "mass", "centre", "inertia", "volume", "drag_area",
+         "added_mass"),
+    ),
+    "failure": (("number", "point", "lines", "time", "tension"),),
+    "rods": (
+        ("number", "rod_type", "kind", "xa", "ya", "za", "xb", "yb", "zb", "segments", "outputs"),
+    ),
+}  # fmt: skip
+
+#: Columns that hold words, or numbers parted by |.
+WORDS = frozenset(
+    ("name", "kind", "line_type", "rod_type", "stiffness", "damping", "outputs", "start", "end", "centre", "inertia",
+     "drag_area", "added_mass", "point", "lines")
 )  # fmt: skip
 
 #: Columns that a section may go without (version 1 had no bending stiffness, OUTPUTS flags may be left out).
@@ -89,13 +134,13 @@ MAY_MISS = {
 POINT_KINDS = {
     "fixed": "fixed", "fix": "fixed", "anchor": "fixed", "anch": "fixed",
     "vessel": "coupled", "ves": "coupled", "coupled": "coupled", "cpld": "coupled",
-    "free": "free", "connect": "free", "con": "free", "point": "free", "pnt": "free",
+    "free": "free", "connect": "free", "connection": "free", "con": "free", "point": "free", "pnt": "free",
 }  # fmt: skip
 
 #: Options that a run here uses, by their names in lower case.
 OPTIONS_USED = {
-    "wtrdpth": "WtrDpth", "depth": "WtrDpth", "wtrdepth": "WtrDpth",
-    "wtrdnsty": "WtrDnsty", "rho": "WtrDnsty", "rhow": "WtrDnsty",
+    "wtrdpth": "WtrDpth", "depth": "WtrDpth", "wtrdepth": "WtrDpth", "waterdepth": "WtrDpth",
+    "wtrdnsty": "WtrDnsty", "rho": "WtrDnsty", "rhow": "WtrDnsty", "waterdensity": "WtrDnsty",
     "g": "g", "gravity": "g",
     "kbot": "kBot", "kb": "kBot",
     "cbot": "cBot", "cb": "cBot",
@@ -112,7 +157,9 @@ OPTIONS_WITHOUT_MEANING = {
     "dtic": "dtIC", "tmaxic": "TmaxIC", "cdscaleic": "CdScaleIC", "icdfac": "CdScaleIC", "threshic": "threshIC",
     "icgendynamic": "ICgenDynamic", "fileic": "fileIC", "disableoutput": "disableOutput",
     "disableouttime": "disableOutTime", "writeunits": "WriteUnits", "fricdamp": "FricDamp",
-    "statdynfricscale": "StatDynFricScale", "outswitch": "outSwitch",
+    "statdynfricscale": "StatDynFricScale", "mc": "StatDynFricScale", "cv": "FricDamp", "outswitch": "outSwitch",
+    "icthresh": "threshIC", "unifycurrentgrid": "unifyCurrentGrid", "inertialf": "inertialF",
+    "inertialf_rampt": "inertialF_rampT", "dtscheme": "tScheme", "tmax": "TmaxIC",
 }  # fmt: skip
 
 #: Values of WaveKin and what is read.
@@ -123,13 +170,11 @@ WAVES_READ = {
 
 #: Values of WaveKin and Currents that are refused, in words.
 WAVE_KINEMATICS = {
-    4.0: "Fourier sums at the nodes",
-    5.0: "kinematics at the nodes",
-    6.0: "kinematics on a grid",
+    4.0: "Fourier sums at the nodes, which MoorDyn has not either",
+    5.0: "kinematics at the nodes, which MoorDyn has not either",
+    6.0: "kinematics on a grid, which MoorDyn has not either",
 }
 CURRENT_KINDS = {
-    2.0: "a profile that changes with time",
-    3.0: "a steady current at the nodes",
-    4.0: "a changing current at the nodes",
-    5.0: "currents on a grid of places and times",
+    3.0: "a steady current at the nodes, which MoorDyn has not either",
+    4.0: "a changing current at the nodes, which MoorDyn has not either",
 }

@@ -16,6 +16,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 
@@ -23,8 +24,9 @@ from moyai.core.errors import CaseError, Fault, InputError
 from moyai.flexible.build import NetworkBuilder
 from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import DRIVEN, FIXED, BarType, Bed, Network, RopeCurve
+from moyai.flexible.network import DRIVEN, FIXED, BarType, Bed, Network, RopeCurve, SlowStretch
 from moyai.flexible.result import State
+from moyai.interop.moordyn_currents import read_current_field
 from moyai.interop.moordyn_deck import (
     DeckLine,
     DeckLineType,
@@ -32,15 +34,15 @@ from moyai.interop.moordyn_deck import (
     MoorDynDeck,
     PointKind,
 )
-from moyai.interop.moordyn_records import DeckOption, StiffnessTable
+from moyai.interop.moordyn_records import DeckOption, DeckSlowStretch, StiffnessTable
 from moyai.interop.moordyn_waves import wave_components
 from moyai.sea.current import table as current_table
 from moyai.sea.water import Water
 
 #: Part of the stable step of the explicit scheme here that MoorDyn is given, and the longest step at all [s].
 SAFE_SHARE, LONGEST_STEP = 0.25, 0.05
-#: Density that stands for no water at all [kg/m3].
-TRACE = 1e-9
+#: Density [kg/m3] and gravity [m/s2] that stand for none at all.
+TRACE, TRACE_OF_GRAVITY = 1e-3, 1e-6
 
 
 def point_name(number: int) -> str:
@@ -64,12 +66,15 @@ def water_of(deck: MoorDynDeck) -> Water:
     depth = deck.seafloor_depth if deck.seafloor_depth is not None else deck.number("WtrDpth")
     if depth is None:
         raise InputError(
-            f"{deck.source or 'the deck'} gives no water depth", path="WtrDpth", remedy="pass the water to to_network"
+            f"{deck.source or 'the deck'} gives no water depth",
+            path="WtrDpth",
+            remedy="give it: --depth of moyai run and moyai convert, in_depth of the deck, or water of to_network",
         )
     density, gravity = deck.number("WtrDnsty"), deck.number("g")
     # a deck without water is run in a trace of it
     thin = TRACE if density == 0.0 else density
-    return Water(depth, thin if thin is not None else math.nan, gravity if gravity is not None else math.nan)
+    pull = TRACE_OF_GRAVITY if gravity == 0.0 else gravity
+    return Water(depth, thin if thin is not None else math.nan, pull if pull is not None else math.nan)
 
 
 def flow_of(deck: MoorDynDeck, water: Water | None = None) -> Flow:
@@ -84,8 +89,12 @@ def flow_of(deck: MoorDynDeck, water: Water | None = None) -> Flow:
         Instead of the deck's own.
     """
     waves = None if deck.waves is None else wave_components(deck.waves, water or water_of(deck))
+    field = None
+    if deck.current_field is not None:
+        given = deck.current_field
+        field = read_current_field(Path(given.folder) / given.file, given.form)
     if deck.current is None:
-        return Flow(waves=waves, stretching="constant")
+        return Flow(waves=waves, stretching="constant", field=field)
     z, velocity = np.array(deck.current.z), np.array(deck.current.velocity)
     wet = z <= 0.0
     if not wet.all() and wet.any() and z[wet][-1] < 0.0:
@@ -125,6 +134,7 @@ def bar_type(kind: DeckLineType, segment_length: float) -> BarType:
         added_mass_tangential=kind.added_mass_axial,
         bending_stiffness=kind.bending_stiffness,
         curve=curve,
+        slow=None if kind.slow is None else SlowStretch(kind.slow.stiffness, kind.slow.damping, kind.slow.growth),
     )
 
 
@@ -375,6 +385,8 @@ def _line_types(network: Network, equivalent: list[float]) -> tuple[tuple[DeckLi
         made = DeckLineType(
             name, diameter, kind.mass_per_length, stiffness, kind.viscosity, kind.bending_stiffness, kind.drag_normal,
             kind.added_mass_normal, kind.drag_tangential / math.pi, kind.added_mass_tangential,
+            slow=None if kind.slow is None
+            else DeckSlowStretch(kind.slow.static_stiffness, kind.slow.viscosity, kind.slow.growth),
         )  # fmt: skip
         ratio = kind.diameter / diameter
         if abs(ratio - 1.0) > 1e-12:

@@ -1,7 +1,8 @@
 """Read MoorDyn input files; all faults of a file come at once, each with its line.
 
-MoorDyn itself passes over what it does not know and takes columns by their place. Here unknown sections, keys and
-columns are faults, and columns go by their headings; where the place would have given other values a note says so.
+MoorDyn itself passes over what it does not know and takes columns by their place. Here columns go by their headings;
+where a heading is not known by its place, and where the place would have given other values, a note says so. Options
+that are not known are noted and skipped, unless they look like one that a run needs.
 """
 
 from __future__ import annotations
@@ -11,9 +12,9 @@ import math
 import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
-from moyai.core.errors import CaseError
+from moyai.core.errors import CaseError, InputError
 from moyai.core.foreign_files import reads
 from moyai.interop import moordyn_keys as keys
 from moyai.interop.moordyn_bodies import (
@@ -26,10 +27,12 @@ from moyai.interop.moordyn_bodies import (
     read_bodies,
     read_rod_types,
     read_rods,
+    unnumbered,
 )
+from moyai.interop.moordyn_currents import FIELD_FILES, read_current_field
 from moyai.interop.moordyn_deck import DeckLine, DeckLineType, DeckPoint, MoorDynDeck
-from moyai.interop.moordyn_records import CURRENT_FILE, DeckOption
-from moyai.interop.moordyn_rows import Faults, Row, read_current, read_flat_depth, read_stiffness
+from moyai.interop.moordyn_records import CURRENT_FILE, DeckCurrentField, DeckFailure, DeckOption
+from moyai.interop.moordyn_rows import Faults, Row, file_of, read_current, read_flat_depth, read_stiffness
 from moyai.interop.moordyn_waves import read_waves
 from moyai.interop.textfiles import parse_number, read_lines
 
@@ -57,6 +60,7 @@ def _split(lines: list[str], faults: Faults) -> dict[str, tuple[int, list[tuple[
                 body.append((number, text))
             continue
         title = " ".join(rule[1].strip("- ").upper().split())
+        title = _section_of(title)
         name = keys.SECTIONS.get(title)
         if title in keys.REFUSED_SECTIONS:
             body = []
@@ -81,6 +85,17 @@ def _split(lines: list[str], faults: Faults) -> dict[str, tuple[int, list[tuple[
     return sections
 
 
+def _section_of(title: str) -> str:
+    """Return the section that a title begins with, or holds as two words; the title itself where it names none."""
+    known = sorted([*keys.SECTIONS, *keys.REFUSED_SECTIONS], key=len, reverse=True)
+    if title in known:
+        return title
+    for name in known:
+        if re.match(rf"{name}\b", title) or (" " in name and re.search(rf"\b{name}\b", title)):
+            return name
+    return title
+
+
 def _meant(
     title: str, number: int, sections: dict[str, tuple[int, list[tuple[int, str]]]]
 ) -> list[tuple[int, str]] | None:
@@ -94,8 +109,64 @@ def _meant(
     return body
 
 
+def _is_data(text: str, names: list[str] | None) -> bool:
+    """Whether a row holds the entries of a table: numbers wherever its columns hold numbers."""
+    cells = _tokens(text)
+    if names is None:
+        return False
+    fewest = len(names) - (1 if names[-1] == "outputs" else 0)
+    return fewest <= len(cells) <= len(names) and all(
+        parse_number(cell) is not None for name, cell in zip(names, cells) if name not in keys.WORDS
+    )
+
+
+def _names(
+    section: str, head: tuple[int, str], columns: Mapping[str, str], faults: Faults, notes: list[str]
+) -> list[str]:
+    """Return the columns of a section by their headings, those with unknown headings by their place; none if faulty."""
+    words = _tokens(head[1])
+    names: list[str] = []
+    for word in words:
+        # the third angle of a body has the name of its second coordinate
+        second = section == "bodies" and word.lower() == "y0" and "y" in names
+        names.append("yaw" if second else columns.get(word.lower(), ""))
+    if "" in names:
+        odd = [word for word, name in zip(words, names) if not name]
+        layout = next(
+            (
+                row[: len(names)]
+                for row in keys.LAYOUTS[section]
+                if len(names) <= len(row) and all(name in ("", place) for name, place in zip(names, row))
+            ),
+            None,
+        )
+        if layout is None:
+            for word in odd:
+                faults.add(
+                    head[0], f"unknown column {word!r}", ", ".join(columns), _suggest(word.lower(), columns), section
+                )
+            faults.broken.add(section)
+            return []
+        names = list(layout)
+        notes.append(f"line {head[0]}: columns {', '.join(odd)} of {section.upper()} are taken by their place")
+    for index, name in enumerate(names):
+        if name in names[:index]:
+            faults.add(head[0], f"column {words[index]!r} comes a second time", path=section)
+    missing = [c for c in dict.fromkeys(columns.values()) if c not in names and c not in keys.MAY_MISS.get(section, ())]
+    if missing:
+        faults.add(head[0], f"no column for {', '.join(m.replace('_', ' ') for m in missing)}", path=section)
+        # its rows, and what refers to them, would be reported as faults that follow from this one
+        faults.broken.add(section)
+        return []
+    return names
+
+
 def _table(
-    section: str, sections: dict[str, tuple[int, list[tuple[int, str]]]], columns: Mapping[str, str], faults: Faults
+    section: str,
+    sections: dict[str, tuple[int, list[tuple[int, str]]]],
+    columns: Mapping[str, str],
+    faults: Faults,
+    notes: list[str],
 ) -> tuple[list[str], list[Row]]:
     """Return the columns and the rows of a section: names, units, then rows."""
     if section not in sections:
@@ -104,38 +175,33 @@ def _table(
         faults.add(0, f"section {section.upper()} is missing", path=section)
         return [], []
     top, body = sections[section]
-    if len(body) < 2:
+    if not body or (len(body) < 2 and not _is_data(body[0][1], None)):
         faults.add(
             top, f"section {section.upper()} is empty", "a row of names, a row of units, then rows", path=section
         )
         return [], []
-    head, units = body[0], body[1]
-    names: list[str] = []
-    for word in _tokens(head[1]):
-        # the third angle of a body has the name of its second coordinate
-        second = section == "bodies" and word.lower() == "y0" and "y" in names
-        column = "yaw" if second else columns.get(word.lower())
-        if column is None:
-            faults.add(
-                head[0], f"unknown column {word!r}", ", ".join(columns), _suggest(word.lower(), columns), section
-            )
-        elif column in names:
-            faults.add(head[0], f"column {word!r} comes a second time", path=section)
-        names.append(column or word)
-    missing = [c for c in dict.fromkeys(columns.values()) if c not in names and c not in keys.MAY_MISS[section]]
-    if missing:
-        faults.add(head[0], f"no column for {', '.join(m.replace('_', ' ') for m in missing)}", path=section)
-        # its rows, and what refers to them, would be reported as faults that follow from this one
-        faults.broken.add(section)
+    head = body[0]
+    names = _names(section, head, columns, faults, notes)
+    if not names:
         return [], []
-    if not units[1].lstrip().startswith("("):
-        faults.add(
-            units[0], f"the row under the names of {section.upper()} holds no units",
-            "a row such as (-) (m) ..., which the format passes over", path=section,
-        )  # fmt: skip
+    rest = body[1:]
+    if rest and not rest[0][1].lstrip().startswith("("):
+        number, text = rest[0]
+        if _is_data(text, names):
+            notes.append(f"line {number}: {section.upper()} has no row of units; MoorDyn would skip this row")
+        elif any(parse_number(word) is not None for word in _tokens(text)):
+            faults.add(
+                number, f"the row under the names of {section.upper()} holds no units",
+                "a row such as (-) (m) ..., which the format passes over", path=section,
+            )  # fmt: skip
+            rest = rest[1:]
+        else:
+            rest = rest[1:]
+    else:
+        rest = rest[1:]
     rows = []
     fewest = len(names) - (1 if names and names[-1] == "outputs" else 0)
-    for number, text in body[2:]:
+    for number, text in rest:
         cells = _tokens(text)
         if not cells:
             continue
@@ -158,15 +224,17 @@ def _line_types(names: list[str], rows: list[Row], folder: Path, faults: Faults)
         name = row.cells.get("name", "")
         if any(kind.name == name for kind in found):
             faults.add(row.line, f"two line types are named {name!r}", path="line types")
-        damping = row.cells.get("damping", "0")
-        if parse_number(damping) is None:
-            faults.add(row.line, f"damping is {damping!r}", "one number: BA in N s, or minus a damping ratio")
+        stiffness, slow = read_stiffness(row, folder, faults)
+        damping = row.cells.get("damping", "0").split("|")[-1]
+        if slow is None and (parse_number(damping) is None or "|" in row.cells.get("damping", "")):
+            words = f"damping is {row.cells.get('damping', '')!r}"
+            faults.add(row.line, words, "one number: BA in N s, or minus a damping ratio")
         found.append(
             DeckLineType(
                 name,
                 faults.number(row, "diameter", above=0.0),
                 faults.number(row, "mass_per_length", above=0.0),
-                read_stiffness(row, folder, faults),
+                stiffness,
                 parse_number(damping) or 0.0,
                 faults.number(row, "bending_stiffness", least=0.0),
                 faults.number(row, "drag_normal", least=0.0),
@@ -174,6 +242,7 @@ def _line_types(names: list[str], rows: list[Row], folder: Path, faults: Faults)
                 faults.number(row, "drag_axial", least=0.0),
                 faults.number(row, "added_mass_axial", least=0.0),
                 row.line,
+                slow,
             )
         )
     return tuple(found)
@@ -185,7 +254,7 @@ def _points(rows: list[Row], bodies: tuple[DeckBody, ...], faults: Faults) -> tu
     for row in rows:
         word = row.cells.get("kind", "")
         body = body_number(word)
-        kind = "body" if body else keys.POINT_KINDS.get(word.lower())
+        kind = "body" if body else keys.POINT_KINDS.get(unnumbered(word))
         if body and body not in known and "bodies" not in faults.broken:
             faults.add(
                 row.line, f"the point is on body {body}, which is not there", ", ".join(map(str, known)) or "none"
@@ -255,41 +324,92 @@ def _lines(
     return tuple(found)
 
 
-def _options(body: list[tuple[int, str]], faults: Faults, notes: list[str]) -> tuple[DeckOption, ...]:
+def _failures(rows: list[Row], lines: tuple[DeckLine, ...], faults: Faults) -> tuple[DeckFailure, ...]:
+    """Return the rows of FAILURE; one line a row, which hangs on the point that it names."""
+    found: list[DeckFailure] = []
+    for row in rows:
+        word = row.cells.get("point", "")
+        on_rod = re.fullmatch(r"(?:rod|r)(\d+)([ab])", word.lower())
+        point: int | str = f"R{on_rod[1]}{on_rod[2].upper()}" if on_rod else faults.whole(row, "point")
+        numbers = [parse_number(part) for part in row.cells.get("lines", "").split(",") if part]
+        if len(numbers) != 1 or numbers[0] is None:
+            faults.add(
+                row.line, f"lines {row.cells.get('lines', '')!r} part together", "one line a row", path="failure",
+                remedy="lines that stay joined to each other are not run: give each its row where they part singly",
+            )  # fmt: skip
+            continue
+        line = next((item for item in lines if item.number == numbers[0]), None)
+        if "lines" not in faults.broken and (line is None or point not in (line.start, line.end)):
+            faults.add(row.line, f"line {numbers[0]:g} does not hang on {word}", path="failure")
+        time, tension = faults.number(row, "time", least=0.0), faults.number(row, "tension", least=0.0)
+        if not time and not tension:
+            continue  # it never parts
+        found.append(DeckFailure(faults.whole(row, "number"), point, int(numbers[0]), time, tension, row.line))
+    return tuple(found)
+
+
+def _options(body: list[tuple[int, str]], folder: Path, faults: Faults, notes: list[str]) -> tuple[DeckOption, ...]:
     found: list[DeckOption] = []
     known = {**keys.OPTIONS_USED, **keys.OPTIONS_WITHOUT_MEANING}
     unused: list[str] = []
+    skipped: list[str] = []
     for number, text in body:
-        words = _tokens(text)
+        words = [word.strip("\"'") for word in _tokens(text.replace("=", " "))]
         if not words:
             continue
         if len(words) < 2:
             faults.add(number, f"option {words[0]!r} has no key", "a value, then its key", path="options")
             continue
+        if words[1].lower() not in known and words[0].lower() in known:
+            notes.append(f"line {number}: {words[0]} stands before its value; MoorDyn would pass over it")
+            words[:2] = words[1::-1]
         key = known.get(words[1].lower())
         if key is None:
-            turned = "the value stands before its key" if words[0].lower() in known else ""
-            close = difflib.get_close_matches(words[1].lower(), list(known), n=1)
-            remedy = turned or (f"did you mean {known[close[0]]!r}?" if close else "")
-            allowed = "" if close else ", ".join(dict.fromkeys(known.values()))
-            faults.add(number, f"unknown option {words[1]!r}", allowed, remedy, "options")
+            close = difflib.get_close_matches(words[1].lower(), list(keys.OPTIONS_USED), n=1, cutoff=0.75)
+            if close:
+                meant = f"did you mean {known[close[0]]!r}?"
+                faults.add(number, f"unknown option {words[1]!r}", remedy=meant, path="options")
+            else:
+                skipped.append(f"{words[1]} (line {number})")
+            continue
+        if words[0].upper() == "DEFAULT":
             continue
         before = next((option for option in found if option.key == key), None)
         if before is not None:
             # some decks of MoorDyn's own give the density twice under two names: the last one counts
             notes.append(f"line {number}: {words[1]} replaces {key} of line {before.line}")
             found.remove(before)
-        value = parse_number(words[0])
+        value = {"true": 1.0, "t": 1.0, "false": 0.0, "f": 0.0}.get(words[0].lower(), parse_number(words[0]))
+        if key == "WtrDpth" and value is None and file_of(words[0], folder) is not None:
+            # the Fortran version takes the name of a depth file here
+            key = "SeafloorFile"
         if words[1].lower() in keys.OPTIONS_WITHOUT_MEANING:
             unused.append(key)
         elif key != "SeafloorFile" and (value is None or not math.isfinite(value)):
-            # the Fortran version takes the name of a depth file here
             faults.add(number, f"{key} is {words[0]!r}, which is no number", path=key)
             continue
         found.append(DeckOption(key, words[0] if value is None else value, number))
+    if skipped:
+        notes.append(f"not known, and skipped: {', '.join(skipped)}")
     if unused:
         notes.append(f"kept, without meaning here: {', '.join(dict.fromkeys(unused))}")
     return tuple(found)
+
+
+def _current_field(option: DeckOption, folder: Path, faults: Faults) -> DeckCurrentField | None:
+    """Return the current that changes with time of the file next to the deck, once it was read without a fault."""
+    form: Literal["profile", "grid"] = "profile" if option.value == 2.0 else "grid"
+    name = FIELD_FILES[form]
+    if not (folder / name).is_file():
+        words = f"Currents is {option.value:g}, but there is no {name} next to the deck"
+        faults.add(option.line, words, path="Currents")
+        return None
+    try:
+        read_current_field(folder / name, form)
+    except InputError as error:
+        faults.add(option.line, error.fault.message, error.fault.allowed, path="Currents")
+        return None
+    return DeckCurrentField(name, form, str(folder.resolve()))
 
 
 def _check_option_values(deck_options: tuple[DeckOption, ...], faults: Faults) -> None:
@@ -306,11 +426,12 @@ def _check_option_values(deck_options: tuple[DeckOption, ...], faults: Faults) -
             words = keys.WAVE_KINEMATICS.get(value, "unknown")
             allowed = ", ".join(f"{number:g}: {text}" for number, text in keys.WAVES_READ.items())
             faults.add(option.line, f"WaveKin {value:g} ({words}) is not read", allowed, path="WaveKin")
-        if option.key == "Currents" and value not in (0.0, 1.0):
+        if option.key == "Currents" and value not in (0.0, 1.0, 2.0, 5.0):
             words = keys.CURRENT_KINDS.get(value, "unknown")
             faults.add(
-                option.line, f"Currents {value:g} ({words}) is not read", f"0, or 1: {CURRENT_FILE}", path="Currents"
-            )
+                option.line, f"Currents {value:g} ({words}) is not read",
+                f"0, 1: {CURRENT_FILE}, 2: {FIELD_FILES['profile']}, 5: {FIELD_FILES['grid']}", path="Currents",
+            )  # fmt: skip
         if option.key == "dtWave" and value <= 0.0:
             faults.add(option.line, f"dtWave is {value:g}", "greater than 0", path="dtWave")
         if option.key == "StatDynFricScale" and value != 1.0:
@@ -361,21 +482,22 @@ def read_deck(path: str | Path) -> MoorDynDeck:
         if why and title in sections and len(sections[title][1]) > 2:
             top, body = sections[title]
             faults.add(top, f"section {title} with {len(body) - 2} row(s): {why}", path=title.lower())
-    names, kind_rows = _table("line types", sections, keys.LINE_TYPE_COLUMNS, faults)
+    names, kind_rows = _table("line types", sections, keys.LINE_TYPE_COLUMNS, faults, notes)
     kinds = _line_types(names, kind_rows, place.parent, faults)
     if names and tuple(names[: len(keys.LINE_TYPE_ORDER)]) != keys.LINE_TYPE_ORDER:
         notes.append(
             f"line {kind_rows[0].line - 2 if kind_rows else 0}: the columns of LINE TYPES stand in another order than "
             "MoorDyn v2 takes them; they are read by their headings"
         )
-    rod_types = read_rod_types(_table("rod types", sections, ROD_TYPE_COLUMNS, faults)[1], faults)
-    bodies = read_bodies(_table("bodies", sections, BODY_COLUMNS, faults)[1], faults)
-    rods = read_rods(_table("rods", sections, ROD_COLUMNS, faults)[1], rod_types, bodies, faults)
-    points = _points(_table("points", sections, keys.POINT_COLUMNS, faults)[1], bodies, faults)
-    rows = _lines(_table("lines", sections, keys.LINE_COLUMNS, faults)[1], kinds, points, rods, faults)
-    options = _options(sections.get("options", (0, []))[1], faults, notes)
+    rod_types = read_rod_types(_table("rod types", sections, ROD_TYPE_COLUMNS, faults, notes)[1], faults)
+    bodies = read_bodies(_table("bodies", sections, BODY_COLUMNS, faults, notes)[1], faults)
+    rods = read_rods(_table("rods", sections, ROD_COLUMNS, faults, notes)[1], rod_types, bodies, faults)
+    points = _points(_table("points", sections, keys.POINT_COLUMNS, faults, notes)[1], bodies, faults)
+    rows = _lines(_table("lines", sections, keys.LINE_COLUMNS, faults, notes)[1], kinds, points, rods, faults)
+    failures = _failures(_table("failure", sections, keys.FAILURE_COLUMNS, faults, notes)[1], rows, faults)
+    options = _options(sections.get("options", (0, []))[1], place.parent, faults, notes)
     _check_option_values(options, faults)
-    current, depth, waves = None, None, None
+    current, field, depth, waves = None, None, None, None
     steps = [option.value for option in options if option.key == "dtWave" and isinstance(option.value, float)]
     for option in options:
         if option.key == "WaveKin" and option.value in (2.0, 3.0, 7.0):
@@ -385,6 +507,8 @@ def read_deck(path: str | Path) -> MoorDynDeck:
             notes.append(f"line {option.line}: WaveKin 1: the waves come from the program that runs MoorDyn; none here")
         if option.key == "Currents" and option.value == 1.0:
             current = read_current(option, place.parent, faults)
+        if option.key == "Currents" and option.value in (2.0, 5.0):
+            field = _current_field(option, place.parent, faults)
         if option.key == "SeafloorFile":
             depth = read_flat_depth(option, place.parent, faults)
     outputs = [word for _, text in sections.get("outputs", (0, []))[1] for word in text.replace(",", " ").split()]
@@ -392,7 +516,7 @@ def read_deck(path: str | Path) -> MoorDynDeck:
     title = lines[1].strip() if len(lines) > 1 and not _RULE.match(lines[1]) else ""
     deck = MoorDynDeck(
         kinds, points, rows, options, tuple(outputs), current, depth, rod_types, bodies, rods, title, place.name,
-        tuple(notes), waves,
+        tuple(notes), failures, field, waves,
     )  # fmt: skip
     _check_site(deck, faults)
     if faults.found:

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Literal
+
+from moyai.core.options import checks_words
 
 #: Name that MoorDyn gives the profile of a steady current, next to the deck.
 CURRENT_FILE = "current_profile.txt"
@@ -18,6 +21,34 @@ class StiffnessTable:
     tension: tuple[float, ...]
     #: Name of the file, next to the deck.
     file: str
+
+
+@dataclass(frozen=True)
+class DeckSlowStretch:
+    """Numbers parted by | in a line type: static stiffness and damping of a viscoelastic rope."""
+
+    #: EA_s [N], BA_s [N s].
+    stiffness: float
+    damping: float
+    #: EA_D_Lm, by which the dynamic stiffness grows with the mean load [-].
+    growth: float = 0.0
+
+
+@dataclass(frozen=True)
+class DeckFailure:
+    """A row of FAILURE: a line that parts from a point."""
+
+    number: int
+    #: ID of a point, or end of a rod such as ``R1A``.
+    point: int | str
+    #: ID of the line.
+    line_number: int
+    #: [s], 0 for none.
+    time: float
+    #: [N], 0 for none.
+    tension: float
+    #: Line of the file.
+    line: int = field(default=0, compare=False)
 
 
 @dataclass(frozen=True)
@@ -40,6 +71,19 @@ class DeckCurrent:
     z: tuple[float, ...]
     #: Horizontal components at them [m/s].
     velocity: tuple[tuple[float, float], ...]
+
+
+@checks_words
+@dataclass(frozen=True)
+class DeckCurrentField:
+    """A current that changes with time, in a file next to the deck."""
+
+    #: Name of the file.
+    file: str
+    #: ``profile`` over the height, or ``grid`` in space.
+    form: Literal["profile", "grid"]
+    #: Where the file stands.
+    folder: str = field(default="", compare=False)
 
 
 #: Names that MoorDyn gives the files of waves, next to the deck.

@@ -9,7 +9,7 @@ from itertools import pairwise
 from pathlib import Path
 
 from moyai.core.errors import Fault
-from moyai.interop.moordyn_records import CURRENT_FILE, DeckCurrent, DeckOption, StiffnessTable
+from moyai.interop.moordyn_records import CURRENT_FILE, DeckCurrent, DeckOption, DeckSlowStretch, StiffnessTable
 from moyai.interop.textfiles import parse_number, read_lines
 
 
@@ -57,17 +57,41 @@ class Faults:
         return int(value)
 
 
-def read_stiffness(row: Row, folder: Path, faults: Faults) -> float | StiffnessTable:
-    """Return EA [N] of a row, or the table of the file that stands in its place."""
+def read_stiffness(row: Row, folder: Path, faults: Faults) -> tuple[float | StiffnessTable, DeckSlowStretch | None]:
+    """Return EA [N] of a row or the table of its file, and the slow stretch of a viscoelastic rope."""
     text = row.cells.get("stiffness", "")
     if parse_number(text) is not None:
-        return faults.number(row, "stiffness", above=0.0)
-    if "|" in text or text.upper().startswith("SYROPE"):
+        return faults.number(row, "stiffness", above=0.0), None
+    if text.upper().startswith("SYROPE"):
         faults.add(
-            row.line, f"stiffness {text!r}: ropes whose stiffness depends on rate or history are not read",
-            "EA in N, or a file of strain and tension", path="stiffness",
+            row.line, f"stiffness {text!r}: ropes whose stiffness depends on their history (Syrope) are not read",
+            "EA in N, EA_s|EA_d, or a file of strain and tension", path="stiffness",
         )  # fmt: skip
-        return math.nan
+        return math.nan, None
+    if "|" in text:
+        return _viscoelastic(row, text, faults)
+    return _stiffness_table(row, text, folder, faults), None
+
+
+def _viscoelastic(row: Row, text: str, faults: Faults) -> tuple[float, DeckSlowStretch | None]:
+    """Return the dynamic stiffness and the rest of EA_s|EA_d or EA_s|EA_Dc|EA_D_Lm with BA_s|BA_d."""
+    stiffness = [parse_number(part) for part in text.split("|")]
+    damping = [parse_number(part) for part in row.cells.get("damping", "").split("|")]
+    numbers = [value for value in (*stiffness, *damping) if value is not None and value > 0.0]
+    if len(stiffness) not in (2, 3) or len(damping) != 2 or len(numbers) != len(stiffness) + len(damping):
+        faults.add(
+            row.line, f"stiffness {text!r} with damping {row.cells.get('damping', '')!r}",
+            "EA_s|EA_d or EA_s|EA_Dc|EA_D_Lm with BA_s|BA_d, all greater than 0", path="stiffness",
+        )  # fmt: skip
+        return math.nan, None
+    if numbers[1] <= numbers[0]:
+        faults.add(row.line, f"stiffness {text!r}", "a dynamic stiffness above the static one", path="stiffness")
+        return math.nan, None
+    slow = DeckSlowStretch(numbers[0], numbers[len(stiffness)], numbers[2] if len(stiffness) == 3 else 0.0)
+    return numbers[1], slow
+
+
+def _stiffness_table(row: Row, text: str, folder: Path, faults: Faults) -> float | StiffnessTable:
     place = folder / text
     if not place.is_file():
         faults.add(row.line, f"stiffness is {text!r}, neither a number nor a file next to the deck", path="stiffness")
@@ -129,9 +153,16 @@ def read_current(option: DeckOption, folder: Path, faults: Faults) -> DeckCurren
     return DeckCurrent(tuple(r[0] for r in rows), tuple((r[1], r[2]) for r in rows))
 
 
+def file_of(name: str, folder: Path) -> Path | None:
+    """Return a file that a deck names from wherever its program was started: next to the deck, or below it."""
+    parts = Path(name.strip("\"'").replace("\\", "/")).parts
+    tries = (folder.joinpath(*parts[first:]) for first in range(len(parts)))
+    return next((place for place in tries if place.is_file()), None)
+
+
 def read_flat_depth(option: DeckOption, folder: Path, faults: Faults) -> float | None:
     """Return the depth of a grid file that is flat."""
-    place = next((p for p in (folder / str(option.value), folder / Path(str(option.value)).name) if p.is_file()), None)
+    place = file_of(str(option.value), folder)
     if place is None:
         faults.add(option.line, f"there is no file {option.value!s} next to the deck", path="SeafloorFile")
         return None

@@ -1,5 +1,9 @@
 """NEMOH results (version 2 and 3): Nemoh.cal and the folder Results with CM, CA and the exciting force.
 
+Of several bodies the motions of all follow one another in the rows and columns. Phases refer to the wave measurement
+point (XEFF, YEFF) of Nemoh.cal; here they are referred to x = y = 0. Version 2 has RadiationCoefficients.tec in place
+of CM and CA.
+
 SI units. NEMOH's time factor is exp(-i omega t), like ours: the heave force of a floating body leads the crest, since
 radiation damping follows the velocity, and its phase is negative. A depth of 0 stands for infinite depth. Row i,
 column j of CM and CA is the force j for the motion i.
@@ -14,14 +18,17 @@ from pathlib import Path
 
 import numpy as np
 import xarray as xr
+from scipy.linalg import block_diag
 
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
 from moyai.core.foreign_files import reads
-from moyai.interop.coefficients import DOFS, assemble
+from moyai.interop.bodies import distinct, one_body, refer_phase
+from moyai.interop.coefficients import DOFS, assemble, dof_names
 from moyai.interop.textfiles import leading_numbers, parse_number, read_lines
 
 _HEADING = re.compile(r"beta\s*=\s*([-+\d.eEdD]+)", re.IGNORECASE)
+_MOTION = re.compile(r"(Motion of body.*)", re.IGNORECASE)
 _FREQUENCY = {1: "angular frequency", 2: "frequency", 3: "period"}
 
 
@@ -33,18 +40,22 @@ class _Control:
     gravity: float
     water_depth: float
     dofs: tuple[str, ...]
-    reference_point: tuple[float, float, float]
+    bodies: tuple[str, ...]
+    reference_points: tuple[tuple[float, float, float], ...]
+    wave_point: tuple[float, float]
     frequency_type: int
 
 
 @reads("results of NEMOH", named="coefficients")
-def read_nemoh(folder: str | Path) -> xr.Dataset:
-    """Read the results of one body.
+def read_nemoh(folder: str | Path, *, body: int | str | None = None) -> xr.Dataset:
+    """Read the results of one or several bodies.
 
     Parameters
     ----------
     folder : path
         Folder that holds ``Nemoh.cal`` and ``Results``; or the folder ``Results`` itself, or a file in it.
+    body : int or str, optional
+        One of several bodies, by number from 1 or by the name of its mesh; all of them when absent.
 
     Returns
     -------
@@ -54,7 +65,7 @@ def read_nemoh(folder: str | Path) -> xr.Dataset:
     Raises
     ------
     InputError
-        Missing files, several bodies, degrees of freedom that are not rigid motions about one point.
+        Missing files, no such body, degrees of freedom that are not rigid motions about one point of each body.
     """
     place = Path(folder)
     place = place.parent if place.is_file() else place
@@ -62,10 +73,7 @@ def read_nemoh(folder: str | Path) -> xr.Dataset:
     control = _read_control(_find(root, "Nemoh.cal"))
     results = _find(root, "Results")
     count = len(control.dofs)
-    omega, added_mass = _read_matrices(_find(results, "CM.dat"), count, control.frequency_type)
-    other, damping = _read_matrices(_find(results, "CA.dat"), count, control.frequency_type)
-    if omega.shape != other.shape or not np.allclose(omega, other, rtol=1e-6):
-        raise InputError("CM.dat and CA.dat hold different frequencies", path="coefficients")
+    omega, added_mass, damping = _read_radiation(results, count, control.frequency_type)
     directions, excitation = _read_force(results, ("ExcitationForce.tec", "Fe.dat"), omega, control)
     forces = {"excitation_force": excitation}
     for name, file in (("Froude_Krylov_force", "FKForce.tec"), ("diffraction_force", "DiffractionForce.tec")):
@@ -73,7 +81,7 @@ def read_nemoh(folder: str | Path) -> xr.Dataset:
             same, values = _read_force(results, (file,), omega, control)
             if np.array_equal(same, directions):
                 forces[name] = values
-    return assemble(
+    dataset = assemble(
         program="NEMOH",
         source=root.name,
         dofs=control.dofs,
@@ -85,9 +93,13 @@ def read_nemoh(folder: str | Path) -> xr.Dataset:
         density=control.density,
         gravity=control.gravity,
         water_depth=control.water_depth,
-        reference_point=control.reference_point,
+        reference_point=control.reference_points,
         hydrostatic_stiffness=_read_stiffness(root, control),
+        bodies=control.bodies,
     )
+    # The wave has its crest over the measurement point: the origin lies at minus that point from there
+    dataset = refer_phase(dataset, -np.array(control.wave_point))
+    return dataset if body is None else one_body(dataset, body)
 
 
 def _find(folder: Path, name: str) -> Path:
@@ -104,30 +116,39 @@ def _read_control(path: Path) -> _Control:
     lines = [line for line in read_lines(path) if line.strip() and not line.lstrip().startswith("--")]
     entries = [leading_numbers(line) for line in lines]
     density, gravity, depth = entries[0][0], entries[1][0], entries[2][0]
-    if int(entries[4][0]) != 1:
-        raise InputError(f"{path.name}: {int(entries[4][0])} bodies", path="coefficients", allowed="one body")
-    cursor = 7
-    count = int(entries[cursor][0])
-    names, points = [], set()
-    for entry in entries[cursor + 1 : cursor + 1 + count]:
-        name, point = _degree_of_freedom(entry, path)
-        names.append(name)
-        if point is not None:
-            points.add(point)
-    if len(points) > 1:
-        raise InputError(f"{path.name}: rotations about different points", path="coefficients", allowed="one point")
-    cursor += count + 1
-    forces = entries[cursor + 1 : cursor + 1 + int(entries[cursor][0])]
-    if [_degree_of_freedom(entry, path) for entry in forces] != [
-        _degree_of_freedom(entry, path) for entry in entries[8 : 8 + count]
-    ]:
-        raise InputError(f"{path.name}: generalised forces differ from the degrees of freedom", path="coefficients")
+    wave_point = (entries[3][0], entries[3][1]) if len(entries[3]) > 1 else (0.0, 0.0)
+    count = int(entries[4][0])
+    names, dofs, points = [], [], []
+    cursor = 5
+    for _ in range(count):
+        # mesh, size of the mesh, motions, forces, additional lines
+        names.append(lines[cursor].split()[0].replace("\\", "/").split("/")[-1].rsplit(".", 1)[0])
+        motions, cursor = _block(entries, cursor + 2)
+        forces, cursor = _block(entries, cursor)
+        cursor += int(entries[cursor][0]) + 1
+        found = [_degree_of_freedom(entry, path) for entry in motions]
+        if [_degree_of_freedom(entry, path) for entry in forces] != found:
+            raise InputError(f"{path.name}: generalised forces differ from the degrees of freedom", path="coefficients")
+        about = {point for _, point in found if point is not None}
+        if len(about) > 1:
+            raise InputError(f"{path.name}: rotations about different points", path="coefficients", allowed="one point")
+        dofs.append([name for name, _ in found])
+        points.append(about.pop() if about else (0.0, 0.0, 0.0))
+    bodies = distinct(names) if count > 1 else ()
+    named = [f"{body}__{name}" for body, own in zip(bodies, dofs) for name in own] if bodies else dofs[0]
     # The first line after the bodies: (type,) number, least and largest frequency; version 2 has no type, always rad/s
-    extra = int(entries[cursor + 1 + len(forces)][0])
-    frequencies = entries[cursor + 2 + len(forces) + extra]
+    frequencies = entries[cursor]
     frequency_type = _output_type(lines, int(frequencies[0]) if len(frequencies) == 4 else 1)
-    point = points.pop() if points else (0.0, 0.0, 0.0)
-    return _Control(density, gravity, depth if depth > 0.0 else math.inf, tuple(names), point, frequency_type)
+    return _Control(
+        density, gravity, depth if depth > 0.0 else math.inf, tuple(named), bodies, tuple(points), wave_point,
+        frequency_type,
+    )  # fmt: skip
+
+
+def _block(entries: list[list[float]], cursor: int) -> tuple[list[list[float]], int]:
+    """Return the lines that a line with their number announces, and where the next one stands."""
+    end = cursor + 1 + int(entries[cursor][0])
+    return entries[cursor + 1 : end], end
 
 
 def _output_type(lines: list[str], stated: int) -> int:
@@ -159,6 +180,39 @@ def _to_omega(values: Array, frequency_type: int) -> Array:
     raise InputError(f"frequency type {frequency_type}", path="coefficients", allowed=str(_FREQUENCY))
 
 
+def _read_radiation(results: Path, count: int, frequency_type: int) -> tuple[Array, Array, Array]:
+    """Return frequencies, added mass and damping (frequency, radiating, influenced)."""
+    if (
+        not any((results / name).is_file() for name in ("CM.dat", "cm.dat"))
+        and (old := results / "RadiationCoefficients.tec").is_file()
+    ):
+        zones = [np.array(zone) for _, zone in _zones(old, _MOTION)]
+        if len(zones) != count or any(zone.shape != (len(zones[0]), 1 + 2 * count) for zone in zones):
+            raise InputError(
+                f"{old.name}: expected {count} zones of rows of {1 + 2 * count} numbers", path="coefficients"
+            )
+        table = np.array(zones).swapaxes(0, 1)
+        return _to_omega(table[:, 0, 0], frequency_type), table[:, :, 1::2], table[:, :, 2::2]
+    omega, added_mass = _read_matrices(_find(results, "CM.dat"), count, frequency_type)
+    other, damping = _read_matrices(_find(results, "CA.dat"), count, frequency_type)
+    if omega.shape != other.shape or not np.allclose(omega, other, rtol=1e-6):
+        raise InputError("CM.dat and CA.dat hold different frequencies", path="coefficients")
+    # Row i, column j is the force j for the motion i
+    return omega, added_mass, damping
+
+
+def _zones(path: Path, title: re.Pattern[str]) -> list[tuple[str, list[list[float]]]]:
+    """Return what the title of each zone holds, with its rows of numbers."""
+    zones: list[tuple[str, list[list[float]]]] = []
+    for line in read_lines(path):
+        found = title.search(line)
+        if found:
+            zones.append((found[1], []))
+        elif zones and line.strip():
+            zones[-1][1].append([value for value in map(parse_number, line.split()) if value is not None])
+    return zones
+
+
 def _read_matrices(path: Path, count: int, frequency_type: int) -> tuple[Array, Array]:
     numbers = [parse_number(token) for line in read_lines(path)[1:] for token in line.split()]
     block = 1 + count * count
@@ -177,15 +231,9 @@ def _read_force(results: Path, names: tuple[str, ...], omega: Array, control: _C
     if path is None:
         raise InputError(f"no {' or '.join(names)} in {results}", path="coefficients")
     count = len(control.dofs)
-    headings: list[float] = []
-    zones: list[list[list[float]]] = []
-    for line in read_lines(path):
-        heading = _HEADING.search(line)
-        if heading:
-            headings.append(float(heading[1].replace("D", "E").replace("d", "e")))
-            zones.append([])
-        elif zones and line.strip():
-            zones[-1].append([value for value in map(parse_number, line.split()) if value is not None])
+    found = _zones(path, _HEADING)
+    headings = [float(heading.replace("D", "E").replace("d", "e")) for heading, _ in found]
+    zones = [zone for _, zone in found]
     if not zones or any(len(zone) != omega.size or any(len(row) != 1 + 2 * count for row in zone) for zone in zones):
         raise InputError(
             f"{path.name}: expected a zone of {omega.size} rows of {1 + 2 * count} numbers for every heading",
@@ -204,12 +252,15 @@ def _read_force(results: Path, names: tuple[str, ...], omega: Array, control: _C
 
 
 def _read_stiffness(root: Path, control: _Control) -> Array | None:
-    """Return the hydrostatic stiffness of Mesh/KH.dat, where it is there, for the degrees of freedom of the run."""
+    """Return the hydrostatic stiffness of KH.dat (KH_0.dat ... of several bodies) for the degrees of freedom."""
+    names = [f"KH_{number}.dat" for number in range(len(control.bodies))] or ["KH.dat"]
     for folder in (root / "Mesh", root / "mesh", root):
-        path = folder / "KH.dat"
-        if path.is_file():
-            table = np.array([leading_numbers(line) for line in read_lines(path) if line.strip()])
-            if table.shape == (6, 6):
-                chosen = [DOFS.index(name) for name in control.dofs]
-                return table[np.ix_(chosen, chosen)]
+        if not all((folder / name).is_file() for name in names):
+            continue
+        tables = [
+            np.array([leading_numbers(line) for line in read_lines(folder / name) if line.strip()]) for name in names
+        ]
+        if all(table.shape == (6, 6) for table in tables):
+            chosen = [dof_names(control.bodies).index(name) for name in control.dofs]
+            return np.asarray(block_diag(*tables)[np.ix_(chosen, chosen)])
     return None

@@ -14,13 +14,11 @@ from typing import Literal
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
-from moyai.interop.coefficients import DOFS
-from moyai.sea.dispersion import wave_number
+from moyai.interop.bodies import about_points, refer_phase, transformed
 
 PLANAR_DOFS = ("sway", "heave", "roll")
 
@@ -29,8 +27,6 @@ FRAMES: dict[str, tuple[tuple[tuple[str, float], ...], float]] = {
     "beam": ((("Sway", 1.0), ("Heave", 1.0), ("Roll", -1.0)), 0.5 * math.pi),
     "head": ((("Surge", 1.0), ("Heave", 1.0), ("Pitch", 1.0)), 0.0),
 }
-_MATRICES = ("added_mass", "radiation_damping", "infinite_frequency_added_mass", "zero_frequency_added_mass")
-_FORCES = ("excitation_force", "Froude_Krylov_force", "diffraction_force")
 
 
 def move_reference_point(dataset: xr.Dataset, point: Sequence[float]) -> xr.Dataset:
@@ -56,18 +52,7 @@ def move_reference_point(dataset: xr.Dataset, point: Sequence[float]) -> xr.Data
     InputError
         When a degree of freedom is missing, which the move would need.
     """
-    names = [str(name) for name in dataset["radiating_dof"].values]
-    if set(names) != set(DOFS):
-        missing = ", ".join(name for name in DOFS if name not in names)
-        raise InputError(
-            f"the coefficients lack {missing}", path="coefficients", remedy="compute all six degrees of freedom"
-        )
-    dataset = dataset.sel(radiating_dof=list(DOFS), influenced_dof=list(DOFS))
-    dx, dy, dz = dataset["reference_point"].values - np.asarray(point, dtype=float)
-    motion = np.eye(6)
-    motion[:3, 3:] = np.array([[0.0, dz, -dy], [-dz, 0.0, dx], [dy, -dx, 0.0]])
-    moved = _transform(dataset, motion)
-    return moved.assign_coords(reference_point=dataset["reference_point"].copy(data=np.asarray(point, dtype=float)))
+    return about_points(dataset, np.atleast_2d(np.asarray(point, dtype=float)))
 
 
 @checks_words
@@ -124,15 +109,15 @@ def to_planar(
             remedy=f"run the program with a heading of {math.degrees(along):.0f} degrees",
         )
     planar = dataset.drop_vars("mean_drift_force", errors="ignore").sel(radiating_dof=names, influenced_dof=names)
-    planar = _transform(planar, np.diag([sign for _, sign in frame]))
+    planar = transformed(planar, np.diag([sign for _, sign in frame]))
     planar = planar.assign_coords(radiating_dof=list(PLANAR_DOFS), influenced_dof=list(PLANAR_DOFS))
     # Reference point in planar axes: x is the component along the waves
     point, shift = dataset["reference_point"].values, np.asarray(origin, dtype=float)
     direction = np.array([math.cos(along), math.sin(along)])
     dx = float((point[:2] - shift) @ direction) - centre_of_gravity[0]
     dz = float(point[2]) - centre_of_gravity[1]
-    planar = _transform(planar, np.array([[1.0, 0.0, dz], [0.0, 1.0, -dx], [0.0, 0.0, 1.0]]))
-    planar = _refer_phase(planar, shift)
+    planar = transformed(planar, np.array([[1.0, 0.0, dz], [0.0, 1.0, -dx], [0.0, 0.0, 1.0]]))
+    planar = refer_phase(planar, shift)
     for name in planar.data_vars:
         planar[name] = planar[name].copy(data=planar[name].values / length)
         planar[name].attrs["units"] = ", ".join(_per_metre(unit) for unit in dataset[name].attrs["units"].split(", "))
@@ -167,32 +152,6 @@ def neglected_coupling(dataset: xr.Dataset, sea: Literal["beam", "head"]) -> flo
     # Yaw of a body of revolution has no added mass and no coupling either
     scale = np.where(scale > 1e-6 * scale.max(), scale, np.inf)
     return float(np.max(cross / scale))
-
-
-def _transform(dataset: xr.Dataset, motion: Array) -> xr.Dataset:
-    """Apply A' = M^T A M to all matrices and F' = M^T F to all forces; degrees of freedom keep their order."""
-    out = dataset.drop_vars("mean_drift_force", errors="ignore").copy()
-    for name in (*_MATRICES, "hydrostatic_stiffness"):
-        if name in out:
-            out[name] = out[name].copy(data=motion.T @ out[name].values @ motion)
-    for name in _FORCES:
-        if name in out:
-            out[name] = out[name].copy(data=out[name].values @ motion)
-    return out
-
-
-def _refer_phase(dataset: xr.Dataset, origin: NDArray[np.float64]) -> xr.Dataset:
-    """Refer phases to another origin: a wave of phase zero there has the phase -k.origin at the old one."""
-    if not np.any(origin):
-        return dataset
-    number = np.asarray(wave_number(dataset["omega"].values, float(dataset["water_depth"]), float(dataset["g"])))
-    angle = dataset["wave_direction"].values
-    travel = number[:, None] * (origin[0] * np.cos(angle) + origin[1] * np.sin(angle))
-    out = dataset.copy()
-    for name in _FORCES:
-        if name in out:
-            out[name] = out[name].copy(data=out[name].values * np.exp(-1j * travel)[:, :, None])
-    return out
 
 
 def _wrap(angle: Array) -> Array:

@@ -11,6 +11,7 @@ import xarray as xr
 from moyai.core.errors import InputError
 from moyai.interop.aqwa import read_aqwa
 from moyai.interop.bemio import read_bemio
+from moyai.interop.bodies import one_body
 from moyai.interop.capytaine import read_capytaine
 from moyai.interop.limits import FEWEST_FREQUENCIES, complete_limits
 from moyai.interop.nemoh import read_nemoh
@@ -26,7 +27,7 @@ _READERS: dict[str, Callable[..., xr.Dataset]] = {
 
 
 def read_coefficients(program: str, path: str | Path, options: Mapping[str, Any] | None = None) -> xr.Dataset:
-    """Read hydrodynamic coefficients of a three-dimensional body.
+    """Read hydrodynamic coefficients of one or several three-dimensional bodies.
 
     Where the file has no infinite-frequency added mass it is found from the damping (:mod:`moyai.interop.limits`), if
     the frequencies are enough.
@@ -55,3 +56,14 @@ def read_coefficients(program: str, path: str | Path, options: Mapping[str, Any]
             raise
         raise InputError(str(error).replace(f"{reader.__name__}()", program), path="options") from error
     return complete_limits(dataset) if dataset.sizes["omega"] >= FEWEST_FREQUENCIES else dataset
+
+
+def read_body(program: str, path: str | Path, options: Mapping[str, Any] | None = None) -> xr.Dataset:
+    """Read the coefficients of one body; of a file with several ``options`` name it by ``body``.
+
+    Raises
+    ------
+    InputError
+        Several bodies and none named; everything that :func:`read_coefficients` refuses.
+    """
+    return one_body(read_coefficients(program, path, options))

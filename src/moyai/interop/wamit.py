@@ -1,5 +1,8 @@
 """WAMIT number files: .1 added mass and damping, .3 exciting force, .hst hydrostatics, .8 and .9 mean drift.
 
+Of N bodies mode 6 (n - 1) + i is mode i of body n. Modes are along the axes of each body, XBODY(4) turned about the
+vertical; here they are turned back to the global axes. All phases refer to the global origin.
+
 The files are non-dimensional: A = rho L^k, B = rho L^k omega, X = rho g A L^m, with k = 3, 4, 5 and m = 2, 3 for
 translations, mixed terms and rotations; L is ULEN. WAMIT's time factor is exp(+i omega t): forces are conjugated.
 In the first column a period of -1 stands for zero and 0 for infinite frequency; these rows have no damping.
@@ -13,6 +16,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from typing import Literal
 
@@ -24,13 +28,16 @@ from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
 from moyai.core.foreign_files import reads
 from moyai.core.options import checks_words
-from moyai.interop.coefficients import DOFS, assemble, require
+from moyai.interop.bodies import distinct, one_body, transformed, turn_about_z
+from moyai.interop.coefficients import assemble, dof_names, require
 from moyai.interop.textfiles import find_companion, leading_numbers, read_lines, read_table
 from moyai.sea.dispersion import angular_frequency
 
 FirstColumn = Literal["period", "angular_frequency", "wave_number"]
 
 _ROTATION = np.array([0, 0, 0, 1, 1, 1])
+#: Bodies of a file; beyond, the modes are taken for a mistake
+MOST_BODIES = 60
 
 
 @dataclass(frozen=True)
@@ -40,9 +47,18 @@ class _Surroundings:
     gravity: float | None = None
     length_scale: float | None = None
     water_depth: float | None = None
-    reference_point: tuple[float, float, float] | None = None
+    bodies: tuple[_Body, ...] = ()
     first_column: FirstColumn | None = None
     hams: bool = False
+
+
+@dataclass(frozen=True)
+class _Body:
+    """Name of the .gdf file, origin of the body axes [m] and their angle about the vertical [rad]."""
+
+    name: str
+    place: tuple[float, float, float]
+    angle: float
 
 
 @checks_words
@@ -54,12 +70,13 @@ def read_wamit(
     gravity: float | None = None,
     length_scale: float | None = None,
     water_depth: float | None = None,
-    reference_point: Sequence[float] | None = None,
+    reference_point: Sequence[float] | Sequence[Sequence[float]] | None = None,
     first_column: FirstColumn | None = None,
     zero_frequency_code: float | None = None,
     infinite_frequency_code: float | None = None,
+    body: int | str | None = None,
 ) -> xr.Dataset:
-    """Read the WAMIT files of one body.
+    """Read the WAMIT files of one or several bodies.
 
     Parameters
     ----------
@@ -72,12 +89,15 @@ def read_wamit(
     water_depth : float, optional
         Depth [m], ``inf`` allowed; from the .pot file when absent.
     reference_point : sequence of three float, optional
-        Origin of the body axes in the global ones, XBODY [m]; from the .pot file when absent.
+        Origin of the body axes in the global ones, XBODY [m], one for each of several bodies; from the .pot file when
+        absent.
     first_column : {"period", "angular_frequency", "wave_number"}, optional
         Meaning of the first column; period unless the .cfg file says otherwise. Must be given for HAMS.
     zero_frequency_code, infinite_frequency_code : float, optional
         Values of the first column that stand for the limits; -1 and 0 when the first column is WAMIT's period,
         to be given otherwise when such rows occur.
+    body : int or str, optional
+        One of several bodies, by number from 1 or by the name of its .gdf file; all of them when absent.
 
     Returns
     -------
@@ -87,7 +107,7 @@ def read_wamit(
     Raises
     ------
     InputError
-        Missing files or facts, incomplete tables, an ambiguous first column, a body turned about the vertical.
+        Missing files or facts, incomplete tables, an ambiguous first column, no such body.
     """
     file = Path(path)
     first = find_companion(file, ".1")
@@ -111,7 +131,8 @@ def read_wamit(
     gravity = reported.gravity if gravity is None else gravity
     length_scale = reported.length_scale if length_scale is None else length_scale
     water_depth = reported.water_depth if water_depth is None else water_depth
-    reference_point = reported.reference_point if reference_point is None else reference_point
+    if reference_point is None and reported.bodies:
+        reference_point = [item.place for item in reported.bodies]
     require(
         first.name,
         gravity=gravity,
@@ -122,23 +143,31 @@ def read_wamit(
     assert gravity is not None and length_scale is not None and water_depth is not None and reference_point is not None
     converter = _FirstColumn(column, zero_frequency_code, infinite_frequency_code, water_depth, gravity, first.name)
     omega, added_mass, damping, limits = _read_radiation(first, converter)
-    directions, excitation = _read_forces(third, converter, omega)
-    mass_scale = density * length_scale ** (3 + _ROTATION[:, None] + _ROTATION[None, :])
-    force_scale = density * gravity * length_scale ** (2 + _ROTATION)
+    count = added_mass.shape[1] // 6
+    if reported.bodies and len(reported.bodies) != count:
+        raise InputError(
+            f"{first.name} holds modes of {count} bodies, its .pot file has {len(reported.bodies)}", path="coefficients"
+        )
+    directions, excitation = _read_forces(third, converter, omega, 6 * count)
+    rotation = np.tile(_ROTATION, count)
+    mass_scale = density * length_scale ** (3 + rotation[:, None] + rotation[None, :])
+    force_scale = density * gravity * length_scale ** (2 + rotation)
     hydrostatics = find_companion(first, ".hst")
     stiffness = None
     if hydrostatics is not None:
         stiffness = (
-            _read_stiffness(hydrostatics)
+            _read_stiffness(hydrostatics, 6 * count)
             * density
             * gravity
-            * length_scale ** (2 + _ROTATION[:, None] + _ROTATION[None, :])
+            * length_scale ** (2 + rotation[:, None] + rotation[None, :])
         )
-    drift = _read_drift(first, converter, omega, directions)
-    return assemble(
+    drift, of_all = _read_drift(first, converter, omega, directions, count)
+    drift_scale = density * gravity * length_scale ** (1 + rotation)
+    names = distinct([item.name for item in reported.bodies] or [""] * count) if count > 1 else ()
+    dataset = assemble(
         program="HAMS" if reported.hams else "WAMIT",
         source=first.name,
-        dofs=DOFS,
+        dofs=dof_names(names),
         omega=omega,
         added_mass=added_mass * mass_scale,
         radiation_damping=damping * mass_scale * omega[:, None, None],
@@ -150,8 +179,23 @@ def read_wamit(
         reference_point=reference_point,
         limits={name: values * mass_scale for name, values in limits.items()},
         hydrostatic_stiffness=stiffness,
-        mean_drift_force=None if drift is None else drift * density * gravity * length_scale ** (1 + _ROTATION),
+        mean_drift_force=None if drift is None else drift * drift_scale,
+        mean_drift_of_all_bodies=None if of_all is None else of_all * drift_scale[[0, 1, 5]],
+        bodies=names,
     )
+    dataset = _in_global_axes(dataset, [item.angle for item in reported.bodies])
+    return dataset if body is None else one_body(dataset, body)
+
+
+def _in_global_axes(dataset: xr.Dataset, turned: list[float]) -> xr.Dataset:
+    """Turn the motions of every body back by its XBODY(4); drift of single turned bodies is left out."""
+    if not any(turned):
+        return dataset
+    motion = np.zeros((6 * len(turned), 6 * len(turned)))
+    for number, angle in enumerate(turned):
+        part = slice(6 * number, 6 * number + 6)
+        motion[part, part] = turn_about_z(angle).T
+    return transformed(dataset, motion)
 
 
 @dataclass(frozen=True)
@@ -196,16 +240,17 @@ def _read_radiation(path: Path, converter: _FirstColumn) -> tuple[Array, Array, 
     rows = read_table(path, (4, 5))
     keys = np.array([row[0] for row in rows])
     indices = np.array([row[1:3] for row in rows], dtype=int) - 1
-    if indices.min() < 0 or indices.max() > 5:
+    if indices.min() < 0 or indices.max() >= 6 * MOST_BODIES:
         raise InputError(
-            f"{path.name}: modes beyond 6 (several bodies or generalised modes) are not covered", path="coefficients"
+            f"{path.name}: mode {indices.max() + 1}", path="coefficients", allowed=f"1 to {6 * MOST_BODIES}"
         )
+    modes = 6 * (int(indices.max()) // 6 + 1)
     values = np.array([row[3:] if len(row) == 5 else [row[3], np.nan] for row in rows])
     unique, inverse = np.unique(keys, return_inverse=True)
     omega = converter(unique)
     # Terms that WAMIT leaves out are zero by symmetry of the body
-    added_mass = np.zeros((unique.size, 6, 6))
-    damping = np.zeros((unique.size, 6, 6))
+    added_mass = np.zeros((unique.size, modes, modes))
+    damping = np.zeros((unique.size, modes, modes))
     # Row "i j" is the force in i for the motion j, so that j radiates
     added_mass[inverse, indices[:, 1], indices[:, 0]] = values[:, 0]
     damping[inverse, indices[:, 1], indices[:, 0]] = values[:, 1]
@@ -220,11 +265,15 @@ def _read_radiation(path: Path, converter: _FirstColumn) -> tuple[Array, Array, 
     return omega[ordinary], added_mass[ordinary], damping[ordinary], limits
 
 
-def _read_forces(path: Path, converter: _FirstColumn, omega: Array) -> tuple[Array, ComplexArray]:
+def _read_forces(path: Path, converter: _FirstColumn, omega: Array, modes: int) -> tuple[Array, ComplexArray]:
     rows = np.array(read_table(path, (7,)))
     directions = np.unique(rows[:, 1])
     frequencies = converter(rows[:, 0])
-    forces = np.zeros((omega.size, directions.size, 6), dtype=complex)
+    if not 1 <= rows[:, 2].min() <= rows[:, 2].max() <= modes:
+        raise InputError(
+            f"{path.name}: a force in mode {rows[:, 2].max():g}, the .1 file ends at mode {modes}", path="coefficients"
+        )
+    forces = np.zeros((omega.size, directions.size, modes), dtype=complex)
     found = np.zeros((omega.size, directions.size), dtype=bool)
     for row, frequency in zip(rows, frequencies):
         if frequency == 0.0 or not math.isfinite(frequency):
@@ -249,49 +298,73 @@ def _nearest(omega: Array, frequency: float, path: Path) -> int:
     return i
 
 
-def _read_stiffness(path: Path) -> NDArray[np.float64]:
-    stiffness = np.zeros((6, 6))
+def _read_stiffness(path: Path, modes: int) -> NDArray[np.float64]:
+    stiffness = np.zeros((modes, modes))
     for i, j, value in read_table(path, (3,)):
+        if not (1 <= i <= modes and 1 <= j <= modes):
+            raise InputError(f"{path.name}: modes {i:g} {j:g}, the .1 file ends at mode {modes}", path="coefficients")
         stiffness[int(i) - 1, int(j) - 1] = value
     return stiffness
 
 
-def _read_drift(path: Path, converter: _FirstColumn, omega: Array, directions: Array) -> Array | None:
-    """Return the mean drift of long-crested waves: far-field momentum (.8) where it is there, else pressure (.9).
+def _read_drift(
+    path: Path, converter: _FirstColumn, omega: Array, directions: Array, count: int
+) -> tuple[Array | None, Array | None]:
+    """Return the mean drift of long-crested waves on each body, and on several together.
 
-    Momentum gives surge, sway and yaw and needs no velocities at the corners of the hull, where pressure integration is
-    weakest.
+    Of one body far-field momentum (.8) where it is there, else pressure (.9): momentum gives surge, sway and yaw and
+    needs no velocities at the corners of the hull, where pressure integration is weakest. Of several bodies momentum
+    gives their sum alone.
     """
-    drift = np.full((omega.size, directions.size, 6), np.nan)
-    found = False
+    drift = np.full((omega.size, directions.size, 6 * count), np.nan)
+    of_all = np.full((omega.size, directions.size, 6), np.nan)
     for suffix in (".8", ".9"):
         file = find_companion(path, suffix)
         if file is None:
             continue
-        found = True
+        target = of_all if suffix == ".8" and count > 1 else drift
         for first, heading, second, mode, *_, real, _imaginary in read_table(file, (8,)):
             # Pairs of different headings belong to short-crested seas; negative modes repeat moments in body axes
             if heading != second or mode < 0:
                 continue
+            if mode > target.shape[2]:
+                raise InputError(
+                    f"{file.name}: drift in mode {mode:g}", path="coefficients", allowed=f"1 to {target.shape[2]}"
+                )
             i = _nearest(omega, float(converter(np.array([first]))[0]), file)
             place = (i, int(np.argmin(np.abs(directions - heading))), int(mode) - 1)
-            if np.isnan(drift[place]):
-                drift[place] = real
-    return drift if found else None
+            if np.isnan(target[place]):
+                target[place] = real
+    return (
+        None if np.isnan(drift).all() else drift,
+        None if np.isnan(of_all).all() else of_all[:, :, [0, 1, 5]],
+    )
 
 
 def _read_surroundings(path: Path) -> _Surroundings:
     gravity = length_scale = water_depth = None
-    point: tuple[float, float, float] | None = None
+    bodies: tuple[_Body, ...] = ()
     column: FirstColumn | None = None
-    geometry = find_companion(path, ".gdf")
-    if geometry is not None:
-        numbers = leading_numbers(read_lines(geometry)[1])
-        if len(numbers) >= 2:
-            length_scale, gravity = numbers[0], numbers[1]
     potential = find_companion(path, ".pot")
     if potential is not None:
-        water_depth, point = _read_potential_control(potential)
+        water_depth, bodies = _read_potential_control(potential)
+    own = find_companion(path, ".gdf")
+    meshes = [] if own is None else [own]
+    if own is None:
+        meshes = [file for item in bodies if (file := find_companion(path.with_name(f"{item.name}.x"), ".gdf"))]
+    scales = set()
+    for mesh in meshes:
+        numbers = leading_numbers(read_lines(mesh)[1])
+        if len(numbers) >= 2:
+            scales.add((numbers[0], numbers[1]))
+    if len(scales) > 1:
+        raise InputError(
+            f"{path.name}: ULEN or GRAV differ between the .gdf files of the bodies",
+            path="length_scale",
+            remedy="run WAMIT with the same ULEN and GRAV in all of them",
+        )
+    if scales:
+        length_scale, gravity = scales.pop()
     configuration = find_companion(path, ".cfg")
     if configuration is not None:
         for line in read_lines(configuration):
@@ -306,29 +379,22 @@ def _read_surroundings(path: Path) -> _Surroundings:
                     )
                 column = "angular_frequency"
     hams = any(entry.name.lower() == "controlfile.in" for entry in path.parent.iterdir())
-    return _Surroundings(gravity, length_scale, water_depth, point, column, hams)
+    return _Surroundings(gravity, length_scale, water_depth, bodies, column, hams)
 
 
-def _read_potential_control(path: Path) -> tuple[float | None, tuple[float, float, float] | None]:
-    """Return depth and XBODY of a .pot file in WAMIT's alternative form 2 (one number, HBOT, on its second line)."""
+def _read_potential_control(path: Path) -> tuple[float | None, tuple[_Body, ...]]:
+    """Return depth and bodies of a .pot file in WAMIT's alternative form 2 (one number, HBOT, on its second line)."""
     lines = read_lines(path)
     if len(lines) < 2 or len(leading_numbers(lines[1])) != 1:
-        return None, None
+        return None, ()
     depth = leading_numbers(lines[1])[0]
     water_depth = depth if depth > 0.0 else math.inf
-    for number, line in enumerate(lines):
-        if (
-            line.strip().lower().split()[:1]
-            and line.strip().lower().split()[0].endswith(".gdf")
-            and number + 1 < len(lines)
-        ):
-            numbers = leading_numbers(lines[number + 1])
-            if len(numbers) >= 4:
-                if numbers[3] != 0.0:
-                    raise InputError(
-                        f"{path.name}: the body is turned by {numbers[3]:g} degrees about the vertical",
-                        path="coefficients",
-                        remedy="run WAMIT with XBODY(4) = 0",
-                    )
-                return water_depth, (numbers[0], numbers[1], numbers[2])
-    return water_depth, None
+    bodies = []
+    # The header may name files as well: meshes follow the depth
+    for line, following in pairwise(lines[2:]):
+        word = line.split()[0] if line.split() else ""
+        numbers = leading_numbers(following)
+        if word.lower().endswith(".gdf") and len(numbers) >= 4:
+            stem = word.replace("\\", "/").split("/")[-1][:-4]
+            bodies.append(_Body(stem, (numbers[0], numbers[1], numbers[2]), math.radians(numbers[3])))
+    return water_depth, tuple(bodies)

@@ -1,4 +1,4 @@
-"""The coefficients of a section as those of a whole unit in space: :mod:`moyai.interop.planar` undone."""
+"""The coefficients of a result in space: a section as a whole unit (:mod:`moyai.interop.planar` undone), a row."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import xarray as xr
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.core.results import Result
-from moyai.interop.coefficients import assemble
+from moyai.interop.coefficients import assemble, dof_names
 from moyai.interop.planar import FRAMES, PLANAR_DOFS
 
 _LIMITS = ("zero_frequency_added_mass", "infinite_frequency_added_mass")
@@ -83,7 +83,7 @@ def from_planar(
 
 @checks_words
 def coefficients_of_result(result: Result, *, water_level: str | None = None, sea: Sea = "beam") -> xr.Dataset:
-    """Return the coefficients that a result holds, of the whole unit.
+    """Return the coefficients that a result holds, of the whole unit or of all units of a row.
 
     Parameters
     ----------
@@ -91,7 +91,7 @@ def coefficients_of_result(result: Result, *, water_level: str | None = None, se
     water_level : str, optional
         The first level when left out.
     sea : {"beam", "head"}
-        See :func:`from_planar`.
+        See :func:`from_planar`; of a section alone.
 
     Raises
     ------
@@ -107,13 +107,15 @@ def coefficients_of_result(result: Result, *, water_level: str | None = None, se
         raise InputError(
             "the result holds no coefficients of a floating body",
             path="results",
-            allowed="results of a floating breakwater with the analysis frequency or time",
+            allowed="results of a floating breakwater or of a row of units with the analysis frequency or time",
         )
     level = levels[0] if water_level is None else water_level
     if level not in levels:
         raise InputError(f"no water level '{level}' in the result", path="water_level", allowed=", ".join(levels))
     group = result.tree.children[level].children
     statics = group["statics"].to_dataset(inherit=False)
+    if "unit_x" in statics:
+        return _row_of_result(result.tree.children[level], statics)
     order = list(PLANAR_DOFS)
     stiffness = statics["hydrostatic_stiffness"].sel(influenced_dof=order, radiating_dof=order)
     return from_planar(
@@ -123,3 +125,51 @@ def coefficients_of_result(result: Result, *, water_level: str | None = None, se
         sea=sea,
         hydrostatic_stiffness=stiffness.transpose("influenced_dof", "radiating_dof").values,
     )
+
+
+def _row_of_result(group: xr.DataTree, statics: xr.Dataset) -> xr.Dataset:
+    """Return the coefficients of all units, about their centres of gravity, with the drift of the row as it moved."""
+    found = group.children["hydrodynamics"].to_dataset(inherit=False)
+    count = statics.sizes["unit"]
+    bodies = tuple(f"unit_{number}" for number in range(1, count + 1)) if count > 1 else ()
+    points = np.stack([statics[name].values for name in ("unit_x", "unit_y", "unit_centre_z")], axis=1)
+    square = ("radiating_dof", "influenced_dof")
+    limits = {}
+    if "memory" in group.children:
+        memory = group.children["memory"].to_dataset(inherit=False)
+        limits["infinite_frequency_added_mass"] = memory["infinite_frequency_added_mass"].transpose(*square).values
+    drift = _drift_of_row(group, found)
+    return assemble(
+        program="moyai",
+        source="result",
+        dofs=dof_names(bodies),
+        omega=found["omega"].values,
+        added_mass=found["added_mass"].transpose("omega", *square).values,
+        radiation_damping=found["radiation_damping"].transpose("omega", *square).values,
+        wave_direction=found["wave_direction"].values,
+        forces={"excitation_force": found["excitation_force"].values},
+        density=float(found.attrs["rho"]),
+        gravity=float(found.attrs["g"]),
+        water_depth=float(found.attrs["water_depth"]),
+        reference_point=points,
+        limits=limits,
+        hydrostatic_stiffness=found["hydrostatic_stiffness"].transpose("influenced_dof", "radiating_dof").values,
+        mean_drift_of_all_bodies=drift,
+        bodies=bodies,
+    )
+
+
+def _drift_of_row(group: xr.DataTree, found: xr.Dataset) -> np.ndarray | None:
+    """Return the drift (n, m, 3) of the row in each heading, of the first sea that came from there; None if unknown."""
+    headings = found["wave_direction"].values
+    drift = np.full((found.sizes["omega"], headings.size, 3), np.nan)
+    for sea in group.children["frequency"].children.values() if "frequency" in group.children else ():
+        data = sea.to_dataset(inherit=False)
+        if "drift_per_amplitude_squared" not in data:
+            continue
+        values = data["drift_per_amplitude_squared"].transpose("omega", "wave_direction", "direction").values
+        for column, heading in enumerate(data["wave_direction"].values):
+            place = int(np.argmin(np.abs(headings - heading)))
+            if np.isnan(drift[:, place]).any():
+                drift[:, place] = values[:, column]
+    return None if np.isnan(drift).any() else drift

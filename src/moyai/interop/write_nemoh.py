@@ -1,4 +1,4 @@
-"""Results of NEMOH (version 3) of a body: Nemoh.cal, Results/CM.dat, CA.dat, the forces, and Mesh/KH.dat.
+"""Results of NEMOH (version 3) of bodies: Nemoh.cal, Results/CM.dat, CA.dat, the forces, and Mesh/KH.dat.
 
 The conventions are those of :mod:`moyai.interop.nemoh`: SI, the time factor exp(-i omega t).
 """
@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 import xarray as xr
 
+from moyai.interop.bodies import bodies_of, file_names, modes_of
 from moyai.interop.coefficients import DOFS
 
 _FORCES = {
@@ -21,7 +22,7 @@ _FORCES = {
 
 
 def nemoh_files(dataset: xr.Dataset) -> dict[str, bytes]:
-    """Return the files of a body by their names; NEMOH has no place for limits of the added mass and for drift.
+    """Return the files by their names; NEMOH has no place for limits of the added mass and for drift.
 
     Parameters
     ----------
@@ -37,7 +38,9 @@ def nemoh_files(dataset: xr.Dataset) -> dict[str, bytes]:
         if name in dataset:
             files[f"Results/{file}"] = _force(dataset, name, title)
     if "hydrostatic_stiffness" in dataset:
-        files["Mesh/KH.dat"] = _stiffness(dataset)
+        bodies = bodies_of(dataset)
+        for number in range(max(len(bodies), 1)):
+            files[f"Mesh/KH_{number}.dat" if bodies else "Mesh/KH.dat"] = _stiffness(dataset, number)
     return {name: ("\n".join(lines) + "\n").encode("ascii") for name, lines in files.items()}
 
 
@@ -46,15 +49,8 @@ def _row(*values: float) -> str:
 
 
 def _control(dataset: xr.Dataset) -> list[str]:
-    depth, point = float(dataset["water_depth"]), dataset["reference_point"].values
+    depth = float(dataset["water_depth"])
     omega, headings = dataset["omega"].values, np.degrees(dataset["wave_direction"].values)
-    modes = [str(name) for name in dataset["radiating_dof"].values]
-    entries = []
-    for mode in modes:
-        number = DOFS.index(mode)
-        axis = " ".join("1." if k == number % 3 else "0." for k in range(3))
-        centre = "0. 0. 0." if number < 3 else _row(*point)
-        entries.append(f"{1 + number // 3} {axis} {centre} ! {mode}")
     return [
         "--- Environment ---",
         f"{_row(float(dataset['rho']))} ! RHO",
@@ -62,21 +58,33 @@ def _control(dataset: xr.Dataset) -> list[str]:
         f"{_row(depth if math.isfinite(depth) else 0.0)} ! DEPTH",
         "0. 0. ! XEFF YEFF",
         "--- Description of floating bodies ---",
-        "1 ! Number of bodies",
-        "--- Body 1 ---",
-        "none ! no mesh, coefficients written by moyai",
-        "0 0 ! points and panels",
-        f"{len(modes)} ! Number of degrees of freedom",
-        *entries,
-        f"{len(modes)} ! Number of resulting generalised forces",
-        *entries,
-        "0 ! Number of lines of additional information",
+        f"{max(len(bodies_of(dataset)), 1)} ! Number of bodies",
+        *_bodies(dataset),
         "--- Load cases to be solved ---",
         f"1 {omega.size} {_row(omega[0], omega[-1])} ! Frequency type, number, least and largest [rad/s]",
         f"{headings.size} {_row(headings[0], headings[-1])} ! Number of directions, least and largest [deg]",
         "--- Post processing ---",
         "1 ! Output freq type, 1 is rad/s",
     ]
+
+
+def _bodies(dataset: xr.Dataset) -> Iterator[str]:
+    points, modes = np.atleast_2d(dataset["reference_point"].values), modes_of(dataset)
+    for number, (name, point) in enumerate(zip(file_names(dataset, "none"), points)):
+        own = [mode - 6 * number - 1 for mode in modes if 0 <= mode - 6 * number - 1 < 6]
+        entries = []
+        for mode in own:
+            axis = " ".join("1." if k == mode % 3 else "0." for k in range(3))
+            centre = "0. 0. 0." if mode < 3 else _row(*point)
+            entries.append(f"{1 + mode // 3} {axis} {centre} ! {DOFS[mode]}")
+        yield f"--- Body {number + 1} ---"
+        yield f"{name} ! no mesh, coefficients written by moyai"
+        yield "0 0 ! points and panels"
+        yield f"{len(own)} ! Number of degrees of freedom"
+        yield from entries
+        yield f"{len(own)} ! Number of resulting generalised forces"
+        yield from entries
+        yield "0 ! Number of lines of additional information"
 
 
 def _matrices(dataset: xr.Dataset, name: str) -> Iterator[str]:
@@ -97,8 +105,12 @@ def _force(dataset: xr.Dataset, name: str, title: str) -> Iterator[str]:
             yield _row(omega, *(part for value in row for part in (abs(value), np.angle(value))))
 
 
-def _stiffness(dataset: xr.Dataset) -> Iterator[str]:
+def _stiffness(dataset: xr.Dataset, number: int) -> Iterator[str]:
+    """Yield the restoring of one body; that between bodies has no place."""
+    own = [mode - 6 * number - 1 for mode in modes_of(dataset)]
+    kept = [(index, mode) for index, mode in enumerate(own) if 0 <= mode < 6]
+    rows, modes = [index for index, _ in kept], [mode for _, mode in kept]
+    values = dataset["hydrostatic_stiffness"].transpose("influenced_dof", "radiating_dof").values
     matrix = np.zeros((6, 6))
-    modes = [DOFS.index(str(name)) for name in dataset["radiating_dof"].values]
-    matrix[np.ix_(modes, modes)] = dataset["hydrostatic_stiffness"].transpose("influenced_dof", "radiating_dof").values
+    matrix[np.ix_(modes, modes)] = values[np.ix_(rows, rows)]
     yield from (_row(*row) for row in matrix)

@@ -78,7 +78,7 @@ def _quantity(value: float, unit: str, like: float) -> str:
 
 def _figure(headline: Headline, judged: list[Judgement], scale: Mapping[str, float]) -> KeyFigure:
     like = scale.get(headline.unit, 0.0)
-    worst = max(judged, key=lambda item: _severity(item), default=None)
+    worst = max(judged, key=lambda item: (_severity(item), _use(item)), default=None)
     detail = "; ".join(
         part for part in (band_text(headline, like), headline.detail, headline.where, headline.model) if part
     )
@@ -99,14 +99,22 @@ def _asked(headline: Headline, item: Judgement, like: float) -> str:
     limit, found = limit_and_found(item, like)
     _, own = limit_and_found(replace(item, value=headline.value), like)
     plain = own == found or not math.isfinite(headline.value) or item.criterion.mean_weight != 1.0
+    place = f" ({item.reason})" if item.outcome != "not judged" and item.reason not in ("", headline.where) else ""
     if item.criterion.as_factor:
-        here = "" if plain else f" where it is judged, {own} at the value shown"
+        here = "" if plain else f" where it is judged{place}, {own} at the value shown"
         return f"factor of safety {found}{here}, asked {limit}"
-    return f"limit {limit}" if plain else f"limit {limit}, judged at {found.removeprefix('at most ')}"
+    return f"limit {limit}" if plain else f"limit {limit}, judged at {found.removeprefix('at most ')}{place}"
 
 
 def _severity(item: Judgement) -> int:
     return ("holds", "not judged", "does not hold").index(item.outcome)
+
+
+def _use(item: Judgement) -> float:
+    """Return how far a value goes towards its limit or beyond, from either side."""
+    if not math.isfinite(item.value):
+        return -math.inf
+    return item.value if item.criterion.sense == "at most" else -item.value
 
 
 def _share(criterion: Criterion, value: float) -> float:

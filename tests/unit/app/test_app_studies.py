@@ -163,6 +163,7 @@ def test_study_files_are_listed_and_kept_inside(root: Path) -> None:
             refuse_foreign_base(folder, root / "bad.yaml")
 
 
+@pytest.mark.slow
 def test_a_fit_runs(queue: Any, root: Path) -> None:
     rows = "".join(f"{diameter},{_force(root, diameter)!r}\n" for diameter in (0.1, 0.2, 0.3))
     (root / "observed.csv").write_text(f"D [m],force [N]\n{rows}")
@@ -172,6 +173,7 @@ def test_a_fit_runs(queue: Any, root: Path) -> None:
     until(job, "done", "failed", "lost")
     assert job.state == "done", job.words
     assert {"report.html", "fit.nc", "case.yaml"} <= set(job.record(root)["files"])
+    assert made(root / "out" / "fit", "report.pdf").read_bytes().startswith(b"%PDF")
     fitted = parse_yaml((root / "out" / "fit" / "case.yaml").read_text()).data
     assert abs(float(fitted["structure"]["drag"]) - 1.0) < 0.02, "the forces were computed with a coefficient of 1"
 

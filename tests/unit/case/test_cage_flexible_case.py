@@ -55,7 +55,7 @@ structure:
       - {catalogue: polyester, diameter: 52 mm, length: 70 m}
       - {catalogue: studless_chain_U3, diameter: 36 mm, length: 20 m}
     anchor_distance: 85 m
-  mesh: {around: 16, down: 4, bottom: 3}
+  mesh: {around: 16, down: 3, bottom: 2}
 analyses: [statics, time]
 settings:
   flexible: {current_speeds: [0.2 m/s], periods: 2, ramp_periods: 1}

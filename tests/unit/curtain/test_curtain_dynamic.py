@@ -180,7 +180,7 @@ def test_anchored_span_in_a_current_ends_at_its_drag() -> None:
 
 
 def test_sensitivity_names_what_the_peak_is_worth() -> None:
-    span, mesh = CurtainSpan(**BASE), Mesh(16, 8)  # type: ignore[arg-type]
+    span, mesh = CurtainSpan(**BASE), Mesh(12, 6)  # type: ignore[arg-type]
     rise = peak_by_energy(Impact(0.7, 0.8, 0.15, 75.0, 75.0, 0.3, FLUME)).time
     given = {
         "water": FLUME, "duration": 1.2 * rise, "output_step": rise / 50.0, "speed": 0.3, "weight": False, "deep": True,
@@ -329,6 +329,7 @@ def test_current_dies_down_to_the_statics_of_the_same_case(tmp_path: Path) -> No
     assert float(late["mid_span_x"].mean()) == pytest.approx(float(rest["sag"]), rel=0.05)
 
 
+@pytest.mark.slow
 def test_waves_fold_the_cloth_but_not_its_added_mass(tmp_path: Path) -> None:
     """Light cloth in waves, all forces of turning sections: energy is kept, nothing is left out, little is eaten."""
     text = CASE.replace(
@@ -454,6 +455,7 @@ def slack_span_in_oblique_waves(tmp_path: Path, cells: str) -> Path:
     )
 
 
+@pytest.mark.slow
 def test_gathered_cloth_goes_on_with_turning_sections(tmp_path: Path) -> None:
     """Loads held over too many steps once blew this mesh up; now it runs, and takes no energy from nowhere."""
     result = moyai.run(moyai.load_case(slack_span_in_oblique_waves(tmp_path, "cells_along: 32, cells_down: 4")))
@@ -640,11 +642,23 @@ def test_a_run_that_had_to_stop_gives_no_peak(tmp_path: Path, monkeypatch: pytes
     moyai.write_report(result, tmp_path / "report")
 
 
+def test_a_peak_of_the_start_is_told_apart_from_those_of_the_sea() -> None:
+    """A snap, then little: with the waves of a sea its first peak is one of the start; counted later it is not."""
+    run = snap(CurtainSpan(**BASE), Mesh(8, 4), 4.0)  # type: ignore[arg-type]
+    sea = replace(run, flow=Flow(waves=RegularWave(0.01, 2.0, 0.0, FLUME).components()))
+    (reported,) = [n for n in run_notices(sea, "here", 1.0, False) if n.code == "dynamic-start"]
+    late = run.both[run.history.time > 0.5 * run.history.time[-1]]
+    assert reported.value == pytest.approx(run.peak("both")[0] / late.max(), rel=1e-3)
+    later = replace(sea, from_time=0.6 * float(run.history.time[-1]))
+    assert not [n for n in run_notices(later, "here", 1.0, False) if n.code == "dynamic-start"]
+
+
+@pytest.mark.slow
 def test_the_start_of_an_irregular_sea_is_told(tmp_path: Path) -> None:
     """A strong current that comes up in one period pulls harder than the small sea after it."""
     sea = (
         "waves: {name: sea, kind: jonswap, significant_height: 0.1 m, significant_period: 3 s, peak_enhancement: 3.3,"
-        " heading_deg: 0, duration: 5 min, seed: 2}\nstructure:\n"
+        " heading_deg: 0, duration: 90 s, seed: 2}\nstructure:\n"
     )
     text = changed(CASE, STRONG | {"structure:\n": sea, "speed: 0.3 m/s": "speed: 0.6 m/s"})
     settled = moyai.run(moyai.load_case(write(tmp_path, text)))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -193,6 +194,23 @@ def test_stochastic_linearisation_is_a_fixed_point() -> None:
     assert sea.equivalent_damping[2, 2] == pytest.approx(
         math.sqrt(8 / math.pi) * 4.0 * float(again.standard_deviation), rel=1e-7
     )
+
+
+def test_every_heading_is_linearised_with_its_own_radiation() -> None:
+    """The order of the headings changes nothing, and a heading without energy has no say."""
+    first, mass, stiffness = _body(11)
+    second = replace(first, radiation_damping=3.0 * first.radiation_damping, added_mass=0.5 * first.added_mass)
+    density = 0.5 * np.exp(-(((first.omega - 1.3) / 0.3) ** 2))
+    quadratic = QuadraticDamping.of_modes([0.0, 0.0, 4.0])
+
+    def found(parts: list[Hydrodynamics], shares: list[float]) -> float:
+        spectrum = density[:, None] * np.array(shares)
+        sea = linearised_in_sea(parts, mass, stiffness, spectrum, quadratic=quadratic)
+        return float(sea.equivalent_damping[2, 2])
+
+    assert found([first, second], [0.3, 0.7]) == pytest.approx(found([second, first], [0.7, 0.3]), rel=1e-9)
+    assert found([second, first], [0.0, 1.0]) == pytest.approx(found([first], [1.0]), rel=1e-9)
+    assert found([first, second], [0.0, 1.0]) != pytest.approx(found([first], [1.0]), rel=1e-2)
 
 
 class HardeningLine:

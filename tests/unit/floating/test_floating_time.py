@@ -301,6 +301,20 @@ def test_quadratic_damping_in_time_takes_the_equal_work_of_its_linear_equivalent
     assert abs(equivalent * amplitude / 0.01 - 1.0) < 2e-3
 
 
+def test_stochastic_linearisation_of_quadratic_damping_under_white_noise() -> None:
+    """A light oscillator under white noise S of its force: sigma_v^2 = pi S / (2 B m), B = sqrt(8/pi) b sigma_v."""
+    omega, quadratic = np.linspace(0.02, 12.0, 6000), 0.01
+    ones = np.ones((6000, 1, 1))
+    hydro = Hydrodynamics(omega, 0.0 * ones, 0.0 * ones, ones.astype(complex), np.zeros(1), ("roll",))
+    density = 1e-4
+    sea = linearised_in_sea(
+        hydro, [[1.0]], [[1.0]], np.full(6000, density), quadratic=QuadraticDamping.of_modes([quadratic])
+    )
+    exact = (math.pi * density / (2.0 * math.sqrt(8.0 / math.pi) * quadratic)) ** (1.0 / 3.0)
+    assert float(sea.measure_deviation[0]) == pytest.approx(exact, rel=1e-3)
+
+
+@pytest.mark.slow
 def test_stochastic_linearisation_against_a_long_simulation_with_its_known_bias() -> None:
     """Quadratic damping alone under white noise: the Fokker-Planck equation is solved exactly for light damping.
 

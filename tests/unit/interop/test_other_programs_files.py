@@ -9,6 +9,7 @@ import xarray as xr
 from moyai.core.errors import InputError
 from moyai.interop.aqwa import read_aqwa
 from moyai.interop.bemio import read_bemio
+from moyai.interop.bodies import one_body
 from moyai.interop.capytaine import read_capytaine
 from moyai.interop.coefficients import DOFS
 from moyai.interop.nemoh import read_nemoh
@@ -159,6 +160,8 @@ def test_capytaine_rotation_centre_bodies_and_speed(tmp_path):
     two.assign_coords(radiating_dof=names, influenced_dof=names).to_netcdf(tmp_path / "d.nc", engine="scipy")
     with pytest.raises(InputError, match="bodies a, b"):
         read_capytaine(tmp_path / "d.nc", reference_point=(0.0, 0.0, 0.0))
+    with pytest.raises(InputError, match="holds the bodies a, b"):
+        one_body(read_capytaine(tmp_path / "d.nc", reference_point=np.zeros((2, 3))))
     one = read_capytaine(tmp_path / "d.nc", reference_point=(0.0, 0.0, 0.0), body="b")
     np.testing.assert_allclose(one.added_mass.values[:, 0, 0], body["added_mass"][:, 1, 1])
 
@@ -231,7 +234,7 @@ def test_bemio_round_trip(tmp_path, scaled):
     check(dataset, body, 1e-12)
     assert math.isinf(dataset.water_depth)
     np.testing.assert_allclose(dataset.infinite_frequency_added_mass, body["added_mass"][-1])
-    with pytest.raises(InputError, match="body2"):
+    with pytest.raises(InputError, match="has no body '2'"):
         read_bemio(tmp_path / "b.h5", reference_point=(0.0, 0.0, -2.0), body=2)
 
 

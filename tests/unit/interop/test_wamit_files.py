@@ -172,14 +172,35 @@ def test_a_missing_heading_is_not_filled_with_zero(tmp_path):
         read_wamit(tmp_path / "body.1", **body.inputs())
 
 
-def test_a_turned_body_and_a_second_body_are_refused(tmp_path):
+def test_a_turned_body_comes_back_in_global_axes(tmp_path):
+    """A body that looks along y of the file: its surge is the sway of the file."""
     body = Body(10)
     body.write(tmp_path, 2.0 * math.pi / body.omega)
-    (tmp_path / "body.pot").write_text("t\n 10. HBOT\n 1 1\n 1\n 1\n 1\n 0\n 1\nbody.gdf\n 0 0 0 30.0\n 1 1 1 1 1 1\n")
-    with pytest.raises(InputError, match="turned by 30"):
-        read_wamit(tmp_path / "body.1", **body.inputs())
-    (tmp_path / "body.pot").unlink()
+    straight = read_wamit(tmp_path / "body.1", **body.inputs())
+    (tmp_path / "body.pot").write_text("t\n 10. HBOT\n 1 1\n 1\n 1\n 1\n 0\n 1\nbody.gdf\n 0 0 0 90.0\n 1 1 1 1 1 1\n")
+    turned = read_wamit(tmp_path / "body.1", **body.inputs())
+    for new, old, sign in (
+        ("Sway", "Surge", 1.0),
+        ("Surge", "Sway", -1.0),
+        ("Heave", "Heave", 1.0),
+        ("Pitch", "Roll", 1.0),
+    ):
+        np.testing.assert_allclose(
+            turned["excitation_force"].sel(influenced_dof=new),
+            sign * straight["excitation_force"].sel(influenced_dof=old),
+            rtol=1e-9, atol=1e-6,
+        )  # fmt: skip
+        np.testing.assert_allclose(
+            turned["added_mass"].sel(radiating_dof=new, influenced_dof="Heave"),
+            sign * straight["added_mass"].sel(radiating_dof=old, influenced_dof="Heave"), rtol=1e-9, atol=1e-6,
+        )  # fmt: skip
+
+
+def test_modes_of_more_bodies_than_the_control_file_has_are_refused(tmp_path):
+    body = Body(10)
+    body.write(tmp_path, 2.0 * math.pi / body.omega)
     with (tmp_path / "body.1").open("a") as stream:
         stream.write(" 1.0 7 7 1.0 1.0\n")
-    with pytest.raises(InputError, match="several bodies"):
+    (tmp_path / "body.pot").write_text("t\n 10. HBOT\n 1 1\n 1\n 1\n 1\n 0\n 1\nbody.gdf\n 0 0 0 0.0\n 1 1 1 1 1 1\n")
+    with pytest.raises(InputError, match=r"modes of 2 bodies, its \.pot file has 1"):
         read_wamit(tmp_path / "body.1", **body.inputs())

@@ -58,13 +58,14 @@ def stopping_at(moment):
 
 
 def test_a_run_with_bodies_goes_on_from_where_it_was_stopped(tmp_path):
-    problem = problem_of(tmp_path)
+    problem = problem_of(tmp_path, bars=4)
+    problem = replace(problem, settings=replace(problem.settings, duration=3.0))
     whole = run(problem)
-    part = run(problem, stopping_at(2.3))
+    part = run(problem, stopping_at(1.3))
     assert part.status == "interrupted"
     assert "settings.resume" in part.message
     reached = float(part.tree["SWL/time/waves"]["time"].values[-1])
-    assert 2.0 < reached < 3.0
+    assert 1.0 < reached < 2.0
     # rows, state and message tell one and the same time
     assert f"t = {reached:g} s" in part.message
     part.write(tmp_path / "results.nc")
@@ -169,7 +170,7 @@ def test_an_interrupt_while_the_worth_is_found_keeps_the_run(tmp_path, bodies):
 
 
 def test_a_run_does_not_go_on_with_other_bodies(tmp_path):
-    problem = problem_of(tmp_path)
+    problem = problem_of(tmp_path, bars=4)
     run(problem, stopping_at(1.0)).write(tmp_path / "results.nc")
     other = replace(problem.bodies[0], name="pontoon")
     with pytest.raises(InputError, match=r"has the bodies box, this network pontoon"):

@@ -94,7 +94,7 @@ def test_identities_of_random_rectangles(seed):
     assert np.all(np.linalg.eigvalsh(solution.radiation_damping) > -1e-9 * np.abs(solution.radiation_damping).max())
 
 
-@pytest.mark.parametrize("seed", [*range(2), *(pytest.param(s, marks=pytest.mark.slow) for s in range(2, 6))])
+@pytest.mark.parametrize("seed", [1, *(pytest.param(s, marks=pytest.mark.slow) for s in (0, 2, 3, 4, 5))])
 def test_more_functions_change_nothing(seed):
     rng = np.random.default_rng(100 + seed)
     beam, draught, water = random_case(rng)

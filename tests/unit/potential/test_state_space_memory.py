@@ -1,6 +1,7 @@
 """States against the frequency response, against convolution, and in free decay against the frequency integral."""
 
 import math
+from functools import cache
 
 import numpy as np
 import pytest
@@ -21,6 +22,7 @@ from moyai.sea.water import Water
 G = 9.81
 
 
+@cache
 def rectangle_memory(seed):
     rng = np.random.default_rng(seed)
     draught = 10.0 ** rng.uniform(-0.5, 0.7)
@@ -89,7 +91,7 @@ def test_three_coupled_modes_with_a_steady_dashpot_of_rank_one(seed):
 
 
 def test_real_form_is_the_modal_form():
-    memory, _, _ = rectangle_memory(3)
+    memory, _, _ = rectangle_memory(1)
     states = fit_memory(memory)
     a, b, c = states.a, states.b, states.c
     assert a.shape == (states.order, states.order) and not states.feedthrough.any()
@@ -102,7 +104,7 @@ def test_real_form_is_the_modal_form():
 
 @pytest.mark.parametrize("quadratic", [False, True])
 def test_discrete_step_is_exact(quadratic):
-    memory, _, _ = rectangle_memory(5)
+    memory, _, _ = rectangle_memory(4)
     states = fit_memory(memory, tolerance=1e-2)
     step, rng = 0.37, np.random.default_rng(0)
     start = np.array([1.0, 1j]) @ rng.normal(size=(2, len(states.poles)))
@@ -140,7 +142,7 @@ def test_states_give_the_force_of_the_convolution():
 
 
 def test_slow_steady_motion_meets_the_steady_dashpot():
-    memory, _, _ = rectangle_memory(2)
+    memory, _, _ = rectangle_memory(1)
     discrete = discretise(fit_memory(memory), 0.05)
     velocity = np.tile([0.0, 1.0, 0.0], (40000, 1))
     force = force_history(velocity, discrete.decay, discrete.old, discrete.middle, discrete.new, discrete.outputs)
@@ -169,7 +171,7 @@ def test_free_decay_of_coupled_modes_is_that_of_the_frequency_integral(seed):
 
 def test_slow_heave_decay_shows_the_steady_dashpot():
     # overdamped return: a soft spring in shallow water; the memory is almost its steady dashpot
-    memory, mass, _ = rectangle_memory(21)
+    memory, mass, _ = rectangle_memory(12)
     infinite = memory.infinite_frequency_added_mass
     steady = memory.steady_dashpot[1, 1]
     inertia = float(mass[1, 1] + infinite[1, 1])
@@ -265,7 +267,7 @@ def test_least_squares_under_conditions():
 
 
 def test_failures_say_what_to_do():
-    memory, _, _ = rectangle_memory(0)
+    memory, _, _ = rectangle_memory(4)
     with pytest.raises(ConvergenceError, match="raise the tolerance"):
         fit_memory(memory, tolerance=1e-5, highest_order=4)
     omega = np.linspace(0.1, 3.0, 20)

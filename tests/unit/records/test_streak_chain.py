@@ -103,28 +103,37 @@ def test_planted_circulation_comes_back_from_pictures(folder):
     assert len(list((folder / "out" / "recordings").glob("*.nc"))) == 3
 
 
-def test_an_interrupted_batch_keeps_what_is_done_and_goes_on(folder, tmp_path):
+@pytest.fixture(scope="module")
+def batch(folder, tmp_path_factory):
+    """A measurement stopped at its third recording, and gone on with: both results, files between, what was done."""
     campaign, _ = load_streaks(folder / "streaks.yaml")
-    store = DatasetStore(tmp_path)
+    kept = tmp_path_factory.mktemp("recordings")
+    store = DatasetStore(kept)
 
     def stop(what, done, total):
         if what == "recordings" and done == 2:
             raise KeyboardInterrupt
 
-    result = measure_campaign(campaign, store=store, progress=stop)
-    assert result.status == "interrupted"
-    assert "0 of 1 runs" in result.message
-    assert len(list(tmp_path.glob("*.nc"))) == 2
+    stopped = measure_campaign(campaign, store=store, progress=stop)
+    files = len(list(kept.glob("*.nc")))
     seen = []
     finished = measure_campaign(campaign, store=store, progress=lambda what, done, total: seen.append(what))
+    return stopped, files, finished, seen, store
+
+
+def test_an_interrupted_batch_keeps_what_is_done_and_goes_on(batch):
+    stopped, files, finished, seen, _ = batch
+    assert stopped.status == "interrupted"
+    assert "0 of 1 runs" in stopped.message
+    assert files == 2
     assert finished.status == "converged"
     # Only the third recording was looked at again
     assert seen.count("pictures") == 2
 
 
-def test_waves_to_the_other_side_turn_the_sign(folder):
+def test_waves_to_the_other_side_turn_the_sign(folder, batch):
     campaign, _ = load_streaks(changed(folder, "other", ("calibration:", "waves_towards: -x\ncalibration:")))
-    result = measure_campaign(campaign, store=DatasetStore(folder / "out" / "recordings"))
+    result = measure_campaign(campaign, store=batch[-1])
     assert result.tree["runs/small"].attrs["limit"] == pytest.approx(PLANTED, rel=0.1)
     assert {notice.code for notice in result.notices} >= {"circulation-against-orbits", "no-law"}
 
@@ -187,9 +196,9 @@ def test_too_few_particles_are_told(folder):
         measure_campaign(campaign)
 
 
-def test_amplitude_outside_the_range_warns(folder):
+def test_amplitude_outside_the_range_warns(folder, batch):
     campaign, _ = load_streaks(changed(folder, "weak", ("keulegan_carpenter: 1\n", "keulegan_carpenter: 0.7\n")))
-    result = measure_campaign(campaign, store=DatasetStore(folder / "out" / "recordings"))
+    result = measure_campaign(campaign, store=batch[-1])
     notice = next(item for item in result.notices if item.code == "streaks-amplitude")
     assert "KC = 0.7" in notice.message
     assert math.isfinite(result.tree["law"].attrs["coefficient"])

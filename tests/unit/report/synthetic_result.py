@@ -322,9 +322,13 @@ def notices() -> tuple[Notice, ...]:
     )  # fmt: skip
 
 
+#: Levels of a small result.
+ONE = (("LWL", 0.0),)
+
+
 def build(
     *,
-    duration: float = 1200.0,
+    duration: float = 240.0,
     title: str = "Pontoon at the harbour mouth (港口の浮防波堤)",
     breaking: float = 2.6e6,
     levels: tuple[tuple[str, float], ...] = (("HWL", 1.2), ("LWL", 0.0)),

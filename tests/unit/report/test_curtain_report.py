@@ -163,6 +163,7 @@ def test_drawings_are_to_scale(result: Result) -> None:
     assert np.ptp(pixels[:, 0]) / np.ptp(pixels[:, 1]) == pytest.approx(np.ptp(x) / np.ptp(z), rel=3e-3)
 
 
+@pytest.mark.slow
 def test_drawings_go_to_drawing_programs_in_millimetres(result: Result, tmp_path: Path) -> None:
     """GDAL finds the sheet of the plan as long as the span, from a command that runs nothing again."""
     result.write(tmp_path / "results.nc")

@@ -96,7 +96,7 @@ JOURNEYS = {
     ),
     "cage": Journey(
         (
-            (r"mesh: \{around: 32, down: 6, bottom: 4\}", "mesh: {around: 16, down: 4, bottom: 3}"),
+            (r"mesh: \{around: 32, down: 6, bottom: 4\}", "mesh: {around: 16, down: 3, bottom: 2}"),
             (r"analyses: \[.*?\]", "analyses: [statics]"),
         ),
         "volume_left",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import io
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import openpyxl
@@ -12,7 +13,7 @@ import pytest
 import synthetic_curtain
 from fontTools.ttLib import TTFont
 from japanese import compared, drawn_without_boxes
-from synthetic_result import build
+from synthetic_result import ONE, build
 from typer.testing import CliRunner
 
 import moyai
@@ -21,6 +22,7 @@ from moyai.core.errors import InputError
 from moyai.core.results import Result
 from moyai.language.words import latin_words
 from moyai.report import fonts
+from moyai.report.document import Figure
 from moyai.report.html import render_html
 from moyai.report.pdf import render_pdf
 from moyai.report.word import render_docx
@@ -72,8 +74,11 @@ def test_figures_have_all_their_letters(result: Result) -> None:
 
 def test_pdf_word_and_workbook_are_written(result: Result) -> None:
     document = compose_document(result, language="ja")
-    assert render_pdf(document).startswith(b"%PDF")
-    assert len(render_docx(document)) > 20_000
+    # two sections with their drawings; whole examples below
+    first = replace(document, sections=document.sections[:2])
+    assert any(isinstance(block, Figure) for block in first.blocks())
+    assert render_pdf(first).startswith(b"%PDF")
+    assert len(render_docx(first)) > 20_000
     book = openpyxl.load_workbook(io.BytesIO(render_workbook(document)))
     assert book.sheetnames[0] == "要約"
     heads = [str(cell.value) for sheet in book.worksheets[1:-1] for cell in sheet[1] if cell.value]
@@ -89,7 +94,7 @@ def test_without_a_font_a_message_says_what_helps(monkeypatch: pytest.MonkeyPatc
 
 
 def test_the_command_takes_a_language(tmp_path: Path) -> None:
-    build().write(tmp_path / "results.nc")
+    build(levels=ONE).write(tmp_path / "results.nc")
     before = (tmp_path / "results.nc").read_bytes()
     found = CliRunner().invoke(app, ["report", str(tmp_path / "results.nc"), "--language", "ja"])
     assert found.exit_code == 0, found.output
@@ -112,7 +117,7 @@ def test_the_locale_is_taken_where_nothing_else_names_a_language(
     assert JAPANESE.search(missing.output)
     english = CliRunner().invoke(app, ["run", str(tmp_path / "none.yaml"), "--language", "en"])
     assert not JAPANESE.search(english.output)
-    assert compose_document(build()).language == "en"
+    assert compose_document(build(levels=ONE, time=False)).language == "en"
 
 
 def test_a_case_names_its_language_and_keeps_its_hash() -> None:

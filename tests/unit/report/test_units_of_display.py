@@ -9,7 +9,7 @@ from pathlib import Path
 
 import openpyxl
 import pytest
-from synthetic_result import build
+from synthetic_result import ONE, build
 from tonnes_force import assert_same_numbers, left_in_si
 from typer.testing import CliRunner
 
@@ -40,7 +40,7 @@ def test_quantities_in_tonnes_force(unit: str, value: float, shown: str) -> None
 
 def test_other_systems_are_refused() -> None:
     with pytest.raises(InputError, match="'lbf' is no system of units"):
-        compose_document(build(), "lbf")
+        compose_document(build(levels=ONE), "lbf")
 
 
 def test_columns_of_one_unit_share_tonnes_or_kilograms_force() -> None:
@@ -52,14 +52,14 @@ def test_columns_of_one_unit_share_tonnes_or_kilograms_force() -> None:
 
 
 def test_a_report_in_tonnes_force_holds_the_numbers_of_that_in_si() -> None:
-    result = build()
+    result = build(levels=ONE)
     assert assert_same_numbers(result) > 20
     assert left_in_si(compose_document(result))
     assert left_in_si(compose_document(result, "tf")) == []
 
 
 def test_every_file_of_the_report_is_in_tonnes_force(tmp_path: Path) -> None:
-    result = build()
+    result = build(levels=ONE)
     files = write_report(result, tmp_path, units="tf")
     page = (tmp_path / "report.html").read_text(encoding="utf-8")
     assert "Texts of notices, remarks and verdicts are in SI" in page
@@ -74,7 +74,7 @@ def test_every_file_of_the_report_is_in_tonnes_force(tmp_path: Path) -> None:
 
 
 def test_the_command_takes_units_and_keeps_the_data(tmp_path: Path) -> None:
-    build().write(tmp_path / "results.nc")
+    build(levels=ONE).write(tmp_path / "results.nc")
     before = (tmp_path / "results.nc").read_bytes()
     found = CliRunner().invoke(app, ["report", str(tmp_path / "results.nc"), "--units", "tf"])
     assert found.exit_code == 0, found.output

@@ -25,6 +25,7 @@ def responses(result):
     return result.tree["SWL"]["response"].values
 
 
+@pytest.mark.slow
 def test_two_workers_give_the_same_bits_as_one(tmp_path):
     study = load_study(study_cases.write_study(tmp_path, heights=3, seeds=3))
     here = run_study(study, tmp_path / "here", study_cases.fast_case, workers=1)
@@ -54,9 +55,12 @@ def test_failures_become_labelled_rows_and_the_rest_goes_on(tmp_path):
 
 def test_a_case_that_kills_its_worker_is_a_failed_row(tmp_path):
     study = load_study(study_cases.write_study(tmp_path, heights=1, seeds=3))
+    here = run_study(study, tmp_path / "here", study_cases.fast_case, workers=1)
     result = run_study(study, tmp_path / "out", study_cases.deadly_case, workers=2)
     assert result.tree["case_status"].values.tolist() == [["converged", "failed", "converged"]]
     assert "died twice" in result.tree["case_message"].values[0, 1]
+    # the others have the bits of one worker
+    assert np.array_equal(responses(here)[:, [0, 2]].view(np.int64), responses(result)[:, [0, 2]].view(np.int64))
 
 
 @pytest.mark.slow

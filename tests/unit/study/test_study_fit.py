@@ -25,7 +25,7 @@ fit:
 """
 
 
-def write(tmp_path, text=TEXT, noise=0.0, planted=55.6, rows=24):
+def write(tmp_path, text=TEXT, noise=0.0, planted=55.6, rows=8):
     study_cases.write_base(tmp_path)
     rng = np.random.default_rng(3)
     lines = ["Hs,Tp,tension,storm"]
@@ -57,7 +57,7 @@ def test_a_planted_value_is_found_to_rounding_and_written_into_the_case(tmp_path
 
 @pytest.mark.slow
 def test_noise_is_told_by_the_interval_and_by_the_storms_left_out(tmp_path):
-    fit = load_fit(write(tmp_path, noise=0.03))
+    fit = load_fit(write(tmp_path, noise=0.03, rows=24))
     result, found = run_fit(fit, study_cases.linear_case)
     assert abs(found.values[0] - 55.6) < 4.0 * found.errors[0] and 0.0 < found.errors[0] < 0.3
     assert [one.group for one in found.left_out] == ["storm 0", "storm 1", "storm 2", "storm 3"]

@@ -153,22 +153,22 @@ def test_zarr_holds_what_netcdf_holds(folder):
 REFUSED = "- grid: {'waves[storm].significant_height': [0.5 m, -1 m, 0.7 m], 'structure.draught': [3 m, 9 m]}"
 
 
-def test_cases_that_the_check_refuses_stop_the_study_or_become_rows(tmp_path):
+@pytest.mark.parametrize("workers", [1, pytest.param(2, marks=pytest.mark.slow)])
+def test_cases_that_the_check_refuses_stop_the_study_or_become_rows(tmp_path, workers):
     path = study_cases.write_text(tmp_path, REFUSED)
     with pytest.raises(CaseError) as caught:
         load_study(path)
     assert "-1 m is out of range" in str(caught.value) and "on_refused: skip" in str(caught.value)
     study = load_study(study_cases.write_text(tmp_path, REFUSED, on_refused="skip"))
     assert study.refused == (1, 2, 3, 5)
-    for workers in (1, 2):
-        result = run_study(study, tmp_path / f"out{workers}", study_cases.fast_case, workers=workers)
-        assert result.status == "converged" and "4 refused by the check" in result.message
-        status = result.tree["case_status"].values
-        assert (status == [["converged", "refused"], ["refused", "refused"], ["converged", "refused"]]).all()
-        assert "-1 m is out of range" in str(result.tree["case_message"].values[1, 0])
-        assert "base.yaml" not in str(result.tree["case_message"].values[1, 0])
-        response = result.tree["SWL"]["response"].values
-        assert np.isfinite(response[[0, 2], 0]).all() and math.isnan(response[1, 0])
+    result = run_study(study, tmp_path / "out", study_cases.fast_case, workers=workers)
+    assert result.status == "converged" and "4 refused by the check" in result.message
+    status = result.tree["case_status"].values
+    assert (status == [["converged", "refused"], ["refused", "refused"], ["converged", "refused"]]).all()
+    assert "-1 m is out of range" in str(result.tree["case_message"].values[1, 0])
+    assert "base.yaml" not in str(result.tree["case_message"].values[1, 0])
+    response = result.tree["SWL"]["response"].values
+    assert np.isfinite(response[[0, 2], 0]).all() and math.isnan(response[1, 0])
     page = render_html(compose(result))
     assert "4 refused" in page and "-1 m is out of range" in page
     assert list(np.flatnonzero(StudyTable(result.tree).where("status = refused"))) == [1, 2, 3, 5]

@@ -18,7 +18,7 @@ from moyai.structures.units.run import run
 
 SMALL = (
     ("points_across: 15", "points_across: 5"), ("points_along: 15", "points_along: 5"), ("count: 3,", "count: 2,"),
-    ("count: 8}", "count: 5}"), ("panel_size: 2 m", "panel_size: 3 m"), ("duration: 3 h", "duration: 10 min"),
+    ("count: 8}", "count: 5}"), ("panel_size: 2 m", "panel_size: 4 m"), ("duration: 3 h", "duration: 10 min"),
     ("  # time: {realisations: 5, memory_frequencies: 24}", "  time: {realisations: 2, memory_frequencies: 14}"),
 )  # fmt: skip
 
@@ -62,6 +62,26 @@ def test_waves_ahead_of_the_row_are_higher_and_behind_it_lower(result):
     assert float(data["section_transmission"]) == pytest.approx(float(data["transmission_coefficient"]), abs=0.2)
 
 
+def test_the_band_is_what_half_and_twice_the_damping_give(result, folder):
+    """Roll and transmission of the frequency domain: a run with half of the damping stands at one end of the band."""
+    half = run(
+        problem(("fraction_of_critical: 0.1,", "fraction_of_critical: 0.05,"), (", time, map]", ", map]")),
+        store=DatasetStore(folder),
+    )
+    for path, name in (
+        ("SWL/frequency/storm", "significant_motion"), ("SWL/map/operation", "transmission_coefficient"),
+    ):  # fmt: skip
+        given, other = (item.tree[path].to_dataset() for item in (result, half))
+        low, high, own = (given[f"{name}{end}"].values for end in ("_low", "_high", ""))
+        found = other[name].values
+        assert np.all((low <= own) & (own <= high))
+        assert np.all(np.fmin(abs(found - low), abs(found - high))[own > 0.0] < 1e-6 * own[own > 0.0])
+        assert np.any(found != own)
+    shown = next(item for item in result.headlines if item.name == "transmission" and item.shown)
+    assert shown.band is not None and shown.band.low < shown.value < shown.band.high
+    assert "damping of the units" in shown.band.of
+
+
 def test_the_report_has_map_connectors_and_lines(result, tmp_path):
     document = compose(result)
     keys = [block.key for block in document.blocks() if hasattr(block, "key")]
@@ -88,7 +108,7 @@ def test_a_stopped_run_keeps_its_frequencies_and_goes_on(result, folder):
         if what == "coefficients of the row" and done == 2:
             raise KeyboardInterrupt
 
-    stopped = run(problem(("panel_size: 3 m", "panel_size: 2.6 m")), stop, store=DatasetStore(folder))
+    stopped = run(problem(("panel_size: 4 m", "panel_size: 3.5 m")), stop, store=DatasetStore(folder))
     assert stopped.status == "interrupted"
     assert len(list(folder.glob("*.nc"))) == len(kept) + 2
 

@@ -37,7 +37,7 @@ def at_rest(*connectors, lines=()):
 @pytest.fixture(scope="module")
 def hydro():
     at = at_rest()
-    mesh = row_mesh(at.section, at.row.length, at.row.placements, 2.8, lid=True, gap_lid=False)
+    mesh = row_mesh(at.section, at.row.length, at.row.placements, 4.0, lid=True, gap_lid=False)
     return solve_row(panels_of(mesh, at.centres), WATER, at.centres, OMEGA, np.radians([0.0, 40.0]))
 
 
@@ -161,9 +161,10 @@ def plain_newmark(at, memory, load, step, chain):
     damping = memory.coefficients(omega)[1]
     length = round(40.0 / step)
     kernel = np.empty((length, m, m))
-    for number in range(length):
-        weight = np.cos(omega * step * number)
-        kernel[number] = 2.0 / np.pi * np.trapezoid(damping * weight[:, None, None], omega, axis=0)
+    weighted = (omega[1] - omega[0]) * damping.reshape(len(omega), -1)
+    weighted[[0, -1]] *= 0.5
+    for part in np.array_split(np.arange(length), 8):
+        kernel[part] = 2.0 / np.pi * (np.cos(np.outer(step * part, omega)) @ weighted).reshape(-1, m, m)
     kernel[0] *= 0.5
     flat = kernel.transpose(1, 0, 2).reshape(m, -1)
     g = at.constraint
@@ -173,13 +174,14 @@ def plain_newmark(at, memory, load, step, chain):
     matrix = mass + 0.5 * step * (own + step * kernel[0]) + 0.25 * step**2 * stiffness
     whole = np.block([[matrix, g.T], [g, np.zeros((len(g), len(g)))]])
     inverse = np.linalg.inv(whole)
-    past = np.zeros((length, m))
+    # the latest velocity first; that of the step itself is not known yet
+    past = np.zeros((count + length, m))
     q, v, a = np.zeros(m), np.zeros(m), np.zeros(m)
     positions, held, pulls = np.zeros((count, m)), np.zeros((count, len(g))), np.zeros(count)
     for number in range(1, count):
         ahead, speed = q + step * v + 0.25 * step**2 * a, v + 0.5 * step * a
-        past[0] = 0.0
-        memory_force = step * flat @ past.reshape(-1)
+        now = count - number
+        memory_force = step * flat @ past[now : now + length].reshape(-1)
         pull = 0.0
         for _ in range(30):
             right = load[number] - (own + step * kernel[0]) @ speed - memory_force - stiffness @ ahead
@@ -190,8 +192,7 @@ def plain_newmark(at, memory, load, step, chain):
                 break
             pull = after
         q, v, a = ahead + 0.25 * step**2 * solved[:m], speed + 0.5 * step * solved[:m], solved[:m]
-        past[0] = v
-        past = np.roll(past, 1, axis=0)
+        past[now] = v
         positions[number], held[number], pulls[number] = q, solved[m:], pull
     return positions, held, pulls
 

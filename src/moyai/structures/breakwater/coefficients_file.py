@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.structures.breakwater.model import BreakwaterProblem
 
@@ -23,11 +24,14 @@ def planar_coefficients(problem: BreakwaterProblem) -> tuple[Callable[[Any], Any
     from moyai.interop.checks import import_notices
     from moyai.interop.limits import match_site
     from moyai.interop.planar import to_planar
-    from moyai.interop.read import read_coefficients
+    from moyai.interop.read import read_body
 
     options = dict(given.options)
     sea, origin = options.pop("sea"), options.pop("origin")
-    dataset = read_coefficients(given.program, given.path, options)
+    try:
+        dataset = read_body(given.program, given.path, options)
+    except InputError as error:
+        raise error.at("coefficients_file") from None
 
     notices = list(import_notices(dataset))
     environment = problem.environment

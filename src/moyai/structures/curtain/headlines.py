@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from moyai.core.headline import Band, Bound, Criterion, Headline, judge
+from moyai.core.headline import Band, Bound, Criterion, Headline, judge, unfavourable
 from moyai.structures.curtain.analyses.event_peaks import event_band
 from moyai.structures.curtain.governing import model_of
 from moyai.structures.curtain.hierarchy import SPAN, STATICS
@@ -68,14 +68,19 @@ class _Load:
         return str(self.row[name].values)
 
     @property
+    def value(self) -> float:
+        """The load."""
+        return self.number("governing_load")
+
+    @property
     def used(self) -> float:
         """Load over strength; NaN without a strength."""
-        return self.number("governing_load") / self.number("capacity")
+        return self.value / self.number("capacity")
 
     @property
     def holds(self) -> bool:
         """Whether the load keeps its strength with the safety factor, at the end at which criteria are judged."""
-        high = self.number("governing_load")
+        high = self.value
         if self.band is not None:
             high = max(high, self.band.high) if self.band.decides else max(high, *(self.band.judged or ()))
         return self.bound != "at least" and high * self.number("safety_factor") <= self.number("capacity")
@@ -171,18 +176,17 @@ def _bounded_by(load: _Load) -> str:
     """Return the bound of an upright plate next to the value of the whole span."""
     if load.words("governing") != "dynamic":
         return ""
-    steady = load.number("steady_load")
-    more = [load.number(name) for name in ("wave_load", "impact_load")]
+    steady, more = load.number("steady_load"), [load.number(name) for name in ("wave_load", "impact_load")]
     bound = steady + max((one for one in more if math.isfinite(one)), default=0.0)
     if not bound > load.number("governing_load"):
         return ""
-    return f"an upright plate bounds it at {kilo(bound)}"
+    return f"by an upright plate {kilo(bound)}, a bound without its band"
 
 
 def _tensions(loads: Sequence[_Load], groups: Groups) -> Iterator[Headline]:
     for name, words, components in _LOADS:
         load = max(
-            (one for one in loads if one.component in components), key=lambda one: one.number("governing_load"),
+            (one for one in loads if one.component in components), key=lambda one: one.value,
             default=None,
         )  # fmt: skip
         if load is None:
@@ -190,7 +194,7 @@ def _tensions(loads: Sequence[_Load], groups: Groups) -> Iterator[Headline]:
         detail = "; ".join(part for part in (_at_rest_words(load, groups), _bounded_by(load)) if part)
         label = "Largest tension of a cable" if words == "cable" else "Largest tension of an anchor line"
         yield Headline(
-            name, label, load.number("governing_load"), "N",
+            name, label, load.value, "N",
             where=f"{load.component}, {load.source}: {load.level}",
             model=load.model, band=load.band, bound=load.bound,
             detail="; ".join(part for part in (detail, REMEDY if load.bound == "at most" else "") if part),
@@ -198,38 +202,59 @@ def _tensions(loads: Sequence[_Load], groups: Groups) -> Iterator[Headline]:
 
 
 def _used(loads: Sequence[_Load]) -> Iterator[tuple[float, Headline]]:
-    """Return each load over its strength, with its utilisation, the safety factor included."""
+    """Return each load over its strength, with its utilisation, the safety factor included.
+
+    Of each kind the most used component is shown; another level or component whose judged end is worse, and what a
+    weaker current proves where only a bound is known, are judged with it.
+    """
     for name, label, components in _USED:
-        load = max(
-            (one for one in loads if one.component in components and math.isfinite(one.used)),
-            key=lambda one: one.number("utilisation"),
-            default=None,
-        )
-        if load is None:
+        known = [one for one in loads if one.component in components and math.isfinite(one.used)]
+        shown = max(known, key=lambda one: one.number("utilisation"), default=None)
+        if shown is None:
             continue
-        strength = load.number("capacity")
-        unit = load.words("load_unit")
-        of = f"{kilo(load.number('governing_load'), unit)} of {kilo(strength, unit)}"
-        of += f", utilisation {load.number('utilisation'):.3g} with the factor {load.number('safety_factor'):.3g}"
-        where = f"{load.component}, {load.source}: {load.level}"
-        if load.bound == "at least" and load.model != SPAN:
-            # what only waits for its snap is no number to design with
-            said = f"{of} without its snap, which needs {_MISSING}"
-            headline = Headline(
-                name, label, math.nan, "1", where=where, model=load.model, detail=said, text="not known"
-            )
-            yield load.number("utilisation"), headline
-            continue
-        band = load.band
-        if band is not None:
-            ends = None if band.judged is None else (band.judged[0] / strength, band.judged[1] / strength)
-            band = Band(band.low / strength, band.high / strength, band.of, band.decides, ends)
-        yield (
-            load.number("utilisation"),
-            Headline(
-                name, label, load.used, "1", where=where, model=load.model, band=band, bound=load.bound, detail=of
-            ),
-        )
+        yield shown.number("utilisation"), _used_headline(name, label, shown)
+        open_ones = [_used_headline(name, label, one) for one in known if one is not shown]
+        worst = max([*open_ones, *_in_weaker(name, label, known)], key=_end, default=None)
+        first = _used_headline(name, label, shown)
+        if worst is not None and (first.bound or _end(worst) > _end(first)):
+            yield shown.number("utilisation"), replace(worst, shown=False)
+
+
+def _end(item: Headline) -> float:
+    """Return the end of a number that is judged, minus infinity where it is not known."""
+    return unfavourable(item) if math.isfinite(item.value) else -math.inf
+
+
+def _in_weaker(name: str, label: str, loads: Sequence[_Load]) -> Iterator[Headline]:
+    """Yield what an impact in a weaker current takes of a strength, where the load of the case is a bound."""
+    for load in loads:
+        # results of older versions do not have it
+        high = load.number("weaker_high") if "weaker_high" in load.row else math.nan
+        if math.isfinite(high):
+            strength = load.number("capacity")
+            value = load.number("weaker_load") / strength
+            yield Headline(
+                name, label, value, "1", where=f"{load.component}, {load.words('weaker_source')}: {load.level}",
+                model=load.model, band=Band(value, high / strength, "the impact and the steady part"),
+            )  # fmt: skip
+
+
+def _used_headline(name: str, label: str, load: _Load) -> Headline:
+    strength = load.number("capacity")
+    unit = load.words("load_unit")
+    of = f"{kilo(load.value, unit)} of {kilo(strength, unit)}"
+    factor = load.number("safety_factor")
+    of += f", utilisation {factor * load.used:.3g} with the factor {factor:.3g}"
+    where = f"{load.component}, {load.source}: {load.level}"
+    if load.bound == "at least" and load.model != SPAN:
+        # what only waits for its snap is no number to design with
+        said = f"{of} without its snap, which needs {_MISSING}"
+        return Headline(name, label, math.nan, "1", where=where, model=load.model, detail=said, text="not known")
+    band = load.band
+    if band is not None:
+        ends = None if band.judged is None else (band.judged[0] / strength, band.judged[1] / strength)
+        band = Band(band.low / strength, band.high / strength, band.of, band.decides, ends)
+    return Headline(name, label, load.used, "1", where=where, model=load.model, band=band, bound=load.bound, detail=of)
 
 
 def _band(groups: Groups, load: _Load) -> Band | None:

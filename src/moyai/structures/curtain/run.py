@@ -231,7 +231,9 @@ def _result(problem: CurtainProblem, collected: _Collected) -> Result:
     }
     levels = [name for name, _ in problem.environment.water_levels]
     found = curtain_headlines(collected.groups, levels, problem.criteria)
-    ran = set(problem.settings.analyses)
+    # the whole span is run by default in what the cycles leave open, without being asked for
+    moved = any(path.endswith("/dynamic") for path in collected.groups)
+    ran = {*problem.settings.analyses, *(("dynamic",) if moved else ())}
     more = weaker_currents(collected.groups, found) if problem.criteria else ()
     fulfilled = "all identities hold" if collected.checks else "done; these analyses have no identity to hold"
     if any(notice.code == "span-mesh" for notice in collected.notices):

@@ -215,11 +215,14 @@ def coefficients_of_bodies(problem: NetworkProblem) -> dict[str, xr.Dataset]:
     InputError
         When a file cannot be read.
     """
-    from moyai.interop.read import read_coefficients
+    from moyai.interop.read import read_body
 
     found = {}
     for body in problem.bodies:
         given = body.coefficients
         if given is not None:
-            found[body.name] = read_coefficients(given.program, given.path, given.options)
+            try:
+                found[body.name] = read_body(given.program, given.path, given.options)
+            except InputError as error:
+                raise error.at(f"bodies.{body.name}.coefficients_file") from None
     return found

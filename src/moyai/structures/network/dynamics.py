@@ -67,6 +67,7 @@ def options_of(problem: NetworkProblem, plan: RunPlan) -> dict[str, Any]:
         "step": settings.step,
         "safety": 1.0 if settings.wave_front and method == "explicit" else None,
         "tolerance": settings.tolerance,
+        "failures": problem.failures,
     }
 
 
@@ -205,7 +206,7 @@ def sound_rows(history: History) -> History:
 
 def _of_bodies(options: dict[str, Any]) -> dict[str, Any]:
     """Return the options that runs with bodies know: they have one method and a tolerance of their own."""
-    return {key: value for key, value in options.items() if key not in ("method", "tolerance")}
+    return {key: value for key, value in options.items() if key not in ("method", "tolerance", "failures")}
 
 
 def _sensitivity(

@@ -11,8 +11,10 @@ from typing import Literal
 from moyai.core.errors import InputError
 from moyai.core.headline import Criterion
 from moyai.core.options import checks_words
+from moyai.flexible.failures import LineFailure
 from moyai.flexible.motion import Beginning, Motion
 from moyai.flexible.network import BOX, BarType
+from moyai.sea.current_field import CurrentField
 from moyai.sea.environment import Environment
 from moyai.sea.kinematics import Stretching
 from moyai.structures.network.bodies import BodyPlan
@@ -271,6 +273,10 @@ class NetworkProblem:
     case_text: str = ""
     case_hash: str = ""
     criteria: tuple[Criterion, ...] = ()
+    #: Lines that part in runs through time.
+    failures: tuple[LineFailure, ...] = ()
+    #: A current that changes with time, in runs through time.
+    current_field: CurrentField | None = None
 
     @property
     def linear_waves_only(self) -> bool:

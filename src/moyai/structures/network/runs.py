@@ -121,6 +121,8 @@ def _plans(problem: NetworkProblem, water: Water) -> tuple[RunPlan, ...]:
             duration = min([PERIODS * max(periods), *ends])
         elif ends:
             duration = min(ends)
+        elif problem.current_field is not None and problem.current_field.time[-1] > 0.0:
+            duration = float(problem.current_field.time[-1])
         else:
             raise InputError(
                 "nothing tells how long the run should be: no waves, no motion with a period",
@@ -128,7 +130,8 @@ def _plans(problem: NetworkProblem, water: Water) -> tuple[RunPlan, ...]:
                 remedy="give a duration",
             )
     period = min(periods, default=math.nan)
-    name = "current" if problem.environment.current is not None else "still water"
+    moving = problem.environment.current is not None or problem.current_field is not None
+    name = "current" if moving else "still water"
     flow = _flow(problem, water, None, period)
     step = _output_step(problem, period, duration)
     return (RunPlan(name, flow, duration, step, period),)
@@ -141,7 +144,10 @@ def _flow(
     ramp = problem.settings.ramp
     if ramp is None:
         ramp = period if waves is not None else 0.0
-    flow = replace(steady_flow(problem, water), waves=waves, stretching=problem.settings.stretching, steep=steep)
+    flow = replace(
+        steady_flow(problem, water), waves=waves, stretching=problem.settings.stretching, steep=steep,
+        field=problem.current_field,
+    )  # fmt: skip
     if problem.settings.start == "rest_in_current" and waves is not None:
         return replace(flow, wave_ramp=ramp)
     return flow if problem.settings.start == "rest_in_current" else replace(flow, ramp=ramp)

@@ -91,24 +91,28 @@ def hydrodynamics_dataset(at: RowAtLevel, hydro: RowHydrodynamics) -> xr.Dataset
     import xarray as xr
 
     names = [f"unit {number + 1} {dof}" for number in range(at.row.count) for dof in DOFS]
-    mesh = hydro.panels.mesh
     data = xr.Dataset(
         {
             "wave_number": ("omega", hydro.wave_number),
             "added_mass": (("omega", "influenced_dof", "radiating_dof"), hydro.added_mass),
             "radiation_damping": (("omega", "influenced_dof", "radiating_dof"), hydro.damping),
             "excitation_force": (("omega", "wave_direction", "influenced_dof"), hydro.excitation),
+            "hydrostatic_stiffness": (("influenced_dof", "radiating_dof"), at.hydrostatic),
         },
         coords={
             "omega": hydro.omega, "wave_direction": hydro.headings, "influenced_dof": names, "radiating_dof": names,
         },
     )  # fmt: skip
-    data.attrs |= {
-        "panels": mesh.count,
-        "longest_panel_side": mesh.longest_side,
-        "mirrors": len(hydro.panels.symmetry.mirrors),
-        "gap_damping_lid": hydro.panels.gap_damping,
-    }
+    data.attrs |= {"rho": at.water.density, "g": at.water.gravity, "water_depth": at.water.depth}
+    if hydro.panels is None:
+        data.attrs["source"] = hydro.source
+    else:
+        data.attrs |= {
+            "panels": hydro.panels.mesh.count,
+            "longest_panel_side": hydro.panels.mesh.longest_side,
+            "mirrors": len(hydro.panels.symmetry.mirrors),
+            "gap_damping_lid": hydro.panels.gap_damping,
+        }
     return labelled(data)
 
 
@@ -131,7 +135,15 @@ def _mean_loads(at: RowAtLevel, answer: SeaAnswer) -> Array:
     return out
 
 
-def regular_dataset(at: RowAtLevel, sea: RegularSea, answers: list[SeaAnswer]) -> xr.Dataset:
+def _drift_of(drift: Array, answer: SeaAnswer, headings: Array) -> dict[str, Any]:
+    return {
+        "drift_per_amplitude_squared": (("omega", "wave_direction", "direction"), drift),
+        "omega": ("omega", answer.coarse.omega),
+        "wave_direction": ("wave_direction", headings),
+    }
+
+
+def regular_dataset(at: RowAtLevel, sea: RegularSea, answers: list[SeaAnswer], hydro: RowHydrodynamics) -> xr.Dataset:
     """Return motions, loads and tensions in regular waves, one entry a period."""
     import xarray as xr
 
@@ -178,6 +190,11 @@ def regular_dataset(at: RowAtLevel, sea: RegularSea, answers: list[SeaAnswer]) -
         "tension_amplitude": (("period", "line"), tension),
         "line_tension_maximum": (("period", "line"), mean_tension + tension),
     }
+    drift = answers[0].far.drift.copy()
+    for period, item in zip(sea.periods, answers):
+        row = int(np.argmin(np.abs(item.coarse.omega - 2.0 * np.pi / period)))
+        drift[row] = item.far.drift[row]
+    out |= _drift_of(drift, answers[0], hydro.headings)
     coords = coords_of(at) | {"period": np.array(sea.periods), "direction": ["across", "along", "about z"]}
     data = labelled(xr.Dataset(out, coords=coords))
     data.attrs |= {"kind": "regular", "heading": sea.heading, "status": _status(answers)}
@@ -266,6 +283,7 @@ def irregular_dataset(at: RowAtLevel, sea: IrregularSea, answer: SeaAnswer) -> x
         "line_tension_mean": ("line", mean_tension),
         "line_tension_maximum": ("line", mean_tension + largest(fine.tension)),
     }
+    out |= _drift_of(answer.far.drift, answer, answer.headings)
     coords = coords_of(at) | {"direction": ["across", "along", "about z"]}
     data = labelled(xr.Dataset(out, coords=coords))
     data.attrs |= {
@@ -298,6 +316,33 @@ def _gaussian_resultant(answer: SeaAnswer, duration: float) -> Array:
 
 def _status(answers: list[SeaAnswer]) -> str:
     return "converged" if all(item.converged for item in answers) else "not_converged"
+
+
+#: Numbers that are given a band of the damping.
+_BANDED = (
+    "significant_motion", "motion_amplitude", "largest_offset", "line_tension_maximum", "connector_resultant_largest",
+    "transmission_coefficient", "wave_height_ratio_of_point",
+)  # fmt: skip
+
+
+def with_damping_band(data: xr.Dataset, others: list[xr.Dataset]) -> xr.Dataset:
+    """Return a dataset with the range of its numbers over its own damping and that at the ends of its band.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        With the damping as given.
+    others : list of xarray.Dataset
+        The same with the damping at the ends; none where there is none to vary.
+    """
+    if not others:
+        return data
+    found = {}
+    for name in (name for name in _BANDED if name in data):
+        values = np.array([item[name].values for item in (data, *others)])
+        for end, pick in (("low", np.fmin), ("high", np.fmax)):
+            found[f"{name}_{end}"] = (data[name].dims, pick.reduce(values, axis=0))
+    return labelled(data.assign(found))
 
 
 def map_dataset(
@@ -376,4 +421,11 @@ def map_dataset(
     return data
 
 
-__all__ = ["hydrodynamics_dataset", "irregular_dataset", "map_dataset", "regular_dataset", "statics_dataset"]
+__all__ = [
+    "hydrodynamics_dataset",
+    "irregular_dataset",
+    "map_dataset",
+    "regular_dataset",
+    "statics_dataset",
+    "with_damping_band",
+]

@@ -100,6 +100,7 @@ def wave_field(
     wet = points.points[points.wet]
     radiated, diffracted = [], []
     panels, water = hydro.panels, hydro.water
+    assert panels is not None, "a file holds no panels"
     base = key_of(
         engine_version(), panels.mesh.corners, wet, hydro.centres, panels.gap_damping, hydro.headings,
         (water.depth, water.density, water.gravity),

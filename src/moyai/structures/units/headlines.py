@@ -16,7 +16,7 @@ from moyai.core.arrays import Array
 from moyai.core.headline import Band, Bound, Headline, governing
 from moyai.core.wording import spoken
 from moyai.series.realisations import ALONE, alone, seeds
-from moyai.structures.units.model import SNAP_RATIO
+from moyai.structures.units.model import DAMPING_BAND, SNAP_RATIO
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -124,6 +124,7 @@ def _greatest(
 #: Groups of waves move a row on chains slowly and far about its mean place; a single unit with it has several times the
 #: tension. Without it tensions and offsets of an irregular sea prove no strength.
 _WITHOUT_DRIFT = "; slow drift about the mean is not computed and adds to it, on chains several times over"
+_DAMPING = f"damping of the units beyond waves times {DAMPING_BAND[0]:g} to {DAMPING_BAND[1]:g}"
 _SNAPS = f"; pulled beyond {SNAP_RATIO:g} times its mean, where a line at rest at every instant says too little"
 
 
@@ -152,8 +153,8 @@ class _Largest:
 
     @property
     def band(self) -> Band | None:
-        """What the realisations give."""
-        return seeds(self.scatter)
+        """What the realisations give, in the frequency domain what the damping is worth."""
+        return seeds(self.scatter) if self.scatter.size else _damping_band(self.data, self.name, self.index, self.scale)
 
     @property
     def bound(self) -> Bound:
@@ -164,6 +165,14 @@ class _Largest:
     def without_drift(self) -> bool:
         """Whether it is of an irregular sea without slow drift."""
         return not self.timed and "significant_motion" in self.data
+
+
+def _damping_band(data: xr.Dataset, name: str, index: tuple[int, ...], scale: float = 1.0) -> Band | None:
+    """Return the band of a number over the damping of the units; None where there was none to vary."""
+    if f"{name}_low" not in data:
+        return None
+    low, high = (abs(float(data[f"{name}_{end}"].values[index])) / scale for end in ("low", "high"))
+    return Band(low, high, _DAMPING)
 
 
 def _largest(seas: Seas, name: str, over: Array | None = None) -> _Largest | None:
@@ -344,12 +353,15 @@ def _motions(seas: Seas) -> Iterator[Headline]:
     for path, data in seas:
         name = "significant_motion" if "significant_motion" in data else "motion_amplitude"
         factor = 1.0 if name == "significant_motion" else 2.0
-        rolls.append((path, data.assign(roll=factor * data[name].sel(dof="roll"))))
+        ends = {end: f"{name}{end}" for end in ("", "_low", "_high") if f"{name}{end}" in data}
+        rolls.append(
+            (path, data.assign({f"roll{end}": factor * data[own].sel(dof="roll") for end, own in ends.items()}))
+        )
     roll = _largest(rolls, "roll")
     if roll is not None:
         yield Headline(
             "roll", "Largest roll of a unit (double amplitude, significant in seas)", roll.value, "rad", roll.where,
-            _model(roll),
+            _model(roll), band=roll.band,
         )  # fmt: skip
 
 
@@ -361,17 +373,20 @@ def _waves(maps: list[tuple[str, xr.Dataset]]) -> Iterator[Headline]:
         words = "root mean square of K along the line behind"
         if math.isfinite(alone):
             words += f"; the section alone, without ends and gaps, {alone:.3g}"
-        yield Headline("transmission", "Transmission over the line behind", value, "1", where, MODEL, detail=words)
+        yield Headline(
+            "transmission", "Transmission over the line behind", value, "1", where, MODEL,
+            band=_damping_band(data, "transmission_coefficient", index), detail=words,
+        )  # fmt: skip
         for path, data in maps:
             if not data["transmission_coefficient"].dims:
                 level, _, sea = path.split("/")[1:]
                 yield Headline(
                     "transmission", "Transmission over the line behind", float(data["transmission_coefficient"]), "1",
-                    level, MODEL, sea=sea, shown=False,
+                    level, MODEL, band=_damping_band(data, "transmission_coefficient", ()), sea=sea, shown=False,
                 )  # fmt: skip
     point = _greatest(maps, "wave_height_ratio_of_point")
     if point is not None:
         yield Headline(
             "berth_wave_height", "Largest wave height at a named point over the incident one", point[0], "1", point[1],
-            MODEL,
+            MODEL, band=_damping_band(point[2][1], "wave_height_ratio_of_point", point[2][2]),
         )  # fmt: skip

@@ -40,7 +40,8 @@ class RowHydrodynamics:
 
     Parameters
     ----------
-    panels : Panels
+    panels : Panels or None
+        None of coefficients from a file.
     water : Water
     centres : ndarray (u, 3)
         Centres of gravity [m], row axes; motions are about them.
@@ -49,14 +50,23 @@ class RowHydrodynamics:
     solutions : tuple of Solution
         In rising frequency.
     checks : tuple of IdentityCheck
+    drift : ndarray (f, h, 3) or None
+        Mean drift of the whole row that a file holds [N/m2], [N m/m2].
+    band : RowHydrodynamics or None
+        All frequencies of the file.
+    source : str
+        Program and file.
     """
 
-    panels: Panels
+    panels: Panels | None
     water: Water
     centres: Array
     headings: Array
     solutions: tuple[Solution, ...]
     checks: tuple[IdentityCheck, ...]
+    drift: Array | None = None
+    band: RowHydrodynamics | None = None
+    source: str = ""
 
     @property
     def omega(self) -> Array:
@@ -213,8 +223,8 @@ def _from_dataset(data: xr.Dataset) -> Solution | None:
 
 
 def _checks(solutions: tuple[Solution, ...], panels: Panels, water: Water) -> tuple[IdentityCheck, ...]:
-    symmetry = max(_asymmetry(item.added_mass, solutions, "added_mass") for item in solutions)
-    symmetry = max(symmetry, max(_asymmetry(item.damping, solutions, "damping") for item in solutions))
+    symmetry = max(asymmetry(item.added_mass, solutions, "added_mass") for item in solutions)
+    symmetry = max(symmetry, max(asymmetry(item.damping, solutions, "damping") for item in solutions))
     size = np.max([np.abs(item.excitation).reshape(-1, 6).max(axis=0) for item in solutions], axis=0)
     apart = np.max([item.haskind for item in solutions], axis=0)
     checks = [
@@ -240,7 +250,7 @@ def _kinds(matrix: Array) -> Array:
     return np.asarray(np.abs(matrix).reshape(units, 6, units, 6).max(axis=(0, 2)))
 
 
-def _asymmetry(matrix: Array, solutions: tuple[Solution, ...], name: str) -> float:
+def asymmetry(matrix: Array, solutions: tuple[Solution, ...], name: str) -> float:
     """Return the asymmetry over the geometric mean of the largest diagonal entries of the band."""
     diagonal = np.max([_kinds(getattr(item, name)).diagonal() for item in solutions], axis=0)
     scale = np.sqrt(np.outer(diagonal, diagonal))

@@ -8,8 +8,10 @@ about y, yaw about z.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
-from typing import Literal
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any, Literal
 
 import numpy as np
 
@@ -26,6 +28,8 @@ from moyai.sea.environment import Environment
 DOFS = ("sway", "surge", "heave", "pitch", "roll", "yaw")
 #: Largest tension over the mean up to which a line at rest at every instant serves
 SNAP_RATIO = 5.0
+#: Factors on the damping of the units beyond waves for the band of an answer, as for a single breakwater.
+DAMPING_BAND = (0.5, 2.0)
 ConnectorKind = Literal["rigid", "hinge", "ball", "spring", "rubber", "chain", "fender"]
 Analysis = Literal["statics", "frequency", "map", "time"]
 
@@ -206,6 +210,17 @@ class FloatingRow:
         """Number of units."""
         return len(self.placements)
 
+    def damped(self, factor: float) -> FloatingRow:
+        """Return the row with its damping beyond wave radiation times a factor."""
+        return replace(
+            self, damping_fraction=factor * self.damping_fraction, linear_damping=factor * self.linear_damping
+        )
+
+    @property
+    def damping_band(self) -> tuple[float, ...]:
+        """Factors on the damping that answers are given a band for, those of a single breakwater; none without it."""
+        return DAMPING_BAND if np.any(self.damping_fraction) or np.any(self.linear_damping) else ()
+
 
 @dataclass(frozen=True)
 class MapArea:
@@ -287,9 +302,35 @@ class Settings:
     time: TimeSettings = field(default_factory=TimeSettings)
 
 
+@dataclass(frozen=True)
+class RowCoefficients:
+    """Coefficients of all units together from the file of another program.
+
+    Parameters
+    ----------
+    program : str
+    path : Path
+    options : mapping
+        Of the reader.
+    bodies : tuple of str
+        Bodies of the file in the order of the units; empty for that of the file.
+    origin : tuple of two float
+        Origin of the axes of the file in those of the row [m].
+    heading : float
+        From the x axis of the row to that of the file [rad].
+    """
+
+    program: str
+    path: Path
+    options: Mapping[str, Any] = field(default_factory=dict)
+    bodies: tuple[str, ...] = ()
+    origin: tuple[float, float] = (0.0, 0.0)
+    heading: float = 0.0
+
+
 @dataclass(frozen=True, eq=False)
 class UnitsProblem:
-    """The whole problem."""
+    """The whole problem; ``coefficients`` stand in place of a computation by panels."""
 
     title: str
     row: FloatingRow
@@ -299,6 +340,7 @@ class UnitsProblem:
     criteria: tuple[Criterion, ...] = ()
     case_text: str = ""
     case_hash: str = ""
+    coefficients: RowCoefficients | None = None
 
 
 def straight_row(count: int, length: float, gap: float) -> tuple[Placement, ...]:
@@ -309,5 +351,5 @@ def straight_row(count: int, length: float, gap: float) -> tuple[Placement, ...]
 
 __all__ = [
     "DOFS", "SNAP_RATIO", "Analysis", "Connector", "ConnectorKind", "Curve", "FloatingRow", "MapArea", "Placement",
-    "Settings", "TimeSettings", "UnitLine", "UnitsProblem", "straight_row",
+    "RowCoefficients", "Settings", "TimeSettings", "UnitLine", "UnitsProblem", "straight_row",
 ]  # fmt: skip

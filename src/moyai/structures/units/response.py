@@ -192,8 +192,13 @@ class FarWaves:
 
 
 def far_waves(model: RowModel, response: RowResponse) -> FarWaves:
-    """Return far waves, mean drift and energy balance at the frequencies of the coefficients."""
+    """Return far waves, mean drift and energy balance at the frequencies of the coefficients.
+
+    Coefficients from a file have no far waves: drift is that of the file, the balance is not known.
+    """
     hydro, at = model.hydro, model.at
+    if hydro.panels is None:
+        return _far_waves_of_file(hydro)
     scattered = np.array([item.scattered for item in hydro.solutions])
     radiated = np.array([item.radiated for item in hydro.solutions])
     total = scattered + np.einsum("fhm,fmd->fhd", response.motion, radiated)
@@ -225,3 +230,10 @@ def far_waves(model: RowModel, response: RowResponse) -> FarWaves:
     width = at.row.count * at.row.length
     balance = (lost - response.dissipated) / (energy * speed * width)
     return FarWaves(total, forward, drift, balance)
+
+
+def _far_waves_of_file(hydro: RowHydrodynamics) -> FarWaves:
+    shape = len(hydro.omega), len(hydro.headings)
+    unknown = np.full(shape, np.nan)
+    drift = np.full((*shape, 3), np.nan) if hydro.drift is None else hydro.drift
+    return FarWaves(np.zeros((*shape, 0), dtype=complex), unknown.astype(complex), drift, unknown)

@@ -16,7 +16,7 @@ from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
 from moyai.core.store import DatasetStore
 from moyai.core.validity import IdentityCheck, Notice
-from moyai.sea.states import IrregularSea, RegularSea
+from moyai.sea.states import IrregularSea, RegularSea, SeaState
 from moyai.structures.units.assembly import RowAtLevel, assemble, level_notices, steady_load
 from moyai.structures.units.bem import Panels, green_function, panels_of
 from moyai.structures.units.datasets import (
@@ -25,6 +25,7 @@ from moyai.structures.units.datasets import (
     map_dataset,
     regular_dataset,
     statics_dataset,
+    with_damping_band,
 )
 from moyai.structures.units.field import map_points, wave_field
 from moyai.structures.units.headlines import headlines_of
@@ -153,17 +154,24 @@ def _steps(
 ) -> Iterator[None]:
     environment = problem.environment
     levels = [assemble(problem.row, environment, name, level) for name, level in environment.water_levels]
+    of_file = None
     if WITH_WAVES & set(problem.settings.analyses):
-        green_function()
+        if problem.coefficients is None:
+            green_function()
+        else:
+            from moyai.structures.units.coefficients_file import read_row
+
+            of_file = read_row(problem.coefficients)
     for index, at in enumerate(levels):
         progress("water levels", index, len(levels))
-        yield from _level_steps(problem, at, collected, store, progress)
+        yield from _level_steps(problem, at, of_file, collected, store, progress)
     progress("water levels", len(levels), len(levels))
 
 
 def _level_steps(
-    problem: UnitsProblem, at: RowAtLevel, collected: Collected, store: DatasetStore | None, progress: Progress
-) -> Iterator[None]:
+    problem: UnitsProblem, at: RowAtLevel, of_file: xr.Dataset | None, collected: Collected,
+    store: DatasetStore | None, progress: Progress,
+) -> Iterator[None]:  # fmt: skip
     import xarray as xr
 
     root, settings, environment = f"/{at.name}", problem.settings, problem.environment
@@ -175,22 +183,46 @@ def _level_steps(
     if not WITH_WAVES & set(settings.analyses) or not environment.sea_states:
         return
     omega, headings = frequencies_of(environment, settings), headings_of(environment)
-    panels = row_panels(at, settings, highest_frequency(omega, settings))
-    collected.notices.extend(check_resolution(at, panels, omega))
-    hydro = solve_row(panels, at.water, at.centres, omega, headings, store=store, progress=progress)
+    if of_file is None:
+        panels = row_panels(at, settings, highest_frequency(omega, settings))
+        collected.notices.extend(check_resolution(at, panels, omega))
+        hydro = solve_row(panels, at.water, at.centres, omega, headings, store=store, progress=progress)
+    else:
+        from moyai.structures.units.coefficients_file import row_from_file
+
+        found = row_from_file(of_file, at, omega, headings)
+        hydro = found.hydro
+        collected.notices.extend(replace(item, message=f"{at.name}: {item.message}") for item in found.notices)
+        # what the file does not know moves nothing
+        settings = replace(settings, drift=settings.drift and hydro.drift is not None)
+        problem = replace(problem, settings=settings)
     collected.checks.extend(replace(check, name=f"{at.name}: {check.name}") for check in hydro.checks)
-    collected.notices.extend(_notices(problem, at, panels))
+    collected.notices.extend(_notices(problem, at))
     collected.groups[f"{root}/hydrodynamics"] = hydrodynamics_dataset(at, hydro)
     yield
     answers: dict[str, list[SeaAnswer]] = {}
+    # the same row with its damping at the ends of its band
+    others = [replace(at, row=at.row.damped(factor)) for factor in at.row.damping_band]
+    varied: dict[str, list[list[SeaAnswer]]] = {}
+
+    def answer(row: RowAtLevel, sea: SeaState) -> list[SeaAnswer]:
+        if isinstance(sea, RegularSea):
+            return regular_answer(row, hydro, sea, wind + current, settings)
+        return [irregular_answer(row, hydro, sea, wind + current, settings)]
+
+    def numbers(row: RowAtLevel, sea: SeaState, found: list[SeaAnswer]) -> xr.Dataset:
+        if isinstance(sea, RegularSea):
+            return regular_dataset(row, sea, found, hydro)
+        return irregular_dataset(row, sea, found[0])
+
     for sea in environment.sea_states:
         progress("seas", len(answers), len(environment.sea_states))
-        if isinstance(sea, RegularSea):
-            answers[sea.name] = regular_answer(at, hydro, sea, wind + current, settings)
-            data = regular_dataset(at, sea, answers[sea.name])
-        else:
-            answers[sea.name] = [irregular_answer(at, hydro, sea, wind + current, settings)]
-            data = irregular_dataset(at, sea, answers[sea.name][0])
+        answers[sea.name] = answer(at, sea)
+        varied[sea.name] = [answer(row, sea) for row in others]
+        data = with_damping_band(
+            numbers(at, sea, answers[sea.name]),
+            [numbers(row, sea, found) for row, found in zip(others, varied[sea.name], strict=True)],
+        )
         collected.groups[f"{root}/frequency/{sea.name}"] = data
         if data.attrs["status"] != "converged":
             collected.failures.append(f"not settled: {at.name}/frequency/{sea.name}")
@@ -206,8 +238,12 @@ def _level_steps(
         points = map_points(problem.map_area, at)
         field = wave_field(points, hydro, store=store, progress=progress)
         for sea in environment.sea_states:
-            collected.groups[f"{root}/map/{sea.name}"] = map_dataset(
-                at, hydro, sea, answers[sea.name], points, problem.map_area, field, section
+            collected.groups[f"{root}/map/{sea.name}"] = with_damping_band(
+                map_dataset(at, hydro, sea, answers[sea.name], points, problem.map_area, field, section),
+                [
+                    map_dataset(row, hydro, sea, found, points, problem.map_area, field, None)
+                    for row, found in zip(others, varied[sea.name], strict=True)
+                ],
             )
         yield
 
@@ -258,7 +294,7 @@ def _balance(
     at: RowAtLevel, sea: RegularSea | IrregularSea, answers: list[SeaAnswer], hydro: RowHydrodynamics
 ) -> list[IdentityCheck]:
     """Hold what the far waves lose against what damping takes; the surface damped in gaps takes a part unknown here."""
-    if at.row.gap_damping_lid > 0.0:
+    if at.row.gap_damping_lid > 0.0 or hydro.panels is None:
         return []
     worst = max(float(np.abs(item.far.balance).max()) for item in answers)
     return [
@@ -305,10 +341,10 @@ def _beyond_curves(at: RowAtLevel, sea: str, data: xr.Dataset) -> list[Notice]:
     return out
 
 
-def _notices(problem: UnitsProblem, at: RowAtLevel, panels: Panels) -> list[Notice]:
+def _notices(problem: UnitsProblem, at: RowAtLevel) -> list[Notice]:
     out = []
     row = at.row
-    if row.count > 1 and row.gap_damping_lid == 0.0:
+    if row.count > 1 and row.gap_damping_lid == 0.0 and problem.coefficients is None:
         out.append(
             Notice(
                 "gaps-without-damping",

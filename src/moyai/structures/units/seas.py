@@ -294,7 +294,8 @@ def _of_headings(hydro: RowHydrodynamics, columns: Array) -> RowHydrodynamics:
         )
         for item in hydro.solutions
     )  # fmt: skip
-    return replace(hydro, headings=hydro.headings[columns], solutions=solutions)
+    drift = None if hydro.drift is None else hydro.drift[:, columns]
+    return replace(hydro, headings=hydro.headings[columns], solutions=solutions, drift=drift)
 
 
 def statistics_of(answer: SeaAnswer, transfer: Array) -> ResponseStatistics:

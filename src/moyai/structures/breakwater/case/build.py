@@ -129,7 +129,7 @@ def _coefficients(entry: Any, model: schema.BreakwaterCase, folder: Path) -> Coe
     options: dict[str, Any] = {"sea": entry.sea, "origin": entry.origin}
     if not isinstance(entry, schema.NemohCoefficients) and entry.reference_point is not None:
         options["reference_point"] = entry.reference_point
-    if isinstance(entry, schema.CapytaineCoefficients) and entry.body is not None:
+    if entry.body is not None:
         options["body"] = entry.body
     if isinstance(entry, schema.WamitCoefficients):
         # WAMIT files are made dimensionless with these

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from moyai.core.arrays import Array, ComplexArray
+from moyai.core.arrays import Array
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
 from moyai.floating.coefficients import Hydrodynamics
@@ -277,21 +277,17 @@ def _drift_of(unit: FloatingUnit, hydro: Hydrodynamics, motions: Motions, column
 def _sea_motions(
     model: FrequencyModel, hydros: list[Hydrodynamics], headings: Array, stiffness: Array, directional: Array
 ) -> tuple[Motions, tuple[Notice, ...], LinearDamping]:
-    """Return the motions in all headings of a sea, quadratic damping linearised for the whole of it, and that damping.
-
-    The linearisation takes the radiation of the first heading for all; each heading is then solved with its own.
-    """
+    """Return motions in all headings of a sea, quadratic damping linearised for the whole of it, and that damping."""
     _unit, damping, deviation = model.unit, model.damping, np.zeros(0)
     if model.quadratic is not None:
-        joined = _joined_headings(hydros, headings)
         found = linearised_in_sea(
-            joined,
+            hydros,
             model.inertia,
             stiffness,
             directional,
             quadratic=model.quadratic,
             damping=model.damping,
-            water_motion=water_motion(model, joined.omega, headings),
+            water_motion=water_motion(model, hydros[0].omega, headings),
         )
         deviation = found.measure_deviation
         damping = LinearDamping(damping.matrix + found.equivalent_damping, damping.critical_fraction)
@@ -299,23 +295,3 @@ def _sea_motions(
     displacement = np.concatenate([item.displacement for item in each], axis=1)
     notices = tuple(notice for item in each for notice in item.notices)
     return replace(each[0], heading=headings, displacement=displacement), notices, damping
-
-
-def _joined_headings(hydros: list[Hydrodynamics], headings: Array) -> Hydrodynamics:
-    """Put one-heading coefficients side by side; radiation is that of the first (motions equal along the unit)."""
-    first = hydros[0]
-    if len(hydros) == 1:
-        return first
-
-    def beside(name: str) -> ComplexArray | None:
-        values = [getattr(item, name) for item in hydros]
-        return None if values[0] is None else np.concatenate(values, axis=1)
-
-    excitation = np.concatenate([item.excitation for item in hydros], axis=1)
-    return replace(
-        first,
-        heading=np.asarray(headings, dtype=float),
-        excitation=excitation,
-        reflection=beside("reflection"),
-        transmission=beside("transmission"),
-    )

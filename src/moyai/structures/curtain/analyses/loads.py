@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
@@ -153,10 +153,23 @@ def _table(
     decided = [_decided(unit, row, moved, roles) for row in rows]
     plate = (ModelRole(IMPACT, "governs", "", ""),)
     for number, row in enumerate(decided):
+        least: dict[str, Any] = {"weaker_load": math.nan, "weaker_high": math.nan, "weaker_source": ""}
         for other in [] if row["component"] == "float" else weaker.get(str(row["component"]), []):
             found = _decided(unit, other, NOT_MOVED, plate)
-            if float(found["governing_high"]) > float(decided[number]["governing_high"]):
+            high = float(found["governing_high"])
+            if high > float(decided[number]["governing_high"]):
                 decided[number] = found
+            elif (
+                decided[number]["load_bound"] == "at most"
+                and row["component"] != "joint"
+                and not high <= least["weaker_high"]
+            ):
+                # a value below a bound: the bound proves nothing that it passes, the value does
+                least = {
+                    "weaker_load": found["governing_load"], "weaker_high": high,
+                    "weaker_source": other["impact_source"],
+                }  # fmt: skip
+        decided[number] = decided[number] | least
     rows = _with_joint(unit, decided)
     columns = {key: [row[key] for row in rows] for key in rows[0]}
     known = [row for row in rows if math.isfinite(row["utilisation"])]  # type: ignore[arg-type]
@@ -188,7 +201,10 @@ def _decided(
         above += float(row["impact_high"]) - float(row["impact_load"])
     if row["governing"] == "dynamic":
         above = max(one for one in (governing, high, factor * span.judged) if math.isfinite(one))
-    row |= {"governing_high": above}
+    if row["load_bound"] == "at most":
+        # a bound stands at the upper end of all that it varies with
+        governing = above
+    row |= {"governing_load": governing, "governing_high": above}
     judged = math.isfinite(float(row["capacity"])) and math.isfinite(governing)
     strength = _strength(unit, component)
     return row | {

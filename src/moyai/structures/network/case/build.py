@@ -16,8 +16,10 @@ from moyai.case.headings import heading_of
 from moyai.case.schema_environment import sea_names
 from moyai.core.errors import InputError
 from moyai.coupled.assembly import RodPart, VolumePart
+from moyai.flexible.failures import LineFailure
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import BOX, SPHERE, BarType, RopeCurve
+from moyai.flexible.network import BOX, SPHERE, BarType, RopeCurve, SlowStretch
+from moyai.sea.current_field import CurrentField
 from moyai.sea.elevation_record import components_of_record
 from moyai.sea.environment import Environment
 from moyai.sea.states import ComponentSea, RegularSea, SeaState
@@ -81,7 +83,28 @@ def build_problem(case: NetworkCase, folder: Path, *, case_text: str = "", case_
         case_text=case_text,
         case_hash=case_hash,
         criteria=criteria_of(case),
-    )
+        current_field=_current_field(case, folder),
+        failures=tuple(
+            LineFailure(
+                item.line, item.at == "end", math.inf if item.time is None else item.time,
+                math.inf if item.tension is None else item.tension,
+            )
+            for item in unit.failures
+        ),
+    )  # fmt: skip
+
+
+def _current_field(case: NetworkCase, folder: Path) -> CurrentField | None:
+    """Return the current that changes with time, from its file."""
+    given = case.current_field
+    if given is None:
+        return None
+    from moyai.interop.moordyn_currents import read_current_field
+
+    try:
+        return read_current_field(folder / given.file, given.form)
+    except InputError as error:
+        raise error.at("current_field.file") from None
 
 
 def _settings(case: NetworkCase, folder: Path) -> model.Settings:
@@ -90,7 +113,8 @@ def _settings(case: NetworkCase, folder: Path) -> model.Settings:
         analyses=case.analyses, duration=given.duration, output_step=given.output_step, ramp=given.ramp,
         start=given.start, resume=None if given.resume is None else folder / given.resume, method=given.method,
         step=given.step, wave_front=given.wave_front, tolerance=given.tolerance, stretching=given.stretching,
-        skip=given.skip, sensitivity=given.sensitivity, mesh_check=given.mesh_check, peak_goal=given.peak_goal,
+        skip=given.skip, sensitivity=given.sensitivity,
+        mesh_check="off" if case.structure.failures else given.mesh_check, peak_goal=given.peak_goal,
         slack_level=given.slack_level,
         snap_threshold=given.snap_threshold, modes=given.modes, stiffness_step=given.stiffness_step,
     )  # fmt: skip
@@ -220,9 +244,13 @@ def bar_type_of(
     made["axial_stiffness"] = stiffness
     bar = BarType(
         name, viscosity=viscosity, bending_stiffness=entry.bending_stiffness, tension_only=tension_only, curve=curve,
-        **made,
+        slow=_slow_stretch(getattr(entry, "slow_stretch", None)), **made,
     )  # fmt: skip
     return bar, breaking
+
+
+def _slow_stretch(entry: parts.SlowStretch | None) -> SlowStretch | None:
+    return None if entry is None else SlowStretch(entry.static_stiffness, entry.viscosity, entry.growth)
 
 
 def _known(name: str, types: Any, path: str) -> Any:

@@ -236,6 +236,22 @@ def _check_settings(model: NetworkCase, findings: Findings, folder: Path) -> Non
     if settings.snap_threshold is not None and settings.snap_threshold < settings.slack_level:
         findings.fault(("settings", "snap_threshold"), "the threshold of a snap lies under the slack level",
                        allowed=f"at least {settings.slack_level:g} N")  # fmt: skip
+    for index, item in enumerate(model.structure.failures):
+        path = ("structure", "failures", index)
+        if item.line not in model.structure.lines:
+            lines = ", ".join(model.structure.lines) or "none"
+            findings.fault((*path, "line"), f"there is no line '{item.line}'", allowed=lines)
+        if model.structure.bodies:
+            findings.fault(path, "lines that part are not run next to bodies", remedy="leave the failure or bodies out")
+        if settings.resume is not None:
+            findings.fault(path, "a run that is resumed does not know which lines have parted", remedy="run it whole")
+        if "dynamic" not in model.analyses:
+            findings.warn(path, "lines part in 'dynamic' alone")
+    if model.current_field is not None:
+        if model.current is not None:
+            findings.fault(("current_field",), "'current' and 'current_field' exclude each other", remedy="keep one")
+        if "dynamic" not in model.analyses:
+            findings.warn(("current_field",), "a current that changes with time acts in 'dynamic' alone")
     if settings.start == "rest_in_current" and model.current is None:
         findings.fault(("settings", "start"), "there is no current to rest in", remedy="give 'current', or start: rest")
     if model.structure.bed is not None and math.isinf(model.site.water_depth):

@@ -61,6 +61,17 @@ Phase = Annotated[float, QuantityOf(quantities.ANGLE_DEGREES)]
 Tolerance = Annotated[float, QuantityOf(quantities.NUMBER, above=0.0, below=1.0)]
 
 
+class LineFails(Block):
+    """A line that parts from the point at one of its ends, at a time or a tension, whichever comes first."""
+
+    at_least_one: ClassVar[KeyGroups] = (("time", "tension"),)
+
+    line: Name = Field(description="Name of the line.")
+    at: Literal["start", "end"] = Field(description="End of the line at which it parts.")
+    time: NonNegativeDuration | None = Field(default=None, description="When it parts.")
+    tension: PositiveForce | None = Field(default=None, description="Tension at that end at which it parts.")
+
+
 class NetworkStructure(Block):
     """Points joined by lines and nets."""
 
@@ -89,6 +100,9 @@ class NetworkStructure(Block):
         max_length=50,
     )
     bed: NetworkBed | None = Field(default=None, description="Contact with the bed; none when left out.")
+    failures: Annotated[tuple[LineFails, ...], Field(max_length=1000)] = Field(
+        default=(), description="Lines that part in the course of a run."
+    )
 
 
 class SingleWave(_FromBearing):
@@ -131,6 +145,16 @@ NetworkSea = Annotated[
     | ElevationRecord,
     Field(discriminator="kind"),
 ]  # fmt: skip
+
+
+class CurrentInTime(Block):
+    """A current that changes with time, from a file in a form of MoorDyn."""
+
+    file: FileName = Field(description="Text file, relative to the case file.")
+    form: Literal["profile", "grid"] = Field(
+        description="profile: velocities over the height at several times (current_profile_dynamic.txt of MoorDyn); "
+        "grid: on a grid of x, y, z and time (current_profile_4d.txt)."
+    )
 
 
 class NetworkSettings(Block):
@@ -210,9 +234,16 @@ class NetworkCase(Block):
         default=(), description="One sea state, or a list of them; each is run. Still water when left out."
     )
     current: Current | None = Field(default=None, description="Steady current.")
+    current_field: CurrentInTime | None = Field(
+        default=None, description="A current that changes with time, in place of 'current'; it acts in 'dynamic'."
+    )
     structure: NetworkStructure = Field(description="The network.")
     analyses: Annotated[tuple[NetworkAnalysis, ...], Field(min_length=1), AfterValidator(once_each)] = Field(
         description="What is computed.", examples=[["statics", "modes", "dynamic"]]
+    )
+    plausibility: Literal["refuse", "warn"] = Field(
+        default="refuse",
+        description="What is done with impossible numbers; cases made from decks are warned. Default: refuse.",
     )
     criteria: NetworkKeeps = Field(default_factory=NetworkCriteria, description=CRITERIA)
     settings: NetworkSettings = Field(default_factory=NetworkSettings, description="How the analyses are run.")

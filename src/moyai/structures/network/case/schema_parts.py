@@ -111,6 +111,16 @@ class CatalogueType(_Internal):
     bending_stiffness: BendingStiffness = Field(default=0.0, description="EI. Default: 0.")
 
 
+class SlowStretch(Block):
+    """A spring beside a dashpot, in series with the quick stiffness."""
+
+    static_stiffness: PositiveForce = Field(description="EA of the whole rope under a load that stays.")
+    viscosity: Viscosity = Field(description="Of the dashpot beside the slow spring: force per rate of strain.")
+    growth: NonNegativeNumber = Field(
+        default=0.0, description="Quick stiffness per tension at rest that it grows with. Default: 0."
+    )
+
+
 class OwnType(_Internal):
     """A line with its own properties."""
 
@@ -120,6 +130,11 @@ class OwnType(_Internal):
     mass: PositiveMassPerLength = Field(description="Mass in air per length.")
     axial_stiffness: PositiveForce | None = Field(default=None, description="EA.")
     curve: RopeTable | None = Field(default=None, description="Tension over strain in place of EA.")
+    slow_stretch: SlowStretch | None = Field(
+        default=None,
+        description="How a synthetic rope gives way under loads that stay; axial_stiffness then is that of quick "
+        "changes.",
+    )
     volume: Annotated[float, QuantityOf(quantities.AREA, least=0.0)] | None = Field(
         default=None, description="Displaced volume per length. Default: that of the diameter."
     )

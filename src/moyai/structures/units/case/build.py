@@ -26,6 +26,7 @@ from moyai.structures.units.model import (
     FloatingRow,
     MapArea,
     Placement,
+    RowCoefficients,
     Settings,
     TimeSettings,
     UnitLine,
@@ -70,6 +71,27 @@ def build_problem(model: schema.UnitsCase, folder: Path, *, case_text: str = "",
         criteria=criteria_of(model),
         case_text=case_text,
         case_hash=case_hash,
+        coefficients=coefficients_of(model, folder),
+    )
+
+
+def coefficients_of(model: schema.UnitsCase, folder: Path) -> RowCoefficients | None:
+    """Return where the coefficients are; None where they are computed."""
+    given = model.structure.coefficients_file
+    if given is None:
+        return None
+    options: dict[str, Any] = {}
+    points = getattr(given, "reference_points", ())
+    if points:
+        options["reference_point"] = points
+    for name in ("length_scale", "first_column", "phase_at"):
+        if getattr(given, name, None) is not None:
+            options[name] = getattr(given, name)
+    if isinstance(given, schema.WamitRow):
+        # WAMIT files are made dimensionless with these
+        options |= {"density": model.site.density, "gravity": model.site.gravity}
+    return RowCoefficients(
+        given.program, folder / given.path, options, given.bodies, given.origin, math.radians(given.x_axis_heading_deg)
     )
 
 

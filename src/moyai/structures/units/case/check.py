@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from moyai.case.check_catalogue import SAID_OTHERWISE, line_place
-from moyai.case.check_sea import check_level_names, check_surroundings, check_waves
+from moyai.case.check_sea import check_file, check_level_names, check_surroundings, check_waves
 from moyai.case.findings import Findings, duplicates
 from moyai.case.schema_environment import sea_names
 from moyai.case.yaml_reader import KeyPath
@@ -55,6 +55,7 @@ def _check_needs(model: schema.UnitsCase, findings: Findings) -> None:
                 remedy="the units move in the waves: ask for both",
             )  # fmt: skip
     _check_time(model, findings)
+    _check_file(model, findings)
     pushed = model.settings.drift or model.wind is not None or model.current is not None
     if not model.lines and pushed and model.waves and waves:
         findings.fault(
@@ -64,6 +65,24 @@ def _check_needs(model: schema.UnitsCase, findings: Findings) -> None:
         )
     if unit.gap_damping_lid > 0.0 and len(_places(model)) < 2:
         findings.warn(("structure", "gap_damping_lid"), "a single unit has no gap; the lid does nothing")
+
+
+def _check_file(model: schema.UnitsCase, findings: Findings) -> None:
+    """Refuse what coefficients from a file cannot give."""
+    if model.structure.coefficients_file is None:
+        return
+    if "map" in model.analyses:
+        findings.fault(
+            ("analyses",), "the analysis 'map' needs the panels of the units, which a file of coefficients lacks",
+            remedy="leave 'map' out, or leave 'structure.coefficients_file' out",
+        )  # fmt: skip
+    if model.structure.gap_damping_lid > 0.0:
+        findings.fault(
+            ("structure", "gap_damping_lid"), "the damping of the gaps is in the coefficients of the file or nowhere",
+            remedy="leave it out, and damp the gaps in the program that computes the file",
+        )  # fmt: skip
+    if model.settings.panel_size is not None:
+        findings.warn(("settings", "panel_size"), "coefficients from a file need no panels", remedy="leave it out")
 
 
 def _check_time(model: schema.UnitsCase, findings: Findings) -> None:
@@ -282,6 +301,12 @@ def _check_by_building(model: schema.UnitsCase, findings: Findings, folder: Path
 
     if findings.faults:
         return
+    given = model.structure.coefficients_file
+    if given is not None and not check_file(
+        ("structure", "coefficients_file", "path"), given.path, folder, findings,
+        folder_allowed=given.program == "nemoh",
+    ):  # fmt: skip
+        return
     try:
         problem = build_problem(model, folder)
     except InputError as error:
@@ -333,12 +358,14 @@ def _check_step(problem: UnitsProblem, findings: Findings) -> None:
 def _check_problem(problem: UnitsProblem, findings: Findings) -> None:
     from moyai.structures.units.assembly import assemble, level_notices, steady_load, steady_position
     from moyai.structures.units.bem import check_memory
+    from moyai.structures.units.coefficients_file import read_row, row_from_file
     from moyai.structures.units.run import WITH_WAVES, check_resolution, highest_frequency, row_panels
-    from moyai.structures.units.seas import frequencies_of
+    from moyai.structures.units.seas import frequencies_of, headings_of
 
     environment = problem.environment
     omega = frequencies_of(environment, problem.settings)
     said: set[str] = set()
+    of_file = None
     for name, level in environment.water_levels:
         try:
             at = assemble(problem.row, environment, name, level)
@@ -347,7 +374,10 @@ def _check_problem(problem: UnitsProblem, findings: Findings) -> None:
                 return
             wind, current = steady_load(at, environment)
             steady_position(at, wind + current)
-            if WITH_WAVES & set(problem.settings.analyses) and omega.size:
+            if problem.coefficients is not None and WITH_WAVES & set(problem.settings.analyses) and omega.size:
+                of_file = read_row(problem.coefficients) if of_file is None else of_file
+                notices += row_from_file(of_file, at, omega, headings_of(environment)).notices
+            elif WITH_WAVES & set(problem.settings.analyses) and omega.size:
                 panels = row_panels(at, problem.settings, highest_frequency(omega, problem.settings))
                 check_memory(panels)
                 notices += check_resolution(at, panels, omega)
@@ -364,6 +394,8 @@ def _check_problem(problem: UnitsProblem, findings: Findings) -> None:
             path: KeyPath = ("structure",)
             if notice.code == "unstable":
                 path = ("structure", "centre_of_gravity_above_keel")
+            if notice.code.startswith(("coefficients-", "time-convention", "long-wave-heave")):
+                path = ("structure", "coefficients_file")
             if notice.code == "few-panels":
                 path = ("settings",)
             record = findings.fault if notice.severity == "error" else findings.warn

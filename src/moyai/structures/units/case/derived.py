@@ -8,9 +8,11 @@ from collections.abc import Iterator
 from moyai.case.builder import build
 from moyai.case.derived import Number
 from moyai.case.reader import Case
+from moyai.interop.bodies import bodies_of
 from moyai.sea.dispersion import wave_number
 from moyai.structures.units.assembly import RowAtLevel, assemble
 from moyai.structures.units.bem import memory_needed
+from moyai.structures.units.coefficients_file import read_row
 from moyai.structures.units.field import LINE_POINTS
 from moyai.structures.units.model import UnitsProblem
 from moyai.structures.units.run import WITH_WAVES, highest_frequency, irregular_frequency, row_panels
@@ -46,6 +48,15 @@ def _unit_numbers(level: str, at: RowAtLevel) -> Iterator[Number]:
 def _panel_numbers(level: str, at: RowAtLevel, problem: UnitsProblem) -> Iterator[Number]:
     omega = frequencies_of(problem.environment, problem.settings)
     if not omega.size or not WITH_WAVES & set(problem.settings.analyses):
+        return
+    if problem.coefficients is not None:
+        dataset = read_row(problem.coefficients)
+        group, own = "Coefficients of the file", dataset["omega"].values
+        yield Number(group, level, "bodies", float(len(bodies_of(dataset)) or 1))
+        yield Number(group, level, "frequencies in the file", float(own.size))
+        yield Number(group, level, "lowest frequency in the file", float(own[0]), "rad/s", 4)
+        yield Number(group, level, "highest frequency in the file", float(own[-1]), "rad/s", 4)
+        yield Number(group, level, "headings in the file", float(dataset.sizes["wave_direction"]))
         return
     panels = row_panels(at, problem.settings, highest_frequency(omega, problem.settings))
     group, mesh = "Panels", panels.mesh

@@ -6,6 +6,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 
+from moyai.case.schema_coefficients import word_of
 from moyai.case.schema_criteria import CRITERIA
 from moyai.case.schema_display import DISPLAY, Display
 from moyai.case.schema_environment import Current, SeaState, Site, Wind, refuse_no_seas
@@ -19,6 +20,7 @@ from moyai.case.schema_types import (
     AutoDuration,
     Block,
     Damping,
+    FileName,
     Fraction,
     Heading,
     KeyGroups,
@@ -88,6 +90,73 @@ class AdditionalUnitDamping(Block):
     yaw: RollDamping = Field(default=0.0, description="Moment per turning rate about z.")
 
 
+Point = tuple[Length, Length, Length]
+
+
+class _RowCoefficients(Block):
+    path: FileName = Field(description="File or folder of the program, relative to the case file.")
+    bodies: Annotated[tuple[Annotated[str, BeforeValidator(word_of)], ...], Field(max_length=60)] = Field(
+        default=(),
+        description="Bodies of the file in the order of the units, by name or by number from 1. Default: as they stand "
+        "in the file.",
+    )
+    origin: tuple[Length, Length] = Field(
+        default=(0.0, 0.0), description="Origin of the axes of the file in those of the row, [x, y]. Default: [0, 0]."
+    )
+    x_axis_heading_deg: Heading = Field(
+        default=0.0, description="Angle from the x axis of the row to that of the file. Default: 0."
+    )
+
+
+class CapytaineRow(_RowCoefficients):
+    """Coefficients computed by Capytaine."""
+
+    program: Literal["capytaine"] = Field(description="NetCDF written by Capytaine.")
+    reference_points: tuple[Point, ...] = Field(
+        default=(), description="Rotation centre [x, y, z] of every body, axes of the file, where it does not say them."
+    )
+
+
+class WamitRow(_RowCoefficients):
+    """Coefficients computed by WAMIT or written in its form."""
+
+    program: Literal["wamit"] = Field(description="WAMIT .1 and .3 files; .8 and .9 for the mean drift.")
+    reference_points: tuple[Point, ...] = Field(
+        default=(), description="Origin of the axes of every body [x, y, z]; from the .pot file when absent."
+    )
+    length_scale: PositiveLength | None = Field(default=None, description="ULEN; from the .gdf files when absent.")
+    first_column: Literal["period", "angular_frequency", "wave_number"] | None = Field(
+        default=None, description="Meaning of the first column; must be given for HAMS."
+    )
+
+
+class NemohRow(_RowCoefficients):
+    """Coefficients computed by NEMOH."""
+
+    program: Literal["nemoh"] = Field(description="Folder with Nemoh.cal and Results.")
+
+
+class BemioRow(_RowCoefficients):
+    """Coefficients in the form of BEMIO."""
+
+    program: Literal["bemio"] = Field(description="HDF5 file written by BEMIO.")
+    reference_points: Annotated[tuple[Point, ...], Field(min_length=1)] = Field(
+        description="Point [x, y, z] that moments of every body are about, axes of the file, which does not say them."
+    )
+
+
+class AqwaRow(_RowCoefficients):
+    """Coefficients computed by AQWA."""
+
+    program: Literal["aqwa"] = Field(description=".AH1 file of AQWA.")
+    phase_at: Literal["centre_of_gravity", "origin"] | None = Field(
+        default=None, description="Where the crest is that phases refer to; needed with bodies off the origin."
+    )
+
+
+RowCoefficientsFile = Annotated[CapytaineRow | WamitRow | NemohRow | BemioRow | AqwaRow, Field(discriminator="program")]
+
+
 class UnitsStructure(Block):
     """A floating breakwater of several equal units."""
 
@@ -107,6 +176,11 @@ class UnitsStructure(Block):
     damping: UnitDamping | None = Field(default=None, description="Damping as a fraction of critical.")
     additional_damping: AdditionalUnitDamping | None = Field(
         default=None, description="Linear damping beyond wave radiation."
+    )
+    coefficients_file: RowCoefficientsFile | None = Field(
+        default=None,
+        description="Coefficients of all units together from the files of another program, in place of the computation "
+        "by Capytaine.",
     )
     gap_damping_lid: NonNegativeNumber = Field(
         default=0.0,

@@ -45,7 +45,12 @@ def further_frequencies(omega: Array, low: float, high: float, count: int) -> Ar
 def wide_coefficients(
     hydro: RowHydrodynamics, count: int, *, store: DatasetStore | None = None, progress: Progress = silent
 ) -> RowHydrodynamics:
-    """Return coefficients over the band of the memory: those of the seas and further ones between and beyond."""
+    """Return coefficients over the band of the memory: those of the seas and further ones between and beyond.
+
+    Of a file all its frequencies.
+    """
+    if hydro.panels is None:
+        return hydro.band or hydro
     low, high = memory_band(hydro.omega, hydro.panels, hydro.water)
     further = further_frequencies(hydro.omega, low, high, count)
     if not len(further):
