@@ -49,7 +49,7 @@ def test_impacts_of_curtains(tmp_path: Path) -> None:
     assert_japanese(measured("snaps", write_set(tmp_path)), least=150)
 
 
-def test_towed_nets(net_folder: tuple[Path, object], tmp_path: Path) -> None:  # noqa: F811
+def test_towed_nets(net_folder: tuple[Path, object], tmp_path: Path) -> None:
     place = net_folder[0]
     shutil.copytree(place / "records", tmp_path / "records")
     (tmp_path / "few.yaml").write_text(reduced(place), encoding="utf-8")
@@ -57,11 +57,11 @@ def test_towed_nets(net_folder: tuple[Path, object], tmp_path: Path) -> None:  #
 
 
 @pytest.mark.slow
-def test_all_runs_of_towed_nets(net_folder: tuple[Path, object]) -> None:  # noqa: F811
+def test_all_runs_of_towed_nets(net_folder: tuple[Path, object]) -> None:
     assert NETS.is_dir()
     assert_japanese(measured("nets", net_folder[0] / "nets.yaml"), least=700)
 
 
 @pytest.mark.slow
-def test_streaks_of_particles(streak_folder: Path) -> None:  # noqa: F811
+def test_streaks_of_particles(streak_folder: Path) -> None:
     assert_japanese(measured("streaks", streak_folder / "streaks.yaml"), least=100)
