@@ -485,3 +485,15 @@ def test_what_fails_in_a_weaker_current_fails_in_a_stronger_one(tmp_path):
     assert page(0.6, f"{force:.0f} N")[1] == "does not hold"
     assert page(0.6, f"{1.02 * force:.0f} N")[1] == "not judged"
     assert page(0.6, f"{1.6 * float(row['governing_load']):.0f} N")[1] == "holds"
+
+
+def test_a_held_toe_is_nearest_to_the_bed_at_slack_water(tmp_path):
+    """The skirt hangs its whole 5 m in 9 m of water twice a tide, however high the current lifts its toe."""
+    for speed in (0.1, 0.3):
+        file = tmp_path / f"{speed:g}.yaml"
+        text = HELD.replace("SPEED", f"{speed:g}").replace("[statics, impact]", "[statics]")
+        file.write_text(text + "criteria: {least_toe_clearance: 4.05 m}\n", encoding="utf-8")
+        found = moyai.run(moyai.load_case(file))
+        gap = next(item for item in found.headlines if item.name == "toe_clearance")
+        assert gap.value == pytest.approx(4.0, abs=1e-9)
+        assert found.verdict.outcome == "does not hold"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import gzip
 import json
 from collections.abc import AsyncIterator, Awaitable, Callable
 from contextlib import asynccontextmanager
@@ -106,12 +107,10 @@ def _text(content: dict[str, Any], key: str) -> str:
 
 @cache
 def _asset(name: str) -> str:
-    from moyai.report.html import SCRIPTS, asset
+    from moyai.report.html import SCRIPTS, asset, plotly_archive
 
     if name == "plotly.js":
-        from plotly.offline import get_plotlyjs
-
-        return str(get_plotlyjs())
+        return gzip.decompress(plotly_archive()).decode("utf-8")
     if name == "report.css" or name in SCRIPTS:
         return asset(name)
     if name not in (*_OWN, "index.html"):

@@ -136,10 +136,16 @@ def governing(candidates: Iterable[Headline], sense: Sense = "at most") -> list[
     if not items:
         return []
     sign = 1.0 if sense == "at most" else -1.0
-    shown = max(items, key=lambda item: sign * item.value)
+    # of equal values the one with the worst end, in whatever order they come
+    shown = max(items, key=lambda item: (sign * item.value, sign * unfavourable(item, sense)))
     widest = max(items, key=lambda item: sign * unfavourable(item, sense))
-    if not sign * unfavourable(widest, sense) > sign * unfavourable(shown, sense):
+    end, own = unfavourable(widest, sense), unfavourable(shown, sense)
+    if not sign * end > sign * own:
         return [shown]
+    if widest.where != shown.where and abs(end - own) > 1e-3 * abs(own):
+        # the band of the number shown is not the one that is judged
+        words = f"{'up' if sense == 'at most' else 'down'} to {_worded(end, shown.unit)} at {widest.where}"
+        shown = replace(shown, detail="; ".join(filter(None, (shown.detail, words))))
     return [shown, replace(widest, shown=False, sea="")]
 
 
@@ -411,16 +417,20 @@ def _judge_parts(criterion: Criterion, headline: Headline, value: float) -> Judg
 
 
 def _spoken(criterion: Criterion, value: float, size: float) -> str:
-    shown, unit = criterion.shown(value), criterion.unit
+    return _worded(criterion.shown(value), criterion.unit, size)
+
+
+def _worded(value: float, unit: str, size: float | None = None) -> str:
+    """Return a number with its unit; forces in the unit that fits ``size``."""
     if unit == "1":
-        return f"{shown:.3g}"
+        return f"{value:.3g}"
     if unit == "%":
-        return f"{100.0 * shown:.3g} %"
+        return f"{100.0 * value:.3g} %"
     if unit == "rad":
-        return f"{math.degrees(shown):.3g} deg"
+        return f"{math.degrees(value):.3g} deg"
     if unit.startswith("N"):
-        return spoken(shown, unit, 3, like=size)
-    return f"{shown:.3g} {unit}"
+        return spoken(value, unit, 3, like=value if size is None else size)
+    return f"{value:.3g} {unit}"
 
 
 def _writable(value: float) -> float | str:

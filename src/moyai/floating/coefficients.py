@@ -10,8 +10,8 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
-from scipy.interpolate import CubicSpline
 
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
@@ -149,7 +149,7 @@ class Hydrodynamics:
                 return None
             if len(self.omega) == 1:
                 return np.repeat(values, len(inside), axis=0)
-            return CubicSpline(self.omega, values, axis=0)(inside)
+            return scipy.interpolate.CubicSpline(self.omega, values, axis=0)(inside)
 
         return replace(
             self,
@@ -181,7 +181,7 @@ class Hydrodynamics:
         if len(self.omega) == 1:
             spread = np.repeat(self.excitation, len(frequency), axis=0)
         else:
-            spread = CubicSpline(self.omega, self.excitation, axis=0)(frequency)
+            spread = scipy.interpolate.CubicSpline(self.omega, self.excitation, axis=0)(frequency)
         if heading is None:
             if len(self.heading) != 1:
                 raise InputError("several headings are computed and none is named", parameter="heading")

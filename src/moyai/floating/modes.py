@@ -6,10 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy.interpolate import CubicSpline
-from scipy.linalg import eigh
-from scipy.optimize import brentq, linear_sum_assignment
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
@@ -84,7 +82,7 @@ def natural_modes(
     def spectrum(omega: float) -> tuple[Array, Array]:
         matrix = added(omega)
         dynamic = restoring - omega**2 * (inertia + 0.5 * (matrix + matrix.T))
-        values, columns = eigh(dynamic * scale[:, None] * scale[None, :])
+        values, columns = scipy.linalg.eigh(dynamic * scale[:, None] * scale[None, :])
         return values, columns
 
     omega, vectors, outside = np.zeros(size), np.zeros((size, size)), []
@@ -123,7 +121,8 @@ def natural_modes(
 def _held(hydrodynamics: Hydrodynamics, values: Array, above: Array | None) -> Callable[[float], Array]:
     """Return ``values`` as a function of frequency, ends held; ``above`` approached like 1/omega^2 beyond the last."""
     low, high = float(hydrodynamics.omega[0]), float(hydrodynamics.omega[-1])
-    spline = CubicSpline(hydrodynamics.omega, values, axis=0) if len(hydrodynamics.omega) > 1 else None
+    several = len(hydrodynamics.omega) > 1
+    spline = scipy.interpolate.CubicSpline(hydrodynamics.omega, values, axis=0) if several else None
 
     def function(omega: float) -> Array:
         inside = min(max(omega, low), high)
@@ -168,7 +167,7 @@ def _mode_frequency(
     below = 0.0
     for upper in grid:
         if eigenvalue(float(upper)) <= 0.0:
-            return float(brentq(eigenvalue, below, float(upper), xtol=1e-13 * top, rtol=1e-13))
+            return float(scipy.optimize.brentq(eigenvalue, below, float(upper), xtol=1e-13 * top, rtol=1e-13))
         below = float(upper)
     return float("nan")
 
@@ -177,7 +176,7 @@ def _lead(vectors: Array, inertia: Array) -> tuple[NDArray[np.intp], Array]:
     """Give every mode the motion that carries most of its kinetic energy, each motion once; scale it to 1 there."""
     share = vectors**2 * np.diag(inertia)
     share = share / np.sum(share, axis=1, keepdims=True)
-    row, column = linear_sum_assignment(-share)
+    row, column = scipy.optimize.linear_sum_assignment(-share)
     order = row[np.argsort(column)]
     shapes = vectors[order]
     return order, shapes / np.diagonal(shapes)[:, None]

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
-from scipy.interpolate import BSpline, PPoly, make_interp_spline
-from scipy.special import sici
 
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
@@ -48,8 +47,8 @@ class DampingModel:
         """Return the damping (k, m, m) at any frequencies [rad/s]."""
         x = np.abs(np.atleast_1d(np.asarray(omega, dtype=float)))
         inside = np.minimum(x, self.knots[-1])
-        # PPoly wants the highest power first
-        out = PPoly(self.coefficients[::-1], self.knots)(inside)
+        # scipy.interpolate.PPoly wants the highest power first
+        out = scipy.interpolate.PPoly(self.coefficients[::-1], self.knots)(inside)
         beyond = x > self.knots[-1]
         if beyond.any():
             for i, row in enumerate(self.tails):
@@ -70,7 +69,7 @@ class DampingModel:
         """Return lambda(t) = (2/pi) integral of B/omega sin(omega t), (t, m, m), [eq:memory-acceleration-kernel]."""
         t = _times(time)
         out = fourier_integral(self.knots, self.over_frequency, t).imag
-        out += sici(self.knots[-1] * t)[0][:, None, None] * self.steady
+        out += scipy.special.sici(self.knots[-1] * t)[0][:, None, None] * self.steady
         for i, row in enumerate(self.tails):
             for j, tail in enumerate(row):
                 out[:, i, j] += tail.sine_over_frequency(t)
@@ -188,7 +187,7 @@ def fit_damping(
     return DampingModel(knots, _pieces(spline, knots), _pieces(quotient, knots), steady, tails)
 
 
-def _spline(w: Array, values: Array, at_zero: Array | None, *, even: bool, sign: float) -> BSpline:
+def _spline(w: Array, values: Array, at_zero: Array | None, *, even: bool, sign: float) -> scipy.interpolate.BSpline:
     """Interpolate; ``even`` mirrors the data with a sign about zero frequency, so that the start is exact."""
     if even:
         middle = [] if at_zero is None else [at_zero[None]]
@@ -198,10 +197,10 @@ def _spline(w: Array, values: Array, at_zero: Array | None, *, even: bool, sign:
         x, y = np.concatenate([[0.0], w]), np.concatenate([at_zero[None], values])
     else:
         x, y = w, values
-    return make_interp_spline(x, y, k=5)
+    return scipy.interpolate.make_interp_spline(x, y, k=5)
 
 
-def _pieces(spline: BSpline, knots: Array) -> Array:
+def _pieces(spline: scipy.interpolate.BSpline, knots: Array) -> Array:
     """Local powers of a spline on every interval; its own knots lie among them or where it is smooth."""
     out = np.empty((6, len(knots) - 1, *spline.c.shape[1:]))
     factor = 1.0

@@ -11,8 +11,8 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
-from scipy.special import betainc, betaincinv, gammaln, ndtr
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
@@ -67,17 +67,17 @@ class _HalfAngle(Spreading):
 
     def density(self, offset: ArrayLike, omega: ArrayLike) -> Array:
         s, angle = self.exponent_at(omega), wrapped(offset)
-        scale = np.exp(gammaln(s + 1.0) - gammaln(s + 0.5)) / (2.0 * math.sqrt(math.pi))
+        scale = np.exp(scipy.special.gammaln(s + 1.0) - scipy.special.gammaln(s + 0.5)) / (2.0 * math.sqrt(math.pi))
         return np.asarray(scale * np.abs(np.cos(0.5 * angle)) ** (2.0 * s))
 
     def cumulative(self, offset: ArrayLike, omega: ArrayLike) -> Array:
         s, angle = self.exponent_at(omega), wrapped(offset)
-        half = 0.5 * betainc(0.5, s + 0.5, np.sin(0.5 * angle) ** 2)
+        half = 0.5 * scipy.special.betainc(0.5, s + 0.5, np.sin(0.5 * angle) ** 2)
         return np.asarray(0.5 + np.sign(angle) * half)
 
     def quantile(self, fraction: ArrayLike, omega: ArrayLike) -> Array:
         side = 2.0 * np.asarray(fraction, dtype=np.float64) - 1.0
-        root = np.sqrt(betaincinv(0.5, self.exponent_at(omega) + 0.5, np.abs(side)))
+        root = np.sqrt(scipy.special.betaincinv(0.5, self.exponent_at(omega) + 0.5, np.abs(side)))
         return np.asarray(np.sign(side) * 2.0 * np.arcsin(root))
 
     def resultant(self, omega: ArrayLike) -> Array:
@@ -137,26 +137,32 @@ class CosinePower(Spreading):
     def density(self, offset: ArrayLike, omega: ArrayLike) -> Array:
         """Return G [1/rad]; the frequency does not matter."""
         angle, n = wrapped(offset), self.exponent
-        scale = math.exp(float(gammaln(0.5 * n + 1.0) - gammaln(0.5 * n + 0.5))) / math.sqrt(math.pi)
+        scale = math.exp(
+            float(scipy.special.gammaln(0.5 * n + 1.0) - scipy.special.gammaln(0.5 * n + 0.5))
+        ) / math.sqrt(math.pi)
         value = scale * np.maximum(np.cos(angle), 0.0) ** n
         return np.asarray(np.broadcast_arrays(value, np.asarray(omega, float))[0])
 
     def cumulative(self, offset: ArrayLike, omega: ArrayLike) -> Array:
         """Return the fraction of the energy up to ``offset`` [rad]."""
         angle = np.clip(wrapped(offset), -0.5 * math.pi, 0.5 * math.pi)
-        half = 0.5 * betainc(0.5, 0.5 * (self.exponent + 1.0), np.sin(angle) ** 2)
+        half = 0.5 * scipy.special.betainc(0.5, 0.5 * (self.exponent + 1.0), np.sin(angle) ** 2)
         return np.asarray(np.broadcast_arrays(0.5 + np.sign(angle) * half, np.asarray(omega, float))[0])
 
     def quantile(self, fraction: ArrayLike, omega: ArrayLike) -> Array:
         """Return the offset [rad] below which ``fraction`` of the energy lies."""
         side = 2.0 * np.asarray(fraction, dtype=np.float64) - 1.0
-        root = np.sqrt(betaincinv(0.5, 0.5 * (self.exponent + 1.0), np.abs(side)))
+        root = np.sqrt(scipy.special.betaincinv(0.5, 0.5 * (self.exponent + 1.0), np.abs(side)))
         return np.asarray(np.broadcast_arrays(np.sign(side) * np.arcsin(root), np.asarray(omega, float))[0])
 
     def resultant(self, omega: ArrayLike) -> Array:
         """Return the energy mean of cos(offset) [-]."""
         n = self.exponent
-        ratio = 2.0 * gammaln(0.5 * n + 1.0) - gammaln(0.5 * n + 0.5) - gammaln(0.5 * n + 1.5)
+        ratio = (
+            2.0 * scipy.special.gammaln(0.5 * n + 1.0)
+            - scipy.special.gammaln(0.5 * n + 0.5)
+            - scipy.special.gammaln(0.5 * n + 1.5)
+        )
         return np.full(np.shape(omega), math.exp(float(ratio)))
 
 
@@ -183,8 +189,8 @@ class WrappedNormal(Spreading):
     def cumulative(self, offset: ArrayLike, omega: ArrayLike) -> Array:
         """Return the fraction of the energy up to ``offset`` [rad]."""
         turns = self._turns()
-        upto = ndtr((wrapped(offset)[..., None] + turns) / self.standard_deviation)
-        value = (upto - ndtr((turns - math.pi) / self.standard_deviation)).sum(axis=-1)
+        upto = scipy.special.ndtr((wrapped(offset)[..., None] + turns) / self.standard_deviation)
+        value = (upto - scipy.special.ndtr((turns - math.pi) / self.standard_deviation)).sum(axis=-1)
         return np.asarray(np.broadcast_arrays(value, np.asarray(omega, float))[0])
 
     def quantile(self, fraction: ArrayLike, omega: ArrayLike) -> Array:

@@ -92,3 +92,12 @@ def test_one_realisation_proves_that_a_limit_is_broken_and_nothing_else():
     # a regular wave has no chance in it
     regular = replace(one, scatter=np.zeros(0), bound=np.zeros(0))
     assert judge(line_headlines([regular]), (FACTOR,), computed=True).outcome == "holds"
+
+
+def test_a_sea_without_its_slow_drift_proves_no_strength():
+    numbers = page(replace(GOVERNS, without_drift=True))
+    tension = headline(numbers, "line_tension")
+    assert tension.bound == "at least" and "slow drift of the sea is not in it" in tension.detail
+    assert judge(numbers, (FACTOR,), computed=True).outcome == "not judged"
+    assert judge(numbers, (UPLIFT,), computed=True).outcome == "not judged"
+    assert judge(numbers, (replace(FACTOR, limit=0.05),), computed=True).outcome == "does not hold"

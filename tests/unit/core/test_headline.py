@@ -120,6 +120,18 @@ def test_of_one_number_the_worst_end_is_judged_in_either_sense() -> None:
     assert governing([mean, transmission(0.45)]) == [transmission(0.45)]
 
 
+def test_the_order_of_levels_changes_nothing_and_the_end_that_is_judged_is_named() -> None:
+    high = Headline("load", "load", 2.0e3, "N", "HWL", band=Band(1.0e3, 4.0e3, "drag"))
+    low = Headline("load", "load", 2.0e3, "N", "LWL", band=Band(1.0e3, 6.0e3, "drag"))
+    assert governing([high, low]) == governing([low, high]) == [low]
+    shown, judged = governing([replace(high, value=2.5e3), low])
+    assert shown.where == "HWL" and shown.detail == "up to 6 kN at LWL"
+    assert judged.where == "LWL" and not judged.shown
+    shallow = [Headline("depth", "depth", value, "m", where, band=Band(low_end, 5.0, "drag"))
+               for value, where, low_end in ((4.0, "HWL", 3.5), (4.2, "LWL", 3.0))]  # fmt: skip
+    assert governing(shallow, "at least")[0].detail == "down to 3 m at LWL"
+
+
 def test_what_was_left_out_proves_only_that_a_limit_is_broken() -> None:
     light = Headline("line_utilisation", "use", 0.1, "1")
     strength = Criterion("line_safety_factor", "line_utilisation", 0.5, "at most", "case file", as_factor=True)

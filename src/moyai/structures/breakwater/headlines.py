@@ -23,8 +23,10 @@ from moyai.structures.breakwater.lines.headlines import (
     FREQUENCY,
     IN_MOTION,
     STILL,
+    WITHOUT_DRIFT,
     LinePeak,
     anchor_headlines,
+    drift_left_out,
     governing_group,
     kilonewton,
     line_headlines,
@@ -238,6 +240,8 @@ def _offset(domain: str, data: xr.Dataset, level: str, sea: str, frequency: xr.D
         detail = _slow_words(data)
     else:
         return []
+    if drift_left_out(data):
+        bound, detail = "at least", "; ".join(filter(None, (detail, WITHOUT_DRIFT)))
     words = "; ".join(part for part in (f"mean {mean[0]:.3g} m", detail) if part)
     return [
         Headline("offset", "Largest offset in sway", value, "m", place(level, sea), model, band, bound, detail=words)

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.headline import Band, Bound, Criterion, Headline, judge, unfavourable
+from moyai.series.intervals import reach_of_mean
 from moyai.structures.curtain.analyses.event_peaks import event_band
 from moyai.structures.curtain.governing import model_of
 from moyai.structures.curtain.hierarchy import SPAN, STATICS
@@ -270,7 +271,7 @@ def _band(groups: Groups, load: _Load) -> Band | None:
     if how == "steady and wave" and load.words("wave_source").startswith("energy model"):
         return _energy_band(groups, load)
     if how == "steady and wave":
-        return _scatter(groups, load)
+        return _wave_band(groups, load)
     if how == "steady":
         return _steady_band(groups, load)
     if how == "steady and impact":
@@ -335,8 +336,8 @@ def _mesh_band(table: xr.Dataset, load: _Load, value: float) -> Band | None:
     factor = value / whole
     low, high = factor * low, max(factor * high, value)
     if count < 2:
-        return Band(low, high, "two meshes, the larger counts")
-    of = f"{count} realisations and two meshes; judged at the 95 % end of the larger mean"
+        return Band(low, high, "two meshes, the larger counts; drag at its value")
+    of = f"{count} realisations and two meshes; drag at its value; judged at the 95 % end of the larger mean"
     return Band(low, high, of, decides=False, judged=(low, factor * judged))
 
 
@@ -368,23 +369,40 @@ def _period_peaks(run: xr.Dataset, row: int) -> NDArray[np.float64]:
     return np.array([values[number == one].max() for one in range(count) if np.any(number == one)])
 
 
-def _scatter(groups: Groups, load: _Load) -> Band | None:
-    """Return the scatter of the realisations, or of the hundreds of periods, of the sea that governs."""
+def _wave_band(groups: Groups, load: _Load) -> Band | None:
+    """Return what a load in waves varies with: the realisations or periods of the sea, and its steady part.
+
+    Criteria are judged at the end of the one-sided 95 % interval of the mean of the realisations (Student) and at the
+    upper end of the steady part, or of the impact where that reaches higher.
+    """
+    whole, steady = load.number("governing_load"), load.number("steady_load")
+    less, more = steady - load.number("steady_low"), load.number("steady_high") - steady
+    less, more = (gap if math.isfinite(gap) else 0.0 for gap in (less, more))
+    reached = load.number("governing_high")
+    upper = max(whole + more, reached if math.isfinite(reached) else 0.0)
     kind, _, sea = load.words("wave_source").partition(", ")
     table = groups.get(f"/{load.level}/waves/{sea}")
+    part = "steady part: drag, weights and what the skirt's ends hold"
     if kind != "slack and taut cycles" or table is None:
-        return None
+        return Band(whole - less, upper, part) if upper > whole else None
     ends = [f"maximum_tension{end}" for end in ("", "_low", "_high")]
     tops = {name: np.atleast_1d(table[name].values) for name in ends}
     row = int(np.argmax(tops["maximum_tension"]))
     top, low, high = (float(tops[f"maximum_tension{end}"][row]) for end in ("", "_low", "_high"))
-    if not top > 0.0 or low == high:
+    if not top > 0.0:
         return None
     # the cycles give the whole of a component's load in proportion to the sum of the cables
-    whole = load.number("governing_load")
-    several = "realisations" in table
-    of = f"{int(table['realisations'])} realisations" if several else "largest of 100 periods"
-    return Band(whole * low / top, whole * high / top, of, decides=False)
+    several = "realisation_tension" in table
+    reach = reach_of_mean(table["realisation_tension"].values) if several else 0.0
+    if low == high and not reach:
+        return Band(whole - less, upper, part) if upper > whole else None
+    of = f"{table['realisation_tension'].size} realisations" if several else "largest of 100 periods"
+    judged = max(whole * (1.0 + reach / top) + more, upper)
+    return Band(
+        whole * low / top - less, max(whole * high / top + more, upper),
+        f"{of}; {part}; judged at the 95 % end of the mean", decides=False,
+        judged=(whole * (1.0 - reach / top) - less, judged),
+    )  # fmt: skip
 
 
 def _steady_band(groups: Groups, load: _Load) -> Band | None:

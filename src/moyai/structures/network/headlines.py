@@ -330,18 +330,23 @@ def _offsets(groups: Mapping[str, xr.Dataset]) -> list[Headline]:
 
 
 def _mode(groups: Mapping[str, xr.Dataset]) -> list[Headline]:
+    """Return the longest natural period over the water levels; of the lines alone where bodies are held."""
+    found = []
     for level, modes in _levels(groups, "modes"):
-        if "mode_period" in modes and modes["mode_period"].size:
-            value = float(modes["mode_period"].values[0])
-            if math.isfinite(value):
-                finer = float(modes["longest_period_double_mesh"])
-                ends = [value, finer, max(2.0 * finer - value, 0.0)]
-                band = Band(min(ends), max(ends), _MESH) if math.isfinite(finer) else None
-                detail = "; ".join(filter(None, (_motion_of(groups[f"/{level}/network"], modes), "added mass counted")))
-                return [
-                    Headline("natural_period", "longest natural period", value, "s", level, band=band, detail=detail)
-                ]
-    return []
+        if "mode_period" not in modes or not modes["mode_period"].size:
+            continue
+        value = float(modes["mode_period"].values[0])
+        if not math.isfinite(value):
+            continue
+        finer = float(modes["longest_period_double_mesh"])
+        ends = [value, finer, max(2.0 * finer - value, 0.0)]
+        band = Band(min(ends), max(ends), _MESH) if math.isfinite(finer) else None
+        bodies = int(groups[f"/{level}"].attrs.get("bodies_held", 0))
+        label = "longest natural period of the lines, bodies held" if bodies else "longest natural period"
+        more = "periods of the bodies are not computed: let them go in still water" if bodies else ""
+        detail = "; ".join(filter(None, (_motion_of(groups[f"/{level}/network"], modes), "added mass counted", more)))
+        found.append(Headline("natural_period", label, value, "s", level, band=band, detail=detail))
+    return [max(found, key=lambda item: item.value)] if found else []
 
 
 def _motion_of(network: xr.Dataset, modes: xr.Dataset) -> str:

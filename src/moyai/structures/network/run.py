@@ -104,6 +104,7 @@ def _steps(problem: NetworkProblem, collected: Collected, progress: Progress) ->
             rest = rests.get("current", rests.get("still water"))
             assert rest is not None
             if problem.bodies:
+                collected.groups[root].attrs["bodies_held"] = len(problem.bodies)
                 collected.notices.append(
                     Notice("bodies-held", "natural modes are those with the bodies held where they rest",
                            severity="information")

@@ -9,7 +9,7 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
-from moyai.floating.irregular import ResponseStatistics, response_statistics
+from moyai.floating.irregular import response_statistics
 from moyai.sea.environment import Environment
 from moyai.sea.states import IrregularSea, RegularSea, SeaState
 from moyai.structures.units.assembly import RowAtLevel, RowPosition, steady_position
@@ -296,8 +296,3 @@ def _of_headings(hydro: RowHydrodynamics, columns: Array) -> RowHydrodynamics:
     )  # fmt: skip
     drift = None if hydro.drift is None else hydro.drift[:, columns]
     return replace(hydro, headings=hydro.headings[columns], solutions=solutions, drift=drift)
-
-
-def statistics_of(answer: SeaAnswer, transfer: Array) -> ResponseStatistics:
-    """Return the statistics of a transfer function (n, h, ...) in the sea of an answer."""
-    return response_statistics(answer.fine.omega, transfer, answer.density)

@@ -136,6 +136,7 @@ def irregular_sea(
         "headings": headings.tolist(),
         "status": settled.status,
         "damping_band": band_words(model),
+        "drift": "none" if slow is None else "newman",
     }
     notices = list(settled.notices)
     lost = 1.0 - float(met.sum() / density.sum())

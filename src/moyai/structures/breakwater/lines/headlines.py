@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from moyai.core.arrays import Array
-from moyai.core.headline import Headline, governing, unfavourable
+from moyai.core.headline import Bound, Headline, governing, unfavourable
 from moyai.mooring.anchors import gravity_anchor_weight
 from moyai.series.intervals import reach_of_mean
 from moyai.series.realisations import ALONE, alone, seeds
@@ -55,6 +55,13 @@ class LinePeak:
     horizontal_scatter: Array
     bound: Array
     duration: float = math.nan
+    #: Whether the slow drift of an irregular sea is not in it.
+    without_drift: bool = False
+
+    @property
+    def proves(self) -> Bound:
+        """``at least`` where one realisation, or a sea without its slow drift, leaves the number open upwards."""
+        return "at least" if self.without_drift else alone(self.scatter)
 
     @property
     def analysis(self) -> str:
@@ -95,6 +102,15 @@ def governing_group(groups: Mapping[str, xr.Dataset], level: str, sea: str) -> t
     if time is not None and time.attrs.get("status") == "converged" and "line_tension_maximum" in time:
         return "time", time
     return None if frequency is None else ("frequency", frequency)
+
+
+#: What is said of a number of an irregular sea without its slow drift.
+WITHOUT_DRIFT = "the slow drift of the sea is not in it and adds to it, on chains several times over"
+
+
+def drift_left_out(data: xr.Dataset) -> bool:
+    """Return whether a group of an irregular sea was computed without its slow drift."""
+    return "period" not in data.dims and str(data.attrs.get("drift", "newman")) != "newman"
 
 
 def line_peaks(groups: Mapping[str, xr.Dataset], level: str) -> list[LinePeak]:
@@ -150,6 +166,7 @@ def _line_peak(
         model, known, scatter, scatter_of("maximum_anchor_vertical_tension"),
         scatter_of("maximum_anchor_horizontal_tension"),
         scatter_of("line_tension_bound") if moving else scatter, float(data.attrs.get("duration", math.nan)),
+        drift_left_out(data),
     )  # fmt: skip
 
 
@@ -165,10 +182,12 @@ def line_headlines(peaks: list[LinePeak]) -> list[Headline]:
             )
         ]  # fmt: skip
     also = _other_level(highest, peaks)
+    chance = _mean_of(highest.scatter, highest.duration)
+    left_out = WITHOUT_DRIFT if highest.without_drift else ""
     tension = Headline(
         "line_tension", "Largest line tension", highest.tension, "N", highest.where, highest.model,
-        band=seeds(highest.scatter, highest.bound), bound=alone(highest.scatter),
-        detail="; ".join(part for part in (_mean_of(highest.scatter, highest.duration), _open(highest), also) if part),
+        band=seeds(highest.scatter, highest.bound), bound=highest.proves,
+        detail="; ".join(filter(None, (chance, left_out, _open(highest), also))),
         analysis=highest.analysis,
     )  # fmt: skip
     load = highest.breaking_load
@@ -199,7 +218,7 @@ def _utilisation(peak: LinePeak) -> Headline:
     load = peak.breaking_load
     return Headline(
         "line_utilisation", "Utilisation of the breaking load", peak.utilisation, "1", peak.where, peak.model,
-        band=seeds(peak.scatter / load, peak.bound / load), bound=alone(peak.scatter),
+        band=seeds(peak.scatter / load, peak.bound / load), bound=peak.proves,
         detail=f"breaking load {kilonewton(load)}, no corrosion or wear taken off", mean=peak.mean / load,
         analysis=peak.analysis,
     )  # fmt: skip
@@ -278,7 +297,7 @@ def anchor_headlines(groups: Mapping[str, xr.Dataset], levels: list[str], peaks:
     capacity = Headline(
         "anchor_capacity_required", "Horizontal holding capacity that an anchor needs",
         factor.value * hardest.horizontal, "N", hardest.where, hardest.model,
-        band=seeds(factor.value * hardest.horizontal_scatter), bound=alone(hardest.horizontal_scatter),
+        band=seeds(factor.value * hardest.horizontal_scatter), bound=hardest.proves,
         detail=(
             f"{asked}; {bed} at the peak; or {sinker}"
             if hardest.vertical <= 0.0
@@ -288,7 +307,7 @@ def anchor_headlines(groups: Mapping[str, xr.Dataset], levels: list[str], peaks:
     pull = [
         Headline(
             "anchor_horizontal_load", "Horizontal pull on an anchor", peak.horizontal, "N", peak.where, peak.model,
-            band=seeds(peak.horizontal_scatter), bound=alone(peak.horizontal_scatter),
+            band=seeds(peak.horizontal_scatter), bound=peak.proves,
         )
         for peak in pulled
         if peak.known
@@ -308,12 +327,12 @@ def anchor_headlines(groups: Mapping[str, xr.Dataset], levels: list[str], peaks:
     uplift = Headline(
         "anchor_uplift", "Uplift at an anchor", max(lifted.vertical, 0.0), "N", lifted.where, lifted.model,
         band=None if none else seeds(np.maximum(lifted.vertical_scatter, 0.0)), detail=said,
-        text="none" if none else "", bound=alone(lifted.vertical_scatter),
+        text="none" if none else "", bound=lifted.proves,
     )  # fmt: skip
     lifts = [
         replace(
             uplift, value=peak.vertical, where=peak.where, model=peak.model, text="", detail="",
-            band=seeds(np.maximum(peak.vertical_scatter, 0.0)), bound=alone(peak.vertical_scatter), shown=False,
+            band=seeds(np.maximum(peak.vertical_scatter, 0.0)), bound=peak.proves, shown=False,
         )
         for peak in pulled
         if peak.known and peak.vertical > 0.0 and peak is not lifted

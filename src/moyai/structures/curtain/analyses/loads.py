@@ -16,7 +16,7 @@ from moyai.structures.curtain.analyses.impact import ImpactAnswer
 from moyai.structures.curtain.analyses.limits import impact_load
 from moyai.structures.curtain.assembly import LevelCurtain
 from moyai.structures.curtain.governing import governing_load
-from moyai.structures.curtain.hierarchy import IMPACT, ModelRole, hierarchy, upright_in
+from moyai.structures.curtain.hierarchy import IMPACT, ModelRole, hierarchy, role_of, upright_in
 from moyai.structures.curtain.limits.utilisation import AddedLoads, Strength
 from moyai.structures.curtain.model import COMPONENTS, Settings
 from moyai.structures.curtain.seas.loads import DragCurve, increase
@@ -199,6 +199,9 @@ def _decided(
     above = governing - steady + high
     if row["governing"] == "steady and impact":
         above += float(row["impact_high"]) - float(row["impact_load"])
+    elif row["governing"] == "steady and wave" and role_of(roles, IMPACT) == "governs":
+        # the larger of the values is shown; the other one may reach higher
+        above = max(above, high + float(row["impact_high"]))
     if row["governing"] == "dynamic":
         above = max(one for one in (governing, high, factor * span.judged) if math.isfinite(one))
     if row["load_bound"] == "at most":

@@ -165,19 +165,21 @@ def _statics(unit: LevelCurtain, cases: tuple[CurtainStatics, ...], significant_
 
 
 def _at_slack_water(unit: LevelCurtain) -> dict[str, float]:
-    """Return toe clearance and float reserve of a free toe that hangs straight down without a current.
+    """Return toe clearance and float reserve of a curtain that hangs straight down without a current.
 
     The flared skirt of a curtain in its current stands higher, and the load bears part of its weight: both numbers
-    are on the favourable side there. NaN for a held toe, whose pull without a current the case does not tell.
+    are on the favourable side there. The reserve is NaN for a held toe, whose pull without a current the case does not
+    tell.
     """
     hanging, depth = unit.hanging, unit.water.depth
-    if hanging.toe != "free":
-        return {"slack_toe_gap": math.nan, "slack_float_reserve_ratio": math.nan}
     skirt, floats = hanging.skirt, hanging.floats
+    gap = math.nan if math.isinf(depth) else max(depth - skirt.length, 0.0)
+    if hanging.toe != "free":
+        return {"slack_toe_gap": gap, "slack_float_reserve_ratio": math.nan}
     afloat = skirt.length < depth
     weight = skirt.submerged_weight * min(skirt.length, depth) + (skirt.toe_load if afloat else 0.0)
     return {
-        "slack_toe_gap": math.nan if math.isinf(depth) else max(depth - skirt.length, 0.0),
+        "slack_toe_gap": gap,
         "slack_float_reserve_ratio": (floats.buoyancy - floats.weight - max(weight, 0.0)) / floats.buoyancy,
     }
 
