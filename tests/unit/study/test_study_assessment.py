@@ -115,6 +115,7 @@ def test_anchors_that_fail_lower_the_status(tmp_path):
     assert "upwards" in reported and "danforth on sand" in reported
 
 
+@pytest.mark.slow
 def test_extremes_over_seeds_find_the_known_distribution(tmp_path):
     _, result = assessed(
         tmp_path,
