@@ -117,6 +117,8 @@ def orcaflex_text(deck: MoorDynDeck) -> tuple[str, tuple[str, ...]]:
         *_sea(deck, depth, model["Environment"]),
     ]
     moved = sorted({f"{point.number}" for point in _ends(deck, strands) if point.kind == "coupled"})
+    if deck.seafloor is not None and deck.seafloor_depth is None:
+        notes.append("the bed that varies is left out: it is flat at the depth of the deck")
     if moved:
         notes.append(f"points {', '.join(moved)} are fixed where they are: connect them to your vessel")
     return _text(model), tuple(notes)
