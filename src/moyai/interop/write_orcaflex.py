@@ -99,7 +99,7 @@ def orcaflex_text(deck: MoorDynDeck) -> tuple[str, tuple[str, ...]]:
     InputError
         For bodies and rods, free points that are more than a border, stretch by a table, or a deck without a depth.
     """
-    depth = deck.seafloor_depth if deck.seafloor_depth is not None else deck.number("WtrDpth")
+    depth = deck.depth
     if depth is None or not math.isfinite(depth):
         raise InputError("a text data file of OrcaFlex needs a water depth", path="WtrDpth", remedy="give --depth")
     if deck.bodies or deck.rods:
