@@ -99,7 +99,7 @@ def orcaflex_text(deck: MoorDynDeck) -> tuple[str, tuple[str, ...]]:
     InputError
         For bodies and rods, free points that are more than a border, stretch by a table, or a deck without a depth.
     """
-    depth = deck.seafloor_depth if deck.seafloor_depth is not None else deck.number("WtrDpth")
+    depth = deck.depth
     if depth is None or not math.isfinite(depth):
         raise InputError("a text data file of OrcaFlex needs a water depth", path="WtrDpth", remedy="give --depth")
     if deck.bodies or deck.rods:
@@ -117,6 +117,8 @@ def orcaflex_text(deck: MoorDynDeck) -> tuple[str, tuple[str, ...]]:
         *_sea(deck, depth, model["Environment"]),
     ]
     moved = sorted({f"{point.number}" for point in _ends(deck, strands) if point.kind == "coupled"})
+    if deck.seafloor is not None and deck.seafloor_depth is None:
+        notes.append("the bed that varies is left out: it is flat at the depth of the deck")
     if moved:
         notes.append(f"points {', '.join(moved)} are fixed where they are: connect them to your vessel")
     return _text(model), tuple(notes)
