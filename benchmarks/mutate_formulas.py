@@ -76,6 +76,8 @@ class Change:
         """Return the text of the file with the change."""
         lines = text.split("\n")
         places = [number for number, line in enumerate(lines) if line.strip() == self.old]
+        if len(places) < self.which:
+            raise LookupError(f"{self.file} no longer holds {self.old!r}: write the line of {LIST.name} again")
         place = places[self.which - 1]
         lines[place] = lines[place].replace(self.old, self.new)
         return "\n".join(lines)
@@ -133,7 +135,10 @@ def changes_of(path: Path, package: Path) -> list[Change]:
 
 
 def tests_of(file: str, most: int) -> list[str]:
-    """Return test files: those that import a module, those of its package, those that import what imports it."""
+    """Return test files: those that import a module, those of its package, those that import what imports it.
+
+    Short files come first within each of the three.
+    """
 
     def importers(name: str, paths: list[Path]) -> list[Path]:
         module = "moyai." + name.removesuffix(".py").replace("/", ".")
@@ -141,7 +146,7 @@ def tests_of(file: str, most: int) -> list[str]:
         direct = re.compile(rf"{re.escape(module)}\b|from {re.escape(package)} import [^\n]*\b{last}\b")
         return [path for path in paths if direct.search(path.read_text(encoding="utf-8"))]
 
-    tests = sorted((ROOT / "tests").rglob("test_*.py"))
+    tests = sorted((ROOT / "tests").rglob("test_*.py"), key=lambda path: path.stat().st_size)
     sources = sorted((ROOT / "src" / "moyai").rglob("*.py"))
     package = file.split("/")[1 if file.startswith("structures/") else 0]
     found = importers(file, tests)

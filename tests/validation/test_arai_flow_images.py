@@ -136,7 +136,12 @@ def stokes_along(section, ratio):
 
 
 @pytest.mark.parametrize(
-    ("name", "leftover"), [("circle", 1e-3), ("square", 0.055), pytest.param("rectangle", 0.11, marks=pytest.mark.slow)]
+    ("name", "leftover"),
+    [
+        ("circle", 1e-3),
+        pytest.param("square", 0.055, marks=pytest.mark.slow),
+        pytest.param("rectangle", 0.11, marks=pytest.mark.slow),
+    ],
 )
 def test_stokes_drift_falls_with_the_fourth_power_for_every_section(name, leftover):
     """Far away exactly; where the fit is made, what a polygon's higher orders leave in G is small."""

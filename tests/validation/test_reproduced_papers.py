@@ -11,15 +11,40 @@ from moyai.reproduce import as_result, compose, papers, reproduce
 #: Statements that differ from the paper or stay open; all others agree.
 EXCEPTIONS = {
     "nakamura": {
-        "differs": {"table", "squared", "sway-heave", "transmission", "reflection"},
-        "open": {"fifteen", "heave-measured", "roll-closer", "transmission-measured", "reflection-measured"},
+        "differs": {"table", "prototype", "squared", "sway-heave", "transmission", "reflection"},
+        "open": {
+            "catenary",
+            "fifteen",
+            "heave-measured",
+            "roll-closer",
+            "roll-nearer",
+            "transmission-measured",
+            "reflection-measured",
+        },
     },
-    "tabata": {"differs": {"squared", "tenths", "factor", "highest"}, "open": {"flume", "wire"}},
-    "arai": {"differs": {"rise", "contour"}, "open": {"vortex", "background"}},
-    "sawaragi": {"differs": {"one-spike-steel", "iteration"}, "open": {"above", "model-b"}},
+    "tabata": {
+        "differs": {"squared", "tenths", "factor", "highest"},
+        "open": {"flume", "flume-line", "compared", "wire"},
+    },
+    "arai": {"differs": {"rise", "contour"}, "open": {"vortex", "vortex-path", "square", "background"}},
+    "sawaragi": {
+        "differs": {"one-spike-steel", "iteration"},
+        "open": {"above", "rise-time", "span-tests", "model-b"},
+    },
     "matsubara": {
-        "differs": {"table", "weight", "circle", "higher", "third", "small"},
-        "open": {"scatter", "parameters", "thirty", "eighty", "forty"},
+        "differs": {"table", "sizes", "weight", "circle", "higher", "third", "small"},
+        "open": {
+            "scatter",
+            "parameters",
+            "numbers",
+            "force",
+            "ranges",
+            "phases",
+            "thirty",
+            "eighty",
+            "forty",
+            "tensions",
+        },
     },
 }
 
@@ -31,17 +56,14 @@ def found(key):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("paper", papers(), ids=lambda paper: paper.key)
-def test_every_statement_is_judged_as_documented(paper):
+def test_every_statement_is_judged_as_documented_and_every_figure_is_drawn(paper):
     exceptions = EXCEPTIONS[paper.key]
     for row in found(paper.key).rows:
         wanted = next((word for word, keys in exceptions.items() if row.statement.key in keys), "agrees")
         assert row.finding.verdict == wanted, f"{row.statement.key}: {row.finding.found}"
         assert row.finding.verdict == "agrees" or row.finding.why
 
-
-@pytest.mark.slow
-@pytest.mark.parametrize("paper", papers(), ids=lambda paper: paper.key)
-def test_the_page_holds_every_figure_and_its_numbers(paper):
+    # the page holds every figure and its numbers
     run = found(paper.key)
     assert tuple(one.number for one in run.figures if isinstance(one.drawn, Figure)) == paper.plotted
     assert all(one.drawn is not None or one.note for one in run.figures)

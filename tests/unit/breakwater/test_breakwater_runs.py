@@ -103,7 +103,7 @@ def test_long_waves_pass_and_carry_the_body(pontoon_problem):
     assert float(data.drift_coefficient[0]) == pytest.approx(0.0, abs=1e-3)
 
 
-@pytest.mark.parametrize("heading", [0.0, pytest.param(0.4, marks=pytest.mark.slow), -0.7])
+@pytest.mark.parametrize("heading", [0.0, *(pytest.param(h, marks=pytest.mark.slow) for h in (0.4, -0.7))])
 def test_energy_of_the_moving_body_in_oblique_waves(pontoon_problem, heading):
     problem = changed(
         pontoon_problem,
@@ -139,6 +139,7 @@ def test_irregular_sea_of_one_frequency_is_a_regular_sea(pontoon_problem):
     assert narrow_sea.significant_motion.values == pytest.approx(significant, rel=1e-2)
 
 
+@pytest.mark.slow
 def test_same_seed_same_sea_bit_for_bit(pontoon_problem):
     sea = IrregularSea("storm", jonswap(0.02, 1.0, 3.3), duration=40.0, seed=3)
     problem = changed(
@@ -198,7 +199,8 @@ def test_impossible_units_are_refused(pontoon_problem, breakwater, environment, 
         run(changed(pontoon_problem, breakwater=breakwater, environment=environment))
 
 
-def test_infinite_depth_with_springs(pontoon_problem):
+@pytest.mark.parametrize("domain", ["frequency", pytest.param("time", marks=pytest.mark.slow)])
+def test_infinite_depth_with_springs(pontoon_problem, domain):
     round_unit = {"hull": circle(0.2), "mass": None, "draught": 0.2, "centre_of_gravity": (0.0, 0.15)}
     problem = changed(
         pontoon_problem,
@@ -208,10 +210,11 @@ def test_infinite_depth_with_springs(pontoon_problem):
             "sea_states": (RegularSea("waves", 0.02, (0.9,)),),
         },
         settings={"time": TimeSettings(analysed_periods=5)},
+        analyses=("statics", domain),
     )
     result = run(problem)
     assert result.status == "converged", result.message
-    assert np.all(np.isfinite(result.tree["SWL/time/waves"].to_dataset().motion_amplitude.values))
+    assert np.all(np.isfinite(result.tree[f"SWL/{domain}/waves"].to_dataset().motion_amplitude.values))
 
 
 def test_interrupt_keeps_what_was_done(pontoon_problem, tmp_path):
@@ -351,6 +354,7 @@ def test_mean_drift_of_a_spread_sea_is_the_sum_over_its_waves(pontoon_problem):
     assert float(spread.mean_drift_force) == pytest.approx(total, rel=0.03)
 
 
+@pytest.mark.slow
 def test_oblique_regular_waves_in_time_are_those_of_frequency_with_springs(pontoon_problem):
     sea = RegularSea("oblique", 0.003, (0.8, 1.1), -0.7)
     problem = changed(
@@ -363,7 +367,12 @@ def test_oblique_regular_waves_in_time_are_those_of_frequency_with_springs(ponto
 
 
 @pytest.mark.parametrize(
-    ("hull", "draught"), [(trapezoid(0.8, 0.4, 0.3), 0.2), (circle(0.2), 0.26), (circle(0.2), 0.33)]
+    ("hull", "draught"),
+    [
+        pytest.param(trapezoid(0.8, 0.4, 0.3), 0.2, marks=pytest.mark.slow),
+        (circle(0.2), 0.26),
+        pytest.param(circle(0.2), 0.33, marks=pytest.mark.slow),
+    ],
 )
 def test_sections_that_narrow_upwards_have_a_memory(pontoon_problem, hull, draught):
     problem = changed(

@@ -23,6 +23,7 @@ def without_far_field(problem):
     return coefficients
 
 
+@pytest.mark.slow
 def test_same_motions_as_the_section_without_drift(pontoon_problem):
     problem = replace(pontoon_problem, settings=pontoon_problem.settings.changed(drift=False))
     section = run(problem).tree

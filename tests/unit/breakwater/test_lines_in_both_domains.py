@@ -152,6 +152,7 @@ class Swelling:
         return share[:, None] * force, share * elevation
 
 
+@pytest.mark.slow
 def test_chains_at_rest_at_every_instant_have_two_states_for_one_wave():
     """Waves of 3.2 cm and 1.6 s, raised to from below and lowered to from above."""
     period, height = 1.6, 0.032

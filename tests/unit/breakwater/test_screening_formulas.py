@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from moyai.structures.breakwater.screening import transmission_macagno, transmission_ruol
+from moyai.structures.breakwater.screening import transmission_macagno, transmission_ruol, transmission_wiegel
 
 
 @pytest.mark.parametrize(
@@ -22,3 +22,14 @@ def test_correction_of_macagno(shift, factor):
         wave_number, depth, beam, draught
     )
     assert float(ratio[0]) == pytest.approx(factor, abs=2e-5)
+
+
+def test_wiegel_is_the_share_of_the_energy_flux_below_the_plate():
+    """K_T^2 = (2 k s + sinh 2 k s) / (2 k h + sinh 2 k h), s = h - d; long waves sqrt(s / h), deep water exp(-k d)."""
+    depth, draught = 6.0, 1.7
+    k = np.array([1e-5, 0.05, 0.3, 1.0, 3.0])
+    gap = depth - draught
+    exact = np.sqrt((2.0 * k * gap + np.sinh(2.0 * k * gap)) / (2.0 * k * depth + np.sinh(2.0 * k * depth)))
+    assert transmission_wiegel(k, depth, draught) == pytest.approx(exact, rel=1e-12)
+    assert exact[0] == pytest.approx(math.sqrt(gap / depth), rel=1e-8)
+    assert transmission_wiegel(k, math.inf, draught) == pytest.approx(np.exp(-k * draught), rel=1e-12)

@@ -307,6 +307,7 @@ def test_motion_is_linear_in_small_waves_without_drag(seed):
     assert np.abs(motions[0] - motions[1]).max() < 1e-3 * np.abs(motions[0]).max()
 
 
+@pytest.mark.slow
 def test_fixed_steps_converge_with_fourth_order_and_adaptive_ones_to_them():
     """In a smooth motion; with lines the adaptive marcher meets the limit of small fixed steps."""
     rng = np.random.default_rng(5)

@@ -131,7 +131,7 @@ def test_reynolds_outside_the_law_and_odd_viscosity_warn_with_the_number():
     assert any("wholly under water" in str(fault) for fault in drowned.warnings)
 
 
-@pytest.mark.parametrize("shape", ["box", pytest.param("cylinder", marks=pytest.mark.slow)])
+@pytest.mark.parametrize("shape", [pytest.param(s, marks=pytest.mark.slow) for s in ("box", "cylinder")])
 def test_other_shapes_lines_seas_and_levels_run(shape, tmp_path):
     """Own lines with weight, a sinker, a current, an irregular sea, two levels, Wheeler, another law."""
     changes = [

@@ -246,7 +246,7 @@ def test_wrong_usage_ends_with_two():
         assert runner.invoke(app, arguments).exit_code == 2
 
 
-@pytest.mark.parametrize("encoding", ["cp932", "cp1252"])
+@pytest.mark.parametrize("encoding", ["cp932", pytest.param("cp1252", marks=pytest.mark.slow)])
 def test_no_console_encoding_stops_a_command(tmp_path, encoding):
     """Windows consoles: a title that the code page cannot show is printed with replacements."""
     path = tmp_path / "浮防波堤.yaml"

@@ -257,6 +257,7 @@ def test_limit_height_is_where_a_component_is_used_up(small):
     assert np.all(np.diff(grid, axis=1)[np.isfinite(grid[:, 1:])] >= -1e-9)
 
 
+@pytest.mark.slow
 def test_impact_tightens_the_limits(tmp_path):
     hard = SMALL.replace("start_speed: 0.05 m/s", "start: current")
     hard = hard.replace("[statics, impact, waves, anchor_loads, limits]", "[impact, limits]")

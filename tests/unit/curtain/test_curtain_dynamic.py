@@ -147,6 +147,7 @@ def test_slack_curtain_in_still_water_stays() -> None:
     assert np.max(np.abs(moved)) < 0.02
 
 
+@pytest.mark.slow
 def test_anchored_span_in_a_current_ends_at_its_drag() -> None:
     """Anchor lines carry the drag of the whole span in the end: all four together, both halves of the neighbours."""
     water = Water(10.0, 1025.0, 9.81)
@@ -467,7 +468,7 @@ def test_gathered_cloth_goes_on_with_turning_sections(tmp_path: Path) -> None:
     assert 0.0 < taken.value < 0.1
 
 
-@pytest.mark.parametrize("way", ["stopped", "viscosity took"])
+@pytest.mark.parametrize("way", [pytest.param("stopped", marks=pytest.mark.slow), "viscosity took"])
 def test_a_run_that_turning_sections_spoil_is_made_again_with_held_normals(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, way: str
 ) -> None:
@@ -550,6 +551,7 @@ def test_a_snap_is_run_until_it_is_past_its_peak() -> None:
     assert given.history.time[-1] == pytest.approx(0.4 * rise)
 
 
+@pytest.mark.slow
 def test_settling_waves_are_told(tmp_path: Path) -> None:
     """The published example: 16 kN while the waves come up, then less from period to period."""
     text = CASE.replace(
@@ -649,6 +651,8 @@ def test_a_peak_of_the_start_is_told_apart_from_those_of_the_sea() -> None:
     (reported,) = [n for n in run_notices(sea, "here", 1.0, False) if n.code == "dynamic-start"]
     late = run.both[run.history.time > 0.5 * run.history.time[-1]]
     assert reported.value == pytest.approx(run.peak("both")[0] / late.max(), rel=1e-3)
+    # between two periods of a regular wave it is what has not settled
+    assert "dynamic-unsettled" in [n.code for n in run_notices(sea, "here", 0.25 * run.history.time[-1], True)]
     later = replace(sea, from_time=0.6 * float(run.history.time[-1]))
     assert not [n for n in run_notices(later, "here", 1.0, False) if n.code == "dynamic-start"]
 

@@ -46,6 +46,7 @@ def test_snap_example(tmp_path, monkeypatch, capsys) -> None:
     assert load("snap_in_current").release(39000.0).rise == pytest.approx(0.016, rel=0.05)
 
 
+@pytest.mark.slow
 def test_added_mass_example(tmp_path, monkeypatch, capsys) -> None:
     printed = run("added_mass", ("added_mass.png",), tmp_path, monkeypatch, capsys)
     assert "1.4609 M0 of the chord, 0.5921 of the arc" in printed

@@ -42,7 +42,7 @@ def test_a_sine_does_the_damage_of_its_range():
     assert equivalent_range(ranges, counts, 3.0, 100.0) == pytest.approx(0.2, rel=0.005)
 
 
-@pytest.mark.parametrize("exponent", [3.0, 4.09, 5.05])
+@pytest.mark.parametrize("exponent", [3.0, 4.09, pytest.param(5.05, marks=pytest.mark.slow)])
 def test_narrow_band_damage_is_that_of_the_counted_record(exponent):
     frequency = np.linspace(0.095, 0.105, 201)
     density = np.full(201, 1.0)

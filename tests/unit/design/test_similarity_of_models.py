@@ -45,6 +45,22 @@ def test_powers_of_the_length_ratio(unit: str, power: float) -> None:
         assert scale.to_prototype(scale.to_model(7.3, unit), unit) == pytest.approx(7.3, rel=1e-15)
 
 
+@pytest.mark.parametrize(
+    ("unit", "ratio"),
+    [
+        ("m", lambda s: s.length), ("s", lambda s: math.sqrt(s.length / s.gravity)),
+        ("m/s", lambda s: math.sqrt(s.length * s.gravity)), ("m/s2", lambda s: s.gravity),
+        ("kg", lambda s: s.density * s.length**3), ("N", lambda s: s.density * s.gravity * s.length**3),
+        ("N/m", lambda s: s.density * s.gravity * s.length**2), ("Pa", lambda s: s.density * s.gravity * s.length),
+        ("kg m2", lambda s: s.density * s.length**5), ("", lambda s: 1.0),
+    ],
+)  # fmt: skip
+def test_ratios_are_those_by_hand(unit, ratio) -> None:
+    """Froude: speeds go with sqrt(g L), forces with rho g L^3, in a gravity of its own as well."""
+    scale = Scale(7.3, 1.025, 1.31)
+    assert scale.ratio(unit) == pytest.approx(ratio(scale), rel=1e-12)
+
+
 @pytest.mark.parametrize("length", [10.0, 25.0, 50.0])
 @pytest.mark.parametrize(("density", "gravity"), [(1.0, 1.0), (1.025, 1.0), (1.025, 0.05)])
 @pytest.mark.parametrize("toe", ["free", "held"])

@@ -30,7 +30,7 @@ def random_line(seed: int) -> tuple[Line, tuple[float, float], tuple[float, floa
 
 
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-5])
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("seed", [*range(2), *(pytest.param(s, marks=pytest.mark.slow) for s in range(2, 8))])
 def test_table_meets_its_tolerance_at_points_of_our_own(seed: int, tolerance: float) -> None:
     line, horizontal, vertical, depth = random_line(seed)
     table = tabulate_line(line, depth, horizontal, vertical, tolerance)

@@ -21,7 +21,7 @@ def test_circle_to_rounding():
     assert np.abs(sections.circle(0.37).inertia.tensor - 2.0 * np.eye(2)).max() < 1e-13
 
 
-@pytest.mark.parametrize(("sides", "seed"), [(3, 0), (4, 1), (5, 2), (9, 4)])
+@pytest.mark.parametrize(("sides", "seed"), [(3, 0), (4, 1), (5, 2), pytest.param(9, 4, marks=pytest.mark.slow)])
 def test_regular_polygons_have_the_capacity_of_their_exterior_map(sides, seed):
     """C_M = 2 pi cap^2 / A with the transfinite diameter in gamma functions, any size and turn."""
     rng = np.random.default_rng(seed)
@@ -62,7 +62,9 @@ def test_lenses_of_two_arcs_follow_their_map(seed):
     assert np.diagonal(found) == pytest.approx(exact, rel=1e-7)
 
 
-@pytest.mark.parametrize("ratio", [0.2, 0.7, 3.0])
+@pytest.mark.parametrize(
+    "ratio", [0.2, pytest.param(0.7, marks=pytest.mark.slow), pytest.param(3.0, marks=pytest.mark.slow)]
+)
 def test_polygons_inscribed_in_an_ellipse_tend_to_its_coefficients(ratio):
     angle = 2.0 * math.pi * (np.arange(120) + 0.5) / 120
     found = tensor(np.column_stack([np.cos(angle), ratio * np.sin(angle)]))

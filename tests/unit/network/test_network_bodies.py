@@ -57,21 +57,29 @@ def stopping_at(moment):
     return stop
 
 
-def test_a_run_with_bodies_goes_on_from_where_it_was_stopped(tmp_path):
-    problem = problem_of(tmp_path, bars=4)
-    problem = replace(problem, settings=replace(problem.settings, duration=3.0))
-    whole = run(problem)
+@pytest.fixture(scope="module")
+def stopped(tmp_path_factory):
+    """A problem, the result of a run of it that was stopped, and its file."""
+    folder = tmp_path_factory.mktemp("stopped")
+    problem = problem_of(folder, bars=4)
+    # a whole period of the wave at its height counts
+    problem = replace(problem, settings=replace(problem.settings, duration=3.6, ramp=0.3))
     part = run(problem, stopping_at(1.3))
+    return problem, part, part.write(folder / "results.nc")
+
+
+def test_a_run_with_bodies_goes_on_from_where_it_was_stopped(stopped):
+    problem, part, file = stopped
+    whole = run(problem)
     assert part.status == "interrupted"
     assert "settings.resume" in part.message
     reached = float(part.tree["SWL/time/waves"]["time"].values[-1])
     assert 1.0 < reached < 2.0
     # rows, state and message tell one and the same time
     assert f"t = {reached:g} s" in part.message
-    part.write(tmp_path / "results.nc")
-    kept = read_result(tmp_path / "results.nc").tree["SWL/time/waves/frames"]
+    kept = read_result(file).tree["SWL/time/waves/frames"]
     assert float(kept.attrs["final_time"]) == pytest.approx(reached, abs=1e-9)
-    going = replace(problem, settings=replace(problem.settings, resume=tmp_path / "results.nc", sensitivity=True))
+    going = replace(problem, settings=replace(problem.settings, resume=file, sensitivity=True))
     rest = run(going)
     assert rest.status == "converged", rest.message
     one, two = (item.tree["SWL/time/waves"].to_dataset() for item in (whole, rest))
@@ -128,8 +136,11 @@ def test_a_body_that_turns_over_is_told(tmp_path):
 
 
 def test_what_a_peak_is_worth_is_told_with_bodies(tmp_path):
-    text = CASE.format(analyses="[dynamic]", more=", sensitivity: true, skip: 0.5 s, peak_goal: 0.3", bars=4)
+    text = CASE.format(
+        analyses="[dynamic]", more=", sensitivity: true, skip: 0.5 s, peak_goal: 0.3, ramp: 0.2 s", bars=4
+    )
     path = tmp_path / "case.yaml"
+    text = text.replace("height: 0.6 m, period: 3.2 s", "height: 0.2 m, period: 1.4 s")
     path.write_text(text.replace("duration: 5 s", "duration: 2 s"), encoding="utf-8")
     result = run(build(load_case(path)))
     assert result.status == "converged", result.message
@@ -169,12 +180,11 @@ def test_an_interrupt_while_the_worth_is_found_keeps_the_run(tmp_path, bodies):
     assert "SWL/dynamic" in [name.strip("/") for name in result.tree.groups]
 
 
-def test_a_run_does_not_go_on_with_other_bodies(tmp_path):
-    problem = problem_of(tmp_path, bars=4)
-    run(problem, stopping_at(1.0)).write(tmp_path / "results.nc")
+def test_a_run_does_not_go_on_with_other_bodies(stopped):
+    problem, _, file = stopped
     other = replace(problem.bodies[0], name="pontoon")
     with pytest.raises(InputError, match=r"has the bodies box, this network pontoon"):
-        settings = replace(problem.settings, resume=tmp_path / "results.nc")
+        settings = replace(problem.settings, resume=file)
         run(replace(problem, bodies=(other,), settings=settings))
 
 

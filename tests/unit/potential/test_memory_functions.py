@@ -214,7 +214,15 @@ def test_bad_plan_input_is_named():
         recommend_frequencies(water, breadth=1.0, wall_height=1.0, accuracy=0.5)
 
 
-@pytest.mark.parametrize("time", [np.arange(0.0, 30.0, 0.5), np.arange(0.0, 60.0, 5.0), [0.0, 0.4], [0.0, 1000.0]])
+@pytest.mark.parametrize(
+    "time",
+    [
+        np.arange(0.0, 30.0, 0.5),
+        np.arange(0.0, 60.0, 5.0),
+        [0.0, 0.4],
+        pytest.param([0.0, 1000.0], marks=pytest.mark.slow),
+    ],
+)
 def test_identities_are_of_the_water_and_not_of_the_instants_of_the_output(time):
     """Fine output holds them to 6e-6 and 3e-5; few instants of the same functions are as right."""
     water = Water(5.0, 1025.0, G)

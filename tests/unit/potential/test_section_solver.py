@@ -49,7 +49,7 @@ def random_case(seed):
     return section, Water(depth, 1025.0, GRAVITY), omega, heading, scale
 
 
-@pytest.mark.parametrize("seed", [*range(6), *(pytest.param(s, marks=pytest.mark.slow) for s in range(6, 16))])
+@pytest.mark.parametrize("seed", [*range(1, 5), *(pytest.param(s, marks=pytest.mark.slow) for s in (0, *range(5, 16)))])
 def test_identities_of_random_sections(seed):
     """Energy, symmetry, Haskind, damping: all within a thousandth, mostly far better; refined sets agree with them."""
     section, water, omega, heading, scale = random_case(seed)

@@ -6,6 +6,7 @@ import dataclasses
 
 import numpy as np
 import pytest
+from scipy.signal import lfilter
 
 from moyai.core.errors import InputError
 from moyai.records.nets.steady import correlated_covariance, correlated_mean, steady_window
@@ -146,3 +147,15 @@ def test_steady_window_by_speed_and_by_force():
         correlated_mean(np.ones(5))
     assert correlated_mean(np.ones(50)).error == 0.0
     assert dataclasses.is_dataclass(Rig())
+
+
+@pytest.mark.parametrize("memory", [0.8, 0.9, 0.95])
+def test_degrees_of_freedom_of_a_mean_with_correlated_errors(memory: float) -> None:
+    """Errors of order one: the autocorrelation is followed to six of its times tau; 1.5 n over 12 tau is n / 8 tau."""
+    count = 200_000
+    noise = lfilter([1.0], [1.0, -memory], np.random.default_rng(1).standard_normal(count))
+    covariance, freedom = correlated_covariance(np.full((1, count), 1.0 / count), noise - noise.mean(), 1.0)
+    tau = 0.5 + memory / (1.0 - memory)
+    assert freedom * tau / count == pytest.approx(1.0 / 8.0, rel=0.05)
+    # the variance of the mean is that of white noise over (1 - memory)^2
+    assert covariance[0, 0] * count * (1.0 - memory) ** 2 == pytest.approx(1.0, rel=0.06)

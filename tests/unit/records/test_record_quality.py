@@ -100,7 +100,7 @@ def test_flags_leave_the_values_and_gaps_are_counted():
 
 
 @pytest.mark.parametrize("factor", [10.0, 100.0, 9.80665, 1000.0, 57.29578])
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", [0, *(pytest.param(s, marks=pytest.mark.slow) for s in (1, 2))])
 def test_unit_slips_over_blocks(factor, seed):
     """Blocks 20 to 29 in the wrong unit; the sea itself grows and decays by a factor of four meanwhile."""
     random = np.random.default_rng(seed)
@@ -175,7 +175,7 @@ def test_drift_of_the_zero(seed):
     assert not find_drift(plain, "level").share > 0.1
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", [0, 1, *(pytest.param(s, marks=pytest.mark.slow) for s in (2, 3))])
 def test_clock_error_is_recovered(seed):
     """A random sea seen by two loggers, of which one is late and runs slow."""
     random = np.random.default_rng(seed)

@@ -220,7 +220,12 @@ def test_a_wave_whose_tension_has_a_gap_has_no_maximum() -> None:
 
 @pytest.mark.parametrize(
     ("window", "overlap", "bands"),
-    [("rectangular", 0.5, 5), ("cosine_tenth", 0.6, 3), ("hann", 0.9, 2), ("hann", 0.3, 4)],
+    [
+        ("rectangular", 0.5, 5),
+        ("cosine_tenth", 0.6, 3),
+        pytest.param("hann", 0.9, 2, marks=pytest.mark.slow),
+        ("hann", 0.3, 4),
+    ],
 )
 def test_freedom_of_bands_under_overlap(window: str, overlap: float, bands: int) -> None:
     """Bands and overlapping segments share information: their degrees of freedom do not simply multiply."""
@@ -237,7 +242,9 @@ def test_more_bands_than_frequencies_are_refused() -> None:
         spectrum_of(1.0, np.sin(np.arange(200.0)), WelchOptions(segment=64.0, bands=40))
 
 
-@pytest.mark.parametrize("count", [5, 8, 25])
+@pytest.mark.parametrize(
+    "count", [5, pytest.param(8, marks=pytest.mark.slow), pytest.param(25, marks=pytest.mark.slow)]
+)
 def test_intervals_of_few_observations_hold_the_truth(count: int) -> None:
     """1.96 standard errors of a scatter found from three degrees of freedom held 86 of 100."""
     random = np.random.default_rng(count)

@@ -208,6 +208,7 @@ def example(name):
         sys.path.remove(str(EXAMPLES))
 
 
+@pytest.mark.slow
 def test_a_short_campaign_gives_its_ratios_back(tmp_path):
     """One block in forty at 5 Hz: what needs no long record."""
     module = example("campaign")
@@ -246,6 +247,7 @@ def test_a_campaign_gives_its_planted_constants_back(tmp_path):
     assert peaks == pytest.approx([3.06, 1.11, 2.32], rel=0.08)
 
 
+@pytest.mark.slow
 def test_unit_slip_and_drift_in_a_survey(tmp_path):
     """Two hours in the wrong unit and a gauge whose zero wanders: both are told, neither is mended."""
     storm = Storm("slip", 938_044_800.0, 0.6, 1.5, 0.3, 1.2, 1.0, 0.3, 0.3)

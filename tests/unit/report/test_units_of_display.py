@@ -73,6 +73,7 @@ def test_every_file_of_the_report_is_in_tonnes_force(tmp_path: Path) -> None:
     assert "9806.65" in str(book["Summary"]["A3"].value)
 
 
+@pytest.mark.slow
 def test_the_command_takes_units_and_keeps_the_data(tmp_path: Path) -> None:
     build(levels=ONE).write(tmp_path / "results.nc")
     before = (tmp_path / "results.nc").read_bytes()

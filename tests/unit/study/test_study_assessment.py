@@ -6,6 +6,7 @@ import math
 import numpy as np
 import pytest
 import study_cases
+from japanese import compared
 
 from moyai.core.errors import InputError
 from moyai.design.long_term import YEAR
@@ -114,6 +115,7 @@ def test_anchors_that_fail_lower_the_status(tmp_path):
     assert "upwards" in reported and "danforth on sand" in reported
 
 
+@pytest.mark.slow
 def test_extremes_over_seeds_find_the_known_distribution(tmp_path):
     _, result = assessed(
         tmp_path,
@@ -183,6 +185,9 @@ def test_the_report_names_the_governing_case_and_leads_to_its_replay(tmp_path):
     page = render_html(compose(result))
     assert f'href="governing/case {reported[0][1]}/report.html"' in page
     assert "no, see the standard" in page and "lost line" in page
+    left, count = compared(result)
+    assert count > 50
+    assert not left, "\n".join(left)
 
 
 def test_the_report_of_failures_and_of_a_single_axis_is_written(tmp_path):

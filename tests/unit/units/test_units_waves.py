@@ -23,27 +23,18 @@ from moyai.structures.units.response import (
 )
 from moyai.structures.units.symmetry import Symmetry
 from moyai.validation import units as known
-from moyai.validation import units_time as in_time
 from moyai.validation.units import OMEGA, WATER, at_rest, row
 
 HINGE = Connector("h", "hinge", ((0, 1),), 0.0, 3.0, (1.0, 0.0, 0.0))
 
 
-# each of these takes seconds; `moyai validate` and the slow tests compute them
+# each of these takes seconds; `moyai validate` computes them, and those in time
 LONGER = ("five wave", "barrier", "gap of two", "cut in two halves", "ten times the stiffness", "fine panels")
 QUICK = [item for item in known.CASES if not any(words in item.name for words in LONGER)]
-SLOW = [item for item in known.CASES if any(words in item.name for words in LONGER)] + list(in_time.CASES)
 
 
 @pytest.mark.parametrize("case", QUICK, ids=lambda item: item.name)
 def test_known_values(case):
-    value = case.compute()
-    assert case.error(value) <= case.tolerance, (value, case.reference)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("case", SLOW, ids=lambda item: item.name)
-def test_known_values_that_take_longer(case):
     value = case.compute()
     assert case.error(value) <= case.tolerance, (value, case.reference)
 
@@ -108,6 +99,7 @@ def test_yaw_moment_of_drift_of_a_row_moved_aside(box):
     assert np.allclose(found[1][:, 2], moment + 5.0 * force[:, 1] - 30.0 * force[:, 0], rtol=1e-6)
 
 
+@pytest.mark.slow
 def test_a_row_turned_with_its_waves_moves_the_same():
     motions = []
     for turn in (0.0, 0.6):

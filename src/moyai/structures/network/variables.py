@@ -82,6 +82,8 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "load_upwards": ("N", "highest upward pull on the point"),
     "load_downwards": ("N", "highest downward pull on the point"),
     "excursion": ("m", "largest distance of the point from its place at rest, by direction"),
+    "still_place": ("m", "place of the point at rest in still water, from which excursions count"),
+    "still_place_of_solid": ("m", "place of the body at rest in still water"),
     "offset": ("m", "largest horizontal distance of the body from where the run begins"),
     "mean_offset": ("m", "horizontal distance of the body's mean place from where the run begins"),
     "heave_range": ("m", "highest less lowest place of the body"),

@@ -10,7 +10,7 @@ from __future__ import annotations
 import logging
 import math
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
@@ -83,6 +83,22 @@ class Panels:
     modes: Array
     symmetry: Symmetry
     gap_damping: float = 0.0
+
+    @cached_property
+    def part(self) -> Any:
+        """The part of the mesh that is solved for, as Capytaine takes it, which keeps its centres and normals."""
+        return capytaine_mesh(self.mesh.corners[self.symmetry.part])
+
+    @cached_property
+    def images(self) -> tuple[Any, ...]:
+        """The part in every mirror, likewise."""
+        found = []
+        for over_x, over_y in self.symmetry.mirrors:
+            sides = np.array([-1.0 if over_x else 1.0, -1.0 if over_y else 1.0, 1.0])
+            corners = self.mesh.corners[self.symmetry.part] * sides
+            # a mirror turns the corners round
+            found.append(capytaine_mesh(turned_round(corners) if over_x != over_y else corners))
+        return tuple(found)
 
 
 def panels_of(mesh: PanelMesh, centres: Array, gap_damping: float = 0.0) -> Panels:
@@ -273,21 +289,14 @@ def capytaine_mesh(corners: Array) -> Any:
 
 def _blocks(panels: Panels, water: Water, k: float) -> list[tuple[ComplexArray, ComplexArray]]:
     """Return single and double layer of every image of the part on the part."""
-    mesh, group, engine = panels.mesh, panels.symmetry, green_function()
-    part = capytaine_mesh(mesh.corners[group.part])
-    blocks = []
-    for element, (over_x, over_y) in enumerate(group.mirrors):
-        corners = mesh.corners[group.part] * np.array([-1.0 if over_x else 1.0, -1.0 if over_y else 1.0, 1.0])
-        if over_x != over_y:
-            # a mirror turns the corners round
-            corners = turned_round(corners)
-        blocks.append(
-            engine.evaluate(
-                part, capytaine_mesh(corners), free_surface=0.0, water_depth=water.depth, wavenumber=k,
-                adjoint_double_layer=False, diagonal_term_in_double_layer=element == 0,
-            )
-        )  # fmt: skip
-    return blocks
+    engine = green_function()
+    return [
+        engine.evaluate(
+            panels.part, image, free_surface=0.0, water_depth=water.depth, wavenumber=k,
+            adjoint_double_layer=False, diagonal_term_in_double_layer=element == 0,
+        )
+        for element, image in enumerate(panels.images)
+    ]  # fmt: skip
 
 
 def _solved(
