@@ -59,7 +59,6 @@ RUNS_HERE = (
 )  # fmt: skip
 REFUSED = {
     "3D_seafloor/hanging_lines.txt": ((55, "no wave_elevation.txt"),),
-    "syrope/quadratic_wc/line.txt": ((5, "depends on their history"), (15, "SYROPE IC")),
     "viv/viv.txt": ((6, "vortex-induced"),),
 }  # fmt: skip
 
@@ -91,6 +90,13 @@ def test_what_is_not_read_is_named_with_its_line(decks, name):
         read_deck(decks / name)
     for line, word in REFUSED[name]:
         assert any(fault.line == line and word in str(fault) for fault in caught.value.faults), (line, word)
+
+
+def test_a_rope_that_has_borne_more_rests_at_the_mean_tension_of_its_deck(decks):
+    """The deck places the end where its own working curve gives its Tmean0 (0.05 of the breaking load)."""
+    deck = read_deck(decks / "syrope/quadratic_wc/line.txt")
+    rest = solve_equilibrium(to_network(deck))
+    assert rest.tension == pytest.approx([4.339e5], rel=1e-3)
 
 
 def test_a_pendulum_falls_on_a_bed_that_slopes(decks):

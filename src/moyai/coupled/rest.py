@@ -192,7 +192,7 @@ class _Search:
             own = np.array([carrier.position, *(places[point] for point in carrier.points)])
             level = bed.level_at(own)
             worst = int(np.argmin(own[:, 2] - level))
-            if own[worst, 2] < level[worst] - 1e-9 * max(1.0, abs(level[worst])):
+            if own[worst, 2] < level[worst] - max(1e-9, bed.tolerance):
                 raise ConvergenceError(
                     f"no rest found: body {name!r} sinks through the bed at z = {level[worst]:.4g} m, on which bodies "
                     "do not come to rest",

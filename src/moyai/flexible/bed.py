@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array, BoolArray
 from moyai.core.errors import InputError
-from moyai.flexible.ground_kernel import levels
+from moyai.flexible.ground_kernel import ROUNDING, levels
 
 
 def _require(ok: bool, message: str, path: str, allowed: str) -> None:
@@ -84,6 +84,17 @@ class Ground:
         """Whether places (n, 2 or 3) stand outside the grid."""
         x, y = place[:, 0], place[:, 1]
         return np.asarray((x < self.x[0]) | (x > self.x[-1]) | (y < self.y[0]) | (y > self.y[-1]))
+
+    @property
+    def rounding(self) -> float:
+        """By how much the turn of the slopes at grid lines moves the bed at most [m]."""
+        most = 0.0
+        for lines, level in ((self.x, self.level), (self.y, self.level.T)):
+            cell = np.diff(lines)[:, None]
+            turn = np.abs(np.diff(np.diff(level, axis=0) / cell, axis=0, prepend=0.0, append=0.0))
+            size = np.minimum(np.pad(cell, ((1, 0), (0, 0)), mode="edge"), np.pad(cell, ((0, 1), (0, 0)), mode="edge"))
+            most += 0.25 * ROUNDING * float(np.max(turn * size))
+        return most
 
     @property
     def steepest(self) -> float:
@@ -164,6 +175,11 @@ class Bed:
         flat[:, :2] = where[..., :2].reshape(-1, 2)
         found = self.contact_at(flat)
         return np.asarray(found[:, 0] / found[:, 3]).reshape(where.shape[:-1])
+
+    @property
+    def tolerance(self) -> float:
+        """How far under it a point may stand that is meant to stand on it [m]."""
+        return 1e-9 * abs(self.level) + (0.0 if self.ground is None else self.ground.rounding)
 
     def level_for(self, low: Array) -> float:
         """Return the height of the flat bed on which the first guess of a line with this lower end hangs [m]."""

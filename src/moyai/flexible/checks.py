@@ -140,6 +140,11 @@ def check_network(network: Network) -> None:
         )
     if network.bed is not None:
         # anchors may lie in the bed; whatever moves may not start deep in it
+        if network.bed.ground is not None and network.blocks is not None:
+            raise InputError(
+                "sections with added mass of their own lie on a flat bed only", parameter="bed.ground",
+                allowed="no ground",
+            )  # fmt: skip
         level = network.bed.level_at(nodes.position)
         deep = (nodes.position[:, 2] < level - 0.02 * np.maximum(1.0, np.abs(level))) & (nodes.kind != FIXED)
         if deep.any():

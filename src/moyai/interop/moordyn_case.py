@@ -123,6 +123,12 @@ def case_text(
     as_built = any(body.moves for body in bodies) and deck.number("TmaxIC") == 0.0
     analyses = [*([] if as_built and dynamic else ["statics"]), *(["modes"] if deck.lines and not bodies else [])]
     lines += ["", f"analyses: [{', '.join([*analyses, *(['dynamic'] if dynamic else [])])}]"]
+    worn = sorted({line.line_type for line in deck.lines if deck.line_type(line.line_type).syrope is not None})
+    if dynamic and worn:
+        raise InputError(
+            f"line type {worn[0]!r} is a Syrope rope, which is run at rest only: its quick changes are stiffer",
+            path="line types", remedy="run the deck without motions, waves and --duration, or give EA",
+        )  # fmt: skip
     if dynamic:
         start = "as_built" if as_built else "rest_in_current" if deck.current is not None else "rest"
         settings = [f"start: {start}"]
@@ -162,7 +168,7 @@ def _check_bed(deck: MoorDynDeck, bodies: tuple[BodyOfDeck, ...]) -> None:
     faults = [
         Fault(f"{name} at z = {place[2]:g} m lies under the bed", "z", f"{level:g} m or more", "", deck.source, line, 1)
         for (name, place, line), level in zip(placed, levels, strict=True)
-        if level is not None and place[2] < level - 1e-9 * abs(level)
+        if level is not None and place[2] < level - deck.bed_tolerance
     ]
     if faults:
         raise CaseError(faults)

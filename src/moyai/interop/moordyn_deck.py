@@ -27,6 +27,7 @@ from moyai.interop.moordyn_records import (
     DeckOption,
     DeckSeafloor,
     DeckSlowStretch,
+    DeckSyrope,
     DeckWaves,
     StiffnessTable,
 )
@@ -69,6 +70,8 @@ class DeckLineType:
     line: int = field(default=0, compare=False)
     #: Of a viscoelastic rope, whose ``stiffness`` and ``damping`` are the dynamic ones.
     slow: DeckSlowStretch | None = None
+    #: Of a polyester rope whose ``stiffness`` is its curve at rest.
+    syrope: DeckSyrope | None = None
 
 
 @checks_words
@@ -190,6 +193,12 @@ class MoorDynDeck:
         if ground is not None:
             return float(Bed.on(ground, 1.0).level_at(np.asarray(place, dtype=float)))
         return None if self.depth is None else -self.depth
+
+    @property
+    def bed_tolerance(self) -> float:
+        """How far under the bed a point may stand that is meant to stand on it [m]."""
+        ground = None if self.seafloor is None else self.seafloor.ground
+        return 1e-9 * (self.depth or 0.0) + (0.0 if ground is None else ground.rounding)
 
     def point(self, number: int) -> DeckPoint:
         """Return the point of an ID.
@@ -401,6 +410,11 @@ def write_deck(deck: MoorDynDeck, path: str | Path) -> Path:
             path="options.SeafloorFile",
             remedy="replace it by WtrDpth",
         )
+    if any(kind.syrope is not None for kind in deck.line_types):
+        raise InputError(
+            "the deck has Syrope ropes, whose files are not written", path="line types",
+            remedy="replace them by ropes with a curve",
+        )  # fmt: skip
     if deck.current_field is not None:
         raise InputError(
             f"the deck takes its current from {deck.current_field.file}, which is not written",

@@ -33,6 +33,7 @@ from moyai.interop.moordyn_currents import FIELD_FILES, read_current_field
 from moyai.interop.moordyn_deck import DeckLine, DeckLineType, DeckPoint, MoorDynDeck
 from moyai.interop.moordyn_records import CURRENT_FILE, DeckCurrentField, DeckFailure, DeckOption
 from moyai.interop.moordyn_rows import Faults, Row, file_of, read_current, read_seafloor, read_stiffness
+from moyai.interop.moordyn_syrope import read_syrope, with_history
 from moyai.interop.moordyn_waves import read_waves
 from moyai.interop.textfiles import parse_number, read_lines
 
@@ -224,9 +225,13 @@ def _line_types(names: list[str], rows: list[Row], folder: Path, faults: Faults)
         name = row.cells.get("name", "")
         if any(kind.name == name for kind in found):
             faults.add(row.line, f"two line types are named {name!r}", path="line types")
-        stiffness, slow = read_stiffness(row, folder, faults)
+        law, slow = None, None
+        if is_syrope := row.cells.get("stiffness", "").strip('"').upper().startswith("SYROPE"):
+            stiffness, law = read_syrope(row, folder, faults)
+        else:
+            stiffness, slow = read_stiffness(row, folder, faults)
         damping = row.cells.get("damping", "0").split("|")[-1]
-        if slow is None and (parse_number(damping) is None or "|" in row.cells.get("damping", "")):
+        if slow is None and not is_syrope and (parse_number(damping) is None or "|" in row.cells.get("damping", "")):
             words = f"damping is {row.cells.get('damping', '')!r}"
             faults.add(row.line, words, "one number: BA in N s, or minus a damping ratio")
         found.append(
@@ -243,6 +248,7 @@ def _line_types(names: list[str], rows: list[Row], folder: Path, faults: Faults)
                 faults.number(row, "added_mass_axial", least=0.0),
                 row.line,
                 slow,
+                law,
             )
         )
     return tuple(found)
@@ -494,6 +500,14 @@ def read_deck(path: str | Path) -> MoorDynDeck:
     rods = read_rods(_table("rods", sections, ROD_COLUMNS, faults, notes)[1], rod_types, bodies, faults)
     points = _points(_table("points", sections, keys.POINT_COLUMNS, faults, notes)[1], bodies, faults)
     rows = _lines(_table("lines", sections, keys.LINE_COLUMNS, faults, notes)[1], kinds, points, rods, faults)
+    histories = _table("syrope ic", sections, keys.SYROPE_COLUMNS, faults, notes)[1]
+    kinds, rows = with_history(kinds, rows, histories, faults)
+    used = {line.line_type for line in rows}
+    notes += [
+        f"line type {kind.name}: the curve at rest after {kind.syrope.highest:g} N is run; quick changes are stiffer"
+        for kind in kinds
+        if kind.syrope is not None and kind.name in used
+    ]
     failures = _failures(_table("failure", sections, keys.FAILURE_COLUMNS, faults, notes)[1], rows, faults)
     options = _options(sections.get("options", (0, []))[1], place.parent, faults, notes)
     _check_option_values(options, faults)

@@ -38,6 +38,28 @@ class DeckSlowStretch:
 
 
 @dataclass(frozen=True)
+class DeckSyrope:
+    """What a polyester rope has besides its curve: shape of its working curves, quick stiffness, history."""
+
+    #: LINEAR, QUADRATIC or EXP.
+    form: Literal["LINEAR", "QUADRATIC", "EXP"]
+    #: ``k1``, ``k2``: parameters of the shape.
+    k1: float
+    #: ``k1``, ``k2``: parameters of the shape.
+    k2: float
+    #: Quick stiffness without tension [N], and per tension [-].
+    alpha: float
+    #: Quick stiffness per mean tension [-].
+    beta: float
+    #: BA_s of the slow stretch [N s].
+    damping: float
+    #: Highest mean tension so far, 0 for a new rope, and mean tension at the start [N].
+    highest: float = 0.0
+    #: Mean tension at the start [N].
+    mean: float = 0.0
+
+
+@dataclass(frozen=True)
 class DeckSeafloor:
     """Heights of the bed on a rectangular grid, from a file of their own."""
 

@@ -69,12 +69,6 @@ def read_stiffness(row: Row, folder: Path, faults: Faults) -> tuple[float | Stif
     text = row.cells.get("stiffness", "")
     if parse_number(text) is not None:
         return faults.number(row, "stiffness", above=0.0), None
-    if text.upper().startswith("SYROPE"):
-        faults.add(
-            row.line, f"stiffness {text!r}: ropes whose stiffness depends on their history (Syrope) are not read",
-            "EA in N, EA_s|EA_d, or a file of strain and tension", path="stiffness",
-        )  # fmt: skip
-        return math.nan, None
     if "|" in text:
         return _viscoelastic(row, text, faults)
     return _stiffness_table(row, text, folder, faults), None

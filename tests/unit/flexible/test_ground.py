@@ -55,6 +55,9 @@ def test_levels_are_bilinear_between_grid_lines_and_flat_outside():
     two = 0.5 * sum(np.diff(np.diff(ground.level[:, k]) / np.diff(ground.x)) * half / 4.0 for k in (2, 3))
     np.testing.assert_allclose(one, two, atol=1e-13)
     assert steps.size == 5
+    crossings = np.stack(np.meshgrid(ground.x, ground.y, indexing="ij"), axis=-1)
+    moved = np.abs(bed.level_at(crossings) - ground.level).max()
+    assert 0.3 * ground.rounding < moved <= ground.rounding * (1.0 + 1e-9)
 
 
 @pytest.mark.parametrize("where", [(3.0, 4.0), (7.02, 6.9), (-3.0, 5.0), (0.0, 0.0)])
@@ -125,6 +128,46 @@ def test_steps_on_a_plane_are_those_on_a_flat_bed_in_turned_axes():
     for flat, plane in zip(ended["flat"], ended["plane"], strict=True):
         np.testing.assert_allclose(plane, flat, rtol=1e-9, atol=1e-9 * np.abs(flat).max())
     assert (place[:, 2] < 0.0).sum() > 10
+
+
+def test_the_tangent_of_a_curved_bed_is_the_derivative_of_its_push():
+    """Along the normal the stiffness, in the plane of the bed the push times the curvature, at a bend of the grid."""
+    ground, stiffness = random_ground(), 1e6
+    builder = NetworkBuilder(Water(depth=50.0, density=1e-9, gravity=1e-9), Bed.on(ground, stiffness))
+    at = np.array([ground.x[2] + 0.003, ground.y[3] - 0.005])
+    place = np.array([[*at, float(builder.bed.level_at(at)) - 1e-4], [*at, 5.0]])
+    n = builder.bed.contact_at(place[0])[0, 1:]
+    builder.free("low", place[0], mass=1.0, contact_area=1.0)
+    builder.free("high", place[1], mass=1.0)
+    builder.line(
+        "thread", "low", "high", BarType("thread", 1e-9, 1e-9, 1e-9), length=90.0, segments=1, shape="straight"
+    )
+    arrays = kernel_arrays(builder.build())
+    bed, system, fluid = builder.bed.numbers(), kernel_system(arrays), np.array([1e-9, 0.0, 0.0])
+    still, water, mass = np.zeros((2, 3)), np.zeros((7, 2)), np.zeros((2, 6))
+
+    def push(x):
+        force = np.zeros((2, 3))
+        force_kernel.forces(x, still, water, system, fluid, bed, force, np.zeros(1), mass)
+        return force[0]
+
+    bar_law, node_law = np.zeros((2, 1)), np.zeros((4, 2))
+    force_kernel.laws(place, still, system, fluid, bed, 0.0, 1.0, bar_law, node_law)
+    block = np.zeros((2, 3, 3))
+    force_kernel.blocks(
+        place, still, water, system, fluid, bed, mass, bar_law, node_law, 0.0, 0.0, 1.0, True, block,
+        np.zeros((1, 2, 3, 3)),
+    )  # fmt: skip
+    h, change = 1e-7, np.empty((3, 3))
+    for axis in range(3):
+        step = h * np.eye(3)[axis] * np.array([[1.0], [0.0]])
+        change[:, axis] = (push(place - step) - push(place + step)) / (2.0 * h)
+    flat = np.eye(3) - np.outer(n, n)
+    assert n @ block[0] @ n == pytest.approx(stiffness, rel=1e-7)
+    assert n @ change @ n == pytest.approx(stiffness, rel=1e-3)
+    curved = flat @ block[0] @ flat
+    assert np.abs(curved).max() > 10.0
+    np.testing.assert_allclose(flat @ change @ flat, curved, atol=0.01 * np.abs(curved).max())
 
 
 def sliding(friction: float, method: str, slope: float = 0.2):

@@ -441,6 +441,21 @@ def test_a_line_rests_on_a_bed_that_rises_however_it_is_given(form, tmp_path):
     assert 3 < lies.sum() < 30
 
 
+def test_a_line_starts_on_a_bed_that_rises_between_its_ends(tmp_path):
+    (tmp_path / "bed.txt").write_text(
+        "".join(f"{x} {y} {z}\n" for x, z in ((0, 12), (20, 8), (50, 30)) for y in (-5, 5))
+    )
+    text = line_case(length="50 m", segments=40).replace(
+        "structure:\n", "structure:\n  " + BED + "grid: {file: bed.txt}}\n"
+    )
+    network = assemble(problem_of(text, tmp_path), 0.0).network
+    # the anchor stands on the corner of the grid, from which the bed is rounded
+    inner = network.nodes.position[1:]
+    assert (inner[:, 2] >= network.bed.level_at(inner) - 1e-9).all()
+    rest = solve_equilibrium(network)
+    assert rest.state.position[np.argmin(np.abs(rest.state.position[:, 0] - 20.0)), 2] == pytest.approx(-8.0, abs=0.1)
+
+
 def test_a_bed_that_varies_is_checked(tmp_path):
     (tmp_path / "bed.txt").write_text("0 -5 30\n0 5 30\n20 -5 34\n20 5 34\n")
     text = line_case().replace("structure:\n", "structure:\n  " + BED + "grid: {file: bed.txt}}\n")

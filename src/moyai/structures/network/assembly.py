@@ -105,7 +105,7 @@ def _place(
         return x, y, -water.depth if bed is None else float(bed.level_at(np.array([x, y])))
     height = z if floats else z - level
     depth = water.depth if bed is None else -float(bed.level_at(np.array([x, y])))
-    if height < -depth - 1e-9 * abs(depth):
+    if height < -depth - (1e-9 * water.depth if bed is None else bed.tolerance):
         raise InputError(
             f"z = {z:g} m lies under the bed, which is {depth:g} m below still water",
             parameter=parameter,
@@ -167,6 +167,8 @@ def _parts_shape(builder: NetworkBuilder, line: LinePlan, water: Water) -> list[
     points = a + every[:, None] * (b - a)
     if line.shape == "catenary":
         points = _catenary(builder, line, water, a, b, every, points)
+    if builder.bed is not None:
+        points = builder.bed.carried(points)
     cuts = np.cumsum([part.segments for part in line.parts])
     return list(np.split(points, cuts[:-1]))
 

@@ -329,7 +329,7 @@ def _check_depth(problem: NetworkProblem, level: float, motions: Mapping[str, Mo
         levels = np.full(len(path), flat) if network.bed is None else network.bed.level_at(path)
         worst = int(np.argmin(path[:, 2] - levels))
         lowest, bed = float(path[worst, 2]), float(levels[worst])
-        if lowest < bed - 1e-9 * abs(bed):
+        if lowest < bed - (1e-9 * abs(bed) if network.bed is None else network.bed.tolerance):
             findings.fault(
                 ("structure", "points", point.name, "motion"),
                 f"the motion '{point.motion}' drives '{point.name}' down to z = {lowest:.4g} m above still water",
@@ -376,7 +376,7 @@ def _check_ground(network: Network, depth: float, findings: Findings) -> None:
     levels = bed.level_at(network.nodes.position)
     for name, node in network.points.items():
         height = float(network.nodes.position[node, 2])
-        if height < levels[node] - 1e-9 * abs(levels[node]):
+        if height < levels[node] - bed.tolerance:
             findings.fault(
                 ("structure",), f"'{name}' starts at z = {height:.4g} m above still water, under the bed",
                 allowed=f"at least {levels[node]:.4g} m", remedy="raise it, or correct the depths of the bed",
