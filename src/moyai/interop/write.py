@@ -1,4 +1,4 @@
-"""Coefficients written for other programs: files of WAMIT, NEMOH, BEMIO and OrcaFlex, with all digits."""
+"""Coefficients written for other programs: files of WAMIT, NEMOH and BEMIO, with all digits."""
 
 from __future__ import annotations
 
@@ -11,13 +11,11 @@ from moyai.core.errors import InputError
 from moyai.core.files import write_whole
 from moyai.interop.write_bemio import bemio_files
 from moyai.interop.write_nemoh import nemoh_files
-from moyai.interop.write_orcaflex import orcaflex_files
 from moyai.interop.write_wamit import wamit_files
 
 _WRITERS: dict[str, Callable[[xr.Dataset], dict[str, bytes]]] = {
     "bemio": bemio_files,
     "nemoh": nemoh_files,
-    "orcaflex": orcaflex_files,
     "wamit": wamit_files,
 }
 PROGRAMS = tuple(_WRITERS)
@@ -29,7 +27,7 @@ def write_coefficients(program: str, dataset: xr.Dataset, folder: str | Path, *,
 
     Parameters
     ----------
-    program : {"bemio", "nemoh", "orcaflex", "wamit"}
+    program : {"bemio", "nemoh", "wamit"}
     dataset : xarray.Dataset
         See :mod:`moyai.interop.coefficients`.
     folder : path

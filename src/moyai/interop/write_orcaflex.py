@@ -1,8 +1,8 @@
-"""Text data files of OrcaFlex (YAML): lines of a deck with their water, and a vessel type of coefficients.
+"""Text data files of OrcaFlex (YAML): lines of a deck with their water.
 
 Written for a peer check by those who have OrcaFlex; no OrcaFlex has read these files, and their first lines say so.
-Names of objects and data are those of public text data files and of programs that read them. Units are OrcaFlex's SI:
-te, kN, m, s, degrees. Phases lag behind the crest at the origin, z is up from still water, both as in moyai.
+Names of objects and data are those of public text data files. Units are OrcaFlex's SI: te, kN, m, s, degrees; z is up
+from still water.
 """
 
 from __future__ import annotations
@@ -11,11 +11,8 @@ import math
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from moyai.core.errors import InputError
-from moyai.interop.bodies import bodies_of
-from moyai.interop.coefficients import DOFS
 from moyai.interop.moordyn_deck import DeckLine, DeckLineType, DeckPoint, MoorDynDeck
 
 _HEAD = """%YAML 1.1
@@ -29,59 +26,8 @@ _ENDS = (
 )
 _SECTIONS = "LineType, Length, TargetSegmentLength"
 _CURRENT = "CurrentDepth, CurrentFactor, CurrentRotation"
-_AXES = ("X", "Y", "Z", "Rx", "Ry", "Rz")
-_ADDED_MASS = ", ".join(f"AddedMassMatrix{axis}" for axis in _AXES)
-_DAMPING = ", ".join(f"Damping{axis}" for axis in _AXES)
-_RAOS = ", ".join(["RAOPeriodOrFrequency", *(f"RAO{name}Amp, RAO{name}Phase" for name in DOFS)])
-_STIFFNESS = "HydrostaticStiffnessz, HydrostaticStiffnessRx, HydrostaticStiffnessRy"
 #: kg, N over te, kN.
 _THOUSAND = 1e3
-
-
-def orcaflex_files(dataset: xr.Dataset) -> dict[str, bytes]:
-    """Return the file of a vessel type by its name: load RAOs, added mass, damping, hydrostatic stiffness.
-
-    Mass and inertia are not among the coefficients and are left to be filled in.
-
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        See :mod:`moyai.interop.coefficients`.
-
-    Raises
-    ------
-    InputError
-        For several bodies.
-    """
-    if len(bodies_of(dataset)) > 1:
-        raise InputError(
-            "a vessel type is one body, the coefficients are of several", path="coefficients", allowed="one body"
-        )
-    point = [float(value) for value in np.ravel(dataset["reference_point"].values)]
-    draught: dict[str, Any] = {
-        "Name": "Draught1",
-        "LoadRAOs": {"RAOOrigin": point, "PhaseOrigin": [0.0, 0.0, 0.0], "RAOs": _load_raos(dataset)},
-        "ReferenceOrigin": point,
-    }
-    if "hydrostatic_stiffness" in dataset:
-        draught[_STIFFNESS] = _whole(dataset, "hydrostatic_stiffness")[2:5, 2:5].tolist()
-    draught["AMDMethod"] = "Frequency dependent"
-    draught["FrequencyDependentAddedMassAndDamping"] = _added_mass_and_damping(dataset)
-    depth = float(dataset["water_depth"])
-    environment: dict[str, Any] = {"Density": float(dataset["rho"]) / _THOUSAND}
-    if math.isfinite(depth):
-        environment["WaterDepth"] = depth
-    vessel_type = {
-        "Name": "moyai",
-        "WavesReferredToBy": "period (s)",
-        "RAOWaveUnit": "amplitude",
-        "RAOPhaseConvention": "lags",
-        "RAOPhaseUnitsConvention": "degrees",
-        "RAOPhaseRelativeToConvention": "crest",
-        "Draughts": [draught],
-    }
-    model = {"General": {"UnitsSystem": "SI"}, "Environment": environment, "VesselTypes": [vessel_type]}
-    return {"unit.yml": _text(model).encode()}
 
 
 def orcaflex_text(deck: MoorDynDeck) -> tuple[str, tuple[str, ...]]:
@@ -128,47 +74,6 @@ def _text(model: dict[str, Any]) -> str:
     import yaml
 
     return _HEAD + yaml.safe_dump(model, sort_keys=False, default_flow_style=None, width=10_000, allow_unicode=True)
-
-
-def _whole(dataset: xr.Dataset, name: str, omega: int | None = None) -> np.ndarray:
-    """Return a matrix of six motions in te and kN, rows of forces; motions that are not there are zero."""
-    places = [DOFS.index(str(dof).rsplit("__", 1)[-1]) for dof in dataset["influenced_dof"].values]
-    values = dataset[name] if omega is None else dataset[name].isel(omega=omega)
-    full = np.zeros((6, 6))
-    full[np.ix_(places, places)] = values.transpose("influenced_dof", "radiating_dof").values / _THOUSAND
-    return full
-
-
-def _added_mass_and_damping(dataset: xr.Dataset) -> list[dict[str, Any]]:
-    rows = []
-    if "infinite_frequency_added_mass" in dataset:  # period 0
-        added = _whole(dataset, "infinite_frequency_added_mass")
-        rows.append({"AMDPeriodOrFrequency": 0.0, _ADDED_MASS: added.tolist(), _DAMPING: np.zeros((6, 6)).tolist()})
-    for place in reversed(range(dataset.sizes["omega"])):
-        rows.append(
-            {
-                "AMDPeriodOrFrequency": 2.0 * math.pi / float(dataset["omega"][place]),
-                _ADDED_MASS: _whole(dataset, "added_mass", place).tolist(),
-                _DAMPING: _whole(dataset, "radiation_damping", place).tolist(),
-            }
-        )
-    return rows
-
-
-def _load_raos(dataset: xr.Dataset) -> list[dict[str, Any]]:
-    force = dataset["excitation_force"].transpose("wave_direction", "omega", "influenced_dof")
-    places = [DOFS.index(str(dof).rsplit("__", 1)[-1]) for dof in force["influenced_dof"].values]
-    periods = 2.0 * math.pi / force["omega"].values
-    found = []
-    for direction, values in zip(force["wave_direction"].values, force.values, strict=True):
-        table = np.zeros((periods.size, 13))
-        table[:, 0] = periods
-        for column, place in enumerate(places):
-            table[:, 1 + 2 * place] = np.abs(values[:, column]) / _THOUSAND
-            # Re(X exp(-i omega t)) lags by the angle of X
-            table[:, 2 + 2 * place] = np.degrees(np.angle(values[:, column])) % 360.0
-        found.append({"RAODirection": math.degrees(float(direction)), _RAOS: table[::-1].tolist()})
-    return found
 
 
 def _line_type(kind: DeckLineType) -> dict[str, Any]:

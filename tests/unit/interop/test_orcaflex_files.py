@@ -10,13 +10,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 import yaml
-from test_written_coefficients import POINT, body
 from typer.testing import CliRunner
 
 from moyai.case.reader import load_case
 from moyai.cli.main import app
 from moyai.core.errors import InputError
-from moyai.interop.write import write_coefficients
 from moyai.interop.write_orcaflex import orcaflex_text
 from moyai.structures.network.case.line_deck import deck_of_case
 
@@ -88,35 +86,3 @@ def test_what_a_line_cannot_hold_is_refused(tmp_path: Path) -> None:
         orcaflex_text(replace(deck, points=heavy))
     with pytest.raises(InputError, match="needs a water depth"):
         orcaflex_text(replace(deck, options=()))
-
-
-@pytest.mark.parametrize("dofs", [("Surge", "Sway", "Heave", "Roll", "Pitch", "Yaw"), ("Sway", "Heave", "Roll")])
-def test_a_vessel_type_comes_back(tmp_path: Path, dofs: tuple[str, ...]) -> None:
-    given = body(3, dofs)
-    (path,) = write_coefficients("orcaflex", given, tmp_path)
-    model = yaml.safe_load(path.read_text(encoding="utf-8"))
-    (kind,) = model["VesselTypes"]
-    (draught,) = kind["Draughts"]
-    assert kind["WavesReferredToBy"] == "period (s)" and kind["RAOPhaseConvention"] == "lags"
-    assert draught["LoadRAOs"]["RAOOrigin"] == list(POINT) == draught["ReferenceOrigin"]
-    places = [("Surge", "Sway", "Heave", "Roll", "Pitch", "Yaw").index(dof) for dof in dofs]
-    first, *rows = draught["FrequencyDependentAddedMassAndDamping"]
-    assert first["AMDPeriodOrFrequency"] == 0.0
-    omega = np.array([2.0 * math.pi / row["AMDPeriodOrFrequency"] for row in rows])[::-1]
-    assert omega == pytest.approx(given["omega"].values, rel=1e-12)
-    for name, prefix in (("added_mass", "AddedMassMatrix"), ("radiation_damping", "Damping")):
-        read = 1e3 * np.array([next(v for k, v in row.items() if k.startswith(prefix)) for row in rows])[::-1]
-        expected = given[name].transpose("omega", "influenced_dof", "radiating_dof").values
-        assert read[:, places][:, :, places] == pytest.approx(expected, rel=1e-12)
-        assert np.count_nonzero(read) == expected.size
-    stiffness = 1e3 * np.array(next(v for k, v in draught.items() if k.startswith("HydrostaticStiffness")))
-    inner = [number for number, place in enumerate(places) if 2 <= place <= 4]
-    expected = given["hydrostatic_stiffness"].transpose("influenced_dof", "radiating_dof").values[np.ix_(inner, inner)]
-    kept = [places[number] - 2 for number in inner]
-    assert stiffness[np.ix_(kept, kept)] == pytest.approx(expected, rel=1e-12)
-    for number, rao in enumerate(draught["LoadRAOs"]["RAOs"]):
-        assert math.radians(rao["RAODirection"]) == pytest.approx(float(given["wave_direction"][number]))
-        table = np.array(next(v for k, v in rao.items() if k.startswith("RAOPeriod")))[::-1]
-        complex_force = 1e3 * table[:, 1::2] * np.exp(1j * np.radians(table[:, 2::2]))
-        expected = given["excitation_force"].transpose("wave_direction", "omega", "influenced_dof").values[number]
-        assert complex_force[:, places] == pytest.approx(expected, rel=1e-9)

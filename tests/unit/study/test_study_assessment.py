@@ -115,6 +115,19 @@ def test_anchors_that_fail_lower_the_status(tmp_path):
     assert "upwards" in reported and "danforth on sand" in reported
 
 
+def test_the_most_probable_maximum_of_many_times_is_the_mode_of_their_law(tmp_path):
+    """Gumbel: the largest of n has the mode u + b ln n."""
+    _, result = assessed(
+        tmp_path,
+        GRID + "- seeds: {path: 'waves[storm].seed', count: 12}",
+        "{extremes: {response: SWL/time/storm/worst, times: 20}}",
+    )
+    found = result.tree["assessment/extremes 1"]
+    mode = found["location"].values + found["scale"].values * math.log(20.0)
+    assert found["most_probable_maximum"].values == pytest.approx(mode, rel=1e-9)
+    assert (found["scale"].values > 0.0).all()
+
+
 @pytest.mark.slow
 def test_extremes_over_seeds_find_the_known_distribution(tmp_path):
     _, result = assessed(

@@ -251,6 +251,8 @@ def test_samples_follow_their_distributions_and_their_seed(tmp_path, method):
     assert height.min() >= 0.5 and height.max() <= 1.0 and abs(height.mean() - 0.75) < 1e-2
     assert abs(draught.mean() - 3.0) < 1e-2 and abs(draught.std() - 0.1) < 1e-2
     assert abs(period.mean() - 5.0) < 5e-2 and abs(period.std() - 0.5) < 6e-2
+    # ln of a lognormal value has the mean ln m - ln(1 + (s / m)^2) / 2
+    assert abs(np.log(period).mean() - (np.log(5.0) - 0.5 * np.log1p(0.01))) < 3e-3
 
 
 def test_faults_of_cases_are_told_once_with_the_first_case_that_shows_them(tmp_path):
