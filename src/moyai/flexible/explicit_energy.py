@@ -35,7 +35,7 @@ from moyai.flexible.explicit_rows import (
     Y,
     Z,
 )
-from moyai.flexible.ground_kernel import ground
+from moyai.flexible.ground_kernel import FLAT, ground
 
 
 @njit(cache=True, error_model="numpy", fastmath=FAST)
@@ -88,7 +88,9 @@ def elastic_energy(A: Any, sizes: Any, runs: Any, curves: Any, hinges: Any, stif
             q = A[X + axis * ROW + c] - A[X + axis * ROW + b]
             elastic += 0.5 * stiffness[h, 0] * (q * stiffness[h, 2] - p * stiffness[h, 1]) ** 2
     for i in range(sizes[0] if bed[3] > 0.0 else 0):
-        level, _, _, up = ground(bed, A[X + i], A[Y + i])
+        level, up = bed[0], 1.0
+        if bed.size > FLAT:
+            level, _, _, up = ground(bed, A[X + i], A[Y + i])
         depth = (level - A[Z + i]) * up
         if depth > 0.0 and A[FREE_Z + i] > 0.0:
             elastic += 0.5 * A[STIFF + i] * depth * depth

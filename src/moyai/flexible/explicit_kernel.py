@@ -145,7 +145,9 @@ def note_landings(A: Any, bed: Any, falls: Any) -> None:
     ``falls`` (2, n) holds the speed down of what is over the bed, and the highest at a landing.
     """
     for i in range(falls.shape[1]):
-        level, nx, ny, nz = ground(bed, A[X + i], A[Y + i])
+        level, nx, ny, nz = bed[0], 0.0, 0.0, 1.0
+        if bed.size > FLAT:
+            level, nx, ny, nz = ground(bed, A[X + i], A[Y + i])
         if A[Z + i] > level:
             falls[0, i] = -(nx * A[U + i] + ny * A[V + i] + nz * A[W + i])
         elif falls[0, i] > 0.0:
