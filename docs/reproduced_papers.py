@@ -23,7 +23,9 @@ def compute(name: str, folder: Path) -> dict[str, int]:
     import moyai
 
     counts = folder / "counts.json"
-    newest = max(path.stat().st_mtime for path in Path(moyai.__file__).parent.rglob("*.py"))
+    newest = max(
+        path.stat().st_mtime for kind in ("*.py", "*.yaml") for path in Path(moyai.__file__).parent.rglob(kind)
+    )
     if counts.exists() and counts.stat().st_mtime > newest:
         return dict(json.loads(counts.read_text(encoding="utf-8")))
     from moyai.reproduce import as_result, reproduce

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+import moyai
 from moyai.case.builder import build
 from moyai.case.reader import case_of
 from moyai.case.templates import template
@@ -294,3 +295,59 @@ def test_floats_of_a_row_lie_at_the_surface():
     assert flying.status == "outside_validity"
     notice = next(notice for notice in flying.notices if notice.code == "wet-in-air")
     assert notice.value > 0.5 * diameter
+
+
+BUOY = """
+moyai: 1
+title: taut buoy
+site: {water_depth: 20, density: 1025, gravity: 9.81, water_levels: {HW: 2, LW: 0}}
+waves: {kind: regular, height: 0.5 m, period: 4 s, heading_deg: 0}
+structure:
+  kind: network
+  line_types:
+    rope: {diameter: 24 mm, mass: 0.4 kg/m, axial_stiffness: 0.2 MN, viscosity: 0, drag_normal: 1.2, drag_tangential: 0,
+           added_mass_normal: 1}
+  points:
+    anchor: {kind: fixed, position: [0, 0, bed]}
+    buoy: {kind: sphere, position: [0, 0, -3], diameter: 1 m, mass: 100 kg, drag_coefficient: 0.5,
+           added_mass_coefficient: 0.5}
+  lines: {leg: {start: anchor, end: buoy, type: rope, length: 16.7 m, segments: 8}}
+analyses: [statics, dynamic]
+criteria: {greatest_tension: 100 kN}
+settings: {SETTINGS}
+"""
+
+
+@pytest.mark.parametrize(
+    ("settings", "outcome", "code"),
+    [
+        ("duration: 14 s, skip: 2 s", "holds", ""),
+        ("duration: 14 s, ramp: 60 s", "not judged", "waves-not-counted"),
+        ("duration: 14 s, skip: 12 s", "not judged", "waves-not-counted"),
+    ],
+)
+def test_a_whole_period_of_waves_at_their_height_counts(settings, outcome, code):
+    found = result_of(BUOY.replace("SETTINGS", f"{settings}, water_levels: [LW]"))
+    assert found.verdict.outcome == outcome
+    assert bool(code) == any(notice.code == "waves-not-counted" for notice in found.notices)
+
+
+def test_a_level_that_was_left_out_keeps_the_design_from_holding(tmp_path):
+    file = tmp_path / "case.yaml"
+    for levels, outcome in (("all", "holds"), ("[LW]", "not judged")):
+        file.write_text(BUOY.replace("SETTINGS", f"duration: 10 s, water_levels: {levels}"), encoding="utf-8")
+        found = moyai.run(moyai.load_case(file))
+        assert found.verdict.outcome == outcome
+    assert found.verdict.message == "not run: water level HW"
+
+
+def test_the_offset_of_one_seed_is_judged_with_the_chance_of_others():
+    sea = (
+        "waves: {kind: jonswap, significant_height: 0.5 m, peak_period: 4 s, peak_enhancement: 3.3, heading_deg: 0, "
+        "duration: 140 s, seed: 2}"
+    )
+    text = BUOY.replace("waves: {kind: regular, height: 0.5 m, period: 4 s, heading_deg: 0}", sea)
+    found = result_of(text.replace("SETTINGS", "water_levels: [LW]"))
+    offset = headline(found, "offset")
+    assert offset.band is not None and offset.band.low <= offset.value < offset.band.high
+    assert "90 of 100 seeds" in offset.band.of

@@ -4,6 +4,7 @@ Sources: FloatingArrayDesign/MoorDyn, tests/Mooring (BSD-3-Clause); SMI-Lab-Inha
 (Apache-2.0); MHKiT-Python, examples/data/mooring (BSD-3-Clause). Figures: docs/validation/moordyn_decks.md.
 """
 
+import shutil
 from dataclasses import replace
 
 import numpy as np
@@ -57,9 +58,7 @@ RUNS_HERE = (
     "wavekin_wave_1.txt", "WD0050_Chain.txt", "WD0200_Chain.txt",
 )  # fmt: skip
 REFUSED = {
-    "3D_seafloor/hanging_lines.txt": ((50, "not flat"), (55, "no wave_elevation.txt")),
-    "seafloor.txt": ((23, "not flat"),),
-    "syrope/quadratic_wc/line.txt": ((5, "depends on their history"), (15, "SYROPE IC")),
+    "3D_seafloor/hanging_lines.txt": ((55, "no wave_elevation.txt"),),
     "viv/viv.txt": ((6, "vortex-induced"),),
 }  # fmt: skip
 
@@ -91,6 +90,48 @@ def test_what_is_not_read_is_named_with_its_line(decks, name):
         read_deck(decks / name)
     for line, word in REFUSED[name]:
         assert any(fault.line == line and word in str(fault) for fault in caught.value.faults), (line, word)
+
+
+def test_a_rope_that_has_borne_more_rests_at_the_mean_tension_of_its_deck(decks):
+    """The deck places the end where its own working curve gives its Tmean0 (0.05 of the breaking load)."""
+    deck = read_deck(decks / "syrope/quadratic_wc/line.txt")
+    rest = solve_equilibrium(to_network(deck))
+    assert rest.tension == pytest.approx([4.339e5], rel=1e-3)
+
+
+def test_a_pendulum_falls_on_a_bed_that_slopes(decks):
+    """The grid is the plane z = x / 5 - 30 m; the ball starts on it, swings and comes down again."""
+    deck = read_deck(decks / "seafloor.txt")
+    network = to_network(deck)
+    ball = network.points["point 2"]
+    assert (deck.depth, deck.bed_under((25.0, 0.0))) == (500.0, pytest.approx(-25.0, abs=1e-9))
+    history = simulate(network, duration=20.0, output_step=0.05, start=State.at_rest(network))
+    over = history.position[:, ball, 2] - (0.2 * history.position[:, ball, 0] - 30.0)
+    assert history.status == "converged"
+    # the push that stops a ball of 10 kg sinks it by less than a millimetre
+    assert -1e-3 < over.min() < 0.0
+    assert over.max() > 1.0
+
+
+def test_lines_hang_over_a_bed_that_slopes(decks, tmp_path):
+    """The deck without its waves, whose record is not at hand: each line hangs by its own weight."""
+    text = "\n".join(
+        line
+        for line in (decks / "3D_seafloor/hanging_lines.txt").read_text().splitlines()
+        if "WaveKin" not in line and "dtWave" not in line
+    )
+    (tmp_path / "deck.txt").write_text(text)
+    shutil.copy(decks / "3D_seafloor/seafloor_profile_3d.txt", tmp_path)
+    network = to_network(read_deck(tmp_path / "deck.txt"))
+    rest, kind = solve_equilibrium(network), network.bars.types[0]
+    weight = kind.submerged_weight_per_length(network.water)
+    for strand in network.strands:
+        place = rest.state.position[strand.nodes]
+        free = place[:, 2] > network.bed.level_at(place) + 0.1
+        hung = weight * 10.0 * (1.0 - (np.arange(strand.bars.size) + 0.5) / strand.bars.size)
+        if free.all():
+            assert rest.tension[strand.bars] == pytest.approx(hung, rel=1e-6)
+    assert network.bed.level_at([[45.0, 0.0]])[0] == pytest.approx(-21.0, abs=1e-9)
 
 
 @pytest.mark.parametrize(

@@ -91,8 +91,8 @@ def convert(
         str | None,
         typer.Option(
             "--to",
-            metavar="wamit|nemoh|bemio",
-            help="Write the coefficients of the floating body, or of all units, of a result as files of this program.",
+            metavar="wamit|nemoh|bemio|orcaflex",
+            help="Write the coefficients of a result as files of this program; lines of a case or deck: orcaflex.",
         ),
     ] = None,
     sea: Annotated[
@@ -113,6 +113,9 @@ def convert(
 ) -> None:
     """Turn a deck of MoorDyn into a case file of a network, or a case file into a deck; write coefficients."""
     with guard(as_json):
+        if to == "orcaflex" and file.suffix.lower() != ".nc":
+            _write_lines(file, output or file.with_suffix(".yml"), water_level, depth, force=force, as_json=as_json)
+            return
         if to is not None:
             _write_coefficients(file, to, output, water_level, sea, force=force, as_json=as_json)
             return
@@ -171,3 +174,31 @@ def _write_coefficients(
         tell("the added mass at infinite frequency was found from the damping of the band")
     if several and program == "nemoh":
         tell("files of NEMOH have no place for mean drift")
+
+
+def _write_lines(
+    file: Path, target: Path, water_level: str | None, depth: float | None, *, force: bool, as_json: bool
+) -> None:
+    """Write the lines of a deck or of a case of a network as a text data file of OrcaFlex."""
+    from moyai.cli.files import write_text
+    from moyai.interop.moordyn_case import is_deck
+    from moyai.interop.moordyn_reader import read_deck
+    from moyai.interop.write_orcaflex import orcaflex_text
+
+    if not file.is_file():
+        raise InputError(f"no such file: {file}", path="FILE")
+    if is_deck(file):
+        deck = read_deck(file).in_depth(depth)
+    else:
+        from moyai.case.reader import load_case
+        from moyai.structures.network.case.line_deck import deck_of_case
+
+        deck = deck_of_case(load_case(file), water_level)
+    text, notes = orcaflex_text(deck)
+    write_text(target, text, replace=force)
+    if as_json:
+        print_json({"file": str(target), "notes": list(notes), "faults": []})
+        return
+    for note in notes:
+        tell(note)
+    tell(f"wrote {target}")

@@ -30,12 +30,17 @@ def reproduce(
     with guard(as_json):
         from moyai.cli.runner import prepare_output
         from moyai.reproduce import as_result, papers
+        from moyai.reproduce import paper as described
         from moyai.reproduce import reproduce as run_paper
+        from moyai.reproduce.points import read_points
 
         if paper is None:
             _list(papers(), as_json)
             raise typer.Exit(OK)
         started = time.perf_counter()
+        wanted = described(paper)
+        for option in points or ():
+            read_points(option, wanted.plotted)
         folder = prepare_output(output if output is not None else Path("out") / paper)
         with progress_bars(quiet or as_json) as progress:
             found = run_paper(paper, quick=quick, points=tuple(points or ()), progress=progress)

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from moyai.core.errors import InputError
+from moyai.core.headline import left_open
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
 
@@ -61,11 +62,20 @@ def run(case: Case, progress: Progress = silent, *, keep: Path | None = None, pr
         if _wording(fault.message).split("; ", 1)[-1] not in said
     ]
     result = result.with_notices(*warnings) if warnings else result
+    if levels := _levels_left_out(case.model):
+        result = replace(result, verdict=left_open(result.verdict, f"not run: water level {', '.join(levels)}"))
     if (display := getattr(case.model, "display", None)) is not None and display.units != "SI":
         result = replace(result, provenance={**result.provenance, "display_units": display.units})
     if display is not None and display.language is not None:
         result = replace(result, provenance={**result.provenance, "display_language": display.language})
     return with_views(result)
+
+
+def _levels_left_out(model: Any) -> list[str]:
+    """Return the water levels of the site that the settings of a case leave out."""
+    levels = getattr(getattr(model, "site", None), "water_levels", None) or {}
+    chosen = getattr(getattr(model, "settings", None), "water_levels", "all")
+    return [] if isinstance(chosen, str) else [name for name in levels if name not in chosen]
 
 
 def _wording(message: str) -> str:

@@ -338,11 +338,14 @@ def _narrow(found: list[Judgement]) -> str:
     return "".join(f"; {words} judged on {on}" for words, on in kept)
 
 
+def left_open(verdict: Verdict, reason: str) -> Verdict:
+    """Return a verdict after something turned out to be left out: what held is not judged, for this reason."""
+    return verdict if verdict.outcome != "holds" else Verdict("not judged", reason, verdict.judgements)
+
+
 def without_computation(verdict: Verdict) -> Verdict:
     """Return a verdict after the computation turned out to lie outside its range: what held is not judged."""
-    if verdict.outcome != "holds":
-        return verdict
-    return Verdict("not judged", "the computation did not converge inside its range", verdict.judgements)
+    return left_open(verdict, "the computation did not converge inside its range")
 
 
 def said(item: Judgement) -> str:

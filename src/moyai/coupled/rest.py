@@ -189,10 +189,12 @@ class _Search:
         if bed is None:
             return
         for name, carrier in self.carriers.items():
-            lowest = min([float(carrier.position[2]), *(float(places[point][2]) for point in carrier.points)])
-            if lowest < bed.level - 1e-9 * max(1.0, abs(bed.level)):
+            own = np.array([carrier.position, *(places[point] for point in carrier.points)])
+            level = bed.level_at(own)
+            worst = int(np.argmin(own[:, 2] - level))
+            if own[worst, 2] < level[worst] - max(1e-9, bed.tolerance):
                 raise ConvergenceError(
-                    f"no rest found: body {name!r} sinks through the bed at z = {bed.level:.4g} m, on which bodies "
+                    f"no rest found: body {name!r} sinks through the bed at z = {level[worst]:.4g} m, on which bodies "
                     "do not come to rest",
                     remedy="check its mass and its volume; only lines from above can hold what is heavier than water",
                 )

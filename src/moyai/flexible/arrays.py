@@ -160,3 +160,8 @@ def kernel_arrays(network: Network) -> KernelArrays:
         _node_rows(network), _bar_rows(network), network.bars.start, network.bars.end, curve, curves, hinges, bending,
         attached.astype(np.int64),
     )  # fmt: skip
+
+
+def kernel_bed(network: Network, fade: float = 1e-5) -> Array:
+    """Return the bed as the kernels take it; ``fade`` is the speed below which friction fades [m/s]."""
+    return np.array([0.0, 0.0, 1.0, 0.0]) if network.bed is None else network.bed.numbers(fade)

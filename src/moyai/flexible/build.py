@@ -531,7 +531,7 @@ def _at_rest(
     chord = a + fraction[:, None] * (b - a)
     weight = bar_type.submerged_weight_per_length(water)
     low, high, along = (a, b, fraction) if a[2] <= b[2] else (b, a, 1.0 - fraction)
-    level = bed.level if bed is not None else low[2] - 10.0 * length
+    level = bed.level_for(low) if bed is not None else low[2] - 10.0 * length
     if abs(weight) < 1e-9 * bar_type.mass_per_length * water.gravity or length <= np.linalg.norm(b - a):
         return chord
     if weight < 0.0:
@@ -547,4 +547,6 @@ def _at_rest(
     points = np.stack([np.interp(along * length, shape.arc_length, shape.points[:, k]) for k in range(3)], axis=1)
     if not np.isfinite(points).all():
         return chord
-    return points * np.array([1.0, 1.0, -1.0]) if weight < 0.0 else points
+    if weight < 0.0:
+        return np.asarray(points * np.array([1.0, 1.0, -1.0]))
+    return np.asarray(points if bed is None else bed.carried(points))

@@ -140,14 +140,18 @@ def check_network(network: Network) -> None:
         )
     if network.bed is not None:
         # anchors may lie in the bed; whatever moves may not start deep in it
-        deep = (nodes.position[:, 2] < network.bed.level - 0.02 * max(1.0, abs(network.bed.level))) & (
-            nodes.kind != FIXED
-        )
+        if network.bed.ground is not None and network.blocks is not None:
+            raise InputError(
+                "sections with added mass of their own lie on a flat bed only", parameter="bed.ground",
+                allowed="no ground",
+            )  # fmt: skip
+        level = network.bed.level_at(nodes.position)
+        deep = (nodes.position[:, 2] < level - 0.02 * np.maximum(1.0, np.abs(level))) & (nodes.kind != FIXED)
         if deep.any():
             worst = int(np.argmin(np.where(deep, nodes.position[:, 2], np.inf)))
             raise InputError(
                 f"{name_of_node(network, worst)} starts at z = {nodes.position[worst, 2]:g} m, "
-                f"under the bed at {network.bed.level:g} m",
+                f"under the bed at {level[worst]:g} m",
                 parameter="nodes.position",
                 allowed="on or above the bed",
             )

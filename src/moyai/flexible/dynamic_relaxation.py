@@ -8,6 +8,7 @@ import numpy as np
 
 from moyai.core.errors import ConvergenceError
 from moyai.core.progress import Progress, silent
+from moyai.flexible.arrays import kernel_bed
 from moyai.flexible.checks import name_of_node
 from moyai.flexible.dynamic_relaxation_kernel import relax
 from moyai.flexible.explicit import ExplicitRun
@@ -68,7 +69,7 @@ def relax_network(
     packed, arrays = run.packed, run.arrays
     bare = _masses(run)
     pace = np.zeros((3, len(network.nodes)))
-    level = -1e300 if network.bed is None else network.bed.level
+    bed = kernel_bed(network)
     fluid = np.array([network.water.density, network.water.gravity])
     done, left, worst, reference = 0, math.inf, 0, 1.0
     while done < most_steps:
@@ -77,7 +78,7 @@ def relax_network(
         packed.node_rows(WU, 7)[:] = run.water
         taken, left, worst = relax(
             packed.memory, packed.sizes, packed.runs, arrays.curves, arrays.hinges, arrays.bending, arrays.attached,
-            fluid, run.near_surface(), run.parts, level, mass, pace, CHUNK, EVERY, tolerance * reference,
+            fluid, run.near_surface(), run.parts, bed, mass, pace, CHUNK, EVERY, tolerance * reference,
             next(keep for begin, keep in reversed(KEEP) if done >= begin),
         )  # fmt: skip
         done += taken

@@ -13,7 +13,8 @@ from moyai.core.compiled import njit
 from moyai.flexible.explicit_forces import bending_forces, rib_forces, spine_forces
 from moyai.flexible.explicit_loads import loads
 from moyai.flexible.explicit_parts import add_ring_forces, add_sheet_forces, screens
-from moyai.flexible.explicit_rows import FREE_X, FX, QX, ROW, STIFF, TX, X, Z
+from moyai.flexible.explicit_rows import FREE_X, FX, QX, ROW, STIFF, TX, X, Y, Z
+from moyai.flexible.ground_kernel import FLAT, ground
 
 
 @njit(cache=True, error_model="numpy")
@@ -30,7 +31,7 @@ def add_screen_loads(A: Any, panels: Any) -> None:
 @njit(cache=True, error_model="numpy")
 def relax(
     A: Any, sizes: Any, runs: Any, curves: Any, hinges: Any, bending: Any, attached: Any, fluid: Any, surface: bool,
-    parts: Any, level: float, mass: Any, pace: Any, steps: int, every: int, goal: float, keep: float,
+    parts: Any, bed: Any, mass: Any, pace: Any, steps: int, every: int, goal: float, keep: float,
 ) -> tuple[int, float, int]:  # fmt: skip
     """Move the nodes towards rest; return the steps taken, the largest force left and its node.
 
@@ -57,13 +58,18 @@ def relax(
         spine_forces(A, sizes[1])
         now, left = 0.0, 0.0
         for i in range(nodes):
-            part = 0.0
+            part = push = nx = ny = nz = 0.0
             for axis in range(3):
                 row = axis * ROW + i
                 free = A[FREE_X + row]
                 force = A[TX + row] + A[FX + row] - A[FX + row - 1]
-                if axis == 2:
-                    force += max(A[STIFF + i] * (level - A[Z + i]), 0.0)
+                if bed[3] > 0.0:
+                    if axis == 0:
+                        level, nx, ny, nz = bed[0], 0.0, 0.0, 1.0
+                        if bed.size > FLAT:
+                            level, nx, ny, nz = ground(bed, A[X + i], A[Y + i])
+                        push = max(A[STIFF + i] * (level - A[Z + i]) * nz, 0.0)
+                    force += push * (nx if axis == 0 else (ny if axis == 1 else nz))
                 force *= free
                 part += force * force
                 pace[axis, i] = keep * pace[axis, i] + force / mass[i]

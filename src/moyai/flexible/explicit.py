@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from moyai.core.arrays import Array
-from moyai.flexible.arrays import kernel_arrays
+from moyai.flexible.arrays import kernel_arrays, kernel_bed
 from moyai.flexible.explicit_energy import elastic_energy, kinetic_energy
 from moyai.flexible.explicit_forces import rib_forces, spine_forces
 from moyai.flexible.explicit_kernel import march, survey
@@ -85,7 +85,7 @@ class ExplicitRun:
         load_steps: int,
     ) -> None:
         self.network, self.flow, self.load_steps = network, flow, load_steps
-        self.arrays = kernel_arrays(network)
+        self.arrays, self.bed = kernel_arrays(network), kernel_bed(network)
         self.slow = SlowBars.of(network, start.position, self.arrays)
         #: Lines that part in the course of the run.
         self.failing: Failing | None = None
@@ -228,10 +228,9 @@ class ExplicitRun:
         memory[PEAK + self.packed.place] = memory[PULL + self.packed.place]
         places[0] = self.place.T[nodes]
         pulls[0] = peaks[0] = self.packed.bar_row(PULL)[bars]
-        level = -1e300 if self.network.bed is None else self.network.bed.level
         energy[0, 0] = kinetic_energy(memory, sizes[0]) + section_energy(memory, self.parts[3])
         energy[0, 1] = elastic_energy(
-            memory, sizes, runs, self.arrays.curves, self.arrays.hinges, self.arrays.bending, level
+            memory, sizes, runs, self.arrays.curves, self.arrays.hinges, self.arrays.bending, self.bed
         ) + elastic_energy_of_sheets(memory, self.parts[2])
         if self.rings.nodes.size:
             place = np.ascontiguousarray(self.place.T)
@@ -329,7 +328,6 @@ class ExplicitRun:
         rate = np.zeros_like(self.water)
         if not self.flow.steady:
             rate = (self.flow.at(end, self.place + (end - self.time) * self.speed) - self.water) / (end - self.time)
-        bed = self.network.bed
         places, pulls, peaks, energy, nodes, bars = saved
         # what blows up for another reason must not be followed down to steps without end
         bear = DRAG_BROKEN if watchful and step >= LEAST_PART * self.stable else math.inf
@@ -338,7 +336,7 @@ class ExplicitRun:
             np.array([self.network.water.density, self.network.water.gravity]),
             (not self.flow.steady, self.near_surface(rows * row_interval), self.water, rate, self.time),
             self.driving,
-            (0.0, 0.0, False) if bed is None else (bed.level, bed.friction, True),
+            self.bed,
             (self.time, step, per_load, per_row, rows, first, before),
             self.ledger, (places, pulls, peaks, energy, nodes, packed.place[bars]), self.parts,
             (*self.watch.system, DRAG_SHARE, bear),

@@ -35,6 +35,7 @@ from moyai.flexible.explicit_rows import (
     Y,
     Z,
 )
+from moyai.flexible.ground_kernel import FLAT, ground
 
 
 @njit(cache=True, error_model="numpy", fastmath=FAST)
@@ -49,7 +50,7 @@ def kinetic_energy(A: Any, count: int) -> float:
 
 
 @njit(cache=True, error_model="numpy")
-def elastic_energy(A: Any, sizes: Any, runs: Any, curves: Any, hinges: Any, stiffness: Any, level: float) -> float:
+def elastic_energy(A: Any, sizes: Any, runs: Any, curves: Any, hinges: Any, stiffness: Any, bed: Any) -> float:
     """Return the energy of bars, hinges and bed contact [J]."""
     elastic = 0.0
     for r in range(runs.shape[0] + 1):
@@ -86,8 +87,11 @@ def elastic_energy(A: Any, sizes: Any, runs: Any, curves: Any, hinges: Any, stif
             p = A[X + axis * ROW + b] - A[X + axis * ROW + a]
             q = A[X + axis * ROW + c] - A[X + axis * ROW + b]
             elastic += 0.5 * stiffness[h, 0] * (q * stiffness[h, 2] - p * stiffness[h, 1]) ** 2
-    for i in range(sizes[0]):
-        depth = level - A[Z + i]
+    for i in range(sizes[0] if bed[3] > 0.0 else 0):
+        level, up = bed[0], 1.0
+        if bed.size > FLAT:
+            level, _, _, up = ground(bed, A[X + i], A[Y + i])
+        depth = (level - A[Z + i]) * up
         if depth > 0.0 and A[FREE_Z + i] > 0.0:
             elastic += 0.5 * A[STIFF + i] * depth * depth
     return elastic

@@ -11,7 +11,13 @@ from moyai.core.compiled import njit
 from moyai.flexible.explicit_energy import elastic_energy, kinetic_energy, load_work, node_force
 from moyai.flexible.explicit_forces import bending_forces, rib_forces, spine_forces
 from moyai.flexible.explicit_loads import extrapolate, loads, rate_of_drag
-from moyai.flexible.explicit_motion import drive, kick_and_drift, kick_contact_and_drift, kick_with_friction_and_drift
+from moyai.flexible.explicit_motion import (
+    drive,
+    kick_and_drift,
+    kick_contact_and_drift,
+    kick_on_ground_and_drift,
+    kick_with_friction_and_drift,
+)
 from moyai.flexible.explicit_parts import (
     add_ring_forces,
     add_sheet_forces,
@@ -30,6 +36,8 @@ from moyai.flexible.explicit_parts import (
 from moyai.flexible.explicit_rows import (
     BX,
     FAST,
+    FREE_X,
+    FREE_Y,
     FREE_Z,
     IXX,
     LEDGER,
@@ -46,14 +54,23 @@ from moyai.flexible.explicit_rows import (
     V,
     W,
     X,
+    Y,
     Z,
 )
+from moyai.flexible.ground_kernel import FLAT, ground
 
 
 @njit(cache=True, error_model="numpy")
-def _touching(A: Any, count: int, level: float, ahead: float) -> bool:
-    """Whether a free node can reach the bed within ``ahead`` seconds at twice the greatest vertical speed."""
-    fastest, lowest = 0.0, math.inf
+def _touching(A: Any, count: int, bed: Any, ahead: float) -> bool:
+    """Whether a free node can reach the bed within ``ahead`` seconds at twice the greatest speed towards it."""
+    fastest, lowest, level = 0.0, math.inf, bed[0]
+    if bed.size > FLAT:
+        # heights over the bed, which comes towards a node that moves level
+        for i in range(count):
+            fastest = max(fastest, abs(A[W + i]) + bed[6] * math.sqrt(A[U + i] ** 2 + A[V + i] ** 2))
+            height = A[Z + i] - ground(bed, A[X + i], A[Y + i])[0]
+            lowest = min(lowest, height if A[FREE_X + i] + A[FREE_Y + i] + A[FREE_Z + i] > 0.0 else math.inf)
+        return lowest - 2.0 * ahead * fastest < 1e-3
     for i in range(count):
         fastest = max(fastest, abs(A[W + i]))
         lowest = min(lowest, A[Z + i] if A[FREE_Z + i] > 0.0 else math.inf)
@@ -122,14 +139,17 @@ def read_gauges(A: Any, bars: Any, gauges: Any) -> None:
 
 
 @njit(cache=True, error_model="numpy")
-def note_landings(A: Any, level: float, falls: Any) -> None:
+def note_landings(A: Any, bed: Any, falls: Any) -> None:
     """Keep the highest speed with which each node came down on the bed [eq:flexible-landing].
 
     ``falls`` (2, n) holds the speed down of what is over the bed, and the highest at a landing.
     """
     for i in range(falls.shape[1]):
+        level, nx, ny, nz = bed[0], 0.0, 0.0, 1.0
+        if bed.size > FLAT:
+            level, nx, ny, nz = ground(bed, A[X + i], A[Y + i])
         if A[Z + i] > level:
-            falls[0, i] = -A[W + i]
+            falls[0, i] = -(nx * A[U + i] + ny * A[V + i] + nz * A[W + i])
         elif falls[0, i] > 0.0:
             falls[1, i] = max(falls[1, i], falls[0, i])
             falls[0, i] = 0.0
@@ -259,7 +279,7 @@ def march(
     """
     count, spine = sizes[0], sizes[1]
     driven, rest, tables, table_start, table_step = driving
-    level, friction, has_bed = bed
+    level, friction, has_bed = bed[0], bed[1], bed[3] > 0.0
     floor = level if has_bed else -1e300
     moving, surface = waves[0], waves[1]
     start, step, per_load, per_row, rows, first_row, before = timing
@@ -300,9 +320,9 @@ def march(
             extrapolate(A, count, min(0.5 * size * step / ledger[3], 1.0))
             ledger[3] = size * step
             ledger[0] += load_work(A, count, -1.0)
-            touching = has_bed and _touching(A, count, level, size * step)
+            touching = has_bed and _touching(A, count, bed, size * step)
             if touching:
-                note_landings(A, level, falls)
+                note_landings(A, bed, falls)
             for inner in range(size):
                 bar_forces(A, sizes, runs, curves, hinges, bending, parts)
                 read_gauges(A, gauge_bars, gauges)
@@ -315,7 +335,9 @@ def march(
                     push = 0.5 * step
                     ledger[5] = 1.0
                 kick_sections(A, blocks, push, floor)
-                if touching and friction > 0.0:
+                if touching and bed.size > FLAT:
+                    kick_on_ground_and_drift(A, count, bed, friction, push, step)
+                elif touching and friction > 0.0:
                     kick_with_friction_and_drift(A, count, level, friction, push, step)
                 elif touching:
                     kick_contact_and_drift(A, count, level, push, step)
@@ -335,7 +357,7 @@ def march(
             return -(row + 1)
         out, energy = first_row + row, saved[3]
         energy[out, 0] = kinetic_energy_of_row(A, count, blocks, step, keep)
-        elastic = elastic_energy(A, sizes, runs, curves, hinges, bending, floor)
+        elastic = elastic_energy(A, sizes, runs, curves, hinges, bending, bed)
         energy[out, 1] = elastic + elastic_energy_of_sheets(A, sheets) + ring_energy(A, rings)
         energy[out, 2] = ledger[0] + ledger[1] + ledger[2]
         save_row(A, out, saved, spine, runs)

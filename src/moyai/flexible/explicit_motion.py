@@ -31,6 +31,7 @@ from moyai.flexible.explicit_rows import (
     Y,
     Z,
 )
+from moyai.flexible.ground_kernel import ground
 
 
 @njit(cache=True, error_model="numpy", fastmath=FAST)
@@ -115,6 +116,49 @@ def kick_with_friction_and_drift(A: Any, count: int, level: float, friction: flo
         hold = (stop if stop < bound else bound) / speed
         px, py = hold * u, hold * v
         u, v = u - A[IXX + i] * px - A[IXY + i] * py, v - A[IXY + i] * px - A[IYY + i] * py
+        A[U + i], A[V + i], A[W + i] = u, v, w
+        A[X + i] += move * u
+        A[Y + i] += move * v
+        A[Z + i] += move * w
+
+
+@njit(cache=True, error_model="numpy")
+def kick_on_ground_and_drift(A: Any, count: int, bed: Any, friction: float, time: float, move: float) -> None:
+    """Do the same on a bed that varies: spring and dashpot along its normal, friction across [eq:flexible-ground]."""
+    for i in range(count):
+        fx = time * (A[TX + i] + A[FX + i] - A[FX + i - 1])
+        fy = time * (A[TY + i] + A[FY + i] - A[FY + i - 1])
+        fz = time * (A[TZ + i] + A[FZ + i] - A[FZ + i - 1])
+        u = A[U + i] + A[IXX + i] * fx + A[IXY + i] * fy + A[IXZ + i] * fz
+        v = A[V + i] + A[IXY + i] * fx + A[IYY + i] * fy + A[IYZ + i] * fz
+        w = A[W + i] + A[IXZ + i] * fx + A[IYZ + i] * fy + A[IZZ + i] * fz
+        level, nx, ny, nz = ground(bed, A[X + i], A[Y + i])
+        depth, out = (level - A[Z + i]) * nz, nx * u + ny * v + nz * w
+        if depth > time * out and A[STIFF + i] > 0.0:
+            # what an impulse along the normal does to the velocity
+            gx = A[IXX + i] * nx + A[IXY + i] * ny + A[IXZ + i] * nz
+            gy = A[IXY + i] * nx + A[IYY + i] * ny + A[IYZ + i] * nz
+            gz = A[IXZ + i] * nx + A[IYZ + i] * ny + A[IZZ + i] * nz
+            share = nx * gx + ny * gy + nz * gz
+            grip = A[STIFF + i] * time + A[DAMP + i]
+            push = max(time * (A[STIFF + i] * depth - grip * out) / (1.0 + time * grip * share), 0.0)
+            u, v, w = u + gx * push, v + gy * push, w + gz * push
+            if friction > 0.0:
+                out = nx * u + ny * v + nz * w
+                tx, ty, tz = u - out * nx, v - out * ny, w - out * nz
+                # the lightest of two directions in the plane of the bed, one of them upright over the x axis
+                size = math.sqrt(nx * nx + nz * nz)
+                ax, az = nz / size, -nx / size
+                bx, by, bz = ny * az, nz * ax - nx * az, -ny * ax
+                one = A[IXX + i] * ax * ax + 2.0 * A[IXZ + i] * ax * az + A[IZZ + i] * az * az
+                two = A[IXX + i] * bx * bx + A[IYY + i] * by * by + A[IZZ + i] * bz * bz
+                two += 2.0 * (A[IXY + i] * bx * by + A[IXZ + i] * bx * bz + A[IYZ + i] * by * bz)
+                speed = math.sqrt(tx * tx + ty * ty + tz * tz) + TINY
+                hold = min(speed / (max(one, two) + TINY), friction * push) / speed
+                px, py, pz = hold * tx, hold * ty, hold * tz
+                u -= A[IXX + i] * px + A[IXY + i] * py + A[IXZ + i] * pz
+                v -= A[IXY + i] * px + A[IYY + i] * py + A[IYZ + i] * pz
+                w -= A[IXZ + i] * px + A[IYZ + i] * py + A[IZZ + i] * pz
         A[U + i], A[V + i], A[W + i] = u, v, w
         A[X + i] += move * u
         A[Y + i] += move * v

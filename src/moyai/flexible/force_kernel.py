@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from moyai.core.compiled import njit
+from moyai.flexible.ground_kernel import FLAT, curving, ground, ground_shape
 
 
 @njit(cache=True, error_model="numpy")
@@ -68,7 +69,7 @@ def forces(x: Any, v: Any, water: Any, system: Any, fluid: Any, bed: Any, force:
 
     ``fluid`` is density, gravity and the width over which slack and taut are rounded into each other (0: not at all)
     [N];
-    ``bed`` is level, friction, speed below which friction fades, 1 where there is a bed.
+    ``bed`` is the array of :mod:`moyai.flexible.ground_kernel`.
     """
     nodes, bars, start, end, curve, curves, hinges, bending, attached = system
     rho, gravity = fluid[0], fluid[1]
@@ -135,14 +136,21 @@ def forces(x: Any, v: Any, water: Any, system: Any, fluid: Any, bed: Any, force:
         bend(x, hinges[h, 0], hinges[h, 1], hinges[h, 2], bending[h], force)
     if bed[3] > 0.0:
         for i in range(x.shape[0]):
-            depth = bed[0] - x[i, 2]
+            level, nx, ny, nz = bed[0], 0.0, 0.0, 1.0
+            if bed.size > FLAT:
+                level, nx, ny, nz = ground(bed, x[i, 0], x[i, 1])
+            depth = (level - x[i, 2]) * nz
             if depth > 0.0 or fluid[2] > 0.0:
-                push, _ = cut(nodes[5, i] * depth - nodes[6, i] * v[i, 2], 0.0, fluid[2])
-                force[i, 2] += push
+                out = nx * v[i, 0] + ny * v[i, 1] + nz * v[i, 2]
+                push, _ = cut(nodes[5, i] * depth - nodes[6, i] * out, 0.0, fluid[2])
+                force[i, 0] += nx * push
+                force[i, 1] += ny * push
+                force[i, 2] += nz * push
                 if bed[1] > 0.0:
-                    speed = math.sqrt(v[i, 0] ** 2 + v[i, 1] ** 2 + bed[2] * bed[2])
-                    force[i, 0] -= bed[1] * push * v[i, 0] / speed
-                    force[i, 1] -= bed[1] * push * v[i, 1] / speed
+                    u[0], u[1], u[2] = v[i, 0] - nx * out, v[i, 1] - ny * out, v[i, 2] - nz * out
+                    speed = math.sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2] + bed[2] * bed[2])
+                    for axis in range(3):
+                        force[i, axis] -= bed[1] * push * u[axis] / speed
 
 
 @njit(cache=True, error_model="numpy")
@@ -160,8 +168,13 @@ def bend(x: Any, a: int, b: int, c: int, stiffness: Any, force: Any) -> None:
 def laws(
     x: Any, v: Any, system: Any, fluid: Any, bed: Any, by_rate: float, by_place: float, bar_law: Any, node_law: Any
 ) -> None:  # fmt: skip
-    """Write pull and stiffness along the bar of every bar, stiffness of the bed upwards and sideways of every node."""
+    """Write pull and stiffness along the bar of every bar, stiffness of the bed along and across its normal.
+
+    The third row of ``node_law`` (4, n) stays free for :func:`moyai.flexible.rest_kernel.mixed_laws`; the fourth is the
+    push of the bed, which turns with the place where the bed is curved.
+    """
     nodes, bars, start, end, curve, curves, _, _, _ = system
+    u = np.empty(3)
     for k in range(start.size):
         a, b = start[k], end[k]
         size = rate = 0.0
@@ -175,20 +188,28 @@ def laws(
         bar_law[0, k] = pull if share > 0.0 else 0.0
         bar_law[1, k] = share * (by_place * slope + by_rate * bars[2, k])
     for i in range(x.shape[0]):
-        node_law[0, i] = node_law[1, i] = 0.0
-        depth = bed[0] - x[i, 2]
-        if bed[3] > 0.0 and (depth > 0.0 or fluid[2] > 0.0):
-            push, part = cut(nodes[5, i] * depth - nodes[6, i] * v[i, 2], 0.0, fluid[2])
+        node_law[0, i] = node_law[1, i] = node_law[2, i] = node_law[3, i] = 0.0
+        if bed[3] == 0.0:
+            continue
+        level, nx, ny, nz = bed[0], 0.0, 0.0, 1.0
+        if bed.size > FLAT:
+            level, nx, ny, nz = ground(bed, x[i, 0], x[i, 1])
+        depth = (level - x[i, 2]) * nz
+        if depth > 0.0 or fluid[2] > 0.0:
+            out = nx * v[i, 0] + ny * v[i, 1] + nz * v[i, 2]
+            push, part = cut(nodes[5, i] * depth - nodes[6, i] * out, 0.0, fluid[2])
             node_law[0, i] = part * (by_place * nodes[5, i] + by_rate * nodes[6, i])
             if bed[1] > 0.0:
-                speed = math.sqrt(v[i, 0] ** 2 + v[i, 1] ** 2 + bed[2] * bed[2])
+                u[0], u[1], u[2] = v[i, 0] - nx * out, v[i, 1] - ny * out, v[i, 2] - nz * out
+                speed = math.sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2] + bed[2] * bed[2])
                 node_law[1, i] = by_rate * bed[1] * push / speed
+            node_law[3, i] = push
 
 
 @njit(cache=True, error_model="numpy")
 def blocks(
-    x: Any, v: Any, water: Any, system: Any, fluid: Any, mass: Any, bar_law: Any, node_law: Any, by_mass: float,
-    by_rate: float, by_place: float, exact: bool, node_block: Any, bar_block: Any,
+    x: Any, v: Any, water: Any, system: Any, fluid: Any, bed: Any, mass: Any, bar_law: Any, node_law: Any,
+    by_mass: float, by_rate: float, by_place: float, exact: bool, node_block: Any, bar_block: Any,
 ) -> None:  # fmt: skip
     """Write ``by_mass M + by_rate C + by_place K`` in 3x3 blocks, C and K the derivatives of minus the force.
 
@@ -313,10 +334,31 @@ def blocks(
             value = by_place * bending[h, 0] * turn_part(bending, h, m) ** 2
             for p in range(3):
                 node_block[hinges[h, m], p, p] += value
-    for i in range(x.shape[0]):
-        node_block[i, 0, 0] += node_law[1, i]
-        node_block[i, 1, 1] += node_law[1, i]
-        node_block[i, 2, 2] += node_law[0, i]
+    if bed.size == FLAT:
+        for i in range(x.shape[0]):
+            node_block[i, 0, 0] += node_law[1, i]
+            node_block[i, 1, 1] += node_law[1, i]
+            node_block[i, 2, 2] += node_law[0, i]
+    else:
+        for i in range(x.shape[0]):
+            if node_law[0, i] > 0.0 or node_law[1, i] > 0.0 or node_law[3, i] > 0.0:
+                _add_ground(x, bed, node_law, i, by_place, exact, node_block[i])
+
+
+@njit(cache=True, error_model="numpy")
+def _add_ground(x: Any, bed: Any, node_law: Any, i: int, by_place: float, exact: bool, block: Any) -> None:
+    """Add the stiffness of a bed that varies to the block of one node [eq:flexible-ground]."""
+    n, turn = np.empty(3), np.empty(6)
+    _, n[0], n[1], n[2] = ground(bed, x[i, 0], x[i, 1])
+    curving(ground_shape(bed, x[i, 0], x[i, 1]), by_place * node_law[3, i], exact, turn)
+    row = 0
+    for p in range(3):
+        for q in range(p, 3):
+            value = (node_law[0, i] - node_law[1, i]) * n[p] * n[q] + (node_law[1, i] if p == q else 0.0) + turn[row]
+            block[p, q] += value
+            if q > p:
+                block[q, p] += value
+            row += 1
 
 
 @njit(cache=True, error_model="numpy")

@@ -11,14 +11,14 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.flexible import implicit_kernel as kernel
-from moyai.flexible.arrays import kernel_arrays
+from moyai.flexible.arrays import kernel_arrays, kernel_bed
 from moyai.flexible.explicit import driving_tables
 from moyai.flexible.failures import Failing
 from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import Network
 from moyai.flexible.parts import kernel_parts, network_parts
-from moyai.flexible.relaxation import kernel_bed, kernel_plan, kernel_system, mean_size, plan_of
+from moyai.flexible.relaxation import kernel_plan, kernel_system, mean_size, plan_of
 from moyai.flexible.result import State
 from moyai.flexible.slow_stretch import SlowBars
 from moyai.flexible.tableaus import TABLEAUS

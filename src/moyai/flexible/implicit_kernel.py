@@ -23,6 +23,7 @@ from moyai.flexible.force_kernel import (
     laws,
 )
 from moyai.flexible.front_kernel import factor_fronts, solve_fronts, to_fronts
+from moyai.flexible.ground_kernel import FLAT, ground
 from moyai.flexible.part_kernel import part_energy, part_forces, part_masses, part_measure, part_pulls, part_tangent
 
 #: How much smaller the error of a step must be in which a bar turns slack or taut, or a node meets or leaves the bed.
@@ -43,11 +44,12 @@ def step_matrix(
     fronts, target, later, order) of :class:`moyai.flexible.sparse.SparsePlan`.
     """
     node_block, bar_block = np.empty((x.shape[0], 3, 3)), np.empty((system[2].size, 2, 3, 3))
-    bar_law, node_law = np.empty((2, system[2].size)), np.empty((2, x.shape[0]))
+    bar_law, node_law = np.empty((2, system[2].size)), np.empty((4, x.shape[0]))
     laws(x, v, system, fluid, bed, by_rate, by_place, bar_law, node_law)
     blocks(
-        x, v, water, system, fluid, mass, bar_law, node_law, by_mass, by_rate, by_place, False, node_block, bar_block
-    )
+        x, v, water, system, fluid, bed, mass, bar_law, node_law, by_mass, by_rate, by_place, False, node_block,
+        bar_block,
+    )  # fmt: skip
     to_fronts(node_block, bar_block, system, by_place, plan[0], plan[1], plan[2], plan[3])
     if parts is not None:
         part_tangent(x, v, water, parts, by_rate, by_place, system[0], plan[3])
@@ -103,10 +105,14 @@ def _measure(change: Any, x: Any, system: Any, bed: Any, length: float, pull: fl
             size = abs(change[i, axis]) / length
             if not size <= most:
                 most = size
-        if bed[3] > 0.0 and x[i, 2] < bed[0]:
-            size = abs(change[i, 2]) * nodes[5, i] / pull
-            if not size <= most:
-                most = size
+        if bed[3] > 0.0:
+            level, nx, ny, nz = bed[0], 0.0, 0.0, 1.0
+            if bed.size > FLAT:
+                level, nx, ny, nz = ground(bed, x[i, 0], x[i, 1])
+            if x[i, 2] < level:
+                size = abs(nx * change[i, 0] + ny * change[i, 1] + nz * change[i, 2]) * nodes[5, i] / pull
+                if not size <= most:
+                    most = size
     for k in range(start.size):
         a, b = start[k], end[k]
         size = dot = 0.0
@@ -223,8 +229,12 @@ def _turns(tension: Any, before: Any, x: Any, old: Any, nodes: Any, bed: Any) ->
             return True
     if bed[3] > 0.0:
         for i in range(x.shape[0]):
-            if (x[i, 2] < bed[0]) != (old[i, 2] < bed[0]) and nodes[5, i] * nodes[11, i] > 0.0:
-                return True
+            if nodes[5, i] * nodes[11, i] > 0.0:
+                now = then = bed[0]
+                if bed.size > FLAT:
+                    now, then = ground(bed, x[i, 0], x[i, 1])[0], ground(bed, old[i, 0], old[i, 1])[0]
+                if (x[i, 2] < now) != (old[i, 2] < then):
+                    return True
     return False
 
 
@@ -323,8 +333,9 @@ def _read_gauges(before: Any, now: Any, step: float, bars: Any, gauges: Any) -> 
 def _note_landings(x: Any, v: Any, bed: Any, falls: Any) -> None:
     """Keep the highest speed with which each node came down on the bed [eq:flexible-landing]."""
     for i in range(falls.shape[1]):
-        if x[i, 2] > bed[0]:
-            falls[0, i] = -v[i, 2]
+        level, nx, ny, nz = ground(bed, x[i, 0], x[i, 1])
+        if x[i, 2] > level:
+            falls[0, i] = -(nx * v[i, 0] + ny * v[i, 1] + nz * v[i, 2])
         elif falls[0, i] > 0.0:
             falls[1, i] = max(falls[1, i], falls[0, i])
             falls[0, i] = 0.0

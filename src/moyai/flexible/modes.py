@@ -10,11 +10,11 @@ import numpy as np
 from moyai.core.arrays import Array, IntArray
 from moyai.core.errors import InputError
 from moyai.flexible import force_kernel as kernel
-from moyai.flexible.arrays import kernel_arrays
+from moyai.flexible.arrays import kernel_arrays, kernel_bed
 from moyai.flexible.flow import Flow
 from moyai.flexible.network import Network
 from moyai.flexible.parts import network_parts
-from moyai.flexible.relaxation import kernel_bed, kernel_system
+from moyai.flexible.relaxation import kernel_system
 from moyai.flexible.result import State
 from moyai.flexible.sheet_kernel import sheet_added_mass
 
@@ -97,18 +97,18 @@ def tangent_matrices(network: Network, place: Array, water: Array) -> tuple[csr_
             sheets.constants(network.water, network.nodes.position), sheets.triangles,
             np.ascontiguousarray(place).ravel(), 0, 3, 1, water.ravel(), 0, 1, nodes, mass.reshape(-1), 0, 6, 1,
         )  # fmt: skip
-    bar_law, node_law = np.zeros((2, bars)), np.zeros((2, nodes))
+    bar_law, node_law = np.zeros((2, bars)), np.zeros((4, nodes))
     kernel.laws(place, still, system, fluid, bed, 0.0, 1.0, bar_law, node_law)
     node_block, bar_block = np.zeros((nodes, 3, 3)), np.zeros((bars, 2, 3, 3))
     whole = np.arange(nodes)
     kernel.blocks(
-        place, still, water, system, fluid, mass, np.zeros((2, bars)), np.zeros((2, nodes)), 1.0, 0.0, 0.0, False,
+        place, still, water, system, fluid, bed, mass, np.zeros((2, bars)), np.zeros((4, nodes)), 1.0, 0.0, 0.0, False,
         node_block, bar_block,
     )  # fmt: skip
     inertia = [(whole, whole, node_block.copy()), *_sections(network, place)]
     # exact, so that rods lose what they are pressed with; no velocity, so that no drag turns with them
     kernel.blocks(
-        place, still, calm, system, fluid, mass, bar_law, node_law, 0.0, 0.0, 1.0, True, node_block, bar_block
+        place, still, calm, system, fluid, bed, mass, bar_law, node_law, 0.0, 0.0, 1.0, True, node_block, bar_block
     )  # fmt: skip
     entries = [
         (whole, whole, node_block),

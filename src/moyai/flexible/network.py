@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.arrays import Array, BoolArray, IntArray
 from moyai.core.errors import InputError
+from moyai.flexible.bed import Bed as Bed
 from moyai.flexible.checks import whole_numbers
 from moyai.flexible.mass_blocks import MassBlocks
 from moyai.flexible.panels import NetPanels
@@ -205,39 +206,6 @@ class BarType:
             added_mass_normal=properties.added_mass_normal,
             added_mass_tangential=properties.added_mass_tangential,
         )
-
-
-@dataclass(frozen=True, eq=False)
-class Bed:
-    """A horizontal bed that carries nodes: spring and dashpot per contact area, Coulomb friction.
-
-    The contact area of a node is half the unstretched length of its bars times their diameter; attached bodies add
-    their own contact area. The bed pushes and never pulls [eq:flexible-bed].
-
-    Raises
-    ------
-    InputError
-        For a negative value or a stiffness of zero.
-    """
-
-    #: Height of the bed [m].
-    level: float
-    #: Normal stiffness per contact area [Pa/m].
-    stiffness: float
-    #: Normal damping per contact area [Pa s/m].
-    damping: float = 0.0
-    #: Coulomb coefficient [-].
-    friction: float = 0.0
-
-    def __post_init__(self) -> None:
-        _require(math.isfinite(self.level), f"bed level is {self.level:g}", "bed.level", "a finite height")
-        _require(
-            math.isfinite(self.stiffness) and self.stiffness > 0.0,
-            f"bed stiffness is {self.stiffness:g}", "bed.stiffness", "greater than 0",
-        )  # fmt: skip
-        for key in ("damping", "friction"):
-            value = getattr(self, key)
-            _require(math.isfinite(value) and value >= 0.0, f"bed {key} is {value:g}", f"bed.{key}", "0 or more")
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,7 +15,7 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.flexible import force_kernel, front_kernel, rest_kernel
-from moyai.flexible.arrays import KernelArrays, kernel_arrays
+from moyai.flexible.arrays import KernelArrays, kernel_arrays, kernel_bed
 from moyai.flexible.flow import Flow
 from moyai.flexible.network import Network
 from moyai.flexible.parts import Part, network_parts
@@ -31,12 +31,6 @@ def kernel_system(arrays: KernelArrays) -> tuple[object, ...]:
         arrays.nodes, arrays.bars, arrays.start, arrays.end, arrays.curve, arrays.curves, arrays.hinges, arrays.bending,
         arrays.attached,
     )  # fmt: skip
-
-
-def kernel_bed(network: Network, fade: float = 1e-5) -> Array:
-    """Return level, friction, speed below which friction fades [m/s], and whether there is a bed."""
-    bed = network.bed
-    return np.array([0.0, 0.0, 1.0, 0.0]) if bed is None else np.array([bed.level, bed.friction, fade, 1.0])
 
 
 def mean_size(network: Network) -> float:
@@ -109,7 +103,7 @@ class Relaxation:
         self._no_bed = np.zeros(4)
         self.still = np.zeros((count, 3))
         self.mass, self.tension = np.zeros((count, 6)), np.zeros(bars)
-        self._bar_law, self._node_law = np.zeros((3, bars)), np.zeros((3, count))
+        self._bar_law, self._node_law = np.zeros((3, bars)), np.zeros((4, count))
         self._node_block, self._bar_block = np.zeros((count, 3, 3)), np.zeros((bars, 2, 3, 3))
         self.numbers = np.zeros(self.plan.size)
         self.steady = flow.current is None
@@ -163,8 +157,8 @@ class Relaxation:
         """Return the step and the work of ``force`` along it; none where the matrix is not positive (unless bold)."""
         for exact in (True, False):
             force_kernel.blocks(
-                place, self.still, self.water, self._loads, self.fluid, self.mass, self._bar_law, self._node_law,
-                by_mass, 0.0, 1.0, exact, self._node_block, self._bar_block,
+                place, self.still, self.water, self._loads, self.fluid, self.bed, self.mass, self._bar_law,
+                self._node_law, by_mass, 0.0, 1.0, exact, self._node_block, self._bar_block,
             )  # fmt: skip
             plan = self.plan
             front_kernel.to_fronts(
@@ -206,7 +200,9 @@ class Relaxation:
         force_kernel.laws(place, self.still, self.system, self.fluid, self.bed, 0.0, 1.0, law, node_law)
         pull = np.where(law[0] > 0.0, law[0], self.arrays.bar("spring") * (size - self.length))
         pull = np.clip(pull, -load, load)
-        push = np.clip(self.arrays.node("bed_stiffness") * (self.bed[0] - place[:, 2]), -load, load)
+        bed = self.network.bed
+        depth = np.zeros(len(place)) if bed is None else bed.contact_at(place)[:, 0]
+        push = np.clip(self.arrays.node("bed_stiffness") * depth, -load, load)
         rounded = 0.5 * (pull + np.sqrt(pull**2 + soft**2))
         return np.where(only, rounded, pull), 0.5 * (push + np.sqrt(push**2 + soft**2))
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from moyai.core.compiled import njit
 from moyai.flexible.force_kernel import elastic_pull
+from moyai.flexible.ground_kernel import ground
 
 
 @njit(cache=True, error_model="numpy")
@@ -44,14 +45,17 @@ def mixed_laws(
             force[a, axis] += value
             force[b, axis] -= value
     for i in range(x.shape[0]):
-        node_law[0, i] = node_law[1, i] = node_law[2, i] = 0.0
+        node_law[0, i] = node_law[1, i] = node_law[2, i] = node_law[3, i] = 0.0
         if bed[3] > 0.0 and nodes[5, i] > 0.0:
+            level, nx, ny, nz = ground(bed, x[i, 0], x[i, 1])
             square = 0.25 * soft * soft / pushes[i]
             share = pushes[i] / (pushes[i] + square)
-            gap = share * (nodes[5, i] * (bed[0] - x[i, 2]) - pushes[i] + square)
-            node_law[0, i], node_law[2, i] = share * nodes[5, i], gap
+            gap = share * (nodes[5, i] * (level - x[i, 2]) * nz - pushes[i] + square)
+            node_law[0, i], node_law[2, i], node_law[3, i] = share * nodes[5, i], gap, pushes[i] + gap
             most = max(most, abs(gap) * nodes[11, i])
-            force[i, 2] += pushes[i] + gap
+            force[i, 0] += nx * (pushes[i] + gap)
+            force[i, 1] += ny * (pushes[i] + gap)
+            force[i, 2] += nz * (pushes[i] + gap)
     return most
 
 
@@ -69,9 +73,13 @@ def mixed_step(
         for axis in range(3):
             new_x[i, axis] = x[i, axis] + part * step[i, axis]
         if bed[3] > 0.0 and nodes[5, i] > 0.0:
-            change = node_law[2, i] - node_law[0, i] * step[i, 2]
+            _, nx, ny, nz = ground(bed, x[i, 0], x[i, 1])
+            change = node_law[2, i] - node_law[0, i] * (nx * step[i, 0] + ny * step[i, 1] + nz * step[i, 2])
             new_pushes[i] = max(pushes[i] + part * change, 0.1 * pushes[i])
-            force[i, 2] += new_pushes[i]
+            _, nx, ny, nz = ground(bed, new_x[i, 0], new_x[i, 1])
+            force[i, 0] += nx * new_pushes[i]
+            force[i, 1] += ny * new_pushes[i]
+            force[i, 2] += nz * new_pushes[i]
     for k in range(start.size):
         a, b = start[k], end[k]
         size = along = new = 0.0

@@ -255,13 +255,13 @@ class SteppedNetwork:
         """
         if not self._fresh:
             self._restore()
-        run, packed, arrays, bed = self.run, self.run.packed, self.run.arrays, self.network.bed
+        run, packed, arrays = self.run, self.run.packed, self.run.arrays
         choice = run.prepare(interval, self.wanted)
         water = self.network.water
         system = (
             packed.memory, packed.sizes, packed.runs, arrays.curves, arrays.hinges, arrays.bending, arrays.attached,
             np.array([water.density, water.gravity]), run.driving[0],
-            (0.0, 0.0, False) if bed is None else (bed.level, bed.friction, True), run.parts,
+            run.bed, run.parts,
             self.keep_nodes, packed.place[self.keep_bars], run.ledger, *run.watch.system,
         )  # fmt: skip
         rows, _, _, now, ledger, (gauges, _, falls), _ = self._snapshot()

@@ -7,7 +7,7 @@ import math
 import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -77,7 +77,7 @@ def case_text(
     """
     water = water_of(deck)
     bodies, said = bodies_of(deck)
-    _check_bed(deck, bodies, water.depth)
+    _check_bed(deck, bodies)
     moved = _moved(deck, bodies, motions or {})
     lines = [
         f"# From {deck.source or 'a deck'} of MoorDyn.",
@@ -94,8 +94,7 @@ def case_text(
         "",
         "structure:",
         "  kind: network",
-        f"  bed: {{stiffness: {_number(deck.number('kBot') or 0.0)}, damping: {_number(deck.number('cBot') or 0.0)}, "
-        f"friction: {_number(deck.number('FrictionCoefficient') or 0.0)}}}",
+        _bed(deck),
         "  line_types:",
     ]
     used = {line.line_type for line in deck.lines}
@@ -124,6 +123,12 @@ def case_text(
     as_built = any(body.moves for body in bodies) and deck.number("TmaxIC") == 0.0
     analyses = [*([] if as_built and dynamic else ["statics"]), *(["modes"] if deck.lines and not bodies else [])]
     lines += ["", f"analyses: [{', '.join([*analyses, *(['dynamic'] if dynamic else [])])}]"]
+    worn = sorted({line.line_type for line in deck.lines if deck.line_type(line.line_type).syrope is not None})
+    if dynamic and worn:
+        raise InputError(
+            f"line type {worn[0]!r} is a Syrope rope, which is run at rest only: its quick changes are stiffer",
+            path="line types", remedy="run the deck without motions, waves and --duration, or give EA",
+        )  # fmt: skip
     if dynamic:
         start = "as_built" if as_built else "rest_in_current" if deck.current is not None else "rest"
         settings = [f"start: {start}"]
@@ -138,7 +143,16 @@ def case_text(
     return "\n".join([*lines, ""])
 
 
-def _check_bed(deck: MoorDynDeck, bodies: tuple[BodyOfDeck, ...], depth: float) -> None:
+def _bed(deck: MoorDynDeck) -> str:
+    numbers = (("stiffness", "kBot"), ("damping", "cBot"), ("friction", "FrictionCoefficient"))
+    entries = [f"{word}: {_number(deck.number(key) or 0.0)}" for word, key in numbers]
+    grid = deck.seafloor
+    if grid is not None and grid.flat_depth is None:
+        entries.append(f"grid: {{file: {_word(str(Path(grid.folder) / grid.file))}, form: seafloor}}")
+    return f"  bed: {{{', '.join(entries)}}}"
+
+
+def _check_bed(deck: MoorDynDeck, bodies: tuple[BodyOfDeck, ...]) -> None:
     """Refuse points under the bed, with their lines in the deck.
 
     Raises
@@ -146,12 +160,15 @@ def _check_bed(deck: MoorDynDeck, bodies: tuple[BodyOfDeck, ...], depth: float) 
     CaseError
         All of them.
     """
-    placed = [(point_name(p.number), p.position[2], p.line) for p in deck.points if p.kind != "body"]
-    placed += [(name, place[2], body.line) for body in bodies for name, place in body.points_in_site().items()]
+    placed: list[tuple[str, Any, int]] = [
+        (point_name(p.number), p.position, p.line) for p in deck.points if p.kind != "body"
+    ]
+    placed += [(name, place, body.line) for body in bodies for name, place in body.points_in_site().items()]
+    levels = [deck.bed_under(place) for _, place, _ in placed]
     faults = [
-        Fault(f"{name} at z = {z:g} m lies under the bed", "z", f"{-depth:g} m or more", "", deck.source, line, 1)
-        for name, z, line in placed
-        if z < -depth * (1.0 + 1e-9)
+        Fault(f"{name} at z = {place[2]:g} m lies under the bed", "z", f"{level:g} m or more", "", deck.source, line, 1)
+        for (name, place, line), level in zip(placed, levels, strict=True)
+        if level is not None and place[2] < level - deck.bed_tolerance
     ]
     if faults:
         raise CaseError(faults)

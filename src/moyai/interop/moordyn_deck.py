@@ -11,8 +11,12 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Literal
 
+import numpy as np
+from numpy.typing import ArrayLike
+
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
+from moyai.flexible.bed import Bed
 from moyai.interop.moordyn_bodies import DeckBody, DeckRod, DeckRodType, attachment_word
 from moyai.interop.moordyn_records import (
     CURRENT_FILE,
@@ -21,7 +25,9 @@ from moyai.interop.moordyn_records import (
     DeckCurrentField,
     DeckFailure,
     DeckOption,
+    DeckSeafloor,
     DeckSlowStretch,
+    DeckSyrope,
     DeckWaves,
     StiffnessTable,
 )
@@ -64,6 +70,8 @@ class DeckLineType:
     line: int = field(default=0, compare=False)
     #: Of a viscoelastic rope, whose ``stiffness`` and ``damping`` are the dynamic ones.
     slow: DeckSlowStretch | None = None
+    #: Of a polyester rope whose ``stiffness`` is its curve at rest.
+    syrope: DeckSyrope | None = None
 
 
 @checks_words
@@ -130,8 +138,8 @@ class MoorDynDeck:
     outputs: tuple[str, ...] = ()
     #: When the option Currents is 1.
     current: DeckCurrent | None = None
-    #: Depth of a flat grid of depths [m].
-    seafloor_depth: float | None = None
+    #: Of the option SeafloorFile.
+    seafloor: DeckSeafloor | None = None
     #: ``rod_types``, ``bodies``, ``rods``: Rows of ROD TYPES, BODIES and RODS.
     rod_types: tuple[DeckRodType, ...] = ()
     #: ``rod_types``, ``bodies``, ``rods``: Rows of ROD TYPES, BODIES and RODS.
@@ -163,7 +171,34 @@ class MoorDynDeck:
         if depth is None:
             return self
         kept = tuple(option for option in self.options if option.key not in ("WtrDpth", "SeafloorFile"))
-        return replace(self, options=(*kept, DeckOption("WtrDpth", depth)), seafloor_depth=None)
+        return replace(self, options=(*kept, DeckOption("WtrDpth", depth)), seafloor=None)
+
+    @property
+    def seafloor_depth(self) -> float | None:
+        """Depth of a flat grid of depths [m]."""
+        return None if self.seafloor is None else self.seafloor.flat_depth
+
+    @property
+    def depth(self) -> float | None:
+        """Depth of the water [m]: that of a flat grid, the greatest of WtrDpth and of a grid that varies."""
+        given = self.number("WtrDpth")
+        if self.seafloor is None:
+            return given
+        flat = self.seafloor.flat_depth
+        return flat if flat is not None else max(self.seafloor.deepest, given or 0.0)
+
+    def bed_under(self, place: ArrayLike) -> float | None:
+        """Height of the bed under a place above still water [m]; ``None`` where the deck gives no depth."""
+        ground = None if self.seafloor is None else self.seafloor.ground
+        if ground is not None:
+            return float(Bed.on(ground, 1.0).level_at(np.asarray(place, dtype=float)))
+        return None if self.depth is None else -self.depth
+
+    @property
+    def bed_tolerance(self) -> float:
+        """How far under the bed a point may stand that is meant to stand on it [m]."""
+        ground = None if self.seafloor is None else self.seafloor.ground
+        return 1e-9 * (self.depth or 0.0) + (0.0 if ground is None else ground.rounding)
 
     def point(self, number: int) -> DeckPoint:
         """Return the point of an ID.
@@ -375,6 +410,11 @@ def write_deck(deck: MoorDynDeck, path: str | Path) -> Path:
             path="options.SeafloorFile",
             remedy="replace it by WtrDpth",
         )
+    if any(kind.syrope is not None for kind in deck.line_types):
+        raise InputError(
+            "the deck has Syrope ropes, whose files are not written", path="line types",
+            remedy="replace them by ropes with a curve",
+        )  # fmt: skip
     if deck.current_field is not None:
         raise InputError(
             f"the deck takes its current from {deck.current_field.file}, which is not written",

@@ -29,6 +29,7 @@ SECTIONS = {
     "FAILURE": "failure",
     "FAILURES": "failure",
     "LINE FAILURE": "failure",
+    "SYROPE IC": "syrope ic",
     "OUTPUTS": "outputs",
     "OUTPUT": "outputs",
 }
@@ -37,7 +38,6 @@ SECTIONS = {
 REFUSED_SECTIONS = {
     "CONTROL": "lines of controlled length are not read",
     "EXTERNAL LOADS": "external loads are not read",
-    "SYROPE IC": "the working curves of polyester ropes are not read",
     "USER METADATA": "",
 }
 
@@ -74,6 +74,10 @@ LINE_COLUMNS = {
     "outputs": "outputs", "lineoutputs": "outputs", "flags/outputs": "outputs",
 }  # fmt: skip
 
+SYROPE_COLUMNS = {
+    "line(s)": "lines", "lines": "lines", "line": "lines",
+    "tmax0": "highest", "tmax": "highest", "tmean0": "mean", "tmean": "mean",
+}  # fmt: skip
 FAILURE_COLUMNS = {
     "failureid": "number", "id": "number",
     "point": "point", "node": "point", "attachment": "point",

@@ -63,7 +63,7 @@ def water_of(deck: MoorDynDeck) -> Water:
     InputError
         When the deck gives no depth (a deck of OpenFAST takes it from there), or no gravity.
     """
-    depth = deck.seafloor_depth if deck.seafloor_depth is not None else deck.number("WtrDpth")
+    depth = deck.depth
     if depth is None:
         raise InputError(
             f"{deck.source or 'the deck'} gives no water depth",
@@ -179,6 +179,9 @@ def builder_of(deck: MoorDynDeck, site: Water) -> NetworkBuilder:
     """Return the builder of the network of a deck, with its bed."""
     stiffness, damping, friction = (deck.number(key) or 0.0 for key in ("kBot", "cBot", "FrictionCoefficient"))
     bed = Bed(-site.depth, stiffness, damping, friction) if math.isfinite(site.depth) else None
+    ground = None if deck.seafloor is None else deck.seafloor.ground
+    if ground is not None:
+        bed = Bed.on(ground, stiffness, damping, friction)
     return NetworkBuilder(site, bed)
 
 
@@ -310,7 +313,9 @@ def _inexpressible(network: Network, equivalent: list[float]) -> list[Fault]:
     bed = network.bed
     if bed is not None and ratios and max(ratios) - min(ratios) > 1e-9 * max(ratios):
         refuse("a bed under types whose diameter and volume differ in different ratios", "bed")
-    if bed is not None and abs(bed.level + water.depth) > 1e-9 * water.depth:
+    if bed is not None and bed.ground is not None:
+        refuse("a bed that varies", "bed")
+    elif bed is not None and abs(bed.level + water.depth) > 1e-9 * water.depth:
         refuse(f"a bed at {bed.level:g} m in {water.depth:g} m of water", "bed")
     if math.isinf(water.depth):
         refuse("infinite depth", "water")

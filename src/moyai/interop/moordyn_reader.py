@@ -32,7 +32,8 @@ from moyai.interop.moordyn_bodies import (
 from moyai.interop.moordyn_currents import FIELD_FILES, read_current_field
 from moyai.interop.moordyn_deck import DeckLine, DeckLineType, DeckPoint, MoorDynDeck
 from moyai.interop.moordyn_records import CURRENT_FILE, DeckCurrentField, DeckFailure, DeckOption
-from moyai.interop.moordyn_rows import Faults, Row, file_of, read_current, read_flat_depth, read_stiffness
+from moyai.interop.moordyn_rows import Faults, Row, file_of, read_current, read_seafloor, read_stiffness
+from moyai.interop.moordyn_syrope import read_syrope, with_history
 from moyai.interop.moordyn_waves import read_waves
 from moyai.interop.textfiles import parse_number, read_lines
 
@@ -224,9 +225,13 @@ def _line_types(names: list[str], rows: list[Row], folder: Path, faults: Faults)
         name = row.cells.get("name", "")
         if any(kind.name == name for kind in found):
             faults.add(row.line, f"two line types are named {name!r}", path="line types")
-        stiffness, slow = read_stiffness(row, folder, faults)
+        law, slow = None, None
+        if is_syrope := row.cells.get("stiffness", "").strip('"').upper().startswith("SYROPE"):
+            stiffness, law = read_syrope(row, folder, faults)
+        else:
+            stiffness, slow = read_stiffness(row, folder, faults)
         damping = row.cells.get("damping", "0").split("|")[-1]
-        if slow is None and (parse_number(damping) is None or "|" in row.cells.get("damping", "")):
+        if slow is None and not is_syrope and (parse_number(damping) is None or "|" in row.cells.get("damping", "")):
             words = f"damping is {row.cells.get('damping', '')!r}"
             faults.add(row.line, words, "one number: BA in N s, or minus a damping ratio")
         found.append(
@@ -243,6 +248,7 @@ def _line_types(names: list[str], rows: list[Row], folder: Path, faults: Faults)
                 faults.number(row, "added_mass_axial", least=0.0),
                 row.line,
                 slow,
+                law,
             )
         )
     return tuple(found)
@@ -439,13 +445,13 @@ def _check_option_values(deck_options: tuple[DeckOption, ...], faults: Faults) -
 
 
 def _check_site(deck: MoorDynDeck, faults: Faults) -> None:
-    depth = deck.seafloor_depth if deck.seafloor_depth is not None else deck.number("WtrDpth")
     held = {end for line in deck.lines for end in (line.start, line.end)}
     for point in deck.points:
-        if depth is not None and point.kind not in ("fixed", "body") and point.position[2] < -1.02 * depth:
+        level = deck.bed_under(point.position) if point.kind not in ("fixed", "body") else None
+        if level is not None and point.position[2] < level - 0.02 * abs(level):
             faults.add(
                 point.line, f"point {point.number} at z = {point.position[2]:g} m is under the bed",
-                f"{-depth:g} or more", path="points",
+                f"{level:g} or more", path="points",
             )  # fmt: skip
         if point.number not in held and point.kind == "free" and "lines" not in faults.broken:
             faults.add(point.line, f"free point {point.number} hangs on no line", path="points")
@@ -494,10 +500,18 @@ def read_deck(path: str | Path) -> MoorDynDeck:
     rods = read_rods(_table("rods", sections, ROD_COLUMNS, faults, notes)[1], rod_types, bodies, faults)
     points = _points(_table("points", sections, keys.POINT_COLUMNS, faults, notes)[1], bodies, faults)
     rows = _lines(_table("lines", sections, keys.LINE_COLUMNS, faults, notes)[1], kinds, points, rods, faults)
+    histories = _table("syrope ic", sections, keys.SYROPE_COLUMNS, faults, notes)[1]
+    kinds, rows = with_history(kinds, rows, histories, faults)
+    used = {line.line_type for line in rows}
+    notes += [
+        f"line type {kind.name}: the curve at rest after {kind.syrope.highest:g} N is run; quick changes are stiffer"
+        for kind in kinds
+        if kind.syrope is not None and kind.name in used
+    ]
     failures = _failures(_table("failure", sections, keys.FAILURE_COLUMNS, faults, notes)[1], rows, faults)
     options = _options(sections.get("options", (0, []))[1], place.parent, faults, notes)
     _check_option_values(options, faults)
-    current, field, depth, waves = None, None, None, None
+    current, field, seafloor, waves = None, None, None, None
     steps = [option.value for option in options if option.key == "dtWave" and isinstance(option.value, float)]
     for option in options:
         if option.key == "WaveKin" and option.value in (2.0, 3.0, 7.0):
@@ -510,12 +524,12 @@ def read_deck(path: str | Path) -> MoorDynDeck:
         if option.key == "Currents" and option.value in (2.0, 5.0):
             field = _current_field(option, place.parent, faults)
         if option.key == "SeafloorFile":
-            depth = read_flat_depth(option, place.parent, faults)
+            seafloor = read_seafloor(option, place.parent, faults)
     outputs = [word for _, text in sections.get("outputs", (0, []))[1] for word in text.replace(",", " ").split()]
     outputs = outputs[: outputs.index("END")] if "END" in outputs else outputs
     title = lines[1].strip() if len(lines) > 1 and not _RULE.match(lines[1]) else ""
     deck = MoorDynDeck(
-        kinds, points, rows, options, tuple(outputs), current, depth, rod_types, bodies, rods, title, place.name,
+        kinds, points, rows, options, tuple(outputs), current, seafloor, rod_types, bodies, rods, title, place.name,
         tuple(notes), failures, field, waves,
     )  # fmt: skip
     _check_site(deck, faults)

@@ -5,7 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Literal
 
+import numpy as np
+
 from moyai.core.options import checks_words
+from moyai.flexible.bed import Ground
 
 #: Name that MoorDyn gives the profile of a steady current, next to the deck.
 CURRENT_FILE = "current_profile.txt"
@@ -32,6 +35,56 @@ class DeckSlowStretch:
     damping: float
     #: EA_D_Lm, by which the dynamic stiffness grows with the mean load [-].
     growth: float = 0.0
+
+
+@dataclass(frozen=True)
+class DeckSyrope:
+    """What a polyester rope has besides its curve: shape of its working curves, quick stiffness, history."""
+
+    #: LINEAR, QUADRATIC or EXP.
+    form: Literal["LINEAR", "QUADRATIC", "EXP"]
+    #: ``k1``, ``k2``: parameters of the shape.
+    k1: float
+    #: ``k1``, ``k2``: parameters of the shape.
+    k2: float
+    #: Quick stiffness without tension [N], and per tension [-].
+    alpha: float
+    #: Quick stiffness per mean tension [-].
+    beta: float
+    #: BA_s of the slow stretch [N s].
+    damping: float
+    #: Highest mean tension so far, 0 for a new rope, and mean tension at the start [N].
+    highest: float = 0.0
+    #: Mean tension at the start [N].
+    mean: float = 0.0
+
+
+@dataclass(frozen=True)
+class DeckSeafloor:
+    """Heights of the bed on a rectangular grid, from a file of their own."""
+
+    #: x, y, z above still water [m], one a crossing of the grid lines.
+    rows: tuple[tuple[float, float, float], ...]
+    #: ``file``, ``folder``: where the file stands.
+    file: str = field(default="", compare=False)
+    #: ``file``, ``folder``: where the file stands.
+    folder: str = field(default="", compare=False)
+
+    @property
+    def flat_depth(self) -> float | None:
+        """Depth where all heights are the same [m]."""
+        levels = {z for _, _, z in self.rows}
+        return -levels.pop() if len(levels) == 1 else None
+
+    @property
+    def deepest(self) -> float:
+        """Greatest depth [m]."""
+        return -min(z for _, _, z in self.rows)
+
+    @property
+    def ground(self) -> Ground | None:
+        """The bed where it varies."""
+        return None if self.flat_depth is not None else Ground.of_rows(np.array(self.rows))
 
 
 @dataclass(frozen=True)

@@ -8,8 +8,15 @@ from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
 
-from moyai.core.errors import Fault
-from moyai.interop.moordyn_records import CURRENT_FILE, DeckCurrent, DeckOption, DeckSlowStretch, StiffnessTable
+from moyai.core.errors import Fault, InputError
+from moyai.interop.moordyn_records import (
+    CURRENT_FILE,
+    DeckCurrent,
+    DeckOption,
+    DeckSeafloor,
+    DeckSlowStretch,
+    StiffnessTable,
+)
 from moyai.interop.textfiles import parse_number, read_lines
 
 
@@ -62,12 +69,6 @@ def read_stiffness(row: Row, folder: Path, faults: Faults) -> tuple[float | Stif
     text = row.cells.get("stiffness", "")
     if parse_number(text) is not None:
         return faults.number(row, "stiffness", above=0.0), None
-    if text.upper().startswith("SYROPE"):
-        faults.add(
-            row.line, f"stiffness {text!r}: ropes whose stiffness depends on their history (Syrope) are not read",
-            "EA in N, EA_s|EA_d, or a file of strain and tension", path="stiffness",
-        )  # fmt: skip
-        return math.nan, None
     if "|" in text:
         return _viscoelastic(row, text, faults)
     return _stiffness_table(row, text, folder, faults), None
@@ -160,25 +161,42 @@ def file_of(name: str, folder: Path) -> Path | None:
     return next((place for place in tries if place.is_file()), None)
 
 
-def read_flat_depth(option: DeckOption, folder: Path, faults: Faults) -> float | None:
-    """Return the depth of a grid file that is flat."""
+def read_seafloor(option: DeckOption, folder: Path, faults: Faults) -> DeckSeafloor | None:
+    """Return the bed of the grid file of a deck."""
     place = file_of(str(option.value), folder)
     if place is None:
         faults.add(option.line, f"there is no file {option.value!s} next to the deck", path="SeafloorFile")
         return None
-    levels: set[float] = set()
+    try:
+        return read_seafloor_file(place)
+    except InputError as error:
+        fault = error.fault
+        faults.found.append(Fault(fault.message, "SeafloorFile", fault.allowed, "", place.name, 1, 1))
+        return None
+
+
+def read_seafloor_file(place: Path) -> DeckSeafloor:
+    """Return the heights of a grid file: numbers of lines, lines along x and along y, then rows x, y, z.
+
+    Raises
+    ------
+    InputError
+        For a row of other than three numbers, or a crossing of the grid lines that is left out.
+    """
+    rows: list[tuple[float, float, float]] = []
     for number, text in enumerate(read_lines(place)[3:], start=4):
         values = [parse_number(token) for token in text.split()]
         if not values:
             continue
-        if len(values) != 3 or any(value is None for value in values):
-            faults.found.append(Fault("a row is not x, y, z", "SeafloorFile", "", "", place.name, number, 1))
-            return None
-        levels.add(float(values[2] or 0.0))
-    if len(levels) != 1:
-        faults.add(
-            option.line, f"the bed of {place.name} is not flat (z from {min(levels, default=0.0):g} to "
-            f"{max(levels, default=0.0):g} m)", "one depth: beds that vary are not read", path="SeafloorFile",
-        )  # fmt: skip
-        return None
-    return -levels.pop()
+        known = [value for value in values if value is not None]
+        if len(values) != 3 or len(known) != 3:
+            raise InputError(f"line {number} of {place.name}: a row is not x, y, z", path="file")
+        rows.append((known[0], known[1], known[2]))
+    if not rows:
+        raise InputError(f"{place.name} holds no rows", path="file")
+    found = DeckSeafloor(tuple(rows), place.name, str(place.parent.absolute()))
+    try:
+        _ = found.ground
+    except InputError as error:
+        raise InputError(f"{place.name}: {error.fault.message}", path="file", allowed=error.fault.allowed) from None
+    return found

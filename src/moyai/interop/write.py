@@ -1,4 +1,4 @@
-"""Coefficients written for other programs: the files of WAMIT, NEMOH and BEMIO, with all digits of the numbers."""
+"""Coefficients written for other programs: files of WAMIT, NEMOH and BEMIO, with all digits."""
 
 from __future__ import annotations
 

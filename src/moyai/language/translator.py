@@ -65,7 +65,8 @@ class _Template:
     def rank(self) -> tuple[int, int]:
         """Place in the order of trial: sentences, separators, prepositions, adjectives; the longest first."""
         if self.is_glue:
-            return (3 if len(self.order) == 1 and self.source[0] else 2, -self.weight)
+            adjective = len(self.order) == 1 and self.source[0] and len(self.words) == 1
+            return (3 if adjective else 2, -self.weight)
         return (int(self.is_separator), -self.weight)
 
     def holds(self, number: int, value: str) -> bool:

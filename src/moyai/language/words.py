@@ -32,7 +32,7 @@ def latin_words(text: str) -> list[str]:
     if _JAPANESE.search(text):  # a plain colon stands in code alone: `dynamic: false`
         text = re.sub(r"\b[A-Za-z_]+: [A-Za-z_]+", " ", text)
     found, kept = [], kept_words()
-    quoted = re.sub(r"\[?eq:[\w-]+\]?|'[^'\s]+'|'\w+: \w+'|`[^`]*`", " ", text)  # keys and values of files, as typed
+    quoted = re.sub(r"\[?eq:[\w-]+\]?|'[^'\s]+'|'\w+: \w+'|`[^`]*`|moyai measure [a-z]+", " ", text)  # as typed
     for token in _TOKEN.findall(quoted):
         plain = token.strip("'.!?")
         if token.isascii() and plain.lower() not in _SHORT and _CODE.search(plain):

@@ -26,6 +26,8 @@ from moyai.report.language import in_the_language
 from moyai.reproduce.inputs import case_files
 from moyai.reproduce.reproduction import Reproduction, Row
 
+LOOPS = "the points are laid over; a path has no value at a place to hold them against"
+
 
 def compose(found: Reproduction, result: Result) -> Document:
     """Compose the page of a paper.
@@ -141,8 +143,10 @@ def _figures(found: Reproduction) -> tuple[Block, ...]:
     return tuple(blocks)
 
 
-def _agreement(found: Reproduction, number: int) -> Table:
+def _agreement(found: Reproduction, number: int) -> Block:
     points, rows = found.laid[number]
+    if not rows:
+        return Paragraph(f"Figure {points.figure}, {points.source}: {LOOPS}.", quiet=True)
     return Table(
         f"points-{points.figure}-{number + 1}",
         f"Figure {points.figure}: curves against {points.source}",
@@ -216,4 +220,4 @@ def agreement_words(found: Reproduction) -> list[str]:
         f"scatter {'not known' if math.isnan(row.scatter) else format(row.scatter, '.4g')}"
         for points, rows in found.laid
         for row in rows
-    ]
+    ] + [f"figure {points.figure}, {points.source}: {LOOPS}" for points, rows in found.laid if not rows]

@@ -113,7 +113,7 @@ def laid_over(figure: Figure, points: Points) -> Figure:
 
 
 def agreements(figure: Figure, points: Points) -> tuple[Agreement, ...]:
-    """Return bias and scatter of every curve of a figure against the points.
+    """Return bias and scatter of every curve of a figure against the points; none where all curves are loops.
 
     Raises
     ------
@@ -121,13 +121,14 @@ def agreements(figure: Figure, points: Points) -> tuple[Agreement, ...]:
         When no point lies within the reach of any curve.
     """
     key = figure.abscissae[0].key
-    found = []
+    found, reach = [], []
     for series in figure.series:
         known = np.isfinite(series.x[key]) & np.isfinite(series.y)
         x, y = series.x[key][known], series.y[known]
         # Scattered points and loops have no value at a place; they are drawn and not compared
         if series.style == "bar" or x.size < 2 or not np.all(np.diff(x) > 0.0):
             continue
+        reach.append(x)
         inside = (points.x >= x[0]) & (points.x <= x[-1])
         if not inside.any():
             continue
@@ -142,8 +143,7 @@ def agreements(figure: Figure, points: Points) -> tuple[Agreement, ...]:
                 math.sqrt(float(np.mean(difference**2))) / size if size > 0.0 else math.nan,
             )
         )
-    if not found:
-        reach = [series.x[key][np.isfinite(series.x[key])] for series in figure.series]
+    if reach and not found:
         low, high = min(item.min() for item in reach), max(item.max() for item in reach)
         raise InputError(
             f"no point of {points.source} lies under a curve of figure {points.figure}",

@@ -6,6 +6,7 @@ import re
 
 import numpy as np
 import pytest
+from japanese import compared
 
 from moyai.case.templates import template
 from moyai.core.headline import Headline
@@ -64,3 +65,9 @@ def test_a_record_that_falls_short_is_told_with_its_shortfall(short_sea: Result)
     assert not check_realised_height("storm", 2.2, 2.0)
     short = named(short_sea, "realised_height").value < REALISED_HEIGHT * 0.02
     assert short == any(item.code == "sea-realised-low" for item in short_sea.notices)
+
+
+def test_the_report_in_japanese_has_no_english_word(short_sea: Result) -> None:
+    left, count = compared(short_sea)
+    assert count > 150
+    assert not left, "\n".join(left)

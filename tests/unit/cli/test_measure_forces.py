@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from japanese import compared
 from typer.testing import CliRunner
 
 from moyai.cli.main import app
@@ -57,6 +58,8 @@ def test_coefficients_are_found_printed_and_written(record):
     result = read_result(record.parent / "out/results.nc")
     values = result.tree["/coefficients"]["value"].sel(fit_method="fourier", coefficient="inertia").values
     assert values == pytest.approx([1.7, 1.65], abs=0.02)
+    left, _ = compared(result)
+    assert not left, "\n".join(left)
     page = (record.parent / "out/report.html").read_text(encoding="utf-8")
     assert "Conditioning and circulation" in page
     assert "Bootstrap samples" in page

@@ -36,6 +36,7 @@ def test_what_does_not_exist_is_one_line(tmp_path, monkeypatch, arguments, messa
     (fault,) = json.loads(found.output)["faults"]
     assert found.exit_code == 2
     assert message in fault["message"] and fault["allowed"]
+    assert not list(tmp_path.iterdir())  # no folder is left behind
 
 
 @pytest.mark.slow

@@ -82,11 +82,11 @@ def test_tangent_is_the_derivative_of_the_forces(seed):
         return force * arrays.nodes[9:12].T
 
     left(place, speed)
-    bar_law, node_law = np.zeros((2, len(network.bars))), np.zeros((2, count))
+    bar_law, node_law = np.zeros((2, len(network.bars))), np.zeros((4, count))
     node_block, bar_block = np.zeros((count, 3, 3)), np.zeros((len(network.bars), 2, 3, 3))
     force_kernel.laws(place, speed, system, fluid, bed, rate_part, place_part, bar_law, node_law)
     force_kernel.blocks(
-        place, speed, water, system, fluid, mass, bar_law, node_law, 0.0, rate_part, place_part, True, node_block,
+        place, speed, water, system, fluid, bed, mass, bar_law, node_law, 0.0, rate_part, place_part, True, node_block,
         bar_block,
     )  # fmt: skip
     plan = plan_of(network, arrays)

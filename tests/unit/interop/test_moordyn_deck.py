@@ -231,7 +231,11 @@ def test_flat_grid_of_depths(tmp_path):
     written(tmp_path, grid.format(-45.0), "grid.txt")
     assert read_deck(written(tmp_path, text)).seafloor_depth == 45.0
     written(tmp_path, grid.format(-44.0), "grid.txt")
-    assert "not flat" in str(faults_of(tmp_path, text)[0])
+    sloped = read_deck(written(tmp_path, text.replace("-45.0 ", "-44.0 ")))
+    assert sloped.seafloor_depth is None and sloped.depth == 45.0
+    assert sloped.bed_under((50.0, 5.0)) == pytest.approx(-45.0 + 0.75 * 0.75, abs=1e-12)
+    written(tmp_path, grid.format(-44.0).replace("100 -10 -45.0\n100", "-100 10 -45.0\n100"), "grid.txt")
+    assert "stands twice in a grid of 2 by 2" in str(faults_of(tmp_path, text)[0])
 
 
 def test_current_profile(tmp_path):

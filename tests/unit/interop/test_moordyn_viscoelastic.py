@@ -67,7 +67,7 @@ def test_it_is_read_written_and_rests_on_its_static_stiffness(tmp_path):
         ("1.424e8|1.586e8|0.4", "1.7e8|1.586e8", "above the static one"),
         ("4E9|11E6", "4E9", "BA_s|BA_d"),
         ("1.424e8|1.586e8|0.4", "1.4e8|a", "EA_s|EA_d"),
-        ("1.424e8|1.586e8|0.4", "SYROPE:a.dat|1e8|2", "history (Syrope)"),
+        ("1.424e8|1.586e8|0.4", "SYROPE:a.dat|1e8|2", "no file a.dat next to the deck"),
     ],
 )
 def test_slips_are_told(tmp_path, old, new, words):

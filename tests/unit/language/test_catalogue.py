@@ -95,7 +95,7 @@ LEAST = {
     "records: errors and checks of files": 0.98,
     "schemas": 0.99,
     "physics": 0.95,
-    "files of other programs": 0.85,
+    "files of other programs": 0.8,
 }
 """Least share of each group that has to be translated."""
 

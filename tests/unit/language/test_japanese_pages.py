@@ -1,4 +1,4 @@
-"""Pages in Japanese show the case files of the English tutorials, letter by letter."""
+"""Pages in Japanese show the files and programs of the English tutorials, letter by letter."""
 
 from __future__ import annotations
 
@@ -8,15 +8,36 @@ from pathlib import Path
 import pytest
 
 DOCS = Path(__file__).resolve().parents[3] / "docs"
+JAPANESE = re.compile("[\u3040-\u30ff\u4e00-\u9fff]")
+TUTORIALS = (
+    "first_breakwater.md", "first_curtain.md", "flexible_cage.md", "rigid_cage.md", "submerged_member.md", "network.md",
+    "records_to_model.md", "towed_nets.md", "in_python.md",
+)  # fmt: skip
 
 
-def blocks(path: Path) -> list[str]:
-    """Return the blocks of YAML of a page."""
-    return re.findall(r"```yaml\n(.*?)```", path.read_text(encoding="utf-8"), re.DOTALL)
+def blocks(path: Path, *kinds: str) -> list[str]:
+    """Return the blocks of a page that are of some kinds, all without one."""
+    found = re.findall(r"^```(\S*)\n(.*?)^```$", path.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
+    return [text for kind, text in found if not kinds or kind in kinds]
 
 
-@pytest.mark.parametrize("name", ["first_breakwater.md", "first_curtain.md"])
+@pytest.mark.parametrize("name", TUTORIALS)
 def test_case_files_are_those_of_the_english_page(name: str) -> None:
+    assert blocks(DOCS / "ja" / name, "yaml") == blocks(DOCS / "tutorial" / name, "yaml")
+
+
+@pytest.mark.parametrize("name", [name for name in TUTORIALS if not name.startswith("first_")])
+def test_programs_and_commands_are_those_of_the_english_page(name: str) -> None:
+    """So what the tests run of the English page runs of the Japanese one."""
     japanese = blocks(DOCS / "ja" / name)
     assert len(japanese) >= 2
     assert japanese == blocks(DOCS / "tutorial" / name)
+
+
+def test_every_page_is_japanese_and_in_the_contents() -> None:
+    contents = (DOCS / "ja" / "index.md").read_text(encoding="utf-8")
+    pages = [path for path in sorted((DOCS / "ja").glob("*.md")) if path.stem != "index"]
+    assert {path.name for path in pages} >= set(TUTORIALS)
+    for path in pages:
+        assert f"\n{path.stem}\n" in contents
+        assert len(JAPANESE.findall(path.read_text(encoding="utf-8"))) > 200

@@ -62,7 +62,8 @@ def stopped(tmp_path_factory):
     """A problem, the result of a run of it that was stopped, and its file."""
     folder = tmp_path_factory.mktemp("stopped")
     problem = problem_of(folder, bars=4)
-    problem = replace(problem, settings=replace(problem.settings, duration=3.0))
+    # a whole period of the wave at its height counts
+    problem = replace(problem, settings=replace(problem.settings, duration=3.6, ramp=0.3))
     part = run(problem, stopping_at(1.3))
     return problem, part, part.write(folder / "results.nc")
 
@@ -135,8 +136,11 @@ def test_a_body_that_turns_over_is_told(tmp_path):
 
 
 def test_what_a_peak_is_worth_is_told_with_bodies(tmp_path):
-    text = CASE.format(analyses="[dynamic]", more=", sensitivity: true, skip: 0.5 s, peak_goal: 0.3", bars=4)
+    text = CASE.format(
+        analyses="[dynamic]", more=", sensitivity: true, skip: 0.5 s, peak_goal: 0.3, ramp: 0.2 s", bars=4
+    )
     path = tmp_path / "case.yaml"
+    text = text.replace("height: 0.6 m, period: 3.2 s", "height: 0.2 m, period: 1.4 s")
     path.write_text(text.replace("duration: 5 s", "duration: 2 s"), encoding="utf-8")
     result = run(build(load_case(path)))
     assert result.status == "converged", result.message

@@ -8,7 +8,7 @@ import pytest
 
 from moyai.case.builder import build
 from moyai.case.reader import load_case
-from moyai.core.errors import InputError
+from moyai.core.errors import CaseError, InputError
 from moyai.core.results import read_result
 from moyai.flexible.network import BarType
 from moyai.flexible.statics import solve_equilibrium
@@ -413,3 +413,59 @@ settings: {duration: 20 s, skip: 8 s}
     notice = next(notice for notice in result.notices if notice.code == "peak-inside")
     assert notice.value == pytest.approx(float(summary["line_tension_maximum"]))
     assert float(notice.message.split(" m from")[0].split()[-1]) < 4.0  # within the chain
+
+
+BED = "bed: {stiffness: 1 MPa/m, damping: 0 Pa s/m, "
+
+
+@pytest.mark.parametrize("form", ["slope", "depths", "seafloor"])
+def test_a_line_rests_on_a_bed_that_rises_however_it_is_given(form, tmp_path):
+    bed = BED + "grid: {file: bed.txt, form: " + form + "}}"
+    if form == "slope":
+        bed = BED + "slope: {rise: 0.1, towards_deg: 180}}"
+    elif form == "depths":
+        rows = "".join(f"{x} {y} {30 + 0.1 * x}\n" for y in (-50, 50) for x in (100, -100))
+        (tmp_path / "bed.txt").write_text("x y depth\n" + rows)
+    else:
+        rows = "".join(f"{x} {y} {-30 - 0.1 * x}\n" for x in (-100, 100) for y in (-50, 50))
+        (tmp_path / "bed.txt").write_text("2 2\n-100 100\n-50 50\n" + rows)
+    text = line_case(length="60 m", segments=40).replace("structure:\n", f"structure:\n  {bed}\n")
+    text = text.replace("position: [0, 0, -12 m]", "position: [0, 0, bed]")
+    assembly = assemble(problem_of(text, tmp_path), 0.0)
+    network = assembly.network
+    assert network.nodes.position[network.points["anchor"]].tolist() == pytest.approx([0.0, 0.0, -30.0])
+    rest = solve_equilibrium(network)
+    place = rest.state.position
+    lies = place[:, 2] < network.bed.level_at(place)
+    np.testing.assert_allclose(network.bed.level_at(place), -30.0 - 0.1 * place[:, 0], rtol=1e-12)
+    assert 3 < lies.sum() < 30
+
+
+def test_a_line_starts_on_a_bed_that_rises_between_its_ends(tmp_path):
+    (tmp_path / "bed.txt").write_text(
+        "".join(f"{x} {y} {z}\n" for x, z in ((0, 12), (20, 8), (50, 30)) for y in (-5, 5))
+    )
+    text = line_case(length="50 m", segments=40).replace(
+        "structure:\n", "structure:\n  " + BED + "grid: {file: bed.txt}}\n"
+    )
+    network = assemble(problem_of(text, tmp_path), 0.0).network
+    # the anchor stands on the corner of the grid, from which the bed is rounded
+    inner = network.nodes.position[1:]
+    assert (inner[:, 2] >= network.bed.level_at(inner) - 1e-9).all()
+    rest = solve_equilibrium(network)
+    assert rest.state.position[np.argmin(np.abs(rest.state.position[:, 0] - 20.0)), 2] == pytest.approx(-8.0, abs=0.1)
+
+
+def test_a_bed_that_varies_is_checked(tmp_path):
+    (tmp_path / "bed.txt").write_text("0 -5 30\n0 5 30\n20 -5 34\n20 5 34\n")
+    text = line_case().replace("structure:\n", "structure:\n  " + BED + "grid: {file: bed.txt}}\n")
+    (tmp_path / "case.yaml").write_text(text)
+    said = "\n".join(item.message for item in load_case(tmp_path / "case.yaml").warnings)
+    assert "some of 'fairlead' among them, stand beyond the grid of the bed" in said
+    assert "down to 34 m below still water" in said
+    (tmp_path / "bed.txt").write_text("0 -5 10\n0 5 10\n20 -5 34\n20 5 34\n")
+    with pytest.raises(CaseError, match="z = -12 m lies under the bed, which is 10"):
+        problem_of(text, tmp_path)
+    (tmp_path / "bed.txt").write_text("0 -5 10\n0 5 10\n20 -5 34\n")
+    with pytest.raises(CaseError, match="stands nowhere in a grid of 2 by 2 lines"):
+        problem_of(text, tmp_path)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import warnings
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import fields, is_dataclass
 from html import unescape
 from typing import Any
@@ -61,7 +61,11 @@ def compared(result: Result) -> tuple[list[str], int]:
     Words of the case file are the reader's own. Every number has to stand in both languages.
     """
     own = set(latin_words(str(result.tree.attrs.get("case_text", "")).replace("_", " ").replace(":", " ")))
-    document = compose_document(result, language="ja")
+    return compared_document(compose_document(result, language="ja"), own)
+
+
+def compared_document(document: Document, own: Collection[str] = ()) -> tuple[list[str], int]:
+    """Return the English words left in a document in Japanese, with the texts they stand in, and its texts."""
     with spoken_in("ja"):
         shown = in_the_language(document)
     left, count = [], 0

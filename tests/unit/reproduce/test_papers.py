@@ -2,6 +2,7 @@
 
 import math
 from importlib import import_module
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -40,6 +41,14 @@ def test_keys_are_unique_and_cases_are_there(one):
     for keys in ([row.key for row in one.statements], list(one.plotted), [row.number for row in one.equations]):
         assert len(set(keys)) == len(keys)
     assert case_files(one.key)
+
+
+@pytest.mark.parametrize("one", papers(), ids=lambda one: one.key)
+def test_inputs_stand_under_the_examples(one):
+    folder = Path(__file__).resolve().parents[3] / "examples" / "papers" / one.key
+    assert [path.name for path in sorted(folder.glob("*.yaml"))] == [path.name for path in case_files(one.key)]
+    for path, own in zip(sorted(folder.glob("*.yaml")), case_files(one.key), strict=True):
+        assert path.read_bytes() == own.read_bytes()
 
 
 def test_unknown_paper_says_which_there_are():
@@ -90,6 +99,19 @@ def test_points_beside_every_curve_are_refused(tmp_path):
         InputError, match=r"no point of points.csv lies under a curve of figure 1; allowed: x from 0 to 2"
     ):
         agreements(drawn, read_points(f"1={points_file(tmp_path, '5 1')}", ("1",)))
+
+
+def test_points_over_paths_are_drawn_and_not_compared(tmp_path):
+    """A loop has no value at a place; a curve beside it is compared, and refuses points that it does not reach."""
+    angle = np.linspace(0.0, 6.0, 30)
+    loop = curve("loop", {"x": np.cos(angle)}, np.sin(angle))
+    drawn = figure("1", "paths", (Abscissa("x", "x"),), Panel("y"), [loop])
+    points = read_points(f"1={points_file(tmp_path, '0.5 1')}", ("1",))
+    assert agreements(drawn, points) == ()
+    assert laid_over(drawn, points).series[-1].y == pytest.approx([1.0])
+    with_line = figure("1", "both", (Abscissa("x", "x"),), Panel("y"), [loop, curve("a", {"x": angle}, angle)])
+    (found,) = agreements(with_line, points)
+    assert (found.curve, found.bias) == ("a", pytest.approx(-0.5))
 
 
 def test_lift_on_the_members_by_hand():

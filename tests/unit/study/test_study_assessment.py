@@ -6,6 +6,7 @@ import math
 import numpy as np
 import pytest
 import study_cases
+from japanese import compared
 
 from moyai.core.errors import InputError
 from moyai.design.long_term import YEAR
@@ -197,6 +198,9 @@ def test_the_report_names_the_governing_case_and_leads_to_its_replay(tmp_path):
     page = render_html(compose(result))
     assert f'href="governing/case {reported[0][1]}/report.html"' in page
     assert "no, see the standard" in page and "lost line" in page
+    left, count = compared(result)
+    assert count > 50
+    assert not left, "\n".join(left)
 
 
 def test_the_report_of_failures_and_of_a_single_axis_is_written(tmp_path):

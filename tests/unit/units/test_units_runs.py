@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from japanese import compared
 
 pytest.importorskip("capytaine", reason="Capytaine is not installed")
 
@@ -154,3 +155,9 @@ def test_an_irregular_sea_of_one_frequency_is_a_regular_sea(result):
     height = float(storm["significant_height"])
     heave = float(storm["significant_motion"].sel(unit=1, dof="heave")) / height
     assert 0.2 < heave < 2.0
+
+
+def test_the_report_in_japanese_has_no_english_word(result):
+    left, count = compared(result)
+    assert count > 200
+    assert not left, "\n".join(left)

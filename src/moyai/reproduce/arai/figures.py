@@ -13,6 +13,7 @@ from moyai.reproduce.arai.runs import (
     BREADTH,
     CONTOURS,
     DENSITY,
+    HEIGHTS,
     MODEL_LENGTH,
     OMEGA,
     PERIOD,
@@ -25,7 +26,7 @@ from moyai.reproduce.drawing import curve, figure
 from moyai.reproduce.model import PaperFigure
 
 NUMBER = (Abscissa("kc", "Keulegan-Carpenter number KC"),)
-PLOTTED = ("2", "2a", "2b", "2c", "3", "6", "7", "12", "13", "14")
+PLOTTED = ("2", "2a", "2b", "2c", "3", "6", "7", "10a", "10b", "10c", "10d", "10e", "10f", "12", "13", "14")
 LARGEST, LAMINAR_END = 4.0, 1.0  # KC of the paper's axes; to which laminar theory of planar flow holds
 PLANAR_WORDS = (
     "Planar flow is laminar theory, which holds below KC = 1; the curve of Sarpkaya that the paper shows is measured, "
@@ -128,6 +129,38 @@ def _paths(runs: Runs) -> Figure:
     )  # fmt: skip
 
 
+def _drift(runs: Runs, number: str, section: str, keulegan_carpenter: float) -> Figure:
+    """Draw the drift of particles on rings, each from its mean place."""
+    arrows = []
+    for ratio in (1.6, 2.0, 2.5):
+        _, paths = runs.paths(keulegan_carpenter, ratio, 16, section=section)
+        middle = np.trapezoid(paths, axis=1) / (paths.shape[1] - 1)
+        arrows.append(np.stack([middle, middle + paths[:, -1] - paths[:, 0], np.full_like(middle, np.nan)], axis=1))
+    ends = 1e3 * np.concatenate(arrows).reshape(-1, 2)
+    heads = ends[1::3]
+    outline = 1e3 * _outline(section)
+    return figure(
+        number, f"drift of particles, {section}, KC = {keulegan_carpenter:g}", (Abscissa("x", "x", "mm"),),
+        Panel("z", "mm"),
+        [
+            curve("way of the mean place in a period", {"x": ends[:, 0]}, ends[:, 1], 0),
+            curve("its end", {"x": heads[:, 0]}, heads[:, 1], 0, points=True),
+            curve(section, {"x": outline[:, 0]}, outline[:, 1], 7, dash="dash"),
+        ],
+        "Potential flow with the paper's circulation; it holds the Stokes drift, as the beads of the paper do. "
+        "moyai measure streaks draws the same from pictures.", 520,
+    )  # fmt: skip
+
+
+def _outline(section: str) -> Array:
+    """Return the closed outline of a section [m]."""
+    if section == "circle":
+        angle = np.linspace(0.0, 2.0 * math.pi, 121)
+        return 0.5 * BREADTH * np.column_stack([np.cos(angle), np.sin(angle)])
+    corner = 0.5 * np.array([BREADTH, HEIGHTS[section]])
+    return np.array([(1, 1), (-1, 1), (-1, -1), (1, -1), (1, 1)]) * corner
+
+
 def _contour(runs: Runs) -> Figure:
     ratio = np.array(CONTOURS)
     series = []
@@ -216,7 +249,13 @@ def figures(runs: Runs) -> tuple[PaperFigure, ...]:
         PaperFigure("7", _paths(runs)),
         PaperFigure("8", None, "sketch of the interpolation; the table of statements gives its error"),
         PaperFigure("9", None, "drift without a model: settling and mass transport, measured in each campaign"),
-        PaperFigure("10", None, "arrows of the drift; moyai measure streaks draws them from pictures"),
+        *(
+            PaperFigure(
+                f"10{'abcdef'[2 * place + index]}", _drift(runs, f"10{'abcdef'[2 * place + index]}", section, kc)
+            )
+            for place, section in enumerate(SECTIONS)
+            for index, kc in enumerate((1.0, 1.5))
+        ),
         PaperFigure("11", None, "sketch of the lift"),
         PaperFigure("12", _contour(runs)),
         PaperFigure("13", _circulation(runs)),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -14,7 +15,7 @@ from moyai.core.progress import Progress, silent
 from moyai.morison.circulation import STRENGTHS, settled_circulation
 from moyai.records.streaks.contour_circulation import extrapolate_stokes
 from moyai.records.streaks.drift_velocity import StreakChain, close_period_cubic
-from moyai.records.streaks.flow import OrbitalFlow, circle_map, track_particles
+from moyai.records.streaks.flow import OrbitalFlow, SectionMap, circle_map, rectangle_map, track_particles
 from moyai.reproduce.inputs import problem_of, run_problem
 from moyai.structures.member.model import MemberProblem
 
@@ -29,6 +30,14 @@ PERIOD, OMEGA = 1.0 / FREQUENCY, 2.0 * math.pi * FREQUENCY
 PRINTED = {"circle": 0.19, "square": 0.15, "rectangle": 0.28}
 CONTOURS = (1.2, 1.4, 1.6, 2.0, 2.5, 3.0)
 STROBE = 9.6  # flashes in a wave period
+
+
+HEIGHTS = {"square": BREADTH, "rectangle": 0.024}
+MAPS: dict[str, Callable[[], SectionMap]] = {
+    "circle": lambda: circle_map(BREADTH),
+    "square": lambda: rectangle_map(BREADTH, HEIGHTS["square"]),
+    "rectangle": lambda: rectangle_map(BREADTH, HEIGHTS["rectangle"]),
+}
 
 
 def speed(number: float) -> float:
@@ -61,19 +70,21 @@ class Runs:
         tensor = self.members[section].tree["SWL/member"].to_dataset().ideal_inertia_coefficient.values
         return np.asarray(np.diagonal(tensor))
 
-    def paths(self, number: float, ratio: float, count: int, periods: float = 1.0) -> tuple[Array, Array]:
-        """Return instants and paths of particles from a ring about the circle, with the paper's circulation."""
+    def paths(
+        self, number: float, ratio: float, count: int, periods: float = 1.0, section: str = "circle"
+    ) -> tuple[Array, Array]:
+        """Return instants and paths of particles from a ring about a section, with the paper's circulation."""
         v = speed(number)
         circulation = float(settled_circulation(STRENGTHS["arai"], v, v, PERIOD))
-        flow = OrbitalFlow(circle_map(BREADTH), PERIOD, v, v, circulation)
+        flow = OrbitalFlow(MAPS[section](), PERIOD, v, v, circulation)
         angle = 2.0 * math.pi * np.arange(count) / count
         start = 0.5 * BREADTH * ratio * np.column_stack([np.cos(angle), np.sin(angle)])
         time = np.linspace(0.0, periods * PERIOD, round(200 * periods) + 1)
         return time, track_particles(flow, start, time)
 
-    def contour(self, number: float, ratio: float) -> float:
+    def contour(self, number: float, ratio: float, section: str = "circle") -> float:
         """Return the circulation [m2/s] of the particles' drift on a ring, clockwise positive."""
-        time, path = self.paths(number, ratio, self.particles)
+        time, path = self.paths(number, ratio, self.particles, section=section)
         middle = np.asarray(np.trapezoid(path, time, axis=1)) / PERIOD
         drift = (path[:, -1] - path[:, 0]) / PERIOD
         return float(2.0 * math.pi * np.mean(drift[:, 0] * middle[:, 1] - drift[:, 1] * middle[:, 0]))

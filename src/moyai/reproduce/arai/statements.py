@@ -156,11 +156,31 @@ def _turns(runs: Runs) -> Finding:
 
 
 def _drifts(runs: Runs) -> Finding:
-    found = [1e4 * runs.contours[number][1] for number in (1.0, 1.5)]
+    found = {name: [1e4 * runs.contour(number, 1.6, name) for number in (1.0, 1.5)] for name in SECTIONS}
+    parts = ", ".join(f"{name} {first:.0f} and {second:.0f}" for name, (first, second) in found.items())
+    words = f"circulation of the drift, clockwise, on 1.6 times the breadth at KC = 1 and 1.5: {parts} cm2/s"
+    return judged(all(0.0 < first < second for first, second in found.values()), words)
+
+
+def _paths(runs: Runs) -> Finding:
+    _, paths = runs.paths(1.5, 2.2, 8)
+    moved = np.linalg.norm(paths[:, -1] - paths[:, 0], axis=1)
+    around = paths[:, 0, 0] * paths[:, -1, 1] - paths[:, 0, 1] * paths[:, -1, 0]
     words = (
-        f"drift circulates {found[0]:.0f} cm2/s clockwise at KC = 1 and {found[1]:.0f} at 1.5, on 1.4 times the circle"
+        f"{int(np.sum(around < 0.0))} of {len(paths)} particles on 2.2 times the circle stand clockwise of their "
+        f"place after a period, by {1e3 * moved.min():.1f} to {1e3 * moved.max():.1f} mm"
     )
-    return judged(0.0 < found[0] < found[1], words)
+    return judged(bool(np.all(around < 0.0)) and moved.min() > 0.0, words)
+
+
+def _vortex_path(_runs: Runs) -> Finding:
+    return measured("no model here sheds vortices", "where a vortex is at each phase only pictures show")
+
+
+def _square_less_orderly(_runs: Runs) -> Finding:
+    return measured(
+        "the law gives the square the circulation of the others", "the order of arrows and points only pictures show"
+    )
 
 
 def _contour(runs: Runs) -> Finding:
@@ -225,6 +245,13 @@ STATEMENTS = (
         _vortex,
     ),
     Statement(
+        "vortex-path",
+        "3, figure 5",
+        "The large vortex is born on top at the crest, goes round clockwise and is below to the right at the trough.",
+        _vortex_path,
+    ),
+    Statement("paths", "3, figure 7", "Particles move clockwise and do not come back to their place.", _paths),
+    Statement(
         "interpolation",
         "3, figure 8",
         "Interpolation between flashes gives the place after a period well.",
@@ -232,6 +259,12 @@ STATEMENTS = (
     ),
     Statement("background", "3, figure 9", "Without a model the drift is settling and mass transport.", _background),
     Statement("drift", "3, figure 10", "Particles drift clockwise around the sections, faster at larger KC.", _drifts),
+    Statement(
+        "square",
+        "3, 4, figures 10, 13",
+        "The flow about the square is less orderly, and one of its points leaves the law.",
+        _square_less_orderly,
+    ),
     Statement(
         "contour", "4, figure 12", "Circulation depends on the contour, since unseen vortices are shed.", _contour
     ),

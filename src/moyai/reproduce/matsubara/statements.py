@@ -55,6 +55,23 @@ def _weight(runs: Runs) -> Finding:
     )  # fmt: skip
 
 
+def _sizes(runs: Runs) -> Finding:
+    side, opening = runs.case.cage.extent[0], matsubara_net("F").aperture
+    words = (
+        f"three floats of 4 cm stand on a side of {100 * side:g} cm; net F of table 1, of the same twine, has openings "
+        f"of {1e3 * opening:g} mm"
+    )
+    return judged(False, words, "the units are exchanged: the side is 20 cm, the opening 2.09 mm as in table 2")
+
+
+def _floats(runs: Runs) -> Finding:
+    diameter, count = 0.0401, 12
+    lift = count * math.pi / 6.0 * diameter**3 * DENSITY
+    weight = runs.case.cage.mass
+    words = f"twelve spheres displace {1e3 * lift:.0f} g, the cage with its floats weighs {1e3 * weight:.0f} g in air"
+    return judged(abs(1e3 * lift / 402.0 - 1.0) < 0.02, words)
+
+
 def _lift(_runs: Runs) -> Finding:
     row = matsubara_net("G")
     net = Net.from_aperture(row.twine_diameter, row.aperture, solidity_listed=row.solidity)
@@ -96,6 +113,32 @@ def _in_phase(_runs: Runs) -> Finding:
         f"about {lead:.0f} degrees"
     )
     return judged(share < 0.3, words)
+
+
+def _numbers_apart(_runs: Runs) -> Finding:
+    return measured("the law of the paper has no KC number in it", "coefficients in waves are not printed")
+
+
+def _force_in_waves(_runs: Runs) -> Finding:
+    _, _, drag, inertia = net_in_wave("F", 0.065, 1.3)
+    return measured(f"{np.abs(drag + inertia).max():.2f} N on net F at H = 6.5 cm, T = 1.3 s")
+
+
+def _phases(runs: Runs) -> Finding:
+    taut, slack = _taut(runs), _slack(runs)
+    return measured(
+        f"sway follows heave by {math.degrees(taut.phase):.0f} degrees taut, {math.degrees(slack.phase):.0f} slack"
+    )
+
+
+def _ranges(runs: Runs) -> Finding:
+    wave = _taut(runs)
+    return measured(f"computed sway {wave.ratio('sway'):.2f} H, heave {wave.ratio('heave'):.2f} H")
+
+
+def _tensions(runs: Runs) -> Finding:
+    slack, taut = (max(wave.peak.values()) / GRAM for wave in (_slack(runs), _taut(runs)))
+    return measured(f"largest tension {slack:.0f} gf slack, {taut:.0f} gf taut")
 
 
 def _quarter(runs: Runs) -> Finding:
@@ -202,15 +245,23 @@ def _small(runs: Runs) -> Finding:
 
 STATEMENTS = (
     Statement("table", "2.1, table 1", "Table 1 lists twine, aperture, area and solidity of ten nets.", _table),
+    Statement("sizes", "3.1, table 2", "The cage measures 20 mm (table 2) and has meshes of 2.1 cm (text).", _sizes),
+    Statement("floats", "3.1, table 2", "Twelve floats of 4 cm carry 402 gf.", _floats),
     Statement("lift", "2.2", "A net square to the flow has hardly any lift.", _lift),
     Statement("falls", "2.4, figure 4", "C_d falls with the Reynolds number from about 2 to about 0.6.", _falls),
     Statement(
         "scatter", "2.4, figures 3, 4", "Below Re = 100 the coefficients scatter, since the forces are small.", _scatter
     ),
     Statement("parameters", "2.4", "How the law depends on solidity and twine could not be found.", _parameters),
+    Statement("numbers", "2.4", "The drag coefficient shows no clear relation to the KC number.", _numbers_apart),
+    Statement("force", "2.4, 4 (2), figure 5", "Equation (2) gives the measured force in waves.", _force_in_waves),
     Statement("phase", "2.4, figure 5", "In waves the force is in phase with the velocity: drag governs.", _in_phase),
     Statement("weight", "3.1", "The cage weighs 72.5 gf.", _weight),
     Statement("quarter", "3.2, figure 9", "Taut, sway and heave are about a quarter of the wave height.", _quarter),
+    Statement(
+        "ranges", "3.2, figure 9", "Taut, computed and measured motions agree in their largest and least.", _ranges
+    ),
+    Statement("phases", "3.2, figures 9 to 12", "Computed and measured motions and rotations agree in phase.", _phases),
     Statement("circle", "3.2, figure 9", "Taut, the path is nearly a circle.", _circle),
     Statement("higher", "3.2", "Taut, heave is held more as the waves grow higher.", _higher),
     Statement("as-high", "3.2, figure 10", "Slack, sway and heave are about the wave height.", _as_high),
@@ -221,5 +272,8 @@ STATEMENTS = (
     Statement("eighty", "3.2, figures 11, 12", "Computed rotation is about 80 % of the measured one.", _eighty),
     Statement("shore", "3.2, figure 13", "Taut, the tension on the shore side varies more than that offshore.", _shore),
     Statement("forty", "3.2, figure 13", "Taut, the measured peak offshore is 40 % above the computed one.", _forty),
+    Statement(
+        "tensions", "3.2, 4 (4), figure 13", "Computed tensions are the measured ones slack, and not taut.", _tensions
+    ),
     Statement("small", "3.2, figure 13", "Slack, tensions are alike and small.", _small),
 )

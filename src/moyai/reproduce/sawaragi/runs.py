@@ -152,8 +152,19 @@ class Runs:
         """The release with steel wire."""
         return self.released(STEEL)
 
+    @cached_property
+    def peaks(self) -> tuple[Array, Array]:
+        """Peak of model A over currents, and that of a release less its steady level, both cables of line [N]."""
+        found = []
+        for speed in np.linspace(0.1, 0.5, 9).tolist():
+            other = replace(self, span=replace(self.span, speed=speed))
+            record = other.released(LINE)
+            found.append((peak_by_energy(other.with_stiffness(LINE)).tension, record.spike - record.plateau))
+        computed, released = np.array(found).T
+        return computed, released
+
     def span_released(
-        self, total: float, cells: tuple[int, int], share: float = 0.0, duration: float = RELEASE
+        self, total: float, cells: tuple[int, int], share: float = 0.0, duration: float = RELEASE, heavier: float = 1.0
     ) -> SpanRecord:
         """Return the record of the whole span let go slack and at rest in the current, edges held in height.
 
@@ -166,13 +177,15 @@ class Runs:
             Of the way from the line between the supports to the just-taut shape where it is let go.
         duration : float
             [s].
+        heavier : float
+            Factor on the masses of sheet and lower edge.
         """
         span, skirt, g = self.with_stiffness(total), self.case.curtain.skirt, self.span.water.gravity
         whole = CurtainSpan(
             span=span.span, length=span.length, skirt_length=span.draught, chord=span.draught,
             upper_stiffness=span.upper_stiffness, lower_stiffness=span.lower_stiffness,
-            upper_mass=self.case.curtain.floats.weight / g, lower_mass=TOE_MASS, sheet_stiffness=skirt.stiffness,
-            sheet_mass=SHEET_MASS, drag_coefficient=DRAG,
+            upper_mass=self.case.curtain.floats.weight / g, lower_mass=heavier * TOE_MASS,
+            sheet_stiffness=skirt.stiffness, sheet_mass=heavier * SHEET_MASS, drag_coefficient=DRAG,
         )  # fmt: skip
         run = run_span(
             whole, Mesh(*cells), span.water, flow=Flow(velocity=(span.speed, 0.0, 0.0)), duration=duration,

@@ -10,10 +10,10 @@ import numpy as np
 from moyai.design.similarity import Scale, scale_water
 from moyai.reproduce.model import FilledInput, Finding, Statement, judged, measured
 from moyai.reproduce.sawaragi.figures import log_slope
-from moyai.reproduce.sawaragi.runs import DRAG, LINE, STEEL, Record, Runs, SpanRecord
+from moyai.reproduce.sawaragi.runs import DRAG, LINE, SHEET_MASS, STEEL, TOE_MASS, Record, Runs, SpanRecord
 from moyai.structures.curtain.impact.cable import Impact, impact_numbers, peak_by_energy
 from moyai.structures.curtain.impact.march import iterate_first_step
-from moyai.structures.curtain.impact.skirt import Skirt, curved_impact, skirt_impact
+from moyai.structures.curtain.impact.skirt import Skirt, cable_and_skirt_impact, curved_impact, skirt_impact
 
 
 def _exponent(runs: Runs, name: str) -> float:
@@ -184,10 +184,60 @@ def _start_speed(runs: Runs) -> Finding:
     return judged(0.3 < share < 1.0, f"the skirt is taut at {100 * share:.0f} % of the current's speed")
 
 
-def _model_b(runs: Runs) -> Finding:
+def _skirt(runs: Runs) -> Skirt:
     chord = runs.case.settings.impact.chord
     assert chord is not None
-    skirt = Skirt(runs.span.draught, chord, runs.case.curtain.skirt.stiffness)
+    return Skirt(runs.span.draught, chord, runs.case.curtain.skirt.stiffness)
+
+
+def _rise_time(runs: Runs) -> Finding:
+    return measured(
+        f"model A rises in {peak_by_energy(runs.span).time:.2f} s with fishing line, released by itself in "
+        f"{runs.line.rise:.2f} s"
+    )
+
+
+def _span_in_tests(runs: Runs) -> Finding:
+    _, found = runs.over("span_ratio", LINE)
+    return measured(f"C_T of model A is {found.min():.1f} to {found.max():.1f} from B/l = 0.5 to 0.99")
+
+
+def _statics(runs: Runs) -> Finding:
+    whole, model = runs.whole_line.spike, runs.line.spike
+    words = f"the whole span, dynamic, has a spike of {whole:.2f} N, model A released the same way {model:.2f} N"
+    return judged(abs(whole / model - 1.0) > 0.1, words)
+
+
+def _flat(runs: Runs) -> Finding:
+    skirt = _skirt(runs)
+    curved, flat = curved_impact(runs.span, skirt).tension, peak_by_energy(runs.span).tension
+    words = (
+        f"{curved:.2f} N with the arc on a chord of {skirt.chord:g} m, {flat:.2f} N with the flat plate of the skirt's "
+        f"length {skirt.length:g} m"
+    )
+    return judged(
+        curved < flat, words,
+        "an arc has more added mass than the plate of its chord, as figure 7 of the paper shows itself",
+    )  # fmt: skip
+
+
+def _stretches(runs: Runs) -> Finding:
+    both, alone = (
+        cable_and_skirt_impact(runs.span, _skirt(runs)).tension,
+        curved_impact(runs.span, _skirt(runs)).tension,
+    )
+    words = f"{both:.2f} N with a skirt that stretches, {alone:.2f} N with the same arc held rigid"
+    return judged(both < alone, words)
+
+
+def _separate(runs: Runs) -> Finding:
+    upper, lower, _, _ = runs.edges(LINE)
+    words = f"edges that move by themselves: upper {upper:.2f} N, lower {lower:.2f} N, with cables of equal stiffness"
+    return judged(abs(upper / lower - 1.0) > 0.05, words)
+
+
+def _model_b(runs: Runs) -> Finding:
+    skirt = _skirt(runs)
     found = skirt_impact(runs.span, skirt)
     words = f"model B with a skirt of {1e-3 * skirt.stiffness:.0f} kN/m: {found.edge_load:.0f} N/m on a cable"
     return measured(words, "the paper gives no number for model B, since the modulus of its sheet was not known")
@@ -212,10 +262,26 @@ STATEMENTS = (
     ),
     Statement("iteration", "3.4", "In each step the displacement is found by iteration.", _iterates),
     Statement("above", "4.1, figures 15, 16", "Model A lies a little above the tests with fishing line.", _above),
+    Statement(
+        "rise-time",
+        "4.1, 4.5, figure 15",
+        "Model A gives the rise time of the measured spike to some extent.",
+        _rise_time,
+    ),
     Statement("froude", "4.2, figure 17", "C_T falls with the Froude number.", _froude),
     Statement("span", "4.2, figure 18", "At large B/l C_T is nearly proportional to it.", _span),
+    Statement("span-tests", "4.2, figure 18", "The tests do not show the effect of B/l clearly.", _span_in_tests),
     Statement("depth", "4.2, figure 19", "C_T hardly depends on d/h.", _depth),
     Statement("root", "4.3, figure 20", "C_T goes with the root of the stiffness.", _root),
+    Statement(
+        "statics",
+        "4.4",
+        "An impact asks for the dynamics of the cable; its shape at rest and even acceleration are doubtful.",
+        _statics,
+    ),
+    Statement("flat", "4.4", "The flat plate has too much added mass, since the skirt bulges.", _flat),
+    Statement("stretches", "4.4", "Stretch of the skirt takes tension from the cables.", _stretches),
+    Statement("separate", "4.4", "Upper and lower cable have different impacts, which model A cannot tell.", _separate),
     Statement("start", "4.4", "The skirt may be slower than the flow when it becomes taut.", _start_speed),
     Statement(
         "proportional", "4.5", "The impact tension is proportional to speed and depth of the skirt.", _proportional
@@ -238,9 +304,8 @@ def filled(runs: Runs) -> tuple[FilledInput, ...]:
 
     span = runs.span
     plain = f" (taken: {words(span)})"
-    chord = runs.case.settings.impact.chord
-    assert chord is not None
-    curved = curved_impact(span, Skirt(span.draught, chord, runs.case.curtain.skirt.stiffness))
+    skirt = _skirt(runs)
+    curved = curved_impact(span, skirt)
     return (
         FilledInput("water depth", f"{span.water.depth:g} m", "0.6 m",
                     words(replace(span, water=replace(span.water, depth=0.6))) + plain),
@@ -254,10 +319,13 @@ def filled(runs: Runs) -> tuple[FilledInput, ...]:
                     "; ".join(words(runs.with_stiffness(total)) for total in (75.0, 300.0, STEEL)) + plain),
         FilledInput("speed of the current", f"{span.speed:g} m/s", "0.15; 0.45 m/s",
                     f"{words(replace(span, speed=0.15))}; {words(replace(span, speed=0.45))}{plain}"),
-        FilledInput("curvature of the skirt", "flat plate, as in model A", f"arc on a chord of {chord:g} m",
+        FilledInput("curvature of the skirt", "flat plate, as in model A", f"arc on a chord of {skirt.chord:g} m",
                     f"{curved.tension:.2f} N{plain}"),
         FilledInput("slack at the release", "gathered evenly, straight between the supports", "half of the way to taut",
                     f"{_spike_words(runs.span_released(LINE, runs.cells, 0.5))} "
+                    f"(taken: {_spike_words(runs.whole_line)})"),
+        FilledInput("mass of sheet and lower edge", f"{SHEET_MASS:g} kg/m2, {TOE_MASS:g} kg/m", "twice as heavy",
+                    f"{_spike_words(runs.span_released(LINE, runs.cells, heavier=2.0))} "
                     f"(taken: {_spike_words(runs.whole_line)})"),
         FilledInput("drag coefficient", f"{DRAG:g}", "1.2 to 2 in practice", "proportional to the steady level, "
                                                                              "none on A"),

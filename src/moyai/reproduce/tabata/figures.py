@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from moyai.report.document import Abscissa, Figure, Panel
+from moyai.report.document import Abscissa, Figure, Panel, Series
 from moyai.reproduce.drawing import curve, figure
 from moyai.reproduce.model import PaperFigure
 from moyai.reproduce.tabata.campaign import CONVENTIONAL, wave_maxima
@@ -13,21 +13,31 @@ from moyai.series.regressions import fit_line, type_ratio
 from moyai.structures.curtain.seas.anchor_energy import error_against_product
 from moyai.structures.curtain.seas.squared_velocity import fit_proportional
 
-PLOTTED = ("3", "4a", "4b", "5", "6", "7", "8", "9")
+PLOTTED = ("3a", "3b", "3c", "3d", "3e", "4a", "4b", "5", "6", "7", "8", "9")
 MADE = "Blocks of a synthetic campaign with planted relations; the record of the paper is not published."
 TENSION = "kN"
 
 
-def _series(runs: Runs) -> Figure:
-    hours = {"time": np.arange(len(runs.new)) / 3.0}
-    return figure(
-        "3", "tension over the campaign", (Abscissa("time", "time", "h"),), Panel("tension", TENSION, from_zero=True),
-        [
-            curve("one-tenth maximum, new type", hours, runs.new.averaged("tenth") / 1e3, 0),
-            curve("steady, new type", hours, runs.new.averaged("steady") / 1e3, 1, dash="dash"),
-            curve("steady, conventional type", hours, runs.conventional.averaged("steady") / 1e3, 2, dash="dot"),
-        ],
-        MADE,
+def _series(runs: Runs) -> tuple[PaperFigure, ...]:
+    """Return the strips of figure 3, one below the other."""
+    new, axis = runs.new, (Abscissa("time", "time", "h"),)
+    hours = {"time": np.arange(len(new)) / 3.0}
+
+    def strip(letter: str, title: str, ordinate: Panel, *series: Series) -> PaperFigure:
+        return PaperFigure(f"3{letter}", figure(f"3{letter}", title, axis, ordinate, series, MADE, 220))
+
+    return (
+        strip("a", "significant wave height", Panel("H₁/₃", "m", from_zero=True),
+              curve("blocks", hours, new.significant_height, 0)),
+        strip("b", "significant wave period", Panel("T₁/₃", "s", from_zero=True),
+              curve("blocks", hours, new.significant_period, 0)),
+        strip("c", "mean current", Panel("current", "m/s"), curve("along the normal", hours, new.current_normal, 0)),
+        strip("d", "one-tenth maximum of the tension", Panel("T₁/₁₀", TENSION, from_zero=True),
+              curve("new type", hours, new.averaged("tenth") / 1e3, 0),
+              curve("conventional type", hours, runs.conventional.averaged("tenth") / 1e3, 1, dash="dash")),
+        strip("e", "steady tension", Panel("steady tension", TENSION, from_zero=True),
+              curve("new type", hours, new.averaged("steady") / 1e3, 0),
+              curve("conventional type", hours, runs.conventional.averaged("steady") / 1e3, 1, dash="dash")),
     )  # fmt: skip
 
 
@@ -149,7 +159,7 @@ def figures(runs: Runs) -> tuple[PaperFigure, ...]:
     return (
         PaperFigure("1", None, "sketch of the construction"),
         PaperFigure("2", None, "map of the site and of the gauges"),
-        PaperFigure("3", _series(runs)),
+        *_series(runs),
         PaperFigure("4a", _height(runs)),
         PaperFigure("4b", _current(runs)),
         PaperFigure("5", _direction(runs)),

@@ -11,10 +11,10 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.reproduce.model import FilledInput, Finding, Statement, judged, measured
 from moyai.reproduce.tabata.campaign import CONVENTIONAL, CURTAIN_DEPTH, NEW, WATER
-from moyai.reproduce.tabata.runs import CHOSEN, ROPES, Pulls, Runs
+from moyai.reproduce.tabata.runs import CHOSEN, ROPES, TYPHOON, Pulls, Runs
 from moyai.series.regressions import correlation, fit_by_direction, fit_cosine, fit_power, type_ratio
 from moyai.structures.curtain.seas.anchor_energy import EnergyModel, product_needed
-from moyai.structures.curtain.seas.squared_velocity import effective_height
+from moyai.structures.curtain.seas.squared_velocity import effective_height, fit_proportional
 
 PLANTED = "planted in a synthetic campaign"
 _TAKEN = "10 % longer than its span, waves at 60 degrees, T_1/3 of 6.75 s, stiffness and drag of the case"
@@ -74,6 +74,40 @@ def _squared(runs: Runs) -> Finding:
         "of u^2; the two "
         "statements of the paper exclude each other but for scatter",
     )  # fmt: skip
+
+
+def _flume_line(runs: Runs) -> Finding:
+    fit = fit_proportional(runs.squared, runs.new.averaged("maximum"))
+    return measured(
+        f"{fit.factor / 1e3:.2f} kN for 1 m2/s2 through the origin in the synthetic campaign",
+        "the line of the flume tests is drawn without numbers; lay your own points over the figure with --points",
+    )
+
+
+def _compared(runs: Runs) -> Finding:
+    tension, speed = runs.observed
+    model = math.sqrt(CONVENTIONAL.energy_factor * CONVENTIONAL.float_mass * CONVENTIONAL.rope_stiffness) * speed
+    words = (
+        f"computed with 0.2 over observed by the rule of the paper: {float(np.mean(model / tension)):.2f} in the mean"
+    )
+    return measured(f"{words}, 0.2 {PLANTED}")
+
+
+def _waves_govern(runs: Runs) -> Finding:
+    tenth = runs.new.averaged("tenth")
+    height = correlation(effective_height(runs.new.significant_height, runs.new.angle, "paper", 1.0), tenth)
+    flow = correlation(np.abs(runs.new.current_normal), tenth)
+    words = f"T_1/10 is correlated with H_1/3 cos^2 by {height.value:+.2f}, with the current by {flow.value:+.2f}"
+    return judged(height.low > flow.high, f"{words}, {PLANTED}")
+
+
+def _design_height(runs: Runs) -> Finding:
+    new = _worked(replace(CONVENTIONAL, type_factor=NEW.type_factor), 60.0)
+    old = _worked(replace(CONVENTIONAL, type_factor=1.0), 60.0, height=2.5)
+    return judged(
+        new < old,
+        f"by the energy model the new type pulls in 3.06 m {new / old:.2f} of what the conventional one pulls in 2.5 m",
+    )
 
 
 def _seven_tenths(runs: Runs) -> Finding:
@@ -156,6 +190,14 @@ def _pulls(runs: Runs, rope: str) -> str:
     return f"{found.mean():.0f} kN{several}"
 
 
+def _factor_of_span(runs: Runs, rope: str) -> float:
+    """Return M that gives the energy model the pull of the span in the typhoon, mean of the realisations."""
+    height = float(effective_height(TYPHOON, math.radians(60.0), "paper", 1.8))
+    speed = CONVENTIONAL.float_speed(height, 6.75, 0.2, WATER)
+    product = product_needed(float(_ropes(runs, rope).mean()) - STEADY, speed, 0.0)
+    return float(product) / (CONVENTIONAL.float_mass * ROPES[rope])
+
+
 def _highest(runs: Runs) -> Finding:
     # the print is not clear on whether its highest value is T_max or T_1/10, of which T_max is 1.7
     most = STEADY + 1.7 * FLUCTUATING
@@ -163,7 +205,8 @@ def _highest(runs: Runs) -> Finding:
     words = (
         f"the span in the typhoon pulls an anchor rope of 890 kN/m with {_pulls(runs, '890 kN/m')}, one of 890 kN for "
         f"a strain of one with {_pulls(runs, '890 kN')}; measured {(STEADY + FLUCTUATING) / 1e3:.0f} to "
-        f"{most / 1e3:.0f} kN with the steady part"
+        f"{most / 1e3:.0f} kN with the steady part; over the steady part the span has the M = "
+        f"{_factor_of_span(runs, '890 kN/m'):.2g} and {_factor_of_span(runs, '890 kN'):.2g} of the energy model"
     )
     return judged(
         float(printed.mean()) < most, words,
@@ -202,8 +245,8 @@ def _along(_runs: Runs) -> Finding:
     return judged(load[1] < 0.5 * load[0], words)
 
 
-def _worked(model: EnergyModel, angle: float, period: float = 7.0) -> float:
-    height = float(effective_height(3.06, math.radians(angle), "paper", 1.8))
+def _worked(model: EnergyModel, angle: float, period: float = 7.0, height: float = 3.06) -> float:
+    height = float(effective_height(height, math.radians(angle), "paper", 1.8))
     return float(model.fluctuating_tension(model.float_speed(height, period, 0.2, WATER), 0.0))
 
 
@@ -217,9 +260,11 @@ STATEMENTS = (
     Statement("linear", "3 (1), figure 4", "T_1/10 is nearly linear in H_1/3.", _linear),
     Statement("uncorrelated", "3 (1), figure 4", "Steady tension has nothing to do with the current.", _uncorrelated),
     Statement("weak", "3 (1)", "The current is too weak to draw the curtain taut.", _weak),
+    Statement("waves-govern", "3 (1)", "Waves, not the current, govern the tension that was measured.", _waves_govern),
     Statement("near-normal", "3 (1), figure 4", "Waves near normal incidence leave the line.", _near_normal),
     Statement("cosine", "3 (1), figure 5", "Tension goes with cos^2 of the angle.", _cosine),
     Statement("squared", "3 (2), figure 6", "The largest tension is proportional to the squared velocity.", _squared),
+    Statement("flume-line", "3 (2), figure 6", "The largest tensions lie near the line of flume tests.", _flume_line),
     Statement(
         "types", "3 (3), figure 7", "The new type has 0.7 of the tension of the conventional one.", _seven_tenths
     ),
@@ -227,6 +272,7 @@ STATEMENTS = (
     Statement("waves", "2", "H_max is 1.8 H_1/3.", _waves),
     Statement("tenths", "2", "T_max is 1.7 T_1/10.", _tenths),
     Statement("factor", "4, figure 8", "M = 0.2 makes the error of the energy model least.", _factor),
+    Statement("compared", "4, figure 9", "With M = 0.2 computed tensions are those measured.", _compared),
     Statement("flume", "4", "Flume tests gave M = 0.5.", _flume),
     Statement("wire", "4", "The wire bears 0.6 of the anchor rope.", _wire),
     Statement(
@@ -234,6 +280,12 @@ STATEMENTS = (
         "3 (1), figure 3",
         "The fluctuating tension of an anchor rope reaches 14.7 kN, the steady one 13.7 kN.",
         _highest,
+    ),
+    Statement(
+        "design-height",
+        "3 (3)",
+        "The new type stood in more than the 2.5 m that the conventional one is designed for.",
+        _design_height,
     ),
     Statement("stands", "3 (3), 5", "The curtain stood in H_1/3 = 3.06 m.", _stands),
     Statement("along", "5", "It stood since the high waves ran along it.", _along),
@@ -268,6 +320,9 @@ def _guesses(runs: Runs) -> Iterator[FilledInput]:
     """Yield how far the most used part moves with each guessed value of the span in the typhoon, one realisation."""
     share, part = _most_used(runs, runs.typhoon["890 kN"][:1])
     taken = f" (taken: {100.0 * share:.0f} %, {part})"
+    each = runs.typhoon["890 kN"][0].shares(runs.case.curtain.strengths)
+    yield FilledInput("strengths of anchor, rope, wire and sheet", "those of the case file", "half of them",
+                      ", ".join(f"{name} {200.0 * share:.0f} %" for name, share in each.items()) + taken)  # fmt: skip
     for words, pulls in runs.guessed.items():
         share, part = _most_used(runs, [pulls])
         yield FilledInput("span in the typhoon, rope of 890 kN", _TAKEN, words, f"{100.0 * share:.0f} %, {part}{taken}")

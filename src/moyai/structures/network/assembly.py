@@ -62,13 +62,10 @@ def assemble(problem: NetworkProblem, level: float) -> Assembly:
     """
     water = problem.environment.water_at(level)
     bed = problem.bed
-    builder = NetworkBuilder(
-        water, None if bed is None or math.isinf(water.depth) else Bed(-water.depth, bed.stiffness, bed.damping,
-                                                                       bed.friction)
-    )  # fmt: skip
+    builder = NetworkBuilder(water, None if bed is None or math.isinf(water.depth) else bed.at(level, water))
     places: dict[str, tuple[float, float, float]] = {}
     for point in problem.points:
-        place = _place(point.position, point.floats, level, water, f"points.{point.name}.position")
+        place = _place(point.position, point.floats, level, water, builder.bed, f"points.{point.name}.position")
         places[point.name] = place
         _add_point(builder, point, place, water)
     for plan in problem.bodies:
@@ -99,19 +96,20 @@ def assemble(problem: NetworkProblem, level: float) -> Assembly:
 
 
 def _place(
-    position: tuple[float, float, float], floats: bool, level: float, water: Water, parameter: str
+    position: tuple[float, float, float], floats: bool, level: float, water: Water, bed: Bed | None, parameter: str
 ) -> tuple[float, float, float]:
     x, y, z = position
     if math.isnan(z):
         if math.isinf(water.depth):
             raise InputError("'bed' needs a finite water depth", parameter=parameter, remedy="give z as a number")
-        return x, y, -water.depth
+        return x, y, -water.depth if bed is None else float(bed.level_at(np.array([x, y])))
     height = z if floats else z - level
-    if height < -water.depth * (1.0 + 1e-9):
+    depth = water.depth if bed is None else -float(bed.level_at(np.array([x, y])))
+    if height < -depth - (1e-9 * water.depth if bed is None else bed.tolerance):
         raise InputError(
-            f"z = {z:g} m lies under the bed, which is {water.depth:g} m below still water",
+            f"z = {z:g} m lies under the bed, which is {depth:g} m below still water",
             parameter=parameter,
-            allowed=f"at least {-water.depth + (0.0 if floats else level):g} m, or the word bed",
+            allowed=f"at least {-depth + (0.0 if floats else level):g} m, or the word bed",
         )
     return x, y, height
 
@@ -169,6 +167,8 @@ def _parts_shape(builder: NetworkBuilder, line: LinePlan, water: Water) -> list[
     points = a + every[:, None] * (b - a)
     if line.shape == "catenary":
         points = _catenary(builder, line, water, a, b, every, points)
+    if builder.bed is not None:
+        points = builder.bed.carried(points)
     cuts = np.cumsum([part.segments for part in line.parts])
     return list(np.split(points, cuts[:-1]))
 
@@ -181,7 +181,8 @@ def _catenary(
     span = float(np.linalg.norm(b - a))
     if line.length <= span:
         return chord
-    level = builder.bed.level if builder.bed is not None else min(a[2], b[2]) - 10.0 * line.length
+    bed, low = builder.bed, (a if a[2] <= b[2] else b)
+    level = bed.level_for(low) if bed is not None else low[2] - 10.0 * line.length
     mean = sum(w * part.length for w, part in zip(weights, line.parts, strict=True)) / line.length
     upwards = mean < 0.0
     if min(weights) > 0.0:
@@ -246,7 +247,8 @@ def _joined(network: Network, name: str, parts: list[str]) -> Strand:
 
 
 def _add_net(builder: NetworkBuilder, net: NetPlan, level: float, water: Water) -> None:
-    corners = [np.array(_place(corner, net.floats, level, water, f"nets.{net.name}.corners")) for corner in net.corners]
+    parameter = f"nets.{net.name}.corners"
+    corners = [np.array(_place(corner, net.floats, level, water, builder.bed, parameter)) for corner in net.corners]
     u = np.linspace(0.0, 1.0, net.columns)[None, :, None]
     v = np.linspace(0.0, 1.0, net.rows)[:, None, None]
     grid = (1.0 - v) * ((1.0 - u) * corners[0] + u * corners[1]) + v * ((1.0 - u) * corners[3] + u * corners[2])
@@ -291,7 +293,9 @@ def _add_net(builder: NetworkBuilder, net: NetPlan, level: float, water: Water) 
 
 def _add_sheet(builder: NetworkBuilder, sheet: SheetPlan, level: float, water: Water) -> None:
     parameter = f"sheets.{sheet.name}.corners"
-    a, b, c, d = (np.array(_place(corner, sheet.floats, level, water, parameter)) for corner in sheet.corners)
+    a, b, c, d = (
+        np.array(_place(corner, sheet.floats, level, water, builder.bed, parameter)) for corner in sheet.corners
+    )
     u, v = np.linspace(0.0, 1.0, sheet.columns)[None, :, None], np.linspace(0.0, 1.0, sheet.rows)[:, None, None]
     grid = (1.0 - v) * ((1.0 - u) * a + u * b) + v * ((1.0 - u) * d + u * c)
     high = 0.5 * float(np.linalg.norm(d - a) + np.linalg.norm(c - b)) * sheet.fullness

@@ -145,6 +145,8 @@ def rest_dataset(assembly: Assembly, found: dict[str, Equilibrium], stiffness: A
     }
     for key, values in line_numbers(assembly, tension).items():
         data[key] = (("condition", "line"), values)
+    if network.bed is not None and network.bed.ground is not None:
+        data["bed_level"] = (("condition", "node"), network.bed.level_at(position))
     if stiffness is not None:
         data["stiffness"] = (("driven", "axis", "direction"), stiffness)
     coords: dict[str, object] = {"condition": list(found), "axis": AXES, "point": names, "line": list(assembly.lines)}

@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from moyai.core.headline import Band, Headline, governing
+from moyai.core.arrays import Array
+from moyai.core.headline import Band, Bound, Headline, governing
 from moyai.core.wording import spoken
 from moyai.flexible.sensitivity import PeakSensitivity
 from moyai.series.block_maxima import Maximum, maximum_of
@@ -253,7 +254,7 @@ def _band(groups: Mapping[str, xr.Dataset], peak: _Peak) -> tuple[Band | None, l
     if found is None:
         return band, details
     low, high, of = (peak.value, peak.value, "") if band is None else (band.low, band.high, band.of)
-    of = "; ".join(filter(None, (of, f"90 of 100 seeds, estimated from {found.blocks} blocks of the record of one")))
+    of = "; ".join(filter(None, (of, _of_seeds(found))))
     least, most = found.range
     return Band(max(min(low, least), 0.0), max(high, most), of), details
 
@@ -301,32 +302,65 @@ def _anchor(groups: Mapping[str, xr.Dataset], peaks: list[_Peak]) -> list[Headli
 
 def _offsets(groups: Mapping[str, xr.Dataset]) -> list[Headline]:
     """Return the largest offset of bodies, buoys and weights, and the largest lean of bodies."""
-    items = []
-    floating = [
-        (float(summary["excursion"].sel(run=run, point=point)), f"{point}, {run}")
-        for level, summary in _levels(groups, "dynamic")
-        if "excursion" in summary and (network := groups.get(f"/{level}/network")) is not None
-        for run in summary["run"].values
-        for point, kind in zip(network["point"].values, network["point_kind"].values)
-        if kind not in ("fixed", "driven")
-    ]
-    for name, label, unit in (
-        ("offset", "largest offset of a body or buoy", "m"),
-        ("highest_lean", "largest lean", "rad"),
-    ):
-        found = [
-            (float(group[name].sel(run=run, solid=solid)), f"{solid}, {run}")
-            for _, group in _levels(groups, "dynamic") if name in group
-            for run in group["run"].values for solid in group["solid"].values
-        ]  # fmt: skip
-        found += floating if name == "offset" else []
-        known = [pair for pair in found if math.isfinite(pair[0])]
-        if known:
-            value, where = max(known)
-            detail = "from its place in still water" + (", heave included" if (value, where) in floating else "")
-            key = "offset" if name == "offset" else "lean"
-            items.append(Headline(key, label, value, unit, where, DYNAMIC, detail=detail))
-    return items
+    offsets, leans = [], []
+    still = "from its place in still water"
+    for level, summary in _levels(groups, "dynamic"):
+        network = groups.get(f"/{level}/network")
+        for run in summary["run"].values:
+            if "excursion" in summary and network is not None:
+                for point, kind in zip(network["point"].values, network["point_kind"].values):
+                    if kind not in ("fixed", "driven"):
+                        value = float(summary["excursion"].sel(run=run, point=point))
+                        away = _away(groups, level, str(run), str(point), "point", 3)
+                        said = f"{still}, heave included"
+                        offsets.append(_moved("offset", value, f"{point}, {run}", said, groups, level, str(run), away))
+            for solid in summary["solid"].values if "offset" in summary else ():
+                value, lean = (float(summary[name].sel(run=run, solid=solid)) for name in ("offset", "highest_lean"))
+                away = _away(groups, level, str(run), str(solid), "solid", 2)
+                where = f"{solid}, {run}"
+                offsets.append(_moved("offset", value, where, still, groups, level, str(run), away))
+                leans.append(_moved("lean", lean, where, still, groups, level, str(run), None))
+    return [
+        item
+        for found in (offsets, leans)
+        for item in governing(one for one in found if math.isfinite(one.value))
+    ]  # fmt: skip
+
+
+def _of_seeds(found: Maximum) -> str:
+    return f"90 of 100 seeds, estimated from {found.blocks} blocks of the record of one"
+
+
+def _moved(
+    name: str, value: float, where: str, detail: str, groups: Mapping[str, xr.Dataset], level: str, run: str,
+    away: Array | None,
+) -> Headline:  # fmt: skip
+    """Return an offset or lean; of an irregular sea with the chance of its seed, or as a bound without it."""
+    label, unit = {"offset": ("largest offset of a body or buoy", "m"), "lean": ("largest lean", "rad")}[name]
+    series = groups.get(f"/{level}/time/{run}")
+    band: Band | None = None
+    bound: Bound = ""
+    if series is not None and int(series.attrs.get("irregular", 0)):
+        found = None
+        if away is not None:
+            late = series["time"].values >= series["time"].values[0] + series.attrs["skip"]
+            found = maximum_of(series["time"].values[late], away[late], float(series.attrs["period"]))
+        if found is None:
+            bound, detail = "at least", f"{detail}; one seed: others may give more"
+        else:
+            low, high = found.range
+            band = Band(max(min(value, low), 0.0), max(value, high), _of_seeds(found))
+    return Headline(name, label, value, unit, where, DYNAMIC, band, bound, detail=detail)
+
+
+def _away(groups: Mapping[str, xr.Dataset], level: str, run: str, name: str, kind: str, axes: int) -> Array | None:
+    """Return the distance of a point or body from its place in still water over a run; None where it is not known."""
+    series, summary = groups.get(f"/{level}/time/{run}"), groups[f"/{level}/dynamic"]
+    origin = "still_place" if kind == "point" else "still_place_of_solid"
+    if series is None or origin not in summary or f"{kind}_position" not in series:
+        return None
+    place = series[f"{kind}_position"].sel({kind: name}).values - summary[origin].sel({kind: name}).values
+    return np.asarray(np.linalg.norm(place[:, :axes], axis=1))
 
 
 def _mode(groups: Mapping[str, xr.Dataset]) -> list[Headline]:

@@ -11,12 +11,14 @@ from typing import Literal
 from moyai.core.errors import InputError
 from moyai.core.headline import Criterion
 from moyai.core.options import checks_words
+from moyai.flexible.bed import Bed, Ground
 from moyai.flexible.failures import LineFailure
 from moyai.flexible.motion import Beginning, Motion
 from moyai.flexible.network import BOX, BarType
 from moyai.sea.current_field import CurrentField
 from moyai.sea.environment import Environment
 from moyai.sea.kinematics import Stretching
+from moyai.sea.water import Water
 from moyai.structures.network.bodies import BodyPlan
 
 Analysis = Literal["statics", "modes", "dynamic"]
@@ -161,6 +163,15 @@ class BedPlan:
     stiffness: float
     damping: float
     friction: float = 0.0
+    #: Its heights above datum, where it varies.
+    ground: Ground | None = None
+
+    def at(self, level: float, water: Water) -> Bed:
+        """Return the bed in heights above still water that stands at ``level`` above datum [m]."""
+        if self.ground is None:
+            return Bed(-water.depth, self.stiffness, self.damping, self.friction)
+        ground = Ground(self.ground.x, self.ground.y, self.ground.level - level)
+        return Bed.on(ground, self.stiffness, self.damping, self.friction)
 
 
 @checks_words

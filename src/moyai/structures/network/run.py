@@ -189,7 +189,9 @@ def network_dataset(problem: NetworkProblem, assembly: Assembly, water: Water) -
         data |= drawn_parts(problem.bodies)
     out = labelled(xr.Dataset(data, coords={"axis": ["x", "y", "z"], "line": list(assembly.lines), "point": names}))
     bed = network.bed
-    out.attrs |= {"bed": math.nan if bed is None else bed.level, "slack_level": problem.settings.slack_level}
+    # views show a bed that varies as deep as it is under the network
+    lowest = math.nan if bed is None else float(np.min(bed.level_at(network.nodes.position)))
+    out.attrs |= {"bed": lowest, "slack_level": problem.settings.slack_level}
     current = problem.environment.current
     surface = (0.0, 0.0) if current is None else tuple(float(v) for v in current.in_depth(water.depth).velocity(0.0))
     out.attrs |= {"current_x": surface[0], "current_y": surface[1]}

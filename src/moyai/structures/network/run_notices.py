@@ -60,6 +60,22 @@ def wet_in_air(network: Network, position: Array, said: str = "") -> list[Notice
     ]  # fmt: skip
 
 
+def _counted_periods(plan: RunPlan) -> list[Notice]:
+    """Say when waves have not stood at their height for a whole period of what counts."""
+    ramp = max(plan.flow.ramp, plan.flow.wave_ramp)
+    left = plan.duration - max(ramp, plan.skip)
+    if plan.waves is None or not math.isfinite(plan.period) or left >= plan.period * (1.0 - 1e-9):
+        return []
+    return [
+        Notice(
+            "waves-not-counted",
+            f"{plan.name}: of {plan.duration:g} s, with waves that grow for {ramp:g} s and {plan.skip:g} s skipped, "
+            f"{max(left, 0.0):g} s count at their height, less than one period",
+            max(left, 0.0), plan.period, "error", "a longer settings.duration, or a shorter ramp and skip",
+        )
+    ]  # fmt: skip
+
+
 def run_notices(
     problem: NetworkProblem, history: History, plan: RunPlan, snaps: Mapping[str, SnapRecord]
 ) -> list[Notice]:
@@ -80,6 +96,7 @@ def run_notices(
                 remedy="a shorter run or a longer output step keeps all",
             )
         )
+    notices += _counted_periods(plan)
     if plan.skip >= plan.duration:
         notices.append(
             Notice("nothing-counted", f"settings.skip of {plan.skip:g} s leaves nothing of the run",

@@ -70,6 +70,10 @@ def summary_dataset(
             label = "sensitivity_peak" if key == "peak" else key
             values = [getattr(item.sensitivity, key) if item.sensitivity else math.nan for item in runs]
             out[label] = ("run", np.array(values))
+    if rest is not None and names:
+        out["still_place"] = (("point", "axis"), np.asarray(rest))
+    if solids_at_rest is not None and solids:
+        out["still_place_of_solid"] = (("solid", "axis"), np.asarray(solids_at_rest)[:, :3])
     coords: dict[str, Any] = {"run": [item.plan.name for item in runs], "line": lines, "point": names}
     if solids:
         coords["solid"] = solids

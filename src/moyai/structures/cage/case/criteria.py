@@ -27,7 +27,7 @@ CAGE_CODE = "NS 9415"
 class CageCriteria(LineCriteria):
     """What a net cage has to keep."""
 
-    least_volume_left: Share = Field(default=None, description="Share of the volume at rest that is left" + OFF + ".")
+    least_volume_left: Share = Field(default=None, description="Share of the volume as built that is left" + OFF + ".")
     greatest_offset: GreatestLength = Field(default=None, description="Largest offset from rest" + OFF + ".")
     greatest_drag: GreatestTension = Field(default=None, description="Largest drag of the cage" + OFF + ".")
     greatest_net_tension: GreatestNetTension = Field(

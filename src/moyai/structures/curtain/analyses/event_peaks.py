@@ -63,11 +63,13 @@ class EventPeak:
     finer_is_more: bool = False
     #: Of both meshes with the same realisations, the coarser first; empty with one mesh.
     means: tuple[float, ...] = ()
+    #: Whether it is of one realisation of a random sea.
+    alone: bool = False
 
     @property
     def at_least(self) -> bool:
-        """Whether cells that are smaller still would give more: the value is a bound from below."""
-        return self.change > MESH_CHANGE and self.finer_is_more
+        """Whether smaller cells or other realisations would give more: the value is a bound from below."""
+        return self.alone or (self.change > MESH_CHANGE and self.finer_is_more)
 
 
 def event_peak(samples: Sequence[Sample], event: str, component: str) -> EventPeak | None:
@@ -88,7 +90,7 @@ def event_peak(samples: Sequence[Sample], event: str, component: str) -> EventPe
     every, own = _peaks(mine, component), _peaks(by_mesh[counting], component)
     found = EventPeak(
         mean[counting], float(every.min()), float(every.max()), mean[counting] + reach_of_mean(own),
-        by_mesh[counting][0].run,
+        by_mesh[counting][0].run, alone=own.size == 1 and by_mesh[counting][0].seed != 0,
     )  # fmt: skip
     if len(meshes) < 2:
         return found
@@ -99,7 +101,7 @@ def event_peak(samples: Sequence[Sample], event: str, component: str) -> EventPe
     )
     return EventPeak(
         found.value, found.low, found.high, found.judged, found.run,
-        1.0 - min(first, last) / max(first, last), last > first, (first, last),
+        1.0 - min(first, last) / max(first, last), last > first, (first, last), found.alone,
     )  # fmt: skip
 
 

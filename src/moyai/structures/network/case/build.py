@@ -16,6 +16,7 @@ from moyai.case.headings import heading_of
 from moyai.case.schema_environment import sea_names
 from moyai.core.errors import InputError
 from moyai.coupled.assembly import RodPart, VolumePart
+from moyai.flexible.bed import Ground, plane_ground
 from moyai.flexible.failures import LineFailure
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import BOX, SPHERE, BarType, RopeCurve, SlowStretch
@@ -35,6 +36,8 @@ from moyai.tables.lines import line_type
 
 #: Points of the table of a circular motion per turn.
 _CIRCLE_POINTS = 400
+#: How far a plane bed reaches [m].
+_REACH = 1e4
 #: Motions of a body, in the order of its degrees of freedom.
 _MOTIONS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
 
@@ -65,7 +68,7 @@ def build_problem(case: NetworkCase, folder: Path, *, case_text: str = "", case_
         points=tuple(_point(name, point) for name, point in unit.points.items()),
         lines=tuple(_line(name, line, unit.line_types, folder) for name, line in unit.lines.items()),
         nets=tuple(_net(name, net, unit.line_types, folder) for name, net in unit.nets.items()),
-        bed=None if unit.bed is None else model.BedPlan(unit.bed.stiffness, unit.bed.damping, float(unit.bed.friction)),
+        bed=None if unit.bed is None else _bed(unit.bed, water, folder),
         motions={name: motion_of(name, motion, folder) for name, motion in unit.motions.items()},
         environment=Environment(
             water=water,
@@ -92,6 +95,33 @@ def build_problem(case: NetworkCase, folder: Path, *, case_text: str = "", case_
             for item in unit.failures
         ),
     )  # fmt: skip
+
+
+def _bed(given: parts.NetworkBed, water: Water, folder: Path) -> model.BedPlan:
+    """Return the bed, with the grid of its file or the plane of its slope."""
+    ground = None
+    if given.slope is not None:
+        towards = math.radians(given.slope.towards_deg)
+        rise = given.slope.rise * math.cos(towards), given.slope.rise * math.sin(towards)
+        ground = plane_ground(-water.depth, rise, _REACH)
+    elif given.grid is not None:
+        path = "structure.bed.grid.file"
+        if given.grid.form == "seafloor":
+            from moyai.interop.moordyn_rows import read_seafloor_file
+
+            try:
+                rows = np.array(read_seafloor_file(folder / given.grid.file).rows)
+            except InputError as error:
+                raise error.at(path) from None
+        else:
+            rows = read_columns(folder, given.grid.file, 3, path) * [1.0, 1.0, -1.0]
+        try:
+            ground = Ground.of_rows(rows)
+        except InputError as error:
+            raise InputError(
+                f"{given.grid.file}: {error.fault.message}", path=path, allowed=error.fault.allowed
+            ) from None
+    return model.BedPlan(given.stiffness, given.damping, float(given.friction), ground)
 
 
 def _current_field(case: NetworkCase, folder: Path) -> CurrentField | None:

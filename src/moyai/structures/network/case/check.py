@@ -25,6 +25,7 @@ from moyai.structures.network.case.schema import NetworkCase
 
 if TYPE_CHECKING:
     from moyai.flexible.motion import Motion
+    from moyai.flexible.network import Network
     from moyai.structures.network.model import NetworkProblem
 
 #: Nodes with which a case still answers in a sitting, and rows of results that a run may reasonably have.
@@ -315,16 +316,20 @@ def _check_runs(problem: NetworkProblem, findings: Findings) -> None:
 
 def _check_depth(problem: NetworkProblem, level: float, motions: Mapping[str, Motion], findings: Findings) -> None:
     """Refuse motions that drive a point under the bed."""
+    import numpy as np
+
     from moyai.structures.network.assembly import assemble
 
     network = assemble(problem, level).network
-    bed = -problem.environment.water_at(level).depth
+    flat = -problem.environment.water_at(level).depth
     for point in problem.points:
         if point.kind != "driven" or not point.motion:
             continue
-        lowest = float(network.nodes.position[network.points[point.name], 2])
-        lowest += float(motions[point.motion].displacement[:, 2].min())
-        if lowest < bed * (1.0 + 1e-9):
+        path = network.nodes.position[network.points[point.name]] + motions[point.motion].displacement
+        levels = np.full(len(path), flat) if network.bed is None else network.bed.level_at(path)
+        worst = int(np.argmin(path[:, 2] - levels))
+        lowest, bed = float(path[worst, 2]), float(levels[worst])
+        if lowest < bed - (1e-9 * abs(bed) if network.bed is None else network.bed.tolerance):
             findings.fault(
                 ("structure", "points", point.name, "motion"),
                 f"the motion '{point.motion}' drives '{point.name}' down to z = {lowest:.4g} m above still water",
@@ -352,6 +357,8 @@ def _check_places(model: NetworkCase, problem: NetworkProblem, findings: Finding
                 f"its ends stand {distance:.4g} m apart, {100 * strain:.0f} % more than its length",
                 remedy="check the length and the places of its points",
             )  # fmt: skip
+    if network.bed is not None and network.bed.ground is not None:
+        _check_ground(network, problem.environment.water_at(level).depth, findings)
     if problem.bed is None and math.isfinite(problem.environment.water.depth):
         free = network.nodes.kind == FREE
         lowest = float(network.nodes.position[free, 2].min()) if free.any() else 0.0
@@ -360,6 +367,38 @@ def _check_places(model: NetworkCase, problem: NetworkProblem, findings: Finding
                           remedy="give structure.bed")  # fmt: skip
     if len(network.nodes) > _MANY_NODES:
         findings.warn(("structure",), f"{len(network.nodes)} nodes take long")
+
+
+def _check_ground(network: Network, depth: float, findings: Findings) -> None:
+    """Warn of points beyond the grid of the bed, and of a bed deeper than the water of waves and current."""
+    bed = network.bed
+    assert bed is not None and bed.ground is not None
+    levels = bed.level_at(network.nodes.position)
+    for name, node in network.points.items():
+        height = float(network.nodes.position[node, 2])
+        if height < levels[node] - bed.tolerance:
+            findings.fault(
+                ("structure",), f"'{name}' starts at z = {height:.4g} m above still water, under the bed",
+                allowed=f"at least {levels[node]:.4g} m", remedy="raise it, or correct the depths of the bed",
+            )  # fmt: skip
+    beyond = bed.ground.beyond(network.nodes.position)
+    if beyond.any():
+        named = [name for name, node in network.points.items() if beyond[node]]
+        one = named[0] if named else network.strands[0].name
+        findings.warn(
+            ("structure", "bed"),
+            f"{int(beyond.sum())} nodes of the network, some of '{one}' among them, stand beyond the grid of the bed, "
+            "which is flat there",
+            remedy="give a grid that covers the network",
+        )
+    lowest = float(levels.min())
+    if lowest < -depth * 1.05:
+        findings.warn(
+            ("site", "water_depth"),
+            f"under the network the bed lies down to {-lowest:.4g} m below still water; waves and current are those of "
+            f"{depth:.4g} m",
+            remedy="give the greatest depth under the network",
+        )  # fmt: skip
 
 
 def _check_steps(problem: NetworkProblem, level: float, longest: float, findings: Findings) -> None:

@@ -445,9 +445,35 @@ class NetworkSheet(Block):
     z_from: ZFrom = Field(default="datum", description="datum, or still_water. Default: datum.")
 
 
+class BedGrid(Block):
+    """Depths on a rectangular grid."""
+
+    file: FileName = Field(
+        description="Text file of x, y [m] and depth below datum [m], one row a crossing of the grid lines in any "
+        "order, comma, semicolon, tab or blank separated; a heading is allowed. Bilinear between the lines, flat "
+        "beyond the outer ones."
+    )
+    form: Literal["depths", "seafloor"] = Field(
+        default="depths",
+        description="depths: rows of x, y, depth; seafloor: the grid file of MoorDyn, whose rows are x, y and height "
+        "above still water. Default: depths.",
+    )
+
+
+class BedSlope(Block):
+    """A plane bed, as deep as site.water_depth at x = y = 0."""
+
+    rise: PositiveNumber = Field(description="Rise over run.", examples=[0.05])
+    towards_deg: Heading = Field(description="Direction in which it rises.", examples=[180])
+
+
 class NetworkBed(Block):
     """The bed that carries lines."""
+
+    at_most_one: ClassVar[KeyGroups] = (("grid", "slope"),)
 
     stiffness: BedStiffness = Field(description="Spring per contact area; a line of diameter d sinks w/(k d).")
     damping: BedDamping = Field(description="Dashpot per contact area.")
     friction: PositiveNumber | Literal[0] = Field(default=0, description="Coulomb coefficient. Default: 0.")
+    grid: BedGrid | None = Field(default=None, description="Depths that vary; site.water_depth when left out.")
+    slope: BedSlope | None = Field(default=None, description="A plane that rises; level when left out.")

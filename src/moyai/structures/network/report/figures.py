@@ -98,6 +98,33 @@ def places_figure(level: NetworkLevel, run: Group) -> Figure | None:
     )
 
 
+def bed_figure(level: NetworkLevel) -> Figure | None:
+    """Return the lines at rest over a bed that varies, each along its own way in plan; ``None`` on a flat bed."""
+    rest, lines = level.part("statics"), np.array(texts(level.network, "bar_line"))
+    places, grounds = rest.array("position", "condition", "node", "axis"), rest.real("bed_level", "condition", "node")
+    start, end = level.network.array("bar_start", "bar"), level.network.array("bar_end", "bar")
+    if places is None or grounds is None or start is None or end is None:
+        return None
+    place, ground = places[-1], grounds[-1]
+    names = list(dict.fromkeys(name for name in lines if name))
+    series: list[Series] = []
+    for tone, name in enumerate(names[:MOST_LINES]):
+        own = np.flatnonzero(lines == name)
+        nodes = np.append(start[own], end[own[-1]]).astype(np.int64)
+        way = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(place[nodes, :2], axis=0), axis=1))])
+        series.append(Series(name, {"way": way}, place[nodes, 2], 0, tone))
+        series.append(Series(f"bed under {name}", {"way": way}, ground[nodes], 0, tone, faint=True))
+    left_out = f" The first {MOST_LINES} of {len(names)} lines." if len(names) > MOST_LINES else ""
+    return Figure(
+        slug(level.name, "bed"),
+        f"The bed under the lines at rest in {rest.labels('condition')[-1]}",
+        (Abscissa("way", "way in plan from the start of the line", "m"),),
+        (Panel("height above still water", "m"),),
+        tuple(series),
+        f"Each line along its own way in plan, its bed pale.{left_out}",
+    )
+
+
 def exceedance_figure(level: NetworkLevel, run: Group) -> Figure | None:
     """Return how many of the snaps of a line reach how high."""
     contacts = run.child("contacts")

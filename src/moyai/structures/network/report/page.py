@@ -125,4 +125,4 @@ def _of_runs(level: NetworkLevel, governing: Governing | None) -> Sequence[Block
 
 
 def _at_rest(level: NetworkLevel) -> Sequence[Block | None]:
-    return (rest_animation(level), *tables.rest_tables(level))
+    return (rest_animation(level), figures.bed_figure(level), *tables.rest_tables(level))

@@ -1,0 +1,169 @@
+"""Polyester ropes of decks whose static curve depends on the highest mean tension that they have borne (Syrope).
+
+A new rope follows its original curve. One that has borne a mean tension ``highest`` has stretched for good: up to that
+tension it follows a working curve that begins at the strain left without tension, beyond it the original one. Only the
+curves at rest are taken; quick changes, which are stiffer (alpha + beta T), are not run.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+
+from moyai.core.errors import InputError
+from moyai.interop.moordyn_deck import DeckLine, DeckLineType
+from moyai.interop.moordyn_records import DeckSyrope, StiffnessTable
+from moyai.interop.moordyn_rows import Faults, Row
+from moyai.interop.textfiles import parse_number, read_lines
+
+#: Pieces of a working curve.
+PIECES = 50
+#: Tension at the strain that is left without tension, over the highest one: rope curves rise everywhere.
+_TRACE = 1e-6
+Form = Literal["LINEAR", "QUADRATIC", "EXP"]
+FORMS: tuple[Form, ...] = ("LINEAR", "QUADRATIC", "EXP")
+
+
+def working_curve(original: StiffnessTable, form: Form, k1: float, k2: float, highest: float) -> StiffnessTable:
+    """Return the curve at rest of a rope that has borne a mean tension.
+
+    Parameters
+    ----------
+    original : StiffnessTable
+        Of the new rope.
+    form : {"LINEAR", "QUADRATIC", "EXP"}
+        Shape of the working curve.
+    k1 : float
+        Strain left without tension over the strain at the highest tension [-]; above 1 the stiffness of a linear
+        working curve [N].
+    k2 : float
+        Of the shape [-]: 1 for the parabola, the exponent of the exponential; without meaning for a line.
+    highest : float
+        Highest mean tension so far [N]; 0 for a new rope.
+
+    Raises
+    ------
+    InputError
+        For tensions beyond the original curve, and parameters out of their range.
+
+    Examples
+    --------
+    >>> new = StiffnessTable((0.0, 0.04), (0.0, 4e5), "owc.dat")
+    >>> worn = working_curve(new, "QUADRATIC", 0.25, 1.0, 2e5)
+    >>> float(np.interp(0.0125, worn.strain, worn.tension))       # half way from 0.005 to 0.02 [N]
+    50000.0
+    """
+    strain, tension = np.array(original.strain), np.array(original.tension)
+    if highest == 0.0:
+        return original
+    if not 0.0 < highest <= tension[-1]:
+        raise InputError(
+            f"a highest mean tension of {highest:g} N", path="Tmax0", allowed=f"0 to {tension[-1]:g} N, the curve"
+        )
+    top = float(np.interp(highest, tension, strain))
+    left = top - highest / k1 if form == "LINEAR" and k1 >= 1.0 else k1 * top
+    ok = 0.0 <= left < top and (form == "LINEAR" or k1 < 1.0)
+    if form == "QUADRATIC" and k2 != 1.0:
+        raise InputError(f"QUADRATIC with k2 = {k2:g}", path="k2", allowed="1: the parabola")
+    if not ok or (form == "EXP" and not 1e-6 <= k2 <= 700.0):
+        raise InputError(f"{form} with k1 = {k1:g} and k2 = {k2:g}", path="k1", allowed="0 to 1 of the strain")
+    part = np.linspace(0.0, 1.0, PIECES + 1)
+    shape = {
+        "LINEAR": lambda x: x, "QUADRATIC": lambda x: x**2, "EXP": lambda x: np.expm1(k2 * x) / math.expm1(k2)
+    }[form](part)  # fmt: skip
+    own = np.maximum(highest * shape, highest * _TRACE)
+    beyond = tension > highest
+    place = np.concatenate([[0.0] if left > 0.0 else [], left + (top - left) * part, strain[beyond]])
+    pull = np.concatenate([[0.0] if left > 0.0 else [], own, tension[beyond]])
+    if left == 0.0:
+        pull[0] = 0.0
+    return StiffnessTable(tuple(place.tolist()), tuple(pull.tolist()), original.file)
+
+
+def read_syrope(row: Row, folder: Path, faults: Faults) -> tuple[float | StiffnessTable, DeckSyrope | None]:
+    """Return the original curve and the rest of ``SYROPE:file|alpha|beta`` with BA_s|BA_d."""
+    text = row.cells.get("stiffness", "")
+    name, *numbers = text.split(":", 1)[-1].strip('"').split("|")
+    damping = [parse_number(part) for part in row.cells.get("damping", "").split("|")]
+    values = [value for word in numbers if (value := parse_number(word)) is not None and value > 0.0]
+    dashpots = [value for value in damping if value is not None and value >= 0.0]
+    if len(numbers) != 2 or len(values) != 2 or len(damping) != 2 or len(dashpots) != 2:
+        faults.add(
+            row.line, f"stiffness {text!r} with damping {row.cells.get('damping', '')!r}",
+            "SYROPE:file|alpha|beta with BA_s|BA_d", path="stiffness",
+        )  # fmt: skip
+        return math.nan, None
+    try:
+        said = _settings(folder / name)
+        original = _table(folder / name, said["OWC"])
+        form = next((word for word in FORMS if word == said["WCTYPE"].upper()), None)
+        if form is None:
+            raise InputError(f"WCType {said['WCTYPE']!r} of {name}", path="WCType", allowed=", ".join(FORMS))
+        k1, k2 = (parse_number(said[key]) for key in ("K1", "K2"))
+        if k1 is None or k2 is None:
+            raise InputError(f"k1 and k2 of {name} are no numbers", path="k1", allowed="two numbers")
+        law = DeckSyrope(form, k1, k2, values[0], values[1], dashpots[0])
+        working_curve(original, form, k1, k2, 0.5 * original.tension[-1])
+    except InputError as error:
+        faults.add(row.line, error.fault.message, error.fault.allowed, path="stiffness")
+        return math.nan, None
+    return original, law
+
+
+def _settings(place: Path) -> dict[str, str]:
+    if not place.is_file():
+        raise InputError(f"there is no file {place.name} next to the deck", path="stiffness")
+    rows = [line.split() for line in read_lines(place)]
+    found = {words[1].upper(): words[0].strip("\"'") for words in rows if len(words) > 1}
+    missing = [key for key in ("OWC", "WCType", "k1", "k2") if key.upper() not in found]
+    if missing:
+        raise InputError(f"{place.name} has no row {', '.join(missing)}", path="stiffness")
+    return found
+
+
+def _table(settings: Path, name: str) -> StiffnessTable:
+    place = settings.parent / name
+    if not place.is_file():
+        raise InputError(f"there is no file {name} next to {settings.name}", path="OWC")
+    rows = [[parse_number(word) for word in line.split()] for line in read_lines(place)]
+    known = [row[:2] for row in rows if len(row) > 1 and None not in row[:2]]
+    pairs = np.array(known, dtype=float)
+    if len(pairs) < 2 or pairs[0].any() or not np.all(np.diff(pairs, axis=0) > 0.0):
+        raise InputError(f"{name}: strain and tension do not rise from 0 and 0", path="OWC")
+    return StiffnessTable(tuple(pairs[:, 0].tolist()), tuple(pairs[:, 1].tolist()), name)
+
+
+def with_history(
+    kinds: tuple[DeckLineType, ...], lines: tuple[DeckLine, ...], rows: Sequence[Row], faults: Faults
+) -> tuple[tuple[DeckLineType, ...], tuple[DeckLine, ...]]:
+    """Return line types and lines with the curves of what each line has borne, by the rows of SYROPE IC.
+
+    A line whose history differs from that of a new rope gets a line type of its own.
+    """
+    found, out = {kind.name: kind for kind in kinds}, {line.number: line for line in lines}
+    for row in rows:
+        highest, mean = faults.number(row, "highest", above=0.0), faults.number(row, "mean", least=0.0)
+        if mean > highest:
+            faults.add(row.line, f"Tmean0 of {mean:g} N", f"at most Tmax0, {highest:g} N", path="syrope ic")
+        for word in row.cells.get("lines", "").split(","):
+            number = parse_number(word)
+            line = None if number is None else out.get(int(number))
+            kind = None if line is None else found.get(line.line_type)
+            if line is None or kind is None or kind.syrope is None:
+                faults.add(row.line, f"line {word!r} is none of a Syrope rope", path="syrope ic")
+                continue
+            name, law = f"{kind.name} after {highest:g} N", kind.syrope
+            try:
+                assert isinstance(kind.stiffness, StiffnessTable)
+                curve = working_curve(kind.stiffness, law.form, law.k1, law.k2, highest)
+            except InputError as error:
+                faults.add(row.line, error.fault.message, error.fault.allowed, path="syrope ic")
+                continue
+            found[name] = replace(kind, name=name, stiffness=curve, syrope=replace(law, highest=highest, mean=mean))
+            out[line.number] = replace(line, line_type=name)
+    return tuple(found.values()), tuple(out.values())

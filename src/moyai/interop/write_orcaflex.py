@@ -1,0 +1,189 @@
+"""Text data files of OrcaFlex (YAML): lines of a deck with their water.
+
+Written for a peer check by those who have OrcaFlex; no OrcaFlex has read these files, and their first lines say so.
+Names of objects and data are those of public text data files. Units are OrcaFlex's SI: te, kN, m, s, degrees; z is up
+from still water.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from moyai.core.errors import InputError
+from moyai.interop.moordyn_deck import DeckLine, DeckLineType, DeckPoint, MoorDynDeck
+
+_HEAD = """%YAML 1.1
+# Type: Model
+# Written by moyai. Unverified: no OrcaFlex has read this file. Look at units, phases and ends before use.
+---
+"""
+_ENDS = (
+    "Connection, ConnectionX, ConnectionY, ConnectionZ, ConnectionAzimuth, ConnectionDeclination, ConnectionGamma, "
+    "ConnectionReleaseStage, ConnectionzRelativeTo"
+)
+_SECTIONS = "LineType, Length, TargetSegmentLength"
+_CURRENT = "CurrentDepth, CurrentFactor, CurrentRotation"
+#: kg, N over te, kN.
+_THOUSAND = 1e3
+
+
+def orcaflex_text(deck: MoorDynDeck) -> tuple[str, tuple[str, ...]]:
+    """Return the text data file of a deck's lines with their water, and what it leaves out.
+
+    Points without mass, volume and drag between two lines become borders of sections. Ends that something else moves
+    are fixed where they are.
+
+    Parameters
+    ----------
+    deck : MoorDynDeck
+
+    Raises
+    ------
+    InputError
+        For bodies and rods, free points that are more than a border, stretch by a table, or a deck without a depth.
+    """
+    depth = deck.depth
+    if depth is None or not math.isfinite(depth):
+        raise InputError("a text data file of OrcaFlex needs a water depth", path="WtrDpth", remedy="give --depth")
+    if deck.bodies or deck.rods:
+        raise InputError("bodies and rods are not written for OrcaFlex", path="bodies", allowed="lines and points")
+    strands = _strands(deck)
+    used = {line.line_type for strand in strands for line in strand}
+    model: dict[str, Any] = {
+        "General": {"UnitsSystem": "SI"},
+        "Environment": {"WaterDepth": depth, "Density": (deck.number("WtrDnsty") or 1025.0) / _THOUSAND},
+        "LineTypes": [_line_type(kind) for kind in deck.line_types if kind.name in used],
+        "Lines": [_line(deck, strand) for strand in strands],
+    }
+    notes = [
+        "no OrcaFlex has read this file: look at units, phases and ends before use",
+        *_sea(deck, depth, model["Environment"]),
+    ]
+    moved = sorted({f"{point.number}" for point in _ends(deck, strands) if point.kind == "coupled"})
+    if deck.seafloor is not None and deck.seafloor_depth is None:
+        notes.append("the bed that varies is left out: it is flat at the depth of the deck")
+    if moved:
+        notes.append(f"points {', '.join(moved)} are fixed where they are: connect them to your vessel")
+    return _text(model), tuple(notes)
+
+
+def _text(model: dict[str, Any]) -> str:
+    import yaml
+
+    return _HEAD + yaml.safe_dump(model, sort_keys=False, default_flow_style=None, width=10_000, allow_unicode=True)
+
+
+def _line_type(kind: DeckLineType) -> dict[str, Any]:
+    if not isinstance(kind.stiffness, float | int) or kind.slow is not None:
+        raise InputError(
+            f"line type '{kind.name}' stretches by a table or slowly", path="line_types", allowed="one stiffness EA"
+        )
+    return {
+        "Name": kind.name,
+        "Category": "General",
+        "OD": kind.diameter,
+        "ID": 0.0,
+        "MassPerUnitLength": kind.mass_per_length / _THOUSAND,
+        "EA": kind.stiffness / _THOUSAND,
+        "EI": kind.bending_stiffness / _THOUSAND,
+        "NormalDragCoefficient": kind.drag_normal,
+        "AxialDragCoefficient": kind.drag_axial,
+        "NormalAddedMassCoefficient": kind.added_mass_normal,
+        "AxialAddedMassCoefficient": kind.added_mass_axial,
+    }
+
+
+def _strands(deck: MoorDynDeck) -> list[list[DeckLine]]:
+    """Return the lines joined over free points that are borders alone, each from one held end to the other."""
+    at: dict[int | str, list[DeckLine]] = {}
+    for line in deck.lines:
+        for end in (line.start, line.end):
+            at.setdefault(end, []).append(line)
+    free = {point.number for point in deck.points if point.kind == "free" and point.number in at}
+    for point in deck.points:
+        plain = not (point.mass or point.volume or point.drag_area)
+        if point.number in free and not (plain and len(at[point.number]) == 2):
+            raise InputError(
+                f"free point {point.number} carries mass, volume or drag, or does not join two lines",
+                path="points", allowed="free points that join two lines",
+                remedy="add it in OrcaFlex as a 3D buoy, or give its weight to the lines",
+            )  # fmt: skip
+    found, done = [], set()
+    for line in deck.lines:
+        start = next((end for end in (line.start, line.end) if end not in free), None)
+        if line.number in done or start is None:
+            continue
+        strand, here = [], start
+        step: DeckLine | None = line
+        while step is not None and step.number not in done:
+            done.add(step.number)
+            strand.append(step)
+            here = step.end if step.start == here else step.start
+            step = next((other for other in at[here] if other.number not in done), None) if here in free else None
+        found.append(strand)
+    return found
+
+
+def _end_points(deck: MoorDynDeck, strand: list[DeckLine]) -> tuple[DeckPoint, DeckPoint]:
+    first, last = strand[0], strand[-1]
+    inner = {first.start, first.end} & {strand[1].start, strand[1].end} if len(strand) > 1 else {first.end}
+    begin = first.end if first.start in inner else first.start
+    here = begin
+    for line in strand:
+        here = line.end if line.start == here else line.start
+    assert here in (last.start, last.end)
+    return deck.point(int(begin)), deck.point(int(here))
+
+
+def _ends(deck: MoorDynDeck, strands: list[list[DeckLine]]) -> list[DeckPoint]:
+    return [point for strand in strands for point in _end_points(deck, strand)]
+
+
+def _line(deck: MoorDynDeck, strand: list[DeckLine]) -> dict[str, Any]:
+    begin, end = _end_points(deck, strand)
+    return {
+        "Name": f"Line{strand[0].number}",
+        "TopEnd": "End A" if begin.position[2] > end.position[2] else "End B",
+        _ENDS: [["Fixed", *map(float, point.position), 0.0, 0.0, 0.0, None, None] for point in (begin, end)],
+        _SECTIONS: [[line.line_type, line.length, line.length / line.segments] for line in strand],
+    }
+
+
+def _sea(deck: MoorDynDeck, depth: float, environment: dict[str, Any]) -> list[str]:
+    """Add a current and one regular wave to the environment; return what is left out."""
+    notes = []
+    if deck.current is not None:
+        velocity = np.asarray(deck.current.velocity)[:, :2]
+        speed = np.hypot(velocity[:, 0], velocity[:, 1])
+        top = int(np.argmax(speed))
+        if speed[top] > 0.0:
+            heading = math.degrees(math.atan2(velocity[top, 1], velocity[top, 0]))
+            turned = np.degrees(np.arctan2(velocity[:, 1], velocity[:, 0])) - heading
+            rows = [
+                [-float(z), float(part / speed[top]), float(turn if part > 0.0 else 0.0)]
+                for z, part, turn in zip(deck.current.z, speed, turned, strict=True)
+            ]
+            environment["RefCurrentSpeed"], environment["RefCurrentDirection"] = float(speed[top]), heading
+            environment[_CURRENT] = sorted(row for row in rows if -1e-9 <= row[0] <= depth * (1.0 + 1e-9))
+    if deck.current_field is not None:
+        notes.append("the current that changes over place and time is left out")
+    if deck.waves is not None:
+        amplitude = np.hypot(deck.waves.real, deck.waves.imaginary)
+        moving = np.flatnonzero(amplitude > 0.0)
+        if moving.size == 1:
+            only = int(moving[0])
+            environment["WaveTrains"] = [
+                {
+                    "Name": "Wave1",
+                    "WaveType": "Airy",
+                    "WaveDirection": math.degrees(deck.waves.direction[only]),
+                    "WaveHeight": 2.0 * float(amplitude[only]),
+                    "WavePeriod": 2.0 * math.pi / deck.waves.omega[only],
+                }
+            ]
+        elif moving.size:
+            notes.append("waves of several components are left out: give the sea in OrcaFlex")
+    return notes
