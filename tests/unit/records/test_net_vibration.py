@@ -159,3 +159,11 @@ def test_degrees_of_freedom_of_a_mean_with_correlated_errors(memory: float) -> N
     assert freedom * tau / count == pytest.approx(1.0 / 8.0, rel=0.05)
     # the variance of the mean is that of white noise over (1 - memory)^2
     assert covariance[0, 0] * count * (1.0 - memory) ** 2 == pytest.approx(1.0, rel=0.06)
+
+
+def test_errors_that_turn_their_sign_count_as_independent_ones() -> None:
+    """Their time falls below a half, that of white noise, which stands in its place: three samples are followed."""
+    count = 50_000
+    noise = lfilter([1.0], [1.0, 0.3], np.random.default_rng(2).standard_normal(count))
+    _, freedom = correlated_covariance(np.full((1, count), 1.0 / count), noise - noise.mean(), 1.0)
+    assert freedom == pytest.approx(1.5 * count / 6.0, rel=1e-12)
