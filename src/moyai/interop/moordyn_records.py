@@ -37,6 +37,7 @@ class DeckSlowStretch:
     growth: float = 0.0
 
 
+@checks_words
 @dataclass(frozen=True)
 class DeckSyrope:
     """What a polyester rope has besides its curve: shape of its working curves, quick stiffness, history."""

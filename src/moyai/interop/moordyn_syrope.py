@@ -16,6 +16,7 @@ from typing import Literal
 import numpy as np
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.interop.moordyn_deck import DeckLine, DeckLineType
 from moyai.interop.moordyn_records import DeckSyrope, StiffnessTable
 from moyai.interop.moordyn_rows import Faults, Row
@@ -29,6 +30,7 @@ Form = Literal["LINEAR", "QUADRATIC", "EXP"]
 FORMS: tuple[Form, ...] = ("LINEAR", "QUADRATIC", "EXP")
 
 
+@checks_words
 def working_curve(original: StiffnessTable, form: Form, k1: float, k2: float, highest: float) -> StiffnessTable:
     """Return the curve at rest of a rope that has borne a mean tension.
 
