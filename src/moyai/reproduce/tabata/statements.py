@@ -320,9 +320,8 @@ def _guesses(runs: Runs) -> Iterator[FilledInput]:
     """Yield how far the most used part moves with each guessed value of the span in the typhoon, one realisation."""
     share, part = _most_used(runs, runs.typhoon["890 kN"][:1])
     taken = f" (taken: {100.0 * share:.0f} %, {part})"
-    each = runs.typhoon["890 kN"][0].shares(runs.case.curtain.strengths)
     yield FilledInput("strengths of anchor, rope, wire and sheet", "those of the case file", "half of them",
-                      ", ".join(f"{name} {200.0 * share:.0f} %" for name, share in each.items()) + taken)  # fmt: skip
+                      f"{200.0 * share:.0f} %, {part}{taken}")  # fmt: skip
     for words, pulls in runs.guessed.items():
         share, part = _most_used(runs, [pulls])
         yield FilledInput("span in the typhoon, rope of 890 kN", _TAKEN, words, f"{100.0 * share:.0f} %, {part}{taken}")

@@ -51,12 +51,12 @@ def _skirt_in_current(
 ) -> Callable[[float], Skirt | None] | None:
     """Return the skirt at any speed of the water along the normal [m/s]; None where its chord is given or not known."""
     known = answer.skirt
-    if known is None or settings.impact.chord is not None:
+    if known is None or settings.impact.chord is not None or not unit.normal_speed > 0.0:
         return None
 
     @cache
     def chord(step: int) -> float:
-        there = replace(unit, surface_speed=math.exp(step * _STEP) / unit.unit_normal_speed)
+        there = replace(unit, surface_speed=unit.surface_speed * math.exp(step * _STEP))
         try:
             found = bulging_skirt(there, settings.impact)
         except (InputError, ConvergenceError):
@@ -67,7 +67,8 @@ def _skirt_in_current(
         )  # fmt: skip
 
     def at(speed: float) -> Skirt:
-        place = math.log(speed) / _STEP
+        # counted from the current of the case: a model in another size finds the same
+        place = math.log(speed / unit.normal_speed) / _STEP
         below = math.floor(place)
         share = place - below
         return replace(known, chord=(1.0 - share) * chord(below) + share * chord(below + 1))
