@@ -462,8 +462,8 @@ def test_a_weaker_current_asks_no_more_of_the_sheet(tmp_path):
     used = [sheet(speed) for speed in (0.05, 0.1, 0.15, 0.2)]
     # weaker currents are looked at in steps of a tenth, over which the load hardly changes near its highest
     assert all(later > 0.985 * earlier for earlier, later in pairwise(used))
-    # 1 m of curtain by hand at 0.2 m/s: half the load line on an arc that stretches, 4.8 kN/m of 30; the judged end adds
-    # the steady part, the range of the start speed and what a weaker current brings
+    # 1 m of curtain by hand at 0.2 m/s: half the load line on an arc that stretches, 4.8 kN/m of 30; the judged end
+    # adds the steady part, the range of the start speed and what a weaker current brings
     assert used[-1] == pytest.approx(4.8e3 / 30e3, rel=0.15)
 
 
