@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from moyai.core.headline import Band, Headline, governing, unfavourable
-from moyai.series.realisations import ALONE, alone, seeds
+from moyai.series.realisations import ALONE, alone, seeds, storms
 from moyai.structures.breakwater.largest_motion import LargestOfPeriods
 from moyai.structures.breakwater.lines.headlines import (
     AT_REST,
@@ -237,6 +237,7 @@ def _offset(domain: str, data: xr.Dataset, level: str, sea: str, frequency: xr.D
         detail += "; ".join(filter(None, (ALONE if bound else "", _motion_words(data), _slow_words(frequency))))
     elif "largest_offset" in data:
         value = float(data["largest_offset"])
+        band = storms(value, abs(float(mean[0])), _peak_factor(data, 0))
         detail = _slow_words(data)
     else:
         return []
@@ -246,6 +247,14 @@ def _offset(domain: str, data: xr.Dataset, level: str, sea: str, frequency: xr.D
     return [
         Headline("offset", "Largest offset in sway", value, "m", place(level, sea), model, band, bound, detail=words)
     ]
+
+
+def _peak_factor(data: xr.Dataset, mode: int) -> float:
+    """Return the most probable largest motion over its standard deviation; NaN in time, where it is not known."""
+    if "most_probable_maximum_motion" not in data:
+        return math.nan
+    deviation = 0.25 * float(data["significant_motion"].values[mode])
+    return float(data["most_probable_maximum_motion"].values[mode]) / deviation if deviation > 0.0 else math.nan
 
 
 def _in_motion(data: xr.Dataset) -> float:
@@ -292,7 +301,7 @@ def _roll(domain: str, data: xr.Dataset, level: str, sea: str, frequency: xr.Dat
     value, significant = float(data[name].values[2]), float(data["significant_motion"].values[2])
     each = f"{name}_of_realisation"
     scatter = np.asarray(data[each].values[:, 2], dtype=float) if each in data else np.zeros(0)
-    band = seeds(scatter)
+    band = seeds(scatter) if scatter.size else storms(value, 0.0, _peak_factor(data, 2))
     if frequency is not None and "significant_motion_low" in frequency:
         # the frequency domain tells by how much damping moves roll; the time domain is run at its nominal value
         own = float(frequency["significant_motion"].values[2])
