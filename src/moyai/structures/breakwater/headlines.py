@@ -43,6 +43,7 @@ if TYPE_CHECKING:
 
 STEADY = "wind and current at rest, mean drift of the frequency domain"
 DAMPING_ALONE = "the band of damping alone, without waves round the ends or over the deck"
+ONE_DAMPING = "one damping without a band, without waves round the ends or over the deck"
 MUCH_OVERTOPPING = 0.05  # share of waves over the deck from which linear transmission is qualified
 
 
@@ -118,10 +119,11 @@ def _passed(groups: Mapping[str, xr.Dataset], level: str, sea: str) -> Iterator[
     period, at = (float(data["period"].values[row]), row) if regular else (math.nan, None)
     time: Mapping[Any, Any] = {} if regular else groups.get(f"/{level}/time/{sea}", {})
     in_time = float(time["transmission_coefficient"]) if "transmission_coefficient" in time else math.nan
+    band = _damping_band(data, at)
+    ground = DAMPING_ALONE if band is not None and band.high > band.low else ONE_DAMPING
     item = Headline(
         "transmission", "Wave transmission K_T of a long structure", float(values[row]), "1",
-        place(level, sea, period), FIRST_ORDER if regular else FREQUENCY, band=_damping_band(data, at),
-        judged_on=DAMPING_ALONE,
+        place(level, sea, period), FIRST_ORDER if regular else FREQUENCY, band=band, judged_on=ground,
     )  # fmt: skip
     yield _Passed(item, sea, not regular, data, at, in_time)
 
