@@ -186,6 +186,14 @@ def _bounded_by(load: _Load) -> str:
     return f"by an upright plate {kilo(bound)}, a bound without its band"
 
 
+def _one(load: _Load, groups: Groups) -> str:
+    """Say that the whole span was asked for, which runs one realisation of an irregular sea."""
+    table = groups.get(f"/{load.level}/dynamic")
+    if load.model != SPAN or load.bound != "at least" or table is None or "run_of" in table:
+        return ""
+    return "one realisation: leave 'dynamic' out of 'analyses' for several"
+
+
 def _tensions(loads: Sequence[_Load], groups: Groups) -> Iterator[Headline]:
     for name, words, components in _LOADS:
         load = max(
@@ -194,7 +202,9 @@ def _tensions(loads: Sequence[_Load], groups: Groups) -> Iterator[Headline]:
         )  # fmt: skip
         if load is None:
             continue
-        detail = "; ".join(part for part in (_at_rest_words(load, groups), _bounded_by(load)) if part)
+        detail = "; ".join(
+            part for part in (_at_rest_words(load, groups), _bounded_by(load), _one(load, groups)) if part
+        )
         label = "Largest tension of a cable" if words == "cable" else "Largest tension of an anchor line"
         yield Headline(
             name, label, load.value, "N",
@@ -325,7 +335,7 @@ def _moving_band(groups: Groups, load: _Load, value: float) -> Band | None:
 
 
 def _mesh_band(table: xr.Dataset, load: _Load, value: float) -> Band | None:
-    """Return the peaks of an event on its two meshes and over the realisations of its sea."""
+    """Return the peaks of an event on its meshes and over the realisations of its sea, with those of other events."""
     event = str(table["run_of"].sel(run=load.words("dynamic_source")).values)
     component = "anchor line" if load.component == "anchor" else load.component
     whole, low, high, judged, count = event_band(table, event, component)
@@ -338,7 +348,8 @@ def _mesh_band(table: xr.Dataset, load: _Load, value: float) -> Band | None:
     factor = value / whole
     low, high = factor * low, max(factor * high, value)
     if count < 2:
-        return Band(low, high, "two meshes, the larger counts; drag at its value")
+        high = max(high, factor * judged)
+        return Band(low, high, "meshes and events, the larger counts; drag at its value")
     of = f"{count} realisations and two meshes; drag at its value; judged at the 95 % end of the larger mean"
     return Band(low, high, of, decides=False, judged=(low, factor * judged))
 
