@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from moyai.core.arrays import Array
-from moyai.core.headline import Band, Bound, Headline, governing
+from moyai.core.headline import Band, Bound, Headline, governing, unfavourable
 from moyai.core.wording import spoken
 from moyai.flexible.sensitivity import PeakSensitivity
 from moyai.series.block_maxima import Maximum, maximum_of
@@ -62,6 +62,9 @@ def headlines_of(problem: NetworkProblem, groups: Mapping[str, xr.Dataset]) -> t
     items: list[Headline] = []
     if peak is not None:
         items += _tension(problem, groups, peak)
+        # a smaller tension with a wider band may pass a limit that the highest one keeps
+        worst = governing(_tension(problem, groups, one)[0] for one in peaks)[1:]
+        items += [item for item in worst if unfavourable(item) > unfavourable(items[0])]
         items += _start_up(groups, peak)
         items += _utilisation(problem, groups, peaks)
     items += _anchor(groups, peaks)
