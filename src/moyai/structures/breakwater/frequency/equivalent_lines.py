@@ -105,19 +105,23 @@ def _balanced(wave: _Wave, offset: Array, motion: ComplexArray, scale: Array) ->
     """
     places: list[Array] = []
     steps: list[Array] = []
+
+    def joined(real: Array, harmonic: ComplexArray) -> Array:
+        return np.concatenate([scale * real, scale * harmonic.real, scale * harmonic.imag])
+
     for _ in range(MOST_TURNS):
         try:
             shift, step, answer = wave.turn(offset, motion)
         except ConvergenceError:
             return None
         size = float(np.max(np.abs(scale * motion)))
-        asked = np.concatenate([scale * shift, scale * step.real, scale * step.imag])
+        asked = joined(shift, step)
         if not np.isfinite(asked).all() or not size > 0.0:
             return None
         if float(np.max(np.abs(asked))) <= TOLERANCE * size:
             # the motion under the forces found: the balance of energy is then exact
             return replace(answer, motion=motion + step)
-        places = [np.concatenate([scale * offset, scale * motion.real, scale * motion.imag]), *places][: REMEMBERED + 1]
+        places = [joined(offset, motion), *places][: REMEMBERED + 1]
         steps = [asked, *steps][: REMEMBERED + 1]
         taken = PART * asked
         if len(steps) > 1:
@@ -126,7 +130,8 @@ def _balanced(wave: _Wave, offset: Array, motion: ComplexArray, scale: Array) ->
             taken = taken - (moved + PART * turned) @ share
         taken = taken * min(1.0, LONGEST * size / max(float(np.max(np.abs(taken))), 1e-300))
         there = places[0] + taken
-        offset, motion = there[:3] / scale, (there[3:6] + 1j * there[6:]) / scale
+        offset = there[:3] / scale
+        motion = np.asarray((there[3:6] + 1j * there[6:]) / scale, dtype=np.complex128)
     return None
 
 
@@ -190,8 +195,8 @@ def _unbalanced(omega: list[float]) -> tuple[Notice, ...]:
     return (
         Notice(
             "led-lines",
-            f"no balance with the first harmonic of the line force for {len(omega)} waves, first at {omega[0]:.4g} "
-            "rad/s; their lines keep the tangent",
+            "no balance with the first harmonic of the line force in waves of "
+            f"{', '.join(f'{value:.4g}' for value in omega)} rad/s; their lines keep the tangent",
             value=float(len(omega)),
             severity="warning",
             remedy="take the time domain there: the motion may have several states or strong other harmonics",
