@@ -271,8 +271,8 @@ def _roll_difference(runs: Runs) -> Finding:
     words = (
         f"at most {100 * worst:.0f} % near resonance; restoring of the water {water:.1f} N m, of the chains "
         f"{lines:.2f} N m; over all periods, chains in motion, {100 * tangent.max():.0f} % at T = {longest:.3g} s with "
-        f"their tangent in frequency and at most {100 * led.max():.1f} % with the first harmonic of their force: chains "
-        "harden, of third order in the height"
+        f"their tangent in frequency and at most {100 * led.max():.1f} % with the first harmonic of their force: "
+        "chains harden, of third order in the height"
     )
     return judged(worst < 0.2 and water > 5.0 * lines and led.max() < DOMAINS, words)
 

@@ -39,7 +39,7 @@ SEED = 3
 #: H_1/3 of the typhoon in which the curtain stood [m].
 TYPHOON = 3.06
 CHOSEN = math.radians(50.0)  # directions in which the waves, not the noise of the gauge, set the tension
-#: Stiffness of an anchor rope [N/m]: 890 kN/m as printed, and 890 kN for a strain of one over its 46 m
+#: Stiffness of an anchor rope [N/m]: 890 kN/m as printed, and 890 kN for a strain of one over its 46 m, as in the case
 ROPES = {"890 kN/m": 890e3, "890 kN": 890e3 / 46.0}
 
 
