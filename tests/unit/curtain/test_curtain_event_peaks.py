@@ -118,3 +118,18 @@ def test_a_bound_from_below_proves_no_strength():
     criterion = Criterion("cables", "cable_utilisation", 1.0 / 3.0, "at most", "case file", as_factor=True)
     (item,) = judge(numbers, [criterion], computed=True).judgements
     assert item.outcome == "not judged"
+
+
+def test_a_third_mesh_tells_whether_the_coarsest_counts():
+    """Two finer meshes that lie together leave out a coarse one that is apart; else the largest stays."""
+    finest = (16, 6)
+    resolved = [*storm((18e3, 22e3, 20e3)), *(sample("storm", finest, seed, 19e3) for seed in (1, 2, 3))]
+    peak = event_peak(resolved, "storm", "upper cable")
+    assert peak.value == pytest.approx(20e3) and peak.means == pytest.approx((20e3, 19e3))
+    assert (peak.low, peak.high) == (18e3, 22e3) and peak.change == pytest.approx(0.05)
+    apart = [*storm((18e3, 22e3, 20e3)), *(sample("storm", finest, seed, 35e3) for seed in (1, 2, 3))]
+    peak = event_peak(apart, "storm", "upper cable")
+    assert peak.value == pytest.approx(35e3) and peak.finer_is_more and len(peak.means) == 2
+    known = event_peak([*storm((18e3, 22e3, 20e3)), *(sample("storm", finest, s, 10e3) for s in (1, 2, 3))], "storm",
+                       "upper cable")  # fmt: skip
+    assert known.value == pytest.approx(30e3)

@@ -49,8 +49,8 @@ _NOT_JUDGED = Headline(
     "not_judged", "Not judged", math.nan, "1",
     text="wear and fatigue, one line lost, seams and eyelets, waves in weaker currents",
     detail="ageing, fouling and fatigue of the sheet and its ropes, a curtain with one anchor line lost, stress at "
-    "seams and eyelets, the holding of an anchor in its soil, and waves in currents weaker than that of the case are "
-    "not computed",
+    "seams and eyelets, and the holding of an anchor in its soil are not computed; waves in currents weaker than that "
+    "of the case are computed at half of it alone, where the whole span is run by default",
 )  # fmt: skip
 _MISSING = "'settings.impact.chord' and a skirt that stretches, or 'dynamic' in 'analyses'"
 
