@@ -27,6 +27,7 @@ from moyai.reproduce.tabata.campaign import (
 from moyai.sea.irregular import synthesise
 from moyai.sea.spectra import bretschneider_mitsuyasu, jonswap
 from moyai.sea.states import IrregularSea
+from moyai.structures.curtain.dynamic.model import Mesh
 from moyai.structures.curtain.impact.cable import Impact
 from moyai.structures.curtain.model import CurtainProblem, Strengths
 from moyai.structures.curtain.seas.anchor_energy import FittingRule, calibrate
@@ -138,6 +139,8 @@ def run(quick: bool = False, progress: Progress = silent) -> Runs:
     progress : Progress
     """
     case: CurtainProblem = problem_of("tabata", "kansai")
+    assert case.settings.dynamic is not None
+    case = _meshed(case, replace(case.settings.dynamic.mesh, along=8, down=3))
     seeds = range(1, 2 if quick else 6)
     changes = list(_changes(case))[: 2 if quick else None]
     done, steps = 0, len(ROPES) * len(seeds) + len(changes) + 2
@@ -196,8 +199,25 @@ def _changes(case: CurtainProblem) -> Iterator[tuple[str, CurtainProblem]]:
             f"{word} the stiffness of the sheet",
             span(skirt=replace(curtain.skirt, stiffness=factor * curtain.skirt.stiffness)),
         )
+    mesh = case.settings.dynamic.mesh  # type: ignore[union-attr]
+    assert mesh.cable_viscosity is not None and mesh.skirt_damping_time is not None
+    for factor, word in ((0.5, "half"), (2.0, "twice")):
+        damped = replace(
+            mesh,
+            cable_viscosity=factor * mesh.cable_viscosity,
+            skirt_damping_time=factor * mesh.skirt_damping_time,
+        )
+        yield f"{word} the internal damping of wire and sheet", _meshed(case, damped)
+    yield "12 by 4 cells in place of 8 by 3", _meshed(case, replace(mesh, along=12, down=4))
     for end, value in zip(("lower", "upper"), curtain.drag.range, strict=True):
         yield f"drag at the {end} end of its range", span(drag=curtain.drag.scaled(value))
+
+
+def _meshed(case: CurtainProblem, mesh: Mesh) -> CurtainProblem:
+    """Return the case with its whole span on another mesh."""
+    span = case.settings.dynamic
+    assert span is not None
+    return replace(case, settings=replace(case.settings, dynamic=replace(span, mesh=mesh)))
 
 
 def _in_typhoon(case: CurtainProblem, seed: int, progress: Progress) -> Pulls:
@@ -210,7 +230,7 @@ def _in_typhoon(case: CurtainProblem, seed: int, progress: Progress) -> Pulls:
         settings=replace(
             case.settings,
             analyses=("dynamic",),
-            dynamic=replace(span, mesh=replace(span.mesh, along=8, down=3), sensitivity=False),
+            dynamic=replace(span, sensitivity=False),
         ),
     )
     found = run_problem("curtain", changed, progress).tree["SWL/dynamic"].to_dataset()

@@ -18,7 +18,7 @@ from moyai.structures.curtain.seas.squared_velocity import effective_height, fit
 from moyai.tables import line_type
 
 PLANTED = "planted in a synthetic campaign"
-_TAKEN = "10 % longer than its span, waves at 60 degrees, T_1/3 of 6.75 s, stiffness and drag of the case"
+_TAKEN = "10 % longer than its span, waves at 60 degrees, T_1/3 of 6.75 s, stiffness, damping and drag of the case"
 #: Highest steady and fluctuating tension of an anchor rope of the new type that figure 3 shows [N]
 STEADY, FLUCTUATING = 13.7e3, 14.7e3
 
