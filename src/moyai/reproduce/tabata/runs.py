@@ -135,22 +135,22 @@ def run(quick: bool = False, progress: Progress = silent) -> Runs:
     Parameters
     ----------
     quick : bool
-        A shorter campaign, and one realisation of the typhoon in place of five.
+        A shorter campaign, and one realisation of the typhoon in place of five, and no guessed value changed.
     progress : Progress
     """
     case: CurtainProblem = problem_of("tabata", "kansai")
     assert case.settings.dynamic is not None
     case = _meshed(case, replace(case.settings.dynamic.mesh, along=8, down=3))
-    seeds = range(1, 2 if quick else 6)
-    changes = list(_changes(case))[: 2 if quick else None]
-    done, steps = 0, len(ROPES) * len(seeds) + len(changes) + 2
+    seeds = {"890 kN": range(1, 2 if quick else 6), "890 kN/m": range(1, 2)}
+    changes = [] if quick else list(_changes(case))
+    done, steps = 0, sum(map(len, seeds.values())) + len(changes) + 2
     progress("parts of the paper", done, steps)
     data = campaign(SEED, 40 if quick else 120)
     new, conventional = process(data), process(data, conventional=True)
     typhoon = {}
     for name, stiffness in ROPES.items():
         found = []
-        for seed in seeds:
+        for seed in seeds[name]:
             done += 1
             progress("parts of the paper", done, steps)
             found.append(_in_typhoon(_with_rope(case, stiffness), seed, progress))
@@ -201,14 +201,8 @@ def _changes(case: CurtainProblem) -> Iterator[tuple[str, CurtainProblem]]:
         )
     mesh = case.settings.dynamic.mesh  # type: ignore[union-attr]
     assert mesh.cable_viscosity is not None and mesh.skirt_damping_time is not None
-    for factor, word in ((0.5, "half"), (2.0, "twice")):
-        damped = replace(
-            mesh,
-            cable_viscosity=factor * mesh.cable_viscosity,
-            skirt_damping_time=factor * mesh.skirt_damping_time,
-        )
-        yield f"{word} the internal damping of wire and sheet", _meshed(case, damped)
-    yield "12 by 4 cells in place of 8 by 3", _meshed(case, replace(mesh, along=12, down=4))
+    damped = replace(mesh, cable_viscosity=0.5 * mesh.cable_viscosity, skirt_damping_time=0.5 * mesh.skirt_damping_time)
+    yield "half the internal damping of wire and sheet", _meshed(case, damped)
     for end, value in zip(("lower", "upper"), curtain.drag.range, strict=True):
         yield f"drag at the {end} end of its range", span(drag=curtain.drag.scaled(value))
 
