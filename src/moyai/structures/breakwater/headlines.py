@@ -69,7 +69,7 @@ def headlines(groups: Mapping[str, xr.Dataset]) -> tuple[Headline, ...]:
 
 @dataclass(frozen=True, eq=False)
 class _Passed:
-    """The largest transmission of one sea at one water level."""
+    """The transmission of one sea, or of one of its periods, at one water level."""
 
     item: Headline
     sea: str
@@ -113,19 +113,19 @@ def _passed(groups: Mapping[str, xr.Dataset], level: str, sea: str) -> Iterator[
     if data is None or "transmission_coefficient" not in data:
         return
     values = np.atleast_1d(data["transmission_coefficient"].values)
-    if not np.isfinite(values).any():
-        return
-    regular, row = "period" in data.dims, int(np.nanargmax(values))
-    period, at = (float(data["period"].values[row]), row) if regular else (math.nan, None)
+    regular = "period" in data.dims
     time: Mapping[Any, Any] = {} if regular else groups.get(f"/{level}/time/{sea}", {})
     in_time = float(time["transmission_coefficient"]) if "transmission_coefficient" in time else math.nan
-    band = _damping_band(data, at)
-    ground = DAMPING_ALONE if band is not None and band.high > band.low else ONE_DAMPING
-    item = Headline(
-        "transmission", "Wave transmission K_T of a long structure", float(values[row]), "1",
-        place(level, sea, period), FIRST_ORDER if regular else FREQUENCY, band=band, judged_on=ground,
-    )  # fmt: skip
-    yield _Passed(item, sea, not regular, data, at, in_time)
+    # every period: one near a resonance has the wider band
+    for row in np.flatnonzero(np.isfinite(values)):
+        period, at = (float(data["period"].values[row]), int(row)) if regular else (math.nan, None)
+        band = _damping_band(data, at)
+        ground = DAMPING_ALONE if band is not None and band.high > band.low else ONE_DAMPING
+        item = Headline(
+            "transmission", "Wave transmission K_T of a long structure", float(values[row]), "1",
+            place(level, sea, period), FIRST_ORDER if regular else FREQUENCY, band=band, judged_on=ground,
+        )  # fmt: skip
+        yield _Passed(item, sea, not regular, data, at, in_time)
 
 
 def _damping_band(data: xr.Dataset, row: int | None) -> Band | None:

@@ -39,6 +39,7 @@ NOT_JUDGED = Headline(
     "not_judged", "Not judged", math.nan, "1",
     text="one line or buoy lost, wear and fatigue, chafe of the net, soil of the anchors", condition=True,
 )  # fmt: skip
+TOO_SHORT = "one seed, too short to tell the scatter of its maximum"
 _SAME_LAWS = "the same net laws as for the volume"
 
 
@@ -114,7 +115,7 @@ def chance(run: xr.Dataset, value: float, series: Array, time: Array | None = No
     late = times >= float(run.attrs["ramp"])
     found = maximum_of(times[late], series[late], float(run.attrs["period"]))
     if found is None:
-        return value, value, "one seed, too short to tell the scatter of its maximum"
+        return value, value, TOO_SHORT
     low, high = found.range
     words = f"90 of 100 seeds, estimated from {found.blocks} blocks of the record of one"
     return max(min(value, low), 0.0), max(value, high), words
@@ -149,7 +150,14 @@ def flexible_headlines(problem: FlexibleCageProblem, groups: Groups) -> tuple[He
     ]
     factors = _mesh_factors(groups)
     named = [NOT_JUDGED] if runs else []
-    return (*(_with_mesh(item, factors) for item in items), *condition_headlines(groups), *named)
+    return (*(alone(_with_mesh(item, factors)) for item in items), *condition_headlines(groups), *named)
+
+
+def alone(item: Headline) -> Headline:
+    """Return a number of one seed too short to tell its scatter as a bound: other seeds give more, of a volume less."""
+    if item.band is None or not item.band.of.startswith(TOO_SHORT):
+        return item
+    return replace(item, bound="at most" if item.name == "volume_left" else "at least")
 
 
 def _mesh_factors(groups: Groups) -> dict[str, tuple[float, float]]:

@@ -11,7 +11,7 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.core.headline import Band, Headline, governing
 from moyai.structures.cage.conditions import condition_headlines, sea_words
-from moyai.structures.cage.headlines import NOT_JUDGED, Groups, chance, laws_text
+from moyai.structures.cage.headlines import NOT_JUDGED, Groups, alone, chance, laws_text
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -39,7 +39,7 @@ def rigid_headlines(groups: Groups) -> tuple[Headline, ...]:
         *_rigid_motions(seas, groups),
         *_rigid_rest(groups),
     )
-    return (*items, *condition_headlines(groups), *([NOT_JUDGED] if seas else []))
+    return (*map(alone, items), *condition_headlines(groups), *([NOT_JUDGED] if seas else []))
 
 
 Seas = list[tuple[str, str, "xr.Dataset"]]

@@ -134,6 +134,12 @@ def governing_peaks(samples: Sequence[Sample]) -> dict[str, tuple[str, EventPeak
     return found
 
 
+def highest_judged(samples: Sequence[Sample], component: str) -> float:
+    """Return the highest value over the events at which a component is judged."""
+    events = dict.fromkeys(item.event for item in samples)
+    return max(peak.judged for event in events if (peak := event_peak(samples, event, component)) is not None)
+
+
 def event_variables(samples: Sequence[Sample]) -> tuple[dict[str, Any], dict[str, Any]]:
     """Return variables and coordinates of the peaks: of every event, and of every run."""
     events = list(dict.fromkeys(item.event for item in samples))
@@ -198,5 +204,6 @@ __all__ = [
     "event_peak",
     "event_variables",
     "governing_peaks",
+    "highest_judged",
     "mesh_notices",
 ]

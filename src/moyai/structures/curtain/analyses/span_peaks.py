@@ -23,6 +23,7 @@ from moyai.structures.curtain.analyses.event_peaks import (
     Sample,
     event_variables,
     governing_peaks,
+    highest_judged,
     mesh_notices,
 )
 from moyai.structures.curtain.assembly import LevelCurtain
@@ -206,7 +207,11 @@ class _Runs:
         peaks, coords = event_variables(self.samples)
         self.groups[""] = labelled(xr.Dataset({**table, "run_of": run_of, **peaks}, coords={"run": names, **coords}))
         found = governing_peaks(self.samples)
-        loads = {name: SpanLoad(peak.value, peak.run, peak.at_least, peak.judged) for name, (_, peak) in found.items()}
+        # another event with a smaller mean may be judged higher
+        loads = {
+            name: SpanLoad(peak.value, peak.run, peak.at_least, highest_judged(self.samples, name))
+            for name, (_, peak) in found.items()
+        }
         notices = (*self.notices, *mesh_notices(found))
         return DynamicAnswer(self.groups, tuple(self.checks), notices, loads)
 
