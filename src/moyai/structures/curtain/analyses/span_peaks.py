@@ -1,9 +1,9 @@
 """Peaks of the whole span where it is not asked for and an upright plate only bounds them [eq:curtain-hierarchy].
 
 Every event is run on a coarse mesh; those that lead a component are run again on a finer one, those without chance on a
-third where the coarse one gives more by a fifth. Irregular seas are run with several realisations, since the snaps of a motion that
-never repeats are chance: the larger of the means on the meshes that resolve the event counts. Waves that lead are run
-in half the current too, in which the skirt hangs deeper.
+third where the coarse one gives more by a fifth. Irregular seas are run with several realisations, since the snaps of
+a motion that never repeats are chance: the larger of the means on the meshes that resolve the event counts. Waves that
+lead are run in half the current too, in which the skirt hangs deeper.
 """
 
 from __future__ import annotations
