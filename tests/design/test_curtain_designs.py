@@ -459,7 +459,7 @@ def test_a_weaker_current_asks_no_more_of_the_sheet(tmp_path):
         item = next(item for item in found.headlines if item.name == "fabric_utilisation")
         return unfavourable(item)
 
-    used = [sheet(speed) for speed in (0.05, 0.1, 0.15, 0.2)]
+    used = [sheet(speed) for speed in (0.1, 0.2)]
     # weaker currents are looked at in steps of a tenth, over which the load hardly changes near its highest
     assert all(later > 0.985 * earlier for earlier, later in pairwise(used))
     # 1 m of curtain by hand at 0.2 m/s: half the load line on an arc that stretches, 4.8 kN/m of 30; the judged end

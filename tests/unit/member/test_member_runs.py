@@ -306,12 +306,13 @@ def test_surface_effect_fades_with_depth():
     """Inertia under the surface tends to the ideal one, radiation to nothing, like the decay of the wave."""
     section = sections.rectangle(0.045, 0.024)
     water = Water(2.0, 1000.0, 9.81)
-    near = surface_effect(section, 0.06, water, np.array([1.0]))
-    far = surface_effect(section, 0.8, water, np.array([1.0]))
+    period = 1.25
+    near = surface_effect(section, 0.06, water, np.array([period]))
+    far = surface_effect(section, 0.8, water, np.array([period]))
     assert np.abs(near.change).max() > 0.02
     assert np.abs(far.change).max() < 0.004
     # the waves that it makes fall like e^{-kd}, their energy like its square
-    k = float(wave_number(2.0 * math.pi, 2.0, 9.81))
+    k = float(wave_number(2.0 * math.pi / period, 2.0, 9.81))
     assert far.radiation[0, 1] / near.radiation[0, 1] == pytest.approx(math.exp(-2.0 * k * 0.74), rel=0.3)
 
 

@@ -171,6 +171,14 @@ def test_average_conditional_exceedance_finds_the_maximum_of_correlated_peaks():
     assert first.maximum_level(1000, 0.5) > found.value - 0.02
 
 
+def test_the_error_of_exceedance_rates_is_that_of_a_mean_of_realisations():
+    realisations = list(np.random.default_rng(3).normal(size=(6, 40)))
+    found = exceedance_rates(realisations, order=1, levels=5)
+    shares = np.array([[np.mean(one > level) for level in found.level] for one in realisations])
+    assert found.rate == pytest.approx(shares.mean(axis=0), rel=1e-12)
+    assert found.deviation == pytest.approx(stats.sem(shares, axis=0), rel=1e-12)
+
+
 def test_average_conditional_exceedance_of_independent_rayleigh_peaks_is_exact():
     rng = np.random.default_rng(8)
     peaks = [np.sqrt(-2.0 * np.log(rng.random(2000))) for _ in range(10)]

@@ -19,6 +19,7 @@ from moyai.structures.units.hydrodynamics import solve_row
 from moyai.structures.units.mesh import row_mesh
 from moyai.structures.units.model import Connector, Curve, UnitLine
 from moyai.structures.units.response import RowModel, respond
+from moyai.structures.units.seas import share_drift
 from moyai.structures.units.time.kernel import joint_force
 from moyai.structures.units.time.lines import Carried, events_of, moving_line, rerun, rerun_events
 from moyai.structures.units.time.memory import fit_row_memory
@@ -93,6 +94,10 @@ def test_the_memory_of_data_with_negative_damping_is_passive():
     damping = found.coefficients(everywhere)[1]
     assert np.linalg.eigvalsh(damping).min() > -1e-5 * np.abs(damping).max()
     assert np.abs(found.coefficients(omega)[1] - values).max() < 0.15 * np.abs(values).max()
+    # in units of force a power of two smaller the numbers are the same ones
+    small = 2.0**-60
+    other = fit_row_memory(omega, small * added, small * given, most=10)
+    assert np.allclose(other.coefficients(omega)[1] / small, found.coefficients(omega)[1], rtol=1e-9, atol=1e-12)
 
 
 def test_ogilvie_holds_between_the_memory_and_the_panels(hydro, memory):
@@ -107,6 +112,16 @@ def test_ogilvie_holds_between_the_memory_and_the_panels(hydro, memory):
             part = np.trapezoid(kernel * np.sin(omega * time)[:, None, None], time, axis=0) / omega
             assert np.abs(added + part - memory.infinite_added_mass).max() < 0.02 * scale.max()
             assert (np.abs(added + part - memory.infinite_added_mass) / scale).max() < 0.02
+
+
+def test_shared_drift_has_the_resultant_and_the_moment_of_the_row():
+    at = at_rest()
+    drift = np.array([3e3, -2e3, 5e4])
+    at = replace(at, centres=at.centres + np.array([7.0, -4.0, 0.0]))
+    force = share_drift(at, drift).reshape(-1, 6)
+    assert force[:, :2].sum(axis=0) == pytest.approx(drift[:2], rel=1e-12)
+    moment = at.centres[:, 0] * force[:, 1] - at.centres[:, 1] * force[:, 0]
+    assert moment.sum() + force[:, 5].sum() == pytest.approx(drift[2], rel=1e-12)
 
 
 def test_factors_of_a_step_integrate_a_straight_velocity():
