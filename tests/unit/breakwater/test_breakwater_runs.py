@@ -229,7 +229,7 @@ def test_interrupt_keeps_what_was_done(pontoon_problem, tmp_path):
     assert "motion_amplitude" in back.tree["SWL/frequency/waves"]
 
 
-@pytest.mark.parametrize("lid", [0.0, 0.05])
+@pytest.mark.parametrize("lid", [0.0, pytest.param(0.05, marks=pytest.mark.slow)])
 def test_gap_of_a_twin_pontoon_is_told(pontoon_problem, lid):
     hull = twin_pontoon(0.15, 0.3, 0.2, deck_thickness=0.05)
     problem = changed(
@@ -280,6 +280,7 @@ def test_oblique_coefficients_are_kept_and_used_again(pontoon_problem, tmp_path,
     assert [check.name for check in first.checks] == [check.name for check in second.checks]
 
 
+@pytest.mark.slow
 def test_transmission_of_an_irregular_sea_in_time_is_that_of_frequency_with_springs(pontoon_problem):
     # linear lines, constant damping (a fraction of critical takes another added mass in time): the record's own
     # transmission must come to the spectral one within its sampling error

@@ -75,7 +75,10 @@ def bar_forces(network: Network, place: np.ndarray) -> np.ndarray:
     return out
 
 
-@pytest.mark.parametrize(("seed", "convective"), [(0, True), (1, True), (2, True), (0, False), (3, False)])
+@pytest.mark.parametrize(
+    ("seed", "convective"),
+    [(0, True), (0, False), (3, False), *(pytest.param(s, True, marks=pytest.mark.slow) for s in (1, 2))],
+)
 def test_motion_by_lagranges_equations(seed: int, convective: bool) -> None:
     """The same small system by Lagrange's equations, mass matrix and its derivatives by differences, and DOP853."""
     network, speed = small_network(np.random.default_rng(seed), convective)
