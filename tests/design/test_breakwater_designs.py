@@ -83,6 +83,14 @@ def test_rest_and_frequency_domain_follow_hand_calculation(design, tmp_path):
     # frequency, so that part of the sway follows the force without resonance and the ratio stays under 2
     ratio = float(sea.slow_sway_deviation_half_damping) / float(sea.slow_sway_deviation_double_damping)
     assert 1.5 < ratio < 2.0
+    # roll: Rayleigh's most probable largest of N = duration / T_z amplitudes; judged at the mean of the largest
+    roll = next(item for item in result.headlines if item.name == "roll")
+    cycles = float(sea.attrs["duration"]) / float(sea.mean_zero_crossing_period[2])
+    mode = math.sqrt(2.0 * math.log(cycles))
+    assert roll.value == pytest.approx(mode * float(sea.significant_motion[2]) / 4.0, rel=1e-9)
+    undamped = float(sea.significant_motion_high[2]) / float(sea.significant_motion[2])
+    expected = mode + np.euler_gamma / mode
+    assert roll.band.judged[1] == pytest.approx(undamped * expected / mode * roll.value, rel=1e-9)
 
 
 def jonswap(height, period):

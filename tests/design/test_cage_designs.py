@@ -228,3 +228,56 @@ def test_numbers_without_a_limit_are_named():
     judged = result_of(text + "criteria: {greatest_drag: 1 kN}\n")
     assert "drag in the current" not in without_limit(judged)
     assert "volume left" in without_limit(judged)
+
+
+RIGID = """moyai: 1
+title: Rigid cage on taut lines
+site: {water_depth: 12 m, density: 1025 kg/m3, gravity: 9.81 m/s2}
+waves: {name: storm, kind: regular, height: 1.0 m, period: 5 s, heading_deg: 0}
+current: {speed: 0.4 m/s, heading_deg: 0}
+structure:
+  kind: cage
+  model: rigid
+  kinematic_viscosity: 1.2e-6 m2/s
+  shape: {kind: cylinder, diameter: 6 m, height: 4 m}
+  net: {twine_diameter: 3 mm, mesh_pitch: 26 mm, mass_per_area: 4 kg/m2, density: 7850 kg/m3, drag: {law: matsubara}}
+  frame: {diameter: 80 mm}
+  floats: {diameter: 1.0 m, mass: 80 kg, count: 10}
+  weight: {mass: 2500 kg, floats_included: false}
+  mooring: {kind: outward_bottom, anchor_distance: 10 m, pull_down: 0.1 m, stiffness: 60 kN/m, breaking_load: 250 kN}
+analyses: [statics, time]
+criteria: {line_safety_factor: 3, greatest_offset: 2 m, greatest_anchor_load: 60 kN}
+settings: {rigid: {periods: 12, settled_periods: 4}}
+"""
+
+
+def test_a_rigid_cage_is_judged_on_offset_and_anchors():
+    """Criteria that nothing gave a number for; waves and current from the other side give the same by mirror."""
+    found = result_of(RIGID)
+    offset, pull, tension = (headline(found, name) for name in ("offset", "anchor_load", "line_tension"))
+    series = found.tree["SWL/time/storm/wave 1"].to_dataset()
+    late = series.isel(time=series["time"].values >= float(series.attrs["ramp"]))
+    places = found.tree["SWL/statics"].to_dataset()["rest_x"]
+    drift = float(places.sel(situation="moored") - places.sel(situation="floating freely"))
+    assert drift > 0.0
+    assert offset.value == pytest.approx(float(np.abs(drift + late["sway"].values).max()), rel=0.02)
+    # lines without weight pull alike at both ends
+    assert pull.value == pytest.approx(tension.value, rel=1e-9)
+    judged = {item.criterion.name: item for item in found.verdict.judgements}
+    assert judged["greatest_offset"].outcome == judged["greatest_anchor_load"].outcome == "holds"
+    turned = result_of(RIGID.replace("heading_deg: 0", "heading_deg: 180"))
+    for name in ("offset", "anchor_load"):
+        assert headline(turned, name).value == pytest.approx(headline(found, name).value, rel=1e-6)
+
+
+def test_drag_and_volume_are_judged_for_moments_in_the_sea_too():
+    """A limit that the current alone keeps and the sea breaks does not hold."""
+    text = template("cage").replace("{around: 32, down: 6, bottom: 4}", "{around: 16, down: 3, bottom: 2}")
+    text = text.replace("periods: 8", "periods: 3")
+    found = result_of(text)
+    drag, moment = [item for item in found.headlines if item.name == "drag"]
+    still, least = [item for item in found.headlines if item.name == "volume_left"]
+    assert drag.shown and not moment.shown and moment.value > drag.value and least.value < still.value
+    between = 0.5 * (drag.band.high + moment.band.high)
+    judged = result_of(text + f"criteria: {{greatest_drag: {between:.0f} N, line_safety_factor: not_judged}}\n")
+    assert judged.verdict.outcome == "does not hold" and "drag" in judged.verdict.message

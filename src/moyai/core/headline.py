@@ -307,14 +307,21 @@ def judge(
 
 
 def _distinct(found: list[Judgement]) -> list[Judgement]:
-    """Return judgements of one criterion without those that say the same of the same value, as twin lines do."""
+    """Return of the judgements of one criterion that say the same on the same ground the worst one, the first of twins.
+
+    Values not judged stay unless they agree.
+    """
     kept: list[Judgement] = []
     for item in found:
-        alike = (
-            item.outcome == other.outcome and item.bound == other.bound and item.judged_on == other.judged_on
-            and math.isclose(item.value, other.value, rel_tol=1e-3) for other in kept
-        )  # fmt: skip
-        if not any(alike):
+        sign = 1.0 if item.criterion.sense == "at most" else -1.0
+        for place, other in enumerate(kept):
+            same = (item.outcome, item.bound, item.judged_on) == (other.outcome, other.bound, other.judged_on)
+            close = math.isclose(item.value, other.value, rel_tol=1e-3)
+            if same and (close or item.outcome != "not judged"):
+                if not close and sign * item.value > sign * other.value:
+                    kept[place] = item
+                break
+        else:
             kept.append(item)
     return kept
 

@@ -105,10 +105,16 @@ def node_force(A: Any, node: int, axis: int) -> float:
 
 
 @njit(cache=True, error_model="numpy", fastmath=FAST)
-def load_work(A: Any, count: int, sign: float) -> float:
-    """Return the sum of load times position over what is free."""
+def load_work(A: Any, count: int, back: float) -> float:
+    """Return the sum of load times position over what is free, the position ``back`` seconds ago at the velocity.
+
+    A held load that changes at a time step does so between the velocities half a step before and after: with half a
+    step as ``back`` the sum at the ends of its interval is its work in the energy that leapfrog keeps
+    [eq:flexible-discrete-energy].
+    """
     work = 0.0
     for i in range(count):
-        work += A[FREE_X + i] * A[PX + i] * A[X + i] + A[FREE_Y + i] * A[PY + i] * A[Y + i]
-        work += A[FREE_Z + i] * A[PZ + i] * A[Z + i]
-    return sign * work
+        work += A[FREE_X + i] * A[PX + i] * (A[X + i] - back * A[U + i])
+        work += A[FREE_Y + i] * A[PY + i] * (A[Y + i] - back * A[V + i])
+        work += A[FREE_Z + i] * A[PZ + i] * (A[Z + i] - back * A[W + i])
+    return work

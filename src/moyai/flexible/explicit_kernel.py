@@ -319,7 +319,8 @@ def march(
                 break
             extrapolate(A, count, min(0.5 * size * step / ledger[3], 1.0))
             ledger[3] = size * step
-            ledger[0] += load_work(A, count, -1.0)
+            # the velocities stand half a step behind but in the first step of all
+            ledger[0] -= load_work(A, count, 0.5 * step if ledger[5] > 0.0 else 0.0)
             touching = has_bed and _touching(A, count, bed, size * step)
             if touching:
                 note_landings(A, bed, falls)
@@ -346,7 +347,7 @@ def march(
                 drive(A, driven, rest, tables, table_start, table_step, start + (index + inner + 1) * step, step)
                 path_of_driven(A, driven, moved)
                 ledger[0] += screen_work(A, panels, push)
-            ledger[0] += load_work(A, count, 1.0) + pressure_work(A, count, sheets, push_of_pressure)
+            ledger[0] += load_work(A, count, 0.5 * step) + pressure_work(A, count, sheets, push_of_pressure)
             done += size
         if broken[0] == 0:
             return -(row + 1)
@@ -359,7 +360,8 @@ def march(
         energy[out, 0] = kinetic_energy_of_row(A, count, blocks, step, keep)
         elastic = elastic_energy(A, sizes, runs, curves, hinges, bending, bed)
         energy[out, 1] = elastic + elastic_energy_of_sheets(A, sheets) + ring_energy(A, rings)
-        energy[out, 2] = ledger[0] + ledger[1] + ledger[2]
+        half = load_work(A, count, 0.0) - load_work(A, count, 0.5 * step)
+        energy[out, 2] = ledger[0] + half + ledger[1] + ledger[2]
         save_row(A, out, saved, spine, runs)
         if not (energy[out, 0] + energy[out, 1] < np.inf):
             return row

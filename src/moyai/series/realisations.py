@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from moyai.core.arrays import Array
@@ -21,6 +23,31 @@ def seeds(scatter: Array, bound: Array | None = None) -> Band | None:
     of = f"{scatter.size} realisations; judged at the 95 % end of their mean"
     ends = (float(scatter.mean()) - reach_of_mean(scatter), float(upper.mean()) + reach_of_mean(upper))
     return Band(float(scatter.min()), float(scatter.max()), of, decides=False, judged=ends)
+
+
+def storms(value: float, mean: float, factor: float) -> Band | None:
+    """Return the band of a most probable largest value over storms alike [eq:extremes-of-storms].
+
+    The largest of a narrow-banded response follows Gumbel's law about its mode ``m`` standard deviations with the scale
+    ``1/m``. Criteria are judged at its mean, as those of realisations are; None for a factor that is not above one.
+
+    Parameters
+    ----------
+    value : float
+        Most probable largest value, the mean over time in it.
+    mean : float
+        Mean over time, of the same sign.
+    factor : float
+        ``m``, most probable largest over standard deviation of what varies.
+    """
+    if not factor > 1.0:
+        return None
+    low, expected, high = (
+        mean + (value - mean) * (1.0 + reduced / factor**2)
+        for reduced in (-math.log(-math.log(0.05)), np.euler_gamma, -math.log(-math.log(0.95)))
+    )
+    of = "90 of 100 such storms, peaks by Rayleigh; judged at the mean of their largest"
+    return Band(low, high, of, decides=False, judged=(value, expected))
 
 
 #: What is said of a number of one realisation.

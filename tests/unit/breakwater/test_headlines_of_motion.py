@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from moyai.core.headline import Criterion, judge
+from moyai.core.headline import Criterion, governing, judge
 from moyai.structures.breakwater.headlines import _offset, _transmission
+from moyai.structures.breakwater.largest_motion import LargestOfPeriods
 
 
 def sea(moving: float, still: float, members: tuple[float, ...] = (1.0, 1.2, 1.4)) -> xr.Dataset:
@@ -69,3 +70,41 @@ def test_no_further_sea_makes_a_limit_on_transmission_hold():
     assert judged(storm=storm, chop=chop) == ("does not hold", pytest.approx(0.62))
     assert judged(swell=swell) == ("does not hold", pytest.approx(0.97))
     assert judged(swell=swell, storm=storm) == ("does not hold", pytest.approx(0.97))
+
+
+def test_a_further_period_takes_no_wide_band_away():
+    """Near its resonance the transmission hangs on damping; a stiff period beside it is larger and narrow."""
+    limit = Criterion("greatest_transmission", "transmission", 0.43, "at most", "case file")
+    level = {"/SWL": xr.Dataset(attrs={"water_depth": 10.0})}
+
+    def outcome(data: xr.Dataset) -> str:
+        return judge(_transmission(level | {"/SWL/frequency/daily": data}, ["SWL"]), [limit], computed=True).outcome
+
+    wide = passed((0.389,), 0.484, (4.25,))
+    both = passed((0.407, 0.389), 0.407, (3.2, 4.25))
+    both["transmission_coefficient_high"].values[1] = 0.484
+    assert outcome(wide) == outcome(both) == "does not hold"
+
+
+def test_motions_of_regular_waves_carry_the_band_of_damping():
+    """The period with the larger value is not the one whose upper end is the largest."""
+    roll = np.array([[0.2, 0.1, 0.10], [0.1, 0.1, 0.09]])
+    high = roll * np.array([[1.1], [1.5]])
+    data = xr.Dataset(
+        {
+            "motion_amplitude": (("period", "dof"), roll),
+            "motion_amplitude_low": (("period", "dof"), 0.8 * roll),
+            "motion_amplitude_high": (("period", "dof"), high),
+            "mean_offset": (("period", "dof"), np.array([[-1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]])),
+        },
+        coords={"period": [3.0, 4.0], "dof": ["sway", "heave", "roll"]},
+        attrs={"damping_band": "damping times 0.5 to 2"},
+    )
+    found = LargestOfPeriods("frequency", data, data, None, "SWL, daily")
+    shown, judged = governing(found.roll())
+    assert shown.value == 0.10 and shown.band.high == pytest.approx(0.11)
+    assert judged.value == 0.09 and judged.band.high == pytest.approx(0.135) and not judged.shown
+    # the mean offset does not hang on damping
+    offset = governing(found.offset())[0]
+    assert offset.value == pytest.approx(1.2) and offset.band.high == pytest.approx(1.22)
+    assert offset.band.low == pytest.approx(1.16)

@@ -6,10 +6,19 @@ import xarray as xr
 
 import moyai
 from moyai.case.templates import template
-from moyai.core.headline import Band, Headline
+from moyai.core.headline import Band, Criterion, Headline, judge
 from moyai.series.block_maxima import maximum_of
 from moyai.structures.cage.flexible.sensitivity import COARSER, STRESS, VOLUME_IN_CURRENT, tension_of
-from moyai.structures.cage.headlines import _band_in_sea, _mesh_factors, _State, _tension, _with_mesh, chance
+from moyai.structures.cage.headlines import (
+    TOO_SHORT,
+    _band_in_sea,
+    _mesh_factors,
+    _State,
+    _tension,
+    _with_mesh,
+    alone,
+    chance,
+)
 
 
 def run_of(regular: bool, duration: float = 600.0) -> tuple[xr.Dataset, np.ndarray]:
@@ -112,3 +121,18 @@ def test_each_line_carries_the_band_of_its_own_tension():
     assert [item.where.split(",")[0] for item in judged] == ["anchor"]
     assert judged[0].band.high == pytest.approx(0.04 * 15.0 / 11.0)
     assert state.moved("line_tension_maximum", 6.0e3, 6.0e3, 1)[:2] == (6.0e3, 10.0e3)
+
+
+def test_a_seed_too_short_for_its_scatter_proves_no_limit():
+    """Of a pull more is possible, of a volume less: neither keeps its limit."""
+    band = Band(38e3, 40e3, f"{TOO_SHORT}; laws")
+    pull = alone(Headline("anchor_load", "pull", 39e3, "N", band=band))
+    volume = alone(Headline("volume_left", "volume", 0.7, "1", band=Band(0.6, 0.7, TOO_SHORT)))
+    assert (pull.bound, volume.bound) == ("at least", "at most")
+    limits = (
+        Criterion("greatest_anchor_load", "anchor_load", 41e3, "at most", "case file"),
+        Criterion("least_volume_left", "volume_left", 0.5, "at least", "case file"),
+    )
+    assert [item.outcome for item in judge((pull, volume), limits, computed=True).judgements] == ["not judged"] * 2
+    long = Headline("anchor_load", "pull", 39e3, "N", band=Band(38e3, 40e3, "90 of 100 seeds; laws"))
+    assert alone(long) is long

@@ -25,7 +25,7 @@ from moyai.structures.cage.flexible.equilibrium import CageRest, horizontal_bala
 from moyai.structures.cage.flexible.grid_mooring import Buoy, GridMooring
 from moyai.structures.cage.flexible.loads import drag_split
 from moyai.structures.cage.flexible.model import CageDesign, CageMesh, CageNet, FixedCollar, FlexibleCage, Sinkers
-from moyai.structures.cage.flexible.parts import enclosed_volume
+from moyai.structures.cage.flexible.parts import bar_widths, enclosed_volume
 from moyai.structures.cage.flexible.problem import FlexibleSettings
 from moyai.structures.cage.flexible.time import run_cage, time_dataset
 from moyai.structures.cage.flexible.wake import flow_factors
@@ -424,3 +424,40 @@ def test_random_cages_come_to_rest_with_the_pull_of_their_drag(seed: int) -> Non
     whole = split[:, :2].sum(axis=0)
     assert np.linalg.norm(pull[:2] - whole) < 0.02 * np.linalg.norm(whole)
     assert 0.05 < share(rest) < 1.6 and rest.residual < 5e-3
+
+
+def ring_chord(model: FlexibleCage) -> float:
+    """Return the chord of a ring whose polygon has the area of the circle [m]."""
+    count = model.mesh.around
+    radius = 0.5 * model.design.size * math.sqrt(2.0 * math.pi / (count * math.sin(2.0 * math.pi / count)))
+    return 2.0 * radius * math.sin(math.pi / count)
+
+
+def test_bars_of_a_net_stand_for_the_width_between_their_neighbours():
+    """Half of every panel counts for each of its four sides; an upright wall hangs on the chords of its ring.
+
+    The polygon of the ring encloses the area of the circle.
+    """
+    model = flume()
+    built = build_cage(model)
+    cage, bars = built.cages[0], built.network.bars
+    width = bar_widths(built.network, cage.net_bars)
+    place = built.network.nodes.position
+    upright = np.abs(place[bars.end] - place[bars.start])[cage.net_bars, 2] > 0.1
+    chord = ring_chord(model)
+    assert width[upright] == pytest.approx(chord, rel=1e-12)
+    # bars around the wall lie between two rows of panels, the lowest beside one
+    rows = np.unique(np.round(width[~upright], 9))
+    height = model.design.net.wall_depth / model.mesh.down
+    assert rows == pytest.approx([0.5 * height, height], rel=1e-9)
+
+
+def test_a_net_in_still_water_bears_what_hangs_on_its_width():
+    """Weight below the first row of bars, over the ring: as many sinkers as columns, so that all bear alike."""
+    model, rest = at_rest(0.0)
+    cage, bars = rest.built.cages[0], rest.network.bars
+    water = model.water
+    net = bars.of_type("mass_per_length") * bars.length * (1.0 - water.density / model.design.net.density)
+    hung = model.design.sinkers.count * 3.92 + 9.81 * float(net[cage.net_bars].sum()) * (1.0 - 0.5 / model.mesh.down)
+    around = model.mesh.around * ring_chord(model)
+    assert rest.built.net_tension(rest.tension)[0] == pytest.approx(hung / around, rel=5e-3)

@@ -177,6 +177,18 @@ def test_a_long_skirt_may_lie_on_the_bed(tmp_path):
     assert build(case).curtain.may_lie_on_bed
 
 
+def test_a_level_at_which_the_skirt_lies_on_the_bed_may_be_left_out_of_the_dynamic_run(tmp_path):
+    text = BASE.replace("{water_depth: 8 m", "{water_depth: 8 m, water_levels: {HW: 0 m, LW: -4.2 m}")
+    text = text.replace("  drag:", "  may_lie_on_bed: true\n  drag:").replace(
+        "[statics, impact", "[dynamic, statics, impact"
+    )
+    text = text.replace("settings:\n", "settings:\n  dynamic: {sheet_mass: 1 kg/m2}\n")
+    with pytest.raises(CaseError) as caught:
+        load_case(written(tmp_path, text))
+    assert ["reaches the bed at LW, 3.8 m deep" in fault.message for fault in caught.value.faults] == [True]
+    load_case(written(tmp_path, text.replace("settings:\n", "settings:\n  water_levels: [HW]\n")))
+
+
 def test_units_degrees_and_catalogues_become_numbers(tmp_path):
     text = (
         BASE.replace("weight: 180 N/m", "chain_mass: 20 kg/m")

@@ -1,22 +1,33 @@
 """Peaks of events over meshes and realisations: what counts, its band, and when the mesh makes it a bound."""
 
 import math
+from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 import xarray as xr
 
 from moyai.core.headline import Criterion, judge
+from moyai.flexible.flow import Flow
+from moyai.sea.components import WaveComponents
+from moyai.sea.water import Water
+from moyai.structures.curtain.analyses.dynamic import peaks_of_runs
 from moyai.structures.curtain.analyses.event_peaks import (
+    COMPONENTS,
     Sample,
     event_band,
     event_peak,
     event_variables,
     governing_peaks,
+    highest_judged,
     mesh_notices,
 )
+from moyai.structures.curtain.analyses.loads import _with_joint
+from moyai.structures.curtain.dynamic.plans import Plan
 from moyai.structures.curtain.headlines import curtain_headlines
 from moyai.structures.curtain.hierarchy import SPAN
+from moyai.structures.curtain.limits.utilisation import Strength
 
 COARSE, FINE = (8, 3), (12, 4)
 #: Student's 95 % quantile, one-sided, for 4 degrees of freedom (tables of the distribution)
@@ -118,3 +129,68 @@ def test_a_bound_from_below_proves_no_strength():
     criterion = Criterion("cables", "cable_utilisation", 1.0 / 3.0, "at most", "case file", as_factor=True)
     (item,) = judge(numbers, [criterion], computed=True).judgements
     assert item.outcome == "not judged"
+
+
+def test_a_third_mesh_tells_whether_the_coarsest_counts():
+    """Two finer meshes that lie together leave out a coarse one that is apart; else the largest stays."""
+    finest = (16, 6)
+    resolved = [*storm((18e3, 22e3, 20e3)), *(sample("storm", finest, seed, 19e3) for seed in (1, 2, 3))]
+    peak = event_peak(resolved, "storm", "upper cable")
+    assert peak.value == pytest.approx(20e3) and peak.means == pytest.approx((20e3, 19e3))
+    assert (peak.low, peak.high) == (18e3, 22e3) and peak.change == pytest.approx(0.05)
+    apart = [*storm((18e3, 22e3, 20e3)), *(sample("storm", finest, seed, 35e3) for seed in (1, 2, 3))]
+    peak = event_peak(apart, "storm", "upper cable")
+    assert peak.value == pytest.approx(35e3) and peak.finer_is_more and len(peak.means) == 2
+    known = event_peak([*storm((18e3, 22e3, 20e3)), *(sample("storm", finest, s, 10e3) for s in (1, 2, 3))], "storm",
+                       "upper cable")  # fmt: skip
+    assert known.value == pytest.approx(30e3)
+
+
+def test_another_event_does_not_take_away_the_end_of_the_storm():
+    """A snap of one run leads with 31 kN; the storm of 30 kN is judged at 35 kN, with and without it."""
+    storms = [*storm(), *(sample("snap", mesh, 0, 31e3) for mesh in (COARSE, FINE))]
+    end = event_peak(storm(), "storm", "upper cable").judged
+    assert governing_peaks(storms)["upper cable"][0] == "snap" and end > 31e3
+    assert highest_judged(storms, "upper cable") == end
+    groups = groups_of(storms, 100e3, "")
+    groups["/SWL/loads"]["governing_load"][:] = 31e3
+    groups["/SWL/loads"]["dynamic_source"][:] = "snap"
+    groups["/SWL/dynamic/snap"] = groups["/SWL/dynamic/storm"]
+    used = next(item for item in curtain_headlines(groups, ["SWL"]) if item.name == "cable_utilisation")
+    assert used.value == pytest.approx(0.31) and used.band.decides and used.band.high >= end / 100e3
+
+
+def test_one_window_of_an_irregular_sea_is_a_bound_from_below():
+    waves = WaveComponents(*(np.array([value]) for value in (1.5, 0.3, 0.0, 0.0, 0.23)))
+    rows = [dict.fromkeys(COMPONENTS.values(), 0.0) | {"upper_peak": 8e3}]
+    for regular in (True, False):
+        plan = Plan("sea", {"flow": Flow(waves=replace(waves, water=Water(8.0, 1025.0, 9.81)))}, 4.0, regular)
+        assert peaks_of_runs([plan], rows)["upper cable"].at_least is not regular
+    snap = Plan("snap", {"flow": Flow()}, 0.1)
+    assert not peaks_of_runs([snap], rows)["upper cable"].at_least
+
+
+def joint_row(**more: float | str) -> list[dict[str, float | str]]:
+    row: dict[str, float | str] = {
+        "component": "upper cable", "capacity": 100e3, "steady_low": 1e3, "steady_load": 1.8e3, "steady_high": 2e3,
+        "governing_load": 8.1e3, "governing_high": 8.8e3, "governing": "dynamic", "load_bound": "", "wave_source": "",
+        "utilisation": 0.24, "utilisation_high": 0.27,
+    }  # fmt: skip
+    joint = {"component": "joint", "capacity": 15e3, "steady_load": 0.8e3, "governing_load": 1.07e3,
+             "governing_high": 1.1e3, "governing": "steady and wave", "load_bound": "at most",
+             "wave_source": "drag under the crest, storm", "utilisation": 0.2, "utilisation_high": 0.2}  # fmt: skip
+    return [row | more, row | joint]
+
+
+def test_a_drag_without_snaps_bounds_no_joint_of_a_span_that_moves():
+    names = ("upper_cable", "lower_cable", "sheet", "joint", "anchor_line", "anchor")
+    strengths = SimpleNamespace(**dict.fromkeys(names, Strength(15e3, 3.0)))
+    unit = SimpleNamespace(curtain=SimpleNamespace(strengths=strengths))
+    cable, joint = _with_joint(unit, joint_row())
+    assert joint["governing_load"] == joint["governing_high"] == cable["governing_high"]
+    assert joint["load_bound"] == "at most" and joint["utilisation"] == pytest.approx(3.0 * 8.8 / 15.0)
+    _, joint = _with_joint(unit, joint_row(load_bound="at least"))
+    assert math.isnan(joint["governing_load"]) and joint["load_bound"] == ""
+    # where no span moves, the drag is what the joint bears
+    _, joint = _with_joint(unit, joint_row(governing="steady and wave"))
+    assert joint["governing_load"] == 1.07e3

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from moyai.core.headline import Band, Headline, governing, unfavourable
-from moyai.series.realisations import ALONE, alone, seeds
+from moyai.series.realisations import ALONE, alone, seeds, storms
 from moyai.structures.breakwater.largest_motion import LargestOfPeriods
 from moyai.structures.breakwater.lines.headlines import (
     AT_REST,
@@ -43,6 +43,7 @@ if TYPE_CHECKING:
 
 STEADY = "wind and current at rest, mean drift of the frequency domain"
 DAMPING_ALONE = "the band of damping alone, without waves round the ends or over the deck"
+ONE_DAMPING = "one damping without a band, without waves round the ends or over the deck"
 MUCH_OVERTOPPING = 0.05  # share of waves over the deck from which linear transmission is qualified
 
 
@@ -68,7 +69,7 @@ def headlines(groups: Mapping[str, xr.Dataset]) -> tuple[Headline, ...]:
 
 @dataclass(frozen=True, eq=False)
 class _Passed:
-    """The largest transmission of one sea at one water level."""
+    """The transmission of one sea, or of one of its periods, at one water level."""
 
     item: Headline
     sea: str
@@ -112,18 +113,19 @@ def _passed(groups: Mapping[str, xr.Dataset], level: str, sea: str) -> Iterator[
     if data is None or "transmission_coefficient" not in data:
         return
     values = np.atleast_1d(data["transmission_coefficient"].values)
-    if not np.isfinite(values).any():
-        return
-    regular, row = "period" in data.dims, int(np.nanargmax(values))
-    period, at = (float(data["period"].values[row]), row) if regular else (math.nan, None)
+    regular = "period" in data.dims
     time: Mapping[Any, Any] = {} if regular else groups.get(f"/{level}/time/{sea}", {})
     in_time = float(time["transmission_coefficient"]) if "transmission_coefficient" in time else math.nan
-    item = Headline(
-        "transmission", "Wave transmission K_T of a long structure", float(values[row]), "1",
-        place(level, sea, period), FIRST_ORDER if regular else FREQUENCY, band=_damping_band(data, at),
-        judged_on=DAMPING_ALONE,
-    )  # fmt: skip
-    yield _Passed(item, sea, not regular, data, at, in_time)
+    # every period: one near a resonance has the wider band
+    for row in np.flatnonzero(np.isfinite(values)):
+        period, at = (float(data["period"].values[row]), int(row)) if regular else (math.nan, None)
+        band = _damping_band(data, at)
+        ground = DAMPING_ALONE if band is not None and band.high > band.low else ONE_DAMPING
+        item = Headline(
+            "transmission", "Wave transmission K_T of a long structure", float(values[row]), "1",
+            place(level, sea, period), FIRST_ORDER if regular else FREQUENCY, band=band, judged_on=ground,
+        )  # fmt: skip
+        yield _Passed(item, sea, not regular, data, at, in_time)
 
 
 def _damping_band(data: xr.Dataset, row: int | None) -> Band | None:
@@ -237,6 +239,7 @@ def _offset(domain: str, data: xr.Dataset, level: str, sea: str, frequency: xr.D
         detail += "; ".join(filter(None, (ALONE if bound else "", _motion_words(data), _slow_words(frequency))))
     elif "largest_offset" in data:
         value = float(data["largest_offset"])
+        band = storms(value, abs(float(mean[0])), _peak_factor(data, 0))
         detail = _slow_words(data)
     else:
         return []
@@ -246,6 +249,14 @@ def _offset(domain: str, data: xr.Dataset, level: str, sea: str, frequency: xr.D
     return [
         Headline("offset", "Largest offset in sway", value, "m", place(level, sea), model, band, bound, detail=words)
     ]
+
+
+def _peak_factor(data: xr.Dataset, mode: int) -> float:
+    """Return the most probable largest motion over its standard deviation; NaN in time, where it is not known."""
+    if "most_probable_maximum_motion" not in data:
+        return math.nan
+    deviation = 0.25 * float(data["significant_motion"].values[mode])
+    return float(data["most_probable_maximum_motion"].values[mode]) / deviation if deviation > 0.0 else math.nan
 
 
 def _in_motion(data: xr.Dataset) -> float:
@@ -292,7 +303,7 @@ def _roll(domain: str, data: xr.Dataset, level: str, sea: str, frequency: xr.Dat
     value, significant = float(data[name].values[2]), float(data["significant_motion"].values[2])
     each = f"{name}_of_realisation"
     scatter = np.asarray(data[each].values[:, 2], dtype=float) if each in data else np.zeros(0)
-    band = seeds(scatter)
+    band = seeds(scatter) if scatter.size else storms(value, 0.0, _peak_factor(data, 2))
     if frequency is not None and "significant_motion_low" in frequency:
         # the frequency domain tells by how much damping moves roll; the time domain is run at its nominal value
         own = float(frequency["significant_motion"].values[2])

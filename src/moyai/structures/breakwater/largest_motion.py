@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.arrays import Array
-from moyai.core.headline import Headline
+from moyai.core.headline import Band, Headline
 from moyai.floating.energy import ENERGY_TOLERANCE, SHOWN_LOSS, unexplained_share
 from moyai.structures.breakwater.lines.headlines import AT_REST, FIRST_ORDER, IN_MOTION
 from moyai.structures.breakwater.responses import SNAP_RATIO
@@ -64,12 +64,12 @@ class LargestOfPeriods:
     where: str
 
     def offset(self) -> list[Headline]:
-        """Return the largest offset in sway: mean and motion together."""
-        return self._headline("offset", "Largest offset in sway", "m", 0)
+        """Return the offset in sway of every period: mean and motion together."""
+        return self._headlines("offset", "Largest offset in sway", "m", 0)
 
     def roll(self) -> list[Headline]:
-        """Return the largest amplitude of roll."""
-        return self._headline("roll", "Largest roll", "rad", 2)
+        """Return the amplitude of roll of every period."""
+        return self._headlines("roll", "Largest roll", "rad", 2)
 
     def _of(self, data: xr.Dataset, domain: str, mode: int) -> Array:
         if mode == 0 and domain == "time" and "maximum_motion" in data:
@@ -79,7 +79,7 @@ class LargestOfPeriods:
             found += np.abs(data["mean_offset"].values[:, 0])
         return found
 
-    def _headline(self, name: str, label: str, unit: str, mode: int) -> list[Headline]:
+    def _headlines(self, name: str, label: str, unit: str, mode: int) -> list[Headline]:
         if "motion_amplitude" not in self.data:
             return []
         periods, table = self.data["period"].values, self._of(self.data, self.domain, mode)
@@ -88,23 +88,41 @@ class LargestOfPeriods:
         if self.frequency is not None and out.any():
             known = self.frequency.sel(period=periods[out])
             table[out] = self._of(known, "frequency", mode)
-        if not np.isfinite(table).any():
-            return []
-        row = int(np.nanargmax(table))
-        model = FIRST_ORDER
-        if self.domain == "time" and not out[row]:
-            moving = "lines_in_motion" in self.data and bool((self.data["lines_in_motion"].values[row] == 1.0).any())
-            model = IN_MOTION if moving else AT_REST
-        detail = []
-        if mode == 0 and "mean_offset" in self.data:
-            source = self.frequency.sel(period=periods[row]) if out[row] and self.frequency is not None else None
-            mean = self.data["mean_offset"].values[row, 0] if source is None else source["mean_offset"].values[0]
-            detail.append(f"mean {float(mean):.3g} m")
+        said = ""
         if out.any():
             names = ", ".join(f"{period:.3g} s" for period in periods[out])
-            detail.append(
+            said = (
                 f"at T = {names} the time domain is out of its range (chains at rest at every instant, or energy that "
                 "damping does not explain) and the frequency domain stands in"
             )
-        place = f"{self.where}, T = {periods[row]:.3g} s"
-        return [Headline(name, label, float(table[row]), unit, place, model, detail="; ".join(detail))]
+        found = []
+        for row in np.flatnonzero(np.isfinite(table)):
+            model, value, mean = FIRST_ORDER, float(table[row]), 0.0
+            if self.domain == "time" and not out[row]:
+                moving = "lines_in_motion" in self.data and bool(
+                    (self.data["lines_in_motion"].values[row] == 1.0).any()
+                )
+                model = IN_MOTION if moving else AT_REST
+            detail = []
+            if mode == 0 and "mean_offset" in self.data:
+                source = self.frequency.sel(period=periods[row]) if out[row] and self.frequency is not None else None
+                mean = float(
+                    self.data["mean_offset"].values[row, 0] if source is None else source["mean_offset"].values[0]
+                )
+                detail.append(f"mean {mean:.3g} m")
+            words = "; ".join(filter(None, (*detail, said)))
+            place = f"{self.where}, T = {periods[row]:.3g} s"
+            band = self._damping_band(periods[row], mode, value, abs(mean))
+            found.append(Headline(name, label, value, unit, place, model, band, detail=words))
+        return found
+
+    def _damping_band(self, period: float, mode: int, value: float, mean: float) -> Band | None:
+        """Return how far a motion moves over what is uncertain in damping, by its change in the frequency domain."""
+        if self.frequency is None or "motion_amplitude_low" not in self.frequency:
+            return None
+        known = self.frequency.sel(period=period)
+        own, low, high = (float(known[f"motion_amplitude{end}"].values[mode]) for end in ("", "_low", "_high"))
+        if not (own > 0.0 and np.isfinite(low + high)):
+            return None
+        least, most = (mean + (value - mean) * end / own for end in (low, high))
+        return Band(least, most, str(self.frequency.attrs.get("damping_band", "damping")))

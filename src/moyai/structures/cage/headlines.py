@@ -21,6 +21,9 @@ from moyai.structures.cage.flexible.problem import FlexibleCageProblem
 from moyai.structures.cage.flexible.sensitivity import (
     COARSER,
     DRAG_IN_CURRENT,
+    LEAST_VOLUME,
+    NET_TENSION,
+    NET_TENSION_IN_CURRENT,
     OFFSET,
     STRESS,
     VOLUME_IN_CURRENT,
@@ -36,6 +39,7 @@ NOT_JUDGED = Headline(
     "not_judged", "Not judged", math.nan, "1",
     text="one line or buoy lost, wear and fatigue, chafe of the net, soil of the anchors", condition=True,
 )  # fmt: skip
+TOO_SHORT = "one seed, too short to tell the scatter of its maximum"
 _SAME_LAWS = "the same net laws as for the volume"
 
 
@@ -89,7 +93,13 @@ def _band_in_sea(
     state: _State | None, name: str, run: xr.Dataset, value: float, series: Array, line: int | None = None
 ) -> Band | None:
     """Return the band of a number found in the sea: chance of its seed, and the laws of the net."""
-    low, high, seed = chance(run, value, series)
+    return _band_with_laws(state, name, *chance(run, value, series), line)
+
+
+def _band_with_laws(
+    state: _State | None, name: str, low: float, high: float, seed: str, line: int | None = None
+) -> Band | None:
+    """Return a range over seeds with what the laws of the net add; None where neither is known."""
     words = [seed] if seed else []
     if state is not None:
         low, high, text = state.moved(name, low, high, line)
@@ -97,14 +107,15 @@ def _band_in_sea(
     return Band(max(low, 0.0), high, "; ".join(words)) if words else None
 
 
-def chance(run: xr.Dataset, value: float, series: Array) -> tuple[float, float, str]:
+def chance(run: xr.Dataset, value: float, series: Array, time: Array | None = None) -> tuple[float, float, str]:
     """Return a range of the largest value over other seeds, with its words; none in regular waves or short records."""
     if int(run.attrs["regular"]):
         return value, value, ""
-    late = run["time"].values >= float(run.attrs["ramp"])
-    found = maximum_of(run["time"].values[late], series[late], float(run.attrs["period"]))
+    times = run["time"].values if time is None else time
+    late = times >= float(run.attrs["ramp"])
+    found = maximum_of(times[late], series[late], float(run.attrs["period"]))
     if found is None:
-        return value, value, "one seed, too short to tell the scatter of its maximum"
+        return value, value, TOO_SHORT
     low, high = found.range
     words = f"90 of 100 seeds, estimated from {found.blocks} blocks of the record of one"
     return max(min(value, low), 0.0), max(value, high), words
@@ -134,11 +145,19 @@ def flexible_headlines(problem: FlexibleCageProblem, groups: Groups) -> tuple[He
         *utilisation,
         *_offset(states, runs),
         *_anchor(states, runs),
+        *_net(states, runs),
         *_stress(states, runs),
     ]
     factors = _mesh_factors(groups)
     named = [NOT_JUDGED] if runs else []
-    return (*(_with_mesh(item, factors) for item in items), *condition_headlines(groups), *named)
+    return (*(alone(_with_mesh(item, factors)) for item in items), *condition_headlines(groups), *named)
+
+
+def alone(item: Headline) -> Headline:
+    """Return a number of one seed too short to tell its scatter as a bound: other seeds give more, of a volume less."""
+    if item.band is None or not item.band.of.startswith(TOO_SHORT):
+        return item
+    return replace(item, bound="at most" if item.name == "volume_left" else "at least")
 
 
 def _mesh_factors(groups: Groups) -> dict[str, tuple[float, float]]:
@@ -160,10 +179,12 @@ def _with_mesh(item: Headline, factors: dict[str, tuple[float, float]]) -> Headl
     """Return a number whose band covers the mesh as well, where it was checked."""
     kinds = ("anchor", "bridle", "frame", "buoy")
     line = next((kind for kind in kinds if item.where.removeprefix("lower end of ").startswith(kind)), "")
+    steady = item.model == STATICS
     quantity = {
-        "volume_left": VOLUME_IN_CURRENT, "drag": DRAG_IN_CURRENT, "line_tension": tension_of(line),
-        "line_utilisation": tension_of(line), "offset": OFFSET, "anchor_load": tension_of("anchor"),
-        "collar_stress": STRESS,
+        "volume_left": VOLUME_IN_CURRENT if steady else LEAST_VOLUME, "drag": DRAG_IN_CURRENT,
+        "line_tension": tension_of(line), "line_utilisation": tension_of(line), "offset": OFFSET,
+        "anchor_load": tension_of("anchor"),
+        "collar_stress": STRESS, "net_tension": NET_TENSION_IN_CURRENT if steady else NET_TENSION,
     }.get(item.name, "")  # fmt: skip
     if quantity not in factors:
         return item
@@ -204,27 +225,35 @@ Runs = list[tuple[str, str, "xr.Dataset"]]
 
 
 def _volume(states: list[_State], runs: Runs) -> list[Headline]:
-    """Return the least volume in the current of the site, and what the sea makes of it for moments."""
-    least = min((float(run["volume_minimum"].min()) for _, _, run in runs), default=math.nan)
+    """Return the least volume in the current of the site and, judged with it, what the sea leaves for moments."""
     found = []
     for state in states:
         shares = state.statics["volume_share"].values[state.row]
         value, at = float(shares.min()), int(np.argmin(shares))
         built = float(state.cage["rest_volume"].values[at])
         detail = f"{volume_text(value * built)} of {volume_text(built)} as built"
-        if math.isfinite(least):
-            low, high, words = state.moved("volume_share", least, least)
-            detail += f"; down to {least:.3g} for moments in the sea" + (f" ({low:.3g} to {high:.3g})" if words else "")
         band = state.band("volume_share")
         found.append(
             Headline("volume_left", "volume left", value, "1", state.where, STATICS, band, detail=detail)
         )  # fmt: skip
-    return governing(found, "at least")
+    by_level, moments = {state.level: state for state in states}, []
+    for level, where, run in runs:
+        series = run["volume_share"].values.min(axis=1)
+        least = float(series[run["time"].values >= float(run.attrs["ramp"])].min())
+        # the largest loss has the scatter of a maximum
+        low, high, seed = chance(run, 1.0 - least, 1.0 - series)
+        band = _band_with_laws(by_level.get(level), "volume_share", 1.0 - high, 1.0 - low, seed)
+        moments.append(Headline("volume_left", "volume left for moments", least, "1", where, DYNAMIC, band))
+    worst, words = governing(moments, "at least"), ""
+    if worst:
+        band = worst[0].band
+        span = "" if band is None else f" ({band.low:.3g} to {band.high:.3g})"
+        words = f"down to {worst[0].value:.3g} for moments in the sea" + span
+    return _with_moments(governing(found, "at least"), worst, words)
 
 
 def _drag(states: list[_State], runs: Runs) -> list[Headline]:
-    """Return the largest drag in the current of the site, and what the sea makes of it for moments."""
-    largest = [float(np.linalg.norm(run["drag"].values.sum(axis=1), axis=1).max()) for _, _, run in runs]
+    """Return the largest drag in the current of the site and, judged with it, what the sea brings for moments."""
     found = []
     for state in states:
         value = float(state.statics["total_drag"].values[state.row])
@@ -235,13 +264,29 @@ def _drag(states: list[_State], runs: Runs) -> list[Headline]:
             if abs(share) > 5e-3 * value
         ]
         detail = ", ".join(f"{part} {100.0 * share / value:.0f} %" for part, share in shares)
-        if largest:
-            low, high, words = state.moved("drag", max(largest), max(largest))
-            span = f" ({low / 1e3:.3g} to {high / 1e3:.3g} kN)" if words else ""
-            detail += f"; up to {max(largest) / 1e3:.3g} kN for moments in the sea{span}"
         band = state.band("drag")
         found.append(Headline("drag", "drag in the current", value, "N", state.where, STATICS, band, detail=detail))
-    return governing(found)
+    by_level, moments = {state.level: state for state in states}, []
+    for level, where, run in runs:
+        series = np.linalg.norm(run["drag"].values.sum(axis=1), axis=1)
+        value = float(series.max())
+        low, high, seed = chance(run, value, series, run["drag_time"].values)
+        band = _band_with_laws(by_level.get(level), "drag", low, high, seed)
+        moments.append(Headline("drag", "drag for moments", value, "N", where, DYNAMIC, band))
+    worst, words = governing(moments), ""
+    if worst:
+        band = worst[0].band
+        span = "" if band is None else f" ({band.low / 1e3:.3g} to {band.high / 1e3:.3g} kN)"
+        words = f"up to {worst[0].value / 1e3:.3g} kN for moments in the sea" + span
+    return _with_moments(governing(found), worst, words)
+
+
+def _with_moments(steady: list[Headline], moments: list[Headline], words: str) -> list[Headline]:
+    """Return numbers of the current alone, in words those for moments in the sea too, and these, judged, not shown."""
+    if steady and moments:
+        detail = "; ".join(filter(None, (steady[0].detail, words)))
+        steady = [replace(steady[0], detail=detail), *steady[1:]]
+    return [*steady, *(replace(item, shown=False) for item in moments)]
 
 
 def _tension(states: list[_State], runs: Runs) -> tuple[list[Headline], list[Headline]]:
@@ -364,6 +409,27 @@ def _anchor(states: list[_State], runs: Runs) -> list[Headline]:
         Headline("anchor_load", "largest pull on an anchor", value, "N", where, model, band, detail=detail)
         for value, where, model, detail, band in found
     )
+
+
+def _net(states: list[_State], runs: Runs) -> list[Headline]:
+    """Return the largest tension of the net over its width: of the seas where they were run, else of the current."""
+    found: list[tuple[float, str, str, Band | None]] = []
+    by_level = {state.level: state for state in states}
+    for level, where, run in runs:
+        late = run["time"].values >= float(run.attrs["ramp"])
+        series = run["net_tension_peak_since_row"].values.max(axis=1)
+        value = float(series[late].max())
+        found.append((value, where, DYNAMIC, _band_in_sea(by_level.get(level), "net_tension", run, value, series)))
+    for state in [] if found else states:
+        value = float(state.statics["net_tension"].values[state.row].max())
+        found.append((value, state.where, STATICS, state.band("net_tension")))
+    return governing(
+        Headline(
+            "net_tension", "largest tension of the net", value, "N/m", where, model, band,
+            detail="ropes sewn into the net share it; a bar of the mesh spreads what a weight or rope brings in",
+        )
+        for value, where, model, band in found
+    )  # fmt: skip
 
 
 def _stress(states: list[_State], runs: Runs) -> list[Headline]:

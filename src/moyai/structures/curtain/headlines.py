@@ -49,8 +49,8 @@ _NOT_JUDGED = Headline(
     "not_judged", "Not judged", math.nan, "1",
     text="wear and fatigue, one line lost, seams and eyelets, waves in weaker currents",
     detail="ageing, fouling and fatigue of the sheet and its ropes, a curtain with one anchor line lost, stress at "
-    "seams and eyelets, the holding of an anchor in its soil, and waves in currents weaker than that of the case are "
-    "not computed",
+    "seams and eyelets, and the holding of an anchor in its soil are not computed; waves in currents weaker than that "
+    "of the case are computed at half of it alone, where the whole span is run by default",
 )  # fmt: skip
 _MISSING = "'settings.impact.chord' and a skirt that stretches, or 'dynamic' in 'analyses'"
 
@@ -186,22 +186,34 @@ def _bounded_by(load: _Load) -> str:
     return f"by an upright plate {kilo(bound)}, a bound without its band"
 
 
+def _one(load: _Load, groups: Groups) -> str:
+    """Say that the whole span was asked for, which runs one realisation of an irregular sea."""
+    table = groups.get(f"/{load.level}/dynamic")
+    if load.model != SPAN or load.bound != "at least" or table is None or "run_of" in table:
+        return ""
+    return "one realisation: leave 'dynamic' out of 'analyses' for several"
+
+
 def _tensions(loads: Sequence[_Load], groups: Groups) -> Iterator[Headline]:
     for name, words, components in _LOADS:
-        load = max(
-            (one for one in loads if one.component in components), key=lambda one: one.value,
-            default=None,
-        )  # fmt: skip
-        if load is None:
-            continue
-        detail = "; ".join(part for part in (_at_rest_words(load, groups), _bounded_by(load)) if part)
         label = "Largest tension of a cable" if words == "cable" else "Largest tension of an anchor line"
-        yield Headline(
-            name, label, load.value, "N",
-            where=f"{load.component}, {load.source}: {load.level}",
-            model=load.model, band=load.band, bound=load.bound,
-            detail="; ".join(part for part in (detail, REMEDY if load.bound == "at most" else "") if part),
-        )  # fmt: skip
+        mine = sorted((one for one in loads if one.component in components), key=lambda one: one.value, reverse=True)
+        found = [_tension(name, label, load, groups) for load in mine]
+        worst = max(found[1:], key=_end, default=None)
+        yield from found[:1]
+        if worst is not None and _end(worst) > _end(found[0]):
+            yield replace(worst, shown=False)
+
+
+def _tension(name: str, label: str, load: _Load, groups: Groups) -> Headline:
+    """Return the tension of a component at a level."""
+    detail = "; ".join(part for part in (_at_rest_words(load, groups), _bounded_by(load), _one(load, groups)) if part)
+    return Headline(
+        name, label, load.value, "N",
+        where=f"{load.component}, {load.source}: {load.level}",
+        model=load.model, band=load.band, bound=load.bound,
+        detail="; ".join(part for part in (detail, REMEDY if load.bound == "at most" else "") if part),
+    )  # fmt: skip
 
 
 def _used(loads: Sequence[_Load]) -> Iterator[tuple[float, Headline]]:
@@ -295,7 +307,23 @@ def _impact_band(groups: Groups, load: _Load) -> Band | None:
         for end, still in (("impact_low", steady.low), ("impact_high", steady.high))
     )
     of = f"impact: the models that count, start speed over drag and place of release; steady part: {steady.of}"
-    return Band(min(low, value), max(high, value), of)
+    waves = _judged_in_waves(groups, load)
+    if waves > max(high, value):
+        # the impact leads by its value, the cycles by the end at which they are judged
+        of += "; upper end: slack and taut cycles at the 95 % end of their mean"
+    return Band(min(low, value), max(high, value, waves), of)
+
+
+def _judged_in_waves(groups: Groups, load: _Load) -> float:
+    """Return the end at which a component would be judged in slack and taut cycles alone; minus infinity without."""
+    kind, _, sea = load.words("wave_source").partition(", ")
+    table = groups.get(f"/{load.level}/waves/{sea}")
+    if kind != "slack and taut cycles" or table is None or not _Cycles.of(table).top > 0.0:
+        return -math.inf
+    whole = load.number("steady_load") + load.number("wave_load")
+    more = load.number("steady_high") - load.number("steady_load")
+    worst = max(_Cycles.of(data).judged for path, data in groups.items() if _is_cycles(path, data, load.level))
+    return whole * worst / _Cycles.of(table).top + (more if math.isfinite(more) else 0.0)
 
 
 def _moving_band(groups: Groups, load: _Load, value: float) -> Band | None:
@@ -325,7 +353,7 @@ def _moving_band(groups: Groups, load: _Load, value: float) -> Band | None:
 
 
 def _mesh_band(table: xr.Dataset, load: _Load, value: float) -> Band | None:
-    """Return the peaks of an event on its two meshes and over the realisations of its sea."""
+    """Return the peaks of an event on its meshes and over the realisations of its sea, with those of other events."""
     event = str(table["run_of"].sel(run=load.words("dynamic_source")).values)
     component = "anchor line" if load.component == "anchor" else load.component
     whole, low, high, judged, count = event_band(table, event, component)
@@ -338,7 +366,8 @@ def _mesh_band(table: xr.Dataset, load: _Load, value: float) -> Band | None:
     factor = value / whole
     low, high = factor * low, max(factor * high, value)
     if count < 2:
-        return Band(low, high, "two meshes, the larger counts; drag at its value")
+        high = max(high, factor * judged)
+        return Band(low, high, "meshes and events, the larger counts; drag at its value")
     of = f"{count} realisations and two meshes; drag at its value; judged at the 95 % end of the larger mean"
     return Band(low, high, of, decides=False, judged=(low, factor * judged))
 
@@ -387,24 +416,64 @@ def _wave_band(groups: Groups, load: _Load) -> Band | None:
     part = "steady part: drag, weights and what the skirt's ends hold"
     if kind != "slack and taut cycles" or table is None:
         return Band(whole - less, upper, part) if upper > whole else None
-    ends = [f"maximum_tension{end}" for end in ("", "_low", "_high")]
-    tops = {name: np.atleast_1d(table[name].values) for name in ends}
-    row = int(np.argmax(tops["maximum_tension"]))
-    top, low, high = (float(tops[f"maximum_tension{end}"][row]) for end in ("", "_low", "_high"))
-    if not top > 0.0:
+    own = _Cycles.of(table)
+    if not own.top > 0.0:
         return None
     # the cycles give the whole of a component's load in proportion to the sum of the cables
-    several = "realisation_tension" in table
-    reach = reach_of_mean(table["realisation_tension"].values) if several else 0.0
-    if low == high and not reach:
+    seas = [_Cycles.of(data) for path, data in groups.items() if _is_cycles(path, data, load.level)]
+    worst = max(seas, key=lambda one: one.judged)
+    high = max(one.high for one in seas)
+    if own.low == high == worst.judged == own.top:
         return Band(whole - less, upper, part) if upper > whole else None
-    of = f"{table['realisation_tension'].size} realisations" if several else "largest of 100 periods"
-    judged = max(whole * (1.0 + reach / top) + more, upper)
+    words = ", ".join(dict.fromkeys((own.words, worst.words)))
     return Band(
-        whole * low / top - less, max(whole * high / top + more, upper),
-        f"{of}; {part}; judged at the 95 % end of the mean", decides=False,
-        judged=(whole * (1.0 - reach / top) - less, judged),
+        whole * own.low / own.top - less, max(whole * high / own.top + more, upper),
+        f"{words}; {part}; judged at the 95 % end of the mean", decides=False,
+        judged=(whole * (1.0 - own.reach / own.top) - less, max(whole * worst.judged / own.top + more, upper)),
     )  # fmt: skip
+
+
+def _is_cycles(path: str, data: xr.Dataset, level: str) -> bool:
+    return path.startswith(f"/{level}/waves/") and path.count("/") == 3 and "maximum_tension" in data
+
+
+@dataclass(frozen=True)
+class _Cycles:
+    """Slack and taut cycles of a sea, sums of both cables [N]."""
+
+    #: ``low``, ``top``, ``high``: The number of the sea, its lower waves counted, and the ends of its scatter.
+    low: float
+    #: ``low``, ``top``, ``high``: The number of the sea, its lower waves counted, and the ends of its scatter.
+    top: float
+    #: ``low``, ``top``, ``high``: The number of the sea, its lower waves counted, and the ends of its scatter.
+    high: float
+    #: From the number to the end of its interval.
+    reach: float
+    words: str
+
+    @property
+    def judged(self) -> float:
+        """At which criteria are judged."""
+        return self.top + self.reach
+
+    @classmethod
+    def of(cls, table: xr.Dataset) -> _Cycles:
+        """Take them from the group of a sea."""
+        tops, lows, highs = (np.atleast_1d(table[f"maximum_tension{end}"].values) for end in ("", "_low", "_high"))
+        row = int(np.argmax(tops))
+        top, low, high = float(tops[row]), float(lows[row]), float(highs.max())
+        # results of older versions do not have it
+        lower = table["lower_wave_tension"].values if "lower_wave_tension" in table else np.zeros(1)
+        if float(lower.max()) > top:
+            top = float(lower.max())
+            height = float(table["lower_wave_height"].values[int(np.argmax(lower))])
+            words = f"a lower wave of the train, of {height:.3g} m, pulls hardest"
+            return cls(low, top, max(top, high), float(table["judged_tension"].max()) - top, words)
+        if "realisation_tension" not in table:
+            reach = float(table["judged_tension"].max()) - top if "judged_tension" in table else 0.0
+            return cls(low, top, high, reach, "largest of 100 periods")
+        scatter = table["realisation_tension"].values
+        return cls(low, top, high, reach_of_mean(scatter), f"{scatter.size} realisations")
 
 
 def _steady_band(groups: Groups, load: _Load) -> Band | None:

@@ -193,6 +193,12 @@ VARIABLES: dict[str, tuple[str, str]] = {
         "sum of the tensions of both cables: largest that repeats, mean of the largest of 100 periods or realisations",
     ),
     "maximum_tension_low": ("N", "least of the largest tensions of 100 periods or of the realisations"),
+    "lower_wave_tension": ("N", "largest tension of waves of half to nine tenths of the height, both cables together"),
+    "judged_tension": (
+        "N",
+        "tension at which limits are judged: the end of the 95 % interval of a mean, lower waves too",
+    ),
+    "lower_wave_height": ("m", "height of the wave in which it stands"),
     "maximum_tension_high": ("N", "largest of the largest tensions of 100 periods or of the realisations"),
     "periods_left_out": ("1", "periods left out at the start"),
     "periods_analysed": ("1", "periods that count"),

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from moyai.core.arrays import Array
-from moyai.core.headline import Band, Bound, Headline, governing
+from moyai.core.headline import Band, Bound, Headline, governing, unfavourable
 from moyai.core.wording import spoken
 from moyai.flexible.sensitivity import PeakSensitivity
 from moyai.series.block_maxima import Maximum, maximum_of
@@ -31,6 +31,7 @@ _NOT_JUDGED = Headline(
     "not_judged", "Not judged", math.nan, "1", text="one line lost, wear and fatigue, shackles, soil of the anchors",
     condition=True,
 )  # fmt: skip
+_ONE_SEED = "one seed: others may give more"
 _MESH = "mesh: twice the segments, and their change continued"
 
 
@@ -61,6 +62,9 @@ def headlines_of(problem: NetworkProblem, groups: Mapping[str, xr.Dataset]) -> t
     items: list[Headline] = []
     if peak is not None:
         items += _tension(problem, groups, peak)
+        # a smaller tension with a wider band may pass a limit that the highest one keeps
+        worst = governing(_tension(problem, groups, one)[0] for one in peaks)[1:]
+        items += [item for item in worst if unfavourable(item) > unfavourable(items[0])]
         items += _start_up(groups, peak)
         items += _utilisation(problem, groups, peaks)
     items += _anchor(groups, peaks)
@@ -111,15 +115,20 @@ def _rest_peaks(groups: Mapping[str, xr.Dataset]) -> Iterator[_Peak]:
 
 
 def _where(groups: Mapping[str, xr.Dataset], peak: _Peak) -> str:
-    several = len({level for level, _ in _levels(groups, "network")}) > 1
     time = f"t = {peak.time:.2f} s" if math.isfinite(peak.time) else ""
-    return ", ".join(part for part in (peak.line, peak.run, time, peak.level if several else "") if part)
+    return _place(groups, peak.level, peak.line, peak.run, time)
+
+
+def _place(groups: Mapping[str, xr.Dataset], level: str, *words: str) -> str:
+    """Return where a number is found, with the water level where there are several."""
+    several = len({level for level, _ in _levels(groups, "network")}) > 1
+    return ", ".join(part for part in (*words, level if several else "") if part)
 
 
 def _tension(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peak: _Peak) -> list[Headline]:
     """Return the highest tension, with that at the ends of its line where that is less."""
     where = _where(groups, peak)
-    band, details = _band(groups, peak)
+    band, details, bound = _band(groups, peak)
     if peak.model == REST:
         said = "; ".join(details)
         return [Headline("line_tension", "highest tension at rest", peak.value, "N", where, REST, band, detail=said)]
@@ -128,7 +137,7 @@ def _tension(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peak: _P
     model = f"{DYNAMIC}, {series['theory']}" if math.isfinite(float(series["wave_height"])) else DYNAMIC
     items = [
         Headline(
-            "line_tension", "highest tension", peak.value, "N", where, model, band,
+            "line_tension", "highest tension", peak.value, "N", where, model, band, bound,
             detail="; ".join(part for part in details if part),
         )
     ]  # fmt: skip
@@ -201,9 +210,9 @@ def _numerical_band(summary: xr.Dataset, peak: _Peak) -> tuple[Band | None, list
 
 def _chance(groups: Mapping[str, xr.Dataset], peak: _Peak) -> tuple[Maximum | None, list[str]]:
     """Return what one maximum of an irregular sea is worth, and say the height that was realised."""
-    series = groups.get(f"/{peak.level}/time/{peak.run}")
-    if series is None or not int(series.attrs.get("irregular", 0)):
+    if not _irregular(groups, peak.level, peak.run):
         return None, []
+    series = groups[f"/{peak.level}/time/{peak.run}"]
     late = series.isel(time=series["time"].values >= series["time"].values[0] + series.attrs["skip"])
     said = []
     if "surface_elevation" in late:
@@ -231,32 +240,42 @@ def _utilisation(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peak
         load = breaking.get(item.line)
         if load is None:
             continue
-        band, _ = _band(groups, item)
+        band, _, bound = _band(groups, item)
         items.append(
             Headline(
                 "line_utilisation", "highest tension over breaking load", item.value / load, "1",
-                f"{item.line}, {item.run}", item.model,
-                None if band is None else replace(band, low=band.low / load, high=band.high / load),
+                _place(groups, item.level, item.line, item.run), item.model,
+                None if band is None else replace(band, low=band.low / load, high=band.high / load), bound,
                 detail=f"breaking load {load / 1e3:.4g} kN, without a safety factor",
             )
         )  # fmt: skip
     return governing(items)
 
 
-def _band(groups: Mapping[str, xr.Dataset], peak: _Peak) -> tuple[Band | None, list[str]]:
-    """Return what mesh, step and the chance of one seed do to a tension, and what is to be said of it."""
+def _band(groups: Mapping[str, xr.Dataset], peak: _Peak) -> tuple[Band | None, list[str], Bound]:
+    """Return what mesh, step and the chance of one seed do to a tension, what is to be said of it, and what it proves.
+
+    A record too short to tell its chance can break a limit and cannot keep one.
+    """
     if peak.model == REST:
         band = _rest_band(groups, peak)
-        return band, [] if band else ["mesh not checked"]
+        return band, [] if band else ["mesh not checked"], ""
     band, details = _numerical_band(groups[f"/{peak.level}/dynamic"].sel(run=peak.run), peak)
     found, words = _chance(groups, peak)
     details += words
     if found is None:
-        return band, details
+        alone = _irregular(groups, peak.level, peak.run)
+        return band, [*details, *([_ONE_SEED] if alone else [])], "at least" if alone else ""
     low, high, of = (peak.value, peak.value, "") if band is None else (band.low, band.high, band.of)
     of = "; ".join(filter(None, (of, _of_seeds(found))))
     least, most = found.range
-    return Band(max(min(low, least), 0.0), max(high, most), of), details
+    return Band(max(min(low, least), 0.0), max(high, most), of), details, ""
+
+
+def _irregular(groups: Mapping[str, xr.Dataset], level: str, run: str) -> bool:
+    """Whether a run is through an irregular sea."""
+    series = groups.get(f"/{level}/time/{run}")
+    return series is not None and bool(int(series.attrs.get("irregular", 0)))
 
 
 def mesh_checked(groups: Mapping[str, xr.Dataset]) -> bool:
@@ -279,7 +298,7 @@ def _anchor(groups: Mapping[str, xr.Dataset], peaks: list[_Peak]) -> list[Headli
         for run in (str(name) for name in summary["run"].values):
             mine = [peak for peak in peaks if (peak.level, peak.run) == (level, run)]
             most = max(mine, key=lambda peak: peak.value, default=None)
-            band = None if most is None else _band(groups, most)[0]
+            band, _, bound = (None, [], "") if most is None else _band(groups, most)
             for point in fixed:
                 row = summary.sel(run=run, point=point)
                 value = float(row["load_peak"])
@@ -293,8 +312,8 @@ def _anchor(groups: Mapping[str, xr.Dataset], peaks: list[_Peak]) -> list[Headli
                     own = Band(low, high, f"in proportion to the tension of {most.line}")
                 found.append(
                     Headline(
-                        "anchor_load", "largest pull on a fixed point", value, "N", f"{point}, {run}", DYNAMIC, own,
-                        detail=said,
+                        "anchor_load", "largest pull on a fixed point", value, "N", _place(groups, level, point, run),
+                        DYNAMIC, own, bound, detail=said,
                     )
                 )  # fmt: skip
     return governing(found)
@@ -313,11 +332,12 @@ def _offsets(groups: Mapping[str, xr.Dataset]) -> list[Headline]:
                         value = float(summary["excursion"].sel(run=run, point=point))
                         away = _away(groups, level, str(run), str(point), "point", 3)
                         said = f"{still}, heave included"
-                        offsets.append(_moved("offset", value, f"{point}, {run}", said, groups, level, str(run), away))
+                        where = _place(groups, level, str(point), str(run))
+                        offsets.append(_moved("offset", value, where, said, groups, level, str(run), away))
             for solid in summary["solid"].values if "offset" in summary else ():
                 value, lean = (float(summary[name].sel(run=run, solid=solid)) for name in ("offset", "highest_lean"))
                 away = _away(groups, level, str(run), str(solid), "solid", 2)
-                where = f"{solid}, {run}"
+                where = _place(groups, level, str(solid), str(run))
                 offsets.append(_moved("offset", value, where, still, groups, level, str(run), away))
                 leans.append(_moved("lean", lean, where, still, groups, level, str(run), None))
     return [
@@ -340,13 +360,13 @@ def _moved(
     series = groups.get(f"/{level}/time/{run}")
     band: Band | None = None
     bound: Bound = ""
-    if series is not None and int(series.attrs.get("irregular", 0)):
+    if series is not None and _irregular(groups, level, run):
         found = None
         if away is not None:
             late = series["time"].values >= series["time"].values[0] + series.attrs["skip"]
             found = maximum_of(series["time"].values[late], away[late], float(series.attrs["period"]))
         if found is None:
-            bound, detail = "at least", f"{detail}; one seed: others may give more"
+            bound, detail = "at least", f"{detail}; {_ONE_SEED}"
         else:
             low, high = found.range
             band = Band(max(min(value, low), 0.0), max(value, high), _of_seeds(found))

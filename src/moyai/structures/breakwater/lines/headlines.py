@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from moyai.core.arrays import Array
-from moyai.core.headline import Bound, Headline, governing, unfavourable
+from moyai.core.headline import Band, Bound, Headline, governing, unfavourable
 from moyai.mooring.anchors import gravity_anchor_weight
 from moyai.series.intervals import reach_of_mean
-from moyai.series.realisations import ALONE, alone, seeds
+from moyai.series.realisations import ALONE, alone, seeds, storms
 from moyai.structures.breakwater.responses import SNAP_RATIO
 from moyai.tables.design_codes import anchor_factor, holding_data
 
@@ -57,6 +57,12 @@ class LinePeak:
     duration: float = math.nan
     #: Whether the slow drift of an irregular sea is not in it.
     without_drift: bool = False
+    #: Most probable largest over standard deviation of a tension of the frequency domain; NaN in time.
+    factor: float = math.nan
+
+    def band(self, value: float, scatter: Array, bound: Array | None = None, mean: float = 0.0) -> Band | None:
+        """Return the band of a number of this line: of realisations, in the frequency domain of storms alike."""
+        return seeds(scatter, bound) if scatter.size else storms(value, mean, self.factor)
 
     @property
     def proves(self) -> Bound:
@@ -157,6 +163,8 @@ def _line_peak(
     scatter = scatter_of("line_tension_maximum")
     model = (FIRST_ORDER if regular else FREQUENCY) if domain == "frequency" else (IN_MOTION if moving else AT_REST)
     mean = of("line_tension_mean")
+    deviation = 0.25 * of("significant_tension")
+    factor = (of("most_probable_maximum_tension") - mean) / deviation if deviation > 0.0 else math.nan
     highest = float(np.nanmax(scatter)) if scatter.size else float(table[row])
     # A spring is linear at any tension; a chain at rest at every instant says nothing beyond the range
     known = moving or not chain or highest <= SNAP_RATIO * mean
@@ -166,7 +174,7 @@ def _line_peak(
         model, known, scatter, scatter_of("maximum_anchor_vertical_tension"),
         scatter_of("maximum_anchor_horizontal_tension"),
         scatter_of("line_tension_bound") if moving else scatter, float(data.attrs.get("duration", math.nan)),
-        drift_left_out(data),
+        drift_left_out(data), factor,
     )  # fmt: skip
 
 
@@ -186,7 +194,7 @@ def line_headlines(peaks: list[LinePeak]) -> list[Headline]:
     left_out = WITHOUT_DRIFT if highest.without_drift else ""
     tension = Headline(
         "line_tension", "Largest line tension", highest.tension, "N", highest.where, highest.model,
-        band=seeds(highest.scatter, highest.bound), bound=highest.proves,
+        band=highest.band(highest.tension, highest.scatter, highest.bound, highest.mean), bound=highest.proves,
         detail="; ".join(filter(None, (chance, left_out, _open(highest), also))),
         analysis=highest.analysis,
     )  # fmt: skip
@@ -218,7 +226,7 @@ def _utilisation(peak: LinePeak) -> Headline:
     load = peak.breaking_load
     return Headline(
         "line_utilisation", "Utilisation of the breaking load", peak.utilisation, "1", peak.where, peak.model,
-        band=seeds(peak.scatter / load, peak.bound / load), bound=peak.proves,
+        band=peak.band(peak.utilisation, peak.scatter / load, peak.bound / load, peak.mean / load), bound=peak.proves,
         detail=f"breaking load {kilonewton(load)}, no corrosion or wear taken off", mean=peak.mean / load,
         analysis=peak.analysis,
     )  # fmt: skip
@@ -282,8 +290,9 @@ def anchor_headlines(groups: Mapping[str, xr.Dataset], levels: list[str], peaks:
     up_factor, friction = anchor_factor("gravity_anchor", "vertical"), holding_data("sinker", *SINKER)
     # a sinker is bought for the end at which criteria are judged, not for the mean of a few realisations
     weight = gravity_anchor_weight(
-        _judged_end(hardest.horizontal, hardest.horizontal_scatter),
-        _judged_end(hardest.vertical, hardest.vertical_scatter), friction.value, level_factor.value, up_factor.value,
+        _judged_end(hardest.horizontal, hardest.band(hardest.horizontal, hardest.horizontal_scatter)),
+        _judged_end(hardest.vertical, hardest.band(hardest.vertical, np.maximum(hardest.vertical_scatter, 0.0))),
+        friction.value, level_factor.value, up_factor.value,
     )  # fmt: skip
     lies = hardest.grounded > 0.0 and hardest.vertical <= 0.0
     bed = f"{hardest.grounded:.3g} m of line left on the bed" if lies else "no line left on the bed"
@@ -297,7 +306,8 @@ def anchor_headlines(groups: Mapping[str, xr.Dataset], levels: list[str], peaks:
     capacity = Headline(
         "anchor_capacity_required", "Horizontal holding capacity that an anchor needs",
         factor.value * hardest.horizontal, "N", hardest.where, hardest.model,
-        band=seeds(factor.value * hardest.horizontal_scatter), bound=hardest.proves,
+        band=hardest.band(factor.value * hardest.horizontal, factor.value * hardest.horizontal_scatter),
+        bound=hardest.proves,
         detail=(
             f"{asked}; {bed} at the peak; or {sinker}"
             if hardest.vertical <= 0.0
@@ -307,7 +317,7 @@ def anchor_headlines(groups: Mapping[str, xr.Dataset], levels: list[str], peaks:
     pull = [
         Headline(
             "anchor_horizontal_load", "Horizontal pull on an anchor", peak.horizontal, "N", peak.where, peak.model,
-            band=seeds(peak.horizontal_scatter), bound=peak.proves,
+            band=peak.band(peak.horizontal, peak.horizontal_scatter), bound=peak.proves,
         )
         for peak in pulled
         if peak.known
@@ -326,13 +336,13 @@ def anchor_headlines(groups: Mapping[str, xr.Dataset], levels: list[str], peaks:
     said = "; ".join(part for part in (kept if none else "", bare) if part)
     uplift = Headline(
         "anchor_uplift", "Uplift at an anchor", max(lifted.vertical, 0.0), "N", lifted.where, lifted.model,
-        band=None if none else seeds(np.maximum(lifted.vertical_scatter, 0.0)), detail=said,
+        band=None if none else lifted.band(lifted.vertical, np.maximum(lifted.vertical_scatter, 0.0)), detail=said,
         text="none" if none else "", bound=lifted.proves,
     )  # fmt: skip
     lifts = [
         replace(
             uplift, value=peak.vertical, where=peak.where, model=peak.model, text="", detail="",
-            band=seeds(np.maximum(peak.vertical_scatter, 0.0)), bound=peak.proves, shown=False,
+            band=peak.band(peak.vertical, np.maximum(peak.vertical_scatter, 0.0)), bound=peak.proves, shown=False,
         )
         for peak in pulled
         if peak.known and peak.vertical > 0.0 and peak is not lifted
@@ -341,8 +351,7 @@ def anchor_headlines(groups: Mapping[str, xr.Dataset], levels: list[str], peaks:
     return [capacity, *governing(pull), uplift, *widest, *unknown]
 
 
-def _judged_end(value: float, scatter: Array) -> float:
-    band = seeds(np.maximum(scatter, 0.0))
+def _judged_end(value: float, band: Band | None) -> float:
     return max(value, 0.0) if band is None or band.judged is None else max(value, band.judged[1], 0.0)
 
 

@@ -27,11 +27,15 @@ CAGE_CODE = "NS 9415"
 class CageCriteria(LineCriteria):
     """What a net cage has to keep."""
 
-    least_volume_left: Share = Field(default=None, description="Share of the volume as built that is left" + OFF + ".")
+    least_volume_left: Share = Field(
+        default=None, description="Share of the volume as built that is left, also for moments in the sea" + OFF + "."
+    )
     greatest_offset: GreatestLength = Field(default=None, description="Largest offset from rest" + OFF + ".")
-    greatest_drag: GreatestTension = Field(default=None, description="Largest drag of the cage" + OFF + ".")
+    greatest_drag: GreatestTension = Field(
+        default=None, description="Largest drag of the cage, also for moments in the sea" + OFF + "."
+    )
     greatest_net_tension: GreatestNetTension = Field(
-        default=None, description="Largest tension of the net per width" + OFF + "."
+        default=None, description="Largest tension of the net over its width" + OFF + "."
     )
     greatest_anchor_load: GreatestForce = Field(default=None, description="Largest load on an anchor" + OFF + ".")
 

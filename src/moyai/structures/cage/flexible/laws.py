@@ -105,6 +105,7 @@ def _numbers(
         "line_tension_maximum": max(lines, default=math.nan),
         "offset": offset,
         "anchor_pull": float(np.linalg.norm(pulls, axis=1).max()) if built.anchors.size else math.nan,
+        "net_tension": float(built.net_tension(rest.tension).max()),
         "collar_stress": _collar_stress(model, rest),
         "residual": rest.residual,
     }

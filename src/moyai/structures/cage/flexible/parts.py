@@ -79,6 +79,42 @@ class CageNetwork:
     #: Nodes.
     sinkers: IntArray
 
+    def net_tension(self, tension: Array) -> Array:
+        """Return the largest tension of each net over the width that a bar stands for, (..., bars) [N] -> (..., cages).
+
+        The width [m] is half of each panel at the bar, over its length, as built [eq:net-tension].
+        """
+        return np.stack(
+            [
+                (tension[..., cage.net_bars] / bar_widths(self.network, cage.net_bars)).max(axis=-1)
+                for cage in self.cages
+            ],
+            axis=-1,
+        )
+
+
+def bar_widths(network: Network, bars: IntArray) -> Array:
+    """Return the width of net that each bar stands for, as built [m]: half of the panels at it over its length."""
+    panels = network.panels
+    assert panels is not None
+    size = len(network.nodes.position)
+    corners = panels.corners
+    # a triangle's last side runs from its third corner to its first
+    third = np.where(corners[:, 3] < 0, corners[:, 0], corners[:, 3])
+    sides = [corners[:, :2], corners[:, 1:3], np.stack([corners[:, 2], third], axis=1), corners[:, [3, 0]]]
+    area = np.concatenate([panels.area, panels.area, panels.area, np.where(corners[:, 3] < 0, 0.0, panels.area)])
+    ends = np.sort(np.concatenate(sides), axis=1)
+    key = ends[:, 0] * size + ends[:, 1]
+    own = np.sort(np.stack([network.bars.start[bars], network.bars.end[bars]], axis=1), axis=1)
+    names, where = np.unique(key, return_inverse=True)
+    beside = np.zeros(len(names) + 1)
+    np.add.at(beside, where, area)
+    wanted = own[:, 0] * size + own[:, 1]
+    at = np.searchsorted(names, wanted)
+    at = np.where((at < len(names)) & (names[np.minimum(at, len(names) - 1)] == wanted), at, len(names))
+    width = 0.5 * beside[at] / network.bars.length[bars]
+    return np.where(width > 0.0, width, np.inf)
+
 
 def _six(p: Array, q: Array, r: Array) -> Array:
     """Return six times the volume between the origin and triangles, summed over them."""

@@ -28,6 +28,7 @@ OFFSET, LEAST_VOLUME, STRESS = (
     "largest offset of a collar [m]", "smallest volume share [-]", "highest stress of the collar [Pa]",
 )  # fmt: skip
 VOLUME_IN_CURRENT, DRAG_IN_CURRENT = "volume share in the current [-]", "drag in the current [N]"
+NET_TENSION, NET_TENSION_IN_CURRENT = "highest tension of the net [N/m]", "tension of the net in the current [N/m]"
 
 
 def _coarser(mesh: CageMesh) -> CageMesh:
@@ -67,6 +68,7 @@ def _numbers(model: FlexibleCage, run: CageRun) -> dict[str, float]:
         for cage in built.cages
     ]
     out[OFFSET] = float(np.max(moved))
+    out[NET_TENSION] = float(built.net_tension(history.tension_peak[steady]).max())
     out |= _in_current(run.rest)
     if built.cages[0].collar_bars and not model.design.collar.rigid:
         rows = np.flatnonzero(steady)[:: max(1, int(steady.sum()) // 100)]
@@ -82,10 +84,11 @@ def _numbers(model: FlexibleCage, run: CageRun) -> dict[str, float]:
 
 
 def _in_current(rest: CageRest) -> dict[str, float]:
-    """Return volume and drag of a cage at rest in a current."""
+    """Return volume, drag and tension of the net of a cage at rest in a current."""
     place, cages = rest.state.position, rest.built.cages
     return {
         VOLUME_IN_CURRENT: float(np.min([cage.volume(place) / cage.rest_volume for cage in cages])),
+        NET_TENSION_IN_CURRENT: float(rest.built.net_tension(rest.tension).max()),
         DRAG_IN_CURRENT: float(np.linalg.norm(horizontal_balance(rest)[0].sum(axis=0)[:2])),
     }
 

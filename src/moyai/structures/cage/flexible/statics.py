@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 _WORST = {
     "worst_volume_share": "volume_share",
     "worst_net_deflection": "net_deflection",
+    "worst_net_tension": "net_tension",
     "worst_line_tension_maximum": "line_tension_maximum",
     "worst_utilisation": "utilisation",
     "worst_anchor_pull": "anchor_pull",
@@ -151,6 +152,7 @@ def statics_dataset(model: FlexibleCage, speeds: list[float], heading: float, re
             collar_place=np.stack([shape[0] for shape in shapes]),
             collar_ovality=np.array([shape[1] for shape in shapes]),
             collar_warp=np.array([shape[2] for shape in shapes]),
+            net_tension=built.net_tension(rest.tension),
             net_deflection=far, bottom_lift=lift, position=position, tension=rest.tension,
             **line_numbers(built, rest.tension),
         )  # fmt: skip
@@ -165,7 +167,8 @@ def statics_dataset(model: FlexibleCage, speeds: list[float], heading: float, re
     ends: dict[str, tuple[str, ...]] = {
         "volume_share": ("cage",), "drag": ("part", "horizontal"), "drag_along": ("part",), "pull": ("axis",),
         "collar_place": ("cage", "axis"), "collar_ovality": ("cage",), "collar_warp": ("cage",),
-        "net_deflection": ("cage",), "bottom_lift": ("cage",), "position": ("node", "axis"), "tension": ("bar",),
+        "net_deflection": ("cage",), "bottom_lift": ("cage",), "net_tension": ("cage",),
+        "position": ("node", "axis"), "tension": ("bar",),
         "tension_lower": ("line",), "tension_upper": ("line",), "line_tension_maximum": ("line",),
         "utilisation": ("line",),
         "anchor_pull": ("anchor",), "anchor_uplift": ("anchor",), "collar_stress_largest": ("cage",),

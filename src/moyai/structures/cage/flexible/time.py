@@ -25,8 +25,8 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-#: Rows at which the split of the drag is given, at most, and pictures kept in a wave period, at least.
-_DRAG_ROWS, _PICTURES_PER_PERIOD = 200, 12
+#: Rows at which the split of the drag is given and pictures kept in a wave period, at least; rows of the drag in all.
+_ROWS_PER_PERIOD, _DRAG_ROWS = 12, 200
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,7 +109,8 @@ def time_dataset(model: FlexibleCage, run: CageRun, settings: FlexibleSettings) 
         ]
     )
     volume = np.stack([cage.volume(history.position) / cage.rest_volume for cage in built.cages], axis=1)
-    rows = np.unique(np.linspace(int(np.argmax(steady)), len(time) - 1, _DRAG_ROWS).astype(np.int64))
+    stride = max(1, min(settings.rows_per_period // _ROWS_PER_PERIOD, int(steady.sum()) // _DRAG_ROWS))
+    rows = np.arange(int(np.argmax(steady)), len(time), stride)
     drag = _drag_rows(run, rows)
     lines = _line_series(run, settings, steady)
     governing = _governing_row(lines, volume, steady)
@@ -123,6 +124,7 @@ def time_dataset(model: FlexibleCage, run: CageRun, settings: FlexibleSettings) 
         "volume_minimum": ("cage", volume[steady].min(axis=0)),
         "collar_place": (("time", "cage", "axis"), shapes),
         "collar_range": (("cage", "axis"), np.ptp(shapes[steady], axis=0)),
+        "net_tension_peak_since_row": (("time", "cage"), built.net_tension(history.tension_peak)),
         "wave_elevation": ("time", surface),
         "drag": (("drag_time", "part", "horizontal"), drag),
         "drag_mean": (("part", "horizontal"), drag.mean(axis=0)),
@@ -180,7 +182,7 @@ def picture_rows(rows: int, governing: int, count: int, rows_per_period: int) ->
     rows_per_period : int
         Rows in a wave period; a period gets at least twelve pictures, or every row.
     """
-    stride = max(rows_per_period // _PICTURES_PER_PERIOD, 1)
+    stride = max(rows_per_period // _ROWS_PER_PERIOD, 1)
     behind = governing % stride + stride * np.arange((rows - 1 - governing % stride) // stride + 1)
     first = int(np.clip(governing // stride - count // 2, 0, max(behind.size - count, 0)))
     return behind[first : first + count].astype(np.int64)

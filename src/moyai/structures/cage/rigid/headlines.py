@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from moyai.core.arrays import Array
 from moyai.core.headline import Band, Headline, governing
 from moyai.structures.cage.conditions import condition_headlines, sea_words
-from moyai.structures.cage.headlines import NOT_JUDGED, Groups, chance, laws_text
+from moyai.structures.cage.headlines import NOT_JUDGED, Groups, alone, chance, laws_text
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -31,8 +32,14 @@ def rigid_headlines(groups: Groups) -> tuple[Headline, ...]:
         for path, group in groups.items()
         if len(parts := path.strip("/").split("/")) == 3 and parts[1] == "waves"
     ]
-    items = (*_rigid_tension(seas, groups), *_rigid_motions(seas, groups), *_rigid_rest(groups))
-    return (*items, *condition_headlines(groups), *([NOT_JUDGED] if seas else []))
+    items = (
+        *_rigid_tension(seas, groups),
+        *_rigid_anchor(seas, groups),
+        *_rigid_offset(seas, groups),
+        *_rigid_motions(seas, groups),
+        *_rigid_rest(groups),
+    )
+    return (*map(alone, items), *condition_headlines(groups), *([NOT_JUDGED] if seas else []))
 
 
 Seas = list[tuple[str, str, "xr.Dataset"]]
@@ -47,9 +54,10 @@ def _rigid_tension(seas: Seas, groups: Groups) -> list[Headline]:
             wave = int(np.argmax(values.max(axis=1)))
             value = float(values[wave].max())
             where = f"{title}, {_rigid_where(level, name, sea, wave, groups)}"
-            label = f"wave {wave + 1}" if sea.attrs["kind"] == "regular" else "sea"
-            run = groups[f"/{level}/time/{name}/{label}"]
-            band, said = _rigid_band(groups.get(f"/{level}/laws"), run, line, value)
+            run = _run_of(level, name, sea, wave, groups)
+            band, said = _rigid_band(
+                groups.get(f"/{level}/laws"), run, value, run["line_tension_peak_since_row"].values[:, line]
+            )
             model = f"{RIGID}, {run.attrs['theory']}"
             tensions.append(
                 Headline("line_tension", "highest line tension", value, "N", where, model, band, detail=said)
@@ -66,13 +74,67 @@ def _rigid_tension(seas: Seas, groups: Groups) -> list[Headline]:
     return [*governing(tensions), *governing(utilisations)]
 
 
-def _rigid_band(laws: xr.Dataset | None, run: xr.Dataset, line: int, value: float) -> tuple[Band | None, str]:
-    """Return what other seeds and the laws valid for this net make of a tension, and what is to be said of it."""
-    low, high, seed = chance(run, value, run["line_tension_peak_since_row"].values[:, line])
+def _rigid_anchor(seas: Seas, groups: Groups) -> list[Headline]:
+    """Return the largest pull on an anchor: the highest tension at the lower end of a line."""
+    found = []
+    for level, name, sea in seas:
+        if not sea.sizes["line"]:
+            continue
+        pulls = sea["line_tension_maximum"].sel(end="anchor").values
+        for line, title in enumerate(sea["line"].values):
+            wave = int(np.argmax(pulls[:, line]))
+            value = float(pulls[wave, line])
+            run = _run_of(level, name, sea, wave, groups)
+            # the lower end has no series of its peaks: the chance is that of the line's largest tension
+            share = value / max(float(sea["line_tension_maximum"].values[wave, line].max()), 1e-300)
+            band, _ = _rigid_band(
+                groups.get(f"/{level}/laws"), run, value, share * run["line_tension_peak_since_row"].values[:, line]
+            )
+            where = f"lower end of {title}, {_rigid_where(level, name, sea, wave, groups)}"
+            model = f"{RIGID}, {run.attrs['theory']}"
+            found.append(Headline("anchor_load", "largest pull on an anchor", value, "N", where, model, band))
+    return governing(found)
+
+
+def rigid_offsets(statics: xr.Dataset, sea: xr.Dataset) -> tuple[float, Array]:
+    """Return place of rest and largest way of the cage in each wave, from where it floats freely [m]."""
+    places = statics["rest_x"]
+    at_rest = float(places.sel(situation="moored") - places.sel(situation="floating freely"))
+    ends = np.array([sea[key].sel(mode="sway").values for key in ("minimum", "maximum")])
+    return at_rest, np.abs(at_rest + ends).max(axis=0)
+
+
+def _rigid_offset(seas: Seas, groups: Groups) -> list[Headline]:
+    """Return the largest way of the cage from where it floats freely, the current's part in it."""
+    found = []
+    for level, name, sea in seas:
+        if not sea.sizes["line"]:
+            continue
+        at_rest, offsets = rigid_offsets(groups[f"/{level}/statics"], sea)
+        wave = int(np.argmax(offsets))
+        value, run = float(offsets[wave]), _run_of(level, name, sea, wave, groups)
+        band, said = _rigid_band(
+            groups.get(f"/{level}/laws"), run, value, np.abs(at_rest + run["sway"].values), "law_offset"
+        )
+        where = _rigid_where(level, name, sea, wave, groups)
+        found.append(
+            Headline(
+                "offset", "largest offset from where it floats freely", value, "m", where,
+                f"{RIGID}, {run.attrs['theory']}", band, detail=said,
+            )
+        )  # fmt: skip
+    return governing(found)
+
+
+def _rigid_band(
+    laws: xr.Dataset | None, run: xr.Dataset, value: float, series: Array, name: str = "law_line_tension_maximum"
+) -> tuple[Band | None, str]:
+    """Return what other seeds and the laws valid for this net make of a number, and what is to be said of it."""
+    low, high, seed = chance(run, value, series)
     words, said = [seed] if seed else [], ""
     if laws is not None and laws.sizes["law"] > 1:
         # the laws were run in the wave of the highest tension: their ratio holds for the others
-        ratio = laws["law_line_tension_maximum"].values / float(laws["law_line_tension_maximum"].values[0])
+        ratio = laws[name].values / float(laws[name].values[0])
         low, high = low * min(float(ratio.min()), 1.0), high * max(float(ratio.max()), 1.0)
         words.append(laws_text(laws))
     elif laws is not None:
@@ -80,10 +142,15 @@ def _rigid_band(laws: xr.Dataset | None, run: xr.Dataset, line: int, value: floa
     return (Band(low, high, "; ".join(words)) if words else None), said
 
 
+def _run_of(level: str, name: str, sea: xr.Dataset, wave: int, groups: Groups) -> xr.Dataset:
+    """Return the series of one wave, or of the sea."""
+    label = f"wave {wave + 1}" if sea.attrs["kind"] == "regular" else "sea"
+    return groups[f"/{level}/time/{name}/{label}"]
+
+
 def _rigid_where(level: str, name: str, sea: xr.Dataset, wave: int, groups: Groups) -> str:
     """Return sea, wave or seed, current and level of a number of a rigid cage."""
-    label = f"wave {wave + 1}" if sea.attrs["kind"] == "regular" else "sea"
-    run = groups[f"/{level}/time/{name}/{label}"]
+    run = _run_of(level, name, sea, wave, groups)
     return f"{sea_words(name, run, float(groups[f'/{level}'].attrs['current']))}, {level}"
 
 

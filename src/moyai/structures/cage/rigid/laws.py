@@ -36,10 +36,10 @@ def laws_dataset(
     rest: Rest,
     water: Water,
     wave: Wave,
-    peak: float,
+    known: tuple[float, float, float],
     progress: Progress = silent,
 ) -> tuple[xr.Dataset, Notice]:
-    """Return the highest tension of one wave under the law of the case and under every other valid one.
+    """Return the highest tension and the offset of one wave under the law of the case and under every other valid one.
 
     Parameters
     ----------
@@ -50,8 +50,9 @@ def laws_dataset(
         Under the law of the case.
     water : Water
     wave : Wave
-    peak : float
-        Highest tension under the law of the case [N].
+    known : tuple of float
+        Under the law of the case: highest tension [N], place of rest against where the cage floats freely [m], largest
+        offset from there [m].
     progress : Progress
     """
     import xarray as xr
@@ -60,7 +61,8 @@ def laws_dataset(
     speed = math.pi * wave.height / wave.period + abs(current_along(problem, water))
     choice = law_choice(cage.law, cage.net, speed, problem.kinematic_viscosity, metal=is_metal(problem))
     laws: tuple[NetLaw, ...] = (choice.chosen, *choice.others)
-    peaks = [peak]
+    peak, at_rest, offset = known
+    peaks, offsets = [peak], [offset]
     for number, law in enumerate(laws[1:], start=1):
         progress("laws of nets", number, len(laws))
         other = replace(problem, cage=replace(cage, law=law))
@@ -71,6 +73,7 @@ def laws_dataset(
             )  # fmt: skip
         numbers = run_wave(other, lines, begin, water, wave).numbers
         peaks.append(float(np.max(numbers.line_tension_maximum)))
+        offsets.append(numbers.largest_offset(at_rest + begin.x - rest.x))
     progress("laws of nets", len(laws), len(laws))
     coefficients = [float(law.coefficients(0.0, speed, cage.net, problem.kinematic_viscosity)[0]) for law in laws]
     found = labelled(
@@ -78,6 +81,7 @@ def laws_dataset(
             {
                 "normal_drag_coefficient": ("law", np.array(coefficients)),
                 "law_line_tension_maximum": ("law", np.array(peaks)),
+                "law_offset": ("law", np.array(offsets)),
             },
             coords={"law": [law.name for law in laws]},
             attrs={"wave": wave.name, "speed": speed, "valid": choice.named, "reynolds": choice.reynolds},

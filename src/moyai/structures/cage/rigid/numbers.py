@@ -33,6 +33,10 @@ class Numbers:
     line_tension_mean_peak: Array
     slack_share: Array
 
+    def largest_offset(self, at_rest: float) -> float:
+        """Return the largest sway either way [m], from a point that the place of rest is ``at_rest`` [m] off."""
+        return float(np.abs(at_rest + np.array([self.minimum[0], self.maximum[0]])).max())
+
 
 def numbers_of(found: March, rest: Array, ends: Array, peak_at_ends: Array, period: float, skip: float) -> Numbers:
     """Return the numbers of a march after ``skip`` seconds.

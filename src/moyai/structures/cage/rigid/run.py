@@ -25,7 +25,7 @@ from moyai.structures.cage.rigid.checks import (
     run_notices,
 )
 from moyai.structures.cage.rigid.datasets import cage_dataset, sea_dataset, statics_dataset, time_dataset
-from moyai.structures.cage.rigid.headlines import rigid_headlines
+from moyai.structures.cage.rigid.headlines import rigid_headlines, rigid_offsets
 from moyai.structures.cage.rigid.laws import laws_dataset
 from moyai.structures.cage.rigid.lines import CageLine
 from moyai.structures.cage.rigid.model import CageSea, RegularWaves, RigidCageProblem
@@ -132,7 +132,9 @@ def _law_steps(
         return
     peak, sea, number = best
     wave = waves_of(problem, sea, water)[number]
-    found, notice = laws_dataset(problem, lines, rest, water, wave, peak, progress)
+    at_rest, offsets = rigid_offsets(collected.groups[f"{root}/statics"], collected.groups[f"{root}/waves/{sea.name}"])
+    case = (peak, at_rest, float(offsets[number]))
+    found, notice = laws_dataset(problem, lines, rest, water, wave, case, progress)
     found.attrs["sea"] = sea.name
     collected.groups[f"{root}/laws"] = found
     if notice.severity == "warning":

@@ -69,6 +69,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "line_tension_peak_since_row": ("N", "largest tension around the row, at the cage"),
     "normal_drag_coefficient": ("1", "drag coefficient of the net at normal flow, on its outline area"),
     "law_line_tension_maximum": ("N", "largest tension of all lines in the wave of the highest tension"),
+    "law_offset": ("m", "largest way from where the cage floats freely, in the wave of the highest tension"),
     "varied_stiffness": ("N/m", "stiffness of the lines"),
 }
 

@@ -121,10 +121,17 @@ def dynamic_answer(
 
 
 def peaks_of_runs(plans: Sequence[Plan], rows: Sequence[Mapping[str, float]]) -> dict[str, SpanLoad]:
-    """Return the highest tension of each component over the runs, and the run in which it stands."""
+    """Return the highest tension of each component over the runs, and the run in which it stands.
+
+    A run through an irregular sea is one realisation about one crest: a bound from below.
+    """
     found: dict[str, SpanLoad] = {}
     for component, key in COMPONENTS.items():
-        known = [SpanLoad(row[key], plan.name) for row, plan in zip(rows, plans, strict=False) if row[key] > 0.0]
+        known = [
+            SpanLoad(row[key], plan.name, plan.arguments["flow"].waves is not None and not plan.regular)
+            for row, plan in zip(rows, plans, strict=False)
+            if row[key] > 0.0
+        ]
         if known:
             found[component] = max(known)
     return found

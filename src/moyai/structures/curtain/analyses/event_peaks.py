@@ -47,7 +47,7 @@ class Sample:
 class EventPeak:
     """Highest tension of a component in an event."""
 
-    #: Larger of the means over the realisations on each mesh [N, N/m].
+    #: Larger of the means over the realisations on each mesh that resolves the event [N, N/m].
     value: float
     #: ``low``, ``high``: Lowest and highest of all runs.
     low: float
@@ -79,12 +79,22 @@ def event_peak(samples: Sequence[Sample], event: str, component: str) -> EventPe
     ----------
     samples : sequence of Sample
     event, component : str
+
+    Notes
+    -----
+    Of three meshes the coarsest is left out where the two finer ones differ less than it does from the next.
     """
     mine = [item for item in samples if item.event == event and item.peaks[component] > 0.0]
     meshes = sorted({item.mesh for item in mine})
     if not meshes:
         return None
     by_mesh = {mesh: [item for item in mine if item.mesh == mesh] for mesh in meshes}
+    means = _shared_means(by_mesh, component)
+    if len(meshes) == 3 and abs(means[2] - means[1]) < abs(means[1] - means[0]):
+        # the two finer meshes come nearer to each other: the coarsest does not resolve the event
+        del by_mesh[meshes[0]]
+        meshes, means = meshes[1:], means[1:]
+        mine = [item for item in mine if item.mesh in by_mesh]
     mean = {mesh: float(np.mean(_peaks(items, component))) for mesh, items in by_mesh.items()}
     counting = max(meshes, key=lambda mesh: mean[mesh])
     every, own = _peaks(mine, component), _peaks(by_mesh[counting], component)
@@ -94,15 +104,19 @@ def event_peak(samples: Sequence[Sample], event: str, component: str) -> EventPe
     )  # fmt: skip
     if len(meshes) < 2:
         return found
-    shared = set.intersection(*({item.seed for item in items} for items in by_mesh.values()))
-    first, last = (
-        float(np.mean(_peaks([item for item in by_mesh[mesh] if item.seed in shared], component)))
-        for mesh in (meshes[0], meshes[-1])
-    )
+    first, last = means[0], means[-1]
     return EventPeak(
         found.value, found.low, found.high, found.judged, found.run,
         1.0 - min(first, last) / max(first, last), last > first, (first, last), found.alone,
     )  # fmt: skip
+
+
+def _shared_means(by_mesh: Mapping[tuple[int, int], Sequence[Sample]], component: str) -> list[float]:
+    """Return the mean on each mesh over the realisations that all of them have."""
+    shared = set.intersection(*({item.seed for item in items} for items in by_mesh.values()))
+    return [
+        float(np.mean(_peaks([item for item in items if item.seed in shared], component))) for items in by_mesh.values()
+    ]
 
 
 def _peaks(samples: Sequence[Sample], component: str) -> Array:
@@ -118,6 +132,12 @@ def governing_peaks(samples: Sequence[Sample]) -> dict[str, tuple[str, EventPeak
         if known:
             found[component] = max(known, key=lambda item: item[1].value)
     return found
+
+
+def highest_judged(samples: Sequence[Sample], component: str) -> float:
+    """Return the highest value over the events at which a component is judged."""
+    events = dict.fromkeys(item.event for item in samples)
+    return max(peak.judged for event in events if (peak := event_peak(samples, event, component)) is not None)
 
 
 def event_variables(samples: Sequence[Sample]) -> tuple[dict[str, Any], dict[str, Any]]:
@@ -184,5 +204,6 @@ __all__ = [
     "event_peak",
     "event_variables",
     "governing_peaks",
+    "highest_judged",
     "mesh_notices",
 ]

@@ -15,8 +15,8 @@ from moyai.structures.curtain.analyses.dynamic import SpanLoad
 from moyai.structures.curtain.analyses.impact import ImpactAnswer
 from moyai.structures.curtain.analyses.limits import impact_load
 from moyai.structures.curtain.assembly import LevelCurtain
-from moyai.structures.curtain.governing import governing_load
-from moyai.structures.curtain.hierarchy import IMPACT, ModelRole, hierarchy, role_of, upright_in
+from moyai.structures.curtain.governing import governing_load, model_of
+from moyai.structures.curtain.hierarchy import CREST, IMPACT, ModelRole, hierarchy, role_of, upright_in
 from moyai.structures.curtain.limits.utilisation import AddedLoads, Strength
 from moyai.structures.curtain.model import COMPONENTS, Settings
 from moyai.structures.curtain.seas.loads import DragCurve, increase
@@ -219,13 +219,18 @@ def _decided(
 def _with_joint(unit: LevelCurtain, rows: list[dict[str, float | str]]) -> list[dict[str, float | str]]:
     """Return the rows with the joint loaded by no more than the load line in which it lies [eq:curtain-joint-load].
 
-    As a bound it takes the upper end of what the cables vary with.
+    As a bound it takes the upper end of what the cables vary with. Where the whole span was run and the joint has but a
+    drag that knows no snap of its own, the line is its bound, or nothing where the line is known from below alone.
     """
     cables = [row for row in rows if row["component"] in ("upper cable", "lower cable")]
     strength = _strength(unit, "joint")
     for row in rows:
         if row["component"] != "joint":
             continue
+        if any(cable["governing"] == "dynamic" for cable in cables) and _without_snap(row):
+            alone = any(cable["load_bound"] == "at least" for cable in cables)
+            row["governing_load"] = row["governing_high"] = math.nan if alone else math.inf
+            row["load_bound"] = "" if alone else "at most"
         for load, end, used in (
             ("steady_low", "steady_low", ""), ("steady_load", "steady_load", ""), ("steady_high", "steady_high", ""),
             ("governing_load", "governing_high", "utilisation"),
@@ -237,9 +242,15 @@ def _with_joint(unit: LevelCurtain, rows: list[dict[str, float | str]]) -> list[
             row[load] = sum(known)
             if load == "governing_load":
                 row["load_bound"] = row["load_bound"] or "at most"
-            if used and math.isfinite(float(row[used])):
+            if used and math.isfinite(float(row["capacity"])):
                 row[used] = strength.utilisation(sum(known))
     return rows
+
+
+def _without_snap(row: dict[str, float | str]) -> bool:
+    """Whether the load of a row is that of the current or of a drag under the crest."""
+    what = str(row["governing"]).rpartition(" ")[2]
+    return what == "steady" or (what == "wave" and model_of(str(row["wave_source"])) == CREST)
 
 
 def _wave_sources(

@@ -1,8 +1,9 @@
 """Peaks of the whole span where it is not asked for and an upright plate only bounds them [eq:curtain-hierarchy].
 
-Every event is run on a coarse mesh; those that lead a component are run again on a finer one. Irregular seas are run
-with several realisations, since the snaps of a motion that never repeats are chance: the larger of the means on both
-meshes counts.
+Every event is run on a coarse mesh; those that lead a component are run again on a finer one, and on a third where the
+coarse one gives more by a fifth. Irregular seas are run with several realisations, since the snaps of a motion that
+never repeats are chance: the larger of the means on the meshes that resolve the event counts. Waves that lead are run
+in half the current too, in which the skirt hangs deeper.
 """
 
 from __future__ import annotations
@@ -18,9 +19,11 @@ from moyai.sea.states import IrregularSea, SeaState
 from moyai.structures.curtain.analyses.dynamic import DynamicAnswer, SpanLoad, through
 from moyai.structures.curtain.analyses.event_peaks import (
     COMPONENTS,
+    MESH_CHANGE,
     Sample,
     event_variables,
     governing_peaks,
+    highest_judged,
     mesh_notices,
 )
 from moyai.structures.curtain.assembly import LevelCurtain
@@ -38,6 +41,8 @@ if TYPE_CHECKING:
 
 #: Realisations of an irregular sea on the finer mesh, at most: they find the change with the mesh
 _FINE_REALISATIONS = 3
+#: Part of the current of the case that waves are run in as well.
+_WEAKER_CURRENT = 0.5
 
 
 def peaks_wanted(unit: LevelCurtain, settings: Settings) -> bool:
@@ -82,16 +87,30 @@ def span_peaks(
     for plan in plans:
         if not found.event(drawn[plan.name], coarse):
             return found.stopped(plan)
-    leading = {event for event, _ in governing_peaks(found.samples).values()}
-    for plan in plans:
-        words = f", {fine.along} by {fine.down} cells"
-        if plan.name in leading and not found.event(drawn[plan.name][:_FINE_REALISATIONS], fine, words):
-            return found.stopped(plan)
+    by_name = {plan.name: plan for plan in plans}
+    while (event := found.unresolved(given.mesh)) is not None:
+        name, mesh = event
+        words = f", {mesh.along} by {mesh.down} cells"
+        if not found.event(drawn[name][:_FINE_REALISATIONS], mesh, words):
+            return found.stopped(by_name[name])
+    if unit.surface_speed > 0.0 and "waves" in settings.analyses:
+        there = replace(unit, surface_speed=_WEAKER_CURRENT * unit.surface_speed)
+        leading = {event for event, _ in governing_peaks(found.samples).values()}
+        for plan in plans_of(there, replace(settings, analyses=("waves",)), seas, span):
+            if plan.name in leading:
+                seed = drawn[plan.name][0][0]
+                plan = replace(plan, name=f"{plan.name}, current {there.surface_speed:.3g} m/s")
+                if not found.event(((seed, plan),), fine):
+                    return found.stopped(plan)
     return found.answer()
 
 
 def _two_thirds(cells: int) -> int:
     return -(-2 * cells // 3)
+
+
+def _four_thirds(cells: int) -> int:
+    return -(-4 * cells // 3)
 
 
 def _realisations(
@@ -157,6 +176,20 @@ class _Runs:
             self.notices.extend([*reported, *run_notices(run, place, plan.period, plan.regular)])
         return True
 
+    def unresolved(self, fine: Mesh) -> tuple[str, Mesh] | None:
+        """Return an event that leads a component and the mesh that it has still to be run on, None where none is left.
+
+        Every one is run on ``fine``, and on a finer one where the coarsest gives more beyond the change allowed.
+        """
+        finest = replace(fine, along=_four_thirds(fine.along), down=_four_thirds(fine.down))
+        for event, peak in governing_peaks(self.samples).values():
+            known = {item.mesh for item in self.samples if item.event == event}
+            if (fine.along, fine.down) not in known:
+                return event, fine
+            if peak.change > MESH_CHANGE and not peak.finer_is_more and (finest.along, finest.down) not in known:
+                return event, finest
+        return None
+
     def stopped(self, plan: Plan) -> DynamicAnswer:
         """Return that nothing counts, and why."""
         text = f"{plan.name}: the run of the whole span had to stop, or its cloth crumpled: the bounds of a plate stay"
@@ -174,7 +207,11 @@ class _Runs:
         peaks, coords = event_variables(self.samples)
         self.groups[""] = labelled(xr.Dataset({**table, "run_of": run_of, **peaks}, coords={"run": names, **coords}))
         found = governing_peaks(self.samples)
-        loads = {name: SpanLoad(peak.value, peak.run, peak.at_least, peak.judged) for name, (_, peak) in found.items()}
+        # another event with a smaller mean may be judged higher
+        loads = {
+            name: SpanLoad(peak.value, peak.run, peak.at_least, highest_judged(self.samples, name))
+            for name, (_, peak) in found.items()
+        }
         notices = (*self.notices, *mesh_notices(found))
         return DynamicAnswer(self.groups, tuple(self.checks), notices, loads)
 

@@ -35,6 +35,9 @@ if TYPE_CHECKING:
 _TRANSIENT = 10  # peak periods left out of an irregular sea
 _WINDOW = 6.0  # peak periods on each side of the largest snap that are kept
 _MOST_POINTS = 6000
+#: Parts of the height of regular waves that are run too: snaps may lock into a gentle motion in a higher wave, which
+#: the lower ones of its train do not know.
+_LOWER = (0.9, 0.8, 0.7, 0.6, 0.5)
 #: Start speed of the Impact object, which the oscillator does not use [m/s]
 _NO_SPEED = 1.0
 
@@ -102,18 +105,27 @@ def _regular(
     for index, period in enumerate(sea.periods):
         progress(f"slack and taut, {sea.name}", index, len(sea.periods))
         amplitude = velocity_amplitude(unit, sea, period, settings)
-        found = settled_cycles(
-            impact,
-            drag_coefficient=drag,
-            current=unit.normal_speed,
-            velocity_amplitude=amplitude,
-            period=period,
-            least_settled=settings.settled_periods,
-            least_analysed=settings.analysed_periods,
-            time_step=settings.time_step,
+        found, *lower = (
+            settled_cycles(
+                impact,
+                drag_coefficient=drag,
+                current=unit.normal_speed,
+                velocity_amplitude=part * amplitude,
+                period=period,
+                least_settled=settings.settled_periods,
+                least_analysed=settings.analysed_periods,
+                time_step=settings.time_step,
+            )
+            for part in (1.0, *_LOWER)
         )
         counted = [c for c in found.motion.contacts if c.time >= found.begin and abs(c.speed) >= settings.slowest]
         rows.append(_row(impact, found, counted, amplitude))
+        tensions = [item.tension for item in lower]
+        rows[-1] |= {
+            "lower_wave_tension": max(tensions),
+            "lower_wave_height": _LOWER[int(np.argmax(tensions))] * sea.height,
+            "judged_tension": max(item.judged for item in (found, *lower)),
+        }
         groups[f"T {period:g} s"] = _series(
             found.motion,
             counted,
@@ -131,8 +143,8 @@ def _regular(
     groups[""] = labelled(
         xr.Dataset(data, coords={"period": list(sea.periods)}, attrs={"kind": "regular", "height": sea.height})
     )
-    top, high = (max(row[name] for row in rows) for name in ("maximum_tension", "maximum_tension_high"))
-    return WaveAnswer(groups, top, max(top, high), tuple(notices))
+    top = max(row[name] for row in rows for name in ("maximum_tension", "lower_wave_tension"))
+    return WaveAnswer(groups, top, max(top, *(row["maximum_tension_high"] for row in rows)), tuple(notices))
 
 
 def _shown(found: SettledCycles) -> tuple[float, float]:

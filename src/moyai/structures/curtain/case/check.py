@@ -155,12 +155,16 @@ def _check_settings(model: CurtainCase, findings: Findings) -> None:
             findings.fault(path, "'from' and 'to' are equal", remedy="give 'period' alone, or widen the range")
 
 
+def _levels_run(model: CurtainCase) -> list[str]:
+    """Return the water levels that the settings take, all of the site unless they name some."""
+    levels, chosen = model.site.water_levels, model.settings.water_levels
+    return list(levels) if isinstance(chosen, str) else [name for name in chosen if name in levels]
+
+
 def _check_depths(model: CurtainCase, findings: Findings) -> None:
     """Check the skirt against the depth of every water level that is run."""
     unit, site = model.structure, model.site
-    chosen = model.settings.water_levels
-    names = site.water_levels if isinstance(chosen, str) else [n for n in chosen if n in site.water_levels]
-    for name in names:
+    for name in _levels_run(model):
         depth = site.water_depth + site.water_levels[name]
         if depth <= 0.0 or unit.skirt.length <= depth:
             continue
@@ -315,8 +319,8 @@ def _check_dynamic(model: CurtainCase, findings: Findings) -> None:
             "a curtain that is let go needs a current to become taut",
             remedy="give 'current', or another start",
         )
-    for name, level in model.site.water_levels.items():
-        depth = model.site.water_depth + level
+    for name in _levels_run(model):
+        depth = model.site.water_depth + model.site.water_levels[name]
         if 0.0 < depth <= unit.skirt.length and findings.sound("structure"):
             findings.fault(
                 ("analyses",),

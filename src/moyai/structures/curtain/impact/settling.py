@@ -16,6 +16,7 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.options import checks_words
+from moyai.series.intervals import reach_of_mean
 from moyai.structures.curtain.impact.cable import Impact
 from moyai.structures.curtain.impact.cycles import Contact, SlackTautMotion, slack_sag, slack_taut_motion
 
@@ -77,6 +78,11 @@ class SettledCycles:
             return self.tension, self.tension
         blocks = _blocks(self.peaks)
         return float(blocks.min()), float(blocks.max())
+
+    @property
+    def judged(self) -> float:
+        """Tension at which limits are judged [N]: of a mean, the end of its one-sided 95 % interval (Student)."""
+        return self.tension if self.kind == "repeating" else self.tension + reach_of_mean(_blocks(self.peaks))
 
     def level(self, values: Array) -> float:
         """Return the number that stands for one value of each period that counts."""

@@ -119,8 +119,9 @@ def sample_table(level: CurtainLevel) -> Table | None:
             Column("Seed", ["-" if seed == 0 else f"{seed:.0f}" for seed in (() if seeds is None else seeds)]),
             *in_one_unit(tensions),
         ),
-        "The larger of the means on both meshes counts. Where the finer mesh gives more than a fifth above the coarser "
-        "one with the same realisations, the number is a bound from below.",
+        "The larger of the means on the meshes counts; of three the coarsest is left out where the finer two lie "
+        "nearer to each other. Where the finer mesh gives more than a fifth above the coarser one with the same "
+        "realisations, the number is a bound from below.",
     )
 
 

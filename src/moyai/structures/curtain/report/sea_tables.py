@@ -24,6 +24,9 @@ def regular_table(level: CurtainLevel, sea: Group) -> Table | None:
         ("maximum_tension", "Tension", "N"),
         ("maximum_tension_low", "From", "N"),
         ("maximum_tension_high", "To", "N"),
+        ("lower_wave_tension", "In lower waves", "N"),
+        ("lower_wave_height", "of height", "m"),
+        ("judged_tension", "Judged at", "N"),
         ("periods_left_out", "Periods left out", ""),
         ("periods_analysed", "Analysed", ""),
         ("repeats_after", "Repeats after", ""),
@@ -49,7 +52,9 @@ def regular_table(level: CurtainLevel, sea: Group) -> Table | None:
         "Slack and taut in regular waves",
         (Column("Period", [float(value) for value in period], "s", uniform=False), *columns),
         note="Tension of both cables: the largest that repeats within 1 %; where periods never repeat, the mean of the "
-        "largest of 100 periods, with the least and the largest of these. First: the first on a side since the other.",
+        "largest of 100 periods, with the least and the largest of these. Lower waves: of half to nine tenths of the "
+        "height, since snaps may lock into a gentle motion in a higher one; the larger counts. Judged at: the end of "
+        "the 95 % interval of a mean. First: the first on a side since the other.",
         emphasised=worst,
     )
 
