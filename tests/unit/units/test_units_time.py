@@ -22,7 +22,7 @@ from moyai.structures.units.response import RowModel, respond
 from moyai.structures.units.seas import share_drift
 from moyai.structures.units.time.kernel import joint_force
 from moyai.structures.units.time.lines import Carried, events_of, moving_line, rerun, rerun_events
-from moyai.structures.units.time.memory import fit_row_memory
+from moyai.structures.units.time.memory import _Basis, _passive, _residues, fit_row_memory
 from moyai.structures.units.time.model import RowInTime, step_weights
 from moyai.validation.units import WATER, row
 
@@ -94,10 +94,24 @@ def test_the_memory_of_data_with_negative_damping_is_passive():
     damping = found.coefficients(everywhere)[1]
     assert np.linalg.eigvalsh(damping).min() > -1e-5 * np.abs(damping).max()
     assert np.abs(found.coefficients(omega)[1] - values).max() < 0.15 * np.abs(values).max()
-    # in units of force a power of two smaller the numbers are the same ones
-    small = 2.0**-60
-    other = fit_row_memory(omega, small * added, small * given, most=10)
-    assert np.allclose(other.coefficients(omega)[1] / small, found.coefficients(omega)[1], rtol=1e-9, atol=1e-12)
+
+
+def test_residues_are_made_passive_alike_in_any_unit_of_force():
+    """A power of two changes no digit."""
+    generator = np.random.default_rng(4)
+    poles, residues = own_memory(generator, 3, 2)
+    basis, omega = _Basis.of(poles), np.linspace(0.2, 3.0, 25)
+    s, weight = -1j * omega, np.ones(25)
+    error = generator.normal(size=(25, 3, 3)) * 0.2
+    given = response_of(poles, residues, omega) - 0.3 * np.eye(3) + error + error.swapaxes(1, 2) + 0j
+    found, slope = _residues(basis, s, weight, given)
+    now, steep, least = _passive(basis, s, weight, found, slope)
+    assert least >= 0.0 and not np.allclose(now, found, rtol=1e-2)
+    small = 2.0**-40
+    other, other_steep, other_least = _passive(basis, s, weight, small * found, small * slope)
+    assert np.allclose(other / small, now, rtol=1e-9, atol=1e-12)
+    assert np.allclose(other_steep / small, steep, rtol=1e-9, atol=1e-12)
+    assert other_least == pytest.approx(least, rel=1e-6, abs=1e-12)
 
 
 def test_ogilvie_holds_between_the_memory_and_the_panels(hydro, memory):
