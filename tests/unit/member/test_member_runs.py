@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -19,7 +20,7 @@ from moyai.sea.environment import Environment
 from moyai.sea.states import IrregularSea
 from moyai.sea.water import Water
 from moyai.structures.member.checks import require_in_water
-from moyai.structures.member.march import march
+from moyai.structures.member.march import _effective, march
 from moyai.structures.member.model import MemberProblem, Motion, RegularWaves, Settings
 from moyai.structures.member.run import run
 from moyai.structures.member.surface import surface_effect
@@ -300,6 +301,18 @@ def test_exposure_counts_only_what_is_wet():
     assert np.abs(wet.force).max() > np.abs(deep.force).max()
     # at the crest the column reaches above still water, at the trough it ends below: the mean drag is onwards
     assert wet.force[1, :-1, 0].mean() > 0.0
+
+
+def test_effective_inertia_of_a_regular_wave_is_that_of_one_period():
+    """What is steady, or a harmonic of its own, shares nothing with the acceleration over one period."""
+    time = np.linspace(0.0, 2.0, 41)
+    acceleration = np.cos(math.pi * time)[:, None, None] * np.ones((1, 3, 2))
+    wave = SimpleNamespace(time=time, regular=True)
+    block = SimpleNamespace(acceleration=acceleration, body_acceleration=np.zeros((1, 1, 2)))
+    problem = SimpleNamespace(environment=SimpleNamespace(water=Water(10.0, 1025.0, 9.81)))
+    steady = (0.7 + np.sin(math.pi * time) + np.cos(2.0 * math.pi * time))[:, None, None] * np.ones((1, 3, 2))
+    found = _effective(problem, 0.3, block, 1.6 * 1025.0 * 0.3 * acceleration, 200.0 * steady, wave)
+    assert found == pytest.approx(np.full((3, 2), 1.6), rel=1e-12)
 
 
 def test_surface_effect_fades_with_depth():
