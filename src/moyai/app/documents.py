@@ -12,6 +12,7 @@ from moyai.app.folder import CASE_ENDINGS, Folder
 from moyai.case.templates import template
 from moyai.core.errors import InputError
 from moyai.core.files import write_whole
+from moyai.language.comments import with_comments
 
 _STEPS = 200
 _PAUSE = 2.0
@@ -107,8 +108,8 @@ class Documents:
         return [{"id": one.key, "file": one.name} for one in reversed(self._open.values())]
 
     def open_template(self, name: str) -> OpenCase:
-        """Open the template of a kind under a name that no file has."""
-        return self.open_text(name, template(name))
+        """Open the template of a kind, its comments in the language in force, under a name that no file has."""
+        return self.open_text(name, with_comments(template(name)))
 
     def open_text(self, stem: str, text: str) -> OpenCase:
         """Open a text under a name that no file and no open case has; ``stem`` may lead through folders."""

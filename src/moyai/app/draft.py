@@ -19,6 +19,7 @@ from moyai.core.errors import CaseError, Fault, MoyaiError
 from moyai.core.kinds import structure_kind
 from moyai.core.progress import Progress
 from moyai.core.validity import Notice
+from moyai.language.faults import spoken_fault
 
 if TYPE_CHECKING:
     from moyai.case.reader import Case
@@ -112,7 +113,7 @@ class Drafts:
                 known = {} if document is None else {"sliders": _sliders_by_keys(document)}
                 yield _checked(text, faults, (), **known)
             else:
-                yield {"message": "not drawn", "faults": [asdict(fault) for fault in faults]}
+                yield {"message": "not drawn", "faults": [asdict(spoken_fault(fault)) for fault in faults]}
 
     def _drawn(
         self, stage: tuple[Document, Case, Any], whole: Document, wish: Wish, progress: Progress
@@ -239,7 +240,7 @@ def _checked(text: str, faults: Any, warnings: Any, **more: Any) -> dict[str, An
     return {
         "message": "checked",
         "text": text,
-        "faults": [asdict(fault) for fault in faults],
-        "warnings": [asdict(fault) for fault in warnings],
+        "faults": [asdict(spoken_fault(fault)) for fault in faults],
+        "warnings": [asdict(spoken_fault(fault)) for fault in warnings],
         **more,
     }

@@ -10,6 +10,7 @@ from functools import cache
 from typing import Any
 
 from moyai.case.yaml_reader import KeyPath, dotted
+from moyai.language import said, spoken_language
 
 _MOST_ENTRIES = 60
 _DEEPEST = 8
@@ -38,7 +39,7 @@ def form_of(data: Any, kind: str) -> dict[str, Any]:
     from moyai.case.schema import root_schema
 
     name = root_schema(kind).__name__
-    return _group({"$ref": f"#/definitions/{name}"}, data, (), "The case", removable=False)
+    return _group({"$ref": f"#/definitions/{name}"}, data, (), said("The case"), removable=False)
 
 
 @cache
@@ -54,7 +55,7 @@ def _group(node: Node, value: Any, path: KeyPath, label: str, *, removable: bool
         "path": list(path),
         "dotted": dotted(path),
         "label": label,
-        "help": schema.get("description", ""),
+        "help": _told(schema.get("description", "")),
         "removable": removable,
         "entries": [],
         "absent": [],
@@ -84,7 +85,7 @@ def _group(node: Node, value: Any, path: KeyPath, label: str, *, removable: bool
         start = start_of(known[key])
         if start is not None:
             after = next((one for one in reversed(before[: before.index(key)]) if one in value), "")
-            words = _plain(_fitting(known[key], start).get("description", ""))
+            words = _told(_plain(_fitting(known[key], start).get("description", "")))
             group["absent"].append({"key": key, "help": words, "start": start, "after": after})
     return group
 
@@ -106,7 +107,7 @@ def _entry(node: Node, value: Any, path: KeyPath, label: str, removable: bool) -
         "path": list(path),
         "dotted": dotted(path),
         "label": label,
-        "help": _plain(_described(node, forms)),
+        "help": _told(_plain(_described(node, forms))),
         "removable": removable,
         "type": kind,
         "value": value if isinstance(value, bool | str) or value is None else _digits(value),
@@ -133,12 +134,21 @@ def _entry_name(item: Any, place: int) -> str:
 
 
 def _words(key: Any) -> str:
+    """Return a key as words; in another language as it stands in the file, with its meaning in the help."""
+    if spoken_language() != "en":
+        return str(key)
     words = str(key).removesuffix("_deg").replace("_", " ")
     return words[:1].upper() + words[1:]
 
 
 def _plain(words: str) -> str:
     return re.sub(r"\s+", " ", words.replace("`", "")).strip()
+
+
+def _told(words: str) -> str:
+    """Return a help in the language in force, the range in brackets behind it for itself."""
+    text, bracket, range_ = words.removesuffix("]").rpartition("[") if words.endswith("]") else (words, "", "")
+    return " ".join(filter(None, (said(text.strip()), f"[{said(range_)}]" if bracket else "")))
 
 
 def _forms(node: Node) -> list[Node]:

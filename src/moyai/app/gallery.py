@@ -8,6 +8,7 @@ from typing import Any
 from moyai.app.documents import Documents
 from moyai.app.folder import Folder
 from moyai.core.kinds import structure_kind, structure_kinds
+from moyai.language import said
 
 
 @cache
@@ -16,7 +17,7 @@ def _templates() -> list[dict[str, str]]:
 
     words = dict(kinds_of_files())
     return [
-        {"template": name, "kind": kind, "title": words[name]}
+        {"template": name, "kind": kind, "title": words[name], "name": name.replace("_", " ").capitalize()}
         for kind in structure_kinds()
         for name, _ in structure_kind(kind).templates
         if name in words
@@ -34,7 +35,7 @@ def _papers() -> list[dict[str, str]]:
 
 
 def gallery(folder: Folder, documents: Documents) -> dict[str, Any]:
-    """Return the cards of the first page.
+    """Return the cards of the first page, in the language in force.
 
     Parameters
     ----------
@@ -43,8 +44,8 @@ def gallery(folder: Folder, documents: Documents) -> dict[str, Any]:
     """
     return {
         "folder": str(folder.root),
-        "templates": _templates(),
+        "templates": [{**one, "name": said(one["name"]), "title": said(one["title"])} for one in _templates()],
         "files": folder.case_files(),
-        "papers": _papers(),
+        "papers": [{**one, **{key: said(one[key]) for key in ("authors", "year", "line")}} for one in _papers()],
         "recent": documents.recent(),
     }

@@ -15,6 +15,8 @@ from typing import Any
 from moyai.app.draft import Run
 from moyai.core.errors import CaseError, MoyaiError
 from moyai.core.progress import Pace, duration_words
+from moyai.language import speak
+from moyai.language.faults import fault_text
 
 _EVERY = 0.2
 
@@ -37,6 +39,8 @@ class Order:
     text: str = ""
     #: Whether ``file`` holds this text; else the command line that does the same takes the copy beside the results.
     saved: bool = True
+    #: Of the report, where the case names none.
+    language: str = "en"
 
 
 def work(pipe: Any, stop: Any, order: Order, run: Run) -> None:
@@ -44,6 +48,7 @@ def work(pipe: Any, stop: Any, order: Order, run: Run) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     sys.stdout = sys.stderr = open(os.devnull, "w")  # noqa: SIM115 - as long as the process
+    speak(order.language)
     pace, told = Pace(), [0.0]
 
     def listen(what: str, done: float, total: float) -> None:
@@ -69,9 +74,9 @@ def work(pipe: Any, stop: Any, order: Order, run: Run) -> None:
     except KeyboardInterrupt:
         pipe.send(("failed", "cancelled before there was a result"))
     except CaseError as error:
-        pipe.send(("failed", "\n".join(map(str, error.faults))))
+        pipe.send(("failed", "\n".join(map(fault_text, error.faults))))
     except MoyaiError as error:
-        pipe.send(("failed", str(error)))
+        pipe.send(("failed", fault_text(error.fault)))
     except Exception as error:
         pipe.send(("failed", f"internal error, {type(error).__name__}: {error}"))
 

@@ -15,6 +15,7 @@ from typing import Any
 from moyai.app.downloads import makeable
 from moyai.app.draft import Run
 from moyai.app.job_process import Order, work
+from moyai.language import said
 
 GRACE = 2.0
 """Seconds between the flag that asks a job to stop and the end of its process."""
@@ -47,7 +48,7 @@ class Job:
         self.stop: Any = None
 
     def record(self, root: Path) -> dict[str, Any]:
-        """Return what the page shows of it."""
+        """Return what the page shows of it, in the language in force."""
         folder = self.order.folder
         shown = folder.relative_to(root) if folder.is_relative_to(root) else folder
         seconds = (self.ended or time.monotonic()) - self.started if self.started else 0.0
@@ -59,10 +60,10 @@ class Job:
             "name": self.order.name,
             "folder": str(shown),
             "state": self.state,
-            "words": self.words,
-            "stage": self.stage,
+            "words": said(self.words),
+            "stage": said(self.stage),
             "fraction": round(self.fraction, 4),
-            "left": self.left,
+            "left": said(self.left),
             "seconds": round(seconds, 1),
             "files": files,
             "command": self.command(str(shown)),
@@ -194,11 +195,11 @@ class Jobs:
                     if self._closed:
                         break
                     continue
-                said = pipe.recv()
-                if said[0] == "progress":
-                    _, job.stage, job.fraction, job.left = said
+                heard = pipe.recv()
+                if heard[0] == "progress":
+                    _, job.stage, job.fraction, job.left = heard
                 else:
-                    outcome = said
+                    outcome = heard
         except (EOFError, OSError):
             pass
         finally:
@@ -223,8 +224,8 @@ def _conclude(job: Job, outcome: tuple[Any, ...] | None) -> None:
         _, status, message, verdict = outcome
         partial = status == "interrupted" or job.asked > 0.0
         job.state = "cancelled" if partial else "done"
-        said = "partial results were written" if partial else message or status.replace("_", " ")
-        job.words, job.fraction = "; ".join(filter(None, (said, verdict))), 1.0
+        words = "partial results were written" if partial else message or status.replace("_", " ")
+        job.words, job.fraction = "; ".join(filter(None, (words, verdict))), 1.0
     elif job.asked:
         kept = "; the cases that ended are kept, and it goes on from there" if job.order.kind == "study" else ""
         job.state, job.words = "cancelled", f"cancelled before there was a result{kept}"

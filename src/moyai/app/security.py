@@ -10,6 +10,8 @@ from http.cookies import CookieError, SimpleCookie
 from typing import Any
 from urllib.parse import parse_qs
 
+from moyai.language import said
+
 Scope = MutableMapping[str, Any]
 Send = Callable[[MutableMapping[str, Any]], Awaitable[None]]
 Receive = Callable[[], Awaitable[MutableMapping[str, Any]]]
@@ -159,7 +161,7 @@ _COMMON = [
 
 
 async def _answer(send: Send, status: int, text: str, headers: list[tuple[str, str]] | None = None) -> None:
-    body = text.encode()
+    body = said(text).encode()
     lines = [("content-type", "text/plain; charset=utf-8"), ("content-length", str(len(body))), *(headers or [])]
     coded = [(name.encode(), value.encode()) for name, value in lines]
     policy = (b"content-security-policy", b"default-src 'none'; frame-ancestors 'none'")

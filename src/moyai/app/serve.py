@@ -11,6 +11,7 @@ from pathlib import Path
 from moyai.app.draft import Run
 from moyai.app.folder import CASE_ENDINGS, Folder, within
 from moyai.core.errors import InputError
+from moyai.language import spoken_language
 
 _NEEDED = ("starlette", "uvicorn")
 
@@ -80,7 +81,7 @@ def open_socket(port: int) -> socket.socket:
 
 
 def serve(folder: Folder, first: str, run: Run, *, port: int, browser: bool, say: Callable[[str], None]) -> None:
-    """Serve until the terminal ends it.
+    """Serve until the terminal ends it, in the language in force.
 
     Parameters
     ----------
@@ -105,7 +106,7 @@ def serve(folder: Folder, first: str, run: Run, *, port: int, browser: bool, say
     number = listener.getsockname()[1]
     secrets = Secrets()
     address = f"http://127.0.0.1:{number}/?token={secrets.address}"
-    application = create(App(folder, run, secrets, first), number)
+    application = create(App(folder, run, secrets, first, spoken_language()), number)
     settings = uvicorn.Config(
         application,
         log_level="critical",

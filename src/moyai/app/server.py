@@ -28,10 +28,14 @@ from moyai.app.job_process import Order
 from moyai.app.jobs import FILES, Jobs
 from moyai.app.security import REPORT_POLICY, BodyTooLarge, Guard, Secrets
 from moyai.app.study_jobs import case_text, refuse_foreign_base, so_far, table_of
+from moyai.app.words import marked, page_words
 from moyai.app.worker import DraftWorker, message
 from moyai.case.yaml_reader import parse_yaml
-from moyai.core.errors import CaseError, InputError, MoyaiError
+from moyai.core.errors import CaseError, Fault, InputError, MoyaiError
 from moyai.core.kinds import structure_kinds
+from moyai.language import require_language, spoken_in
+from moyai.language.faults import spoken_fault
+from moyai.report.encoding import page_json
 
 _SCRIPTS = (
     "page", "case", "gallery", "editor", "plain_text", "code_text", "codemirror",
@@ -55,19 +59,26 @@ class App:
     secrets_ : Secrets
     first : str
         Case file that the page opens at once, relative to the folder; empty for the gallery.
+    language : str
+        Of the page and its messages, and of reports whose case names none.
     """
 
-    def __init__(self, folder: Folder, run: Run, secrets_: Secrets, first: str = "") -> None:
+    def __init__(self, folder: Folder, run: Run, secrets_: Secrets, first: str = "", language: str = "en") -> None:
         self.folder = folder
         self.secrets = secrets_
         self.first = first
+        self.language = require_language(language)
         self.documents = Documents(folder)
         self.jobs = Jobs(run)
-        self.worker = DraftWorker(run)
+        self.worker = DraftWorker(run, language)
 
 
 def _json(content: dict[str, Any], status: int = 200) -> Response:
     return Response(message("answer", **content), status, media_type="application/json")
+
+
+def _refused(status: int, *faults: Fault) -> Response:
+    return _json({"faults": [asdict(spoken_fault(fault)) for fault in faults]}, status)
 
 
 def _endpoint(function: Endpoint) -> Any:
@@ -75,18 +86,20 @@ def _endpoint(function: Endpoint) -> Any:
 
     @wraps(function)
     async def answered(request: Request) -> Response:
-        try:
-            return await function(request.app.state.app, request)
-        except BodyTooLarge:
-            return _json({"faults": [{"message": "the request is too large"}]}, 413)
-        except CaseError as error:
-            return _json({"faults": [asdict(fault) for fault in error.faults]}, 422)
-        except MoyaiError as error:
-            return _json({"faults": [asdict(error.fault)]}, 422)
-        except KeyError:
-            return _json({"faults": [{"message": "there is no such case, job or file"}]}, 404)
-        except (ValueError, OSError, RecursionError) as error:
-            return _json({"faults": [{"message": f"the request cannot be answered: {error}"}]}, 400)
+        app = request.app.state.app
+        with spoken_in(app.language):
+            try:
+                return await function(app, request)
+            except BodyTooLarge:
+                return _refused(413, Fault("the request is too large"))
+            except CaseError as error:
+                return _refused(422, *error.faults)
+            except MoyaiError as error:
+                return _refused(422, error.fault)
+            except KeyError:
+                return _refused(404, Fault("there is no such case, job or file"))
+            except (ValueError, OSError, RecursionError) as error:
+                return _refused(400, Fault(f"the request cannot be answered: {error}"))
 
     return answered
 
@@ -119,9 +132,11 @@ def _asset(name: str) -> str:
 
 
 async def _page(app: App, request: Request) -> Response:
-    """The page, with the token of its requests."""
-    text = _asset("index.html").replace("{{token}}", app.secrets.header).replace("{{first}}", "1" if app.first else "")
-    return Response(text, media_type="text/html")
+    """The page in its language, with the token of its requests."""
+    text = marked(_asset("index.html"))
+    for name, value in (("token", app.secrets.header), ("first", "1" if app.first else ""), ("language", app.language)):
+        text = text.replace(f"{{{{{name}}}}}", value)
+    return Response(text.replace("{{words}}", page_json(page_words())), media_type="text/html")
 
 
 async def _static(app: App, request: Request) -> Response:
@@ -239,16 +254,17 @@ async def _start(app: App, request: Request) -> Response:
         from moyai.reproduce import paper as known
 
         key = known(paper).key
-        order = Order("paper", key, app.jobs.folder_for(output, key), root, root / key)
+        order = Order("paper", key, app.jobs.folder_for(output, key), root, root / key, language=app.language)
     elif name := _text(content, "file"):
         file = app.folder.inside(name)
         kind = await asyncio.to_thread(refuse_foreign_base, app.folder, file)
-        order = Order(kind, file.relative_to(root).as_posix(), app.jobs.folder_for(output, file.stem), root, file)
+        shown, target = file.relative_to(root).as_posix(), app.jobs.folder_for(output, file.stem)
+        order = Order(kind, shown, target, root, file, language=app.language)
     else:
         document = app.documents[_text(content, "case")]
         folder = app.jobs.folder_for(output, stem_of(document.name))
         file, saved = root / document.name, document.text == document.saved
-        order = Order("run", document.name, folder, root, file, document.text, saved)
+        order = Order("run", document.name, folder, root, file, document.text, saved, app.language)
     return _json(app.jobs.add(order).record(root))
 
 

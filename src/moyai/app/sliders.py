@@ -8,6 +8,7 @@ from typing import Any
 
 from moyai.app.edits import number_at
 from moyai.case.yaml_reader import Document
+from moyai.language import said
 
 _MOST = 12
 
@@ -137,7 +138,7 @@ def sliders_of(document: Document, kind: str, drawn: Any = None) -> list[dict[st
         # A sea that stands as a block alone answers to several paths
         if written is None or written.start in found or not (own or _is_drawn(document.data, drawn, path)):
             continue
-        name = _sea_name(document.data, path)
+        name, label = _sea_name(document.data, path), said(label)
         found[written.start] = slider(path, f"{label}, {name}" if name else label, written.unit, written.value)
         if len(found) == _MOST and not own:
             break

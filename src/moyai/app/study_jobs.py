@@ -15,6 +15,7 @@ from moyai.case.paths import resolve
 from moyai.case.reader import written
 from moyai.case.yaml_reader import Document, parse_yaml, read_yaml
 from moyai.core.errors import InputError
+from moyai.language import said
 
 PLAN = "cases.json"
 _ROWS = 500
@@ -107,8 +108,8 @@ def table_of(folder: Path) -> dict[str, Any]:
         {
             "case": record.index,
             "labels": plan["cases"][record.index]["labels"] if record.index < len(plan["cases"]) else [],
-            "status": record.status.replace("_", " "),
-            "message": record.message,
+            "status": said(record.status.replace("_", " ")),
+            "message": said(record.message),
             "values": [_numbers(record.values).get(name) for name in chosen],
         }
         for record in records[:_ROWS]

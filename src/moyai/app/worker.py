@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from moyai.app.draft import VERSION, Drafts, Run, Wish
+from moyai.language import said, speak, spoken_in
 
 LONGEST = 120.0
 """Seconds after which a draft is given up and its process ended."""
@@ -31,10 +32,13 @@ class DraftWorker:
     ----------
     run : callable
         Runs a case; a function of a module, since the process imports it by name.
+    language : str
+        Of errors, and of drafts whose case names none.
     """
 
-    def __init__(self, run: Run) -> None:
+    def __init__(self, run: Run, language: str = "en") -> None:
         self._run = run
+        self._language = language
         self._context = multiprocessing.get_context("spawn")
         self._stop = self._context.Event()
         self._turn = asyncio.Lock()
@@ -55,7 +59,8 @@ class DraftWorker:
             return
         self.close()
         self._pipe, far = self._context.Pipe()
-        self._process = self._context.Process(target=_serve, args=(far, self._run, self._stop), daemon=True)
+        arguments = (far, self._run, self._stop, self._language)
+        self._process = self._context.Process(target=_serve, args=arguments, daemon=True)
         self._process.start()
         far.close()
 
@@ -110,7 +115,7 @@ class DraftWorker:
                 line = await asyncio.to_thread(self._received, end)
                 if line is None:
                     self.close()
-                    yield message("lost", text=f"the draft took more than {LONGEST:.0f} s: start a full run instead")
+                    yield self._lost(f"the draft took more than {LONGEST:.0f} s: start a full run instead")
                     return
                 if line == _END:
                     return
@@ -118,7 +123,11 @@ class DraftWorker:
         except (EOFError, OSError):
             code = None if self._process is None else self._process.exitcode
             self.close()
-            yield message("lost", text=f"the process of the drafts ended (exit code {code}); the next change starts it")
+            yield self._lost(f"the process of the drafts ended (exit code {code}); the next change starts it")
+
+    def _lost(self, words: str) -> bytes:
+        with spoken_in(self._language):
+            return message("lost", text=said(words))
 
     def _received(self, end: float) -> bytes | None:
         left = max(end - time.monotonic(), 0.0)
@@ -132,10 +141,11 @@ def message(kind: str, /, **content: Any) -> bytes:
     return page_json({"version": VERSION, "message": kind, **content}).encode() + b"\n"
 
 
-def _serve(pipe: Any, run: Run, stop: Any) -> None:
+def _serve(pipe: Any, run: Run, stop: Any, language: str) -> None:
     """Answer wishes until the pipe closes; Ctrl-C is the parent's business."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     warm_up()
+    speak(language)
 
     def listen(what: str, done: float, total: float) -> None:
         if stop.is_set():
@@ -159,7 +169,7 @@ def _serve(pipe: Any, run: Run, stop: Any) -> None:
                 raise
             except Exception as error:
                 words = f"internal error, {type(error).__name__}: {error}"
-                pipe.send_bytes(message("not drawn", faults=[{"message": words, "line": 0}]))
+                pipe.send_bytes(message("not drawn", faults=[{"message": said(words), "line": 0}]))
             pipe.send_bytes(_END)
     os._exit(0)
 

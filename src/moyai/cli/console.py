@@ -5,19 +5,19 @@ from __future__ import annotations
 import json
 import math
 import os
-import re
 import sys
 import threading
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import asdict, replace
+from dataclasses import asdict
 from typing import TYPE_CHECKING, Any, NoReturn
 
 import typer
 
 from moyai.core.errors import CaseError, ConvergenceError, Fault, InputError
 from moyai.core.progress import Pace, Progress, duration_words, silent
-from moyai.language import language_of_the_locale, require_language, said, spoken_in, spoken_language
+from moyai.language import language_of_the_locale, require_language, said, spoken_in
+from moyai.language.faults import fault_text
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -85,13 +85,7 @@ def tell(text: str) -> None:
 
 def complain(fault: Fault, label: str = "") -> None:
     """Print a fault on standard error, in the language in force; keys and values of files stay as they are."""
-    allowed = fault.allowed
-    if not re.fullmatch(r"[\w.-]+(, [\w.-]+)+", allowed):
-        allowed = said(allowed)
-    spoken = replace(fault, message=said(fault.message), allowed=allowed, remedy=said(fault.remedy))
-    text = str(spoken)
-    if spoken_language() != "en":
-        text = text.replace("; allowed: ", f"; {said('allowed')}: ")
+    text = fault_text(fault)
     sys.stderr.write(f"{said(label)}: {text}\n" if label else f"{text}\n")
     sys.stderr.flush()
 

@@ -22,9 +22,27 @@ def catalogue(language: str) -> dict[str, str]:
     language : str
         One of :data:`LANGUAGES`.
     """
+    return _messages(language, "")
+
+
+@cache
+def page_catalogue(language: str) -> dict[str, str]:
+    """Return the words of the page of ``moyai app``: buttons and heads, which are looked up as a whole and never in
+    parts of other texts.
+
+    Parameters
+    ----------
+    language : str
+        One of :data:`LANGUAGES`.
+    """
+    return _messages(language, "page")
+
+
+def _messages(language: str, folder: str) -> dict[str, str]:
     if language == "en":
         return {}
-    files = (file for file in (resources.files("moyai.language") / language).iterdir() if file.name.endswith(".po"))
+    place = resources.files("moyai.language").joinpath(language, folder)
+    files = (file for file in place.iterdir() if file.name.endswith(".po"))
     texts = (file.read_text(encoding="utf-8") for file in sorted(files, key=lambda file: file.name))
     return {source: target for text in texts for source, target in entries(text) if source and target}
 

@@ -36,7 +36,7 @@ _NO_TEXT = re.compile(
 FOLDERS = {
     "case": "errors and checks of files", "cli": "command line", "report": "reports, common", "core": "common",
     "design": "codes", "language": "", "records": "records", "study": "studies", "reproduce": "papers",
-    "validation": "", "app": "", "interop": "files of other programs", "structures": "structures",
+    "validation": "", "app": "app", "interop": "files of other programs", "structures": "structures",
 }  # fmt: skip
 """Folders of the package and the name of their group; those without a name are not counted."""
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 import time
 from pathlib import Path
 from typing import Any
 
+from moyai.case.schema import json_schema
 from moyai.cli.runner import run
 from moyai.core.progress import Progress, silent
 
@@ -56,3 +58,26 @@ def quick_work(pipe: Any, stop: Any, order: Any, run: Any) -> None:
         pipe.send(("done", "interrupted", "", ""))
     else:
         pipe.send(("done", "converged", "all identities hold", "holds"))
+
+
+def words_of_files() -> set[str]:
+    """Return keys, choices and defaults of case files, as they are written, and the letters of formulas."""
+    found = {"from", "to", "count", "low", "middle", "high", "speed", "values", "lid", "check", "app"}
+    found |= {"gamma", "zeta", "alpha", "added", "mass", "stiffness"}
+
+    def collect(node: Any) -> None:
+        for key, value in node.items() if isinstance(node, dict) else ():
+            found.update(re.findall(r"[a-z]+", key) if key != "description" else ())
+            texts = value if key in ("enum", "examples") else [value] if key in ("const", "default") else []
+            found.update(
+                word
+                for text in texts
+                if isinstance(text, str | bool)
+                for word in re.findall(r"[a-z]+", str(text).lower())
+            )
+            collect(value)
+        for value in node if isinstance(node, list) else ():
+            collect(value)
+
+    collect(json_schema())
+    return found

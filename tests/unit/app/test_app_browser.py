@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import json
 import os
 import random
 import re
@@ -15,9 +16,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from app_runs import MEMBER
+from app_runs import MEMBER, words_of_files
 
 from moyai.case.templates import template
+from moyai.language.words import latin_words
 
 pytest.importorskip("starlette")
 pytest.importorskip("uvicorn")
@@ -40,8 +42,8 @@ KINDS = ("breakwater", "curtain", "cage", "rigid_cage", "network", "member")
 
 
 @contextmanager
-def app_at(start: Path) -> Iterator[str]:
-    command = [sys.executable, "-m", "moyai", "app", str(start), "--no-browser"]
+def app_at(start: Path, *options: str) -> Iterator[str]:
+    command = [sys.executable, "-m", "moyai", *options, "app", str(start), "--no-browser"]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=os.environ)
     assert process.stdout is not None
     found = re.search(r"http://127\.0\.0\.1:\d+/\?token=\S+", process.stdout.readline())
@@ -50,7 +52,7 @@ def app_at(start: Path) -> Iterator[str]:
     process.send_signal(2)
     out, errors = process.communicate(timeout=15)
     assert process.returncode == 0
-    assert "has ended" in out and errors == ""
+    assert ("終了した" if options else "has ended") in out and errors == ""
 
 
 @pytest.fixture
@@ -159,6 +161,41 @@ def test_without_the_script_of_the_editor_there_is_a_text_area(address: str) -> 
         assert page.evaluate("document.querySelector('textarea').value") == MEMBER
         page.evaluate(f"{TEXT.removesuffix('.text')}.type({MEMBER.replace('water_depth', 'water_dept')!r})")
         until(page, "document.querySelector('.gutter .error')?.textContent === '5'")
+
+
+SHOWN = """(() => {
+  const found = [], own = 'code, .report, .cm-content, .card-detail, .subtitle, h1';
+  for (const one of document.querySelectorAll('body *:not(script)')) {
+    if (one.closest(own)) continue;
+    found.push(...[...one.childNodes].filter((node) => node.nodeType === 3).map((node) => node.data));
+    found.push(...['title', 'aria-label', 'placeholder'].map((name) => one.getAttribute(name)));
+  }
+  return JSON.stringify(found.filter((text) => text && text.trim()));
+})()"""
+
+
+def test_the_page_in_japanese_shows_no_english(tmp_path: Path) -> None:
+    (tmp_path / "pile.yaml").write_text(MEMBER)
+    with (
+        app_at(tmp_path / "pile.yaml", "--language", "ja") as address,
+        pipe.Chromium(str(pipe.find_chromium()), 1280, 900) as page,
+    ):
+        page.send("Page.navigate", url=address)
+        until(page, f"{DRAWN} > 0 && {IDLE}")
+        keys = words_of_files() | set(re.findall(r"[a-z]+", MEMBER)) | {"Alt", "Quick", "pile", "out"}
+        for step, ready in (
+            ("0", "document.querySelector('.slider')"),
+            (f"{PRESS}('入力欄')", "document.querySelector('.form .field')"),
+            (f"{TEXT.removesuffix('.text')}.type({MEMBER.replace('water_depth', 'water_dept')!r})", FIRST_ERROR),
+            ("location.hash = '#/jobs'", "document.querySelector('.jobs')"),
+            ("location.hash = '#/'", "document.querySelector('.cards')"),
+        ):
+            page.evaluate(step)
+            until(page, ready)
+            shown = json.loads(page.evaluate(SHOWN))
+            assert len(shown) >= 5
+            assert {word for text in shown for word in latin_words(text)} - keys == set(), step
+        sound(page, address)
 
 
 @pytest.mark.slow

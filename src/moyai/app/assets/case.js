@@ -3,7 +3,7 @@ import { editorOf } from "/assets/editor.js";
 import { Form } from "/assets/form.js";
 import { watchJobs } from "/assets/jobs.js";
 import { Live } from "/assets/live.js";
-import { element, get, post, stream, tell } from "/assets/server.js";
+import { element, get, post, say, stream, tell } from "/assets/server.js";
 import { Sliders } from "/assets/sliders.js";
 
 const PATIENCE = 500; // ms after which a further request overtakes one on its way that has drawn nothing, at least
@@ -24,16 +24,16 @@ export class CaseView {
     this.editor = editor;
     const button = (words, act, title) => element("button", { type: "button", onclick: act, title }, words);
     this.title = element("h1", {}, record.name);
-    this.undoButton = button("Undo", () => this.undo(), "Back to the text before the last change (Alt+Z)");
-    this.pinButton = button("Pin", () => this.pin(), "Keep this state, faint under the next ones");
-    this.saveButton = button("Save", () => this.save(), "Write the text to its file");
-    this.state = element("p", { class: "quiet state", role: "status" }, "drawing …");
+    this.undoButton = button(say("Undo"), () => this.undo(), say("Back to the text before the last change (Alt+Z)"));
+    this.pinButton = button(say("Pin"), () => this.pin(), say("Keep this state, faint under the next ones"));
+    this.saveButton = button(say("Save"), () => this.save(), say("Write the text to its file"));
+    this.state = element("p", { class: "quiet state", role: "status" }, say("drawing …"));
     this.report = element("div", { class: "report" });
-    this.jump = element("select", { "aria-label": "Go to a section", onchange: () => { document.getElementById(this.jump.value)?.scrollIntoView({ behavior: "instant" }); } });
+    this.jump = element("select", { "aria-label": say("Go to a section"), onchange: () => { document.getElementById(this.jump.value)?.scrollIntoView({ behavior: "instant" }); } });
     this.content.replaceChildren(
       element("div", { class: "controls" }, this.title,
-        element("div", { class: "toolbar" }, button("Run", () => this.run(), "Full run as a job, with the report"), this.undoButton, this.pinButton,
-          this.saveButton, element("a", { href: `${this.address}/case.yaml`, download: true }, "Take the case")),
+        element("div", { class: "toolbar" }, button(say("Run"), () => this.run(), say("Full run as a job, with the report")), this.undoButton, this.pinButton,
+          this.saveButton, element("a", { href: `${this.address}/case.yaml`, download: true }, say("Take the case"))),
         this.tabs(), this.sliders.element, this.form.element, this.editor.element),
       element("div", { class: "look" }, element("div", { class: "top" }, this.state, this.jump), this.report));
     this.report.addEventListener("click", (event) => {
@@ -48,7 +48,7 @@ export class CaseView {
   }
   // Wide: the text stays, numbers and form change places above it. Narrow: one of the three.
   tabs() {
-    const names = [["numbers", "Numbers"], ["form", "Form"], ["written", "Text"]], list = element("div", { class: "tabs", role: "tablist", "aria-label": "Ways to change the case" });
+    const names = [["numbers", say("Numbers")], ["form", say("Form")], ["written", say("Text")]], list = element("div", { class: "tabs", role: "tablist", "aria-label": say("Ways to change the case") });
     const choose = (name, focus) => {
       for (const button of list.children) {
         const chosen = button.dataset.tab === name;
@@ -91,7 +91,7 @@ export class CaseView {
     const typed = this.typed;
     clearTimeout(this.timer);
     const record = await post(`${this.address}/change`, { ...wish, text: this.editor.text });
-    if (typed !== this.typed) { tell("the text was changed meanwhile: do it again"); return; }
+    if (typed !== this.typed) { tell(say("the text was changed meanwhile: do it again")); return; }
     this.edits.clear();
     this.typed++;
     this.take(record);
@@ -109,7 +109,7 @@ export class CaseView {
     document.title = `${record.name} · moyai`;
     this.editor.text = record.text;
     this.undoButton.disabled = !record.can_undo;
-    this.pinButton.textContent = record.pinned ? "Unpin" : "Pin";
+    this.pinButton.textContent = record.pinned ? say("Unpin") : say("Pin");
     this.saveButton.disabled = !record.unsaved;
   }
   textChanged() {
@@ -152,7 +152,7 @@ export class CaseView {
     if (this.closed) return;
     if (said.message === "checked" && said.sequence >= this.checked) this.hearChecked(said, edits, typed);
     else if (said.message === "drawn" && said.sequence >= this.drawn && said.sequence >= this.checked) this.hearDrawn(said);
-    else if (said.message === "not drawn") { this.editor.show(said.faults, []); this.say("not drawn; what is shown is older than the text", true); }
+    else if (said.message === "not drawn") { this.editor.show(said.faults, []); this.say(say("not drawn; what is shown is older than the text"), true); }
     else if (said.message === "lost") this.say(said.text, true);
   }
   hearChecked(said, edits, typed) {
@@ -163,17 +163,17 @@ export class CaseView {
     this.form.mark(said.faults);
     if (this.tab === "form" || !said.faults.length && this.lastForm === undefined) this.renewForm();
     if (said.sliders) this.sliders.show(said.sliders);
-    if (!said.faults.length) { this.say("drawing …"); this.undoButton.disabled = false; this.saveButton.disabled = false; }
-    else this.say(`${said.faults.length} error${said.faults.length === 1 ? "" : "s"} in the case; what is shown is older than the text`, true);
+    if (!said.faults.length) { this.say(say("drawing …")); this.undoButton.disabled = false; this.saveButton.disabled = false; }
+    else this.say(said.faults.length === 1 ? say("1 error in the case; what is shown is older than the text") : say("{0} errors in the case; what is shown is older than the text", said.faults.length), true);
   }
   hearDrawn(said) {
     this.drawn = said.sequence;
     this.headlines = said.headlines;
     this.live.draw(said.html, said.data);
     this.listSections();
-    const seas = said.left_out ? ", without irregular seas" : "";
-    const plain = said.nominal ? ", nominal numbers only (no band, range or comparison)" : "";
-    this.say(`Draft of ${said.analyses.join(", ")}${seas}${plain}, in ${said.seconds.toFixed(2)} s.${said.last ? " Run computes the rest." : " More follows."}`);
+    const parts = [say("Draft of {0}", said.analyses.join(", ")), said.left_out ? say("without irregular seas") : "",
+      said.nominal ? say("nominal numbers only (no band, range or comparison)") : "", say("in {0} s", said.seconds.toFixed(2))];
+    this.say(`${parts.filter(Boolean).join(say(", "))}${say(". ")}${said.last ? say("Run computes the rest.") : say("More follows.")}`);
     this.report.dataset.sequence = said.sequence;
     if (said.sequence === this.sequence && this.flying) {
       this.pace = performance.now() - this.flying;
@@ -206,10 +206,10 @@ export class CaseView {
   async save() {
     try {
       this.take(await post(`${this.address}/save`));
-      tell(`${this.name} is saved`);
+      tell(say("{0} is saved", this.name));
     } catch (refused) {
-      const name = prompt(`${refused.message}\nSave under another name:`, this.name);
-      if (name) { this.take(await post(`${this.address}/save`, { name })); tell(`${this.name} is saved`); }
+      const name = prompt(`${refused.message}\n${say("Save under another name:")}`, this.name);
+      if (name) { this.take(await post(`${this.address}/save`, { name })); tell(say("{0} is saved", this.name)); }
     }
   }
   async run() {

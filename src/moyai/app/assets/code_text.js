@@ -1,6 +1,6 @@
 // The text of a case in CodeMirror: colours of YAML, errors under their words, search, completion of keys from the schema.
 import * as cm from "/assets/codemirror.js";
-import { faultWords } from "/assets/server.js";
+import { faultWords, say } from "/assets/server.js";
 
 const COLOURS = cm.HighlightStyle.define([
   { tag: [cm.tags.propertyName, cm.tags.definition(cm.tags.propertyName)], color: "var(--accent)" },
@@ -10,6 +10,14 @@ const COLOURS = cm.HighlightStyle.define([
   { tag: [cm.tags.punctuation, cm.tags.separator, cm.tags.squareBracket, cm.tags.brace], color: "var(--muted)" },
 ]);
 
+// What the search of the editor says of itself, by the words that it asks for
+const PHRASES = {
+  Find: say("Find"), Replace: say("Replace"), next: say("next"), previous: say("previous"), all: say("all"), "match case": say("match case"), regexp: say("regexp"),
+  "by word": say("by word"), replace: say("replace"), "replace all": say("replace all"), close: say("close"), "Go to line": say("Go to line"), go: say("go"),
+  "current match": say("current match"), "on line": say("on line"), "replaced match on line $": say("replaced match on line $"), "replaced $ matches": say("replaced $ matches"),
+  "Completions": say("Completions"), "Fold line": say("Fold line"), "Unfold line": say("Unfold line"), "No diagnostics": say("No diagnostics"), Diagnostics: say("Diagnostics"),
+};
+
 export class CodeText {
   constructor({ changed, undo, keysAt }) {
     this.quiet = false;
@@ -17,9 +25,9 @@ export class CodeText {
     const keys = [{ key: "Mod-z", run: () => { undo(); return true; } }, ...cm.completionKeymap, ...cm.searchKeymap, ...cm.foldKeymap, ...cm.defaultKeymap];
     this.view = new cm.EditorView({ extensions: [
       cm.lineNumbers(), cm.foldGutter(), cm.highlightActiveLine(), cm.highlightActiveLineGutter(), cm.drawSelection(), cm.bracketMatching(), cm.highlightSelectionMatches(),
-      cm.indentUnit.of("  "), cm.yaml(), cm.syntaxHighlighting(COLOURS), cm.lintGutter(), cm.search({ top: true }),
+      cm.indentUnit.of("  "), cm.yaml(), cm.syntaxHighlighting(COLOURS), cm.lintGutter(), cm.search({ top: true }), cm.EditorState.phrases.of(PHRASES),
       cm.autocompletion({ override: [(context) => complete(context, keysAt)], icons: false }), cm.keymap.of(keys),
-      cm.EditorView.contentAttributes.of({ "aria-label": "Case file (YAML)", "aria-describedby": "faults", spellcheck: "false", autocapitalize: "off" }),
+      cm.EditorView.contentAttributes.of({ "aria-label": say("Case file (YAML)"), "aria-describedby": "faults", spellcheck: "false", autocapitalize: "off" }),
       cm.EditorView.updateListener.of((update) => { if (update.docChanged && !this.quiet) changed(); }),
     ] });
     this.element = document.createElement("div");

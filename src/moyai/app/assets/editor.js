@@ -1,6 +1,6 @@
 // The text of the case with its errors: CodeMirror, or a plain text area where its script cannot be loaded.
 import { PlainText } from "/assets/plain_text.js";
-import { element, faultWords } from "/assets/server.js";
+import { element, faultWords, say } from "/assets/server.js";
 
 export async function editorOf(wishes) {
   try {
@@ -27,7 +27,7 @@ class Editor {
     if (state === this.state) return;
     this.state = state;
     const item = (one, tone, word) => element("li", { class: `notice ${tone}` }, element("strong", {}, word),
-      element("span", {}, one.line ? element("button", { type: "button", onclick: () => this.surface.jump(one.line, one.column) }, `line ${one.line}`) : null, " ", faultWords(one)));
-    this.list.replaceChildren(...faults.map((one) => item(one, "error", "Error")), ...warnings.map((one) => item(one, "warning", "Warning")));
+      element("span", {}, one.line ? element("button", { type: "button", onclick: () => this.surface.jump(one.line, one.column) }, say("line {0}", one.line)) : null, " ", faultWords(one)));
+    this.list.replaceChildren(...faults.map((one) => item(one, "error", say("Error"))), ...warnings.map((one) => item(one, "warning", say("Warning"))));
   }
 }

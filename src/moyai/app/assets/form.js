@@ -1,11 +1,11 @@
 // The form of the case: groups and fields as the server made them from the schema. Every change is an edit of the text.
-import { element, faultWords } from "/assets/server.js";
+import { element, faultWords, say } from "/assets/server.js";
 
 export class Form {
   constructor(change) {
     this.change = change;
     this.open = new Map();
-    this.element = element("div", { class: "form", role: "group", "aria-label": "Form of the case" });
+    this.element = element("div", { class: "form", role: "group", "aria-label": say("Form of the case") });
   }
   show(form) {
     const state = JSON.stringify(form);
@@ -31,8 +31,8 @@ export class Form {
     made.addEventListener("toggle", () => { this.open.set(one.dotted, made.open); });
     const words = element("p", { class: "form-help", hidden: !one.help }, one.help || "");
     made.append(words, ...one.entries.map((entry) => this.entry(entry, depth + 1)),
-      one.more ? element("p", { class: "quiet" }, `${one.more} more in the text`) : "",
-      one.absent.length || one.removable ? element("div", { class: "form-foot" }, this.adding(one), one.removable ? this.removing(one, `Remove ${one.label}`) : "") : "");
+      one.more ? element("p", { class: "quiet" }, say("{0} more in the text", one.more)) : "",
+      one.absent.length || one.removable ? element("div", { class: "form-foot" }, this.adding(one), one.removable ? this.removing(one, say("Remove {0}", one.label)) : "") : "");
     this.fields.set(one.dotted, { element: made, place: words });
     return made;
   }
@@ -55,19 +55,19 @@ export class Form {
       if (list) input.append(list);
       if (list) this.lists = list;
     }
-    const row = element("div", { class: "field" }, element("label", { for: id, title: one.help }, one.label), input, one.removable ? this.removing(one, `Remove ${one.label}`, "×") : element("span"),
+    const row = element("div", { class: "field" }, element("label", { for: id, title: one.help }, one.label), input, one.removable ? this.removing(one, say("Remove {0}", one.label), "×") : element("span"),
       element("span", { class: "field-help", id: help }, one.help || ""), element("span", { class: "field-fault", role: "alert" }));
     if (this.lists) { row.append(this.lists); this.lists = null; }
     this.fields.set(one.dotted, { element: row, input, place: row.querySelector(".field-fault") });
     return row;
   }
   removing(one, words, sign = "") {
-    return element("button", { type: "button", class: sign ? "remove" : "", "aria-label": words, title: `Remove ${one.dotted} from the case`, onclick: () => this.send(one, { change: "remove", path: one.path }) }, sign || "Remove");
+    return element("button", { type: "button", class: sign ? "remove" : "", "aria-label": words, title: say("Remove {0} from the case", one.dotted), onclick: () => this.send(one, { change: "remove", path: one.path }) }, sign || say("Remove"));
   }
   adding(group) {
     if (!group.absent.length) return "";
-    const select = element("select", { class: "adding", "aria-label": `Add a key to ${group.label}`, "data-path": `${group.dotted}+` },
-      element("option", { value: "" }, "Add …"), ...group.absent.map((one) => element("option", { value: one.key, title: one.help }, `${one.key}${one.help ? ` · ${shortened(one.help)}` : ""}`)));
+    const select = element("select", { class: "adding", "aria-label": say("Add a key to {0}", group.label), "data-path": `${group.dotted}+` },
+      element("option", { value: "" }, say("Add …")), ...group.absent.map((one) => element("option", { value: one.key, title: one.help }, `${one.key}${one.help ? ` · ${shortened(one.help)}` : ""}`)));
     select.addEventListener("change", () => {
       const one = group.absent.find((absent) => absent.key === select.value);
       if (!one) return;

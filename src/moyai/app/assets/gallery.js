@@ -1,5 +1,5 @@
 // Cards: open cases, case files of the folder, a template of each kind, the five papers.
-import { element, get, post } from "/assets/server.js";
+import { element, get, post, say } from "/assets/server.js";
 
 const SHAPES = {
   breakwater: "M10 30h26v-14h-26zM10 30Q4 46 -8 52M36 30Q42 46 54 52",
@@ -23,7 +23,6 @@ function drawing(kind) {
 }
 
 const JOBS = ["study", "fit"];
-const capital = (words) => words.charAt(0).toUpperCase() + words.slice(1);
 
 async function open(what) {
   const opened = await post("/api/cases", what);
@@ -53,13 +52,13 @@ function group(title, cards, empty = "") {
 export async function showGallery(content) {
   const found = await get("/api/gallery");
   const parts = [
-    element("h1", {}, "Cases"),
+    element("h1", {}, say("Cases")),
     element("p", { class: "subtitle" }, found.folder),
-    group("Open now", found.recent.map((one) => card("", one.file, "as you left it", () => { location.hash = `#/case/${one.id}`; }))),
-    group("In this folder", found.files.filter((one) => !JOBS.includes(one.kind)).map((one) => card(one.kind, one.title, one.file, () => open({ file: one.file }))), "no case files in this folder yet"),
-    group("Studies and fits, run as jobs", found.files.filter((one) => JOBS.includes(one.kind)).map((one) => card("", one.title, `${one.kind}: ${one.file}`, () => startFile(one.file)))),
-    group("Templates", found.templates.map((one) => card(one.kind, capital(one.template.replace("_", " ")), one.title, () => open({ template: one.template })))),
-    group("Papers, computed again as a job", found.papers.map((one) => card("", `${one.authors} (${one.year})`, one.line, () => startPaper(one.paper)))),
+    group(say("Open now"), found.recent.map((one) => card("", one.file, say("as you left it"), () => { location.hash = `#/case/${one.id}`; }))),
+    group(say("In this folder"), found.files.filter((one) => !JOBS.includes(one.kind)).map((one) => card(one.kind, one.title, one.file, () => open({ file: one.file }))), say("no case files in this folder yet")),
+    group(say("Studies and fits, run as jobs"), found.files.filter((one) => JOBS.includes(one.kind)).map((one) => card("", one.title, `${one.kind === "fit" ? say("fit") : say("study")}: ${one.file}`, () => startFile(one.file)))),
+    group(say("Templates"), found.templates.map((one) => card(one.kind, one.name, one.title, () => open({ template: one.template })))),
+    group(say("Papers, computed again as a job"), found.papers.map((one) => card("", `${one.authors} (${one.year})`, one.line, () => startPaper(one.paper)))),
   ];
   content.replaceChildren(...parts.filter(Boolean));
 }

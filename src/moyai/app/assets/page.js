@@ -2,7 +2,7 @@
 import { CaseView } from "/assets/case.js";
 import { showGallery } from "/assets/gallery.js";
 import { showJob, showJobs, watchJobs } from "/assets/jobs.js";
-import { element, post, tell } from "/assets/server.js";
+import { element, post, say, tell } from "/assets/server.js";
 
 const content = document.getElementById("content");
 let view = null;
@@ -11,7 +11,7 @@ async function show() {
   const [, where = "", key = ""] = location.hash.split("/");
   if (view && view.close) view.close();
   view = null;
-  content.replaceChildren(element("p", { class: "quiet" }, "loading …"));
+  content.replaceChildren(element("p", { class: "quiet" }, say("loading …")));
   content.className = where || "gallery";
   try {
     if (where === "case") { view = new CaseView(content, key); await view.open(); }
@@ -20,8 +20,8 @@ async function show() {
     else await showGallery(content);
   } catch (refused) {
     content.replaceChildren(
-      element("p", { class: "notice error" }, element("strong", {}, "Error"), element("span", {}, refused.message)),
-      element("p", {}, element("a", { href: "#/" }, "To the cases")),
+      element("p", { class: "notice error" }, element("strong", {}, say("Error")), element("span", {}, refused.message)),
+      element("p", {}, element("a", { href: "#/" }, say("To the cases"))),
     );
   }
 }

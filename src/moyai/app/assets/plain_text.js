@@ -1,9 +1,9 @@
 // The text of a case in a plain text area with line numbers: what is left where the editor cannot be loaded.
-import { element } from "/assets/server.js";
+import { element, say } from "/assets/server.js";
 
 export class PlainText {
   constructor({ changed }) {
-    this.area = element("textarea", { spellcheck: "false", autocapitalize: "off", autocomplete: "off", wrap: "off", "aria-label": "Case file (YAML)", "aria-describedby": "faults" });
+    this.area = element("textarea", { spellcheck: "false", autocapitalize: "off", autocomplete: "off", wrap: "off", "aria-label": say("Case file (YAML)"), "aria-describedby": "faults" });
     this.gutter = element("div", { class: "gutter", "aria-hidden": "true" });
     this.element = element("div", { class: "editor plain" }, this.gutter, this.area);
     this.marks = new Map();

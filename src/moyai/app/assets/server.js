@@ -1,6 +1,10 @@
 // Talk to the server: JSON with a version; every changing request carries the token of this page.
 const VERSION = 1;
+const words = JSON.parse(document.getElementById("app-words").textContent);
 const token = document.querySelector("meta[name=moyai-token]").content;
+
+// A sentence of the page in its language, with what belongs in its places; the server finds the sentences in these files.
+export const say = (text, ...values) => (words[text] ?? text).replace(/\{(\d)\}/g, (_, place) => values[place]);
 
 export class Refused extends Error {
   constructor(faults, status) {
@@ -11,7 +15,7 @@ export class Refused extends Error {
 }
 
 export const faultWords = (fault) =>
-  [fault.path ? `${fault.path}: ${fault.message}` : fault.message, fault.allowed ? `allowed: ${fault.allowed}` : "", fault.remedy]
+  [fault.path ? `${fault.path}: ${fault.message}` : fault.message, fault.allowed ? say("allowed: {0}", fault.allowed) : "", fault.remedy]
     .filter(Boolean).join("; ");
 
 async function request(address, body) {
@@ -22,7 +26,7 @@ async function request(address, body) {
   try {
     answer = await fetch(address, how);
   } catch {
-    throw new Refused([{ message: "the app has ended; start 'moyai app' again" }], 0);
+    throw new Refused([{ message: say("the app has ended; start 'moyai app' again") }], 0);
   }
   if (!answer.ok && answer.headers.get("Content-Type") !== "application/json") throw new Refused([{ message: await answer.text() }], answer.status);
   return answer;
@@ -30,7 +34,7 @@ async function request(address, body) {
 
 async function json(address, body) {
   const answer = await request(address, body), content = await answer.json();
-  if (content.version !== VERSION) throw new Refused([{ message: "page and server are of different versions: reload the page" }], 0);
+  if (content.version !== VERSION) throw new Refused([{ message: say("page and server are of different versions: reload the page") }], 0);
   if (!answer.ok) throw new Refused(content.faults, answer.status);
   return content;
 }

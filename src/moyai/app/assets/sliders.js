@@ -1,11 +1,11 @@
 // Sliders of the numbers that matter, each with a field for the exact number; units as the file writes them.
-import { element } from "/assets/server.js";
+import { element, say } from "/assets/server.js";
 
 export class Sliders {
   constructor(moved) {
     this.moved = moved;
     this.rows = new Map();
-    this.element = element("div", { class: "sliders", role: "group", "aria-label": "Numbers of the case" });
+    this.element = element("div", { class: "sliders", role: "group", "aria-label": say("Numbers of the case") });
   }
   show(sliders) {
     const paths = sliders.map((one) => one.path).join("\n");
@@ -19,7 +19,7 @@ export class Sliders {
   row(spec) {
     const id = `slider-${spec.path.replace(/\W+/g, "-")}`;
     const range = element("input", { type: "range", id });
-    const number = element("input", { type: "number", step: "any", "aria-label": `${spec.label}, number` });
+    const number = element("input", { type: "number", step: "any", "aria-label": say("{0}, number", spec.label) });
     const unit = element("span", { class: "unit" }, spec.unit);
     const row = { spec, range, number, unit, held: false };
     row.element = element("div", { class: "slider" }, element("label", { for: id, title: spec.path }, spec.label), range, number, unit);
