@@ -1,4 +1,4 @@
-"""Sphinx configuration: `sphinx-build -W docs docs/_build/html` works offline, warnings are errors."""
+"""Sphinx configuration: `sphinx-build -W docs docs/_build/html` works offline, warnings are errors; so do the pages."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ extensions = [
     "myst_parser",
     "sphinx.ext.autodoc",
     "sphinx.ext.napoleon",
-    "sphinx.ext.mathjax",
+    "mathml",
 ]
 myst_enable_extensions = ["dollarmath", "amsmath", "deflist"]
 myst_heading_anchors = 3
@@ -34,6 +34,9 @@ math_number_all = True
 exclude_patterns = ["_build"]
 html_theme = "furo"
 html_title = "moyai"
+html_static_path = ["_static"]
+html_css_files = ["site.css"]
+html_math_renderer = "mathml"
 nitpicky = False
 
 autodoc_member_order = "bysource"
@@ -79,6 +82,12 @@ class PublicModules(SphinxDirective):
         return container.children
 
 
+def plain_bars(app: Sphinx, what: str, name: str, thing: Any, options: Any, lines: list[str]) -> None:
+    """Let bars of formulas in docstrings stand as they are: they would be read as places of substitution."""
+    lines[:] = [line if "`" in line else line.replace("|", r"\|") for line in lines]
+
+
 def setup(app: Sphinx) -> None:
-    """Register the directive."""
+    """Register the directive and what is done to docstrings."""
+    app.connect("autodoc-process-docstring", plain_bars, priority=600)
     app.add_directive("public-modules", PublicModules)
