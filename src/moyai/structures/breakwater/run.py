@@ -131,7 +131,9 @@ def _level_steps(
         yield
     if not dynamic or hydro is None:
         return
-    model = make_model(unit, hydro, steady, problem.settings.drift)
+    settings = problem.settings
+    led = (settings.time.lines, problem.environment.current) if settings.line_restoring == "equivalent" else None
+    model = make_model(unit, hydro, steady, settings.drift, led_lines=led)
     yield from _frequency_steps(problem, model, collected, root, progress)
     if "time" in analyses:
         yield from _time_steps(problem, model, collected, root, progress)
