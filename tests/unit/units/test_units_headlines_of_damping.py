@@ -52,8 +52,8 @@ def test_realisations_are_widened_by_the_damping():
     (roll,) = _each([("/SWL/time/storm", _with_roll(_with_damping(time, frequency)))], "roll")
     assert roll.value == pytest.approx(0.10) and not roll.band.decides
     assert (roll.band.low, roll.band.high) == pytest.approx((0.8 * 0.08, 1.25 * 0.12))
-    # Student, two degrees of freedom: 2.920 standard errors of 0.02 / sqrt(3), then the damping
-    assert roll.band.judged[1] == pytest.approx(1.25 * (0.10 + 2.920 * 0.02 / np.sqrt(3.0)), rel=1e-4)
+    # Johnson's interval of three skewed values: 4.899 standard errors of 0.02 / sqrt(3), then the damping
+    assert roll.band.judged[1] == pytest.approx(1.25 * (0.10 + 4.8994 * 0.02 / np.sqrt(3.0)), rel=1e-4)
 
 
 def test_a_named_regular_sea_is_judged_in_every_period():
