@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib
 import importlib.metadata
 import pkgutil
+import re
 import sys
 from pathlib import Path
 from typing import Any, ClassVar
@@ -20,6 +21,8 @@ copyright = "The moyai authors, Apache-2.0"
 version = release = importlib.metadata.version("moyai")
 
 sys.path.insert(0, str(Path(__file__).parent))
+from mathml import font_folder  # noqa: E402 - beside this file
+
 extensions = [
     "gallery",
     "reproduced_papers",
@@ -34,7 +37,7 @@ math_number_all = True
 exclude_patterns = ["_build"]
 html_theme = "furo"
 html_title = "moyai"
-html_static_path = ["_static"]
+html_static_path = ["_static", font_folder()]
 html_css_files = ["site.css"]
 html_math_renderer = "mathml"
 nitpicky = False
@@ -82,12 +85,19 @@ class PublicModules(SphinxDirective):
         return container.children
 
 
-def plain_bars(app: Sphinx, what: str, name: str, thing: Any, options: Any, lines: list[str]) -> None:
-    """Let bars of formulas in docstrings stand as they are: they would be read as places of substitution."""
-    lines[:] = [line if "`" in line else line.replace("|", r"\|") for line in lines]
+_CODE = re.compile(r"(`+[^`]*`+_*)")
+_SIGNS = re.compile(r"\||\*(?=[a-z_.]+[,)])")
+
+
+def plain_signs(app: Sphinx, what: str, name: str, thing: Any, options: Any, lines: list[str]) -> None:
+    """Let bars and stars of formulas in docstrings stand as they are: they would be read as markup."""
+    for number, line in enumerate(lines):
+        parts = _CODE.split(line)
+        parts[::2] = [_SIGNS.sub(r"\\\g<0>", part) for part in parts[::2]]
+        lines[number] = "".join(parts)
 
 
 def setup(app: Sphinx) -> None:
     """Register the directive and what is done to docstrings."""
-    app.connect("autodoc-process-docstring", plain_bars, priority=600)
+    app.connect("autodoc-process-docstring", plain_signs, priority=600)
     app.add_directive("public-modules", PublicModules)
