@@ -15,12 +15,13 @@ from sphinx.util.math import get_node_equation_number
 _FUNCTION = re.compile(
     r"(?<!<msup>)(?<!<msub>)<mi>((?:arc|a?r)?(?:sin|cos|tan|cot|sinh|cosh|tanh|coth)|log|ln|exp|arg)</mi>"
 )
+_SIGN = re.compile(r'<mo( stretchy="false")?>(?=(?:&#x0007C;|&#x0002F;)<)')  # bars and strokes stand close
 _GAP = r'<mrow><mi>\1</mi><mspace width="0.17em"/></mrow>'
 
 
 def mathml(text: str, display: str = "inline") -> str:
-    """Return a formula of TeX as MathML, with a thin gap behind the names of functions."""
-    return _FUNCTION.sub(_GAP, convert(text, display=display))
+    """Return a formula of TeX as MathML, with a thin gap behind the names of functions and none beside bars."""
+    return _SIGN.sub(r'<mo\1 lspace="0" rspace="0">', _FUNCTION.sub(_GAP, convert(text, display=display)))
 
 
 def font_folder() -> str:
