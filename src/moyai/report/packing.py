@@ -10,7 +10,7 @@ import numpy as np
 
 CODES = {"f4": 4, "i2": 2, "i1": 1, "u1": 1}
 """Keys under which an array stands as base64 text, and bytes a number."""
-_LEVEL = 6
+_LEVEL = 3
 
 
 def pack_arrays(data: Any) -> tuple[Any, str]:
@@ -53,7 +53,8 @@ def pack_arrays(data: Any) -> tuple[Any, str]:
     if not parts:
         return found, ""
     packer = zlib.compressobj(_LEVEL, wbits=31)  # 31: with the head of gzip, without a date
-    return found, base64.b64encode(b"".join([*map(packer.compress, parts), packer.flush()])).decode("ascii")
+    block = packer.compress(b"".join(parts)) + packer.flush()
+    return found, base64.b64encode(block).decode("ascii")
 
 
 def steps_by_weight(content: bytes, width: int, columns: int) -> bytes:
