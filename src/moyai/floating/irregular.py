@@ -138,6 +138,7 @@ def linearised_in_sea(
     line_damping: EquivalentDamping | None = None,
     damping: LinearDamping | None = None,
     water_motion: ComplexArray | None = None,
+    start: SeaMotions | None = None,
     tolerance: float = 1e-10,
     maximum_iterations: int = 200,
 ) -> SeaMotions:
@@ -159,6 +160,8 @@ def linearised_in_sea(
         zero-crossing frequency.
     water_motion : ndarray (n, h, k) or None
         What the water does in the measures of ``quadratic``, per unit wave amplitude; still water when absent.
+    start : SeaMotions or None
+        With a stiffness nearby and the same frequencies, from which the iteration goes on.
     tolerance : float
         Relative change of the standard deviations.
     maximum_iterations : int
@@ -181,6 +184,10 @@ def linearised_in_sea(
     moving = np.zeros((1, 1, len(rows)), dtype=np.complex128)
     if water_motion is not None and quadratic is not None:
         moving = np.concatenate([np.zeros((*water_motion.shape[:2], size)), water_motion], axis=2)
+    goes_on = start is not None
+    if start is not None:
+        equivalent = start.equivalent_damping
+        drag = drag if start.motions.drag_excitation is None else start.motions.drag_excitation
     change, used = math.inf, 0
     while True:
         used += 1
@@ -204,7 +211,7 @@ def linearised_in_sea(
             target += quadratic.equivalent_irregular(deviation[size:])
             if water_motion is not None:
                 carried = quadratic.carried_irregular(deviation[size:], water_motion)
-                drag = carried if used == 1 else 0.5 * (drag + carried)
+                drag = 0.5 * (drag + carried) if goes_on else carried
         if line_damping is not None:
             period = float(
                 np.max(
@@ -214,6 +221,7 @@ def linearised_in_sea(
                 )
             )
             target += line_damping(math.sqrt(2.0) * deviation[:size], 2.0 * math.pi / period if period > 0.0 else 0.0)
-        equivalent = target if used == 1 else 0.5 * (equivalent + target)
+        equivalent = 0.5 * (equivalent + target) if goes_on else target
+        goes_on = True
     motions = replace(motions, drag_excitation=drag if water_motion is not None else None)
     return SeaMotions(motions, equivalent, deviation[size:], used, change <= tolerance)
