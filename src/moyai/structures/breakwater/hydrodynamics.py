@@ -114,9 +114,9 @@ def spectrum_band(sea: IrregularSea, count: int = 200) -> Array:
 
 
 def _spectrum_band(sea: IrregularSea, count: int) -> Array:
-    low, high = (float(item) for item in sea.spectrum.quantile(np.array([1e-5, 1.0 - ENERGY_LEFT_OUT])))
-    by_energy = sea.spectrum.quantile(np.linspace(1e-5, 1.0 - ENERGY_LEFT_OUT, count // 2))
-    grid = np.concatenate([np.linspace(low, high, count // 2), np.asarray(by_energy, dtype=float)])
+    by_energy = np.asarray(sea.spectrum.quantile(np.linspace(1e-5, 1.0 - ENERGY_LEFT_OUT, count // 2)), dtype=float)
+    low, high = float(by_energy[0]), float(by_energy[-1])
+    grid = np.concatenate([np.linspace(low, high, count // 2), by_energy])
     # Seas that differ in height alone have the same frequencies to the last digit, and share their coefficients
     grid = np.unique([float(f"{frequency:.11g}") for frequency in grid])
     # Points closer than a thousandth of the band to the last one kept carry no information and spoil splines
