@@ -119,7 +119,8 @@ def plan_numbers(ratio: float) -> tuple[float, float]:
 
 
 @pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=pytest.mark.slow) if name == "class B" else name for name in FREE]
+    "name",
+    [pytest.param(name, marks=pytest.mark.slow) if name in ("class B", "tidal channel") else name for name in FREE],
 )
 def test_depth_of_a_free_toe_is_that_of_the_closed_form(designs, name: str) -> None:
     given, result = designs(name)
@@ -459,7 +460,7 @@ def test_a_weaker_current_asks_no_more_of_the_sheet(tmp_path):
         item = next(item for item in found.headlines if item.name == "fabric_utilisation")
         return unfavourable(item)
 
-    used = [sheet(speed) for speed in (0.05, 0.1, 0.15, 0.2)]
+    used = [sheet(speed) for speed in (0.1, 0.2)]
     # weaker currents are looked at in steps of a tenth, over which the load hardly changes near its highest
     assert all(later > 0.985 * earlier for earlier, later in pairwise(used))
     # 1 m of curtain by hand at 0.2 m/s: half the load line on an arc that stretches, 4.8 kN/m of 30; the judged end
@@ -467,6 +468,7 @@ def test_a_weaker_current_asks_no_more_of_the_sheet(tmp_path):
     assert used[-1] == pytest.approx(4.8e3 / 30e3, rel=0.15)
 
 
+@pytest.mark.slow
 def test_what_fails_in_a_weaker_current_fails_in_a_stronger_one(tmp_path):
     """Past the current in which the plate still stands upright its load is a bound, which alone proves nothing."""
     rope = "  anchors: {line_length: 30 m, axial_stiffness: 3 MN, breaking_load: 400 kN, holding_force: FORCE}\n"

@@ -25,10 +25,11 @@ DATA = Path(__file__).parent / "data"
 
 @cache
 def problem() -> BreakwaterProblem:
-    """Return the case with its chains at rest at every instant, as the prototype has them."""
+    """Return the case with its chains at rest at every instant and by their tangent, as the prototype has them."""
     case = build(load_case(ROOT / "src" / "moyai" / "reproduce" / "cases" / "nakamura" / "tank_model.yaml"))
     lines = tuple(replace(line, dynamic=False, bar_types=(), drag_width=0.0) for line in case.breakwater.lines)
-    return replace(case, breakwater=replace(case.breakwater, lines=lines))
+    settings = case.settings.changed(line_restoring="tangent")
+    return replace(case, breakwater=replace(case.breakwater, lines=lines), settings=settings)
 
 
 def with_periods(periods, **changes):

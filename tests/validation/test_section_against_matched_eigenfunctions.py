@@ -15,7 +15,7 @@ from moyai.sea.water import Water
 GRAVITY = 9.81
 
 
-@pytest.mark.parametrize("seed", [*range(4), *(pytest.param(s, marks=pytest.mark.slow) for s in range(4, 10))])
+@pytest.mark.parametrize("seed", [2, 3, *(pytest.param(s, marks=pytest.mark.slow) for s in (0, 1, *range(4, 10)))])
 def test_random_rectangles(seed):
     rng = np.random.default_rng(seed)
     depth = 10.0 ** rng.uniform(-0.5, 1.5)

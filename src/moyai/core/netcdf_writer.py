@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 #: What names a scale without numbers of its own, in the words of the NetCDF library.
-_NO_VARIABLE = "This is a netCDF dimension but not a netCDF variable."
+NO_VARIABLE = "This is a netCDF dimension but not a netCDF variable."
 
 
 def can_write(tree: xr.DataTree) -> bool:
@@ -86,7 +86,7 @@ class _Writer:
                 scale.make_scale(name)
             else:
                 scale = group.create_dataset(name, (size,), ">f4", track_order=True, **_growing((size,)))
-                scale.make_scale(f"{_NO_VARIABLE}{size:10d}")
+                scale.make_scale(f"{NO_VARIABLE}{size:10d}")
             self._number(scale, "_Netcdf4Dimid", np.array(number, dtype=np.int32))
             seen[name] = number, scale
         for name, item in placed.items():
@@ -139,4 +139,4 @@ def _growing(shape: tuple[int, ...]) -> dict[str, Any]:
     return {"maxshape": tuple(size or None for size in shape), "chunks": True} if 0 in shape else {}
 
 
-__all__ = ["can_write", "write_tree"]
+__all__ = ["NO_VARIABLE", "can_write", "write_tree"]

@@ -174,15 +174,22 @@ def read_result(path: str | os.PathLike[str]) -> Result:
     """
     import xarray as xr
 
+    from moyai.core.netcdf_reader import read_tree
+
     file = Path(path)
     if not file.exists():
         raise InputError(f"no such file: {file}", path="result")
     if netcdf_engine(file, "a result of moyai", named="result") != "h5netcdf":
         raise InputError(f"{file} was not written by moyai: it is NetCDF 3", path="result")
-    with xr.open_datatree(file, engine="h5netcdf") as stored:
-        for node in stored.subtree:
-            require_plausible_size(file, node.nbytes, f"group '{node.path}'", named="result")
-        tree = _map_tree(stored.load(), join_complex)
+    try:
+        tree = read_tree(file, named="result")
+    except (LookupError, OSError, TypeError, ValueError):
+        # written by another program, or damaged: xarray reads it, or says what is wrong
+        with xr.open_datatree(file, engine="h5netcdf") as stored:
+            for node in stored.subtree:
+                require_plausible_size(file, node.nbytes, f"group '{node.path}'", named="result")
+            tree = stored.load()
+    tree = _map_tree(tree, join_complex)
     attributes = tree.attrs
     if "status" not in attributes or "checks" not in attributes:
         raise InputError(f"{file} was not written by moyai (no status or checks in it)", path="result")

@@ -133,27 +133,6 @@ def to_planar(
     return planar.sortby("wave_direction")
 
 
-@checks_words
-def neglected_coupling(dataset: xr.Dataset, sea: Literal["beam", "head"]) -> float:
-    """Return the largest coupling of the planar motions with those left out, relative to the diagonal terms.
-
-    Near zero for a body symmetric about the plane across its crest; else the planar model is wrong by that much.
-    """
-    frame, _ = FRAMES[sea]
-    inside = [name for name, _ in frame]
-    outside = [str(name) for name in dataset["radiating_dof"].values if name not in inside]
-    if not outside:
-        return 0.0
-    added_mass = xr.apply_ufunc(np.abs, dataset["added_mass"])
-    cross = added_mass.sel(radiating_dof=inside, influenced_dof=outside).values
-    rows = np.stack([added_mass.sel(radiating_dof=name, influenced_dof=name).values for name in inside], axis=-1)
-    columns = np.stack([added_mass.sel(radiating_dof=name, influenced_dof=name).values for name in outside], axis=-1)
-    scale = np.sqrt(rows[:, :, None] * columns[:, None, :])
-    # Yaw of a body of revolution has no added mass and no coupling either
-    scale = np.where(scale > 1e-6 * scale.max(), scale, np.inf)
-    return float(np.max(cross / scale))
-
-
 def _wrap(angle: Array) -> Array:
     """Return the angle in (-pi, pi], rounding-proof at the ends."""
     wrapped = np.mod(angle, 2.0 * math.pi)

@@ -108,13 +108,6 @@ def check_drag_anchor(anchor: DragAnchor, horizontal: float, uplift: float) -> A
     return AnchorCheck(sliding, math.inf if uplift > 0.0 else 0.0, notices)
 
 
-def sinker_needed(horizontal: float, uplift: float, friction: float, safety_factor: float) -> float:
-    """Return the submerged weight that a sinker needs [N]: ``SF (H / friction + V)``."""
-    if not friction > 0.0:
-        raise InputError(f"friction {friction:g}", parameter="friction", allowed="above 0")
-    return safety_factor * (abs(horizontal) / friction + max(uplift, 0.0))
-
-
 def gravity_anchor_weight(
     horizontal: float, uplift: float, friction: float, horizontal_factor: float, vertical_factor: float
 ) -> float:

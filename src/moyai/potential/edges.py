@@ -31,6 +31,9 @@ def as_points(position: ArrayLike) -> Array:
 
 def arc_position(start: ComplexArray, end: ComplexArray, bulge: Array, t: Array | float) -> ComplexArray:
     """Position at the arc-length fraction ``t`` (0..1) of edges with bulge tan(sweep / 4); all broadcast."""
+    if not np.any(bulge):
+        straight: ComplexArray = start + (end - start) * (t + 0.0 * bulge)
+        return straight
     half_sweep = 2.0 * np.arctan(bulge)
     ratio = t * np.sinc(half_sweep * t / np.pi) / np.sinc(half_sweep / np.pi)
     values: ComplexArray = start + (end - start) * ratio * np.exp(1j * half_sweep * (t - 1.0))

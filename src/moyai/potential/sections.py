@@ -104,7 +104,13 @@ class Outline:
 
     def moved(self, shift: tuple[float, float] = (0.0, 0.0), heel: float = 0.0) -> Outline:
         """Return the outline turned by ``heel`` [rad] (top towards +x) about the origin and then shifted [m]."""
-        return Outline(_turned(self.edges.start, heel) + np.asarray(shift, dtype=float), self.bulges)
+        start = _turned(self.edges.start, heel) + np.asarray(shift, dtype=float)
+        edges = Edges(start, np.roll(start, -1, axis=0), self.edges.bulge)
+        # what was found of this outline holds of the moved one
+        moved = object.__new__(Outline)
+        for name, value in (("vertices", edges.start), ("bulges", edges.bulge), ("_edges", edges)):
+            object.__setattr__(moved, name, value)
+        return moved
 
 
 def _turned(points: Array, heel: float) -> Array:

@@ -107,7 +107,7 @@ def embedded_style(text: str) -> str:
     options.flavor = "woff"
     with TTFont(file) as font:
         cut = subset.Subsetter(options)
-        cut.populate(text="".join(sorted({letter for letter in text if ord(letter) > 127})))
+        cut.populate(text="".join(sorted(letter for letter in set(text) if ord(letter) > 127)))
         cut.subset(font)
         font.flavor = "woff"
         stream = io.BytesIO()

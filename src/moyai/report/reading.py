@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Hashable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -82,6 +83,11 @@ class Group:
             node = None if node is None or part not in node.children else node.children[part]
         return Group(path.rsplit("/", 1)[-1], node, self.vocabulary)
 
+    @cached_property
+    def _variables(self) -> Mapping[Hashable, xr.Variable]:
+        """The variables and coordinates of the node, which xarray puts together anew whenever it is asked."""
+        return {} if self.node is None else dict(self.node.variables)
+
     def children(self) -> tuple[Group, ...]:
         """Return the groups directly below."""
         return (
@@ -103,7 +109,7 @@ class Group:
         if own is not None and (self.node is None or own.at(self.node.path) is not None):
             own.require(name)
         # a variable as it stands: with its coordinates about it a report would take twice as long
-        found = None if self.node is None else self.node.variables.get(name)
+        found = self._variables.get(name)
         if found is None:
             return None
         return found if np.issubdtype(found.dtype, np.number) or np.issubdtype(found.dtype, np.bool_) else None
@@ -112,7 +118,7 @@ class Group:
         """Return a variable at the labels of ``choice``; ``None`` where it is absent or lacks a dimension or label."""
         found = self.variable(name)
         for dim, label in choice.items():
-            known = None if self.node is None else self.node.variables.get(dim)
+            known = self._variables.get(dim)
             if found is None or known is None or dim not in found.dims:
                 return None
             places = np.flatnonzero(known.values == label)

@@ -362,15 +362,3 @@ def check_fit(fitted: Fit, values: ArrayLike) -> tuple[Notice, ...]:
             )
         )
     return tuple(notices)
-
-
-def gumbel_of_peaks(peaks: Fit, count: float) -> Fit:
-    """Return the Gumbel distribution that the maximum of ``count`` Weibull peaks tends to.
-
-    [eq:extremes-asymptote]: mode and scale from the level and slope of the parent at exceedance ``1 / count``.
-    """
-    if peaks.family != "weibull":
-        raise InputError("the asymptote is given for Weibull peaks", parameter="peaks")
-    y = math.log(count)
-    scale = peaks.scale / peaks.shape * y ** (1.0 / peaks.shape - 1.0)
-    return Fit("gumbel", peaks.most_probable_maximum(count), scale, 0.0, peaks.count, math.nan)

@@ -14,7 +14,7 @@ from moyai.series.intervals import reach_of_mean
 def seeds(scatter: Array, bound: Array | None = None) -> Band | None:
     """Return the band of realisations: they scatter about their mean, which is the number.
 
-    Criteria are judged at the end of the one-sided 95 % interval of that mean (Student), since few realisations leave
+    Criteria are judged at the end of the one-sided 95 % interval of that mean, since few realisations leave
     it uncertain; with a bound on each realisation, of the mean of the bounds.
     """
     if scatter.size < 2 or not np.isfinite(scatter).all():

@@ -33,12 +33,6 @@ def exceedance(values: ArrayLike) -> tuple[Array, Array]:
     return array, np.arange(1, array.size + 1) / (array.size + 1.0)
 
 
-def rayleigh_exceedance(values: ArrayLike, significant_value: float) -> Array:
-    """Return exp(-(value / rms)^2) for Rayleigh-distributed heights of given significant value [eq:sea-rayleigh]."""
-    rms = significant_value / rayleigh_significant(1.0 / 3.0)
-    return np.asarray(np.exp(-((np.asarray(values, dtype=np.float64) / rms) ** 2)))
-
-
 def rayleigh_significant(fraction: float) -> float:
     """Return the mean of the highest ``fraction`` of Rayleigh heights over their root mean square [-].
 
@@ -64,19 +58,6 @@ def rayleigh_expected_maximum(count: int) -> float:
     x = (0.5 * (edges[1:] + edges[:-1]))[:, None] + half[:, None] * points
     integrand = -np.expm1(count * np.log1p(-np.exp(-x * x)))
     return float(np.sum(half * (integrand @ weights))) / rayleigh_significant(1.0 / 3.0)
-
-
-def rayleigh_maximum_quantile(count: int, probability: float) -> float:
-    """Return the height over the significant value that the largest of ``count`` waves stays below [-].
-
-    ``probability`` (between 0 and 1) is that of staying below: sqrt(-ln(1 - P^(1/N))) / 1.41573.
-    """
-    if count < 1 or not 0.0 < probability < 1.0:
-        raise InputError(
-            f"count {count}, probability {probability:g}", parameter="probability", allowed="between 0 and 1"
-        )
-    single = -math.expm1(math.log(probability) / count)
-    return math.sqrt(-math.log(single)) / rayleigh_significant(1.0 / 3.0)
 
 
 @dataclass(frozen=True)

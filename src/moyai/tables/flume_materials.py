@@ -7,7 +7,7 @@ import math
 from dataclasses import dataclass
 
 from moyai.core.errors import InputError
-from moyai.tables.reader import read_notes, read_table
+from moyai.tables.reader import read_table
 
 _FILE = "flume_materials.csv"
 
@@ -59,11 +59,6 @@ def _positive(name: str, value: float) -> float:
 def available_flume_materials() -> tuple[str, ...]:
     """Return the names of the catalogue."""
     return tuple(record["name"] for record in read_table(_FILE))
-
-
-def flume_material_sources() -> str:
-    """Return the sources and the meaning of the columns."""
-    return read_notes(_FILE)
 
 
 def flume_material(name: str) -> FlumeMaterial:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
-from moyai.tables.reader import read_notes, read_table
+from moyai.tables.reader import read_table
 
 _FILE = "lines.csv"
 
@@ -61,11 +61,6 @@ class LineProperties:
 def available_line_types() -> tuple[str, ...]:
     """Return the names of the catalogue."""
     return tuple(record["name"] for record in read_table(_FILE))
-
-
-def line_sources() -> str:
-    """Return the sources and the meaning of the columns of the catalogue."""
-    return read_notes(_FILE)
 
 
 def line_type(name: str, diameter: float) -> LineProperties:

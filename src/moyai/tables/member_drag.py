@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from moyai.tables.reader import Record, read_notes, read_table
+from moyai.tables.reader import Record, read_table
 
 _FILE = "member_drag.csv"
 
@@ -68,8 +68,3 @@ def steady_rectangle(aspect: float) -> DragEntry:
     along = np.log([float(record["abscissa"]) for record in rows])
     drag = float(np.interp(math.log(aspect), along, [float(record["drag"]) for record in rows]))
     return DragEntry(drag, math.nan, first.reynolds_low, first.reynolds_high, first.confirmed, first.source)
-
-
-def member_drag_sources() -> str:
-    """Return the sources and the meaning of the columns."""
-    return read_notes(_FILE)

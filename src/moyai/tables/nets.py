@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
-from moyai.tables.reader import Record, read_notes, read_table
+from moyai.tables.reader import Record, read_table
 
 _NETS, _MATERIALS, _FOULING = "matsubara_nets.csv", "net_materials.csv", "net_fouling.csv"
 _INCH = 0.0254
@@ -196,11 +196,6 @@ def net_fouling(name: str) -> FoulingEntry:
         confirmed=record["confirmed"] == "true",
         source=record["source"],
     )
-
-
-def net_sources() -> str:
-    """Return the sources and the meaning of the columns of all three tables."""
-    return "\n\n".join(read_notes(name) for name in (_NETS, _MATERIALS, _FOULING))
 
 
 def _named(file: str, name: str, what: str) -> Record:

@@ -229,7 +229,7 @@ def test_interrupt_keeps_what_was_done(pontoon_problem, tmp_path):
     assert "motion_amplitude" in back.tree["SWL/frequency/waves"]
 
 
-@pytest.mark.parametrize("lid", [0.0, 0.05])
+@pytest.mark.parametrize("lid", [0.0, pytest.param(0.05, marks=pytest.mark.slow)])
 def test_gap_of_a_twin_pontoon_is_told(pontoon_problem, lid):
     hull = twin_pontoon(0.15, 0.3, 0.2, deck_thickness=0.05)
     problem = changed(
@@ -282,6 +282,24 @@ def test_oblique_coefficients_are_kept_and_used_again(pontoon_problem, tmp_path,
     assert [check.name for check in first.checks] == [check.name for check in second.checks]
 
 
+def test_the_largest_tension_of_linear_springs_is_their_most_probable_one(pontoon_problem):
+    """Mean and deviation make it up without a slow drift: the position of the largest tension has that tension."""
+    sea = IrregularSea("storm", jonswap(0.01, 1.0, 3.3), duration=1500.0, seed=5)
+    problem = changed(
+        pontoon_problem,
+        breakwater={"lines": springs(150.0), "mass": None, "damping": Damping(0.0, linear=(20.0, 60.0, 0.5))},
+        environment={"sea_states": (sea,)},
+        settings={"drift": False},
+        analyses=("statics", "frequency"),
+    )
+    found = run(problem).tree["SWL/frequency/storm"].to_dataset()
+    mean = found.line_tension_mean.values
+    assert found.line_tension_maximum.values - mean == pytest.approx(
+        found.most_probable_maximum_tension.values - mean, rel=0.01
+    )
+
+
+@pytest.mark.slow
 def test_transmission_of_an_irregular_sea_in_time_is_that_of_frequency_with_springs(pontoon_problem):
     # linear lines, constant damping (a fraction of critical takes another added mass in time): the record's own
     # transmission must come to the spectral one within its sampling error

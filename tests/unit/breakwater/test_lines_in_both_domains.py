@@ -1,4 +1,4 @@
-"""Lines in motion in both domains: inertia and drag as in time; what is left is that the lines harden."""
+"""Lines in motion in both domains: inertia, drag and force as in time; with their tangent they lack the hardening."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from moyai.reproduce.inputs import problem_of
 from moyai.reproduce.nakamura.runs import variant
 from moyai.series.harmonics import fit_harmonics, fit_last_periods
 from moyai.structures.breakwater.assembly import assemble
+from moyai.structures.breakwater.frequency import equivalent_lines
 from moyai.structures.breakwater.frequency.model import make_model
 from moyai.structures.breakwater.frequency.regular import regular_sea as regular_in_frequency
 from moyai.structures.breakwater.hydrodynamics import solve_unit
@@ -25,17 +26,29 @@ from moyai.structures.breakwater.run import run
 from moyai.structures.breakwater.time.model import compiled_lines, linear_damping
 from moyai.structures.breakwater.time.regular import regular_sea as regular_in_time
 
+DOMAINS = ("time", "frequency")
 
-def tank_model(height, periods, *, moving=True, drift=True):
+
+def tank_model(height, periods, *, moving=True, drift=True, restoring="tangent"):
     case = problem_of("nakamura", "tank_model")
     sea = replace(case.environment.sea_states[0], height=height)
     case = replace(case, environment=replace(case.environment, sea_states=(sea,)))
-    return variant(case, periods, time=True, moving=moving, drift=drift)
+    case = variant(case, periods, time=True, moving=moving, drift=drift)
+    return replace(case, settings=case.settings.changed(line_restoring=restoring))
 
 
 def ratios(result, name):
-    time, frequency = (result.tree[f"SWL/{domain}/waves"].to_dataset()[name].values for domain in ("time", "frequency"))
+    time, frequency = (result.tree[f"SWL/{domain}/waves"].to_dataset()[name].values for domain in DOMAINS)
     return np.abs(time / frequency)
+
+
+def against_tangent(result):
+    time, frequency = (result.tree[f"SWL/{domain}/waves"].to_dataset() for domain in DOMAINS)
+    return time["motion_amplitude"].values / frequency["motion_amplitude_with_tangent"].values
+
+
+def run_frequency(problem):
+    return run(replace(problem, analyses=("frequency",))).tree["SWL/frequency/waves"].to_dataset()
 
 
 @pytest.fixture(scope="module")
@@ -103,12 +116,17 @@ def test_roll_and_transmission_of_the_paper_are_alike_in_both_domains_to_its_res
 
 
 @pytest.mark.slow
-def test_all_periods_of_the_paper_agree_but_for_roll_in_long_waves():
-    result = run(tank_model(0.04, tuple(problem_of("nakamura", "tank_model").environment.sea_states[0].periods)))
-    assert ratios(result, "transmission_coefficient") == pytest.approx(1.0, abs=0.10)
+def test_all_periods_of_the_paper_agree_and_with_the_tangent_all_but_roll_in_long_waves():
+    periods = tuple(problem_of("nakamura", "tank_model").environment.sea_states[0].periods)
+    result = run(tank_model(0.04, periods, restoring="equivalent"))
+    assert result.status == "converged" and len(periods) == 14
+    assert ratios(result, "transmission_coefficient") == pytest.approx(1.0, abs=0.005)
+    assert ratios(result, "motion_amplitude")[:, :2] == pytest.approx(1.0, abs=0.005)
     roll = ratios(result, "motion_amplitude")[:, 2]
-    assert roll[:11] == pytest.approx(1.0, abs=0.08)
-    assert (roll[11:] < 0.90).all()
+    assert roll[:13] == pytest.approx(1.0, abs=0.01) and roll[13] == pytest.approx(1.0, abs=0.05)
+    of_tangent = against_tangent(result)[:, 2]
+    assert of_tangent[:11] == pytest.approx(1.0, abs=0.08)
+    assert (of_tangent[11:] < 0.90).all()
 
 
 def test_the_lines_alone_make_the_difference():
@@ -134,6 +152,59 @@ def test_the_lines_alone_make_the_difference():
     assert motion == pytest.approx(found.dataset.motion_amplitude.values[0], rel=2e-3)
     # the tangent of the lines gives another roll
     assert motion[2] < 0.92 * float(frequency.motion_amplitude.values[0, 2])
+
+
+def test_led_lines_give_the_motion_in_time_where_the_tangent_does_not():
+    """No run in time stands behind the frequency domain: fairleads are led, and the body balances mean and harmonic."""
+    result = run(tank_model(0.04, (0.6, 1.2, 1.4, 1.6), restoring="equivalent"))
+    assert result.status == "converged"
+    found = ratios(result, "motion_amplitude")
+    assert found[:, :2] == pytest.approx(1.0, abs=0.01)
+    assert found[:3, 2] == pytest.approx(1.0, abs=0.01)
+    # the longest wave has a third harmonic, which one harmonic does not know
+    assert found[3, 2] == pytest.approx(1.0, abs=0.05)
+    assert ratios(result, "transmission_coefficient") == pytest.approx(1.0, abs=0.005)
+    assert against_tangent(result)[2, 2] < 0.78
+    offset = [result.tree[f"SWL/{domain}/waves"].to_dataset()["mean_offset"].values[:3, 0] for domain in DOMAINS]
+    assert offset[0] == pytest.approx(offset[1], abs=5e-5)
+    # the work of led lines is that of all forces, so that the far field keeps the energy
+    energy = next(check for check in result.checks if check.name == "SWL, waves: energy of the moving body")
+    assert energy.value < 1e-6
+
+
+def test_led_lines_are_their_tangent_in_low_waves():
+    found = run_frequency(tank_model(0.0025, (0.95, 1.4), restoring="equivalent"))
+    share = found["motion_amplitude"].values / found["motion_amplitude_with_tangent"].values
+    assert share == pytest.approx(1.0, abs=5e-3)
+
+
+def test_led_chains_at_rest_at_every_instant_give_the_motion_of_such_chains_in_time():
+    result = run(tank_model(0.03, (1.0, 1.2), moving=False, restoring="equivalent"))
+    assert ratios(result, "motion_amplitude") == pytest.approx(1.0, abs=0.01)
+    assert against_tangent(result)[-1, 2] < 0.92
+
+
+def test_drag_of_lines_at_rest_stays_next_to_led_lines():
+    """Drag of a given width is no part of the force of lines at rest: a thin one changes nothing, a wide one damps."""
+    problem = tank_model(0.02, (1.2,), moving=False, restoring="equivalent")
+
+    def sway(width):
+        lines = tuple(replace(line, drag_width=width) for line in problem.breakwater.lines)
+        wide = replace(problem, breakwater=replace(problem.breakwater, lines=lines))
+        return float(run_frequency(wide)["motion_amplitude"].values[0, 0])
+
+    assert sway(1e-9) == pytest.approx(sway(0.0), rel=1e-6)
+    assert sway(0.05) < 0.97 * sway(0.0)
+
+
+def test_a_wave_without_a_balance_keeps_the_tangent_and_says_so(monkeypatch):
+    monkeypatch.setattr(equivalent_lines, "MOST_TURNS", 1)
+    problem = tank_model(0.04, (1.4,), restoring="equivalent")
+    result = run(replace(problem, analyses=("frequency",)))
+    found = result.tree["SWL/frequency/waves"].to_dataset()
+    assert (found["motion_amplitude"].values == found["motion_amplitude_with_tangent"].values).all()
+    notice = next(one for one in result.notices if one.code == "led-lines")
+    assert "4.488 rad/s" in notice.message and notice.severity == "warning"
 
 
 class Swelling:

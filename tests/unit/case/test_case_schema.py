@@ -11,15 +11,18 @@ from moyai.case.templates import template
 from moyai.case.yaml_reader import parse_yaml
 from moyai.core.kinds import structure_kinds
 
-SCHEMA = json_schema()
+
+@pytest.fixture(scope="module")
+def schema():
+    return json_schema()
 
 
 @pytest.fixture(scope="module")
-def validator():
+def validator(schema):
     """An independent validator of JSON Schema."""
     jsonschema = pytest.importorskip("jsonschema", reason="jsonschema is not installed; '.[test]' brings it")
-    jsonschema.Draft7Validator.check_schema(SCHEMA)
-    return jsonschema.Draft7Validator(SCHEMA)
+    jsonschema.Draft7Validator.check_schema(schema)
+    return jsonschema.Draft7Validator(schema)
 
 
 def blocks(node, path=""):
@@ -34,27 +37,27 @@ def blocks(node, path=""):
             yield from blocks(value, f"{path}/{index}")
 
 
-def test_every_key_is_described_and_unknown_keys_are_refused():
-    found = list(blocks(SCHEMA))
+def test_every_key_is_described_and_unknown_keys_are_refused(schema):
+    found = list(blocks(schema))
     assert len(found) > 25
     for path, node in found:
         assert node["additionalProperties"] is False or path.endswith("water_levels"), path
         assert node.get("description"), path
         for key, entry in node["properties"].items():
-            referenced = SCHEMA["definitions"].get(entry.get("$ref", "").removeprefix("#/definitions/"), {})
+            referenced = schema["definitions"].get(entry.get("$ref", "").removeprefix("#/definitions/"), {})
             assert entry.get("description") or referenced.get("description"), f"{path}: {key}"
 
 
-def test_quantities_state_their_unit_and_range():
-    structure = SCHEMA["definitions"]["BreakwaterStructure"]["properties"]
+def test_quantities_state_their_unit_and_range(schema):
+    structure = schema["definitions"]["BreakwaterStructure"]["properties"]
     assert structure["length"]["description"].endswith("[plain numbers in m; greater than 0 m]")
     assert {"type": "number", "exclusiveMinimum": 0.0} in structure["length"]["anyOf"]
-    depth = SCHEMA["definitions"]["Site"]["properties"]["water_depth"]
+    depth = schema["definitions"]["Site"]["properties"]["water_depth"]
     assert {"enum": ["infinite"]} in depth["anyOf"]
 
 
-def test_every_reference_leads_somewhere_and_stands_alone():
-    text = json.dumps(SCHEMA)
+def test_every_reference_leads_somewhere_and_stands_alone(schema):
+    text = json.dumps(schema)
     assert "$defs" not in text
     assert "prefixItems" not in text
     assert '"discriminator"' not in text
@@ -63,14 +66,14 @@ def test_every_reference_leads_somewhere_and_stands_alone():
         if isinstance(node, dict):
             if "$ref" in node:
                 assert node.keys() == {"$ref"}
-                assert node["$ref"].removeprefix("#/definitions/") in SCHEMA["definitions"]
+                assert node["$ref"].removeprefix("#/definitions/") in schema["definitions"]
             for value in node.values():
                 walk(value)
         elif isinstance(node, list):
             for value in node:
                 walk(value)
 
-    walk(SCHEMA)
+    walk(schema)
 
 
 @pytest.mark.parametrize("kind", structure_kinds())

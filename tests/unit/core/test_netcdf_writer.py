@@ -1,4 +1,4 @@
-"""The writer of results against xarray's own, down to the objects of the HDF5 file."""
+"""The writer and the reader of results against xarray's own, down to the objects of the HDF5 file."""
 
 from pathlib import Path
 from typing import Any
@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from moyai.core.netcdf_reader import read_tree
 from moyai.core.netcdf_writer import can_write, write_tree
 
 NUMBERED = {"_Netcdf4Dimid", "_Netcdf4Coordinates", "_NCProperties"}
@@ -95,6 +96,21 @@ def test_file_is_that_of_xarray(seed: int, tmp_path: Path) -> None:
     own, other = (xr.open_datatree(tmp_path / name, engine="h5netcdf").load() for name in ("own.nc", "other.nc"))
     assert own.identical(other)
     assert np.isnan(own["/u"].ds["a"].encoding["_FillValue"])
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+def test_what_was_written_is_read_as_xarray_reads_it(seed: int, tmp_path: Path) -> None:
+    write_tree(a_tree(seed), tmp_path / "own.nc")
+    found = read_tree(tmp_path / "own.nc")
+    with xr.open_datatree(tmp_path / "own.nc", engine="h5netcdf") as stored:
+        xr.testing.assert_identical(found, stored.load())
+        for node in stored.subtree:
+            for name, variable in node.variables.items():
+                own = found[node.path].variables[name]
+                assert own.dtype.kind == variable.dtype.kind
+                assert own.attrs.keys() == variable.attrs.keys()
+                assert [type(value) for value in own.attrs.values()] == [type(v) for v in variable.attrs.values()]
+            assert list(found[node.path].data_vars) == list(node.data_vars)
 
 
 def test_what_it_does_not_know_is_left_to_xarray() -> None:

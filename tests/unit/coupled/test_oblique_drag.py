@@ -31,7 +31,7 @@ def terminal_velocity(lumps: Lumps, force: np.ndarray, rotation: np.ndarray | No
     return carrier.state[7:10].copy()
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", [*range(2), *(pytest.param(s, marks=pytest.mark.slow) for s in range(2, 4))])
 def test_a_compact_part_moves_along_the_pull_however_its_axes_lie(seed: int) -> None:
     """rho/2 CdA |v| v = F: the speed is sqrt(2 F / (rho CdA)) along F for every direction and every rotation."""
     random = np.random.default_rng(seed)

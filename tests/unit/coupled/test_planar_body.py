@@ -30,8 +30,9 @@ def model_of(random, mooring=None, memory=None):
     return CumminsModel(inertia, np.diag([0.0, 9000.0, 900.0]), np.diag([30.0, 40.0, 10.0]), memory, mooring)
 
 
-@pytest.mark.parametrize("seed", range(2))
-@pytest.mark.parametrize("kept", [0, 1])
+@pytest.mark.parametrize(
+    ("seed", "kept"), [(0, 0), (1, 1), *(pytest.param(*pair, marks=pytest.mark.slow) for pair in ((0, 1), (1, 0)))]
+)
 def test_body_on_springs_moves_as_in_the_time_domain_of_the_breakwater(seed: int, kept: int) -> None:
     """Random memory, forcing and springs; ``kept`` springs stay quasi-static beside the network."""
     random = np.random.default_rng(seed)

@@ -30,8 +30,8 @@ from moyai.structures.curtain.hierarchy import SPAN
 from moyai.structures.curtain.limits.utilisation import Strength
 
 COARSE, FINE = (8, 3), (12, 4)
-#: Student's 95 % quantile, one-sided, for 4 degrees of freedom (tables of the distribution)
-QUANTILE = 2.132
+#: Factor of the one-sided 95 % interval of five skewed values: Student's 2.132 and Johnson's term
+QUANTILE = 2.9888
 
 
 def sample(event: str, mesh: tuple[int, int], seed: int, upper: float, skirt: float = 0.0) -> Sample:
@@ -103,12 +103,14 @@ def test_first_page_is_judged_at_the_end_of_the_interval_of_the_mean():
     groups = groups_of(storm(), 100e3, "")
     table = groups["/SWL/dynamic"]
     value, low, high, judged, count = event_band(table, "storm", "upper cable")
-    assert (value, low, high, count) == (30e3, 18e3, 36e3, 5) and 30e3 < judged < high
+    assert (value, low, high, count) == (30e3, 18e3, 36e3, 5) and judged == pytest.approx(
+        30e3 + QUANTILE * np.std([31e3, 33e3, 23e3, 27e3, 36e3], ddof=1) / 5**0.5, rel=1e-4
+    )
     criterion = Criterion("cables", "cable_utilisation", 1.0 / 3.0, "at most", "case file", as_factor=True)
     numbers = curtain_headlines(groups, ["SWL"])
     used = next(item for item in numbers if item.name == "cable_utilisation")
     assert used.band.judged[1] == pytest.approx(judged / 100e3)
-    # 0.30 of the strength at the mean keeps the factor 3, 0.35 at the end of its interval does not
+    # 0.30 of the strength at the mean keeps the factor 3, 0.37 at the end of its interval does not
     (item,) = judge(numbers, [criterion], computed=True).judgements
     assert used.value < criterion.limit < item.value and item.outcome == "does not hold"
 

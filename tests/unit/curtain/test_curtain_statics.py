@@ -35,7 +35,7 @@ from moyai.structures.curtain.statics.hanging import (
     solve_statics,
     submerged_state,
 )
-from moyai.structures.curtain.statics.planning import itopf_load, tow_trial_load, us_navy_load
+from moyai.structures.curtain.statics.planning import itopf_load, us_navy_load
 from moyai.structures.curtain.statics.section import Skirt
 from moyai.structures.curtain.statics.steady_load import SteadyState
 from moyai.tables.curtain_classes import curtain_class, curtain_classes, mildest_class
@@ -186,7 +186,6 @@ def test_planning_formulas_as_drag_coefficients() -> None:
     assert itopf.drag_coefficient == pytest.approx(7.2, abs=0.05)
     assert navy.force == pytest.approx(26.0 * 12.0 * (0.7 * 3600 / 1852) ** 2 * 9.80665, rel=1e-12)
     assert navy.force == pytest.approx(0.5 * 1025.0 * navy.drag_coefficient * 12.0 * 0.49, rel=1e-12)
-    assert tow_trial_load(100.0, 1.0, 0.5, 0.5, 50.0).force == pytest.approx(50.0 * 100.0 * 0.25)
 
 
 def test_classes_of_the_table() -> None:

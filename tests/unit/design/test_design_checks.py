@@ -2,13 +2,12 @@
 
 import math
 
-import numpy as np
 import pytest
 
 from moyai.core.errors import InputError
 from moyai.design.codes import LineLoad, check_confirmation, check_line, design_code
 from moyai.design.fatigue import EnduranceCurve
-from moyai.mooring.anchors import DragAnchor, Sinker, check_drag_anchor, check_sinker, sinker_needed
+from moyai.mooring.anchors import DragAnchor, Sinker, check_drag_anchor
 from moyai.tables.design_codes import (
     CodeRule,
     available_codes,
@@ -97,17 +96,6 @@ def test_an_unknown_breaking_load_does_not_pass():
 def test_slips_are_told(call, word):
     with pytest.raises(InputError, match=word):
         call()
-
-
-def test_a_sinker_of_the_weight_that_is_needed_is_just_used_up():
-    rng = np.random.default_rng(4)
-    for _ in range(50):
-        pull, uplift = rng.uniform(1e3, 1e6), rng.uniform(0, 5e5)
-        friction, factor = rng.uniform(0.2, 0.8), rng.uniform(1.0, 2.0)
-        weight = sinker_needed(pull, uplift, friction, factor)
-        outcome = check_sinker(Sinker(weight, friction, factor), pull, uplift)
-        assert outcome.sliding == pytest.approx(1.0, rel=1e-9) and outcome.lifting <= 1.0
-        assert check_sinker(Sinker(weight, friction, factor), pull, 4.0 * weight).utilisation == math.inf
 
 
 def test_a_drag_anchor_bears_no_uplift():

@@ -9,6 +9,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from moyai.core.errors import InputError
+from moyai.flexible.mass_block_kernel import COS, LENGTH, ROOT, SIN, block_loads
 from moyai.flexible.mass_blocks import MassBlocks
 from moyai.flexible.network import FIXED, Bars, BarType, Network, Nodes
 from moyai.flexible.result import State
@@ -75,7 +76,33 @@ def bar_forces(network: Network, place: np.ndarray) -> np.ndarray:
     return out
 
 
-@pytest.mark.parametrize(("seed", "convective"), [(0, True), (1, True), (2, True), (0, False), (3, False)])
+def test_water_that_goes_along_with_all_nodes_presses_as_water_at_rest() -> None:
+    """Only the velocity of nodes in the water counts: one that both have changes nothing, along any axis."""
+    rng = np.random.default_rng(5)
+    axis = 6
+    nodes = np.array([[1, 4]])
+    guides = np.array([[[0, 2], [3, 5]]])
+    frames = np.zeros((1, 2, 1 + max(COS, SIN, ROOT, LENGTH)))
+    frames[..., COS], frames[..., SIN], frames[..., ROOT], frames[..., LENGTH] = 0.6, 0.8, 1.1, 2.0
+    half = rng.normal(size=(4, 4))
+    velocity, water = 0, 3 * axis
+    force = 9 * axis
+    start = np.concatenate([rng.normal(size=9 * axis), np.zeros(3 * axis)])
+    along = start.copy()
+    for k, speed in enumerate((0.7, -0.4, 1.3)):
+        for place in (velocity, water):
+            along[place + k * axis : place + (k + 1) * axis] += speed
+    for state in (start, along):
+        block_loads(nodes, guides, frames, (half @ half.T)[None], state, velocity, water, force, axis, False, True)
+    assert np.abs(start[force:]).min(where=start[force:] != 0.0, initial=1.0) > 1e-3
+    assert np.count_nonzero(start[force:]) >= 6
+    np.testing.assert_allclose(along[force:], start[force:], rtol=0.0, atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("seed", "convective"),
+    [(0, True), (0, False), (3, False), *(pytest.param(s, True, marks=pytest.mark.slow) for s in (1, 2))],
+)
 def test_motion_by_lagranges_equations(seed: int, convective: bool) -> None:
     """The same small system by Lagrange's equations, mass matrix and its derivatives by differences, and DOP853."""
     network, speed = small_network(np.random.default_rng(seed), convective)

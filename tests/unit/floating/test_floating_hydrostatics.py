@@ -133,6 +133,15 @@ def test_wall_sided_formula(beam: float, draught: float, height: float) -> None:
     assert np.allclose(curve.draught, draught * np.cos(heel), rtol=1e-9)
 
 
+def test_a_spar_that_lies_down_floats_at_the_depth_of_its_area() -> None:
+    """1 m by 10 m, 9 m deep: on its side nine tenths of its breadth are under water."""
+    hull = shapes.rectangle(1.0, 10.0)
+    curve = righting_curve(hull, np.array([0.5 * math.pi]), area=9.0, centre_of_gravity=(0.0, 4.0), draught_start=9.0)
+    # the keel stands at the middle of the breadth, 0.4 m under still water; the buoyancy 1 m beyond the weight
+    assert curve.draught[0] == pytest.approx(0.4, abs=1e-9)
+    assert abs(curve.lever[0]) == pytest.approx(1.0, abs=1e-9)
+
+
 def test_righting_lever_after_the_deck_is_under_water_is_that_of_the_box_upside_down() -> None:
     # Half immersed box: turned by 180 degrees it floats upside down, the lever is zero there and odd about it
     curve = righting_curve(

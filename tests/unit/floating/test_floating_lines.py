@@ -43,7 +43,7 @@ def _system(rng: np.random.Generator) -> LineSystem:
     return LineSystem((*side, spring), 12.0)
 
 
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", [0, 2, 3, 4, pytest.param(1, marks=pytest.mark.slow)])
 def test_exact_and_compiled_lines_agree_about_an_offset_heeled_body(seed: int) -> None:
     rng = np.random.default_rng(seed)
     system = _system(rng)

@@ -53,8 +53,13 @@ def grid():
     return "\n".join(rows)
 
 
-@pytest.mark.parametrize(("kind", "name", "text"), [(2, "current_profile_dynamic.txt", PROFILE),
-                                                    (5, "current_profile_4d.txt", grid())])  # fmt: skip
+@pytest.mark.parametrize(
+    ("kind", "name", "text"),
+    [
+        (2, "current_profile_dynamic.txt", PROFILE),
+        pytest.param(5, "current_profile_4d.txt", grid(), marks=pytest.mark.slow),
+    ],
+)
 def test_a_deck_runs_with_it_and_is_pushed_by_it(tmp_path, kind, name, text):
     (tmp_path / "deck.txt").write_text(DECK.replace("KIND", str(kind)), encoding="utf-8")
     (tmp_path / name).write_text(text, encoding="utf-8")

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -19,7 +20,7 @@ from moyai.sea.environment import Environment
 from moyai.sea.states import IrregularSea
 from moyai.sea.water import Water
 from moyai.structures.member.checks import require_in_water
-from moyai.structures.member.march import march
+from moyai.structures.member.march import _effective, march
 from moyai.structures.member.model import MemberProblem, Motion, RegularWaves, Settings
 from moyai.structures.member.run import run
 from moyai.structures.member.surface import surface_effect
@@ -302,16 +303,29 @@ def test_exposure_counts_only_what_is_wet():
     assert wet.force[1, :-1, 0].mean() > 0.0
 
 
+def test_effective_inertia_of_a_regular_wave_is_that_of_one_period():
+    """What is steady, or a harmonic of its own, shares nothing with the acceleration over one period."""
+    time = np.linspace(0.0, 2.0, 41)
+    acceleration = np.cos(math.pi * time)[:, None, None] * np.ones((1, 3, 2))
+    wave = SimpleNamespace(time=time, regular=True)
+    block = SimpleNamespace(acceleration=acceleration, body_acceleration=np.zeros((1, 1, 2)))
+    problem = SimpleNamespace(environment=SimpleNamespace(water=Water(10.0, 1025.0, 9.81)))
+    steady = (0.7 + np.sin(math.pi * time) + np.cos(2.0 * math.pi * time))[:, None, None] * np.ones((1, 3, 2))
+    found = _effective(problem, 0.3, block, 1.6 * 1025.0 * 0.3 * acceleration, 200.0 * steady, wave)
+    assert found == pytest.approx(np.full((3, 2), 1.6), rel=1e-12)
+
+
 def test_surface_effect_fades_with_depth():
     """Inertia under the surface tends to the ideal one, radiation to nothing, like the decay of the wave."""
     section = sections.rectangle(0.045, 0.024)
     water = Water(2.0, 1000.0, 9.81)
-    near = surface_effect(section, 0.06, water, np.array([1.0]))
-    far = surface_effect(section, 0.8, water, np.array([1.0]))
+    period = 1.25
+    near = surface_effect(section, 0.06, water, np.array([period]))
+    far = surface_effect(section, 0.8, water, np.array([period]))
     assert np.abs(near.change).max() > 0.02
     assert np.abs(far.change).max() < 0.004
     # the waves that it makes fall like e^{-kd}, their energy like its square
-    k = float(wave_number(2.0 * math.pi, 2.0, 9.81))
+    k = float(wave_number(2.0 * math.pi / period, 2.0, 9.81))
     assert far.radiation[0, 1] / near.radiation[0, 1] == pytest.approx(math.exp(-2.0 * k * 0.74), rel=0.3)
 
 

@@ -127,7 +127,7 @@ def test_rest_in_a_current_is_rest_in_the_run(tmp_path):
 
 
 def test_a_body_that_turns_over_is_told(tmp_path):
-    text = CASE.format(analyses="[statics]", more="", bars=4).replace("[0.05 m, 0, -0.1 m]", "[0, 0, 1.5 m]")
+    text = CASE.format(analyses="[statics]", more="", bars=2).replace("[0.05 m, 0, -0.1 m]", "[0, 0, 1.5 m]")
     path = tmp_path / "case.yaml"
     path.write_text(text, encoding="utf-8")
     result = run(build(load_case(path)))

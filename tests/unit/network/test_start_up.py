@@ -12,7 +12,7 @@ from moyai.core.headline import Headline
 from moyai.core.results import Result
 from moyai.flexible.motion import Motion
 from moyai.structures.network.model import MotionPlan
-from moyai.structures.network.start_up import ASKED, start_up
+from moyai.structures.network.start_up import ASKED, WAVES, start_up
 
 PERIOD, AMPLITUDE, STIFFNESS, MASS = 4.0, 0.2, 4.0e6, 10.0
 SPEED = 2.0 * math.pi * AMPLITUDE / PERIOD
@@ -94,6 +94,9 @@ def test_a_stored_motion_grows_over_its_first_period(grown: Result) -> None:
 
 def test_skip_of_the_case_stands() -> None:
     motion = MotionPlan("m", "harmonic", 10.0, math.inf, amplitude=(0.0, 0.0, 1.0))
+    # waves find the network at rest: five periods, a quarter of a short run, and never the last period
+    assert start_up(None, [], 120.0, 6.0) == (30.0, WAVES) and start_up(None, [], 60.0, 6.0) == (15.0, WAVES)
+    assert start_up(None, [], 7.0, 6.0)[0] == pytest.approx(1.0) and start_up(0.0, [], 60.0, 6.0) == (0.0, "")
     assert start_up(0.0, [motion], 100.0) == (0.0, "")
     assert start_up(7.0, [motion], 100.0) == (7.0, ASKED)
     assert start_up(None, [motion], 100.0)[0] == pytest.approx(10.0, rel=0.01)

@@ -11,7 +11,7 @@ from scipy.special import kv
 
 from moyai.potential.oblique_quadrature import _bessel_k, add_helmholtz
 from moyai.potential.panels import BODY, RAY, RAY_DIRECTION, Piece, gauss_rule, make_panels
-from moyai.potential.quadrature import add_rankine
+from moyai.potential.quadrature import add_rankine, add_rankine_slopes
 
 ORDER = 12
 
@@ -156,6 +156,34 @@ def test_complex_targets_and_panels(kappa):
         expected = adaptive(piece, target, [], kappa)
         assert found[0] == pytest.approx(expected[0], abs=1e-7)
         assert found[1] == pytest.approx(expected[1], abs=1e-8)
+
+
+@pytest.mark.parametrize("grade", [0, -1, 1])
+@pytest.mark.parametrize("sweep", [0.0, 0.7])
+def test_slopes_are_the_differences_of_what_they_belong_to(sweep, grade):
+    """Panels of a body and of the ray, at points near and far, along a normal of no special direction."""
+    normal, step = np.exp(0.7j), 1e-3
+    for piece in (
+        Piece(1 + 0.5j, 2 - 0.7j, sweep, grade, BODY, 0),
+        Piece(0j, 1.5 * RAY_DIRECTION, 0.0, grade, RAY, -1),
+    ):
+        panels = make_panels([piece], ORDER)
+        rule = gauss_rule(ORDER)
+        tables = panels.kernel_panels, panels.kernel_nodes, (rule.nodes, rule.weights, rule.projection)
+        for target in (0.3 + 0.15j, 2 + 0.28j, 5 + 1j):
+            slopes = np.zeros((2, 1, ORDER), dtype=complex)
+            add_rankine_slopes((np.array([target]), np.array([normal])), np.array([-1]), *tables, *slopes)
+            one, two = (
+                np.array([
+                    np.subtract(*(
+                        weights_of(panels, (place, np.conj(place)), -1)
+                        for place in (target + n * step * normal, target - n * step * normal)
+                    )) / (2.0 * n * step)
+                    for n in (1, 2)
+                ])
+            )  # fmt: skip
+            found = slopes[:, 0] @ density(rule.nodes)
+            assert found == pytest.approx((4.0 * one - two) / 3.0, rel=1e-6, abs=1e-7)
 
 
 def test_bessel_functions_of_complex_argument():

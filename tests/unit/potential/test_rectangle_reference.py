@@ -95,6 +95,7 @@ def test_identities_of_random_rectangles(seed):
 
 
 @pytest.mark.parametrize("seed", [1, *(pytest.param(s, marks=pytest.mark.slow) for s in (0, 2, 3, 4, 5))])
+@pytest.mark.slow
 def test_more_functions_change_nothing(seed):
     rng = np.random.default_rng(100 + seed)
     beam, draught, water = random_case(rng)

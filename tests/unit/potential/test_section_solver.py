@@ -72,7 +72,7 @@ def test_identities_of_random_sections(seed):
 
 
 @pytest.mark.parametrize(
-    "seed", [101, 102, 106, 110, *(pytest.param(s, marks=pytest.mark.slow) for s in (100, 103, 105, 226))]
+    "seed", [102, 110, *(pytest.param(s, marks=pytest.mark.slow) for s in (100, 101, 103, 105, 106, 226))]
 )
 def test_random_sections_against_a_refined_solution(seed):
     section, water, omega, heading, scale = random_case(seed)

@@ -51,7 +51,7 @@ def rectangle_memory(seed):
 
 
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-3])
-@pytest.mark.parametrize("seed", [1, 4, *(pytest.param(s, marks=pytest.mark.slow) for s in (0, 2, 3, 5))])
+@pytest.mark.parametrize("seed", [1, *(pytest.param(s, marks=pytest.mark.slow) for s in (0, 2, 3, 4, 5))])
 def test_fit_is_accurate_stable_passive_and_right_at_zero_frequency(seed, tolerance):
     memory, _, _ = rectangle_memory(seed)
     states = fit_memory(memory, tolerance=tolerance)
@@ -150,7 +150,7 @@ def test_slow_steady_motion_meets_the_steady_dashpot():
     assert memory.steady_dashpot[1, 1] > 0.0
 
 
-@pytest.mark.parametrize("seed", [*range(2), *(pytest.param(s, marks=pytest.mark.slow) for s in range(2, 4))])
+@pytest.mark.parametrize("seed", [1, *(pytest.param(s, marks=pytest.mark.slow) for s in (0, 2, 3))])
 def test_free_decay_of_coupled_modes_is_that_of_the_frequency_integral(seed):
     memory, mass, stiffness = rectangle_memory(10 + seed)
     infinite = memory.infinite_frequency_added_mass

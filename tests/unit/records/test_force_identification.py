@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from moyai.core.errors import InputError
+from moyai.records.forces.fit import _bootstrap
 from moyai.records.forces.identification import METHODS, ForceRecord, Setup, equivalent_work, identify
 from moyai.records.forces.result import identification_result
 from moyai.records.forces.waves import orbital_motion
@@ -39,6 +40,19 @@ def synthetic(
     beside = np.cos(2 * omega * time + phases[0]) + 0.5 * np.cos(3 * omega * time + phases[1])
     record = ForceRecord(time, force + size * (noise * error + harmonics * beside), velocity)
     return record, Setup(1000.0, AREA, (DIAMETER,), period=period, bootstrap=100)
+
+
+def test_the_spread_of_a_bootstrap_is_that_of_the_shares_of_its_blocks():
+    rng = np.random.default_rng(11)
+    gain, residual = rng.normal(size=(2, 40)), rng.normal(size=40)
+    blocks = [(0, 10), (10, 20), (20, 30), (30, 40)]
+    shares = np.array([gain[:, a:b] @ residual[a:b] for a, b in blocks])
+    samples, covariance = _bootstrap(
+        gain, residual, np.zeros(2), blocks, Setup(1000.0, AREA, (DIAMETER,), bootstrap=4000), rng
+    )
+    # the sum of four shares, each with the variance of a sample of four
+    assert covariance == pytest.approx(4.0 * np.cov(shares.T), rel=1e-12)
+    assert np.cov(samples.T) == pytest.approx(covariance, rel=0.1, abs=0.1 * covariance.max())
 
 
 @pytest.mark.parametrize("seed", range(6))

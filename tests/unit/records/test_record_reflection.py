@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from moyai.core.errors import InputError
+from moyai.records.survey.blocks import _above_one
 from moyai.records.survey.irregular_reflection import separate_irregular, transmission, wave_series
 from moyai.sea.dispersion import wave_number
 from moyai.sea.irregular import synthesise
@@ -126,3 +127,14 @@ def test_badly_placed_gauges_and_faults():
     gauges[5, 1] = np.nan
     with pytest.raises(InputError, match="gauge 2 lacks sample 6"):
         separate_irregular(STEP, gauges, (0.0, 2.0), WATER, OPTIONS, **BAND)
+
+
+def test_more_than_comes_in_is_a_fault_of_the_gauges():
+    """Gauges listed along the wrong axis exchange both waves: 1 / 0.35 goes back."""
+    gauges, _, _ = flume(1, 0.35, 4.0, (0.0, 0.5, 0.9))
+    turned = separate_irregular(STEP, gauges, (0.9, 0.4, 0.0), WATER, OPTIONS, **BAND)
+    (notice,) = _above_one("reflection", turned.reflection, turned.reflection_error)
+    assert notice.severity == "error" and notice.value > 2.0 and "places of the gauges" in notice.remedy
+    right = separate_irregular(STEP, gauges, (0.0, 0.5, 0.9), WATER, OPTIONS, **BAND)
+    assert _above_one("reflection", right.reflection, right.reflection_error) == []
+    assert _above_one("reflection", 1.02, 0.05) == [] and _above_one("reflection", 1.02, math.nan)

@@ -49,6 +49,7 @@ def test_impacts_of_curtains(tmp_path: Path) -> None:
     assert_japanese(measured("snaps", write_set(tmp_path)), least=150)
 
 
+@pytest.mark.slow
 def test_towed_nets(net_folder: tuple[Path, object], tmp_path: Path) -> None:
     place = net_folder[0]
     shutil.copytree(place / "records", tmp_path / "records")

@@ -11,8 +11,10 @@ from moyai.core.errors import InputError
 from moyai.report.document import Abscissa, Panel
 from moyai.reproduce import paper, papers
 from moyai.reproduce.drawing import curve, figure
-from moyai.reproduce.inputs import case_files
+from moyai.reproduce.inputs import case_files, problem_of
 from moyai.reproduce.points import agreements, laid_over, read_points
+from moyai.reproduce.tabata.runs import ROPES
+from moyai.reproduce.tabata.statements import rope_diameter
 
 
 def resolve(name):
@@ -120,3 +122,24 @@ def test_lift_on_the_members_by_hand():
 
     number = np.array([0.0, 1.0, 2.0, 4.0])
     assert lift(number) == pytest.approx(1000.0 * 0.04275 * 18e-4 * 0.79 * number**3, rel=1e-3)
+
+
+def test_field_curtain_of_the_case_is_that_of_the_page_and_keeps_the_product_of_the_paper():
+    case = problem_of("tabata", "kansai")
+    anchors, model = case.curtain.anchors, case.settings.anchor_loads
+    assert anchors.stiffness == pytest.approx(ROPES["890 kN"])
+    assert model.energy_factor * anchors.stiffness == pytest.approx(0.2 * 890e3)
+    # it is held against strength itself, as the page holds it
+    strengths = case.curtain.strengths
+    for part in (strengths.upper_cable, strengths.sheet, strengths.anchor_line, strengths.anchor):
+        assert part.safety_factor == 1.0
+
+
+def test_printed_stiffness_of_the_field_curtain_is_no_fibre_rope():
+    """The catalogue by hand: EA = 1.09e9 d2 of polyester and 4.04e10 d2 of steel wire, in N and m."""
+    length = problem_of("tabata", "kansai").curtain.anchors.length
+    assert rope_diameter("polyester_8_strand", length * ROPES["890 kN"]) == pytest.approx((890e3 / 1.09e9) ** 0.5)
+    assert rope_diameter("wire_6x19_wire_core", length * ROPES["890 kN/m"]) == pytest.approx(
+        (46.0 * 890e3 / 4.04e10) ** 0.5
+    )
+    assert rope_diameter("polyester_8_strand", length * ROPES["890 kN/m"]) > 0.19

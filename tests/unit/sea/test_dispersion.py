@@ -223,3 +223,12 @@ def test_bad_input_is_named(omega, depth, gravity, name):
 def test_infinite_depth_has_no_discrete_evanescent_waves():
     with pytest.raises(InputError, match="infinite"):
         dispersion.evanescent_wave_numbers(1.0, math.inf, 9.81, 3)
+
+
+@pytest.mark.parametrize("index", [1, 4])
+def test_short_waves_leave_evanescent_ones_a_quarter_of_a_wave(index):
+    """k_n h tends to (n - 1/2) pi; the way there falls with one over the relative depth."""
+    limit = dispersion.evanescent_deficit_scalar(math.inf, index)
+    assert limit == pytest.approx(0.5 * math.pi, rel=1e-15)
+    near = dispersion.evanescent_deficit_scalar(1e6, index)
+    assert limit - near == pytest.approx((index - 0.5) * math.pi / 1e6, rel=1e-5)

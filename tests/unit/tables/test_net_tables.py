@@ -14,7 +14,6 @@ from moyai.tables.nets import (
     matsubara_nets,
     net_fouling,
     net_material,
-    net_sources,
 )
 
 
@@ -47,7 +46,6 @@ def test_materials_and_growth():
         assert math.isnan(entry.diameter_factor) != math.isnan(entry.drag_factor)
     assert net_fouling("ns9415").diameter_factor == 1.5
     assert not net_fouling("ns9415").confirmed
-    assert "NS 9415" in net_sources()
 
 
 def test_unknown_names_are_told():

@@ -9,6 +9,7 @@ from moyai.case.builder import build
 from moyai.case.reader import case_of
 from moyai.case.yaml_reader import parse_yaml
 from moyai.core.errors import CaseError
+from moyai.core.store import DatasetStore
 from moyai.interop.bodies import in_order, moved_axes
 from moyai.interop.coefficients import assemble, dof_names
 from moyai.interop.whole_body import coefficients_of_result
@@ -44,7 +45,7 @@ lines:
   - {name: shore, kind: spring, fairlead: {x: 4 m, y: 0 m, above_keel: 2.4 m}, anchor: {x: 40 m, y: 10 m, z: 0 m},
      stiffness: 20 kN/m, pretension: 30 kN}
 analyses: [statics, frequency]
-settings: {panel_size: 3 m, frequencies: [0.8, 1, 1.3, 1.6, 1.9], compare_with_section: false}
+settings: {panel_size: 4.5 m, frequencies: [0.8, 1, 1.3, 1.6, 1.9], compare_with_section: false}
 """
 POINTS = "reference_points: [[0, -7, -0.6], [2, 7, -0.6]]"
 ENTRIES = {
@@ -66,7 +67,7 @@ def case(folder, *changes):
 
 def from_file(entry, *changes):
     line = f"  coefficients_file: {{{entry}}}\n  damping"
-    return [("  damping", line), ("panel_size: 3 m, ", ""), *changes]
+    return [("  damping", line), ("panel_size: 4.5 m, ", ""), *changes]
 
 
 @pytest.fixture(scope="module")
@@ -75,8 +76,14 @@ def folder(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def computed(folder):
-    return run(build(case(folder)))
+def kept(folder):
+    """Return where the frequencies that a run has solved are kept for the others."""
+    return DatasetStore(folder / "kept")
+
+
+@pytest.fixture(scope="module")
+def computed(folder, kept):
+    return run(build(case(folder)), store=kept)
 
 
 @pytest.fixture(scope="module")
@@ -119,8 +126,8 @@ def test_motions_drift_and_headlines_are_those_of_the_computation(program, folde
     assert {notice.code for notice in found.notices} >= {"coefficients-drift"}
 
 
-def test_without_drift_in_the_file_the_row_moves_as_without_drift(folder, dataset):
-    still = run(build(case(folder, ("{panel_size", "{drift: false, panel_size"))))
+def test_without_drift_in_the_file_the_row_moves_as_without_drift(folder, dataset, kept):
+    still = run(build(case(folder, ("{panel_size", "{drift: false, panel_size"))), store=kept)
     found = run(build(case(folder, *from_file(f"program: nemoh, {ENTRIES['nemoh']}"))))
     for sea in ("regular", "sea"):
         data = still.tree[f"SWL/frequency/{sea}"].to_dataset()
@@ -130,17 +137,18 @@ def test_without_drift_in_the_file_the_row_moves_as_without_drift(folder, datase
     assert told.severity == "warning"
 
 
-def test_in_time_the_band_of_the_file_carries_the_memory(folder):
+def test_in_time_the_band_of_the_file_carries_the_memory(folder, kept):
     time = (
         ("analyses: [statics, frequency]", "analyses: [statics, frequency, time]"),
-        ("compare_with_section: false", "compare_with_section: false, time: {realisations: 1, memory_frequencies: 12}"),
+        ("compare_with_section: false", "compare_with_section: false, time: {realisations: 1, memory_frequencies: 8}"),
+        ("duration: 10 min", "duration: 3 min"),
     )
     problem = build(case(folder, *time))
     at = row_at(problem.row, problem.environment, "SWL", 0.0)
     omega, headings = frequencies_of(problem.environment, problem.settings), headings_of(problem.environment)
     panels = row_panels(at, problem.settings, 1.6 * float(omega.max()))
-    wide = wide_coefficients(solve_row(panels, at.water, at.centres, omega, headings), 12)
-    wanted = run(problem)
+    wide = wide_coefficients(solve_row(panels, at.water, at.centres, omega, headings), 8)
+    wanted = run(problem, store=kept)
     names = ("one", "two")
     given = assemble(
         program="moyai", source="band", dofs=dof_names(names), omega=wide.omega, added_mass=wide.added_mass,

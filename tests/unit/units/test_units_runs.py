@@ -133,7 +133,10 @@ def test_the_time_domain_governs_and_its_realisations_scatter(result):
     scatter = time["connector_resultant_largest_of_realisation"].values
     assert scatter.shape == (2, 1)
     assert numbers["connector_force"].value == pytest.approx(float(scatter.mean()))
-    assert numbers["connector_force"].band.low == pytest.approx(float(scatter.min()))
+    # the damping of the units is as uncertain as in the frequency domain
+    low, own = (float(frequency[f"connector_resultant_largest{end}"].values[0]) for end in ("_low", ""))
+    assert numbers["connector_force"].band.low == pytest.approx(float(scatter.min()) * low / own)
+    assert low < own
     assert numbers["offset"].bound == ""
     assert len(result.provenance["seeds"]) == 2
     # motions at wave frequencies are those of the frequency domain, slow drift comes on top in sway

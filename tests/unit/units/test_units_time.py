@@ -19,9 +19,10 @@ from moyai.structures.units.hydrodynamics import solve_row
 from moyai.structures.units.mesh import row_mesh
 from moyai.structures.units.model import Connector, Curve, UnitLine
 from moyai.structures.units.response import RowModel, respond
+from moyai.structures.units.seas import share_drift
 from moyai.structures.units.time.kernel import joint_force
 from moyai.structures.units.time.lines import Carried, events_of, moving_line, rerun, rerun_events
-from moyai.structures.units.time.memory import fit_row_memory
+from moyai.structures.units.time.memory import _Basis, _passive, _residues, fit_row_memory
 from moyai.structures.units.time.model import RowInTime, step_weights
 from moyai.validation.units import WATER, row
 
@@ -37,7 +38,7 @@ def at_rest(*connectors, lines=()):
 @pytest.fixture(scope="module")
 def hydro():
     at = at_rest()
-    mesh = row_mesh(at.section, at.row.length, at.row.placements, 4.0, lid=True, gap_lid=False)
+    mesh = row_mesh(at.section, at.row.length, at.row.placements, 6.0, lid=True, gap_lid=False)
     return solve_row(panels_of(mesh, at.centres), WATER, at.centres, OMEGA, np.radians([0.0, 40.0]))
 
 
@@ -95,6 +96,24 @@ def test_the_memory_of_data_with_negative_damping_is_passive():
     assert np.abs(found.coefficients(omega)[1] - values).max() < 0.15 * np.abs(values).max()
 
 
+def test_residues_are_made_passive_alike_in_any_unit_of_force():
+    """A power of two changes no digit."""
+    generator = np.random.default_rng(4)
+    poles, residues = own_memory(generator, 3, 2)
+    basis, omega = _Basis.of(poles), np.linspace(0.2, 3.0, 25)
+    s, weight = -1j * omega, np.ones(25)
+    error = generator.normal(size=(25, 3, 3)) * 0.2
+    given = response_of(poles, residues, omega) - 0.3 * np.eye(3) + error + error.swapaxes(1, 2) + 0j
+    found, slope = _residues(basis, s, weight, given)
+    now, steep, least = _passive(basis, s, weight, found, slope)
+    assert least >= 0.0 and not np.allclose(now, found, rtol=1e-2)
+    small = 2.0**-40
+    other, other_steep, other_least = _passive(basis, s, weight, small * found, small * slope)
+    assert np.allclose(other / small, now, rtol=1e-9, atol=1e-12)
+    assert np.allclose(other_steep / small, steep, rtol=1e-9, atol=1e-12)
+    assert other_least == pytest.approx(least, rel=1e-6, abs=1e-12)
+
+
 def test_ogilvie_holds_between_the_memory_and_the_panels(hydro, memory):
     """A_inf = A + (1/omega) int K sin(omega t) dt with A of the panels, K of the memory by quadrature."""
     assert memory.error < 0.02
@@ -107,6 +126,16 @@ def test_ogilvie_holds_between_the_memory_and_the_panels(hydro, memory):
             part = np.trapezoid(kernel * np.sin(omega * time)[:, None, None], time, axis=0) / omega
             assert np.abs(added + part - memory.infinite_added_mass).max() < 0.02 * scale.max()
             assert (np.abs(added + part - memory.infinite_added_mass) / scale).max() < 0.02
+
+
+def test_shared_drift_has_the_resultant_and_the_moment_of_the_row():
+    at = at_rest()
+    drift = np.array([3e3, -2e3, 5e4])
+    at = replace(at, centres=at.centres + np.array([7.0, -4.0, 0.0]))
+    force = share_drift(at, drift).reshape(-1, 6)
+    assert force[:, :2].sum(axis=0) == pytest.approx(drift[:2], rel=1e-12)
+    moment = at.centres[:, 0] * force[:, 1] - at.centres[:, 1] * force[:, 0]
+    assert moment.sum() + force[:, 5].sum() == pytest.approx(drift[2], rel=1e-12)
 
 
 def test_factors_of_a_step_integrate_a_straight_velocity():

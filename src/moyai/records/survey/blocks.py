@@ -372,6 +372,7 @@ def _reflection(survey: Survey, data: _Samples, notices: list[Notice]) -> dict[s
         "incident_height": found.incident_height,
         "reflected_height": found.reflected_height,
     }
+    notices.extend(_above_one("reflection", found.reflection, found.reflection_error))
     if use.rear:
         rear = columns[:, len(use.front) :]
         places = use.rear_positions
@@ -380,12 +381,26 @@ def _reflection(survey: Survey, data: _Samples, notices: list[Notice]) -> dict[s
         except InputError as error:
             notices.append(Notice("transmission-skipped", f"a block has no transmission: {error.fault.message}"))
             return out
+        notices.extend(_above_one("transmission", passed.coefficient, passed.error))
         out |= {
             "transmission_coefficient": passed.coefficient,
             "transmission_error": passed.error,
             "transmitted_height": passed.height,
         }
     return out
+
+
+def _above_one(name: str, coefficient: float, error: float) -> list[Notice]:
+    """Say when more goes back or on than comes in, by more than the error of the coefficient."""
+    if not coefficient - 2.0 * (error if math.isfinite(error) else 0.0) > 1.0:
+        return []
+    return [
+        Notice(
+            f"{name}-above-one", f"{name} coefficient of {coefficient:.3g}: more than the wave that comes in",
+            coefficient, 1.0, "error",
+            "check the places of the gauges (x grows from the wave maker on), their order, scale and zero",
+        )
+    ]  # fmt: skip
 
 
 def _tensions(

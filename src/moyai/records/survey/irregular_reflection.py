@@ -242,8 +242,9 @@ def _condition_notices(frequency: Array, condition: Array, used: NDArray[np.bool
         return ()
     lost = frequency[~used]
     worst = float(np.max(np.where(np.isfinite(condition), condition, 0.0)))
+    span = f"from {lost.min():.3g} to {lost.max():.3g} Hz" if lost.size > 1 else f"at {lost[0]:.3g} Hz"
     message = (
-        f"{lost.size} of {frequency.size} frequencies between {lost.min():.3g} and {lost.max():.3g} Hz are left out: "
+        f"{lost.size} of {frequency.size} frequencies {span} are left out: "
         "the gauges stand near a multiple of half a wavelength apart"
     )
     return (Notice("gauge-spacing", message, worst, limit, remedy="use other gauges or a narrower band"),)

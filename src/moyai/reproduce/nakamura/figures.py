@@ -80,8 +80,16 @@ def _both(result: Result, name: str, dof: str = "", label: str = "", tone: int =
                   tone)]  # fmt: skip
 
 
-def _points(result: Result, name: str, dof: str, label: str, tone: int) -> Series:
-    return curve(label, abscissae(result, "time"), values(result, "time", name, dof), tone, points=True)
+def _points(result: Result, name: str, dof: str, label: str, tone: int, domain: str = "time") -> Series:
+    return curve(label, abscissae(result, domain), values(result, domain, name, dof), tone, points=True)
+
+
+def _moving(runs: Runs, name: str, dof: str = "") -> list[Series]:
+    """Return both domains with chains in motion, in frequency by the first harmonic of their force."""
+    return [
+        _points(runs.moving_time, name, dof, "time domain, chains in motion", 2),
+        _points(runs.moving_time, name, dof, "frequency domain, first harmonic of chains in motion", 3, "frequency"),
+    ]
 
 
 def _motion(runs: Runs, number: str, state: Literal["undamped", "damped", "drifted"], letter: int) -> Figure:
@@ -98,7 +106,7 @@ def _motion(runs: Runs, number: str, state: Literal["undamped", "damped", "drift
         "drifted": f"damping {100 * FRACTION:.0f} % of critical, with drift",
     }[state]
     if state == "drifted":
-        series.append(_points(runs.moving_time, "motion_ratio", mode, "time domain, chains in motion", 2))
+        series += _moving(runs, "motion_ratio", mode)
         series += _other_state(runs.damped, runs.damped_time, mode, "without drift")
     if state == "damped":
         series += _other_state(runs.undamped, runs.undamped_time, mode, "without damping")
@@ -172,7 +180,7 @@ def _far(runs: Runs, number: str, name: str, words: str, symbol: str) -> Figure:
         [
             *_both(runs.drifted, name),
             _points(runs.drifted_time, name, "", "time domain, chains at rest", 1),
-            _points(runs.moving_time, name, "", "time domain, chains in motion", 2),
+            *_moving(runs, name),
         ],
         "With damping and drift. In time the operators of the frequency domain take the motion of the simulation."
         f"{_second_state(runs.drifted_time)}",

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
+from moyai.core.results import Result
 from moyai.mooring.lines import LineType
 from moyai.reproduce.inputs import run_problem
 from moyai.reproduce.model import FilledInput
-from moyai.reproduce.nakamura.runs import CURVE, Runs, at, peak, values, variant
+from moyai.reproduce.nakamura.runs import CURVE, Runs, abscissae, at, peak, values, variant
 from moyai.structures.breakwater.model import BreakwaterProblem, Damping, MooringLine, RegularSea
 
 PLACE = 3.5
@@ -57,6 +58,27 @@ def _only_roll(case: BreakwaterProblem) -> BreakwaterProblem:
     return replace(case, breakwater=replace(case.breakwater, damping=Damping(fraction, ("roll",))))
 
 
+def _hardening(runs: Runs) -> FilledInput:
+    """Return what the tangent of moving chains does to roll, at the height of the paper and at a quarter of it."""
+    periods = tuple(float(period) for period in abscissae(runs.moving_time, "time")["period"][-3:])
+    height = runs.case.environment.sea_states[0].height  # type: ignore[union-attr]
+    low = run_problem("breakwater", _waves(variant(runs.case, periods, time=True, moving=True), 0.25 * height))
+
+    def less(result: Result, name: str) -> str:
+        ratio = values(result, "time", "motion_amplitude", "roll") / values(result, "frequency", name, "roll")
+        return ", ".join(f"{100 * (value - 1.0):+.1f}" for value in ratio[-len(periods) :])
+
+    tangent, led = "motion_amplitude_with_tangent", "motion_amplitude"
+    return FilledInput(
+        "restoring of moving chains in frequency",
+        "first harmonic of their force, led along the motion",
+        "their tangent about the mean offset, as the paper takes chains at rest",
+        f"roll in time over frequency at T = {', '.join(f'{period:.3g}' for period in periods)} s: "
+        f"{less(runs.moving_time, led)} %; tangent {less(runs.moving_time, tangent)} %, "
+        f"at a quarter of the height {less(low, tangent)} %",
+    )
+
+
 def filled(runs: Runs) -> tuple[FilledInput, ...]:
     """Return the inputs that were filled in, with the effect of other values on the frequency domain with drift."""
     case = variant(runs.case, CURVE)
@@ -86,6 +108,7 @@ def filled(runs: Runs) -> tuple[FilledInput, ...]:
             f"{values(runs.drifted_time, 'time', 'motion_ratio', 'roll')[-1]:.2f} at rest, "
             f"{values(runs.moving_time, 'frequency', 'motion_ratio', 'roll')[-1]:.2f} in frequency",
         ),
+        _hardening(runs),
         FilledInput("periods", "14 between 0.6 and 1.6 s", "curves over 53 periods", "none: linear waves, one by one"),
     ]  # fmt: skip
     return tuple(rows)

@@ -86,7 +86,9 @@ def variant(
         breakwater=replace(case.breakwater, lines=lines, damping=damping),
         environment=replace(case.environment, sea_states=(RegularSea(SEA, height, periods),)),
         analyses=("statics", "mooring", "frequency", "time") if time else ("statics", "mooring", "frequency"),
-        settings=case.settings.changed(sensitivity=Sensitivity(), drift=drift, time=of_time),
+        settings=case.settings.changed(
+            sensitivity=Sensitivity(), drift=drift, time=of_time, line_restoring="equivalent" if moving else "tangent"
+        ),
     )
 
 

@@ -1,7 +1,8 @@
 """A synthetic campaign: records of waves and line tensions with planted relations, and the chain that reads them.
 
 The record of the paper is not published. Every wave pulls once, by the energy model of the paper; direction, current,
-steady tension and the type of the curtain are planted, so that the processing has something to find again.
+steady tension and the type of the curtain are planted, so that the processing has something to find again. M and K are
+those of the print: only their product acts, which is that of M = 9.2 and a rope of 890 kN for a strain of one.
 """
 
 from __future__ import annotations

@@ -15,9 +15,10 @@ from moyai.reproduce.tabata.runs import CHOSEN, ROPES, TYPHOON, Pulls, Runs
 from moyai.series.regressions import correlation, fit_by_direction, fit_cosine, fit_power, type_ratio
 from moyai.structures.curtain.seas.anchor_energy import EnergyModel, product_needed
 from moyai.structures.curtain.seas.squared_velocity import effective_height, fit_proportional
+from moyai.tables import line_type
 
 PLANTED = "planted in a synthetic campaign"
-_TAKEN = "10 % longer than its span, waves at 60 degrees, T_1/3 of 6.75 s, stiffness and drag of the case"
+_TAKEN = "10 % longer than its span, waves at 60 degrees, T_1/3 of 6.75 s, stiffness, damping and drag of the case"
 #: Highest steady and fluctuating tension of an anchor rope of the new type that figure 3 shows [N]
 STEADY, FLUCTUATING = 13.7e3, 14.7e3
 
@@ -231,7 +232,7 @@ def _stands(runs: Runs) -> Finding:
         share < 1.0,
         f"{part} used to {100.0 * share:.0f} % of its strength, anchor rope {_pulls(runs, '890 kN')}, at 60 degrees, "
         "with 890 kN taken for a strain of one: over 46 m the 890 kN/m of the print are a rope of 41 MN, many times "
-        f"what a rope of this size has, and {other} would be used to {100.0 * printed:.0f} %. Strengths are not in the "
+        f"what a fibre rope has, and {other} would be used to {100.0 * printed:.0f} %. Strengths are not in the "
         f"paper and filled in: rope {strengths.anchor_line.capacity / 1e3:.0f} kN, anchor "
         f"{strengths.anchor.capacity / 1e3:.0f} kN, wire {strengths.upper_cable.capacity / 1e3:.0f} kN, sheet "
         f"{strengths.sheet.capacity / 1e3:.0f} kN/m",
@@ -316,12 +317,45 @@ def filled(runs: Runs) -> tuple[FilledInput, ...]:
     )  # fmt: skip
 
 
+def rope_diameter(name: str, axial_stiffness: float) -> float:
+    """Return the diameter of a rope of the catalogue with this EA [N], which goes with its square [m]."""
+    one = line_type(name, 0.03)
+    return one.diameter * math.sqrt(axial_stiffness / one.axial_stiffness)
+
+
+def _reading(runs: Runs) -> FilledInput:
+    """Return what the two readings of K are as ropes, and what they do to the span."""
+    anchors = runs.case.curtain.anchors
+    assert anchors is not None
+    length = anchors.length
+    (share, part), (printed, other) = (_most_used(runs, runs.typhoon[name]) for name in ("890 kN", "890 kN/m"))
+    fibre = 1e3 * rope_diameter("polyester_8_strand", length * ROPES["890 kN"])
+    wire, thick = (
+        1e3 * rope_diameter(name, length * ROPES["890 kN/m"]) for name in ("wire_6x19_wire_core", "polyester_8_strand")
+    )
+    return FilledInput(
+        "what K = 890 kN/m of an anchor rope of 46 m is",
+        f"the force of a strain of one, as its name in the paper (elongation) says: a polyester rope of {fibre:.0f} mm",
+        f"as printed: steel wire of {wire:.0f} mm (in polyester {thick:.0f} mm)",
+        f"anchor rope {_pulls(runs, '890 kN/m')}, {100.0 * printed:.0f} %, {other} (taken: {_pulls(runs, '890 kN')}, "
+        f"{100.0 * share:.0f} %, {part})",
+    )
+
+
 def _guesses(runs: Runs) -> Iterator[FilledInput]:
     """Yield how far the most used part moves with each guessed value of the span in the typhoon, one realisation."""
+    yield _reading(runs)
     share, part = _most_used(runs, runs.typhoon["890 kN"][:1])
     taken = f" (taken: {100.0 * share:.0f} %, {part})"
     yield FilledInput("strengths of anchor, rope, wire and sheet", "those of the case file", "half of them",
                       f"{200.0 * share:.0f} %, {part}{taken}")  # fmt: skip
+    wire = float(np.mean([one.shares(runs.case.curtain.strengths)["wire"] for one in runs.typhoon["890 kN"]]))
+    yield FilledInput(
+        "what loads are held against",
+        "the strength itself: whether it stands",
+        "a factor of safety of 3 on the wire, as in a design",
+        f"wire {300.0 * wire:.0f} % (taken: {100.0 * wire:.0f} %)",
+    )
     for words, pulls in runs.guessed.items():
         share, part = _most_used(runs, [pulls])
         yield FilledInput("span in the typhoon, rope of 890 kN", _TAKEN, words, f"{100.0 * share:.0f} %, {part}{taken}")

@@ -147,8 +147,9 @@ def _level_steps(
         yield
     if not dynamic or hydro is None:
         return
-    found = hydro
-    model = _MODELS.of(shared, lambda: make_model(unit, found, steady, problem.settings.drift))
+    settings, found = problem.settings, hydro
+    led = (settings.time.lines, problem.environment.current) if settings.line_restoring == "equivalent" else None
+    model = _MODELS.of(shared, lambda: make_model(unit, found, steady, settings.drift, led_lines=led))
     yield from _frequency_steps(problem, model, collected, root, shared, progress)
     if "time" in analyses:
         yield from _time_steps(problem, model, collected, root, progress)

@@ -154,6 +154,14 @@ class Settings(Block):
         | Annotated[OffsetRange, Tag("<range>")],
         Discriminator(_form),
     ] = Field(default="auto", description="Sway offsets of the restoring curve: auto, a list, or {from, to, count}.")
+    line_restoring: Literal["tangent", "equivalent"] = Field(
+        default="tangent",
+        description=(
+            "Force of lines in regular waves of the frequency domain: their tangent about the mean offset, or the "
+            "first harmonic of lines that are led along the motion (equivalent). Variations keep the tangent. "
+            "Default: tangent."
+        ),
+    )
     time: TimeSettings = Field(default_factory=TimeSettings, description="How the time domain is run.")
     sensitivity: Sensitivity = Field(
         default_factory=Sensitivity, description="Variations that are run in addition to the case."

@@ -93,6 +93,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "transmitted_significant_height": ("m", "significant height of the transmitted waves"),
     "transmission_coefficient_low": ("1", "transmission coefficient, lowest in the band of damping"),
     "transmission_coefficient_high": ("1", "transmission coefficient, highest in the band of damping"),
+    "motion_amplitude_with_tangent": ("m", "amplitude of motion with the tangent of the lines (roll: rad)"),
     "motion_amplitude_low": ("m", "amplitude of motion, lowest in the band of damping (roll: rad)"),
     "motion_amplitude_high": ("m", "amplitude of motion, highest in the band of damping (roll: rad)"),
     "significant_motion_low": ("m", "significant double amplitude, lowest in the band of damping (roll: rad)"),

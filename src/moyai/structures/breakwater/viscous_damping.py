@@ -129,7 +129,9 @@ def band_words(model: FrequencyModel) -> str:
     if given.roll_quadratic:
         what.append("given quadratic roll damping")
     low, high = given.band
-    return f"{' and '.join(what)}, times {low:g} to {high:g}"
+    lid = model.unit.breakwater.gap_damping_lid
+    words = f"{' and '.join(what)}, times {low:g} to {high:g}"
+    return f"{words}; the lid of {lid:g} in the gap is not varied" if lid else words
 
 
 _NATURAL: Remembered[Array] = Remembered(16)

@@ -403,7 +403,7 @@ def _period_peaks(run: xr.Dataset, row: int) -> NDArray[np.float64]:
 def _wave_band(groups: Groups, load: _Load) -> Band | None:
     """Return what a load in waves varies with: the realisations or periods of the sea, and its steady part.
 
-    Criteria are judged at the end of the one-sided 95 % interval of the mean of the realisations (Student) and at the
+    Criteria are judged at the end of the one-sided 95 % interval of the mean of the realisations and at the
     upper end of the steady part, or of the impact where that reaches higher.
     """
     whole, steady = load.number("governing_load"), load.number("steady_load")

@@ -85,6 +85,8 @@ def depth_headlines(groups: Groups, levels: Sequence[str]) -> Iterator[Headline]
                 # a curtain hangs lower and heavier at slack water than in its current
                 detail = f"at slack water; {_plain(value, unit)} in the current" + (f", {detail}" if detail else "")
                 value, band = slack, None
+            if name == "toe_clearance" and any(path.startswith(f"/{level}/waves/") for path in groups):
+                detail = "; ".join(filter(None, (detail, "under still water, in the trough of a wave less")))
             found.append(
                 Headline(
                     name, label, value, unit, where=level, model=STATICS, band=band, detail=detail, without_waves=True

@@ -290,7 +290,7 @@ def _band(found: _Largest, ranges: tuple[MeasuredRange, ...]) -> Band:
 
     Forces are proportional to their coefficients [eq:morison-strip], so the series of the causes give every
     combination without a further run. In an irregular sea both ends are moved in proportion by the smallest and the
-    largest realisation; criteria are judged with the one-sided 95 % interval of their mean (Student) instead.
+    largest realisation; criteria are judged with the one-sided 95 % interval of their mean instead.
     """
     ends = [(1.0 - item.below, 1.0 + item.above) for item in ranges]
     order = (1, 0, 2)

@@ -19,7 +19,8 @@ from moyai.flexible.sensitivity import PeakSensitivity
 from moyai.series.block_maxima import Maximum, maximum_of
 from moyai.structures.network.model import NetworkProblem
 from moyai.structures.network.refinement import band_of
-from moyai.structures.network.start_up import ASKED
+from moyai.structures.network.single_anchor import single_anchors
+from moyai.structures.network.start_up import ASKED, WAVES
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -68,7 +69,7 @@ def headlines_of(problem: NetworkProblem, groups: Mapping[str, xr.Dataset]) -> t
         items += _start_up(groups, peak)
         items += _utilisation(problem, groups, peaks)
     items += _anchor(groups, peaks)
-    items += _offsets(groups)
+    items += _offsets(groups, single_anchors(problem))
     items += _mode(groups)
     left = [_NOT_JUDGED] if problem.lines and peaks else []
     shown = [item for item in items if item.shown][:8]
@@ -178,7 +179,7 @@ def _start_up(groups: Mapping[str, xr.Dataset], peak: _Peak) -> list[Headline]:
             continue
         row, line = np.unravel_index(int(np.nanargmax(early.values)), early.shape)
         value = float(early.values[row, line])
-        if (rule == ASKED and value <= peak.value) or (best is not None and value <= best[0]):
+        if (rule in (ASKED, WAVES) and value <= peak.value) or (best is not None and value <= best[0]):
             continue
         at = f"{early['line'].values[line]}, {pieces[2]}, t = {time[row]:.2f} s"
         best = (value, at, f"not in the highest tension: the first {skip:.3g} s are left out ({rule})")
@@ -319,8 +320,11 @@ def _anchor(groups: Mapping[str, xr.Dataset], peaks: list[_Peak]) -> list[Headli
     return governing(found)
 
 
-def _offsets(groups: Mapping[str, xr.Dataset]) -> list[Headline]:
-    """Return the largest offset of bodies, buoys and weights, and the largest lean of bodies."""
+def _offsets(groups: Mapping[str, xr.Dataset], anchors: Mapping[str, str]) -> list[Headline]:
+    """Return the largest offset of bodies, buoys and weights, and the largest lean of bodies.
+
+    On one anchor alone the place in still water is where the case draws it: the distance from the anchor counts.
+    """
     offsets, leans = [], []
     still = "from its place in still water"
     for level, summary in _levels(groups, "dynamic"):
@@ -333,18 +337,45 @@ def _offsets(groups: Mapping[str, xr.Dataset]) -> list[Headline]:
                         away = _away(groups, level, str(run), str(point), "point", 3)
                         said = f"{still}, heave included"
                         where = _place(groups, level, str(point), str(run))
+                        value, said, away = _swinging(groups, level, str(run), str(point), "point", anchors) or (
+                            value,
+                            said,
+                            away,
+                        )
                         offsets.append(_moved("offset", value, where, said, groups, level, str(run), away))
             for solid in summary["solid"].values if "offset" in summary else ():
                 value, lean = (float(summary[name].sel(run=run, solid=solid)) for name in ("offset", "highest_lean"))
                 away = _away(groups, level, str(run), str(solid), "solid", 2)
                 where = _place(groups, level, str(solid), str(run))
-                offsets.append(_moved("offset", value, where, still, groups, level, str(run), away))
+                value, said, away = _swinging(groups, level, str(run), str(solid), "solid", anchors) or (
+                    value,
+                    still,
+                    away,
+                )
+                offsets.append(_moved("offset", value, where, said, groups, level, str(run), away))
                 leans.append(_moved("lean", lean, where, still, groups, level, str(run), None))
     return [
         item
         for found in (offsets, leans)
         for item in governing(one for one in found if math.isfinite(one.value))
     ]  # fmt: skip
+
+
+def _swinging(
+    groups: Mapping[str, xr.Dataset], level: str, run: str, name: str, kind: str, anchors: Mapping[str, str]
+) -> tuple[float, str, Array] | None:
+    """Return the largest horizontal distance from the only anchor, its words and series; None with more anchors."""
+    anchor, series = anchors.get(name), groups.get(f"/{level}/time/{run}")
+    if anchor is None or series is None or f"{kind}_position" not in series:
+        return None
+    if "point_position" not in series or anchor not in series["point"].values:
+        return None
+    place = series[f"{kind}_position"].sel({kind: name}).values - series["point_position"].sel(point=anchor).values
+    away = np.asarray(np.linalg.norm(place[:, :2], axis=1))
+    counted = away[series["time"].values >= series["time"].values[0] + series.attrs["skip"]]
+    if not counted.size:
+        return None
+    return float(counted.max()), f"horizontal distance from its only anchor '{anchor}', round which it swings", away
 
 
 def _of_seeds(found: Maximum) -> str:

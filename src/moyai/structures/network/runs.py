@@ -94,7 +94,8 @@ def run_plans(problem: NetworkProblem, water: Water) -> tuple[RunPlan, ...]:
     found = []
     for plan in _plans(problem, water):
         used = [problem.motions[name] for name in _used_motions(problem) if name]
-        skip, rule = start_up(problem.settings.skip, used, plan.duration)
+        waves = plan.period if plan.waves is not None else math.nan
+        skip, rule = start_up(problem.settings.skip, used, plan.duration, waves)
         found.append(replace(plan, skip=skip, skip_rule=rule))
     return tuple(found)
 

@@ -26,6 +26,10 @@ AT_REST = "linear, lines at rest at every instant"
 TIME = "time domain, three dimensions"
 TIME_AT_REST = "time domain, lines at rest at every instant"
 IN_MOTION = "time domain, lines in motion around events"
+#: Numbers of the time domain that take the band of damping of the frequency domain.
+_SPREAD = (
+    "significant_motion", "motion_amplitude", "largest_offset", "line_tension_maximum", "connector_resultant_largest",
+)  # fmt: skip
 Seas = list[tuple[str, "xr.Dataset"]]
 
 
@@ -57,10 +61,24 @@ def governing_seas(groups: Mapping[str, xr.Dataset]) -> Seas:
             continue
         other = path.replace("/frequency/", "/time/", 1)
         if other in groups and groups[other].attrs.get("status") == "converged":
-            found.append((other, groups[other]))
+            found.append((other, _with_damping(groups[other], data)))
         else:
             found.append((path, data))
     return found
+
+
+def _with_damping(time: xr.Dataset, frequency: xr.Dataset) -> xr.Dataset:
+    """Return a sea in time with the ends over the damping of the units, by their change in the frequency domain."""
+    found = {}
+    for name in _SPREAD:
+        if name not in time or f"{name}_low" not in frequency or time[name].dims != frequency[name].dims:
+            continue
+        own = frequency[name].values
+        for end in ("low", "high"):
+            with np.errstate(divide="ignore", invalid="ignore"):
+                ratio = np.where(own > 0.0, frequency[f"{name}_{end}"].values / own, 1.0)
+            found[f"{name}_{end}"] = (time[name].dims, time[name].values * ratio)
+    return time.assign(found)
 
 
 def _not_judged(seas: Seas) -> Headline:
@@ -153,8 +171,23 @@ class _Largest:
 
     @property
     def band(self) -> Band | None:
-        """What the realisations give, in the frequency domain what the damping is worth."""
-        return seeds(self.scatter) if self.scatter.size else _damping_band(self.data, self.name, self.index, self.scale)
+        """What the realisations and the damping of the units are worth."""
+        return self.spread(seeds(self.scatter))
+
+    def spread(self, chance: Band | None) -> Band | None:
+        """Return a band of realisations widened by what the damping of the units is worth."""
+        damping = _damping_band(self.data, self.name, self.index, self.scale)
+        if damping is None or chance is None or not self.value > 0.0:
+            return chance or damping
+        less, more = damping.low / self.value, damping.high / self.value
+        low, high = chance.judged or (chance.low, chance.high)
+        return Band(
+            chance.low * less,
+            chance.high * more,
+            f"{chance.of}; {damping.of}",
+            chance.decides,
+            (low * less, high * more),
+        )
 
     @property
     def bound(self) -> Bound:
@@ -184,8 +217,13 @@ def _largest(seas: Seas, name: str, over: Array | None = None) -> _Largest | Non
 
 
 def _each(seas: Seas, name: str, over: Array | None = None) -> list[_Largest]:
-    """Return the largest value of every sea."""
-    return [found for sea in seas if (found := _largest([sea], name, over)) is not None]
+    """Return the largest value of every sea, of regular waves of every period."""
+    parts = [
+        (path, data.isel(period=[row])) if "period" in data.dims else (path, data)
+        for path, data in seas
+        for row in range(data.sizes.get("period", 1))
+    ]
+    return [found for part in parts if (found := _largest([part], name, over)) is not None]
 
 
 def _all_judged(items: list[Headline]) -> list[Headline]:
@@ -221,24 +259,45 @@ def _connectors(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Headli
         yield Headline(
             "connector_moment", "Largest moment in a connector", moment.value, "N m", moment.where, _model(moment)
         )
-    opened = [(path, data.assign(opened=data["relative_motion_largest"].sel(component="y"))) for path, data in seas]
-    opening = _largest(opened, "opened")
-    if opening is not None and opening.value > 1e-9:
-        yield Headline(
-            "gap_motion", "Largest opening and closing of a gap at a connector", opening.value, "m", opening.where,
-            _model(opening), band=replace(opening, name="gap_motion_largest").band,
-        )  # fmt: skip
-    worn = [
-        (path, data.assign(worn=data["connector_damage_rate"] * float(data.attrs["duration"])))
-        for path, data in seas
-        if "connector_damage_rate" in data and "duration" in data.attrs
-    ]
-    damage = _largest(worn, "worn")
-    if damage is not None:
-        yield Headline(
-            "connector_damage", "Share of the life of a connector that the sea takes", damage.value, "1", damage.where,
-            TIME, detail=f"in {float(damage.data.attrs['duration']) / 3600.0:.3g} h, cycles by rainflow",
-        )  # fmt: skip
+    opened = [(path, _with_opening(data)) for path, data in seas]
+    yield from _all_judged(
+        [
+            Headline(
+                "gap_motion", "Largest opening and closing of a gap at a connector", opening.value, "m", opening.where,
+                _model(opening), band=opening.band, bound=opening.bound,
+            )
+            for opening in _each(opened, "opened")
+            if opening.value > 1e-9
+        ]
+    )  # fmt: skip
+    worn = [(path, _with_damage(data)) for path, data in seas if "connector_damage_rate" in data]
+    yield from _all_judged(
+        [
+            Headline(
+                "connector_damage", "Share of the life of a connector that the sea takes", damage.value, "1",
+                damage.where, TIME, band=damage.band, bound=damage.bound,
+                detail=f"in {float(damage.data.attrs['duration']) / 3600.0:.3g} h, cycles by rainflow",
+            )
+            for damage in _each([item for item in worn if "duration" in item[1].attrs], "worn")
+        ]
+    )  # fmt: skip
+
+
+def _with_opening(data: xr.Dataset) -> xr.Dataset:
+    """Return a sea with the opening of its gaps, its realisations where they are known."""
+    found = {"opened": data["relative_motion_largest"].sel(component="y")}
+    if "gap_motion_largest_of_realisation" in data:
+        found["opened_of_realisation"] = data["gap_motion_largest_of_realisation"]
+    return data.assign(found)
+
+
+def _with_damage(data: xr.Dataset) -> xr.Dataset:
+    """Return a sea with the share of the life of its connectors that it takes, its realisations where known."""
+    span = float(data.attrs.get("duration", math.nan))
+    found = {"worn": data["connector_damage_rate"] * span}
+    if "connector_damage_rate_of_realisation" in data:
+        found["worn_of_realisation"] = data["connector_damage_rate_of_realisation"] * span
+    return data.assign(found)
 
 
 def _connector_force(found: _Largest) -> Headline:
@@ -312,7 +371,7 @@ def _line_band(found: _Largest) -> Band | None:
     scatter, bound = (
         found.data[f"line_tension_{name}_of_realisation"].values[:, line] / found.scale for name in ("maximum", "bound")
     )
-    return seeds(scatter, bound)
+    return found.spread(seeds(scatter, bound))
 
 
 def _line_model(found: _Largest) -> str:
@@ -349,44 +408,59 @@ def _motions(seas: Seas) -> Iterator[Headline]:
             )
         )  # fmt: skip
     yield from _all_judged(offsets)
-    rolls = []
-    for path, data in seas:
-        name = "significant_motion" if "significant_motion" in data else "motion_amplitude"
-        factor = 1.0 if name == "significant_motion" else 2.0
-        ends = {end: f"{name}{end}" for end in ("", "_low", "_high") if f"{name}{end}" in data}
-        rolls.append(
-            (path, data.assign({f"roll{end}": factor * data[own].sel(dof="roll") for end, own in ends.items()}))
-        )
-    roll = _largest(rolls, "roll")
-    if roll is not None:
-        yield Headline(
-            "roll", "Largest roll of a unit (double amplitude, significant in seas)", roll.value, "rad", roll.where,
-            _model(roll), band=roll.band,
-        )  # fmt: skip
+    rolls = [(path, _with_roll(data)) for path, data in seas]
+    yield from _all_judged(
+        [
+            Headline(
+                "roll", "Largest roll of a unit, double amplitude", roll.value, "rad", roll.where, _model(roll),
+                band=roll.band, bound=roll.bound,
+            )
+            for roll in _each(rolls, "roll")
+        ]
+    )  # fmt: skip
+
+
+def _with_roll(data: xr.Dataset) -> xr.Dataset:
+    """Return a sea with the largest double amplitude of roll, its ends over the damping and its realisations."""
+    spread = "significant_motion" if "significant_motion" in data else "motion_amplitude"
+    largest = next(
+        name for name in ("most_probable_maximum_motion", "maximum_motion", spread)
+        if name in data and (spread == "significant_motion" or name == spread)
+    )  # fmt: skip
+    roll = 2.0 * data[largest].sel(dof="roll")
+    found = {"roll": roll}
+    if f"{largest}_of_realisation" in data:
+        found["roll_of_realisation"] = 2.0 * data[f"{largest}_of_realisation"].sel(dof="roll")
+    own = data[spread].sel(dof="roll")
+    for end in ("_low", "_high"):
+        if f"{spread}{end}" in data:
+            found[f"roll{end}"] = roll * (data[f"{spread}{end}"].sel(dof="roll") / own).where(own > 0.0, 1.0)
+    return data.assign(found)
 
 
 def _waves(maps: list[tuple[str, xr.Dataset]]) -> Iterator[Headline]:
-    found = _greatest(maps, "transmission_coefficient")
-    if found is not None:
-        value, where, (_, data, index) = found
-        alone = float(np.atleast_1d(data["section_transmission"].values)[index[0] if index else 0])
-        words = "root mean square of K along the line behind"
-        if math.isfinite(alone):
-            words += f"; the section alone, without ends and gaps, {alone:.3g}"
-        yield Headline(
-            "transmission", "Transmission over the line behind", value, "1", where, MODEL,
-            band=_damping_band(data, "transmission_coefficient", index), detail=words,
-        )  # fmt: skip
-        for path, data in maps:
-            if not data["transmission_coefficient"].dims:
-                level, _, sea = path.split("/")[1:]
-                yield Headline(
-                    "transmission", "Transmission over the line behind", float(data["transmission_coefficient"]), "1",
-                    level, MODEL, band=_damping_band(data, "transmission_coefficient", ()), sea=sea, shown=False,
-                )  # fmt: skip
-    point = _greatest(maps, "wave_height_ratio_of_point")
-    if point is not None:
-        yield Headline(
-            "berth_wave_height", "Largest wave height at a named point over the incident one", point[0], "1", point[1],
-            MODEL, band=_damping_band(point[2][1], "wave_height_ratio_of_point", point[2][2]),
-        )  # fmt: skip
+    passed = _each(maps, "transmission_coefficient")
+    items = [
+        Headline(
+            "transmission", "Transmission over the line behind", one.value, "1", one.where, MODEL, band=one.band,
+            detail=_of_section(one),
+        )
+        for one in passed
+    ]  # fmt: skip
+    yield from governing(items)
+    for one, item in zip(passed, items, strict=True):
+        yield replace(item, detail="", sea=one.path.split("/")[3], shown=False)
+    yield from governing(
+        Headline(
+            "berth_wave_height", "Largest wave height at a named point over the incident one", point.value, "1",
+            point.where, MODEL, band=point.band,
+        )
+        for point in _each(maps, "wave_height_ratio_of_point")
+    )  # fmt: skip
+
+
+def _of_section(found: _Largest) -> str:
+    """Say what the transmission is, and that of the section alone."""
+    words = "root mean square of K along the line behind"
+    section = float(np.atleast_1d(found.data["section_transmission"].values)[found.index[0] if found.index else 0])
+    return f"{words}; the section alone, without ends and gaps, {section:.3g}" if math.isfinite(section) else words

@@ -70,6 +70,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "line_tension_bound_of_realisation": ("N", "tension that events which were not rerun cannot pass"),
     "line_tension_maximum_lines_at_rest": ("N", "largest tension with lines at rest at every instant"),
     "lines_in_motion": ("1", "whether the largest tension is that of a line in motion"),
+    "maximum_motion_of_realisation": ("m", "largest motion about the mean in each realisation (pitch, roll, yaw: rad)"),
     "largest_offset_of_realisation": ("m", "largest sway of a unit from rest in each realisation"),
     "seed_of_realisation": ("1", "seed of each realisation"),
     "position": ("m", "motion from rest, axes of the unit (pitch, roll, yaw: rad)"),

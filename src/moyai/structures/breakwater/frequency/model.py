@@ -19,11 +19,13 @@ from moyai.floating.offset import mean_offset
 from moyai.structures.breakwater.assembly import FloatingUnit
 from moyai.structures.breakwater.hydrodynamics import UnitHydrodynamics
 from moyai.structures.breakwater.lines.drag import line_drag_rows, line_inertia
-from moyai.structures.breakwater.settings import MODES
+from moyai.structures.breakwater.settings import MODES, LineDynamics
 from moyai.structures.breakwater.viscous_damping import unit_drag_rows, water_motion
 
 if TYPE_CHECKING:
     import xarray as xr
+
+    from moyai.flexible.flow import Current
 
 
 COEFFICIENT_ACCURACY = 1e-3  # of the solve of the section
@@ -44,6 +46,8 @@ class FrequencyModel:
     rows_of_lines: int = 0
     #: Of lines that are in motion in time, which bring their inertia themselves there; shape (3, 3).
     line_inertia: Array = field(default_factory=lambda: np.zeros((3, 3)))
+    #: Cutting of lines that are led along the motion in regular waves, and the current around them; ``None``: tangent.
+    led_lines: tuple[LineDynamics, Current | None] | None = None
 
     @property
     def inertia(self) -> Array:
@@ -57,7 +61,12 @@ class FrequencyModel:
 
 
 def make_model(
-    unit: FloatingUnit, hydro: UnitHydrodynamics, steady: Array, with_drift: bool, fraction: float | None = None
+    unit: FloatingUnit,
+    hydro: UnitHydrodynamics,
+    steady: Array,
+    with_drift: bool,
+    fraction: float | None = None,
+    led_lines: tuple[LineDynamics, Current | None] | None = None,
 ) -> FrequencyModel:
     """Put unit, coefficients and damping together.
 
@@ -76,7 +85,7 @@ def make_model(
     own_rows, own_coefficients = unit_drag_rows(unit)
     coefficients = np.append(coefficients, own_coefficients)
     quadratic = QuadraticDamping(np.vstack([rows, own_rows]), coefficients) if len(coefficients) else None
-    return FrequencyModel(unit, hydro, damping, quadratic, steady, with_drift, of_lines, line_inertia(unit))
+    return FrequencyModel(unit, hydro, damping, quadratic, steady, with_drift, of_lines, line_inertia(unit), led_lines)
 
 
 @dataclass(frozen=True)

@@ -13,6 +13,7 @@ from moyai.core.validity import IdentityCheck
 from moyai.floating.coefficients import Hydrodynamics
 from moyai.floating.drift import DriftedMotions
 from moyai.floating.far_field import far_field
+from moyai.structures.breakwater.frequency.equivalent_lines import about_led_lines
 from moyai.structures.breakwater.frequency.model import (
     FrequencyModel,
     FrequencyResult,
@@ -87,11 +88,21 @@ def operators(model: FrequencyModel, omega: Array, heading: float, seas: tuple[S
     return FrequencyResult(labelled(data), checks, tuple(motions.notices))
 
 
+def _solved(
+    model: FrequencyModel, hydro: Hydrodynamics, amplitude: Array, progress: Progress
+) -> tuple[DriftedMotions, DriftedMotions]:
+    """Return motions, and those with the tangent of the lines: the same where no lines are led along the motion."""
+    tangent = solve_about_offset(model, hydro, amplitude, progress)
+    if model.led_lines is None or not model.unit.lines:
+        return tangent, tangent
+    return about_led_lines(model, hydro, amplitude, tangent, progress), tangent
+
+
 def _band(model: FrequencyModel, hydro: Hydrodynamics, amplitude: Array, solved: DriftedMotions) -> dict[str, Any]:
     """Return transmission and motion with the damping of the unit at both ends of its band, nominal included."""
     answers = [solved]
     for factor in band_factors(model):
-        answers.append(solve_about_offset(scaled_damping(model, factor), hydro, amplitude, silent))
+        answers.append(_solved(scaled_damping(model, factor), hydro, amplitude, silent)[0])
     motion = np.array([np.abs(item.motions.displacement[:, 0, :]) * amplitude[:, None] for item in answers])
     out: dict[str, Any] = {
         "motion_amplitude_low": (("period", "dof"), motion.min(axis=0)),
@@ -113,7 +124,7 @@ def regular_sea(model: FrequencyModel, sea: RegularSea, progress: Progress = sil
     omega = 2.0 * math.pi / periods[::-1]
     hydro = model.hydro.at(omega, sea.heading)
     amplitude = np.full(len(omega), 0.5 * sea.height)
-    solved = solve_about_offset(model, hydro, amplitude, progress)
+    solved, tangent = _solved(model, hydro, amplitude, progress)
     moving = solved.motions.displacement[:, 0, :] * amplitude[:, None]
     length = wavelengths(omega, unit)
     k = 2.0 * math.pi / length
@@ -131,6 +142,9 @@ def regular_sea(model: FrequencyModel, sea: RegularSea, progress: Progress = sil
         "mooring_stiffness": (("period", "influenced_dof", "radiating_dof"), solved.mooring_stiffness),
         **{name: (("period", "line"), values) for name, values in tension.items()},
     }
+    if tangent is not solved:
+        with_tangent = np.abs(tangent.motions.displacement[:, 0, :]) * amplitude[:, None]
+        out["motion_amplitude_with_tangent"] = (("period", "dof"), with_tangent)
     out |= far_field_variables(solved.far, hydro, unit, dims) if hydro.has_far_field else {}
     out |= equivalent_variables(
         ("period", "dof"),

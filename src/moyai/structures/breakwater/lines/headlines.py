@@ -12,7 +12,7 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.core.headline import Band, Bound, Headline, governing, unfavourable
 from moyai.mooring.anchors import gravity_anchor_weight
-from moyai.series.intervals import reach_of_mean
+from moyai.series.intervals import student_quantile
 from moyai.series.realisations import ALONE, alone, seeds, storms
 from moyai.structures.breakwater.responses import SNAP_RATIO
 from moyai.tables.design_codes import anchor_factor, holding_data
@@ -258,7 +258,10 @@ def _other_level(highest: LinePeak, peaks: list[LinePeak]) -> str:
     for peak in peaks:
         if peak.level == highest.level or peak.sea != highest.sea or peak.scatter.size < 2 or not peak.known:
             continue
-        spread = math.hypot(reach_of_mean(highest.scatter), reach_of_mean(peak.scatter))
+        # the skewness of both goes out of their difference
+        spread = math.hypot(
+            *(student_quantile(0.9, one.size - 1) * _standard_error(one) for one in (highest.scatter, peak.scatter))
+        )
         if highest.tension - peak.tension < spread:
             alike[peak.level] = max(peak.tension, alike.get(peak.level, 0.0))
     if not alike:

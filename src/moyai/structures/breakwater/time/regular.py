@@ -21,12 +21,10 @@ from moyai.floating.memory import StateSpaceMemory
 from moyai.floating.modes import natural_modes
 from moyai.floating.moving_water import MovingWater
 from moyai.floating.time import CumminsModel, Simulation
-from moyai.sea.components import WaveComponents
-from moyai.sea.dispersion import wave_number
 from moyai.series.harmonics import Harmonics, fit_last_periods
-from moyai.structures.breakwater.assembly import FloatingUnit
 from moyai.structures.breakwater.frequency.model import FrequencyModel, motion_ratio
 from moyai.structures.breakwater.hydrodynamics import wavelengths
+from moyai.structures.breakwater.lines.driven import wave_around
 from moyai.structures.breakwater.lines.events import movable, out_of_range, with_lines_in_motion
 from moyai.structures.breakwater.lines.motion import without_line_drag
 from moyai.structures.breakwater.memory_model import UnitMemory
@@ -245,7 +243,7 @@ def _one_period(
     expected = np.abs(frequency.motion_amplitude.values) + np.abs(frequency.mean_offset.values)
     begin = max(duration - window, 0.0)
     attributes = {"period": period, "height": sea.height, "ramp": ramp, "kind": "regular", "analysis_start": begin}
-    around = SeaOfRun(_wave_of(unit, sea, omega), current, ramp, begin, period)
+    around = SeaOfRun(wave_around(unit, omega, sea.height, sea.heading), current, ramp, begin, period)
     name = f"T{period:.4g}".replace(".", "p")
     waves: Forcing = forcing
     if unit.breakwater.damping.viscous:
@@ -281,13 +279,6 @@ def _need_motion(model: FrequencyModel, run: TimeRun, period: float, settings: T
     if settings.lines.mode != "auto" or not able.any() or not len(tension):
         return False
     return bool((out_of_range(model.unit, tension.max(axis=0), tension.mean(axis=0)) & able).any())
-
-
-def _wave_of(unit: FloatingUnit, sea: RegularSea, omega: float) -> WaveComponents:
-    number = wave_number(np.array([omega]), unit.water.depth, unit.water.gravity)
-    return WaveComponents(
-        np.array([omega]), np.array([0.5 * sea.height]), np.zeros(1), np.array([sea.heading]), number, unit.water
-    )
 
 
 def _settling_time(model: FrequencyModel, cummins: CumminsModel, hydro: Hydrodynamics, period: float) -> float:

@@ -53,7 +53,7 @@ class EventPeak:
     low: float
     #: ``low``, ``high``: Lowest and highest of all runs.
     high: float
-    #: Upper end of the one-sided 95 % interval of the mean (Student); the value where there is one realisation.
+    #: Upper end of the one-sided 95 % interval of the mean; the value where there is one realisation.
     judged: float
     #: Run of which series are kept, of the mesh that counts.
     run: str

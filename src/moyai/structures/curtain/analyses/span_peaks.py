@@ -1,9 +1,9 @@
 """Peaks of the whole span where it is not asked for and an upright plate only bounds them [eq:curtain-hierarchy].
 
-Every event is run on a coarse mesh; those that lead a component are run again on a finer one, and on a third where the
-coarse one gives more by a fifth. Irregular seas are run with several realisations, since the snaps of a motion that
-never repeats are chance: the larger of the means on the meshes that resolve the event counts. Waves that lead are run
-in half the current too, in which the skirt hangs deeper.
+Every event is run on a coarse mesh; those that lead a component are run again on a finer one, those without chance on a
+third where the coarse one gives more by a fifth. Irregular seas are run with several realisations, since the snaps of
+a motion that never repeats are chance: the larger of the means on the meshes that resolve the event counts. Waves that
+lead are run in half the current too, in which the skirt hangs deeper.
 """
 
 from __future__ import annotations
@@ -179,14 +179,17 @@ class _Runs:
     def unresolved(self, fine: Mesh) -> tuple[str, Mesh] | None:
         """Return an event that leads a component and the mesh that it has still to be run on, None where none is left.
 
-        Every one is run on ``fine``, and on a finer one where the coarsest gives more beyond the change allowed.
+        Every one is run on ``fine``, and one without chance on a finer one where the coarsest gives more beyond the
+        change allowed; of realisations a few tell no mesh from chance.
         """
         finest = replace(fine, along=_four_thirds(fine.along), down=_four_thirds(fine.down))
         for event, peak in governing_peaks(self.samples).values():
-            known = {item.mesh for item in self.samples if item.event == event}
+            mine = [item for item in self.samples if item.event == event]
+            known, chance = {item.mesh for item in mine}, any(item.seed for item in mine)
             if (fine.along, fine.down) not in known:
                 return event, fine
-            if peak.change > MESH_CHANGE and not peak.finer_is_more and (finest.along, finest.down) not in known:
+            apart = peak.change > MESH_CHANGE and not peak.finer_is_more
+            if apart and not chance and (finest.along, finest.down) not in known:
                 return event, finest
         return None
 

@@ -81,7 +81,7 @@ class SettledCycles:
 
     @property
     def judged(self) -> float:
-        """Tension at which limits are judged [N]: of a mean, the end of its one-sided 95 % interval (Student)."""
+        """Tension at which limits are judged [N]: of a mean, the end of its one-sided 95 % interval."""
         return self.tension if self.kind == "repeating" else self.tension + reach_of_mean(_blocks(self.peaks))
 
     def level(self, values: Array) -> float:

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from moyai.core.errors import InputError
-
 _KNOT = 1852.0 / 3600.0
 _KILOGRAM_FORCE = 9.80665
 
@@ -56,28 +54,6 @@ def itopf_load(area: float, speed: float, density: float) -> PlanningLoad:
     Arguments as :func:`us_navy_load`; the number was not seen in its source.
     """
     return _load("ITOPF", 100.0, area, speed, density, False, "ITOPF, use of booms: F = 100 A V^2, from memory")
-
-
-def tow_trial_load(span: float, significant_height: float, draught: float, speed: float, factor: float) -> PlanningLoad:
-    """Return T = K A V^2 with A = L (H_s/2 + draught): MMS and S.L. Ross (1999) after tow trials at sea.
-
-    Both older formulas fell short of the measured tow loads [eq:curtain-planning-trials].
-
-    Parameters
-    ----------
-    span, significant_height, draught : float
-        Length L, H_s and draught [m].
-    speed : float
-        [m/s].
-    factor : float
-        K [N s2/m4] of the type of boom; its values were not seen, so it has no default.
-    """
-    if not factor > 0.0:
-        raise InputError(f"factor is {factor:g}", parameter="factor", allowed="greater than 0")
-    area = span * (0.5 * significant_height + draught)
-    return PlanningLoad(
-        "tow trials", factor * area * speed**2, float("nan"), False, "MMS and S.L. Ross (1999), T = K A V^2"
-    )
 
 
 @dataclass(frozen=True)

@@ -196,7 +196,7 @@ class NetworkSettings(Block):
     skip: NonNegativeDuration | None = Field(
         default=None,
         description="Beginning of each run that peaks and statistics leave out. Default: one mean period of a motion "
-        "that swings and begins displaced or at speed, else 0.",
+        "that swings and begins displaced or at speed; five periods of waves, at most a quarter of the run; else 0.",
     )
     sensitivity: Truth = Field(
         default=False,

@@ -26,7 +26,7 @@ MOST_ROWS = 20_000
 #: Of a mean that is taken over realisations: also kept one by one
 _SCATTER = (
     "connector_resultant_largest", "connector_moment_resultant_largest", "line_tension_maximum", "largest_offset",
-    "gap_motion_largest", "connector_damage_rate",
+    "gap_motion_largest", "connector_damage_rate", "maximum_motion",
 )  # fmt: skip
 _LOWEST = ("elongation_lowest",)
 _HIGHEST = ("elongation_highest",)

@@ -1,0 +1,74 @@
+"""The band of damping on the first page of a row: in time as in the frequency domain, and at named regular seas."""
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from moyai.core.headline import Criterion, judge
+from moyai.structures.units.headlines import _each, _waves, _with_damping, _with_roll, governing_seas
+
+DOFS = ["sway", "heave", "roll"]
+
+
+def motions(name: str, roll: tuple[float, ...], *, ends: tuple[float, float] | None = None) -> xr.Dataset:
+    """Two units over some periods."""
+    values = np.zeros((len(roll), 2, 3))
+    values[:, 1, 2] = roll
+    data = {name: (("period", "unit", "dof"), values)}
+    if ends is not None:
+        for end, factor in zip(("low", "high"), ends, strict=True):
+            data[f"{name}_{end}"] = (("period", "unit", "dof"), factor * values)
+    coords = {"period": [3.0 + row for row in range(len(roll))], "unit": [1, 2], "dof": DOFS}
+    return xr.Dataset(data, coords=coords, attrs={"status": "converged"})
+
+
+def test_the_time_domain_keeps_the_band_of_damping():
+    frequency = motions("motion_amplitude", (0.06, 0.04), ends=(0.6, 1.5))
+    time = motions("motion_amplitude", (0.05, 0.03))
+    ((path, data),) = governing_seas({"/SWL/frequency/daily": frequency, "/SWL/time/daily": time})
+    assert path == "/SWL/time/daily"
+    roll, other = _each([(path, _with_roll(data))], "roll")
+    assert (roll.value, other.value) == pytest.approx((0.10, 0.06))
+    assert (roll.band.low, roll.band.high) == pytest.approx((0.06, 0.15))
+
+
+def test_realisations_are_widened_by_the_damping():
+    """Largest double amplitudes of three seeds, about their mean, with a range of damping on top."""
+    seeds = np.array([0.04, 0.05, 0.06])
+    each = np.zeros((3, 1, 3))
+    each[:, 0, 2] = seeds
+    significant = np.array([[0.0, 0.0, 0.08]])
+    dims = ("unit", "dof")
+    time = xr.Dataset(
+        {
+            "maximum_motion": (dims, each.mean(axis=0)),
+            "maximum_motion_of_realisation": (("member", *dims), each),
+            "significant_motion": (dims, significant),
+        },
+        coords={"unit": [1], "dof": DOFS},
+    )
+    spread = {f"significant_motion_{end}": (dims, f * significant) for end, f in (("low", 0.8), ("high", 1.25))}
+    frequency = time[["significant_motion"]].assign(spread)
+    (roll,) = _each([("/SWL/time/storm", _with_roll(_with_damping(time, frequency)))], "roll")
+    assert roll.value == pytest.approx(0.10) and not roll.band.decides
+    assert (roll.band.low, roll.band.high) == pytest.approx((0.8 * 0.08, 1.25 * 0.12))
+    # Johnson's interval of three skewed values: 4.899 standard errors of 0.02 / sqrt(3), then the damping
+    assert roll.band.judged[1] == pytest.approx(1.25 * (0.10 + 4.8994 * 0.02 / np.sqrt(3.0)), rel=1e-4)
+
+
+def test_a_named_regular_sea_is_judged_in_every_period():
+    data = xr.Dataset(
+        {
+            "transmission_coefficient": ("period", [0.5, 0.4]),
+            "transmission_coefficient_low": ("period", [0.49, 0.3]),
+            "transmission_coefficient_high": ("period", [0.51, 0.7]),
+            "section_transmission": ("period", [0.4, 0.4]),
+        },
+        coords={"period": [3.0, 4.0]},
+    )
+    items = list(_waves([("/SWL/map/daily", data)]))
+    # without a sea the period with the worst end is judged too
+    limit = Criterion("greatest_transmission", "transmission", 0.6, "at most", "case file")
+    assert judge(items, [limit], computed=True).outcome == "does not hold"
+    named = [item for item in _waves([("/SWL/map/daily", data)]) if item.sea == "daily"]
+    assert [item.value for item in named] == [0.5, 0.4] and max(item.band.high for item in named) == 0.7
