@@ -135,3 +135,16 @@ def test_report_shows_the_one_steady_load_and_why_others_differ(plain):
     compared = steady_tables(level)[2]
     assert all(str(why) for why in compared.columns[-1].values)
     assert [str(one) for one in compared.columns[4].values].count("governs") == 1
+
+
+def test_the_current_that_is_held_is_no_matter_of_the_current_of_the_case(tmp_path):
+    """Judged with the depth at the lower end of its band in the current that is found, not in that of the case."""
+    found = []
+    for speed in (0.1, 0.25):
+        file = tmp_path / "case.yaml"
+        text = CASE.replace("ANALYSES ", "").replace("speed: 0.5 m/s", f"speed: {speed} m/s")
+        file.write_text(text, encoding="utf-8")
+        limits = run(build(load_case(file))).tree["SWL/limits"].to_dataset()
+        assert limits.attrs["speed_limit_of_least_depth"] < float(limits["speed_limit"])
+        found.append(limits.attrs["speed_limit_of_least_depth"])
+    assert found[0] == pytest.approx(found[1], rel=5e-3)

@@ -39,6 +39,10 @@ NOT_JUDGED = Headline(
     "not_judged", "Not judged", math.nan, "1",
     text="one line or buoy lost, wear and fatigue, chafe of the net, soil of the anchors", condition=True,
 )  # fmt: skip
+_OTHER_DIRECTIONS = replace(
+    NOT_JUDGED, text=f"{NOT_JUDGED.text}, other directions of current and waves",
+    detail="along the diagonal of a frame an anchor may bear some 40 % more than along its side: run both headings",
+)  # fmt: skip
 TOO_SHORT = "one seed, too short to tell the scatter of its maximum"
 _SAME_LAWS = "the same net laws as for the volume"
 
@@ -149,7 +153,7 @@ def flexible_headlines(problem: FlexibleCageProblem, groups: Groups) -> tuple[He
         *_stress(states, runs),
     ]
     factors = _mesh_factors(groups)
-    named = [NOT_JUDGED] if runs else []
+    named = [_OTHER_DIRECTIONS] if runs else []
     return (*(alone(_with_mesh(item, factors)) for item in items), *condition_headlines(groups), *named)
 
 

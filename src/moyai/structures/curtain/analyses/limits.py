@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 
 PARTS = ("upper cable", "lower cable", "sheet", "joint", "anchor line", "anchor", "floats", "effective depth")
 _SPEED_COUNT, _HEIGHT_COUNT = 9, 11
+#: Turns in which the band of the depth and the current are brought together, and the change that ends them.
+_MOST_TURNS, _SETTLED = 5, 2e-3
 
 
 def limits_dataset(
@@ -57,7 +59,8 @@ def limits_dataset(
         An interrupt is handed on.
     lost_depth : float
         Depth that the skirt loses at the lower end of the band over what it loses, in the current of the case: the
-        largest current is searched once more with the depth asked for at that end, as the criterion does.
+        largest current is searched once more with the depth asked for at that end, as the criterion does, and again
+        with what it loses in the current that was found.
     """
     loads = sea_loads(unit, settings, answer, curve)
     counted = CountedLimits(unit, settings, loads)
@@ -71,12 +74,33 @@ def limits_dataset(
     heights = _heights(settings, max((row.value for row, _ in rows), default=0.0))
     parts = _grid(unit, [counted.loads_in(speed) for speed in speeds], speeds, heights)
     group = _limits_group(unit, settings, counted, _Found(most, most_bound, speeds, tuple(rows)), heights, parts)
-    strict = _strict(counted, lost_depth)
+    strict = _settled(counted, lost_depth)
     height = float(group["design_limit_height"])
     return group.assign(design_limit_low=_design_low(strict, speeds)).assign_attrs(
         speed_limit_of_least_depth=math.nan if strict.unit is unit else strict.speed()[0].value,
         design_limit_period=settings.limits.period_of(height) if height > 0.0 else math.nan,
     )
+
+
+def _settled(counted: CountedLimits, lost_depth: float) -> CountedLimits:
+    """Return the limits with the depth at the lower end of its band in the largest current that they then find."""
+    strict = _strict(counted, lost_depth)
+    for _ in range(_MOST_TURNS if strict is not counted else 0):
+        speed = strict.speed()[0].value
+        if not 0.0 < speed < counted.settings.limits.highest_speed:
+            break
+        try:
+            steady = replace(counted.unit, surface_speed=speed).steady
+        except (InputError, ConvergenceError):
+            break
+        low, depth = steady.band("effective_depth")[0], counted.unit.depth
+        value = steady.governing.quantity("effective_depth")
+        found = (depth - low) / (depth - value) if low < value < depth else 1.0
+        if abs(found - lost_depth) < _SETTLED * lost_depth:
+            break
+        lost_depth = found
+        strict = _strict(counted, lost_depth)
+    return strict
 
 
 def _strict(counted: CountedLimits, lost_depth: float) -> CountedLimits:
