@@ -11,9 +11,10 @@ from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
+from moyai.floating.arrays import square_matrix
 from moyai.floating.coefficients import Hydrodynamics
 from moyai.floating.damping import EquivalentDamping, LinearDamping, QuadraticDamping
-from moyai.floating.frequency import Motions, solve_motions
+from moyai.floating.frequency import Motions, dynamic_stiffness, solve_motions, solve_scaled
 
 
 def integration_weights(omega: ArrayLike) -> Array:
@@ -128,6 +129,14 @@ def _joined(parts: list[Motions]) -> Motions:
     )
 
 
+def _fixed_part(part: Hydrodynamics, inertia: ArrayLike, stiffness: ArrayLike, linear: LinearDamping) -> ComplexArray:
+    """Return the dynamic stiffness (n, m, m) without what quadratic damping amounts to."""
+    mass = square_matrix(inertia, part.size, "inertia")
+    restoring = square_matrix(stiffness, part.size, "stiffness")
+    constant = part.radiation_damping + linear.at(mass, part.added_mass, restoring)
+    return dynamic_stiffness(part.omega, mass + part.added_mass, constant, restoring)
+
+
 def linearised_in_sea(
     hydrodynamics: Hydrodynamics | Sequence[Hydrodynamics],
     inertia: ArrayLike,
@@ -138,6 +147,7 @@ def linearised_in_sea(
     line_damping: EquivalentDamping | None = None,
     damping: LinearDamping | None = None,
     water_motion: ComplexArray | None = None,
+    start: SeaMotions | None = None,
     tolerance: float = 1e-10,
     maximum_iterations: int = 200,
 ) -> SeaMotions:
@@ -159,6 +169,8 @@ def linearised_in_sea(
         zero-crossing frequency.
     water_motion : ndarray (n, h, k) or None
         What the water does in the measures of ``quadratic``, per unit wave amplitude; still water when absent.
+    start : SeaMotions or None
+        With a stiffness nearby and the same frequencies, from which the iteration goes on.
     tolerance : float
         Relative change of the standard deviations.
     maximum_iterations : int
@@ -181,19 +193,27 @@ def linearised_in_sea(
     moving = np.zeros((1, 1, len(rows)), dtype=np.complex128)
     if water_motion is not None and quadratic is not None:
         moving = np.concatenate([np.zeros((*water_motion.shape[:2], size)), water_motion], axis=2)
+    goes_on = start is not None
+    if start is not None:
+        equivalent = start.equivalent_damping
+        drag = drag if start.motions.drag_excitation is None else start.motions.drag_excitation
+    known = [_fixed_part(part, inertia, stiffness, linear) for part in parts]
+    excitation = np.concatenate([part.excitation for part in parts], axis=1)
+    weights = integration_weights(omega)
+    frequency = omega[:, None, None]
     change, used = math.inf, 0
     while True:
         used += 1
-        total = LinearDamping(linear.matrix + equivalent, linear.critical_fraction)
-        motions = _joined(
+        turning = 1j * frequency * equivalent
+        displacement = np.concatenate(
             [
-                solve_motions(replace(part, excitation=part.excitation + push), inertia, stiffness, damping=total)
-                for part, push in zip(parts, np.split(drag, ends[:-1], axis=1), strict=True)
-            ]
+                solve_scaled(np.broadcast_to((fixed - turning)[:, None], (*push.shape, size)), push)[0]
+                for fixed, push in zip(known, np.split(excitation + drag, ends[:-1], axis=1), strict=True)
+            ],
+            axis=1,
         )
-        measure: ComplexArray = np.nan_to_num(motions.velocity) @ rows.T - moving
-        statistics = response_statistics(omega, measure, wave)
-        deviation = statistics.standard_deviation
+        measure: ComplexArray = np.nan_to_num(-1j * frequency * displacement) @ rows.T - moving
+        deviation = np.sqrt(weights @ np.einsum("nhk,nh->nk", np.abs(measure) ** 2, wave))
         largest = np.where(np.maximum(deviation, previous) > 0.0, np.maximum(deviation, previous), 1.0)
         change = float(np.max(np.abs(deviation - previous) / largest))
         previous = deviation
@@ -204,16 +224,19 @@ def linearised_in_sea(
             target += quadratic.equivalent_irregular(deviation[size:])
             if water_motion is not None:
                 carried = quadratic.carried_irregular(deviation[size:], water_motion)
-                drag = carried if used == 1 else 0.5 * (drag + carried)
+                drag = 0.5 * (drag + carried) if goes_on else carried
         if line_damping is not None:
-            period = float(
-                np.max(
-                    np.where(
-                        np.isfinite(statistics.mean_zero_crossing_period), statistics.mean_zero_crossing_period, 0.0
-                    )
-                )
-            )
+            crossing = response_statistics(omega, measure, wave).mean_zero_crossing_period
+            period = float(np.max(np.where(np.isfinite(crossing), crossing, 0.0)))
             target += line_damping(math.sqrt(2.0) * deviation[:size], 2.0 * math.pi / period if period > 0.0 else 0.0)
-        equivalent = target if used == 1 else 0.5 * (equivalent + target)
+        equivalent = 0.5 * (equivalent + target) if goes_on else target
+        goes_on = True
+    total = LinearDamping(linear.matrix + equivalent, linear.critical_fraction)
+    motions = _joined(
+        [
+            solve_motions(replace(part, excitation=push), inertia, stiffness, damping=total)
+            for part, push in zip(parts, np.split(excitation + drag, ends[:-1], axis=1), strict=True)
+        ]
+    )
     motions = replace(motions, drag_excitation=drag if water_motion is not None else None)
     return SeaMotions(motions, equivalent, deviation[size:], used, change <= tolerance)

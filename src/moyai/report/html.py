@@ -36,6 +36,7 @@ from moyai.report.fonts import embedded_style
 from moyai.report.formatting import DASH, column_decimals, format_fixed, format_number, pretty_unit, trimmed
 from moyai.report.language import for_its_reader
 from moyai.report.notices import grouped
+from moyai.report.packing import pack_arrays
 
 STATUS_WORDS = {status: word for status, (word, _) in COMPUTATION.items()}
 LEAST_LETTER = 9.0
@@ -56,7 +57,7 @@ SCRIPT_WORDS = (
     "Drag to turn, shift-drag to move, click and scroll to zoom, double-click to return.",
     "Drag to turn, shift-drag to move, click and scroll to zoom, double-click to return; click the trace to go to a "
     "time.",
-    "The figure could not be drawn; its data are in the CSV. A browser of 2023 or newer is needed.",
+    "This could not be drawn; its data are in report.xlsx and results.nc. A browser of 2023 or newer is needed.",
 )  # fmt: skip
 """What the scripts of the page say of themselves."""
 _PASTE = "Copy the data, ready to paste into a spreadsheet"
@@ -121,7 +122,8 @@ def render_html(document: Document) -> str:
     )
     plotly = f'<script type="text/plain" id="packed-plotly">{packed_plotly()}</script>' if page.figures else ""
     scripts = "\n".join(f"<script>\n{asset(name)}</script>" for name in SCRIPTS)
-    data = page_json(page.data())
+    data, numbers = pack_arrays(page.data())
+    block = f'<script type="text/plain" id="packed-numbers">{numbers}</script>' if numbers else ""
     page_text = f"""<!DOCTYPE html>
 <html lang="{document.language}">
 <head>
@@ -153,7 +155,8 @@ def render_html(document: Document) -> str:
 </main>
 </div>
 <footer>{escape(foot_text(document))}</footer>
-<script type="application/json" id="report-data">{data}</script>
+<script type="application/json" id="report-data">{page_json(data)}</script>
+{block}
 {plotly}
 {scripts}
 </body>

@@ -245,14 +245,11 @@ def frame_rows(
     return np.unique(np.rint(np.concatenate(chosen)).astype(np.int64))
 
 
-def _bytes(values: NDArray[np.uint8]) -> str:
-    return base64.b64encode(np.ascontiguousarray(values).tobytes()).decode("ascii")
-
-
-def _levels(values: Array, slack: float, scale: float) -> str:
+def _levels(values: Array, slack: float, scale: float) -> dict[str, Any]:
     """Pack loads as 0 for slack and 1 to 255 for the rest."""
     taut = 1.0 + 254.0 * np.clip(np.nan_to_num(values) / scale, 0.0, 1.0)
-    return _bytes(np.where(values > slack, np.rint(taut), 0.0).astype(np.uint8))
+    levels = np.where(values > slack, np.rint(taut), 0.0).astype(np.uint8)
+    return {"u1": base64.b64encode(levels.tobytes()).decode("ascii"), "columns": max(values.shape[1], 1)}
 
 
 def _names(names: tuple[str, ...]) -> dict[str, Any]:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import pytest
 
 from moyai.mooring.lines import LineType, Segment
 from moyai.potential.shapes import rectangle
 from moyai.sea.water import Water
+from moyai.structures.breakwater import run as running
 from moyai.structures.breakwater.model import (
     Breakwater,
     BreakwaterProblem,
@@ -40,3 +43,11 @@ def pontoon_problem() -> BreakwaterProblem:
     sea = RegularSea("waves", 0.02, (0.8, 1.0))
     environment = Environment(Water(0.38, 1000.0, 9.81), (("SWL", 0.0),), (sea,))
     return BreakwaterProblem("tank model", unit, environment)
+
+
+@pytest.fixture
+def nothing_remembered() -> Iterator[None]:
+    """Compute regular waves anew in a test that changes how, and leave nothing of it to others."""
+    running._REGULAR.clear()
+    yield
+    running._REGULAR.clear()

@@ -197,6 +197,7 @@ def test_drag_of_lines_at_rest_stays_next_to_led_lines():
     assert sway(0.05) < 0.97 * sway(0.0)
 
 
+@pytest.mark.usefixtures("nothing_remembered")
 def test_a_wave_without_a_balance_keeps_the_tangent_and_says_so(monkeypatch):
     monkeypatch.setattr(equivalent_lines, "MOST_TURNS", 1)
     problem = tank_model(0.04, (1.4,), restoring="equivalent")

@@ -45,7 +45,7 @@ def test_places_and_tensions_survive_the_packing():
         places = unpack(packed["nodes"], packed["nodes"]["count"])
         extent = np.ptp(scene.position, axis=(0, 1)).max()
         assert np.abs(places - scene.position).max() < extent / 60000.0
-        levels = np.frombuffer(base64.b64decode(packed["tension"]), dtype=np.uint8).reshape(scene.tension.shape)
+        levels = np.frombuffer(base64.b64decode(packed["tension"]["u1"]), dtype=np.uint8).reshape(scene.tension.shape)
         assert ((levels == 0) == (scene.tension <= 0.0)).all()
         shown = (levels.astype(float) - 1.0) / 254.0 * packed["scale"]
         taut = scene.tension > 0.0

@@ -265,17 +265,15 @@ class Overview {
 }
 
 MOYAI.Figure = Figure;
-for (const element of document.querySelectorAll("[data-figure]")) MOYAI.figures.set(element.dataset.figure, new Figure(element));
 MOYAI.ready = (async () => {
+  await MOYAI.unpacked;
+  for (const element of document.querySelectorAll("[data-figure]")) MOYAI.figures.set(element.dataset.figure, new Figure(element));
   const packed = document.getElementById("packed-plotly");
   if (!packed) return;
   for (const figure of MOYAI.figures.values()) figure.plot.classList.add("waiting");
   await new Promise((then) => setTimeout(then));
-  const stream = new Blob([MOYAI.bytes(packed.textContent)]).stream().pipeThrough(new DecompressionStream("gzip"));
   const script = document.createElement("script");
-  script.textContent = await new Response(stream).text();
+  script.textContent = await (await MOYAI.inflate(packed)).text();
   document.head.append(script);
   MOYAI.drawVisible();
-})().catch((fault) => {
-  for (const figure of MOYAI.figures.values()) figure.plot.textContent = `${MOYAI.say("The figure could not be drawn; its data are in the CSV. A browser of 2023 or newer is needed.")} (${fault.message})`;
-});
+})().catch((fault) => MOYAI.undrawn(document.querySelectorAll("[data-figure] .plot"), fault));

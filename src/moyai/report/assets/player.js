@@ -336,4 +336,6 @@ class Player {
   }
 }
 MOYAI.Player = Player;
-for (const holder of document.querySelectorAll(".player")) MOYAI.players.push(new Player(holder));
+MOYAI.unpacked.then(() => {
+  for (const holder of document.querySelectorAll(".player")) MOYAI.players.push(new Player(holder));
+}).catch((fault) => MOYAI.undrawn(document.querySelectorAll(".player"), fault));

@@ -3,14 +3,37 @@
 const MOYAI = { figures: new Map(), players: [], painters: {} };
 MOYAI.data = JSON.parse(document.getElementById("report-data").textContent);
 
-// Arrays come as lists (null: not known), as packed single precision, or as integers of 8 or 16 bits with a scale per column.
+// Arrays come as lists (null: not known), as packed single precision, or as integers of 8 or 16 bits with a scale per
+// column. What is packed is base64, or [start, bytes, columns] of the block of numbers of the page (packing.py).
+MOYAI.inflate = async (element) => new Response(new Blob([MOYAI.bytes(element.textContent)]).stream().pipeThrough(new DecompressionStream("gzip")));
 MOYAI.bytes = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+MOYAI.unpack = (coded, Kind) => {
+  if (typeof coded === "string") return new Kind(MOYAI.bytes(coded).buffer);
+  const [start, length, columns] = coded, width = Kind.BYTES_PER_ELEMENT, count = length / width, rows = count / columns;
+  const words = new { 1: Uint8Array, 2: Uint16Array, 4: Uint32Array }[width](count);
+  for (let column = 0, k = 0; column < columns; column++) {
+    for (let row = 0, sum = 0; row < rows; row++, k++) {
+      for (let byte = 0; byte < width; byte++) sum += MOYAI.numbers[start + byte * count + k] << (8 * byte);
+      sum |= 0;
+      words[row * columns + column] = sum;
+    }
+  }
+  return new Kind(words.buffer);
+};
+MOYAI.numbers = new Uint8Array(0);
+MOYAI.unpacked = (async () => {
+  const packed = document.getElementById("packed-numbers");
+  if (packed) MOYAI.numbers = new Uint8Array(await (await MOYAI.inflate(packed)).arrayBuffer());
+})();
+MOYAI.undrawn = (places, fault) => {
+  for (const place of places) place.textContent = `${MOYAI.say("This could not be drawn; its data are in report.xlsx and results.nc. A browser of 2023 or newer is needed.")} (${fault.message})`;
+};
 MOYAI.array = (coded) => {
   if (Array.isArray(coded)) return coded.map((v) => (v === null ? NaN : v));
-  return new Float32Array(MOYAI.bytes(coded.f4).buffer);
+  return MOYAI.unpack(coded.f4, Float32Array);
 };
 MOYAI.quantised = (coded) => {
-  const integers = coded.i1 ? new Int8Array(MOYAI.bytes(coded.i1).buffer) : new Int16Array(MOYAI.bytes(coded.i2).buffer);
+  const integers = coded.i1 ? MOYAI.unpack(coded.i1, Int8Array) : MOYAI.unpack(coded.i2, Int16Array);
   const out = new Float64Array(integers.length);
   for (let i = 0; i < integers.length; i++) {
     const c = i % coded.columns;

@@ -6,14 +6,14 @@ class Scene3D {
     this.scene = scene;
     this.tallest = 620;
     this.times = MOYAI.array(scene.times);
-    const { nodes } = scene, bytes = (text) => (text ? MOYAI.bytes(text) : new Uint8Array(0));
+    const { nodes } = scene, levels = (coded) => MOYAI.unpack(coded.u1, Uint8Array);
     this.count = nodes.count;
-    this.coded = new Int16Array(bytes(nodes.i2).buffer);
+    this.coded = MOYAI.unpack(nodes.i2, Int16Array);
     this.bars = Uint32Array.from(scene.bars);
     this.thin = scene.thin ? Uint8Array.from(scene.thin) : null;
-    this.levels = bytes(scene.tension);
+    this.levels = levels(scene.tension);
     this.named = scene.named.length ? scene.named : null;
-    this.faces = scene.faces.map((f) => ({ ...f, nodes: Uint32Array.from(f.nodes), levels: f.load ? bytes(f.load.levels) : null }));
+    this.faces = scene.faces.map((f) => ({ ...f, nodes: Uint32Array.from(f.nodes), levels: f.load ? levels(f.load.levels) : null }));
     this.bodies = scene.bodies.map((b) => ({ ...b, vertices: MOYAI.array(b.vertices), pose: MOYAI.quantised(b.pose) }));
     this.traces = scene.traces.map((t) => ({ ...t, time: MOYAI.array(t.time), tension: MOYAI.array(t.tension) }));
     this.place = new Float32Array(3 * this.count);

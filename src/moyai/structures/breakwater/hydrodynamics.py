@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-from collections import OrderedDict
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
@@ -15,6 +14,7 @@ from moyai import __version__
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
+from moyai.core.remembered import Remembered, key_of_objects
 from moyai.core.store import DatasetStore, key_of
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.floating.coefficients import Hydrodynamics
@@ -105,11 +105,18 @@ def sea_frequencies(problem: BreakwaterProblem) -> Array:
     return np.unique(np.concatenate(parts))
 
 
+_BANDS: Remembered[Array] = Remembered(16)
+
+
 def spectrum_band(sea: IrregularSea, count: int = 200) -> Array:
     """Return frequencies [rad/s] over all but 1e-3 of the energy of a spectrum, half of them crowded by energy."""
-    low, high = (float(item) for item in sea.spectrum.quantile(np.array([1e-5, 1.0 - ENERGY_LEFT_OUT])))
-    by_energy = sea.spectrum.quantile(np.linspace(1e-5, 1.0 - ENERGY_LEFT_OUT, count // 2))
-    grid = np.concatenate([np.linspace(low, high, count // 2), np.asarray(by_energy, dtype=float)])
+    return _BANDS.of(key_of_objects(sea.spectrum, count), lambda: _spectrum_band(sea, count)).copy()
+
+
+def _spectrum_band(sea: IrregularSea, count: int) -> Array:
+    by_energy = np.asarray(sea.spectrum.quantile(np.linspace(1e-5, 1.0 - ENERGY_LEFT_OUT, count // 2)), dtype=float)
+    low, high = float(by_energy[0]), float(by_energy[-1])
+    grid = np.concatenate([np.linspace(low, high, count // 2), by_energy])
     # Seas that differ in height alone have the same frequencies to the last digit, and share their coefficients
     grid = np.unique([float(f"{frequency:.11g}") for frequency in grid])
     # Points closer than a thousandth of the band to the last one kept carry no information and spoil splines
@@ -296,20 +303,18 @@ def damping_start(unit: FloatingUnit) -> Start:
     return "even" if math.isfinite(unit.water.depth) else "zero"
 
 
-_SOLVED: OrderedDict[str, RadiationDiffraction] = OrderedDict()
+_SOLVED: Remembered[RadiationDiffraction] = Remembered(MOST_SOLVED)
 
 
 def _solve_band(unit: FloatingUnit, omega: Array, progress: Progress) -> RadiationDiffraction:
-    """Solve the normal heading, adding frequencies where the damping turns sharply (water between twin hulls).
-
-    The last few solutions are kept: the cases of a study often differ in what does not touch them.
-    """
-    modes, lid = rigid_modes(unit.centre), unit.breakwater.gap_damping_lid or None
+    """Solve the normal heading; the cases of a study often differ in what does not touch it."""
     grid = distinct(omega)
-    key = _key(unit, grid, np.zeros(1))
-    if key in _SOLVED:
-        _SOLVED.move_to_end(key)
-        return _SOLVED[key]
+    return _SOLVED.of(_key(unit, grid, np.zeros(1)), lambda: _refined(unit, grid, progress))
+
+
+def _refined(unit: FloatingUnit, grid: Array, progress: Progress) -> RadiationDiffraction:
+    """Add frequencies where the damping turns sharply (water between twin hulls)."""
+    modes, lid = rigid_modes(unit.centre), unit.breakwater.gap_damping_lid or None
     for _ in range(MOST_REFINEMENTS):
         found = solve(unit.section, unit.water, grid, modes=modes, lid=lid, progress=progress)
         if found.status == "interrupted":
@@ -319,9 +324,6 @@ def _solve_band(unit: FloatingUnit, omega: Array, progress: Progress) -> Radiati
         if not len(more) or len(grid) > MOST_FREQUENCIES:
             break
         grid = distinct(np.concatenate([grid, more]))
-    _SOLVED[key] = found
-    while len(_SOLVED) > MOST_SOLVED:
-        _SOLVED.popitem(last=False)
     return found
 
 

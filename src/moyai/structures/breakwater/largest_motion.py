@@ -120,8 +120,9 @@ class LargestOfPeriods:
         """Return how far a motion moves over what is uncertain in damping, by its change in the frequency domain."""
         if self.frequency is None or "motion_amplitude_low" not in self.frequency:
             return None
-        known = self.frequency.sel(period=period)
-        own, low, high = (float(known[f"motion_amplitude{end}"].values[mode]) for end in ("", "_low", "_high"))
+        row = int(np.flatnonzero(self.frequency["period"].values == period)[0])
+        names = (f"motion_amplitude{end}" for end in ("", "_low", "_high"))
+        own, low, high = (float(self.frequency[name].values[row, mode]) for name in names)
         if not (own > 0.0 and np.isfinite(low + high)):
             return None
         least, most = (mean + (value - mean) * end / own for end in (low, high))

@@ -11,6 +11,7 @@ import numpy as np
 from moyai.core.collected import Collected
 from moyai.core.headline import SEAS_LEFT_OUT
 from moyai.core.progress import Progress, silent
+from moyai.core.remembered import Remembered, key_of_objects
 from moyai.core.results import Result
 from moyai.core.store import DatasetStore
 from moyai.core.validity import Notice
@@ -18,12 +19,14 @@ from moyai.structures.breakwater.assembly import FloatingUnit, assemble
 from moyai.structures.breakwater.checks import check_problem, check_unit, drift_check
 from moyai.structures.breakwater.frequency import irregular as frequency_irregular
 from moyai.structures.breakwater.frequency import regular as frequency_regular
-from moyai.structures.breakwater.frequency.model import FrequencyModel, make_model
+from moyai.structures.breakwater.frequency.model import FrequencyModel, FrequencyResult, make_model
 from moyai.structures.breakwater.headlines import headlines
 from moyai.structures.breakwater.hydrodynamics import (
     CoefficientsOf,
     UnitHydrodynamics,
+    headings_of,
     operator_frequencies,
+    sea_frequencies,
     solve_unit,
     spectrum_band,
 )
@@ -37,6 +40,13 @@ from moyai.structures.breakwater.viscous_damping import viscous_notices
 
 if TYPE_CHECKING:
     import xarray as xr
+
+
+# What the cases of a study share that differ in their irregular seas alone
+_HYDRODYNAMICS: Remembered[UnitHydrodynamics] = Remembered(4)
+_STATICS: Remembered[tuple[xr.Dataset, tuple[Notice, ...]]] = Remembered(4)
+_MODELS: Remembered[FrequencyModel] = Remembered(4)
+_REGULAR: Remembered[FrequencyResult] = Remembered(32)
 
 
 @dataclass(frozen=True)
@@ -112,16 +122,22 @@ def _level_steps(
     steady = wind + current
     dynamic = "frequency" in analyses or "time" in analyses
     hydro: UnitHydrodynamics | None = None
+    shared = None if sources.coefficients is not None else _key_without_irregular_seas(problem, unit)
     if dynamic or "statics" in analyses:
-        hydro = solve_unit(unit, problem, coefficients=sources.coefficients, store=sources.store, progress=progress)
+        hydro = _HYDRODYNAMICS.of(
+            shared,
+            lambda: solve_unit(
+                unit, problem, coefficients=sources.coefficients, store=sources.store, progress=progress
+            ),
+        )
         collected.groups[f"{root}/hydrodynamics"] = hydro.per_metre
         if hydro.oblique_per_metre is not None:
-            collected.groups[f"{root}/hydrodynamics_oblique"] = hydro.oblique_per_metre
+            collected.groups[f"{root}/hydrodynamics_oblique"] = hydro.oblique_per_metre.copy()
         collected.checks.extend(replace(check, name=f"{unit.name}: {check.name}") for check in hydro.checks)
         collected.notices.extend(hydro.notices)
         yield
     if "statics" in analyses or dynamic:
-        data, notices = statics_dataset(unit, hydro, steady)
+        data, notices = _STATICS.of(shared, lambda: statics_dataset(unit, hydro, steady))
         parts = {"steady_force_of_wind": ("dof", wind), "steady_force_of_current": ("dof", current)}
         collected.groups[f"{root}/statics"] = labelled(data.assign(parts))
         collected.notices.extend(notices)
@@ -131,16 +147,21 @@ def _level_steps(
         yield
     if not dynamic or hydro is None:
         return
-    settings = problem.settings
+    settings, found = problem.settings, hydro
     led = (settings.time.lines, problem.environment.current) if settings.line_restoring == "equivalent" else None
-    model = make_model(unit, hydro, steady, settings.drift, led_lines=led)
-    yield from _frequency_steps(problem, model, collected, root, progress)
+    model = _MODELS.of(shared, lambda: make_model(unit, found, steady, settings.drift, led_lines=led))
+    yield from _frequency_steps(problem, model, collected, root, shared, progress)
     if "time" in analyses:
         yield from _time_steps(problem, model, collected, root, progress)
 
 
 def _frequency_steps(
-    problem: BreakwaterProblem, model: FrequencyModel, collected: Collected, root: str, progress: Progress
+    problem: BreakwaterProblem,
+    model: FrequencyModel,
+    collected: Collected,
+    root: str,
+    shared: str | None,
+    progress: Progress,
 ) -> Iterator[None]:
     unit, hydro = model.unit, model.hydro
     seas = problem.environment.sea_states
@@ -154,7 +175,7 @@ def _frequency_steps(
     yield
     for sea in seas:
         if isinstance(sea, RegularSea):
-            answer = frequency_regular.regular_sea(model, sea, progress)
+            answer = _regular_sea(model, sea, shared, progress)
         else:
             answer = frequency_irregular.irregular_sea(model, sea, spectrum_band(sea), progress)
         collected.groups[f"{root}/frequency/{sea.name}"] = answer.dataset
@@ -167,6 +188,24 @@ def _frequency_steps(
     collected.notices.extend(notices)
     collected.groups.update({f"{root}/sensitivity/{name}": data for name, data in groups.items()})
     yield
+
+
+def _regular_sea(model: FrequencyModel, sea: RegularSea, shared: str | None, progress: Progress) -> FrequencyResult:
+    """Return the answer to regular waves: that of the case before where only its irregular seas were others."""
+    key = None if shared is None else key_of_objects(shared, sea)
+    found = _REGULAR.of(key, lambda: frequency_regular.regular_sea(model, sea, progress))
+    return replace(found, dataset=found.dataset.copy())
+
+
+def _key_without_irregular_seas(problem: BreakwaterProblem, unit: FloatingUnit) -> str:
+    """Return a key of all that coefficients, statics and regular waves depend on.
+
+    Of the irregular seas that is the frequencies and headings that they add to those of the coefficients.
+    """
+    regular = tuple(sea for sea in problem.environment.sea_states if isinstance(sea, RegularSea))
+    environment = replace(problem.environment, sea_states=())
+    rest = (problem.breakwater, environment, problem.settings)
+    return key_of_objects(rest, unit.name, unit.level, regular, sea_frequencies(problem), headings_of(problem))
 
 
 def _time_steps(

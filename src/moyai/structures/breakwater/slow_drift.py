@@ -123,12 +123,13 @@ def slow_drift(
     force = force_spectrum(omega, directional, drift, difference)
     weights = integration_weights(difference)
 
+    mu = difference[:, None, None]
+    restoring = stiffness - mu**2 * (model.inertia + np.array([added(one) for one in difference]))
+    losses = np.array([radiation(one) for one in difference]) + extra
+
     def transfer(factor: float) -> ComplexArray:
-        out = np.zeros((len(difference), 3), dtype=complex)
-        for index, mu in enumerate(difference):
-            matrix = stiffness - mu**2 * (model.inertia + added(mu)) - 1j * mu * factor * (radiation(mu) + extra)
-            out[index] = np.linalg.solve(matrix, np.array([1.0, 0.0, 0.0]))
-        return out
+        matrix = restoring - 1j * mu * factor * losses
+        return np.asarray(np.linalg.solve(matrix, np.array([[1.0], [0.0], [0.0]]))[..., 0])
 
     def deviation(found: ComplexArray) -> Array:
         return np.asarray(np.sqrt((weights * force) @ np.abs(found) ** 2), dtype=float)

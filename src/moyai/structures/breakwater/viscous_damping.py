@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from moyai.core.arrays import Array, ComplexArray
+from moyai.core.remembered import Remembered
+from moyai.core.store import key_of
 from moyai.core.validity import Notice
 from moyai.floating.coefficients import Hydrodynamics
 from moyai.floating.damping import LinearDamping, QuadraticDamping, critical_damping
@@ -132,8 +134,16 @@ def band_words(model: FrequencyModel) -> str:
     return f"{words}; the lid of {lid:g} in the gap is not varied" if lid else words
 
 
+_NATURAL: Remembered[Array] = Remembered(16)
+
+
 def natural_added_mass(model: FrequencyModel, hydro: Hydrodynamics) -> Array:
     """Added mass with the diagonal of each mode at that mode's own natural frequency, for the fraction of critical."""
+    known = (hydro.omega, hydro.added_mass, hydro.infinite_frequency_added_mass, model.inertia, model.stiffness)
+    return _NATURAL.of(key_of(*known), lambda: _natural_added_mass(model, hydro)).copy()
+
+
+def _natural_added_mass(model: FrequencyModel, hydro: Hydrodynamics) -> Array:
     modes = natural_modes(hydro, model.inertia, model.stiffness)
     omega = np.clip(np.nan_to_num(modes.omega), hydro.omega[0], hydro.omega[-1])
     out = np.zeros((3, 3))

@@ -16,6 +16,7 @@ from moyai.floating.far_field import drift_force_per_amplitude_squared, far_fiel
 from moyai.floating.frequency import Motions
 from moyai.floating.irregular import (
     ResponseStatistics,
+    SeaMotions,
     energy_transmission,
     integration_weights,
     linearised_in_sea,
@@ -216,11 +217,12 @@ def _settle(model: FrequencyModel, hydros: list[Hydrodynamics], headings: Array,
     weights = integration_weights(hydros[0].omega)
     drifting = model.with_drift and hydros[0].has_far_field
     status: str = "not_converged"
+    near: SeaMotions | None = None
     for _ in range(MOST_TURNS):
         mean = mean_offset(unit.mooring, unit.statics.stiffness, model.steady + np.array([force, 0.0, 0.0]))
         offset = mean.position if mean.status == "converged" else np.zeros(3)
         stiffness = unit.statics.stiffness + unit.mooring.stiffness(offset)
-        motions, notices, damping = _sea_motions(model, hydros, headings, stiffness, directional)
+        motions, notices, damping, near = _sea_motions(model, hydros, headings, stiffness, directional, near)
         if not drifting:
             status = str(mean.status)
             break
@@ -276,10 +278,18 @@ def _drift_of(unit: FloatingUnit, hydro: Hydrodynamics, motions: Motions, column
 
 
 def _sea_motions(
-    model: FrequencyModel, hydros: list[Hydrodynamics], headings: Array, stiffness: Array, directional: Array
-) -> tuple[Motions, tuple[Notice, ...], LinearDamping]:
-    """Return motions in all headings of a sea, quadratic damping linearised for the whole of it, and that damping."""
-    _unit, damping, deviation = model.unit, model.damping, np.zeros(0)
+    model: FrequencyModel,
+    hydros: list[Hydrodynamics],
+    headings: Array,
+    stiffness: Array,
+    directional: Array,
+    near: SeaMotions | None = None,
+) -> tuple[Motions, tuple[Notice, ...], LinearDamping, SeaMotions | None]:
+    """Return motions in all headings of a sea, quadratic damping linearised for the whole of it, and that damping.
+
+    The linearisation goes on from that of a stiffness nearby, and is given for the next.
+    """
+    damping, deviation, found = model.damping, np.zeros(0), None
     if model.quadratic is not None:
         found = linearised_in_sea(
             hydros,
@@ -289,10 +299,11 @@ def _sea_motions(
             quadratic=model.quadratic,
             damping=model.damping,
             water_motion=water_motion(model, hydros[0].omega, headings),
+            start=near,
         )
         deviation = found.measure_deviation
         damping = LinearDamping(damping.matrix + found.equivalent_damping, damping.critical_fraction)
     each = [driven_motions(model, item, stiffness, damping, deviation) for item in hydros]
     displacement = np.concatenate([item.displacement for item in each], axis=1)
     notices = tuple(notice for item in each for notice in item.notices)
-    return replace(each[0], heading=headings, displacement=displacement), notices, damping
+    return replace(each[0], heading=headings, displacement=displacement), notices, damping, found
