@@ -239,7 +239,7 @@ class Spectrum:
 
     @property
     def energy_period(self) -> float:
-        """Energy period T_e = T_m-1,0 = 2 pi m_-1 / m_0 [s]."""
+        """Energy period T_e = T_m-1,0 = ``2 pi m_-1 / m_0`` [s]."""
         return 2.0 * math.pi * self.moment(-1) / self.moment(0)
 
     def broadness(self, upper: float = math.inf) -> float:

@@ -1,4 +1,4 @@
-"""Tables of nets: ten wire nets as a paper lists them, materials of twine, growth (data/*.csv hold the numbers)."""
+"""Tables of nets: ten wire nets as a paper lists them, materials of twine, growth (``data/*.csv`` hold the numbers)."""
 
 from __future__ import annotations
 
