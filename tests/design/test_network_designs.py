@@ -345,7 +345,7 @@ def test_a_level_that_was_left_out_keeps_the_design_from_holding(tmp_path):
 def test_the_offset_of_one_seed_is_judged_with_the_chance_of_others():
     sea = (
         "waves: {kind: jonswap, significant_height: 0.5 m, peak_period: 4 s, peak_enhancement: 3.3, heading_deg: 0, "
-        "duration: 105 s, seed: 2}"
+        "duration: 130 s, seed: 2}"
     )
     text = BUOY.replace("waves: {kind: regular, height: 0.5 m, period: 4 s, heading_deg: 0}", sea)
     text = text.replace("segments: 8", "segments: 3")

@@ -105,16 +105,24 @@ def node_force(A: Any, node: int, axis: int) -> float:
 
 
 @njit(cache=True, error_model="numpy", fastmath=FAST)
-def load_work(A: Any, count: int, back: float) -> float:
-    """Return the sum of load times position over what is free, the position ``back`` seconds ago at the velocity.
-
-    A held load that changes at a time step does so between the velocities half a step before and after: with half a
-    step as ``back`` the sum at the ends of its interval is its work in the energy that leapfrog keeps
-    [eq:flexible-discrete-energy].
-    """
+def load_work(A: Any, count: int) -> float:
+    """Return the sum of load times position over what is free."""
     work = 0.0
     for i in range(count):
-        work += A[FREE_X + i] * A[PX + i] * (A[X + i] - back * A[U + i])
-        work += A[FREE_Y + i] * A[PY + i] * (A[Y + i] - back * A[V + i])
-        work += A[FREE_Z + i] * A[PZ + i] * (A[Z + i] - back * A[W + i])
+        work += A[FREE_X + i] * A[PX + i] * A[X + i] + A[FREE_Y + i] * A[PY + i] * A[Y + i]
+        work += A[FREE_Z + i] * A[PZ + i] * A[Z + i]
     return work
+
+
+@njit(cache=True, error_model="numpy", fastmath=FAST)
+def load_power(A: Any, count: int) -> float:
+    """Return the sum of load times velocity over what is free.
+
+    A held load that changes at a time step does so between the velocities half a step before and after: half a step
+    times the change of this sum is its work in the energy that leapfrog keeps [eq:flexible-discrete-energy].
+    """
+    power = 0.0
+    for i in range(count):
+        power += A[FREE_X + i] * A[PX + i] * A[U + i] + A[FREE_Y + i] * A[PY + i] * A[V + i]
+        power += A[FREE_Z + i] * A[PZ + i] * A[W + i]
+    return power

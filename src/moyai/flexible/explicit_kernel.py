@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from moyai.core.compiled import njit
-from moyai.flexible.explicit_energy import elastic_energy, kinetic_energy, load_work, node_force
+from moyai.flexible.explicit_energy import elastic_energy, kinetic_energy, load_power, load_work, node_force
 from moyai.flexible.explicit_forces import bending_forces, rib_forces, spine_forces
 from moyai.flexible.explicit_loads import extrapolate, loads, rate_of_drag
 from moyai.flexible.explicit_motion import (
@@ -298,6 +298,10 @@ def march(
             if rate * step * size > most:
                 size = max(1, int(most / (rate * step)))
             index = row * total + done
+            # the velocities stand half a step behind but in the first step of all; the forces of dense blocks exchange
+            # energy with their turning frames, which is booked at these velocities
+            back = 0.5 * step if blocks is None and ledger[5] > 0.0 else 0.0
+            ledger[0] -= back * load_power(A, count)
             water_at(A, waves, start + index * step)
             turning = kinetic_energy_now(A, count, blocks)
             loads(A, sizes, runs, attached, fluid[0], fluid[1], surface, moving, size * step, sheets)
@@ -319,8 +323,7 @@ def march(
                 break
             extrapolate(A, count, min(0.5 * size * step / ledger[3], 1.0))
             ledger[3] = size * step
-            # the velocities stand half a step behind but in the first step of all
-            ledger[0] -= load_work(A, count, 0.5 * step if ledger[5] > 0.0 else 0.0)
+            ledger[0] += back * load_power(A, count) - load_work(A, count)
             touching = has_bed and _touching(A, count, bed, size * step)
             if touching:
                 note_landings(A, bed, falls)
@@ -347,7 +350,7 @@ def march(
                 drive(A, driven, rest, tables, table_start, table_step, start + (index + inner + 1) * step, step)
                 path_of_driven(A, driven, moved)
                 ledger[0] += screen_work(A, panels, push)
-            ledger[0] += load_work(A, count, 0.5 * step) + pressure_work(A, count, sheets, push_of_pressure)
+            ledger[0] += load_work(A, count) + pressure_work(A, count, sheets, push_of_pressure)
             done += size
         if broken[0] == 0:
             return -(row + 1)
@@ -360,8 +363,7 @@ def march(
         energy[out, 0] = kinetic_energy_of_row(A, count, blocks, step, keep)
         elastic = elastic_energy(A, sizes, runs, curves, hinges, bending, bed)
         energy[out, 1] = elastic + elastic_energy_of_sheets(A, sheets) + ring_energy(A, rings)
-        half = load_work(A, count, 0.0) - load_work(A, count, 0.5 * step)
-        energy[out, 2] = ledger[0] + half + ledger[1] + ledger[2]
+        energy[out, 2] = ledger[0] + ledger[1] + ledger[2]
         save_row(A, out, saved, spine, runs)
         if not (energy[out, 0] + energy[out, 1] < np.inf):
             return row
