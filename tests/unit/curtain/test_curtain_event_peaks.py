@@ -196,3 +196,17 @@ def test_a_drag_without_snaps_bounds_no_joint_of_a_span_that_moves():
     # where no span moves, the drag is what the joint bears
     _, joint = _with_joint(unit, joint_row(governing="steady and wave"))
     assert joint["governing_load"] == 1.07e3
+
+
+def test_a_single_run_that_leads_does_not_hide_the_end_of_the_storm():
+    """Waves in half the current lead with one run on one mesh, which has no scatter of its own."""
+    storms = [*storm(), sample("storm, current 0.1 m/s", FINE, 0, 36.5e3)]
+    end = event_peak(storm(), "storm", "upper cable").judged
+    assert governing_peaks(storms)["upper cable"][1].value == 36.5e3 < end
+    groups = groups_of(storms, 100e3, "")
+    groups["/SWL/loads"]["governing_load"][:] = 36.5e3
+    run = "storm, current 0.1 m/s, 12 by 4 cells"
+    groups["/SWL/loads"] = groups["/SWL/loads"].assign(dynamic_source=("component", [run]))
+    groups[f"/SWL/dynamic/{run}"] = groups["/SWL/dynamic/storm"]
+    used = next(item for item in curtain_headlines(groups, ["SWL"]) if item.name == "cable_utilisation")
+    assert used.band.decides and used.band.high >= end / 100e3

@@ -361,7 +361,7 @@ def _mesh_band(table: xr.Dataset, load: _Load, value: float) -> Band | None:
     others = [event_band(table, str(name), component) for name in table["event"].values if str(name) != event]
     known = [item for item in others if math.isfinite(item[0])]
     high, judged = max([high, *(item[2] for item in known)]), max([judged, *(item[3] for item in known)])
-    if not low < high:
+    if not low < max(high, judged):
         return None
     factor = value / whole
     low, high = factor * low, max(factor * high, value)

@@ -334,31 +334,31 @@ def _offsets(groups: Mapping[str, xr.Dataset], anchors: Mapping[str, str]) -> li
                 for point, kind in zip(network["point"].values, network["point_kind"].values):
                     if kind not in ("fixed", "driven"):
                         value = float(summary["excursion"].sel(run=run, point=point))
-                        away = _away(groups, level, str(run), str(point), "point", 3)
-                        said = f"{still}, heave included"
-                        where = _place(groups, level, str(point), str(run))
-                        value, said, away = _swinging(groups, level, str(run), str(point), "point", anchors) or (
-                            value,
-                            said,
-                            away,
-                        )
-                        offsets.append(_moved("offset", value, where, said, groups, level, str(run), away))
+                        at = (level, str(run), str(point), "point")
+                        offsets.append(_offset(groups, at, value, f"{still}, heave included", 3, anchors))
             for solid in summary["solid"].values if "offset" in summary else ():
                 value, lean = (float(summary[name].sel(run=run, solid=solid)) for name in ("offset", "highest_lean"))
-                away = _away(groups, level, str(run), str(solid), "solid", 2)
+                at = (level, str(run), str(solid), "solid")
+                offsets.append(_offset(groups, at, value, still, 2, anchors))
                 where = _place(groups, level, str(solid), str(run))
-                value, said, away = _swinging(groups, level, str(run), str(solid), "solid", anchors) or (
-                    value,
-                    still,
-                    away,
-                )
-                offsets.append(_moved("offset", value, where, said, groups, level, str(run), away))
                 leans.append(_moved("lean", lean, where, still, groups, level, str(run), None))
     return [
         item
         for found in (offsets, leans)
         for item in governing(one for one in found if math.isfinite(one.value))
     ]  # fmt: skip
+
+
+def _offset(
+    groups: Mapping[str, xr.Dataset], at: tuple[str, str, str, str], value: float, said: str, axes: int,
+    anchors: Mapping[str, str],
+) -> Headline:  # fmt: skip
+    """Return the offset of a point or body: ``at`` level, run, name and kind."""
+    level, run, name, kind = at
+    away = _away(groups, level, run, name, kind, axes)
+    swinging = _swinging(groups, level, run, name, kind, anchors)
+    value, said, away = swinging or (value, said, away)
+    return _moved("offset", value, _place(groups, level, name, run), said, groups, level, run, away)
 
 
 def _swinging(

@@ -76,7 +76,7 @@ def limits_dataset(
     group = _limits_group(unit, settings, counted, _Found(most, most_bound, speeds, tuple(rows)), heights, parts)
     strict = _settled(counted, lost_depth)
     height = float(group["design_limit_height"])
-    return group.assign(design_limit_low=_design_low(strict, speeds)).assign_attrs(
+    return group.assign(design_limit_low=_design_low(_strict(counted, lost_depth), speeds)).assign_attrs(
         speed_limit_of_least_depth=math.nan if strict.unit is unit else strict.speed()[0].value,
         design_limit_period=settings.limits.period_of(height) if height > 0.0 else math.nan,
     )
