@@ -65,7 +65,7 @@ def orcaflex_vessel(result: Result, water_level: str | None = None) -> tuple[str
         For a row of units, or when the result holds no coefficients.
     """
     level = level_of_result(result, water_level)
-    statics = result.tree[level]["statics"].to_dataset(inherit=False)
+    statics = result.tree.children[level].children["statics"].to_dataset(inherit=False)
     if "inertia_matrix" not in statics:
         raise InputError(
             "a vessel type is one body, the result is of a row of units", path="results",
