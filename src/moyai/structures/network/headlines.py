@@ -75,7 +75,8 @@ def headlines_of(problem: NetworkProblem, groups: Mapping[str, xr.Dataset]) -> t
     items += _anchor(groups, peaks)
     items += _offsets(groups, single_anchors(problem))
     items += _mode(groups)
-    loaded = problem.environment.sea_states or problem.environment.current is not None or problem.current_field is not None
+    around = problem.environment
+    loaded = around.sea_states or around.current is not None or problem.current_field is not None
     left = [_OTHER_DIRECTIONS if loaded else _NOT_JUDGED] if problem.lines and peaks else []
     shown = [item for item in items if item.shown][:8]
     return (*(item for item in items if item in shown or not item.shown), *left)
