@@ -54,6 +54,7 @@ _NOT_JUDGED = Headline(
 )  # fmt: skip
 #: Key that asks for more realisations.
 _MORE = "settings.waves.realisations"
+_NO_SEA = replace(_NOT_JUDGED, text=f"{_NOT_JUDGED.text}, irregular seas")
 _MISSING = "'settings.impact.chord' and a skirt that stretches, or 'dynamic' in 'analyses'"
 
 
@@ -136,7 +137,7 @@ def curtain_headlines(
         *limit_headlines(groups, levels, lambda level: _span_holds(loads, level)),
     ]
     if used:
-        found.append(_NOT_JUDGED)
+        found.append(_not_judged(groups))
     if used and not math.isnan(used[0].value):
         # the load behind the most used component stands next to it
         first = used[0]
@@ -435,6 +436,12 @@ def _wave_band(groups: Groups, load: _Load) -> Band | None:
         judged=(whole * (1.0 - own.reach / own.top) - less, max(whole * worst.judged / own.top + more, upper)),
         realisations=worst.count, more=_MORE,
     )  # fmt: skip
+
+
+def _not_judged(groups: Groups) -> Headline:
+    """Return what is not judged; a sea pulls harder than regular waves as high as its highest."""
+    kinds = {data.attrs.get("kind") for path, data in groups.items() if path.split("/")[2:3] == ["waves"]}
+    return _NO_SEA if "regular" in kinds and "irregular" not in kinds else _NOT_JUDGED
 
 
 def _is_cycles(path: str, data: xr.Dataset, level: str) -> bool:

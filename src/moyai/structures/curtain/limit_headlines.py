@@ -83,7 +83,7 @@ def limit_headlines(groups: Groups, levels: Sequence[str], span_holds: Callable[
         if key != "speed_limit" and math.isfinite(period):
             details.append(f"in waves of {period:.3g} s, as settings.limits takes the period with the height")
         if key != "speed_limit" and table.attrs.get("with_snaps"):
-            details.append("snaps by regular waves of the highest height, not by realisations of a sea")
+            details.append("snaps by realisations of JONSWAP seas along the normal")
         if governing != "effective depth" and float(table.attrs.get("least_effective_depth", 1.0)) == 0.0:
             details.append("no depth is asked for: 'least_effective_depth' of 'criteria' has no default")
         if jump := str(table.attrs.get("limit_jump", "")) if key == "design_limit" else "":
@@ -184,4 +184,4 @@ def _limit_band(table: xr.Dataset, value: float) -> Band | None:
 def _height_band(table: xr.Dataset, value: float) -> Band | None:
     """Return the band of the largest height: impact, snaps and depth at their unfavourable ends."""
     low = _number(table, "design_limit_low")
-    return Band(low, value, "impact, snaps and depth at their unfavourable ends") if low < value else None
+    return Band(low, value, "impact, snaps, steady part and depth at their unfavourable ends") if low < value else None
