@@ -180,14 +180,7 @@ class _Largest:
         if damping is None or chance is None or not self.value > 0.0:
             return chance or damping
         less, more = damping.low / self.value, damping.high / self.value
-        low, high = chance.judged or (chance.low, chance.high)
-        return Band(
-            chance.low * less,
-            chance.high * more,
-            f"{chance.of}; {damping.of}",
-            chance.decides,
-            (low * less, high * more),
-        )
+        return replace(chance.scaled(less, more), of=f"{chance.of}; {damping.of}")
 
     @property
     def bound(self) -> Bound:
