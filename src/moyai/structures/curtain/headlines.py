@@ -300,7 +300,8 @@ def _impact_band(groups: Groups, load: _Load) -> Band | None:
     if steady is None:
         return None
     value, part = load.number("governing_load"), load.number("steady_load")
-    current = at_rest(groups[f"/{load.level}/statics"], _STEADY_NAMES[load.component])
+    name = _STEADY_NAMES.get(load.component)
+    current = part if name is None else at_rest(groups[f"/{load.level}/statics"], name)
     # a pretension above the load of the current stays where it is
     least = part if part > current * (1.0 + 1e-9) else 0.0
     low, high = (
@@ -493,11 +494,15 @@ class _Cycles:
 
 
 def _steady_band(groups: Groups, load: _Load) -> Band | None:
-    name = _STEADY_NAMES.get(load.component)
     statics = groups.get(f"/{load.level}/statics")
-    if name is None or statics is None:
+    if statics is None:
         return None
-    return statics_band(statics, name)
+    if load.component == "joint":
+        # the load of a stretch of the curtain goes with the load per length
+        band, value = statics_band(statics, "line_load"), at_rest(statics, "line_load")
+        return None if band is None or not value > 0.0 else band.scaled(load.number("steady_load") / value)
+    name = _STEADY_NAMES.get(load.component)
+    return None if name is None else statics_band(statics, name)
 
 
 def _span_holds(loads: Sequence[_Load], level: str) -> bool:
