@@ -18,7 +18,7 @@ from moyai.core.wording import spoken
 from moyai.flexible.sensitivity import PeakSensitivity
 from moyai.series.block_maxima import Maximum, maximum_of
 from moyai.structures.network.model import NetworkProblem
-from moyai.structures.network.refinement import band_of
+from moyai.structures.network.refinement import LANDING, band_of
 from moyai.structures.network.single_anchor import single_anchors
 from moyai.structures.network.start_up import ASKED, WAVES
 
@@ -270,13 +270,17 @@ def _band(groups: Mapping[str, xr.Dataset], peak: _Peak) -> tuple[Band | None, l
     band, details = _numerical_band(groups[f"/{peak.level}/dynamic"].sel(run=peak.run), peak)
     found, words = _chance(groups, peak)
     details += words
+    doubt = str(groups[f"/{peak.level}/dynamic"].attrs.get(f"doubt {peak.run}", ""))
+    # lumps that land pull harder than the line does: with finer segments it is less
+    most: Bound = "at most" if band is None and LANDING in doubt else ""
+    details += ["finer segments give less"] if most else []
     if found is None:
         alone = _irregular(groups, peak.level, peak.run)
-        return band, [*details, *([_ONE_SEED] if alone else [])], "at least" if alone else ""
+        return band, [*details, *([_ONE_SEED] if alone else [])], "at least" if alone else most
     low, high, of = (peak.value, peak.value, "") if band is None else (band.low, band.high, band.of)
     of = "; ".join(filter(None, (of, _of_seeds(found))))
-    least, most = found.range
-    return Band(max(min(low, least), 0.0), max(high, most), of), details, ""
+    least, highest = found.range
+    return Band(max(min(low, least), 0.0), max(high, highest), of), details, most
 
 
 def _irregular(groups: Mapping[str, xr.Dataset], level: str, run: str) -> bool:

@@ -34,6 +34,8 @@ DAMPING, DAMPED_BARS = 0.3, 32
 LEAD, AFTER, SAME_EVENT = 3.0, 0.25, 0.02
 #: Bars of a line up to which its peak is doubtful whatever the run shows.
 FEW_BARS = 5
+#: Doubt of a peak that finer segments only lower: lumps that stop on the bed pull harder than a smooth line.
+LANDING = "segments that land on the bed send fronts along the line"
 _FRONTS = ("wave-front", "landing-front")
 
 
@@ -51,11 +53,12 @@ def doubt(assembly: Assembly, history: History, snaps: Mapping[str, SnapRecord],
     line : str
         Of the highest tension.
     """
-    if any(record.snaps for record in snaps.values()):
-        return "a slack line snaps taut"
     codes = [notice.code for notice in history.notices]
-    if "landing-front" in codes:
-        return "segments that land on the bed send fronts along the line"
+    landing = LANDING if "landing-front" in codes else ""
+    if any(record.snaps for record in snaps.values()):
+        return "; ".join(filter(None, ("a slack line snaps taut", landing)))
+    if landing:
+        return landing
     if "wave-front" in codes:
         return "the load rises faster than an elastic wave runs through the line"
     strand = assembly.lines.get(line)

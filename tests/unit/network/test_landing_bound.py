@@ -1,0 +1,51 @@
+"""A peak of segments that land is judged as a bound from above, and finer runs that lower a peak leave it safe."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+import xarray as xr
+
+from moyai.core.collected import Collected
+from moyai.core.headline import Criterion, Headline
+from moyai.core.validity import IdentityCheck
+from moyai.core.vocabulary import Vocabulary
+from moyai.flexible.sensitivity import PeakSensitivity
+from moyai.structures.network.headlines import DYNAMIC, _band, _Peak
+from moyai.structures.network.refinement import LANDING, lowered
+
+
+@pytest.mark.parametrize(("doubt", "bound"), [(LANDING, "at most"), (f"it snaps; {LANDING}", "at most"), ("few", "")])
+def test_an_unchecked_peak_of_landing_segments_is_at_most(doubt: str, bound: str) -> None:
+    runs = xr.Dataset({"tension": ("run", [9e3])}, coords={"run": ["storm"]}, attrs={"doubt storm": doubt})
+    peak = _Peak(9e3, "chain", "SWL", "storm", 12.0, DYNAMIC)
+    band, words, found = _band({"/SWL/dynamic": runs}, peak)
+    assert band is None and found == bound and ("finer segments give less" in words) == bool(bound)
+
+
+def test_finer_runs_that_give_less_leave_a_peak_on_the_safe_side() -> None:
+    def peak(half_step: float, double_mesh: float, damped: float = math.nan) -> PeakSensitivity:
+        return PeakSensitivity(10.0, half_step, double_mesh, math.nan, math.nan, 1e-3, damped)
+
+    assert lowered(peak(9.0, 4.0), 0.05) and lowered(peak(10.4, 4.0, 3.0), 0.05)
+    assert not lowered(peak(9.0, 10.6), 0.05) and not lowered(peak(9.0, 4.0, 11.0), 0.05)
+
+
+def test_a_design_is_judged_on_the_safe_side_alone() -> None:
+    """Not converged on the safe side: judged. A further failure or a broken identity: not judged."""
+    number = Headline("pull", "Pull", 1.0, "N")
+    limit = Criterion("greatest_pull", "pull", 2.0, "at most", "case file", unit="N")
+
+    def close(*failures: str, broken: bool = False) -> str:
+        collected = Collected()
+        collected.failures, collected.on_the_safe_side = list(failures), ["peak"]
+        collected.checks = [IdentityCheck("energy", 1.0 if broken else 0.0, 0.1, "")]
+        attributes = {"title": "", "case_hash": "", "structure": "network"}
+        result = collected.close(Vocabulary("network", {}), attributes, headlines=[number], criteria=[limit])
+        assert result.status == "not_converged"
+        return result.verdict.outcome
+
+    assert close("peak") == "holds"
+    assert close("peak", "another") == "not judged"
+    assert close("peak", broken=True) == "not judged"
