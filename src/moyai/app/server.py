@@ -173,9 +173,12 @@ async def _draft(app: App, request: Request) -> Response:
         raise ValueError("'edits' are numbers by path, both as text")
     if not isinstance(sequence, int):
         raise ValueError("'sequence' is a whole number")
+    shown = content.get("shown", [])
+    if not isinstance(shown, list) or not all(isinstance(item, str) for item in shown):
+        raise ValueError("'shown' is a list of sections")
     if not edits:
         document.change(text, gesture)
-    wish = document.wish(app.folder, text, edits)
+    wish = document.wish(app.folder, text, edits, tuple(shown), _text(content, "level"))
     head = f'{{"sequence":{sequence},'.encode()
 
     async def lines() -> AsyncIterator[bytes]:

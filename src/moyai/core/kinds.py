@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import cache
 from importlib import import_module
 from importlib.metadata import entry_points
@@ -116,6 +117,17 @@ class StructureKind(Kind):
         For a first draft, marked as such. None where there is nothing of it to leave out.
         """
         return None
+
+    def at_level(self, problem: Any, level: str) -> Any | None:
+        """Return a problem with one of its water levels alone, for a first draft: the first where it has no such level.
+
+        None where it has no more than one.
+        """
+        levels = dict(getattr(getattr(problem, "environment", None), "water_levels", ()))
+        if len(levels) < 2:
+            return None
+        name = level if level in levels else next(iter(levels))
+        return replace(problem, environment=replace(problem.environment, water_levels=((name, levels[name]),)))
 
     @abstractmethod
     def run(self, problem: Any, progress: Progress, keep: Path | None) -> Result:

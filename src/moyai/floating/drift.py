@@ -109,17 +109,13 @@ def _answer(
     with_drift: bool,
     density: Array | None,
     near: _State | None = None,
+    held: tuple[MeanOffset, Array] | None = None,
 ) -> _State:
     """Return the motions about the offset of a given drift, and the drift that they cause.
 
-    ``near`` is the state in a drift nearby, from which the linearisation goes on.
+    ``near`` is the state in a drift nearby, from which the linearisation goes on; ``held`` is what :func:`_held` gives.
     """
-    size = hydro.size
-    load = np.zeros(size) if problem.steady_force is None else np.array(problem.steady_force, dtype=float)
-    load[0] += drift
-    offset = mean_offset(problem.mooring, problem.hydrostatic_stiffness, load, start=start)
-    position = offset.position if offset.status == "converged" else np.zeros(size)
-    stiffness = np.asarray(problem.mooring.stiffness(position), dtype=float)
+    offset, stiffness = held or _held(problem, drift, start)
     total = problem.hydrostatic_stiffness + stiffness
     nonlinear = problem.quadratic is not None or problem.line_damping is not None
     if density is not None and nonlinear:
@@ -149,6 +145,16 @@ def _answer(
     per_square = drift_force_per_amplitude_squared(far, hydro.omega, hydro.heading, problem.water, hydro.length)[:, 0]
     force = float(np.sum(weight * per_square)) if with_drift else 0.0
     return _State(motions, far, offset, stiffness, force)
+
+
+def _held(problem: DriftProblem, drift: float, start: Array | None) -> tuple[MeanOffset, Array]:
+    """Return the offset in a drift and the stiffness of the lines there."""
+    size = len(problem.inertia)
+    load = np.zeros(size) if problem.steady_force is None else np.array(problem.steady_force, dtype=float)
+    load[0] += drift
+    offset = mean_offset(problem.mooring, problem.hydrostatic_stiffness, load, start=start)
+    position = offset.position if offset.status == "converged" else np.zeros(size)
+    return offset, np.asarray(problem.mooring.stiffness(position), dtype=float)
 
 
 def solve_with_drift(
@@ -189,6 +195,7 @@ def solve_with_drift(
     amplitude = np.zeros(count) + np.asarray(wave_amplitude, dtype=float)
     states: list[_State] = []
     iterations, statuses = np.zeros(count), []
+    without_drift = _held(problem, 0.0, None)
     for index in range(count):
         progress("drift loop", index, count)
         rows = slice(index, index + 1)
@@ -201,6 +208,7 @@ def solve_with_drift(
             with_drift,
             tolerance,
             maximum_iterations,
+            held=without_drift,
         )
         states.append(state)
         iterations[index] = used
@@ -218,10 +226,11 @@ def _loop(
     tolerance: float,
     maximum_iterations: int,
     density: Array | None = None,
+    held: tuple[MeanOffset, Array] | None = None,
 ) -> tuple[_State, int, Status]:
-    """Find the drift force that causes itself [eq:floating-drift-loop]."""
+    """Find the drift force that causes itself [eq:floating-drift-loop]; ``held`` is the state without drift."""
     force = 0.0
-    state = _answer(problem, hydro, force, weight, amplitude, None, with_drift, density)
+    state = _answer(problem, hydro, force, weight, amplitude, None, with_drift, density, held=held)
     if not with_drift:
         return state, 1, "converged" if state.offset.status == "converged" else "not_converged"
     previous_force, previous_gap = force, state.force - force

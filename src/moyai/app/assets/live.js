@@ -1,20 +1,31 @@
 // Draw a report that changes: figures keep their elements and their zoom, choices stay, what is on screen comes first.
+// A draft of a part leaves the other sections where they are, faded, until the whole answer is there.
 export class Live {
   constructor(holder) {
     this.holder = holder;
     this.waiting = [];
+    this.chosen = new Map();
     MOYAI.figures = new Map();
     MOYAI.players = [];
   }
-  draw(html, data) {
+  // Names of the sections and figures on the screen.
+  shown() {
+    const on = (one) => { const box = one.getBoundingClientRect(); return box.bottom > 0 && box.top < innerHeight; };
+    return [...this.holder.querySelectorAll("section[id], [data-figure]")].filter(on).map((one) => one.id);
+  }
+  draw(html, data, whole = true) {
     const fresh = document.createElement("template");
     fresh.innerHTML = html;
-    const kept = this.choices(), opened = this.opened(), figures = new Map(), made = [];
-    const looks = new Map(MOYAI.players.map((player) => [player.holder.dataset.scene, lookOf(player)]));
-    MOYAI.data = data;
+    this.remember();
+    const opened = this.opened(), figures = new Map(), made = [], older = whole ? [] : this.keep(fresh.content);
+    const stays = (element) => older.some((section) => section.contains(element)), before = MOYAI.data;
+    const players = MOYAI.players.filter((player) => stays(player.holder));
+    const looks = new Map(MOYAI.players.filter((player) => !players.includes(player)).map((player) => [player.holder.dataset.scene, lookOf(player)]));
+    MOYAI.data = older.length ? Object.fromEntries(Object.keys(data).map((key) => [key, { ...before[key], ...data[key] }])) : data;
     for (const element of fresh.content.querySelectorAll("[data-figure]")) {
       const name = element.dataset.figure, old = MOYAI.figures.get(name);
-      if (old && alike(old.spec, data.figures[name])) {
+      if (stays(element)) figures.set(name, old);
+      else if (old && alike(old.spec, data.figures[name])) {
         renew(old, data.figures[name], element);
         element.replaceWith(old.element);
         figures.set(name, old);
@@ -30,10 +41,40 @@ export class Live {
     MOYAI.figures = figures;
     MOYAI.players = [];
     this.reopen(opened);
-    for (const [group, label] of kept) this.choose(group, label);
+    for (const [group, label] of this.chosen) this.choose(group, label);
     this.paint();
-    MOYAI.players = [...this.holder.querySelectorAll(".player")].map((holder) => new MOYAI.Player(holder));
-    for (const player of MOYAI.players) lookAgain(player, looks.get(player.holder.dataset.scene));
+    MOYAI.players = players;
+    for (const holder of this.holder.querySelectorAll(".player")) {
+      if (stays(holder)) continue;
+      const player = new MOYAI.Player(holder);
+      MOYAI.players.push(player);
+      lookAgain(player, looks.get(holder.dataset.scene));
+    }
+  }
+  // Put the sections that a draft leaves out where they stood, and the choices that it has no panes for.
+  keep(content) {
+    const older = [];
+    let before = null;
+    for (const section of this.holder.querySelectorAll("section[id]")) {
+      const now = content.getElementById(section.id);
+      if (!now) {
+        section.classList.add("older");
+        older.push(section);
+        if (before) before.after(section); else content.append(section);
+      } else {
+        for (const choice of now.querySelectorAll(".choice:not(:has(> .chooser))")) {
+          const chooser = section.querySelector(`.choice[data-group="${choice.dataset.group}"] > .chooser`)?.cloneNode(true), known = choice.firstElementChild.dataset.option;
+          if (!chooser) continue;
+          choice.prepend(chooser);
+          for (const one of chooser.querySelectorAll("button, option")) {
+            one.disabled = (one.dataset.option ?? one.value) !== known;
+            if (one.dataset.option) one.setAttribute("aria-pressed", String(!one.disabled));
+          }
+        }
+      }
+      before = now || section;
+    }
+    return older;
   }
   // Figures on the screen at once; the others one by one while nothing else is to be done.
   paint() {
@@ -53,11 +94,11 @@ export class Live {
     };
     later(rest);
   }
-  choices() {
-    return [...this.holder.querySelectorAll(".choice")].map((choice) => {
-      const pane = [...choice.children].find((one) => one.classList.contains("pane") && !one.hidden);
-      return [choice.dataset.group, pane ? pane.dataset.option : ""];
-    });
+  remember() {
+    for (const choice of this.holder.querySelectorAll(".choice")) {
+      const panes = [...choice.children].filter((one) => one.classList.contains("pane")), pane = panes.find((one) => !one.hidden);
+      if (pane && panes.length > 1) this.chosen.set(choice.dataset.group, pane.dataset.option);
+    }
   }
   choose(group, label) {
     const draw = MOYAI.drawVisible;

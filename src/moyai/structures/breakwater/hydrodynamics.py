@@ -18,6 +18,7 @@ from moyai.core.remembered import Remembered, key_of_objects
 from moyai.core.store import DatasetStore, key_of
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.floating.coefficients import Hydrodynamics
+from moyai.floating.statics import body_to_site
 from moyai.potential.damping_model import Start
 from moyai.potential.memory_plan import FrequencyPlan, recommend_frequencies, refine_frequencies
 from moyai.potential.modes import rigid_modes
@@ -39,11 +40,12 @@ LONGEST_WAVE_OVER_BEAM = 12.0  # to 12, where it stops nothing
 OPERATOR_FREQUENCIES = 60
 SECTOR = math.radians(75.0)  # headings to either side of the normal that meet the side of the unit
 MOST_REFINEMENTS = 6
-MOST_SOLVED = 4  # solutions of the normal heading that are kept in memory
+MOST_SOLVED = 8  # solutions of the normal heading that are kept in memory
 MOST_FREQUENCIES = 1500
 REFINEMENT_TOLERANCE = 1e-3  # error of interpolated damping over its largest value at which frequencies are added
 OBLIQUE_FREQUENCIES = 64
 HEADING_TOLERANCE = math.radians(0.5)  # within which a heading of a 3-D program counts as that of the case
+DRAFT_STEPS = 0.01, math.radians(1.0)  # of draught over height and of heel, to which a draft takes coefficients
 ENERGY_LEFT_OUT = 1e-3  # share of a spectrum beyond the highest frequency of its analysis
 
 
@@ -185,6 +187,9 @@ def solve_unit(
     if coefficients is not None:
         return _given(coefficients(unit), unit, problem)
     wanted = np.concatenate([operator_frequencies(unit, problem), sea_frequencies(problem)])
+    if problem.nominal:
+        unit = _of_draft(unit)
+        wanted = _wanted_of_draft(unit, problem)
     length = unit.breakwater.length
     # One solve of the normal heading serves operators, seas, natural periods and memory: a frequency costs little
     normal = _solve_band(unit, np.concatenate([wanted, band(unit).omega]), progress)
@@ -207,6 +212,26 @@ def solve_unit(
         checks=tuple(checks),
         notices=tuple(notices),
     )
+
+
+def _of_draft(unit: FloatingUnit) -> FloatingUnit:
+    """Return the unit at the nearest draught and heel of :data:`DRAFT_STEPS`: what moves little keeps its coefficients."""
+    reference = unit.breakwater.draught or 0.0
+    step = DRAFT_STEPS[0] * unit.breakwater.hull.height
+    draught = reference + step * round((unit.draught - reference) / step)
+    heel = DRAFT_STEPS[1] * round(unit.heel / DRAFT_STEPS[1])
+    section = unit.breakwater.hull.immersed(draught, heel)
+    centre = body_to_site(unit.breakwater.centre_of_gravity, draught, heel)
+    return replace(unit, draught=draught, heel=heel, section=section, centre=centre)
+
+
+def _wanted_of_draft(unit: FloatingUnit, problem: BreakwaterProblem) -> Array:
+    """Return frequencies [rad/s] that do not follow the seas, which are interpolated: their ends where they lie beyond."""
+    wanted, seas = operator_frequencies(unit, problem), sea_frequencies(problem)
+    known = np.concatenate([wanted, band(unit).omega])
+    ends = [1.1 ** math.floor(math.log(low, 1.1)) for low in seas[:1] if low < known.min()]
+    ends += [1.1 ** math.ceil(math.log(high, 1.1)) for high in seas[-1:] if high > known.max()]
+    return np.concatenate([wanted, ends])
 
 
 def coefficients_in_calm(unit: FloatingUnit, problem: BreakwaterProblem) -> Hydrodynamics:
