@@ -193,6 +193,16 @@ def solve_with_drift(
     hydro = problem.one_heading()
     count = len(hydro.omega)
     amplitude = np.zeros(count) + np.asarray(wave_amplitude, dtype=float)
+    if not with_drift:
+        # all waves share one offset
+        state = _answer(problem, hydro, 0.0, amplitude**2, amplitude, None, with_drift, None)
+        found = _joined(hydro, [state], amplitude, np.ones(count), (state.offset.status,) * count)
+        return replace(
+            found,
+            drift_force=np.zeros(count),
+            offset=np.tile(state.offset.position, (count, 1)),
+            mooring_stiffness=np.tile(state.stiffness, (count, 1, 1)),
+        )
     states: list[_State] = []
     iterations, statuses = np.zeros(count), []
     without_drift = _held(problem, 0.0, None)
@@ -205,7 +215,6 @@ def solve_with_drift(
             _rows(hydro, rows),
             amplitude[rows] ** 2,
             amplitude[rows],
-            with_drift,
             tolerance,
             maximum_iterations,
             held=without_drift,
@@ -214,7 +223,7 @@ def solve_with_drift(
         iterations[index] = used
         statuses.append(status)
     progress("drift loop", count, count)
-    return _joined(hydro, states, amplitude, iterations, tuple(statuses), with_drift)
+    return _joined(hydro, states, amplitude, iterations, tuple(statuses))
 
 
 def _loop(
@@ -222,7 +231,6 @@ def _loop(
     hydro: Hydrodynamics,
     weight: Array,
     amplitude: Array,
-    with_drift: bool,
     tolerance: float,
     maximum_iterations: int,
     density: Array | None = None,
@@ -230,15 +238,13 @@ def _loop(
 ) -> tuple[_State, int, Status]:
     """Find the drift force that causes itself [eq:floating-drift-loop]; ``held`` is the state without drift."""
     force = 0.0
-    state = _answer(problem, hydro, force, weight, amplitude, None, with_drift, density, held=held)
-    if not with_drift:
-        return state, 1, "converged" if state.offset.status == "converged" else "not_converged"
+    state = _answer(problem, hydro, force, weight, amplitude, None, True, density, held=held)
     previous_force, previous_gap = force, state.force - force
     force = 0.5 * (force + state.force)
     used = 1
     while used < maximum_iterations:
         start = state.offset.position if state.offset.status == "converged" else None
-        state = _answer(problem, hydro, force, weight, amplitude, start, with_drift, density, state)
+        state = _answer(problem, hydro, force, weight, amplitude, start, True, density, state)
         used += 1
         gap = state.force - force
         if not np.isfinite(gap) or state.offset.status != "converged":
@@ -280,7 +286,6 @@ def _joined(
     amplitude: Array,
     iterations: Array,
     status: tuple[Status, ...],
-    with_drift: bool,
 ) -> DriftedMotions:
     """Join the waves of :func:`solve_with_drift` along frequency."""
     motions = Motions(

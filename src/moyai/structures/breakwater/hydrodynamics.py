@@ -192,10 +192,10 @@ def solve_unit(
         wanted = _wanted_of_draft(unit, problem)
     length = unit.breakwater.length
     # One solve of the normal heading serves operators, seas, natural periods and memory: a frequency costs little
-    normal = _solve_band(unit, np.concatenate([wanted, band(unit).omega]), progress)
+    normal, apart = _solve_band(unit, np.concatenate([wanted, band(unit).omega]), progress)
     headings = headings_of(problem)
     oblique = headings[headings != 0.0]
-    by_heading = [item.scaled_to(length) for item in Hydrodynamics.of_headings(normal.dataset)]
+    by_heading = [item.scaled_to(length) for item in apart]
     checks, notices, turned = list(normal.checks), list(normal.notices), None
     if len(oblique):
         # An oblique heading has matrices of its own at every frequency: only what the case asks for
@@ -237,7 +237,7 @@ def _wanted_of_draft(unit: FloatingUnit, problem: BreakwaterProblem) -> Array:
 def coefficients_in_calm(unit: FloatingUnit, problem: BreakwaterProblem) -> Hydrodynamics:
     """Return the coefficients of the normal heading of :func:`solve_unit`, whatever seas the case has."""
     omega = np.concatenate([operator_frequencies(unit, problem), band(unit).omega])
-    return Hydrodynamics.from_section(_solve_band(unit, omega, silent)).scaled_to(unit.breakwater.length)
+    return Hydrodynamics.from_section(_solve_band(unit, omega, silent)[0]).scaled_to(unit.breakwater.length)
 
 
 def _oblique(
@@ -328,13 +328,19 @@ def damping_start(unit: FloatingUnit) -> Start:
     return "even" if math.isfinite(unit.water.depth) else "zero"
 
 
-_SOLVED: Remembered[RadiationDiffraction] = Remembered(MOST_SOLVED)
+Solved = tuple[RadiationDiffraction, tuple[Hydrodynamics, ...]]
+"""A solution and its coefficients, heading by heading."""
+_SOLVED: Remembered[Solved] = Remembered(MOST_SOLVED)
 
 
-def _solve_band(unit: FloatingUnit, omega: Array, progress: Progress) -> RadiationDiffraction:
+def _solve_band(unit: FloatingUnit, omega: Array, progress: Progress) -> Solved:
     """Solve the normal heading; the cases of a study often differ in what does not touch it."""
     grid = distinct(omega)
-    return _SOLVED.of(_key(unit, grid, np.zeros(1)), lambda: _refined(unit, grid, progress))
+    return _SOLVED.of(_key(unit, grid, np.zeros(1)), lambda: _taken_apart(_refined(unit, grid, progress)))
+
+
+def _taken_apart(solution: RadiationDiffraction) -> Solved:
+    return solution, Hydrodynamics.of_headings(solution.dataset)
 
 
 def _refined(unit: FloatingUnit, grid: Array, progress: Progress) -> RadiationDiffraction:
