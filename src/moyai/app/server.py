@@ -69,7 +69,7 @@ class App:
         self.first = first
         self.language = require_language(language)
         self.documents = Documents(folder)
-        self.jobs = Jobs(run)
+        self.jobs = Jobs(run, folder=folder)
         self.worker = DraftWorker(run, language)
 
 
