@@ -101,6 +101,7 @@ export class CaseView {
   close() {
     this.closed = true;
     document.removeEventListener("keydown", this.keys);
+    if (this.live) this.live.close();
     clearTimeout(this.timer);
   }
   take(record) {
@@ -120,6 +121,7 @@ export class CaseView {
   }
   sliderMoved(path, number) {
     this.moved = performance.now();
+    this.live.pause();
     this.report.dataset.whole = "";
     this.edits.set(path, number);
     this.send(`slider ${path}`);

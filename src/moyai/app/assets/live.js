@@ -7,11 +7,16 @@ export class Live {
     this.chosen = new Map();
     MOYAI.figures = new Map();
     MOYAI.players = [];
+    this.scrolled = () => { if (this.waiting.some(near)) this.pause(60); };
+    document.addEventListener("scroll", this.scrolled, { passive: true, capture: true });
+  }
+  close() {
+    clearTimeout(this.timer);
+    document.removeEventListener("scroll", this.scrolled, { capture: true });
   }
   // Names of the sections and figures on the screen.
   shown() {
-    const on = (one) => { const box = one.getBoundingClientRect(); return box.bottom > 0 && box.top < innerHeight; };
-    return [...this.holder.querySelectorAll("section[id], [data-figure]")].filter(on).map((one) => one.id);
+    return [...this.holder.querySelectorAll("section[id], [data-figure]")].filter(onScreen).map((one) => one.id);
   }
   draw(html, data, whole = true) {
     const fresh = document.createElement("template");
@@ -42,7 +47,7 @@ export class Live {
     MOYAI.players = [];
     this.reopen(opened);
     for (const [group, label] of this.chosen) this.choose(group, label);
-    this.paint();
+    this.paint(whole);
     MOYAI.players = players;
     for (const holder of this.holder.querySelectorAll(".player")) {
       if (stays(holder)) continue;
@@ -76,23 +81,25 @@ export class Live {
     }
     return older;
   }
-  // Figures on the screen at once; the others one by one while nothing else is to be done.
-  paint() {
-    const at = (figure) => figure.plot.getBoundingClientRect();
+  // Figures on the screen at once; the others one by one when nothing has changed for a while.
+  paint(whole) {
     const shown = [...MOYAI.figures.entries()].filter(([, figure]) => MOYAI.isVisible(figure.plot));
-    const near = ([, figure]) => { const box = at(figure); return box.bottom > 0 && box.top < innerHeight; };
     this.waiting = [];
-    const now = shown.filter(near);
-    this.waiting = shown.filter((one) => !near(one)).map(([, figure]) => figure);
+    const now = shown.filter(([, figure]) => near(figure));
+    this.waiting = shown.filter(([, figure]) => !near(figure)).map(([, figure]) => figure);
     for (const [, figure] of now) figure.draw();
-    const turn = this.turn = (this.turn || 0) + 1;
-    const rest = () => {
-      const figure = turn === this.turn && this.waiting.shift();
+    this.pause(whole ? 150 : 1000);
+  }
+  // Draw what is out of sight after a rest; a slider that moves puts it off.
+  pause(rest = 1000) {
+    clearTimeout(this.timer);
+    const next = () => {
+      const at = Math.max(0, this.waiting.findIndex((figure) => near(figure))), [figure] = this.waiting.splice(at, 1);
       if (!figure) return;
       if (MOYAI.isVisible(figure.plot)) figure.draw();
-      later(rest);
+      this.timer = setTimeout(() => later(next), 0);
     };
-    later(rest);
+    this.timer = setTimeout(next, rest);
   }
   remember() {
     for (const choice of this.holder.querySelectorAll(".choice")) {
@@ -131,6 +138,8 @@ function lookAgain(player, look) {
   if (look.playing) player.play();
 }
 
+const near = (figure) => onScreen(figure.plot);
+const onScreen = (element) => { const box = element.getBoundingClientRect(); return box.bottom > 0 && box.top < innerHeight; };
 const later = (act) => (window.requestIdleCallback ? requestIdleCallback(act, { timeout: 400 }) : setTimeout(act, 20));
 
 const frame = (spec) => JSON.stringify([spec.abscissae.map((one) => one.key), spec.panels.length, Boolean(spec.slider), spec.categories.length > 0]);

@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from moyai.core.kinds import FolderKind
+from moyai.core.kinds import FolderKind, level_of_words
 from moyai.core.progress import Progress
 from moyai.core.results import Result
 
@@ -29,7 +29,7 @@ class BreakwaterKind(FolderKind):
         if len(names) < 2:
             return None
         # the draught may be that of the first level: the others stay known
-        return replace(problem, only_level=level if level in names else names[0])
+        return replace(problem, only_level=level_of_words(names, level))
 
     def run(self, problem: Any, progress: Progress, keep: Path | None) -> Result:
         from moyai.core.store import DatasetStore
