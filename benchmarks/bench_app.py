@@ -35,6 +35,7 @@ CASES = {
     "breakwater frequency, section": ("breakwater", _FREQUENCY, "structure.section.beam", "seas"),
     "network statics": ("network", "statics", "current.speed", ""),
     "curtain statics": ("curtain", "statics", "current.speed", ""),
+    "curtain impact": ("curtain", "statics, impact", "structure.span", "impact"),
 }
 """Template, analyses (its own where empty), the number that moves, the section on the screen (the top where empty)."""
 IDLE = "document.querySelector('.state') && !document.querySelector('.state.working')"

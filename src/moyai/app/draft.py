@@ -30,7 +30,7 @@ VERSION = 1
 """Version of the messages between server and page (docs/tutorial/app.md)."""
 CHEAP: dict[str, tuple[tuple[str, ...], ...]] = {
     "breakwater": (("statics", "mooring"), ("statics", "mooring", "frequency")),
-    "curtain": (("statics",),),
+    "curtain": (("statics",), ("statics", "impact")),
     "cage": (("statics",),),
     "network": (("statics",),),
     "member": (("forces",), ("sweep", "forces", "surface")),
@@ -39,7 +39,10 @@ CHEAP: dict[str, tuple[tuple[str, ...], ...]] = {
 REGULAR_ONLY = ("member",)
 """Kinds whose drafts leave irregular seas out, where there are regular ones."""
 PINNED = "pinned"
-NOMINAL = "nominal numbers only, without ranges, bands, other laws or speeds: the whole answer may judge otherwise"
+NOMINAL = (
+    "nominal numbers only, at one water level, without drift, ranges, bands, other laws or speeds: the whole answer may "
+    "judge otherwise"
+)
 ONE_LEVEL = "one water level only: the whole answer may judge otherwise"
 _TEXT_LIMIT = 2_000_000
 

@@ -17,6 +17,9 @@ from moyai.core.run_folder import alone_in
 
 NAME = "job.json"
 ENDED = ("done", "failed", "cancelled", "lost")
+WAITED = "the app ended before this job began; start it again"
+STOPPED = "the app ended before this job did; start it again"
+STOPPED_STUDY = "the app ended before this job did; it goes on from the cases that have ended"
 _KINDS = ("run", "study", "fit", "paper")
 _MOST_FOLDERS = 1000
 _LARGEST = 5_000_000
@@ -77,9 +80,8 @@ def _read(folder: Folder, place: Path, content: dict[str, Any]) -> Kept | None:
                 pass
         except InputError:
             return None
-        goes_on = "; the cases that ended are kept, and it goes on from there" if kind == "study" else ""
-        begun = "before this job began" if state == "waiting" else "before this job did"
-        state, words = "lost", f"the app ended {begun}; start it again{goes_on}"
+        words = WAITED if state == "waiting" else STOPPED_STUDY if kind == "study" else STOPPED
+        state = "lost"
     order = Order(
         kind, str(content["name"]), place, folder.root, folder.inside(str(content["file"])),
         str(content["text"]), content["saved"] is True, "ja" if content["language"] == "ja" else "en",

@@ -172,7 +172,7 @@ export class CaseView {
   }
   hearDrawn(said) {
     this.drawn = said.sequence;
-    this.headlines = said.headlines;
+    this.report.headlines = said.headlines;
     this.live.draw(said.html, said.data, said.last);
     this.listSections();
     const parts = [say("Draft of {0}", said.analyses.join(", ")), said.left_out ? say("without irregular seas") : "",
