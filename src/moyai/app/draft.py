@@ -40,8 +40,8 @@ REGULAR_ONLY = ("member",)
 """Kinds whose drafts leave irregular seas out, where there are regular ones."""
 PINNED = "pinned"
 NOMINAL = (
-    "nominal numbers only, at one water level, without drift, ranges, bands, other laws or speeds: the whole answer may "
-    "judge otherwise"
+    "nominal numbers only, at one water level, without drift, ranges, bands, other laws or speeds: "
+    "the whole answer may judge otherwise"
 )
 ONE_LEVEL = "one water level only: the whole answer may judge otherwise"
 _TEXT_LIMIT = 2_000_000
@@ -123,7 +123,7 @@ class Drafts:
                 yield {"message": "not drawn", "faults": [asdict(spoken_fault(fault)) for fault in faults]}
 
     def _stages(self, drafts: list[Document], whole: Case, wish: Wish) -> Iterator[_Stage]:
-        """Yield what is drawn one after the other: first what is on the screen, as a draft of it; at last the answer."""
+        """Yield what is drawn one after the other: a draft of what is on the screen, at last the whole answer."""
         first = next((one for one in drafts if set(wish.shown) <= self._shown.get(_key_of(one), set(wish.shown))), None)
         for draft in [drafts[-1]] if first is None or first is drafts[-1] else [first, drafts[-1]]:
             case, last = like_checked(whole, draft), draft is drafts[-1]
@@ -131,7 +131,9 @@ class Drafts:
             nominal = kind.nominal(problem)
             alone = kind.at_level(problem if nominal is None else nominal, wish.level)
             if alone is not None or nominal is not None:
-                yield _Stage(draft, case, nominal if alone is None else alone, ONE_LEVEL if nominal is None else NOMINAL)
+                yield _Stage(
+                    draft, case, nominal if alone is None else alone, ONE_LEVEL if nominal is None else NOMINAL
+                )
             elif not last:
                 yield _Stage(draft, case)
         yield _Stage(draft, case, last=True)

@@ -45,7 +45,10 @@ def keep(order: Order, state: str, words: str, seconds: float, ordered: float) -
         "moyai_job": 1,
         **{name: getattr(order, name) for name in ("kind", "name", "text", "saved", "language")},
         "file": file.as_posix(),
-        **{"state": state, "words": words, "seconds": seconds, "ordered": ordered},
+        "state": state,
+        "words": words,
+        "seconds": seconds,
+        "ordered": ordered,
     }
     with contextlib.suppress(OSError, MoyaiError):
         order.folder.mkdir(parents=True, exist_ok=True)

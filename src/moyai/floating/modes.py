@@ -88,7 +88,7 @@ def natural_modes(
     omega, vectors, outside = np.zeros(size), np.zeros((size, size)), []
     known = 0.5 * (hydrodynamics.added_mass + np.swapaxes(hydrodynamics.added_mass, -1, -2))
     dynamic = restoring - hydrodynamics.omega[:, None, None] ** 2 * (inertia + known)
-    table = np.linalg.eigvalsh(dynamic * scale[:, None] * scale[None, :])
+    table = np.asarray(np.linalg.eigvalsh(dynamic * scale[:, None] * scale[None, :]), dtype=np.float64)
     for number in range(size):
         root = _mode_frequency(spectrum, number, hydrodynamics, table[:, number])
         omega[number] = root

@@ -80,7 +80,9 @@ def test_the_first_draft_has_the_water_level_on_the_screen(tmp_path: Path, chose
 
 def test_the_first_draft_has_what_is_on_the_screen(tmp_path: Path) -> None:
     """Statics at the top of the page, waves at once where they are looked at."""
-    text = re.sub("^analyses:.*$", "analyses: [statics, mooring, frequency]", template("breakwater"), flags=re.MULTILINE)
+    text = re.sub(
+        "^analyses:.*$", "analyses: [statics, mooring, frequency]", template("breakwater"), flags=re.MULTILINE
+    )
     drafts = Drafts(run, tmp_path / "kept")
     drawn = [one["analyses"] for one in drafts.answer(wish(tmp_path, text), silent) if one["message"] == "drawn"]
     assert drawn == [["statics", "mooring"], *[["statics", "mooring", "frequency"]] * 2]

@@ -215,7 +215,7 @@ def solve_unit(
 
 
 def _of_draft(unit: FloatingUnit) -> FloatingUnit:
-    """Return the unit at the nearest draught and heel of :data:`DRAFT_STEPS`: what moves little keeps its coefficients."""
+    """Return the unit at the nearest draught and heel of :data:`DRAFT_STEPS`, so that coefficients stay in small moves."""
     reference = unit.breakwater.draught or 0.0
     step = DRAFT_STEPS[0] * unit.breakwater.hull.height
     draught = reference + step * round((unit.draught - reference) / step)
@@ -226,7 +226,7 @@ def _of_draft(unit: FloatingUnit) -> FloatingUnit:
 
 
 def _wanted_of_draft(unit: FloatingUnit, problem: BreakwaterProblem) -> Array:
-    """Return frequencies [rad/s] that do not follow the seas, which are interpolated: their ends where they lie beyond."""
+    """Return frequencies [rad/s] that do not follow the seas, which are interpolated; their ends where they reach."""
     wanted, seas = operator_frequencies(unit, problem), sea_frequencies(problem)
     known = np.concatenate([wanted, band(unit).omega])
     ends = [1.1 ** math.floor(math.log(low, 1.1)) for low in seas[:1] if low < known.min()]
