@@ -62,6 +62,20 @@ def test_mean_of_the_realisations_counts_and_the_larger_of_both_meshes():
     assert event_peak(storm(), "storm", "lower cable") is None
 
 
+def test_three_realisations_on_the_finer_mesh_scatter_as_the_five_on_the_coarser():
+    """The relative scatter of five, 17 %, is larger than that of three, 5 %: Student's value of four degrees counts."""
+    peak = event_peak(storm((40e3, 42e3, 44e3)), "storm", "upper cable")
+    coarse = np.array([31e3, 33e3, 23e3, 27e3, 36e3])
+    # a mean hardly smaller of three values that scatter widely reaches higher than that of the five
+    wide = event_peak(storm((10e3, 27e3, 52e3)), "storm", "upper cable")
+    assert wide.value == pytest.approx(30e3) and wide.run == "storm"
+    assert wide.judged > 29.67e3 + 3.2 * np.std([10e3, 27e3, 52e3], ddof=1) / math.sqrt(3)
+    scatter = 42e3 * coarse.std(ddof=1) / coarse.mean()
+    student = 2.1318
+    reach = (student + 1.1395 / (6 * math.sqrt(3)) * (1 + 2 * student**2)) * scatter / math.sqrt(3)
+    assert peak.judged == pytest.approx(42e3 + reach, rel=1e-4)
+
+
 def test_what_grows_with_the_cells_is_a_bound_and_warned_of():
     found = governing_peaks(storm(skirt=(10e3, 11e3)))
     assert {name: event for name, (event, _) in found.items()} == {"upper cable": "storm", "skirt": "storm"}
@@ -124,6 +138,17 @@ def test_limits_are_not_below_the_state_in_which_the_whole_span_holds():
     for capacity, bound in ((100e3, ""), (200e3, "at least")):
         found = {item.name: item for item in curtain_headlines(groups_of(storm(), capacity, bound), ["SWL"])}
         assert found["limit_current"].value == 0.236 and found["limit_wave_height"].text == "not known"
+
+
+@pytest.mark.parametrize("order", [("HW", "LW"), ("LW", "HW")])
+def test_the_whole_span_has_to_hold_at_every_level_for_a_limit(order):
+    """High water holds, low water does not: the state of the case is not held, in whatever order levels stand."""
+    groups = {}
+    for level, capacity in (("HW", 200e3), ("LW", 100e3)):
+        groups |= {path.replace("/SWL/", f"/{level}/"): data for path, data in groups_of(storm(), capacity, "").items()}
+    found = {item.name: item for item in curtain_headlines(groups, order)}
+    assert found["limit_current"].value == 0.236 and "LW" in found["limit_current"].where
+    assert found["limit_wave_height"].text == "not known" and "LW" in found["limit_wave_height"].where
 
 
 def test_a_bound_from_below_proves_no_strength():

@@ -52,6 +52,9 @@ _NOT_JUDGED = Headline(
     "seams and eyelets, and the holding of an anchor in its soil are not computed; waves in currents weaker than that "
     "of the case are computed at half of it alone, where the whole span is run by default",
 )  # fmt: skip
+#: Key that asks for more realisations.
+_MORE = "settings.waves.realisations"
+_NO_SEA = replace(_NOT_JUDGED, text=f"{_NOT_JUDGED.text}, irregular seas")
 _MISSING = "'settings.impact.chord' and a skirt that stretches, or 'dynamic' in 'analyses'"
 
 
@@ -134,7 +137,7 @@ def curtain_headlines(
         *limit_headlines(groups, levels, lambda level: _span_holds(loads, level)),
     ]
     if used:
-        found.append(_NOT_JUDGED)
+        found.append(_not_judged(groups))
     if used and not math.isnan(used[0].value):
         # the load behind the most used component stands next to it
         first = used[0]
@@ -369,7 +372,8 @@ def _mesh_band(table: xr.Dataset, load: _Load, value: float) -> Band | None:
         high = max(high, factor * judged)
         return Band(low, high, "meshes and events, the larger counts; drag at its value")
     of = f"{count} realisations and two meshes; drag at its value; judged at the 95 % end of the larger mean"
-    return Band(low, high, of, decides=False, judged=(low, factor * judged))
+    ends = (low, factor * judged)
+    return Band(low, high, of, decides=False, judged=ends, realisations=count, more=_MORE)
 
 
 def _energy_band(groups: Groups, load: _Load) -> Band | None:
@@ -430,7 +434,14 @@ def _wave_band(groups: Groups, load: _Load) -> Band | None:
         whole * own.low / own.top - less, max(whole * high / own.top + more, upper),
         f"{words}; {part}; judged at the 95 % end of the mean", decides=False,
         judged=(whole * (1.0 - own.reach / own.top) - less, max(whole * worst.judged / own.top + more, upper)),
+        realisations=worst.count, more=_MORE,
     )  # fmt: skip
+
+
+def _not_judged(groups: Groups) -> Headline:
+    """Return what is not judged; a sea pulls harder than regular waves as high as its highest."""
+    kinds = {data.attrs.get("kind") for path, data in groups.items() if path.split("/")[2:3] == ["waves"]}
+    return _NO_SEA if "regular" in kinds and "irregular" not in kinds else _NOT_JUDGED
 
 
 def _is_cycles(path: str, data: xr.Dataset, level: str) -> bool:
@@ -450,6 +461,8 @@ class _Cycles:
     #: From the number to the end of its interval.
     reach: float
     words: str
+    #: Realisations that the interval is of; none of regular waves.
+    count: int = 0
 
     @property
     def judged(self) -> float:
@@ -473,7 +486,7 @@ class _Cycles:
             reach = float(table["judged_tension"].max()) - top if "judged_tension" in table else 0.0
             return cls(low, top, high, reach, "largest of 100 periods")
         scatter = table["realisation_tension"].values
-        return cls(low, top, high, reach_of_mean(scatter), f"{scatter.size} realisations")
+        return cls(low, top, high, reach_of_mean(scatter), f"{scatter.size} realisations", scatter.size)
 
 
 def _steady_band(groups: Groups, load: _Load) -> Band | None:

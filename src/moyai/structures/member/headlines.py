@@ -313,6 +313,7 @@ def _band(found: _Largest, ranges: tuple[MeasuredRange, ...]) -> Band:
     return Band(
         low * float(scatter.min()), high * float(scatter.max()), ", ".join(words), decides=False,
         judged=(low * (found.value - reach), high * (found.value + reach)),
+        realisations=scatter.size, more="settings.realisations",
     )  # fmt: skip
 
 

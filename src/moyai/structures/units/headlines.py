@@ -96,8 +96,8 @@ def _not_judged(seas: Seas) -> Headline:
     if any(np.nan_to_num(data["connector_moment_largest"].values).any() for _, data in seas):
         words.append("moments in connectors")
         detail.append("the moment in a connector is a number of the page, no strength of the case is held against it")
-    words.append("one line lost")
-    detail.append("no row with a line or a connector lost")
+    words += ["one line lost", "other directions of waves and current"]
+    detail.append("no row with a line or a connector lost, no directions but those of the seas of the case")
     return Headline("not_judged", "Not judged", math.nan, "1", text=", ".join(words), detail="; ".join(detail))
 
 

@@ -53,7 +53,7 @@ class EventPeak:
     low: float
     #: ``low``, ``high``: Lowest and highest of all runs.
     high: float
-    #: Upper end of the one-sided 95 % interval of the mean; the value where there is one realisation.
+    #: Highest upper end of the one-sided 95 % intervals of the means; the value where there is one realisation.
     judged: float
     #: Run of which series are kept, of the mesh that counts.
     run: str
@@ -98,8 +98,12 @@ def event_peak(samples: Sequence[Sample], event: str, component: str) -> EventPe
     mean = {mesh: float(np.mean(_peaks(items, component))) for mesh, items in by_mesh.items()}
     counting = max(meshes, key=lambda mesh: mean[mesh])
     every, own = _peaks(mine, component), _peaks(by_mesh[counting], component)
+    # the sea is the same on every mesh: most realisations tell how far they scatter
+    most = _peaks(max(by_mesh.values(), key=len), component)
+    # the interval of a mesh with the smaller mean and fewer realisations may reach higher
+    judged = max(mean[mesh] + reach_of_mean(_peaks(items, component), alike=most) for mesh, items in by_mesh.items())
     found = EventPeak(
-        mean[counting], float(every.min()), float(every.max()), mean[counting] + reach_of_mean(own),
+        mean[counting], float(every.min()), float(every.max()), judged,
         by_mesh[counting][0].run, alone=own.size == 1 and by_mesh[counting][0].seed != 0,
     )  # fmt: skip
     if len(meshes) < 2:
