@@ -432,6 +432,10 @@ def _caption(text: str) -> str:
     return f'<p class="caption">{words(text)}</p>' if text else ""
 
 
+_LONG_TEXT = 24
+"""Letters from which a key figure is a sentence."""
+
+
 def _key_figure(item: KeyFigure) -> str:
     bar = ""
     if item.utilisation == item.utilisation:
@@ -440,7 +444,7 @@ def _key_figure(item: KeyFigure) -> str:
         bar = f'<div class="meter{over}" aria-hidden="true"><i style="width:{100 * filled:.1f}%"></i></div>'
     return (
         f'<div class="key-figure {item.judgement}"><div class="label">{words(item.label)}</div>'
-        f'<div class="number">{words(item.text)}</div>{bar}<div class="detail">{words(item.detail)}</div></div>'
+        f'<div class="{"number" if len(item.text) < _LONG_TEXT else "number sentence"}">{words(item.text)}</div>{bar}<div class="detail">{words(item.detail)}</div></div>'
     )
 
 

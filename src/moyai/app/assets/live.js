@@ -1,5 +1,7 @@
 // Draw a report that changes: figures keep their elements and their zoom, choices stay, what is on screen comes first.
 // A draft of a part leaves the other sections where they are, faded, until the whole answer is there.
+import { element, say } from "/assets/server.js";
+
 export class Live {
   constructor(holder) {
     this.holder = holder;
@@ -9,9 +11,12 @@ export class Live {
     MOYAI.players = [];
     this.scrolled = () => { if (this.waiting.some(near)) this.pause(60); };
     document.addEventListener("scroll", this.scrolled, { passive: true, capture: true });
+    this.enlarged = () => this.fill();
+    document.addEventListener("fullscreenchange", this.enlarged);
   }
   close() {
     clearTimeout(this.timer);
+    document.removeEventListener("fullscreenchange", this.enlarged);
     document.removeEventListener("scroll", this.scrolled, { capture: true });
   }
   // Names of the sections and figures on the screen.
@@ -55,6 +60,28 @@ export class Live {
       MOYAI.players.push(player);
       lookAgain(player, looks.get(holder.dataset.scene));
     }
+    this.offer();
+  }
+  // A button on every figure and moving view that gives it the whole screen.
+  offer() {
+    for (const place of this.holder.querySelectorAll(".figure > .tools, .player > .transport")) {
+      if (place.querySelector(".full")) continue;
+      place.append(element("button", { type: "button", class: "full", onclick: () => {
+        const one = place.closest(".figure, .animation");
+        if (document.fullscreenElement) document.exitFullscreen(); else one.requestFullscreen();
+      } }, say("Full screen")));
+    }
+  }
+  fill() {
+    const one = document.fullscreenElement, room = Math.max(200, innerHeight - 190);
+    for (const figure of MOYAI.figures.values()) {
+      const tall = figure.element === one ? room : 0;
+      if ((figure.tall || 0) !== tall) { figure.tall = tall; figure.draw(); }
+    }
+    for (const player of MOYAI.players) {
+      player.tall = one && one.contains(player.holder) ? room : 0;
+      player.repaint();
+    }
   }
   // Put the sections that a draft leaves out where they stood, and the choices that it has no panes for.
   keep(content) {
@@ -71,7 +98,7 @@ export class Live {
           const chooser = section.querySelector(`.choice[data-group="${choice.dataset.group}"] > .chooser`)?.cloneNode(true), known = choice.firstElementChild.dataset.option;
           if (!chooser) continue;
           choice.prepend(chooser);
-          for (const one of chooser.querySelectorAll("button, option")) {
+          for (const one of chooser.querySelectorAll(":is(button,option)")) {
             one.disabled = (one.dataset.option ?? one.value) !== known;
             if (one.dataset.option) one.setAttribute("aria-pressed", String(!one.disabled));
           }

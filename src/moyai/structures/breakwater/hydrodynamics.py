@@ -215,7 +215,7 @@ def solve_unit(
 
 
 def _of_draft(unit: FloatingUnit) -> FloatingUnit:
-    """Return the unit at the nearest draught and heel of :data:`DRAFT_STEPS`, so that coefficients stay in small moves."""
+    """Return the unit at the nearest draught and heel of :data:`DRAFT_STEPS`, to keep its coefficients."""
     reference = unit.breakwater.draught or 0.0
     step = DRAFT_STEPS[0] * unit.breakwater.hull.height
     draught = reference + step * round((unit.draught - reference) / step)
