@@ -10,7 +10,6 @@ from moyai.app.folder import Folder
 from moyai.core.kinds import structure_kind, structure_kinds
 from moyai.language import said
 
-
 _SHOWN = {"nakamura": "breakwater", "tabata": "curtain", "arai": "member", "sawaragi": "curtain", "matsubara": "cage"}
 """Structure that is drawn on the card of a paper."""
 

@@ -265,6 +265,40 @@ def test_moves_in_a_hurry_end_with_the_last_one(address: str) -> None:
         sound(page, address)
 
 
+def _only(name: str, analyses: str) -> str:
+    return re.sub("^analyses:.*$", f"analyses: [{analyses}]", template(name), flags=re.MULTILINE)
+
+
+PLACE = "Math.round(document.getElementById('response').getBoundingClientRect().top)"
+
+
+@pytest.mark.slow
+def test_a_draft_keeps_place_sections_and_choices(tmp_path: Path) -> None:
+    """What is looked at stays where it is; sections and water levels that a draft leaves out stay too."""
+    (tmp_path / "case.yaml").write_text(_only("breakwater", "statics, mooring, frequency"))
+    with app_at(tmp_path / "case.yaml") as address, pipe.Chromium(str(pipe.find_chromium()), 1280, 900) as page:
+        page.send("Page.navigate", url=address)
+        until(page, f"{WHOLE} && {IDLE}", 120.0)
+        sections = "[...document.querySelectorAll('.report section')].map((one) => one.id).join()"
+        chosen = "document.querySelector('#response .chooser [aria-pressed=true]').textContent"
+        names, level = page.evaluate(sections), page.evaluate(chosen)
+        page.evaluate("document.getElementById('response').scrollIntoView({ behavior: 'instant' })")
+        time.sleep(1.0)
+        place = page.evaluate(PLACE)
+        page.evaluate("""(() => {
+          window.seen = [];
+          new MutationObserver(() => seen.push(document.querySelector('.report').dataset.whole))
+            .observe(document.querySelector('.report'), { attributes: true, attributeFilter: ['data-whole'] });
+        })()""")
+        page.evaluate(f"{MOVE_ONE}('structure.roll_gyradius', 2.8)")
+        until(page, "seen.filter((one) => one === '').length >= 2", 60.0)
+        for _ in range(2):
+            assert abs(page.evaluate(PLACE) - place) <= 2
+            assert (page.evaluate(sections), page.evaluate(chosen)) == (names, level)
+            until(page, f"{WHOLE} && {IDLE}", 120.0)
+        sound(page, address)
+
+
 WHOLE = "document.querySelector('.report')?.dataset.whole === '1'"
 MOVE_ONE = """((path, value) => {
   const label = [...document.querySelectorAll('.slider label')].find((one) => one.title === path);
@@ -277,10 +311,6 @@ SLIDERS = """JSON.stringify([...document.querySelectorAll('.slider')].map((one) 
   return [one.querySelector('label').title, Number(range.min), Number(range.max), Number(range.step)];
 }))"""
 FAULTY = "Boolean(document.querySelector('.faults .error, .report.old'))"
-
-
-def _only(name: str, analyses: str) -> str:
-    return re.sub("^analyses:.*$", f"analyses: [{analyses}]", template(name), flags=re.MULTILINE)
 
 
 @pytest.mark.slow

@@ -23,10 +23,17 @@ export class Live {
   shown() {
     return [...this.holder.querySelectorAll("section[id], [data-figure]")].filter(onScreen).map((one) => one.id);
   }
+  // What is looked at stays where it is, whatever becomes longer or shorter above it.
+  anchor() {
+    if (!scrollY) return null;
+    const seen = [...this.holder.querySelectorAll("[data-figure], section[id]")].map((one) => ({ id: one.id, top: one.getBoundingClientRect().top, element: one })).filter(({ element }) => onScreen(element));
+    return seen.find(({ top }) => top >= 0) || seen.pop() || null;
+  }
   draw(html, data, whole = true) {
     const fresh = document.createElement("template");
     fresh.innerHTML = html;
     this.remember();
+    const held = this.anchor();
     const opened = this.opened(), figures = new Map(), made = [], older = whole ? [] : this.keep(fresh.content);
     const stays = (element) => older.some((section) => section.contains(element)), before = MOYAI.data;
     const players = MOYAI.players.filter((player) => stays(player.holder));
@@ -52,6 +59,8 @@ export class Live {
     MOYAI.players = [];
     this.reopen(opened);
     for (const [group, label] of this.chosen) this.choose(group, label);
+    const now = held && document.getElementById(held.id);
+    if (now) scrollBy({ top: now.getBoundingClientRect().top - held.top, behavior: "instant" });
     this.paint(whole);
     MOYAI.players = players;
     for (const holder of this.holder.querySelectorAll(".player")) {
