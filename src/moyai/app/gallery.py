@@ -32,7 +32,14 @@ def _papers() -> list[dict[str, str]]:
     from moyai.reproduce import papers
 
     return [
-        {"paper": one.key, "kind": _SHOWN.get(one.key, ""), "title": one.title, "authors": one.authors, "year": str(one.year), "line": one.line}
+        {
+            "paper": one.key,
+            "kind": _SHOWN.get(one.key, ""),
+            "title": one.title,
+            "authors": one.authors,
+            "year": str(one.year),
+            "line": one.line,
+        }
         for one in papers()
     ]
 

@@ -442,9 +442,10 @@ def _key_figure(item: KeyFigure) -> str:
         filled = min(max(item.utilisation, 0.0), 1.0)
         over = " over" if item.utilisation > 1.0 else ""
         bar = f'<div class="meter{over}" aria-hidden="true"><i style="width:{100 * filled:.1f}%"></i></div>'
+    kind = "number" if len(item.text) < _LONG_TEXT else "number sentence"
     return (
         f'<div class="key-figure {item.judgement}"><div class="label">{words(item.label)}</div>'
-        f'<div class="{"number" if len(item.text) < _LONG_TEXT else "number sentence"}">{words(item.text)}</div>{bar}<div class="detail">{words(item.detail)}</div></div>'
+        f'<div class="{kind}">{words(item.text)}</div>{bar}<div class="detail">{words(item.detail)}</div></div>'
     )
 
 

@@ -31,6 +31,10 @@ def wish(folder: Path, text: str, **more: Any) -> Wish:
     return Wish(text, folder / "case.yaml", folder, **more)
 
 
+def only(name: str, analyses: str) -> str:
+    return re.sub("^analyses:.*$", f"analyses: [{analyses}]", template(name), flags=re.MULTILINE)
+
+
 @pytest.mark.parametrize(("name", "kind"), [("network", "network"), ("rigid_cage", "cage"), ("quick", "member")])
 def test_numbers_are_those_of_a_fresh_run(tmp_path: Path, name: str, kind: str) -> None:
     text = MEMBER if name == "quick" else template(name)
@@ -49,7 +53,7 @@ def test_numbers_are_those_of_a_fresh_run(tmp_path: Path, name: str, kind: str) 
 
 def test_nominal_numbers_come_first_and_are_marked(tmp_path: Path) -> None:
     """The same values without their bands, then the whole answer of a fresh run."""
-    text = re.sub("^  water_levels:.*\n", "", template("curtain"), flags=re.MULTILINE)
+    text = re.sub("^  water_levels:.*\n", "", only("curtain", "statics"), flags=re.MULTILINE)
     _, nominal, whole = Drafts(run, tmp_path / "kept").answer(wish(tmp_path, text), silent)
     assert (nominal["nominal"], nominal["last"]) == (True, False) and (whole["nominal"], whole["last"]) == (False, True)
     fresh = run(case_of(stages_of(parse_yaml(text), "curtain")[-1], tmp_path / "case.yaml"))
@@ -67,7 +71,8 @@ def test_nominal_numbers_come_first_and_are_marked(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("chosen", ["", "HWL (+1.50 m)", "LWL (0.00 m)", "elsewhere"])
 def test_the_first_draft_has_the_water_level_on_the_screen(tmp_path: Path, chosen: str) -> None:
-    _, first, whole = Drafts(run, tmp_path / "kept").answer(wish(tmp_path, template("curtain"), level=chosen), silent)
+    text = only("curtain", "statics")
+    _, first, whole = Drafts(run, tmp_path / "kept").answer(wish(tmp_path, text, level=chosen), silent)
     level = "LWL" if chosen.startswith("LWL") else "HWL"
     other = "HWL" if level == "LWL" else "LWL"
     assert f'data-option="{level} (' in first["html"] and f'data-option="{other} (' not in first["html"]
@@ -80,9 +85,7 @@ def test_the_first_draft_has_the_water_level_on_the_screen(tmp_path: Path, chose
 
 def test_the_first_draft_has_what_is_on_the_screen(tmp_path: Path) -> None:
     """Statics at the top of the page, waves at once where they are looked at."""
-    text = re.sub(
-        "^analyses:.*$", "analyses: [statics, mooring, frequency]", template("breakwater"), flags=re.MULTILINE
-    )
+    text = only("breakwater", "statics, mooring, frequency")
     drafts = Drafts(run, tmp_path / "kept")
     drawn = [one["analyses"] for one in drafts.answer(wish(tmp_path, text), silent) if one["message"] == "drawn"]
     assert drawn == [["statics", "mooring"], *[["statics", "mooring", "frequency"]] * 2]
