@@ -25,7 +25,9 @@ structure:
   length: 23 m
   skirt: {length: 5 m, mass_per_area: 0.9 kg/m2, sheet_density: 1380 kg/m3, stiffness: 900 kN/m, strength: 160 kN/m}
   toe: {kind: held, chain_mass: 20 kg/m}
-  cables: {upper: {catalogue: polyester_8_strand, diameter: 36 mm}, lower: {catalogue: polyester_8_strand, diameter: 36 mm}}
+  cables:
+    upper: {catalogue: polyester_8_strand, diameter: 36 mm}
+    lower: {catalogue: polyester_8_strand, diameter: 36 mm}
   floats: {buoyancy: 980 N/m, weight: 100 N/m}
   joints: {distance: 10 m, strength: 180 kN}
   anchors: {line_length: 40 m, axial_stiffness: 5 MN, breaking_load: 300 kN, holding_force: 120 kN}
@@ -45,7 +47,9 @@ def run(folder: Path, analyses: str, speed: float = 0.2, height: float = 0.6) ->
 
 def test_held_toe_limits_lie_between_states_that_hold_and_that_do_not(tmp_path: Path) -> None:
     """A few per cent below the limit of the current the state holds, above it does not; the height within its step."""
-    found = {item.name: item.value for item in run(tmp_path, "[statics, impact, waves, anchor_loads, limits]").headlines}
+    found = {
+        item.name: item.value for item in run(tmp_path, "[statics, impact, waves, anchor_loads, limits]").headlines
+    }
     current, height = found["limit_current"], found["limit_wave_height"]
     for factor, outcome in ((0.98, "holds"), (1.02, "does not hold")):
         still = run(tmp_path, "[statics, impact]", speed=factor * current)

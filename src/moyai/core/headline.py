@@ -45,6 +45,17 @@ class Band:
     #: Realisations that the interval is of, and the key of the case that asks for more of them.
     realisations: int = 0
     more: str = ""
+    #: What the judged end comes to with very many realisations, the upper ends of coefficients in it.
+    settled: float | None = None
+    #: Whether the judged end lies beyond what a bound "at least" leaves open, as the growth that was seen goes on.
+    beyond_bound: bool = False
+
+    def scaled(self, less: float, more: float | None = None) -> Band:
+        """Return the band with its lower ends times ``less`` and its upper ends times ``more``, the same by default."""
+        more = less if more is None else more
+        judged = None if self.judged is None else (less * self.judged[0], more * self.judged[1])
+        settled = None if self.settled is None else more * self.settled
+        return replace(self, low=less * self.low, high=more * self.high, judged=judged, settled=settled)
 
 
 @dataclass(frozen=True)
@@ -112,7 +123,8 @@ class Headline:
         if band is not None:
             judged = band.get("judged")
             ends = {"low": float(band["low"]), "high": float(band["high"])}
-            band = Band(**{**band, **ends, "judged": None if judged is None else (float(judged[0]), float(judged[1]))})
+            judged = None if judged is None else (float(judged[0]), float(judged[1]))
+            band = Band(**{**band, **ends, "judged": judged})
         return cls(**{**record, "value": float(record["value"]), "band": band})
 
 
@@ -413,7 +425,8 @@ def _judge_one(criterion: Criterion, headline: Headline) -> Judgement:
         return _judge_parts(criterion, headline, value)
     good = value <= criterion.limit if upward else value >= criterion.limit
     # The true value lies below a bound "at most" and above a bound "at least"
-    proves = not headline.bound or (headline.bound == criterion.sense) == good
+    beyond = headline.band is not None and headline.band.beyond_bound and criterion.sense == "at most" and good
+    proves = not headline.bound or (headline.bound == criterion.sense) == good or beyond
     if not proves:
         reason = f"only a bound is known ({headline.bound} this value)"
         return Judgement(criterion, value, "not judged", reason, headline.bound)
@@ -428,10 +441,13 @@ def _more_realisations(criterion: Criterion, headline: Headline, judged: float) 
     The interval narrows with the square root of their number; the mean itself may move.
     """
     band, sign = headline.band, 1.0 if criterion.sense == "at most" else -1.0
-    room = sign * (criterion.limit - headline.value)
-    if band is None or band.decides or not band.realisations or not room > 0.0:
+    if band is None or band.decides or not band.realisations:
         return ""
-    wanted = math.ceil(band.realisations * (sign * (judged - headline.value) / room) ** 2)
+    settled = headline.value if band.settled is None else band.settled
+    room = sign * (criterion.limit - settled)
+    if not room > 0.0:
+        return ""
+    wanted = math.ceil(band.realisations * (sign * (judged - settled) / room) ** 2)
     if wanted > MOST_REALISATIONS:
         return f"the mean of {band.realisations} realisations keeps it, by too little to be proven"
     return f"the mean of {band.realisations} realisations keeps it: {band.more}: {wanted} may prove it"

@@ -26,8 +26,9 @@ def seeds(scatter: Array, bound: Array | None = None) -> Band | None:
     of = f"{scatter.size} realisations; judged at the 95 % end of their mean"
     ends = (float(scatter.mean()) - reach_of_mean(scatter), float(upper.mean()) + reach_of_mean(upper))
     return Band(
-        float(scatter.min()), float(scatter.max()), of, decides=False, judged=ends, realisations=scatter.size, more=MORE
-    )
+        float(scatter.min()), float(scatter.max()), of, decides=False, judged=ends,
+        realisations=scatter.size, more=MORE, settled=float(upper.mean()),
+    )  # fmt: skip
 
 
 def storms(value: float, mean: float, factor: float) -> Band | None:

@@ -269,9 +269,7 @@ def _used_headline(name: str, label: str, load: _Load) -> Headline:
         said = f"{of} without its snap, which needs {_MISSING}"
         return Headline(name, label, math.nan, "1", where=where, model=load.model, detail=said, text="not known")
     band = load.band
-    if band is not None:
-        ends = None if band.judged is None else (band.judged[0] / strength, band.judged[1] / strength)
-        band = Band(band.low / strength, band.high / strength, band.of, band.decides, ends)
+    band = None if band is None else band.scaled(1.0 / strength)
     return Headline(name, label, load.used, "1", where=where, model=load.model, band=band, bound=load.bound, detail=of)
 
 
@@ -434,7 +432,7 @@ def _wave_band(groups: Groups, load: _Load) -> Band | None:
         whole * own.low / own.top - less, max(whole * high / own.top + more, upper),
         f"{words}; {part}; judged at the 95 % end of the mean", decides=False,
         judged=(whole * (1.0 - own.reach / own.top) - less, max(whole * worst.judged / own.top + more, upper)),
-        realisations=worst.count, more=_MORE,
+        realisations=worst.count, more=_MORE, settled=max(whole * worst.top / own.top + more, upper),
     )  # fmt: skip
 
 
