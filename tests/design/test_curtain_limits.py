@@ -59,3 +59,17 @@ def test_held_toe_limits_lie_between_states_that_hold_and_that_do_not(tmp_path: 
         assert below.verdict.outcome == "holds", below.verdict.message
     above = run(tmp_path, "[statics, impact, waves, anchor_loads]", height=1.3 * height)
     assert above.verdict.outcome == "does not hold", above.verdict.message
+
+
+def test_joints_are_judged_at_the_upper_end_of_impact_and_steady_part(tmp_path: Path) -> None:
+    """As cables and anchors are: some 40 kN are 42 kN at that end, the difference between a factor of 3.05 and 2.9."""
+    filled = {"speed": 0.2, "height": 0.3, "period": 2.1, "analyses": "[statics, impact]"}
+    text = (
+        (CASE % filled).replace("strength: 180 kN", "strength: 123 kN").replace("water_depth: 9 m", "water_depth: 10 m")
+    )
+    (tmp_path / "case.yaml").write_text(text, encoding="utf-8")
+    result = moyai.run(tmp_path / "case.yaml")
+    loads = result.tree["SWL/loads"].to_dataset(inherit=False).sel(component="joint")
+    (found,) = [item for item in result.verdict.judgements if item.criterion.name == "joint_safety_factor"]
+    assert found.value == pytest.approx(float(loads["governing_high"]) / 123e3, rel=1e-6)
+    assert found.value > 1.02 * float(loads["governing_load"]) / 123e3

@@ -425,8 +425,12 @@ def _judge_one(criterion: Criterion, headline: Headline) -> Judgement:
         return _judge_parts(criterion, headline, value)
     good = value <= criterion.limit if upward else value >= criterion.limit
     # The true value lies below a bound "at most" and above a bound "at least"
-    beyond = headline.band is not None and headline.band.beyond_bound and criterion.sense == "at most" and good
-    proves = not headline.bound or (headline.bound == criterion.sense) == good or beyond
+    if headline.band is not None and headline.band.beyond_bound and headline.bound != criterion.sense:
+        if good:
+            return Judgement(criterion, value, "holds", headline.where, "", headline.judged_on)
+        # beyond the limit that end proves nothing, the bound itself may
+        return _judge_one(criterion, replace(headline, band=None))
+    proves = not headline.bound or (headline.bound == criterion.sense) == good
     if not proves:
         reason = f"only a bound is known ({headline.bound} this value)"
         return Judgement(criterion, value, "not judged", reason, headline.bound)

@@ -162,3 +162,15 @@ def test_a_limit_between_a_mean_and_its_interval_names_the_realisations_that_may
     assert "by too little to be proven" in close.message
     assert judge([found], [replace(limit, limit=35.0)], computed=True).judgements[0].remedy == ""
     assert Headline.from_dict(found.as_dict()) == found
+
+
+def test_a_bound_from_below_with_an_end_beyond_it_holds_where_that_end_keeps_the_limit():
+    band = Band(1.0, 2.0, "growth", decides=False, judged=(1.0, 8.0), beyond_bound=True)
+    found = Headline("pull", "Pull", 2.0, "N", bound="at least", band=band)
+    limit = Criterion("greatest_pull", "pull", 10.0, "at most", "case file", unit="N")
+    (item,) = judge([found], [limit], computed=True).judgements
+    assert (item.outcome, item.value) == ("holds", 8.0)
+    # beyond the limit that end proves nothing; the bound proves that a limit below it is broken
+    for least, outcome in ((5.0, "not judged"), (1.5, "does not hold")):
+        (item,) = judge([found], [replace(limit, limit=least)], computed=True).judgements
+        assert (item.outcome, item.value) == (outcome, 2.0)

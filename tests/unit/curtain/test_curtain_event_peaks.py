@@ -76,6 +76,20 @@ def test_three_realisations_on_the_finer_mesh_scatter_as_the_five_on_the_coarser
     assert peak.judged == pytest.approx(42e3 + reach, rel=1e-4)
 
 
+def test_growth_with_the_cells_is_continued_as_a_power_to_ten_times_smaller_ones():
+    """Means of 29 and 42 kN on 8 and 12 cells grow as their number to the power 0.913."""
+    peak = event_peak(storm((40e3, 42e3, 44e3)), "storm", "upper cable")
+    power = math.log(42 / 29) / math.log(12 / 8)
+    assert peak.at_least and peak.ceiling == pytest.approx(peak.judged * 10.0**power, rel=1e-9)
+    # what falls with the cells does not grow
+    falling = event_peak(storm(), "storm", "upper cable")
+    assert falling.ceiling == falling.judged
+    groups = groups_of(storm((40e3, 42e3, 44e3)), 1e7, "at least")
+    criterion = Criterion("cables", "cable_utilisation", 1.0 / 3.0, "at most", "case file", as_factor=True)
+    (item,) = judge(curtain_headlines(groups, ["SWL"]), [criterion], computed=True).judgements
+    assert item.outcome == "holds" and item.value == pytest.approx(peak.ceiling / 1e7)
+
+
 def test_what_grows_with_the_cells_is_a_bound_and_warned_of():
     found = governing_peaks(storm(skirt=(10e3, 11e3)))
     assert {name: event for name, (event, _) in found.items()} == {"upper cable": "storm", "skirt": "storm"}
@@ -152,7 +166,7 @@ def test_the_whole_span_has_to_hold_at_every_level_for_a_limit(order):
 
 
 def test_a_bound_from_below_proves_no_strength():
-    numbers = curtain_headlines(groups_of(storm(), 200e3, "at least"), ["SWL"])
+    numbers = curtain_headlines(groups_of(storm((40e3, 42e3, 44e3)), 200e3, "at least"), ["SWL"])
     criterion = Criterion("cables", "cable_utilisation", 1.0 / 3.0, "at most", "case file", as_factor=True)
     (item,) = judge(numbers, [criterion], computed=True).judgements
     assert item.outcome == "not judged"

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from moyai.core.headline import Band, Bound, Criterion, Headline, judge, unfavourable
 from moyai.series.intervals import reach_of_mean
-from moyai.structures.curtain.analyses.event_peaks import event_band
+from moyai.structures.curtain.analyses.event_peaks import ceiling_of, event_band
 from moyai.structures.curtain.governing import model_of
 from moyai.structures.curtain.hierarchy import SPAN, STATICS
 from moyai.structures.curtain.limit_headlines import REMEDY, limit_headlines
@@ -300,7 +300,8 @@ def _impact_band(groups: Groups, load: _Load) -> Band | None:
     if steady is None:
         return None
     value, part = load.number("governing_load"), load.number("steady_load")
-    current = at_rest(groups[f"/{load.level}/statics"], _STEADY_NAMES[load.component])
+    name = _STEADY_NAMES.get(load.component)
+    current = part if name is None else at_rest(groups[f"/{load.level}/statics"], name)
     # a pretension above the load of the current stays where it is
     least = part if part > current * (1.0 + 1e-9) else 0.0
     low, high = (
@@ -362,10 +363,15 @@ def _mesh_band(table: xr.Dataset, load: _Load, value: float) -> Band | None:
     others = [event_band(table, str(name), component) for name in table["event"].values if str(name) != event]
     known = [item for item in others if math.isfinite(item[0])]
     high, judged = max([high, *(item[2] for item in known)]), max([judged, *(item[3] for item in known)])
-    if not low < max(high, judged):
+    ceiling = ceiling_of(table, component) if load.bound == "at least" else math.nan
+    if not low < max(high, judged) and math.isnan(ceiling):
         return None
     factor = value / whole
     low, high = factor * low, max(factor * high, value)
+    if math.isfinite(ceiling):
+        end = kilo(factor * ceiling, load.words("load_unit"))
+        of = f"meshes and events; judged at {end}, the growth from mesh to mesh continued to cells ten times smaller"
+        return Band(low, high, of, decides=False, judged=(low, factor * ceiling), beyond_bound=True)
     if count < 2:
         high = max(high, factor * judged)
         return Band(low, high, "meshes and events, the larger counts; drag at its value")
@@ -488,11 +494,15 @@ class _Cycles:
 
 
 def _steady_band(groups: Groups, load: _Load) -> Band | None:
-    name = _STEADY_NAMES.get(load.component)
     statics = groups.get(f"/{load.level}/statics")
-    if name is None or statics is None:
+    if statics is None:
         return None
-    return statics_band(statics, name)
+    if load.component == "joint":
+        # the load of a stretch of the curtain goes with the load per length
+        band, value = statics_band(statics, "line_load"), at_rest(statics, "line_load")
+        return None if band is None or not value > 0.0 else band.scaled(load.number("steady_load") / value)
+    name = _STEADY_NAMES.get(load.component)
+    return None if name is None else statics_band(statics, name)
 
 
 def _span_holds(loads: Sequence[_Load], level: str) -> bool:

@@ -83,7 +83,8 @@ def limit_headlines(groups: Groups, levels: Sequence[str], span_holds: Callable[
         if key != "speed_limit" and math.isfinite(period):
             details.append(f"in waves of {period:.3g} s, as settings.limits takes the period with the height")
         if key != "speed_limit" and table.attrs.get("with_snaps"):
-            details.append("snaps by realisations of JONSWAP seas along the normal")
+            lasting = float(table.attrs.get("sea_duration", math.nan)) / 60.0
+            details.append(f"snaps by realisations of JONSWAP seas of {lasting:.3g} min along the normal")
         if governing != "effective depth" and float(table.attrs.get("least_effective_depth", 1.0)) == 0.0:
             details.append("no depth is asked for: 'least_effective_depth' of 'criteria' has no default")
         if jump := str(table.attrs.get("limit_jump", "")) if key == "design_limit" else "":

@@ -65,8 +65,9 @@ def limits_dataset(
     duration : float, optional
         See :func:`sea_loads`.
     """
+    duration = 3600.0 * settings.waves.hours if duration is None else duration
     loads = sea_loads(unit, settings, answer, curve, duration)
-    counted = CountedLimits(unit, settings, loads)
+    counted = CountedLimits(unit, settings, loads, duration)
     most, most_bound = counted.speed()
     speeds = _speeds(unit, settings, most)
     rows = []
@@ -168,6 +169,8 @@ class CountedLimits:
     unit: LevelCurtain
     settings: Settings
     loads: SeaLoads
+    #: Of the seas that snaps are looked for in [s].
+    duration: float = math.nan
     solved: dict[float, CurtainStatics | None] = field(default_factory=dict)
 
     @property
@@ -188,7 +191,8 @@ class CountedLimits:
 
     def loads_in(self, speed: float) -> SeaLoads:
         """Return the loads that count in a current [m/s]."""
-        return self.loads if self.with_plate and self.role(speed) in ("governs", "bound") else self.sure
+        role = self.role(speed) if self.with_plate else "out of range"
+        return replace(self.loads, upright=role == "governs") if role in ("governs", "bound") else self.sure
 
     def speed(self) -> tuple[Limit, Bound]:
         """Return the largest current without waves, and whether it is a bound."""
@@ -213,6 +217,7 @@ class CountedLimits:
     def _height(self, loads: SeaLoads, speed: float) -> Limit:
         unit, highest = self.unit, self.settings.limits.highest_height
         snapping = loads.snaps is not None
+        loads = replace(loads, upright=snapping and self.role(speed) == "governs")
         return height_limit(
             unit.hanging, unit.site, unit.requirements, loads, speed=speed, highest=highest, first_only=snapping
         )
@@ -288,6 +293,7 @@ def _limits_group(
                 "wave_angle": limits.wave_angle,
                 "with_impact": int(loads.impact is not None),
                 "with_snaps": int(loads.snaps is not None),
+                "sea_duration": counted.duration,
                 "with_energy_model": int(loads.energy is not None),
                 "plate_role": counted.role(unit.surface_speed) if counted.with_plate else "",
             },

@@ -187,6 +187,8 @@ class SeaLoads:
     impact: ImpactLoad | None = None
     #: Slack and taut cycles, and how their tension goes to the components.
     snaps: tuple[SnapTable, ImpactLoad] | None = None
+    #: Whether the plate is upright, so that its snaps pull at the anchor lines as well as the energy model says.
+    upright: bool = False
     #: Whether snaps count at the upper end of the interval of their mean.
     judged: bool = False
     #: Whether snaps are those of the heights that were run already: at least so much above them.
@@ -213,8 +215,8 @@ class SeaLoads:
             table, proportions = self.snaps
             tension = table.tension(speed, significant_height, judged=self.judged, known=self.known)
             struck = proportions.of_tension(tension)
-            if self.energy is not None:
-                # the energy model was fitted to anchor lines; fixed supports would overload them
+            if self.energy is not None and not self.upright:
+                # the energy model was fitted to anchor lines of free toes; fixed supports would overload them
                 struck = replace(struck, anchor_line=0.0)
             found = found.larger(increase(struck, statics))
         if self.energy is None:
