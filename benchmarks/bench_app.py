@@ -2,8 +2,9 @@
 
     python benchmarks/bench_app.py [--moves 20] [--only member]
 
-Prints JSON lines: median and 95th percentile in milliseconds over single moves with a rest between them, the first one
-of each structure (which fills caches) left out. On a machine that does other things the numbers are theirs too.
+Prints JSON lines: median and 95th percentile in milliseconds over single moves until the first draft of what is on the
+screen is drawn, each after the whole answer to the one before; the first one of each structure (which fills caches) is
+left out. On a machine that does other things the numbers are theirs too.
 """
 
 from __future__ import annotations
@@ -22,17 +23,23 @@ from typing import Any
 
 from moyai.case.templates import template
 
+_FREQUENCY = "statics, mooring, frequency"
 CASES = {
-    "member": ("member", "", "structure.section.diameter"),
-    "rigid cage statics": ("rigid_cage", "statics", "structure.net.twine_diameter"),
-    "cage statics": ("cage", "statics", "current.speed"),
-    "breakwater statics": ("breakwater", "statics", "structure.length"),
-    "breakwater frequency, mass": ("breakwater", "statics, mooring, frequency", "structure.roll_gyradius"),
-    "breakwater frequency, section": ("breakwater", "statics, mooring, frequency", "structure.section.beam"),
-    "network statics": ("network", "statics", "current.speed"),
-    "curtain statics": ("curtain", "statics", "current.speed"),
+    "member": ("member", "", "structure.section.diameter", ""),
+    "rigid cage statics": ("rigid_cage", "statics", "structure.net.twine_diameter", ""),
+    "cage statics": ("cage", "statics", "current.speed", ""),
+    "breakwater statics": ("breakwater", "statics", "structure.length", ""),
+    "breakwater frequency, gyradius": ("breakwater", _FREQUENCY, "structure.roll_gyradius", "seas"),
+    "breakwater frequency, chains": ("breakwater", _FREQUENCY, "lines[0].segments[0].diameter", "seas"),
+    "breakwater frequency, wave height": ("breakwater", _FREQUENCY, "waves[0].height", "seas"),
+    "breakwater frequency, section": ("breakwater", _FREQUENCY, "structure.section.beam", "seas"),
+    "network statics": ("network", "statics", "current.speed", ""),
+    "curtain statics": ("curtain", "statics", "current.speed", ""),
+    "curtain impact": ("curtain", "statics, impact", "structure.span", "impact"),
 }
+"""Template, analyses (its own where empty), the number that moves, the section on the screen (the top where empty)."""
 IDLE = "document.querySelector('.state') && !document.querySelector('.state.working')"
+WHOLE = f"{IDLE} && document.querySelector('.report').dataset.whole"
 MOVE = """((path, share) => {
   const label = [...document.querySelectorAll('.slider label')].find((one) => one.title === path);
   const range = document.getElementById(label.getAttribute('for'));
@@ -62,7 +69,7 @@ def until(page: Any, expression: str, seconds: float = 180.0) -> None:
         time.sleep(0.02)
 
 
-def text_of(name: str, analyses: str, path: str) -> str:
+def text_of(name: str, analyses: str, path: str, section: str = "") -> str:
     """Return the template of a structure with these analyses and a slider of this number."""
     text = template(name)
     if analyses:
@@ -70,19 +77,22 @@ def text_of(name: str, analyses: str, path: str) -> str:
     return f"{text.rstrip()}\napp: {{sliders: ['{path}']}}\n"
 
 
-def measured(page: Any, file: str, path: str, moves: int) -> list[float]:
+def measured(page: Any, file: str, path: str, section: str, moves: int) -> list[float]:
     """Return the milliseconds of every move, the first left out."""
     page.evaluate("location.hash = '#/'")
     card = f"[...document.querySelectorAll('.card')].find((one) => one.textContent.endsWith({file!r}))"
     until(page, card)
     page.evaluate(f"{card}.click()")
     until(page, f"{IDLE} && document.querySelector('.report').dataset.sequence && document.querySelector('.slider')")
+    until(page, WHOLE)
+    if section:
+        page.evaluate(f"document.getElementById({section!r}).scrollIntoView({{ behavior: 'instant' }})")
     found = []
     for number in range(moves + 1):
         page.evaluate(f"{MOVE}({path!r}, {0.4 + 0.2 * ((number * 7) % 11) / 11.0})")
-        until(page, f"{IDLE} && document.querySelector('.report').dataset.latency")
+        until(page, "document.querySelector('.report').dataset.latency")
         found.append(float(page.evaluate("document.querySelector('.report').dataset.latency")))
-        time.sleep(0.1)
+        until(page, WHOLE)
     return found[1:]
 
 
@@ -105,9 +115,9 @@ def main() -> None:
             module = driver()
             with module.Chromium(module.find_chromium(), 1400, 900) as page:
                 page.send("Page.navigate", url=found[0])
-                for name, (_, _, path) in chosen.items():
+                for name, (_, _, path, section) in chosen.items():
                     file = f"{name.replace(' ', '_').replace(',', '')}.yaml"
-                    times = sorted(measured(page, file, path, given.moves))
+                    times = sorted(measured(page, file, path, section, given.moves))
                     high = times[min(len(times) - 1, round(0.95 * (len(times) - 1)))]
                     record = {"case": name, "moves": len(times), "median_ms": statistics.median(times), "p95_ms": high}
                     print(json.dumps(record), flush=True)

@@ -41,7 +41,7 @@ def main() -> None:
     options.add_argument("--moves", type=int, default=5)
     options.add_argument("--only", default="")
     given = options.parse_args()
-    for name, (kind, analyses, path) in CASES.items():
+    for name, (kind, analyses, path, section) in CASES.items():
         if given.only not in name:
             continue
         text = text_of(kind, analyses, path)
@@ -53,7 +53,8 @@ def main() -> None:
                 share = 0.4 + 0.2 * ((move * 7) % 11) / 11.0
                 number = slider["low"] + (slider["high"] - slider["low"]) * share
                 edits = {path: f"{number:.{slider['decimals']}f}"}
-                rows.append(stages(drafts, Wish(text, Path(held, "case.yaml"), Path(held), edits)))
+                wish = Wish(text, Path(held, "case.yaml"), Path(held), edits, shown=(section,) if section else ())
+                rows.append(stages(drafts, wish))
         drawn = [round(statistics.median(stage)) for stage in zip(*rows[1:])]
         print(json.dumps({"case": name, "moves": given.moves, "drawn_ms": drawn}), flush=True)
 

@@ -64,7 +64,8 @@ def press(page: Any, words: str) -> None:
 def open_case(page: Any, start: str, file: str) -> None:
     """Open a case file from the first page and wait for its figures."""
     page.evaluate("location.hash = '#/'")
-    card = f"[...document.querySelectorAll('.card')].find((one) => one.textContent.endsWith({file!r}))"
+    named = f"one.querySelector('.card-detail').textContent === {file!r}"
+    card = f"[...document.querySelectorAll('.card')].find((one) => {named})"
     until(page, card)
     page.evaluate(f"{card}.click()")
     until(page, DRAWN)

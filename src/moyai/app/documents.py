@@ -72,9 +72,9 @@ class OpenCase:
             self.text = self.earlier.pop()
         self.changed = ("", 0.0)
 
-    def wish(self, folder: Folder, text: str, edits: dict[str, str]) -> Wish:
+    def wish(self, folder: Folder, text: str, edits: dict[str, str], shown: tuple[str, ...], level: str) -> Wish:
         """Return what the worker is asked for."""
-        return Wish(text, folder.root / self.name, folder.root, edits, self.pinned)
+        return Wish(text, folder.root / self.name, folder.root, edits, self.pinned, shown=shown, level=level)
 
     def record(self) -> dict[str, Any]:
         """Return what the page needs to show it."""

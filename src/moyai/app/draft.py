@@ -13,7 +13,7 @@ from moyai.app.edits import with_number
 from moyai.app.folder import refuse_foreign_files
 from moyai.app.sliders import sliders_of
 from moyai.case.builder import build
-from moyai.case.reader import case_of
+from moyai.case.reader import case_of, like_checked
 from moyai.case.yaml_reader import Document, parse_yaml
 from moyai.core.errors import CaseError, Fault, MoyaiError
 from moyai.core.kinds import structure_kind
@@ -30,16 +30,20 @@ VERSION = 1
 """Version of the messages between server and page (docs/tutorial/app.md)."""
 CHEAP: dict[str, tuple[tuple[str, ...], ...]] = {
     "breakwater": (("statics", "mooring"), ("statics", "mooring", "frequency")),
-    "curtain": (("statics",),),
+    "curtain": (("statics",), ("statics", "impact")),
     "cage": (("statics",),),
     "network": (("statics",),),
-    "member": (("sweep", "forces", "surface"),),
+    "member": (("forces",), ("sweep", "forces", "surface")),
 }
 """Analyses that a draft runs, by kind, in stages: each is drawn when it is there. Of those that the case names."""
 REGULAR_ONLY = ("member",)
 """Kinds whose drafts leave irregular seas out, where there are regular ones."""
 PINNED = "pinned"
-NOMINAL = "nominal numbers only, without ranges, bands, other laws or speeds: the whole answer may judge otherwise"
+NOMINAL = (
+    "nominal numbers only, at one water level, without drift, ranges, bands, other laws or speeds: "
+    "the whole answer may judge otherwise"
+)
+ONE_LEVEL = "one water level only: the whole answer may judge otherwise"
 _TEXT_LIMIT = 2_000_000
 
 Run = Callable[..., "Result"]
@@ -61,6 +65,10 @@ class Wish:
     pinned: str = ""
     #: Other analyses than the cheap ones.
     analyses: tuple[str, ...] = ()
+    #: Sections and figures of the report that are on the screen: the first draft has them.
+    shown: tuple[str, ...] = ()
+    #: Water level that is chosen there.
+    level: str = ""
 
 
 class Drafts:
@@ -81,6 +89,7 @@ class Drafts:
         self._keep = keep
         self._rest = rest
         self._pinned: dict[str, Other] = {}
+        self._shown: dict[str, set[str]] = {}
 
     def answer(self, wish: Wish, progress: Progress) -> Iterator[dict[str, Any]]:
         """Yield the case as read and checked, then its draft where it has no errors."""
@@ -99,13 +108,11 @@ class Drafts:
             sliders = sliders_of(document, case.kind, drafts[-1].data)
             yield _checked(text, (), case.warnings, sliders=sliders, kind=case.kind, title=case.title)
             checked = True
-            for place, stage in enumerate(_stages(drafts, wish)):
+            for place, stage in enumerate(self._stages(drafts, case, wish)):
                 if place > 0:
                     self._rest()
                 report = self._drawn(stage, document, wish, progress)
-                last = stage[0] is drafts[-1] and stage[2] is None
-                more = {"last": last, "seconds": round(time.perf_counter() - started, 4)}
-                yield {**report, **more}
+                yield {**report, "last": stage.last, "seconds": round(time.perf_counter() - started, 4)}
         except MoyaiError as error:
             faults = error.faults if isinstance(error, CaseError) else (error.fault,)
             if not checked:
@@ -115,28 +122,44 @@ class Drafts:
             else:
                 yield {"message": "not drawn", "faults": [asdict(spoken_fault(fault)) for fault in faults]}
 
-    def _drawn(
-        self, stage: tuple[Document, Case, Any], whole: Document, wish: Wish, progress: Progress
-    ) -> dict[str, Any]:
+    def _stages(self, drafts: list[Document], whole: Case, wish: Wish) -> Iterator[_Stage]:
+        """Yield what is drawn one after the other: a draft of what is on the screen, at last the whole answer."""
+        first = next((one for one in drafts if set(wish.shown) <= self._shown.get(_key_of(one), set(wish.shown))), None)
+        for draft in [drafts[-1]] if first is None or first is drafts[-1] else [first, drafts[-1]]:
+            case, last = like_checked(whole, draft), draft is drafts[-1]
+            kind, problem = structure_kind(case.kind), build(case)
+            nominal = kind.nominal(problem)
+            alone = kind.at_level(problem if nominal is None else nominal, wish.level)
+            if alone is not None or nominal is not None:
+                yield _Stage(
+                    draft, case, nominal if alone is None else alone, ONE_LEVEL if nominal is None else NOMINAL
+                )
+            elif not last:
+                yield _Stage(draft, case)
+        yield _Stage(draft, case, last=True)
+
+    def _drawn(self, stage: _Stage, whole: Document, wish: Wish, progress: Progress) -> dict[str, Any]:
+        from moyai.report.encoding import slug
         from moyai.report.html import render_parts
         from moyai.report.writer import compose_document
 
-        document, case, problem = stage
-        result = self._run(case, progress, keep=self._keep, problem=problem)
+        document = stage.document
+        result = self._run(stage.case, progress, keep=self._keep, problem=stage.problem)
         if result.status == "interrupted":
             raise KeyboardInterrupt
-        if problem is not None:
-            result = result.with_notices(Notice("draft", NOMINAL, severity="warning"))
+        if stage.words:
+            result = result.with_notices(Notice("draft", stage.words, severity="warning"))
         composed = compose_document(result)
         if wish.pinned and wish.pinned != whole.text:
             other = self._other(wish, document, progress)
             if other is not None:
                 composed = _laid_over(composed, result, other)
         html, data = render_parts(composed)
+        self._shown[_key_of(document)] = {*(slug(section.key) for section in composed.sections), *data["figures"]}
         return {
             "message": "drawn",
             "analyses": list(document.data["analyses"]),
-            "nominal": problem is not None,
+            "nominal": bool(stage.words),
             "left_out": document.data.get("waves") != whole.data.get("waves"),
             "status": result.status,
             "headlines": [headline.as_dict() for headline in result.headlines],
@@ -164,14 +187,22 @@ class Drafts:
         return self._pinned[mark]
 
 
-def _stages(drafts: list[Document], wish: Wish) -> Iterator[tuple[Document, Case, Any]]:
-    """Yield what is drawn one after the other: case and problem, None for its own; the nominal problem comes first."""
-    for draft in drafts:
-        case = case_of(draft, wish.file)
-        nominal = structure_kind(case.kind).nominal(build(case))
-        if nominal is not None:
-            yield draft, case, nominal
-        yield draft, case, None
+@dataclass(frozen=True)
+class _Stage:
+    """What is run and drawn at once."""
+
+    document: Document
+    case: Case
+    #: None for that of the case.
+    problem: Any = None
+    #: What is said of a problem that leaves something out.
+    words: str = ""
+    #: Whether it is the whole answer.
+    last: bool = False
+
+
+def _key_of(document: Document) -> str:
+    return f"{document.data['structure']['kind']} {document.data['analyses']}"
 
 
 def _like(document: Document, shown: Document, kind: str, analyses: tuple[str, ...]) -> dict[str, Any]:

@@ -10,6 +10,9 @@ from moyai.app.folder import Folder
 from moyai.core.kinds import structure_kind, structure_kinds
 from moyai.language import said
 
+_SHOWN = {"nakamura": "breakwater", "tabata": "curtain", "arai": "member", "sawaragi": "curtain", "matsubara": "cage"}
+"""Structure that is drawn on the card of a paper."""
+
 
 @cache
 def _templates() -> list[dict[str, str]]:
@@ -29,7 +32,14 @@ def _papers() -> list[dict[str, str]]:
     from moyai.reproduce import papers
 
     return [
-        {"paper": one.key, "title": one.title, "authors": one.authors, "year": str(one.year), "line": one.line}
+        {
+            "paper": one.key,
+            "kind": _SHOWN.get(one.key, ""),
+            "title": one.title,
+            "authors": one.authors,
+            "year": str(one.year),
+            "line": one.line,
+        }
         for one in papers()
     ]
 

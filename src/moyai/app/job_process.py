@@ -14,6 +14,7 @@ from typing import Any
 
 from moyai.app.draft import Run
 from moyai.core.errors import CaseError, MoyaiError
+from moyai.core.processes import die_with_parent
 from moyai.core.progress import Pace, duration_words
 from moyai.language import speak
 from moyai.language.faults import fault_text
@@ -49,6 +50,7 @@ def work(pipe: Any, stop: Any, order: Order, run: Run) -> None:
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     sys.stdout = sys.stderr = open(os.devnull, "w")  # noqa: SIM115 - as long as the process
     speak(order.language)
+    die_with_parent()
     pace, told = Pace(), [0.0]
 
     def listen(what: str, done: float, total: float) -> None:

@@ -14,12 +14,13 @@ from typing import Any
 
 from moyai.app.downloads import makeable
 from moyai.app.draft import Run
+from moyai.app.folder import Folder
 from moyai.app.job_process import Order, work
+from moyai.app.job_records import ENDED, Kept, keep, kept_jobs
 from moyai.language import said
 
 GRACE = 2.0
 """Seconds between the flag that asks a job to stop and the end of its process."""
-_ENDED = ("done", "failed", "cancelled", "lost")
 FILES = ("report.html", "results.nc", "study.nc", "fit.nc", "study.csv", "report.xlsx", "case.yaml")
 
 
@@ -30,19 +31,24 @@ class Job:
     ----------
     key : str
     order : Order
+    kept : Kept, optional
+        What an app before this one left of it.
 
     Attributes
     ----------
     state : str
         ``waiting``, ``running``, ``cancelling``, ``done``, ``failed``, ``cancelled`` or ``lost`` (its process was
-        killed from outside).
+        killed from outside, or the app ended before it).
     """
 
-    def __init__(self, key: str, order: Order) -> None:
+    def __init__(self, key: str, order: Order, kept: Kept | None = None) -> None:
         self.key = key
         self.order = order
-        self.state = "waiting"
-        self.words = self.stage = self.left = ""
+        self.state = "waiting" if kept is None else kept.state
+        self.words = "" if kept is None else kept.words
+        self.before = 0.0 if kept is None else kept.seconds
+        self.ordered = time.time() if kept is None else kept.ordered
+        self.stage = self.left = ""
         self.fraction = self.started = self.ended = self.asked = 0.0
         self.process: Any = None
         self.stop: Any = None
@@ -51,9 +57,8 @@ class Job:
         """Return what the page shows of it, in the language in force."""
         folder = self.order.folder
         shown = folder.relative_to(root) if folder.is_relative_to(root) else folder
-        seconds = (self.ended or time.monotonic()) - self.started if self.started else 0.0
-        files = [name for name in FILES if (folder / name).is_file()] if self.state in _ENDED else []
-        files += makeable(folder) if self.state in _ENDED else []
+        files = [name for name in FILES if (folder / name).is_file()] if self.state in ENDED else []
+        files += makeable(folder) if self.state in ENDED else []
         return {
             "id": self.key,
             "kind": self.order.kind,
@@ -64,11 +69,19 @@ class Job:
             "stage": said(self.stage),
             "fraction": round(self.fraction, 4),
             "left": said(self.left),
-            "seconds": round(seconds, 1),
+            "seconds": round(self.seconds(), 1),
             "files": files,
             "command": self.command(str(shown)),
             "process": self.process.pid if self.process is not None and self.state == "running" else None,
         }
+
+    def seconds(self) -> float:
+        """Return how long it has taken."""
+        return (self.ended or time.monotonic()) - self.started if self.started else self.before
+
+    def keep(self) -> None:
+        """Write where it stands beside its results."""
+        keep(self.order, self.state, self.words, self.seconds(), self.ordered)
 
     def command(self, shown: str) -> str:
         """Return the command line that does the same."""
@@ -91,14 +104,19 @@ class Jobs:
         Runs a case; a function of a module.
     target : callable
         What the process does; ``work`` but for tests.
+    folder : Folder, optional
+        Whose jobs of apps before this one are listed.
     """
 
-    def __init__(self, run: Run, target: Callable[..., None] = work) -> None:
+    def __init__(self, run: Run, target: Callable[..., None] = work, folder: Folder | None = None) -> None:
         self._run = run
         self._target = target
         self._context = multiprocessing.get_context("spawn")
         self._jobs: dict[str, Job] = {}
         self._numbers = itertools.count(1)
+        for one in kept_jobs(folder) if folder is not None else ():
+            job = Job(f"job{next(self._numbers)}", one.order, one)
+            self._jobs[job.key] = job
         self._changed = threading.Condition()
         self._closed = False
         self._thread = threading.Thread(target=self._serve, name="jobs", daemon=True)
@@ -125,6 +143,7 @@ class Jobs:
         with self._changed:
             job = Job(f"job{next(self._numbers)}", order)
             self._jobs[job.key] = job
+            job.keep()
             self._changed.notify_all()
         return job
 
@@ -132,9 +151,10 @@ class Jobs:
         """Start an ended job again, with the coefficients or the cases of a study that it has kept in its folder."""
         with self._changed:
             job = self._jobs[key]
-            if job.state in _ENDED:
+            if job.state in ENDED:
                 fresh = Job(job.key, job.order)
                 self._jobs[key] = job = fresh
+                job.keep()
                 self._changed.notify_all()
         return job
 
@@ -144,6 +164,7 @@ class Jobs:
             job = self._jobs[key]
             if job.state == "waiting":
                 job.state, job.words = "cancelled", "cancelled before it began"
+                job.keep()
             elif job.state == "running":
                 job.state, job.asked = "cancelling", time.monotonic()
                 job.stop.set()
@@ -168,6 +189,7 @@ class Jobs:
                     if job.state == "waiting":
                         job.state, job.started = "running", time.monotonic()
                         job.stop = self._context.Event()
+                        job.keep()
                         return job
                 self._changed.wait()
 
@@ -179,6 +201,8 @@ class Jobs:
                 with self._changed:
                     job.state, job.words = "failed", f"the process could not be started: {error}"
             job.ended = time.monotonic()
+            if not self._closed:  # else it is told as ended with the app when the next one starts
+                job.keep()
 
     def _follow(self, job: Job) -> None:
         pipe, far = self._context.Pipe()

@@ -182,6 +182,17 @@ def case_of(document: Document, path: Path) -> Case:
     return Case(model, document, path, tuple(_in_order(found.warnings)), case_hash(model, path.parent))
 
 
+def like_checked(case: Case, document: Document) -> Case:
+    """Return the case of a document that has fewer analyses or seas than that of a checked one, and no other values.
+
+    It is not checked again.
+    """
+    model, faults, _ = _validate(document, _choose_root(document, []))
+    if model is None:
+        raise CaseError(_in_order(faults))
+    return Case(model, document, case.path, case.warnings, case_hash(model, case.folder))
+
+
 def read_block(document: Document, root: type[Block]) -> Any:
     """Return the content of a file by a schema that is not that of a case: of a study, of measurements.
 

@@ -7,8 +7,10 @@ found by the entry-point group ``moyai.structures``: name of the kind = "package
 
 from __future__ import annotations
 
+import re
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from functools import cache
 from importlib import import_module
 from importlib.metadata import entry_points
@@ -117,9 +119,27 @@ class StructureKind(Kind):
         """
         return None
 
+    def at_level(self, problem: Any, level: str) -> Any | None:
+        """Return a problem with one of its water levels alone, for a first draft; None where it has no more than one.
+
+        ``level`` is its name or words of a report that begin with it; the first where it has no such level.
+        """
+        levels = dict(getattr(getattr(problem, "environment", None), "water_levels", ()))
+        if len(levels) < 2:
+            return None
+        name = level_of_words(levels, level)
+        return replace(problem, environment=replace(problem.environment, water_levels=((name, levels[name]),)))
+
     @abstractmethod
     def run(self, problem: Any, progress: Progress, keep: Path | None) -> Result:
         """Run all analyses of a problem; what took long is kept in the folder ``keep`` for the next run."""
+
+
+def level_of_words(names: Iterable[str], words: str) -> str:
+    """Return the water level with whose name some words begin, the first where there is none."""
+    known = list(names)
+    fitting = [name for name in known if re.match(rf"{re.escape(name)}(?!\w)", words)]
+    return max(fitting, key=len) if fitting else known[0]
 
 
 class FolderKind(StructureKind):

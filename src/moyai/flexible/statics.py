@@ -39,6 +39,8 @@ _MOST_NUMBERS = 2e8
 _RELAXING = 40_000
 #: Part of all solves that comes before it where there are sheets: slack cloth has a tangent without a slope.
 _BEFORE = 0.6
+#: First rounding of what only pulls or pushes, over the largest load, near a rest.
+_NEAR_SOFT = 1e-2
 #: How often and how long the true motion is asked for help.
 _SHAKES, _SHAKE_INTERVALS = 6, 40
 
@@ -158,6 +160,35 @@ def solve_equilibrium(
     problem.forces(best.place)
     state = State(0.0, best.place, np.zeros_like(best.place))
     return Equilibrium(state, problem.tension.copy(), best.residual, steps, found)
+
+
+def nearby_equilibrium(
+    network: Network, flow: Flow, start: State, *, tolerance: float, most_steps: int
+) -> Equilibrium | None:
+    """Return the rest beside a state by Newton's method, ``None`` where a few steps find none: for drafts.
+
+    Parameters
+    ----------
+    network : Network
+    flow : Flow
+        Steady current.
+    start : State
+        Rest of a network that differs little.
+    tolerance : float
+        Force left over the largest force at work.
+    most_steps : int
+        Solves.
+    """
+    network = at_rest(network)
+    problem = Relaxation(network, flow, math.inf)
+    fixed = network.nodes.kind != 0
+    place = np.where(fixed[:, None], network.nodes.position, start.position)
+    found = problem.attempt(place, turn=1.0, most=most_steps, tolerance=tolerance, soft=_NEAR_SOFT)
+    if not found.converged:
+        return None
+    problem.forces(found.place)
+    state = State(0.0, found.place, np.zeros_like(found.place))
+    return Equilibrium(state, problem.tension.copy(), found.residual, found.steps, "nearby")
 
 
 def _ladder(problem: Relaxation, place: Array, tolerance: float, most: int) -> tuple[Attempt, str, int]:

@@ -109,17 +109,13 @@ def _answer(
     with_drift: bool,
     density: Array | None,
     near: _State | None = None,
+    held: tuple[MeanOffset, Array] | None = None,
 ) -> _State:
     """Return the motions about the offset of a given drift, and the drift that they cause.
 
-    ``near`` is the state in a drift nearby, from which the linearisation goes on.
+    ``near`` is the state in a drift nearby, from which the linearisation goes on; ``held`` is what :func:`_held` gives.
     """
-    size = hydro.size
-    load = np.zeros(size) if problem.steady_force is None else np.array(problem.steady_force, dtype=float)
-    load[0] += drift
-    offset = mean_offset(problem.mooring, problem.hydrostatic_stiffness, load, start=start)
-    position = offset.position if offset.status == "converged" else np.zeros(size)
-    stiffness = np.asarray(problem.mooring.stiffness(position), dtype=float)
+    offset, stiffness = held or _held(problem, drift, start)
     total = problem.hydrostatic_stiffness + stiffness
     nonlinear = problem.quadratic is not None or problem.line_damping is not None
     if density is not None and nonlinear:
@@ -149,6 +145,16 @@ def _answer(
     per_square = drift_force_per_amplitude_squared(far, hydro.omega, hydro.heading, problem.water, hydro.length)[:, 0]
     force = float(np.sum(weight * per_square)) if with_drift else 0.0
     return _State(motions, far, offset, stiffness, force)
+
+
+def _held(problem: DriftProblem, drift: float, start: Array | None) -> tuple[MeanOffset, Array]:
+    """Return the offset in a drift and the stiffness of the lines there."""
+    size = len(problem.inertia)
+    load = np.zeros(size) if problem.steady_force is None else np.array(problem.steady_force, dtype=float)
+    load[0] += drift
+    offset = mean_offset(problem.mooring, problem.hydrostatic_stiffness, load, start=start)
+    position = offset.position if offset.status == "converged" else np.zeros(size)
+    return offset, np.asarray(problem.mooring.stiffness(position), dtype=float)
 
 
 def solve_with_drift(
@@ -187,8 +193,19 @@ def solve_with_drift(
     hydro = problem.one_heading()
     count = len(hydro.omega)
     amplitude = np.zeros(count) + np.asarray(wave_amplitude, dtype=float)
+    if not with_drift:
+        # all waves share one offset
+        state = _answer(problem, hydro, 0.0, amplitude**2, amplitude, None, with_drift, None)
+        found = _joined(hydro, [state], amplitude, np.ones(count), (state.offset.status,) * count)
+        return replace(
+            found,
+            drift_force=np.zeros(count),
+            offset=np.tile(state.offset.position, (count, 1)),
+            mooring_stiffness=np.tile(state.stiffness, (count, 1, 1)),
+        )
     states: list[_State] = []
     iterations, statuses = np.zeros(count), []
+    without_drift = _held(problem, 0.0, None)
     for index in range(count):
         progress("drift loop", index, count)
         rows = slice(index, index + 1)
@@ -198,15 +215,15 @@ def solve_with_drift(
             _rows(hydro, rows),
             amplitude[rows] ** 2,
             amplitude[rows],
-            with_drift,
             tolerance,
             maximum_iterations,
+            held=without_drift,
         )
         states.append(state)
         iterations[index] = used
         statuses.append(status)
     progress("drift loop", count, count)
-    return _joined(hydro, states, amplitude, iterations, tuple(statuses), with_drift)
+    return _joined(hydro, states, amplitude, iterations, tuple(statuses))
 
 
 def _loop(
@@ -214,22 +231,20 @@ def _loop(
     hydro: Hydrodynamics,
     weight: Array,
     amplitude: Array,
-    with_drift: bool,
     tolerance: float,
     maximum_iterations: int,
     density: Array | None = None,
+    held: tuple[MeanOffset, Array] | None = None,
 ) -> tuple[_State, int, Status]:
-    """Find the drift force that causes itself [eq:floating-drift-loop]."""
+    """Find the drift force that causes itself [eq:floating-drift-loop]; ``held`` is the state without drift."""
     force = 0.0
-    state = _answer(problem, hydro, force, weight, amplitude, None, with_drift, density)
-    if not with_drift:
-        return state, 1, "converged" if state.offset.status == "converged" else "not_converged"
+    state = _answer(problem, hydro, force, weight, amplitude, None, True, density, held=held)
     previous_force, previous_gap = force, state.force - force
     force = 0.5 * (force + state.force)
     used = 1
     while used < maximum_iterations:
         start = state.offset.position if state.offset.status == "converged" else None
-        state = _answer(problem, hydro, force, weight, amplitude, start, with_drift, density, state)
+        state = _answer(problem, hydro, force, weight, amplitude, start, True, density, state)
         used += 1
         gap = state.force - force
         if not np.isfinite(gap) or state.offset.status != "converged":
@@ -271,7 +286,6 @@ def _joined(
     amplitude: Array,
     iterations: Array,
     status: tuple[Status, ...],
-    with_drift: bool,
 ) -> DriftedMotions:
     """Join the waves of :func:`solve_with_drift` along frequency."""
     motions = Motions(

@@ -86,8 +86,11 @@ def natural_modes(
         return values, columns
 
     omega, vectors, outside = np.zeros(size), np.zeros((size, size)), []
+    known = 0.5 * (hydrodynamics.added_mass + np.swapaxes(hydrodynamics.added_mass, -1, -2))
+    dynamic = restoring - hydrodynamics.omega[:, None, None] ** 2 * (inertia + known)
+    table = np.asarray(np.linalg.eigvalsh(dynamic * scale[:, None] * scale[None, :]), dtype=np.float64)
     for number in range(size):
-        root = _mode_frequency(spectrum, number, hydrodynamics)
+        root = _mode_frequency(spectrum, number, hydrodynamics, table[:, number])
         omega[number] = root
         vectors[number] = scale * spectrum(root if np.isfinite(root) else 0.0)[1][:, number]
         if np.isfinite(root) and root > 0.0 and not hydrodynamics.omega[0] <= root <= hydrodynamics.omega[-1]:
@@ -145,9 +148,12 @@ def damping_function(hydrodynamics: Hydrodynamics) -> Callable[[float], Array]:
 
 
 def _mode_frequency(
-    spectrum: Callable[[float], tuple[Array, Array]], number: int, hydrodynamics: Hydrodynamics
+    spectrum: Callable[[float], tuple[Array, Array]], number: int, hydrodynamics: Hydrodynamics, table: Array
 ) -> float:
-    """Return where eigenvalue ``number`` passes zero: 0 without restoring, NaN with negative restoring."""
+    """Return where eigenvalue ``number`` passes zero: 0 without restoring, NaN with negative restoring.
+
+    ``table`` holds that eigenvalue at the frequencies of the coefficients.
+    """
     values = spectrum(0.0)[0]
     largest = float(np.max(np.abs(values)))
     if largest == 0.0 or abs(values[number]) <= 1e-12 * largest:
@@ -163,13 +169,15 @@ def _mode_frequency(
         if eigenvalue(top) < 0.0:
             break
         top *= 2.0
-    grid = np.unique(np.concatenate([hydrodynamics.omega[hydrodynamics.omega < top], [top]]))
-    below = 0.0
-    for upper in grid:
-        if eigenvalue(float(upper)) <= 0.0:
-            return float(scipy.optimize.brentq(eigenvalue, below, float(upper), xtol=1e-13 * top, rtol=1e-13))
-        below = float(upper)
-    return float("nan")
+    inside = hydrodynamics.omega < top
+    grid = np.append(hydrodynamics.omega[inside], top)
+    crossed = np.flatnonzero(np.append(table[inside], eigenvalue(top)) <= 0.0)
+    if not len(crossed):
+        return float("nan")
+    below, above = float(grid[crossed[0] - 1]) if crossed[0] else 0.0, float(grid[crossed[0]])
+    if eigenvalue(below) * eigenvalue(above) >= 0.0:
+        return above if abs(eigenvalue(above)) < abs(eigenvalue(below)) else below  # one of them is it, to rounding
+    return float(scipy.optimize.brentq(eigenvalue, below, above, xtol=1e-13 * top, rtol=1e-13))
 
 
 def _lead(vectors: Array, inertia: Array) -> tuple[NDArray[np.intp], Array]:

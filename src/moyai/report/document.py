@@ -7,7 +7,7 @@ A page composer (``breakwater_page`` for the floating breakwater) turns a result
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
@@ -281,17 +281,28 @@ class Drawing:
 class Animation:
     """A scene for the canvas player; ``scene`` is JSON-ready and made by :mod:`moyai.report.animation`.
 
-    ``still`` is an SVG of its governing moment with colours, for paper; ``shapes`` a structure in space that
-    stands still, for drawing programs; ``scene_3d`` the :class:`moyai.report.scene_3d.Scene3D` of one in space.
+    ``picture`` is an SVG of its governing moment with colours, for paper, or what draws it when it is asked for;
+    ``scene_3d`` the :class:`moyai.report.scene_3d.Scene3D` of one in space.
     """
 
     key: str
     title: str
     scene: Mapping[str, Any]
     caption: str = ""
-    still: str = ""
-    shapes: tuple[Shape, ...] = ()
+    picture: str | Callable[[], str] = ""
     scene_3d: Any = None
+
+    @property
+    def still(self) -> str:
+        """Return the picture for paper as SVG."""
+        return self.picture if isinstance(self.picture, str) else self.picture()
+
+    @property
+    def shapes(self) -> tuple[Shape, ...]:
+        """Return a structure in space that stands still, for drawing programs; nothing of one that moves."""
+        from moyai.report.scene_3d import shapes_3d
+
+        return shapes_3d(self.scene_3d) if self.scene_3d is not None and self.scene_3d.is_still else ()
 
 
 @dataclass(frozen=True)

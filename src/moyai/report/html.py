@@ -85,7 +85,7 @@ def render_parts(document: Document) -> tuple[str, dict[str, Any]]:
     dict
         What ``MOYAI.data`` of the report's scripts holds: figures, scenes, tables.
     """
-    page = _Page()
+    page = _Page(live=True)
     sections = "\n".join(page.section(section) for section in document.sections)
     data = page.data()
     return f"{_badges(document)}\n{sections}", data
@@ -237,7 +237,9 @@ def is_text_column(column: Column) -> bool:
 class _Page:
     """Collects the data that blocks leave behind while they are rendered."""
 
-    def __init__(self) -> None:
+    def __init__(self, *, live: bool = False) -> None:
+        # A page that changes names a single option too: others may come
+        self._live = live
         self.figures: dict[str, Any] = {}
         self.scenes: dict[str, Any] = {}
         self.tables: dict[str, str] = {}
@@ -368,7 +370,12 @@ class _Page:
 
     def _choice(self, choice: Choice) -> str:
         if len(choice.options) == 1:
-            return "\n".join(self.block(block) for block in choice.options[0].blocks)
+            only = choice.options[0]
+            inner = "\n".join(self.block(block) for block in only.blocks)
+            if not self._live:
+                return inner
+            pane = f'<div class="pane" data-option="{escape(only.label)}">{inner}</div>'
+            return f'<div class="choice" data-group="{escape(choice.group)}">{pane}</div>'
         self._choices += 1
         number = self._choices
         if sum(len(option.label) for option in choice.options) + 4 * len(choice.options) > 96:
@@ -425,15 +432,20 @@ def _caption(text: str) -> str:
     return f'<p class="caption">{words(text)}</p>' if text else ""
 
 
+_LONG_TEXT = 24
+"""Letters from which a key figure is a sentence."""
+
+
 def _key_figure(item: KeyFigure) -> str:
     bar = ""
     if item.utilisation == item.utilisation:
         filled = min(max(item.utilisation, 0.0), 1.0)
         over = " over" if item.utilisation > 1.0 else ""
         bar = f'<div class="meter{over}" aria-hidden="true"><i style="width:{100 * filled:.1f}%"></i></div>'
+    kind = "number" if len(item.text) < _LONG_TEXT else "number sentence"
     return (
         f'<div class="key-figure {item.judgement}"><div class="label">{words(item.label)}</div>'
-        f'<div class="number">{words(item.text)}</div>{bar}<div class="detail">{words(item.detail)}</div></div>'
+        f'<div class="{kind}">{words(item.text)}</div>{bar}<div class="detail">{words(item.detail)}</div></div>'
     )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import fields, is_dataclass, replace
-from functools import wraps
+from functools import partial, wraps
 from html import escape, unescape
 from typing import Any, TypeVar
 
@@ -110,8 +110,13 @@ def _translated(item: Any) -> Any:
     elif isinstance(item, Drawing):
         changes |= {"svg": _svg(item.svg), "fixed_svg": _svg(item.fixed_svg)}
     elif isinstance(item, Animation):
-        changes |= {"scene": _scene(item.scene), "still": _svg(item.still)}
+        changes |= {"scene": _scene(item.scene), "picture": partial(_still, item.picture, spoken_language())}
     return replace(item, **changes)
+
+
+def _still(picture: str | Callable[[], str], language: str) -> str:
+    with spoken_in(language):
+        return _svg(picture if isinstance(picture, str) else picture())
 
 
 def _svg(text: str) -> str:

@@ -10,6 +10,7 @@ import base64
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any, Literal
 
 import numpy as np
@@ -386,8 +387,7 @@ def animation_3d(key: str, title: str, scene: Scene3D, caption: str = "") -> Ani
     """
     from moyai.report.still_3d import still_3d
 
-    shapes = shapes_3d(scene) if scene.is_still else ()
-    return Animation(key, title, scene_3d(scene), caption, still_3d(scene), shapes, scene)
+    return Animation(key, title, scene_3d(scene), caption, partial(still_3d, scene), scene)
 
 
 def shapes_3d(scene: Scene3D) -> tuple[Stroke, ...]:

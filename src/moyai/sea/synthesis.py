@@ -10,6 +10,7 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
+from moyai.core.remembered import Remembered, key_of_objects
 from moyai.sea.spectrum import Spectrum
 
 Stream = Literal["phase", "amplitude", "heading", "frequency"]
@@ -17,6 +18,8 @@ Stream = Literal["phase", "amplitude", "heading", "frequency"]
 _STREAMS: dict[str, int] = {"phase": 1, "amplitude": 2, "heading": 3, "frequency": 4}
 #: Fraction of the energy of a formula that the default band leaves outside.
 ENERGY_LEFT_OUT = 1e-3
+
+_BANDS: Remembered[Array] = Remembered(32)
 
 
 @checks_words
@@ -34,9 +37,10 @@ def uniform_numbers(seed: int, stream: Stream, count: int) -> Array:
 def choose_band(spectrum: Spectrum, lower: float | None, upper: float | None) -> tuple[float, float]:
     """Return the band of synthesis [rad/s]; see :func:`moyai.sea.irregular.synthesise`."""
     if spectrum.shapes:
-        ends = (0.1 * ENERGY_LEFT_OUT, 1.0 - 0.9 * ENERGY_LEFT_OUT)
-        low = float(spectrum.quantile(ends[0])) if lower is None else float(lower)
-        high = float(spectrum.quantile(ends[1])) if upper is None else float(upper)
+        ends = np.array([0.1 * ENERGY_LEFT_OUT, 1.0 - 0.9 * ENERGY_LEFT_OUT])
+        known = _BANDS.of(key_of_objects(spectrum), lambda: spectrum.quantile(ends))
+        low = float(known[0]) if lower is None else float(lower)
+        high = float(known[1]) if upper is None else float(upper)
     else:
         low = max(float(spectrum.omega[0]), spectrum.lower) if lower is None else float(lower)
         high = min(float(spectrum.omega[-1]), spectrum.upper) if upper is None else float(upper)

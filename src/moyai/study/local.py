@@ -6,13 +6,13 @@ import contextlib
 import multiprocessing
 import os
 import signal
-import threading
 from collections import deque
 from collections.abc import Iterator
 from multiprocessing.connection import wait
 from typing import Any
 
 from moyai.core.errors import InputError
+from moyai.core.processes import die_with_parent
 from moyai.core.progress import Progress, silent
 from moyai.study.axes import Combination
 from moyai.study.ledger import Record
@@ -163,7 +163,7 @@ def _serve(pipe: Any, task: Task, cancel: Any) -> None:
     """Run what comes through the pipe until nothing more comes."""
     # Ctrl-C reaches every process of the terminal; the parent decides what happens then
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    _die_with_parent()
+    die_with_parent()
     # Tells a case that kills its worker from a worker that cannot start
     with contextlib.suppress(OSError):
         pipe.send(_STARTED)
@@ -181,19 +181,6 @@ def _serve(pipe: Any, task: Task, cancel: Any) -> None:
             pipe.send(record)
         except OSError:
             return
-
-
-def _die_with_parent() -> None:
-    """End this process when its parent is gone, also in the middle of a case (kill -9 of the parent)."""
-    parent = multiprocessing.parent_process()
-    if parent is None:
-        return
-
-    def watch() -> None:
-        wait([parent.sentinel])
-        os._exit(1)
-
-    threading.Thread(target=watch, daemon=True).start()
 
 
 __all__ = ["run_here", "run_processes"]

@@ -18,7 +18,11 @@ from typing import Any
 import pytest
 from app_runs import MEMBER, words_of_files
 
+from moyai.app.draft import stages_of
+from moyai.case.reader import case_of
 from moyai.case.templates import template
+from moyai.case.yaml_reader import parse_yaml
+from moyai.cli.runner import run
 from moyai.language.words import latin_words
 
 pytest.importorskip("starlette")
@@ -259,6 +263,101 @@ def test_moves_in_a_hurry_end_with_the_last_one(address: str) -> None:
         found = _settled(page)
         assert [one == other for one, other in zip(found, last, strict=True)] == [True, True]
         sound(page, address)
+
+
+def _only(name: str, analyses: str) -> str:
+    return re.sub("^analyses:.*$", f"analyses: [{analyses}]", template(name), flags=re.MULTILINE)
+
+
+PLACE = "Math.round(document.getElementById('response').getBoundingClientRect().top)"
+
+
+@pytest.mark.slow
+def test_a_draft_keeps_place_sections_and_choices(tmp_path: Path) -> None:
+    """What is looked at stays where it is; sections and water levels that a draft leaves out stay too."""
+    (tmp_path / "case.yaml").write_text(_only("breakwater", "statics, mooring, frequency"))
+    with app_at(tmp_path / "case.yaml") as address, pipe.Chromium(str(pipe.find_chromium()), 1280, 900) as page:
+        page.send("Page.navigate", url=address)
+        until(page, f"{WHOLE} && {IDLE}", 120.0)
+        sections = "[...document.querySelectorAll('.report section')].map((one) => one.id).join()"
+        chosen = "document.querySelector('#response .chooser [aria-pressed=true]').textContent"
+        names, level = page.evaluate(sections), page.evaluate(chosen)
+        page.evaluate("document.getElementById('response').scrollIntoView({ behavior: 'instant' })")
+        time.sleep(1.0)
+        place = page.evaluate(PLACE)
+        page.evaluate("""(() => {
+          window.seen = [];
+          new MutationObserver(() => seen.push(document.querySelector('.report').dataset.whole))
+            .observe(document.querySelector('.report'), { attributes: true, attributeFilter: ['data-whole'] });
+        })()""")
+        page.evaluate(f"{MOVE_ONE}('structure.roll_gyradius', 2.8)")
+        until(page, "seen.filter((one) => one === '').length >= 2", 60.0)
+        for _ in range(2):
+            assert abs(page.evaluate(PLACE) - place) <= 2
+            assert (page.evaluate(sections), page.evaluate(chosen)) == (names, level)
+            until(page, f"{WHOLE} && {IDLE}", 120.0)
+        sound(page, address)
+
+
+WHOLE = "document.querySelector('.report')?.dataset.whole === '1'"
+MOVE_ONE = """((path, value) => {
+  const label = [...document.querySelectorAll('.slider label')].find((one) => one.title === path);
+  const range = document.getElementById(label.getAttribute('for'));
+  range.value = value;
+  for (const name of ['input', 'change']) range.dispatchEvent(new Event(name, { bubbles: true }));
+})"""
+SLIDERS = """JSON.stringify([...document.querySelectorAll('.slider')].map((one) => {
+  const range = one.querySelector('input[type=range]');
+  return [one.querySelector('label').title, Number(range.min), Number(range.max), Number(range.step)];
+}))"""
+FAULTY = "Boolean(document.querySelector('.faults .error, .report.old'))"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("text", "moves", "reach"),
+    [
+        (MEMBER, 220, 0.2),
+        (_only("rigid_cage", "statics"), 80, 0.2),
+        (_only("network", "statics"), 80, 0.2),
+        (_only("curtain", "statics, impact"), 40, 0.2),
+        (_only("breakwater", "statics, mooring, frequency"), 60, 0.02),
+        (_only("cage", "statics"), 20, 0.2),
+    ],
+    ids=["member", "rigid cage", "network", "curtain", "breakwater", "cage"],
+)
+def test_random_moves_end_with_the_numbers_of_a_fresh_run(text: str, moves: int, reach: float, tmp_path: Path) -> None:
+    """Five hundred moves, most of them in a hurry; when the page rests its numbers are those of a run of its text."""
+    (tmp_path / "case.yaml").write_text(text)
+    chance, compared = random.Random(moves), 0
+    with app_at(tmp_path / "case.yaml") as address, pipe.Chromium(str(pipe.find_chromium()), 1280, 900) as page:
+        page.send("Page.navigate", url=address)
+        until(page, f"{WHOLE} && {IDLE}", 120.0)
+        for move in range(moves):
+            path, low, high, step = chance.choice(json.loads(page.evaluate(SLIDERS)))
+            middle, most = round(0.5 * (high - low) / step), max(1, round(reach * (high - low) / step))
+            value = low + step * (middle + chance.randint(-most, most))
+            page.evaluate(f"{MOVE_ONE}({path!r}, {value!r})")
+            if chance.random() < 0.7 and move < moves - 1:
+                time.sleep(chance.choice((0.0, 0.02, 0.1)))
+                continue
+            until(page, f"{IDLE} && ({WHOLE} || {FAULTY})", 180.0)
+            if page.evaluate(FAULTY):
+                # a number went too far
+                page.evaluate(f"{TEXT.removesuffix('.text')}.type({text!r})")
+                until(page, f"{IDLE} && {WHOLE} && {TEXT} === {text!r} && !{FAULTY}", 180.0)
+                continue
+            document = parse_yaml(page.evaluate(TEXT))
+            draft = stages_of(document, document.data["structure"]["kind"])[-1]
+            fresh = [one.as_dict() for one in run(case_of(draft, tmp_path / "case.yaml")).headlines]
+            shown = json.loads(page.evaluate("JSON.stringify(document.querySelector('.report').headlines)"))
+            assert [(one["name"], one["where"]) for one in shown] == [(one["name"], one["where"]) for one in fresh]
+            for one, wanted in zip(shown, (item["value"] for item in fresh), strict=True):
+                number = isinstance(wanted, float)
+                assert one["value"] == (pytest.approx(wanted, rel=1e-12, abs=0.0) if number else wanted), one["name"]
+            compared += 1
+        sound(page, address)
+    assert compared > 0.1 * moves
 
 
 @pytest.mark.slow

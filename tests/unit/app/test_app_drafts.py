@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import json
 import os
+import re
 import signal
 import time
 from pathlib import Path
@@ -30,6 +31,10 @@ def wish(folder: Path, text: str, **more: Any) -> Wish:
     return Wish(text, folder / "case.yaml", folder, **more)
 
 
+def only(name: str, analyses: str) -> str:
+    return re.sub("^analyses:.*$", f"analyses: [{analyses}]", template(name), flags=re.MULTILINE)
+
+
 @pytest.mark.parametrize(("name", "kind"), [("network", "network"), ("rigid_cage", "cage"), ("quick", "member")])
 def test_numbers_are_those_of_a_fresh_run(tmp_path: Path, name: str, kind: str) -> None:
     text = MEMBER if name == "quick" else template(name)
@@ -48,7 +53,7 @@ def test_numbers_are_those_of_a_fresh_run(tmp_path: Path, name: str, kind: str) 
 
 def test_nominal_numbers_come_first_and_are_marked(tmp_path: Path) -> None:
     """The same values without their bands, then the whole answer of a fresh run."""
-    text = template("curtain")
+    text = re.sub("^  water_levels:.*\n", "", only("curtain", "statics"), flags=re.MULTILINE)
     _, nominal, whole = Drafts(run, tmp_path / "kept").answer(wish(tmp_path, text), silent)
     assert (nominal["nominal"], nominal["last"]) == (True, False) and (whole["nominal"], whole["last"]) == (False, True)
     fresh = run(case_of(stages_of(parse_yaml(text), "curtain")[-1], tmp_path / "case.yaml"))
@@ -62,6 +67,34 @@ def test_nominal_numbers_come_first_and_are_marked(tmp_path: Path) -> None:
         assert repr(item["value"]) == repr(places[item["name"], item["where"]]), item["name"]
     assert not any(item.get("band") for item in nominal["headlines"]) and any(one[2] for one in found)
     assert "nominal numbers only" in nominal["html"] and "nominal numbers only" not in whole["html"]
+
+
+@pytest.mark.parametrize("chosen", ["", "HWL (+1.50 m)", "LWL (0.00 m)", "elsewhere"])
+def test_the_first_draft_has_the_water_level_on_the_screen(tmp_path: Path, chosen: str) -> None:
+    text = only("curtain", "statics")
+    _, first, whole = Drafts(run, tmp_path / "kept").answer(wish(tmp_path, text, level=chosen), silent)
+    level = "LWL" if chosen.startswith("LWL") else "HWL"
+    other = "HWL" if level == "LWL" else "LWL"
+    assert f'data-option="{level} (' in first["html"] and f'data-option="{other} (' not in first["html"]
+    assert all(f'data-option="{name} (' in whole["html"] for name in (level, other))
+    assert first["nominal"] and not first["last"] and whole["last"]
+    places = {(item["name"], item["where"]): item["value"] for item in whole["headlines"] if item["shown"]}
+    alike = [item for item in first["headlines"] if (item["name"], item["where"]) in places]
+    assert alike and all(item["value"] == places[item["name"], item["where"]] for item in alike)
+
+
+def test_the_first_draft_has_what_is_on_the_screen(tmp_path: Path) -> None:
+    """Statics at the top of the page, waves at once where they are looked at."""
+    text = only("breakwater", "statics, mooring, frequency")
+    drafts = Drafts(run, tmp_path / "kept")
+    drawn = [one["analyses"] for one in drafts.answer(wish(tmp_path, text), silent) if one["message"] == "drawn"]
+    assert drawn == [["statics", "mooring"], *[["statics", "mooring", "frequency"]] * 2]
+    drawn = [one for one in drafts.answer(wish(tmp_path, text, shown=("seas",)), silent) if one["message"] == "drawn"]
+    assert [(one["nominal"], one["last"]) for one in drawn] == [(True, False), (False, True)]
+    assert all(one["analyses"][-1] == "frequency" for one in drawn)
+    figures = [name for name in drawn[1]["data"]["figures"] if name.startswith("hwl-") and name.endswith("-rao")]
+    drawn = [one for one in drafts.answer(wish(tmp_path, text, shown=tuple(figures)), silent) if "nominal" in one]
+    assert figures and drawn[0]["analyses"][-1] == "frequency"
 
 
 @pytest.mark.parametrize("name", ["network", "rigid_cage", "member"])

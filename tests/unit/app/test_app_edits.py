@@ -107,7 +107,7 @@ def test_drafts_take_the_cheap_analyses_of_the_case() -> None:
     assert analyses("analyses: [statics, frequency, time]", "breakwater") == [["statics"], ["statics", "frequency"]]
     assert analyses("analyses: [statics, time]", "breakwater") == [["statics"]]
     assert analyses("analyses: time", "cage") == [["statics"]]
-    assert analyses("a: 1", "curtain") == [["statics"]]
+    assert analyses("a: 1", "curtain") == [["statics"], ["statics", "impact"]]
 
 
 @pytest.mark.parametrize(

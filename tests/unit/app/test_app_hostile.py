@@ -11,6 +11,7 @@ import signal
 import socket
 import subprocess
 import sys
+import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -170,6 +171,68 @@ def test_paths_that_climb(server: Server, path: str) -> None:
     for name in ("../pile.yaml", "/etc/passwd", "pile.yaml/../../x.yaml", "\x00"):
         assert server.ask("POST", "/api/jobs", {"file": name})[0] in (400, 422)
     assert server.lives()
+
+
+@pytest.mark.parametrize(
+    ("headers", "status"),
+    [
+        ({"Host": "evil.example"}, 421),
+        ({"Host": "localhost.evil.example:80"}, 421),
+        ({"Origin": "http://evil.example"}, 403),
+        ({"Origin": "null"}, 403),
+        ({"Sec-Fetch-Site": "cross-site"}, 403),
+        ({"X-Moyai-Token": ""}, 403),
+        ({"Cookie": ""}, 403),
+        ({"Content-Type": "text/plain"}, 415),
+    ],
+)
+def test_other_pages_and_machines_are_refused(server: Server, headers: dict[str, str], status: int) -> None:
+    assert server.ask("POST", "/api/jobs", {"paper": "tabata"}, **headers)[0] == status
+    assert json.loads(server.ask("GET", "/api/jobs")[1])["jobs"] == []
+
+
+def _jobs(server: Server) -> list[dict[str, Any]]:
+    return list(json.loads(server.ask("GET", "/api/jobs")[1])["jobs"])
+
+
+def _until(server: Server, state: str, seconds: float = 60.0) -> dict[str, Any]:
+    end = time.monotonic() + seconds
+    while (found := _jobs(server)[0])["state"] != state:
+        assert time.monotonic() < end, found
+        time.sleep(0.05)
+    return found
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="no SIGKILL here")
+@pytest.mark.parametrize("how", ["SIGKILL", "SIGINT"])
+def test_jobs_after_the_app_was_ended(tmp_path: Path, how: str) -> None:
+    """The job ends with its app, the next app tells so, and the job is started again and cancelled within 2 s."""
+    (tmp_path / "breakwater.yaml").write_text(template("breakwater"))
+    process, server = start(tmp_path)
+    key = json.loads(server.ask("POST", "/api/cases", {"file": "breakwater.yaml"})[1])["id"]
+    server.ask("POST", "/api/jobs", {"case": key})
+    job = _until(server, "running")
+    process.send_signal(getattr(signal, how))
+    process.wait(20)
+    end = time.monotonic() + 10.0
+    while Path(f"/proc/{job['process']}").exists() and time.monotonic() < end:
+        time.sleep(0.05)
+    assert not Path(f"/proc/{job['process']}").exists(), "the job outlives its app"
+    process, server = start(tmp_path)
+    try:
+        (found,) = _jobs(server)
+        assert found["state"] == "lost" and "the app ended" in found["words"]
+        assert (found["name"], found["folder"]) == (job["name"], job["folder"])
+        server.ask("POST", f"/api/jobs/{found['id']}/again", {})
+        _until(server, "running")
+        time.sleep(1.0)
+        begun = time.monotonic()
+        server.ask("POST", f"/api/jobs/{found['id']}/cancel", {})
+        _until(server, "cancelled")
+        assert time.monotonic() - begun < 3.0
+    finally:
+        process.send_signal(signal.SIGINT)
+        assert process.wait(20) == 0
 
 
 def test_two_apps_side_by_side(tmp_path: Path) -> None:

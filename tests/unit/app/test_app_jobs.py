@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import signal
 import time
@@ -12,8 +13,11 @@ from typing import Any
 import pytest
 from app_runs import deaf_work, quick_work
 
+from moyai.app.folder import Folder
 from moyai.app.job_process import Order
+from moyai.app.job_records import NAME, kept_jobs
 from moyai.app.jobs import GRACE, Job, Jobs
+from moyai.core.run_folder import alone_in
 
 
 def order(folder: Path, name: str = "case.yaml") -> Order:
@@ -92,3 +96,63 @@ def test_results_never_go_where_something_is(queue: Any, tmp_path: Path) -> None
     assert folder.name == "pile_2"
     jobs.add(Order("run", "pile.yaml", folder, tmp_path, tmp_path / "pile.yaml"))
     assert jobs.folder_for(tmp_path, "pile").name == "pile_3"
+
+
+def test_an_app_that_starts_later_lists_the_jobs(queue: Any, tmp_path: Path) -> None:
+    root = tmp_path.resolve()
+    output = root / "out"
+    jobs = queue(quick_work)
+    done = jobs.add(Order("run", "a.yaml", output / "a", root, root / "a.yaml", "moyai: 1", False, "ja"))
+    running = jobs.add(Order("study", "wait", output / "wait", root, root / "wait"))
+    waiting = jobs.add(Order("paper", "tabata", output / "tabata", root, root / "tabata"))
+    until(done, "done")
+    until(running, "running")
+    jobs.close()
+
+    later = Jobs(print, quick_work, Folder(root, output))
+    try:
+        first, second, third = (later[job.key] for job in (done, running, waiting))
+        assert (first.state, first.words, first.order) == ("done", "all identities hold; holds", done.order)
+        assert second.state == third.state == "lost"
+        assert "the app ended before this job did" in second.words and "goes on from the cases" in second.words
+        assert "before this job began" in third.words
+        assert second.order == running.order and third.order == waiting.order
+        until(later.again(third.key), "done")
+    finally:
+        later.close()
+    assert [one.state for one in kept_jobs(Folder(root, output))] == ["done", "lost", "done"]
+
+
+def test_a_job_at_which_another_app_works_is_not_listed(queue: Any, tmp_path: Path) -> None:
+    root = tmp_path.resolve()
+    jobs = queue(quick_work)
+    until(jobs.add(Order("run", "wait", root / "out" / "a", root, root / "wait")), "running")
+    with alone_in(root / "out" / "a"):
+        assert kept_jobs(Folder(root, root / "out")) == []
+    assert len(kept_jobs(Folder(root, root / "out"))) == 1
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"file": "../outside.yaml"}, {"file": "/etc/passwd"}, {"kind": "shell"}, {"moyai_job": 2}, {"ordered": "x"},
+        {"state": None, "seconds": {}},
+    ],
+)  # fmt: skip
+def test_what_is_no_job_of_this_folder_is_left_out(queue: Any, tmp_path: Path, changes: dict[str, Any]) -> None:
+    root = tmp_path.resolve()
+    folder = Folder(root / "cases", root / "cases" / "out")
+    jobs = queue(quick_work)
+    place = folder.output / "a"
+    until(jobs.add(Order("run", "a", place, folder.root, folder.root / "a.yaml")), "done")
+    assert len(kept_jobs(folder)) == 1
+    content = json.loads((place / NAME).read_text())
+    (place / NAME).write_text(json.dumps(content | changes))
+    assert kept_jobs(folder) == []
+    for text in ("", "[]", "[" * 5000, "{}", "null"):
+        (place / NAME).write_text(text)
+        assert kept_jobs(folder) == []
+    (place / NAME).unlink()
+    (root / "job.json").write_text(json.dumps(content))
+    (place / NAME).symlink_to(root / "job.json")
+    assert kept_jobs(folder) == []

@@ -27,6 +27,8 @@ _KEYS = frozenset((
 
 def pairs(english: Any, japanese: Any, name: str = "") -> Iterator[tuple[str, str]]:
     """Yield every text of a document with that at the same place of the other."""
+    if callable(english) or callable(japanese):  # pictures that are drawn when they are asked for
+        english, japanese = (one() if callable(one) else one for one in (english, japanese))
     if isinstance(english, str):
         if english.startswith("<svg"):
             yield from zip(_SVG_TEXT.findall(english), _SVG_TEXT.findall(japanese), strict=True)

@@ -101,6 +101,7 @@ export class CaseView {
   close() {
     this.closed = true;
     document.removeEventListener("keydown", this.keys);
+    if (this.live) this.live.close();
     clearTimeout(this.timer);
   }
   take(record) {
@@ -120,6 +121,8 @@ export class CaseView {
   }
   sliderMoved(path, number) {
     this.moved = performance.now();
+    this.live.pause();
+    this.report.dataset.whole = "";
     this.edits.set(path, number);
     this.send(`slider ${path}`);
   }
@@ -137,8 +140,9 @@ export class CaseView {
     const sequence = ++this.sequence, edits = Object.fromEntries(this.edits), typed = this.typed;
     this.flying = performance.now();
     this.state.classList.add("working");
+    this.live.remember();
     try {
-      await stream(`${this.address}/draft`, { sequence, text: this.editor.text, edits, gesture }, (said) => this.hear(said, edits, typed));
+      await stream(`${this.address}/draft`, { sequence, text: this.editor.text, edits, gesture, shown: this.live.shown(), level: this.live.chosen.get("water-level") || "" }, (said) => this.hear(said, edits, typed));
     } catch (refused) {
       tell(refused.message);
     }
@@ -168,13 +172,14 @@ export class CaseView {
   }
   hearDrawn(said) {
     this.drawn = said.sequence;
-    this.headlines = said.headlines;
-    this.live.draw(said.html, said.data);
+    this.report.headlines = said.headlines;
+    this.live.draw(said.html, said.data, said.last);
     this.listSections();
     const parts = [say("Draft of {0}", said.analyses.join(", ")), said.left_out ? say("without irregular seas") : "",
       said.nominal ? say("nominal numbers only (no band, range or comparison)") : "", say("in {0} s", said.seconds.toFixed(2))];
     this.say(`${parts.filter(Boolean).join(say(", "))}${say(". ")}${said.last ? say("Run computes the rest.") : say("More follows.")}`);
     this.report.dataset.sequence = said.sequence;
+    this.report.dataset.whole = said.last ? "1" : "";
     if (said.sequence === this.sequence && this.flying) {
       this.pace = performance.now() - this.flying;
       this.flying = 0;

@@ -6,6 +6,7 @@ const SHAPES = {
   curtain: "M22 12v2a4 4 0 0 1 0 8v0q10 14 2 28M22 22q-2 14 2 28",
   cage: "M6 16h34M8 16l3 24h24l3-24M11 40l12 8l12-8",
   network: "M36 12a5 5 0 1 1-.1 0M34 21Q30 46 4 52",
+  units: "M-4 12h16v10h-16zM16 12h16v10h-16zM36 12h16v10h-16zM12 17h4M32 17h4M-4 22Q-6 44 -11 53M52 22Q54 44 58 53",
   member: "M4 28h38M4 36h38M4 28a2 4 0 0 0 0 8M42 28a2 4 0 0 1 0 8",
 };
 
@@ -58,7 +59,7 @@ export async function showGallery(content) {
     group(say("In this folder"), found.files.filter((one) => !JOBS.includes(one.kind)).map((one) => card(one.kind, one.title, one.file, () => open({ file: one.file }))), say("no case files in this folder yet")),
     group(say("Studies and fits, run as jobs"), found.files.filter((one) => JOBS.includes(one.kind)).map((one) => card("", one.title, `${one.kind === "fit" ? say("fit") : say("study")}: ${one.file}`, () => startFile(one.file)))),
     group(say("Templates"), found.templates.map((one) => card(one.kind, one.name, one.title, () => open({ template: one.template })))),
-    group(say("Papers, computed again as a job"), found.papers.map((one) => card("", `${one.authors} (${one.year})`, one.line, () => startPaper(one.paper)))),
+    group(say("Papers, computed again as a job"), found.papers.map((one) => card(one.kind, `${one.authors} (${one.year})`, one.line, () => startPaper(one.paper)))),
   ];
   content.replaceChildren(...parts.filter(Boolean));
 }

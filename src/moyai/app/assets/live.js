@@ -1,20 +1,48 @@
 // Draw a report that changes: figures keep their elements and their zoom, choices stay, what is on screen comes first.
+// A draft of a part leaves the other sections where they are, faded, until the whole answer is there.
+import { element, say } from "/assets/server.js";
+
 export class Live {
   constructor(holder) {
     this.holder = holder;
     this.waiting = [];
+    this.chosen = new Map();
     MOYAI.figures = new Map();
     MOYAI.players = [];
+    this.scrolled = () => { if (this.waiting.some(near)) this.pause(60); };
+    document.addEventListener("scroll", this.scrolled, { passive: true, capture: true });
+    this.enlarged = () => this.fill();
+    document.addEventListener("fullscreenchange", this.enlarged);
   }
-  draw(html, data) {
+  close() {
+    clearTimeout(this.timer);
+    document.removeEventListener("fullscreenchange", this.enlarged);
+    document.removeEventListener("scroll", this.scrolled, { capture: true });
+  }
+  // Names of the sections and figures on the screen.
+  shown() {
+    return [...this.holder.querySelectorAll("section[id], [data-figure]")].filter(onScreen).map((one) => one.id);
+  }
+  // What is looked at stays where it is, whatever becomes longer or shorter above it.
+  anchor() {
+    if (!scrollY) return null;
+    const seen = [...this.holder.querySelectorAll("[data-figure], section[id]")].map((one) => ({ id: one.id, top: one.getBoundingClientRect().top, element: one })).filter(({ element }) => onScreen(element));
+    return seen.find(({ top }) => top >= 0) || seen.pop() || null;
+  }
+  draw(html, data, whole = true) {
     const fresh = document.createElement("template");
     fresh.innerHTML = html;
-    const kept = this.choices(), opened = this.opened(), figures = new Map(), made = [];
-    const looks = new Map(MOYAI.players.map((player) => [player.holder.dataset.scene, lookOf(player)]));
-    MOYAI.data = data;
+    this.remember();
+    const held = this.anchor();
+    const opened = this.opened(), figures = new Map(), made = [], older = whole ? [] : this.keep(fresh.content);
+    const stays = (element) => older.some((section) => section.contains(element)), before = MOYAI.data;
+    const players = MOYAI.players.filter((player) => stays(player.holder));
+    const looks = new Map(MOYAI.players.filter((player) => !players.includes(player)).map((player) => [player.holder.dataset.scene, lookOf(player)]));
+    MOYAI.data = older.length ? Object.fromEntries(Object.keys(data).map((key) => [key, { ...before[key], ...data[key] }])) : data;
     for (const element of fresh.content.querySelectorAll("[data-figure]")) {
       const name = element.dataset.figure, old = MOYAI.figures.get(name);
-      if (old && alike(old.spec, data.figures[name])) {
+      if (stays(element)) figures.set(name, old);
+      else if (old && alike(old.spec, data.figures[name])) {
         renew(old, data.figures[name], element);
         element.replaceWith(old.element);
         figures.set(name, old);
@@ -30,34 +58,90 @@ export class Live {
     MOYAI.figures = figures;
     MOYAI.players = [];
     this.reopen(opened);
-    for (const [group, label] of kept) this.choose(group, label);
-    this.paint();
-    MOYAI.players = [...this.holder.querySelectorAll(".player")].map((holder) => new MOYAI.Player(holder));
-    for (const player of MOYAI.players) lookAgain(player, looks.get(player.holder.dataset.scene));
+    for (const [group, label] of this.chosen) this.choose(group, label);
+    const now = held && document.getElementById(held.id);
+    if (now) scrollBy({ top: now.getBoundingClientRect().top - held.top, behavior: "instant" });
+    this.paint(whole);
+    MOYAI.players = players;
+    for (const holder of this.holder.querySelectorAll(".player")) {
+      if (stays(holder)) continue;
+      const player = new MOYAI.Player(holder);
+      MOYAI.players.push(player);
+      lookAgain(player, looks.get(holder.dataset.scene));
+    }
+    this.offer();
   }
-  // Figures on the screen at once; the others one by one while nothing else is to be done.
-  paint() {
-    const at = (figure) => figure.plot.getBoundingClientRect();
+  // A button on every figure and moving view that gives it the whole screen.
+  offer() {
+    for (const place of this.holder.querySelectorAll(".figure > .tools, .player > .transport")) {
+      if (place.querySelector(".full")) continue;
+      place.append(element("button", { type: "button", class: "full", onclick: () => {
+        const one = place.closest(".figure, .animation");
+        if (document.fullscreenElement) document.exitFullscreen(); else one.requestFullscreen();
+      } }, say("Full screen")));
+    }
+  }
+  fill() {
+    const one = document.fullscreenElement, room = Math.max(200, innerHeight - 190);
+    for (const figure of MOYAI.figures.values()) {
+      const tall = figure.element === one ? room : 0;
+      if ((figure.tall || 0) !== tall) { figure.tall = tall; figure.draw(); }
+    }
+    for (const player of MOYAI.players) {
+      player.tall = one && one.contains(player.holder) ? room : 0;
+      player.repaint();
+    }
+  }
+  // Put the sections that a draft leaves out where they stood, and the choices that it has no panes for.
+  keep(content) {
+    const older = [];
+    let before = null;
+    for (const section of this.holder.querySelectorAll("section[id]")) {
+      const now = content.getElementById(section.id);
+      if (!now) {
+        section.classList.add("older");
+        older.push(section);
+        if (before) before.after(section); else content.append(section);
+      } else {
+        for (const choice of now.querySelectorAll(".choice:not(:has(> .chooser))")) {
+          const chooser = section.querySelector(`.choice[data-group="${choice.dataset.group}"] > .chooser`)?.cloneNode(true), known = choice.firstElementChild.dataset.option;
+          if (!chooser) continue;
+          choice.prepend(chooser);
+          for (const one of chooser.querySelectorAll(":is(button,option)")) {
+            one.disabled = (one.dataset.option ?? one.value) !== known;
+            if (one.dataset.option) one.setAttribute("aria-pressed", String(!one.disabled));
+          }
+        }
+      }
+      before = now || section;
+    }
+    return older;
+  }
+  // Figures on the screen at once; the others one by one when nothing has changed for a while.
+  paint(whole) {
     const shown = [...MOYAI.figures.entries()].filter(([, figure]) => MOYAI.isVisible(figure.plot));
-    const near = ([, figure]) => { const box = at(figure); return box.bottom > 0 && box.top < innerHeight; };
     this.waiting = [];
-    const now = shown.filter(near);
-    this.waiting = shown.filter((one) => !near(one)).map(([, figure]) => figure);
+    const now = shown.filter(([, figure]) => near(figure));
+    this.waiting = shown.filter(([, figure]) => !near(figure)).map(([, figure]) => figure);
     for (const [, figure] of now) figure.draw();
-    const turn = this.turn = (this.turn || 0) + 1;
-    const rest = () => {
-      const figure = turn === this.turn && this.waiting.shift();
+    this.pause(whole ? 150 : 1000);
+  }
+  // Draw what is out of sight after a rest; a slider that moves puts it off.
+  pause(rest = 1000) {
+    clearTimeout(this.timer);
+    const next = () => {
+      const at = Math.max(0, this.waiting.findIndex((figure) => near(figure))), [figure] = this.waiting.splice(at, 1);
       if (!figure) return;
       if (MOYAI.isVisible(figure.plot)) figure.draw();
-      later(rest);
+      this.timer = setTimeout(() => later(next), 0);
     };
-    later(rest);
+    this.timer = setTimeout(next, rest);
   }
-  choices() {
-    return [...this.holder.querySelectorAll(".choice")].map((choice) => {
-      const pane = [...choice.children].find((one) => one.classList.contains("pane") && !one.hidden);
-      return [choice.dataset.group, pane ? pane.dataset.option : ""];
-    });
+  remember() {
+    for (const choice of this.holder.querySelectorAll(".choice")) {
+      const panes = [...choice.children].filter((one) => one.classList.contains("pane")), pane = panes.find((one) => !one.hidden);
+      if (pane && panes.length > 1) this.chosen.set(choice.dataset.group, pane.dataset.option);
+    }
   }
   choose(group, label) {
     const draw = MOYAI.drawVisible;
@@ -90,6 +174,8 @@ function lookAgain(player, look) {
   if (look.playing) player.play();
 }
 
+const near = (figure) => onScreen(figure.plot);
+const onScreen = (element) => { const box = element.getBoundingClientRect(); return box.bottom > 0 && box.top < innerHeight; };
 const later = (act) => (window.requestIdleCallback ? requestIdleCallback(act, { timeout: 400 }) : setTimeout(act, 20));
 
 const frame = (spec) => JSON.stringify([spec.abscissae.map((one) => one.key), spec.panels.length, Boolean(spec.slider), spec.categories.length > 0]);

@@ -116,7 +116,7 @@ class Figure {
     if (this.range === undefined && this.abscissa === this.spec.abscissae[0]) this.range = this.spec.window || null;
     const layout = this.layout(theme);
     layout.width = MOYAI.printing ? 672 : undefined;
-    layout.height = MOYAI.printing ? Math.round(0.86 * this.spec.height) : this.spec.height;
+    layout.height = MOYAI.printing ? Math.round(0.86 * this.spec.height) : this.tall || this.spec.height;
     this.plot.style.height = `${layout.height}px`;
     layout.autosize = !MOYAI.printing;
     Plotly.react(this.plot, this.traces(theme), layout, { displayModeBar: false, responsive: true, doubleClick: "reset+autosize" });

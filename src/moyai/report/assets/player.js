@@ -297,7 +297,7 @@ class Player {
   repaint() {
     if (!this.painter || !MOYAI.isVisible(this.holder)) return;
     const width = MOYAI.printing ? 670 : this.canvas.clientWidth || this.holder.clientWidth;
-    const height = Math.round(Math.max(180, Math.min(this.painter.tallest || 430, width * this.painter.aspect(this.view) + 48)));
+    const height = Math.round(Math.max(180, Math.min(this.tall || this.painter.tallest || 430, width * this.painter.aspect(this.view) + 48)));
     const ratio = MOYAI.printing ? 3 : window.devicePixelRatio || 1;
     if (this.canvas.width !== Math.round(width * ratio) || this.canvas.height !== Math.round(height * ratio)) {
       this.canvas.width = Math.round(width * ratio);

@@ -96,6 +96,7 @@ MOYAI.choose = (group, label) => {
     if (!panes.some((p) => p.dataset.option === label)) continue;
     for (const pane of panes) pane.hidden = pane.dataset.option !== label;
     const chooser = choice.querySelector(":scope > .chooser");
+    if (!chooser) continue;
     for (const b of chooser.querySelectorAll("button")) b.setAttribute("aria-pressed", String(b.dataset.option === label));
     for (const s of chooser.querySelectorAll("select")) s.value = label;
   }

@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from moyai.core.kinds import FolderKind
+from moyai.core.kinds import FolderKind, level_of_words
 from moyai.core.progress import Progress
 from moyai.core.results import Result
 
@@ -20,11 +20,16 @@ class BreakwaterKind(FolderKind):
     root_schema = "BreakwaterCase"
 
     def nominal(self, problem: Any) -> Any | None:
-        given = problem.breakwater.damping
-        if given.band == (1.0, 1.0) or "frequency" not in problem.analyses:
+        breakwater = replace(problem.breakwater, damping=replace(problem.breakwater.damping, band=(1.0, 1.0)))
+        settings = problem.settings.model_copy(update={"drift": False})
+        return replace(problem, breakwater=breakwater, settings=settings, nominal=True)
+
+    def at_level(self, problem: Any, level: str) -> Any | None:
+        names = [name for name, _ in problem.environment.water_levels]
+        if len(names) < 2:
             return None
-        damping = replace(given, band=(1.0, 1.0))
-        return replace(problem, breakwater=replace(problem.breakwater, damping=damping))
+        # the draught may be that of the first level: the others stay known
+        return replace(problem, only_level=level_of_words(names, level))
 
     def run(self, problem: Any, progress: Progress, keep: Path | None) -> Result:
         from moyai.core.store import DatasetStore

@@ -18,6 +18,7 @@ from moyai.core.remembered import Remembered, key_of_objects
 from moyai.core.store import DatasetStore, key_of
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.floating.coefficients import Hydrodynamics
+from moyai.floating.statics import body_to_site
 from moyai.potential.damping_model import Start
 from moyai.potential.memory_plan import FrequencyPlan, recommend_frequencies, refine_frequencies
 from moyai.potential.modes import rigid_modes
@@ -39,11 +40,12 @@ LONGEST_WAVE_OVER_BEAM = 12.0  # to 12, where it stops nothing
 OPERATOR_FREQUENCIES = 60
 SECTOR = math.radians(75.0)  # headings to either side of the normal that meet the side of the unit
 MOST_REFINEMENTS = 6
-MOST_SOLVED = 4  # solutions of the normal heading that are kept in memory
+MOST_SOLVED = 8  # solutions of the normal heading that are kept in memory
 MOST_FREQUENCIES = 1500
 REFINEMENT_TOLERANCE = 1e-3  # error of interpolated damping over its largest value at which frequencies are added
 OBLIQUE_FREQUENCIES = 64
 HEADING_TOLERANCE = math.radians(0.5)  # within which a heading of a 3-D program counts as that of the case
+DRAFT_STEPS = 0.01, math.radians(1.0)  # of draught over height and of heel, to which a draft takes coefficients
 ENERGY_LEFT_OUT = 1e-3  # share of a spectrum beyond the highest frequency of its analysis
 
 
@@ -185,12 +187,15 @@ def solve_unit(
     if coefficients is not None:
         return _given(coefficients(unit), unit, problem)
     wanted = np.concatenate([operator_frequencies(unit, problem), sea_frequencies(problem)])
+    if problem.nominal:
+        unit = _of_draft(unit)
+        wanted = _wanted_of_draft(unit, problem)
     length = unit.breakwater.length
     # One solve of the normal heading serves operators, seas, natural periods and memory: a frequency costs little
-    normal = _solve_band(unit, np.concatenate([wanted, band(unit).omega]), progress)
+    normal, apart = _solve_band(unit, np.concatenate([wanted, band(unit).omega]), progress)
     headings = headings_of(problem)
     oblique = headings[headings != 0.0]
-    by_heading = [item.scaled_to(length) for item in Hydrodynamics.of_headings(normal.dataset)]
+    by_heading = [item.scaled_to(length) for item in apart]
     checks, notices, turned = list(normal.checks), list(normal.notices), None
     if len(oblique):
         # An oblique heading has matrices of its own at every frequency: only what the case asks for
@@ -209,10 +214,30 @@ def solve_unit(
     )
 
 
+def _of_draft(unit: FloatingUnit) -> FloatingUnit:
+    """Return the unit at the nearest draught and heel of :data:`DRAFT_STEPS`, to keep its coefficients."""
+    reference = unit.breakwater.draught or 0.0
+    step = DRAFT_STEPS[0] * unit.breakwater.hull.height
+    draught = reference + step * round((unit.draught - reference) / step)
+    heel = DRAFT_STEPS[1] * round(unit.heel / DRAFT_STEPS[1])
+    section = unit.breakwater.hull.immersed(draught, heel)
+    centre = body_to_site(unit.breakwater.centre_of_gravity, draught, heel)
+    return replace(unit, draught=draught, heel=heel, section=section, centre=centre)
+
+
+def _wanted_of_draft(unit: FloatingUnit, problem: BreakwaterProblem) -> Array:
+    """Return frequencies [rad/s] that do not follow the seas, which are interpolated; their ends where they reach."""
+    wanted, seas = operator_frequencies(unit, problem), sea_frequencies(problem)
+    known = np.concatenate([wanted, band(unit).omega])
+    ends = [1.1 ** math.floor(math.log(low, 1.1)) for low in seas[:1] if low < known.min()]
+    ends += [1.1 ** math.ceil(math.log(high, 1.1)) for high in seas[-1:] if high > known.max()]
+    return np.concatenate([wanted, ends])
+
+
 def coefficients_in_calm(unit: FloatingUnit, problem: BreakwaterProblem) -> Hydrodynamics:
     """Return the coefficients of the normal heading of :func:`solve_unit`, whatever seas the case has."""
     omega = np.concatenate([operator_frequencies(unit, problem), band(unit).omega])
-    return Hydrodynamics.from_section(_solve_band(unit, omega, silent)).scaled_to(unit.breakwater.length)
+    return Hydrodynamics.from_section(_solve_band(unit, omega, silent)[0]).scaled_to(unit.breakwater.length)
 
 
 def _oblique(
@@ -303,13 +328,19 @@ def damping_start(unit: FloatingUnit) -> Start:
     return "even" if math.isfinite(unit.water.depth) else "zero"
 
 
-_SOLVED: Remembered[RadiationDiffraction] = Remembered(MOST_SOLVED)
+Solved = tuple[RadiationDiffraction, tuple[Hydrodynamics, ...]]
+"""A solution and its coefficients, heading by heading."""
+_SOLVED: Remembered[Solved] = Remembered(MOST_SOLVED)
 
 
-def _solve_band(unit: FloatingUnit, omega: Array, progress: Progress) -> RadiationDiffraction:
+def _solve_band(unit: FloatingUnit, omega: Array, progress: Progress) -> Solved:
     """Solve the normal heading; the cases of a study often differ in what does not touch it."""
     grid = distinct(omega)
-    return _SOLVED.of(_key(unit, grid, np.zeros(1)), lambda: _refined(unit, grid, progress))
+    return _SOLVED.of(_key(unit, grid, np.zeros(1)), lambda: _taken_apart(_refined(unit, grid, progress)))
+
+
+def _taken_apart(solution: RadiationDiffraction) -> Solved:
+    return solution, Hydrodynamics.of_headings(solution.dataset)
 
 
 def _refined(unit: FloatingUnit, grid: Array, progress: Progress) -> RadiationDiffraction:

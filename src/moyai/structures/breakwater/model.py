@@ -162,6 +162,10 @@ class BreakwaterProblem:
     analyses: tuple[Analysis, ...] = ANALYSES
     settings: Settings = field(default_factory=Settings)
     measured: MeasuredPoints | None = None
+    #: Water level that is run alone, for a draft; all of them where it is empty.
+    only_level: str = ""
+    #: For a draft: coefficients of the nearest round draught and heel, without the second way to the drift.
+    nominal: bool = False
     case_text: str = ""
     case_hash: str = ""
     criteria: tuple[Criterion, ...] = ()

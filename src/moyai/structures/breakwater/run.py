@@ -100,7 +100,8 @@ def _steps(problem: BreakwaterProblem, collected: Collected, sources: _Sources, 
     analyses = problem.analyses
     levels = problem.environment.water_levels
     # Every level is assembled before any long work starts, so that an impossible one is reported at once
-    units = [assemble(problem, name, level) for name, level in levels]
+    chosen = [(name, level) for name, level in levels if problem.only_level in ("", name)]
+    units = [assemble(problem, name, level) for name, level in chosen]
     for index, unit in enumerate(units):
         progress("water levels", index, len(units))
         yield from _level_steps(problem, unit, collected, sources, progress, analyses)
@@ -170,7 +171,8 @@ def _frequency_steps(
     collected.groups[f"{root}/rao"] = found.dataset
     collected.checks.extend(found.checks)
     collected.notices.extend((*found.notices, *check_screening(unit.water.depth, unit.draught)))
-    collected.checks.extend(drift_check(model, main, seas))
+    if not problem.nominal:
+        collected.checks.extend(drift_check(model, main, seas))
     collected.notices.extend(viscous_notices(unit))
     yield
     for sea in seas:
@@ -204,7 +206,7 @@ def _key_without_irregular_seas(problem: BreakwaterProblem, unit: FloatingUnit) 
     """
     regular = tuple(sea for sea in problem.environment.sea_states if isinstance(sea, RegularSea))
     environment = replace(problem.environment, sea_states=())
-    rest = (problem.breakwater, environment, problem.settings)
+    rest = (problem.breakwater, environment, problem.settings, problem.nominal)
     return key_of_objects(rest, unit.name, unit.level, regular, sea_frequencies(problem), headings_of(problem))
 
 

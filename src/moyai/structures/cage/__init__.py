@@ -39,7 +39,7 @@ class CageKind(FolderKind):
         settings = problem.settings
         if "statics" not in settings.analyses or not hasattr(settings, "other_laws"):
             return None
-        return replace(problem, settings=replace(settings, current_speeds=(), other_laws=False))
+        return replace(problem, settings=replace(settings, current_speeds=(), other_laws=False, nominal=True))
 
     def vocabulary(self) -> Vocabulary:
         return joined("cage", _vocabularies().values())

@@ -17,7 +17,7 @@ class CurtainKind(FolderKind):
     root_schema = "CurtainCase"
 
     def nominal(self, problem: Any) -> Any | None:
-        if "statics" not in problem.settings.analyses:
+        if not {"statics", "impact"} & set(problem.settings.analyses):
             return None
         return replace(problem, settings=replace(problem.settings, nominal=True))
 

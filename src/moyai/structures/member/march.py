@@ -95,9 +95,9 @@ def march(problem: MemberProblem, member: StraightMember, wave: Wave) -> WaveFor
         for notice in reported:
             notices.setdefault(notice.code, notice)
         for cause in range(len(CAUSES)):
-            force[cause] += np.einsum("tsa,ax->tx", per_length[cause], axes) * strips.length
-        whole = np.einsum("ctsa,ax->tsx", per_length, axes) * strips.length
-        held += np.einsum("ks,ctsa->ctka", rows[:, first : first + len(part.centres)], per_length)
+            force[cause] += per_length[cause].sum(axis=1) @ axes * strips.length
+        whole = per_length.sum(axis=0) @ axes * strips.length
+        held += rows[:, first : first + len(part.centres)] @ per_length
         moment += np.sum(np.cross(part.centres - middle, whole), axis=1)
         found.append(numbers)
         circulations.append(gammas)

@@ -335,7 +335,7 @@ def animation(level: Level, sea: Sea, record: Record) -> Animation | None:
         "Animated side view",
         scene,
         caption,
-        still=with_colours(still),
+        picture=with_colours(still),
     )
 
 

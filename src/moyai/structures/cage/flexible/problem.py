@@ -28,6 +28,8 @@ class FlexibleSettings:
     current_speeds: tuple[float, ...] = ()
     #: Whether the rest in the current of the site is found under every law of nets that is valid there.
     other_laws: bool = True
+    #: For a draft: a rest goes on from one before that is near, to a thousandth of the largest tension.
+    nominal: bool = False
     #: Wave periods that are run in regular waves after the ramp.
     periods: int = 8
     #: Periods over which the waves grow.

@@ -16,6 +16,7 @@ from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
 from moyai.core.validity import Notice
 from moyai.flexible.flow import Current
+from moyai.flexible.result import State
 from moyai.sea.irregular import components_of_run
 from moyai.sea.states import IrregularSea
 from moyai.sea.water import Water
@@ -37,6 +38,10 @@ from moyai.structures.cage.rigid.waves import COMPONENTS, Wave, theory_limit, wa
 
 if TYPE_CHECKING:
     pass
+
+
+# The last rests of this process in still water and in the current of the site, from which those of a draft go on
+_NEAR: dict[tuple[str, bool], State] = {}
 
 
 def run(problem: FlexibleCageProblem, progress: Progress = silent) -> Result:
@@ -117,7 +122,11 @@ def _steps(problem: FlexibleCageProblem, collected: Collected, progress: Progres
             for number, value in enumerate(speeds):
                 progress("rest in the current", number, len(speeds))
                 flow = ScaledCurrent(profile, value / speed) if profile is not None and value > 0.0 else None
-                found = solve_rest(model, built, flow, start=rests[-1].state if rests else None)
+                place = (name, value == speed)
+                near = _NEAR.get(place) if problem.settings.nominal else None
+                found = solve_rest(model, built, flow, start=rests[-1].state if rests else None, near=near)
+                if value in (0.0, speed):
+                    _NEAR[place] = found.state
                 rests.append(found)
                 collected.groups[f"{root}/statics"] = statics_dataset(model, speeds[: number + 1], heading, rests)
                 yield

@@ -132,7 +132,7 @@ def animation(level: Level, sea: str, record: Record) -> Animation | None:
         scene,
         f"To scale; opened at the {what}, t = {moment:.2f} s. Water: undisturbed linear wave. Lines hang through where "
         "they are slack.",
-        still=with_colours(still),
+        picture=with_colours(still),
     )
 
 

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+from functools import cache
 
 import numpy as np
 
 from moyai.core.arrays import Array
+from moyai.core.remembered import Remembered, key_of_objects
 from moyai.morison.net_law_names import Net, NetLaw
 from moyai.sea.components import WaveComponents
 from moyai.sea.current import CurrentProfile
@@ -131,6 +133,12 @@ def patch_rows(cage: RigidCage, wake: Array | None = None) -> Array:
     return _merged(rows, (0, 1, 2, 3, 6, 10), (4, 5))
 
 
+@cache
+def _gauss(count: int) -> tuple[Array, Array]:
+    nodes, weights = np.polynomial.legendre.leggauss(count)
+    return nodes, weights
+
+
 def rod_rows(cage: RigidCage) -> Array:
     """Return the rows of the frame, every rod cut into pieces along the plane of motion."""
     x, z = cage.centre
@@ -143,7 +151,7 @@ def rod_rows(cage: RigidCage) -> Array:
         # a rod across the plane of motion moves as one
         # nor does a short piece of a ring need more than its middle
         whole = abs(along[1]) > 1.0 - 1e-9 or rod.length < 0.25 * max(cage.extent)
-        nodes, weights = np.polynomial.legendre.leggauss(1 if whole else ROD_POINTS)
+        nodes, weights = _gauss(1 if whole else ROD_POINTS)
         # one sense of the axis, so that mirror images merge
         sign = -1.0 if along[0] + 1e-9 * along[2] < 0.0 else 1.0
         for node, weight in zip(nodes, 0.5 * weights):
@@ -255,6 +263,10 @@ def current_rows(current: CurrentProfile | None, depth: float) -> Array:
     return np.stack([heights, speed])
 
 
+_TABLES: Remembered[tuple[Array, Array, Array]] = Remembered(4)
+_RODS: Remembered[Array] = Remembered(4)
+
+
 def pack(
     cage: RigidCage,
     lines: tuple[CageLine, ...],
@@ -288,7 +300,8 @@ def pack(
     damping : tuple of float
         Linear damping of sway, heave and rotation, only for the search of rest.
     """
-    tables = law_tables(cage.law, cage.net, kinematic_viscosity)
+    given = (cage.law, cage.net, kinematic_viscosity)
+    tables = _TABLES.of(key_of_objects(*given), lambda: law_tables(*given))
     if wake is None and current is not None:
         wake = shelter(cage, current, water, kinematic_viscosity)
     arm = max(math.hypot(*cage.extent), 2.0 * float(np.abs(cage.floats.points).max())) / 2.0
@@ -297,7 +310,7 @@ def pack(
     return Packed(
         spheres=sphere_rows(cage),
         patches=patch_rows(cage, wake),
-        rods=rod_rows(cage),
+        rods=_RODS.of(key_of_objects(cage), lambda: rod_rows(cage)).copy(),
         blocks=np.zeros((0, len(BLOCK_COLUMNS))),
         lines=line_rows(lines, cage.centre),
         body=body,

@@ -75,7 +75,7 @@ def snap_animation(level: CurtainLevel) -> Animation | None:
         f"Release in the current, to scale; opened at the spike, t = {peak:.2f} s, "
         f"{format_quantity(float(tension[at]), 'N')}. "
         "The colour grows with the tension of both cables, grey is slack; displacements are not enlarged.",
-        still=with_colours(still),
+        picture=with_colours(still),
     )
 
 

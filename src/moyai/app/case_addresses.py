@@ -1,0 +1,139 @@
+"""Addresses of open cases: open, draft, form, change, undo, pin, save, take away."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from collections.abc import AsyncIterator
+from typing import TYPE_CHECKING, Any
+
+from starlette.requests import Request
+from starlette.responses import Response, StreamingResponse
+
+from moyai.app.answers import Endpoint, body_of, json_answer, text_in
+from moyai.app.changes import changed
+from moyai.app.documents import OpenCase, stem_of
+from moyai.app.form import form_of
+from moyai.app.gallery import gallery
+from moyai.case.yaml_reader import parse_yaml
+from moyai.core.errors import InputError
+from moyai.core.kinds import structure_kinds
+
+if TYPE_CHECKING:
+    from moyai.app.server import App
+
+
+async def _gallery(app: App, request: Request) -> Response:
+    return json_answer(gallery(app.folder, app.documents))
+
+
+async def _open(app: App, request: Request) -> Response:
+    """Open a template, a file of the folder, or the one of the command line."""
+    content = await body_of(request)
+    if template := text_in(content, "template"):
+        return json_answer(app.documents.open_template(template).record())
+    return json_answer(app.documents.open_file(text_in(content, "file") or app.first).record())
+
+
+def _case(app: App, request: Request) -> OpenCase:
+    return app.documents[request.path_params["key"]]
+
+
+async def _show(app: App, request: Request) -> Response:
+    return json_answer(_case(app, request).record())
+
+
+async def _draft(app: App, request: Request) -> Response:
+    """Take a text with changed numbers; answer with the check, then with the draft."""
+    document, content = _case(app, request), await body_of(request)
+    text, gesture, sequence = text_in(content, "text"), text_in(content, "gesture"), content.get("sequence", 0)
+    edits = content.get("edits", {})
+    if not isinstance(edits, dict) or not all(isinstance(item, str) for pair in edits.items() for item in pair):
+        raise ValueError("'edits' are numbers by path, both as text")
+    if not isinstance(sequence, int):
+        raise ValueError("'sequence' is a whole number")
+    shown = content.get("shown", [])
+    if not isinstance(shown, list) or not all(isinstance(item, str) for item in shown):
+        raise ValueError("'shown' is a list of sections")
+    if not edits:
+        document.change(text, gesture)
+    wish = document.wish(app.folder, text, edits, tuple(shown), text_in(content, "level"))
+    head = f'{{"sequence":{sequence},'.encode()
+
+    async def lines() -> AsyncIterator[bytes]:
+        async for line in app.worker.ask(document.key, wish):
+            if edits and b'"message":"checked"' in line[:60]:
+                checked = json.loads(line)
+                if not checked["faults"] or checked["text"] != text:
+                    document.change(checked["text"], gesture)
+            yield head + line[1:]
+
+    return StreamingResponse(lines(), media_type="application/x-ndjson")
+
+
+async def _form(app: App, request: Request) -> Response:
+    """Hand out the form of an open case as it is now."""
+    document = _case(app, request)
+    return json_answer({"form": await asyncio.to_thread(_form_of, document.text, document.name)})
+
+
+def _form_of(text: str, name: str) -> dict[str, Any]:
+    data = parse_yaml(text, name).data
+    structure = data.get("structure") if isinstance(data, dict) else None
+    kind = structure.get("kind") if isinstance(structure, dict) else None
+    if kind not in structure_kinds():
+        raise InputError(
+            "the form needs the kind of the structure", path="structure.kind", remedy="write it in the text"
+        )
+    return form_of(data, kind)
+
+
+async def _change(app: App, request: Request) -> Response:
+    """Change one value or key of a text; the record of the case holds the new text."""
+    document, content = _case(app, request), await body_of(request)
+    text = text_in(content, "text")
+    after = await asyncio.to_thread(lambda: changed(parse_yaml(text, document.name), content).text)
+    document.change(text, "typing")
+    document.change(after, f"form {content['path']}")
+    return json_answer(document.record())
+
+
+async def _undo(app: App, request: Request) -> Response:
+    document = _case(app, request)
+    document.undo()
+    return json_answer(document.record())
+
+
+async def _pin(app: App, request: Request) -> Response:
+    document = _case(app, request)
+    document.pinned = "" if document.pinned else document.text
+    return json_answer(document.record())
+
+
+async def _save(app: App, request: Request) -> Response:
+    document, content = _case(app, request), await body_of(request)
+    app.documents.save(document, text_in(content, "name"))
+    return json_answer(document.record())
+
+
+async def _take_case(app: App, request: Request) -> Response:
+    document = _case(app, request)
+    name = f"{stem_of(document.name)}.yaml".replace('"', "")
+    safe = name if name.isascii() and name.isprintable() else "case.yaml"
+    headers = {"content-disposition": f'attachment; filename="{safe}"'}
+    return Response(document.text, media_type="text/yaml", headers=headers)
+
+
+_GET, _POST = ["GET"], ["POST"]
+ADDRESSES: list[tuple[str, Endpoint, list[str]]] = [
+    ("/api/gallery", _gallery, _GET),
+    ("/api/cases", _open, _POST),
+    ("/api/cases/{key}", _show, _GET),
+    ("/api/cases/{key}/draft", _draft, _POST),
+    ("/api/cases/{key}/form", _form, _GET),
+    ("/api/cases/{key}/change", _change, _POST),
+    ("/api/cases/{key}/undo", _undo, _POST),
+    ("/api/cases/{key}/pin", _pin, _POST),
+    ("/api/cases/{key}/save", _save, _POST),
+    ("/api/cases/{key}/case.yaml", _take_case, _GET),
+]
