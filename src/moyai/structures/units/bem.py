@@ -22,6 +22,7 @@ from moyai.sea.dispersion import wave_number
 from moyai.sea.water import Water
 from moyai.structures.units.mesh import GAP, HULL, PanelMesh, turned_round
 from moyai.structures.units.symmetry import Symmetry, symmetry_of
+from moyai.structures.units.variation import Variation, rankine_terms, variation_of
 
 #: Bytes of a complex number
 _COMPLEX = 16
@@ -99,6 +100,26 @@ class Panels:
             # a mirror turns the corners round
             found.append(capytaine_mesh(turned_round(corners) if over_x != over_y else corners))
         return tuple(found)
+
+    @cached_property
+    def variation(self) -> Variation:
+        """How quantities vary over the panels."""
+        return variation_of(self.mesh)
+
+    def rankine(self, depth: float) -> tuple[Array, Array]:
+        """Return what variation over the panels adds to single and double layer (q, n) in water of a depth [m]."""
+        kept: dict[float, tuple[Array, Array]] = self.__dict__.setdefault("_rankine", {})
+        if depth not in kept:
+            engine, full = green_function(), capytaine_mesh(self.mesh.corners)
+
+            def even(points: Array) -> tuple[Array, Array]:
+                found: tuple[Array, Array] = engine.evaluate_rankine_only(
+                    points, full, adjoint_double_layer=False, diagonal_term_in_double_layer=False
+                )
+                return found
+
+            kept[depth] = rankine_terms(self.mesh, self.symmetry.part, self.variation, depth, even)
+        return kept[depth]
 
 
 def panels_of(mesh: PanelMesh, centres: Array, gap_damping: float = 0.0) -> Panels:
@@ -209,16 +230,17 @@ def solve_frequency(panels: Panels, water: Water, omega: float, headings: Array)
     surface = _solved(panels, water, omega, k, given, incident)
     count = len(panels.modes)
     wet = mesh.part != GAP
-    weights = panels.modes * mesh.area
+    areas = panels.variation.areas
+    weights = panels.modes * areas
     force = -1j * omega * water.density * (weights[:, wet] @ surface[wet])
     on_motion = force[:, :count]
     froude_krylov = -1j * omega * water.density * (weights @ incident)
     excitation = (froude_krylov + force[:, count:]).T
     # the same from the radiation alone [eq:units-haskind]
     hull = mesh.part == HULL
-    flow = (incident_normal[hull] * mesh.area[hull, None]).T
+    flow = (incident_normal[hull] * areas[hull, None]).T
     by_radiation = froude_krylov.T - water.density * flow @ surface[hull, :count]
-    damped = (incident[~wet] * mesh.area[~wet, None]).T
+    damped = (incident[~wet] * areas[~wet, None]).T
     by_radiation = by_radiation + water.density * damped @ surface[~wet, :count]
     far = far_amplitudes(panels, water, omega, k, surface, given)
     return Solution(
@@ -288,15 +310,24 @@ def capytaine_mesh(corners: Array) -> Any:
 
 
 def _blocks(panels: Panels, water: Water, k: float) -> list[tuple[ComplexArray, ComplexArray]]:
-    """Return single and double layer of every image of the part on the part."""
-    engine = green_function()
-    return [
-        engine.evaluate(
+    """Return single and double layer of every image of the part on the part, of values at the centres."""
+    engine, group = green_function(), panels.symmetry
+    further = panels.rankine(water.depth)
+    share = panels.variation.areas / panels.mesh.area
+    level = np.abs(panels.mesh.centre[group.part, 2]) < 1e-9
+    found = []
+    for image, columns in zip(panels.images, group.images):
+        layers = engine.evaluate(
             panels.part, image, free_surface=0.0, water_depth=water.depth, wavenumber=k,
-            adjoint_double_layer=False, diagonal_term_in_double_layer=element == 0,
-        )
-        for element, image in enumerate(panels.images)
-    ]  # fmt: skip
+            adjoint_double_layer=False, diagonal_term_in_double_layer=False,
+        )  # fmt: skip
+        for layer, more in zip(layers, further):
+            layer *= share[columns]
+            layer += more[:, columns]
+        found.append(layers)
+    # the jump of the double layer at its own panel, on both sides of a panel in the surface
+    found[0][1][np.diag_indices(len(level))] += np.where(level, 1.0, 0.5)
+    return found
 
 
 def _solved(
@@ -341,7 +372,7 @@ def far_amplitudes(
     """Return the amplitudes (r, directions) of the far waves of solutions (n, r) [eq:units-far-field]."""
     mesh = panels.mesh
     angles = directions() if angles is None else angles
-    centre, normal, area = mesh.centre, mesh.normal, mesh.area[:, None]
+    centre, normal, area = mesh.centre, mesh.normal, panels.variation.areas[:, None]
     cosine, sine = np.cos(angles), np.sin(angles)
     phase = np.exp(-1j * k * (centre[:, [0]] * cosine + centre[:, [1]] * sine))
     profile = _depth_profile(centre[:, 2], k, water.depth)[:, None]
@@ -368,7 +399,8 @@ def elevation_at(
 ) -> ComplexArray:
     """Return the surface elevation (p, r) [m] at points (p, 2) of the row that solutions (n, r) make."""
     engine, full = green_function(), capytaine_mesh(panels.mesh.corners)
-    single, double = _layers(panels, surface, given)
+    share = (panels.variation.areas / panels.mesh.area)[:, None]
+    single, double = (share * item for item in _layers(panels, surface, given))
     out = np.empty((len(points), surface.shape[1]), dtype=complex)
     for start in range(0, len(points), _BATCH):
         some = points[start : start + _BATCH]
