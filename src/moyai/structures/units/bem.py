@@ -7,10 +7,9 @@ all headings are solved with one factorisation for each parity.
 
 from __future__ import annotations
 
-import logging
 import math
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -20,6 +19,7 @@ from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
 from moyai.sea.dispersion import wave_number
 from moyai.sea.water import Water
+from moyai.structures.units.green import green_function
 from moyai.structures.units.mesh import GAP, HULL, PanelMesh, turned_round
 from moyai.structures.units.symmetry import Symmetry, symmetry_of
 from moyai.structures.units.variation import Variation, rankine_terms, variation_of
@@ -32,28 +32,6 @@ LEAST_DEPTH = 0.1
 DIRECTIONS = 180
 #: Points whose field is evaluated at once
 _BATCH = 500
-
-
-@lru_cache(maxsize=1)
-def green_function() -> Any:
-    """Return Capytaine's Green function of the free surface.
-
-    Raises
-    ------
-    InputError
-        When Capytaine 3 is not installed.
-    """
-    logging.getLogger("capytaine").setLevel(logging.ERROR)
-    try:
-        from capytaine.green_functions.delhommeau import Delhommeau
-    except ImportError as error:
-        raise InputError(
-            "a row of units needs Capytaine 3, which is not installed",
-            parameter="kind",
-            remedy='pip install "moyai[bem3d]"',
-        ) from error
-    # the Prony series of Nemoh: waves far away agree with the energy of the body three times better than with the other
-    return Delhommeau(finite_depth_prony_decomposition_method="fortran")
 
 
 def engine_version() -> str:

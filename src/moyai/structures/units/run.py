@@ -76,7 +76,7 @@ def row_panels(at: RowAtLevel, settings: Settings, shortest: float) -> Panels:
     row = at.row
     mesh = row_mesh(
         at.section, row.length, row.placements, settings.panel_size,
-        lid=shortest > 0.7 * irregular_frequency(at), gap_lid=row.gap_damping_lid > 0.0,
+        lid=shortest > 0.5 * irregular_frequency(at), gap_lid=row.gap_damping_lid > 0.0,
     )  # fmt: skip
     return panels_of(mesh, at.centres, row.gap_damping_lid)
 
