@@ -22,7 +22,7 @@ from moyai.sea.water import Water
 from moyai.structures.units.green import green_function
 from moyai.structures.units.mesh import GAP, HULL, PanelMesh, turned_round
 from moyai.structures.units.symmetry import Symmetry, symmetry_of
-from moyai.structures.units.variation import Variation, rankine_terms, variation_of
+from moyai.structures.units.variation import Variation, even_variation, rankine_terms, variation_of
 
 #: Bytes of a complex number
 _COMPLEX = 16
@@ -56,12 +56,15 @@ class Panels:
     symmetry : Symmetry
     gap_damping : float
         epsilon of the lids in the gaps.
+    even : bool
+        Whether potentials are taken as even over a panel, as Capytaine does: for comparisons.
     """
 
     mesh: PanelMesh
     modes: Array
     symmetry: Symmetry
     gap_damping: float = 0.0
+    even: bool = False
 
     @cached_property
     def part(self) -> Any:
@@ -82,11 +85,14 @@ class Panels:
     @cached_property
     def variation(self) -> Variation:
         """How quantities vary over the panels."""
-        return variation_of(self.mesh)
+        return even_variation(self.mesh) if self.even else variation_of(self.mesh)
 
     def rankine(self, depth: float) -> tuple[Array, Array]:
         """Return what variation over the panels adds to single and double layer (q, n) in water of a depth [m]."""
         kept: dict[float, tuple[Array, Array]] = self.__dict__.setdefault("_rankine", {})
+        if self.even:
+            nothing = np.zeros((len(self.symmetry.part), self.mesh.count))
+            return nothing, nothing
         if depth not in kept:
             engine, full = green_function(), capytaine_mesh(self.mesh.corners)
 

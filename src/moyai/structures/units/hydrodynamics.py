@@ -174,7 +174,7 @@ def solve_row(
     check_memory(panels)
     solutions = []
     base = key_of(
-        __version__, engine_version(), panels.mesh.corners, panels.mesh.part, centres, panels.gap_damping,
+        __version__, engine_version(), panels.mesh.corners, panels.mesh.part, centres, panels.gap_damping, panels.even,
         (water.depth, water.density, water.gravity), headings, DIRECTIONS,
     )  # fmt: skip
     for index, frequency in enumerate(omega):

@@ -88,10 +88,16 @@ def variation_of(mesh: PanelMesh) -> Variation:
     return Variation(frame, tuple(slopes), np.asarray(areas))
 
 
-def _chain(beyond: IntArray, front: int, back: int) -> tuple[IntArray, IntArray, Array]:
-    """Return the neighbour of every panel on one side, that on the other or next in line, and the side of the first.
+def even_variation(mesh: PanelMesh) -> Variation:
+    """Return no variation at all."""
+    nothing = csr_array((mesh.count, mesh.count))
+    return Variation(np.zeros((mesh.count, 2, 3)), (nothing,) * 4, mesh.area)
 
-    -1 where there is none; the sign of the second is turned where it lies on the other side.
+
+def _chain(beyond: IntArray, front: int, back: int) -> tuple[IntArray, IntArray, Array]:
+    """Return the neighbour of every panel on one side and the one on the other side or next in line; -1 for none.
+
+    The third is 0 of panels with a neighbour on either side, else the direction in which both lie.
     """
     ahead, behind = beyond[:, front], beyond[:, back]
     lone = (ahead < 0) | (behind < 0)
@@ -100,13 +106,12 @@ def _chain(beyond: IntArray, front: int, back: int) -> tuple[IntArray, IntArray,
     opposite = np.where(first < 0, -1, first // 4 * 4 + (first % 4 + 2) % 4)
     next_one = np.where(first < 0, -1, beyond.ravel()[opposite])
     second = np.where(lone, next_one, behind)
-    panel = np.where(first < 0, -1, first // 4), np.where(second < 0, -1, second // 4)
-    sign = np.where(ahead < 0, -1.0, 1.0)
-    return panel[0], np.where(lone & (panel[1] >= 0), panel[1], np.where(lone, -1, panel[1])), np.where(lone, sign, 0.0)
+    sign = np.where(lone, np.where(ahead < 0, -1.0, 1.0), 0.0)
+    return np.where(first < 0, -1, first // 4), np.where(second < 0, -1, second // 4), sign
 
 
 def _parabolas(centre: Array, first: IntArray, second: IntArray, sign: Array) -> tuple[csr_array, csr_array]:
-    """Return slope and curvature of parabolas through centres; ``sign`` 0 of panels with a neighbour on both sides."""
+    """Return the factors of distance and of its square of parabolas through centres; a line through two."""
     count = len(centre)
     own = np.arange(count)
     one = np.linalg.norm(centre[first] - centre, axis=1) * np.where(sign == 0.0, 1.0, sign)
@@ -129,7 +134,7 @@ def _parabolas(centre: Array, first: IntArray, second: IntArray, sign: Array) ->
 
 
 def _rule(points: int) -> tuple[Array, Array]:
-    """Return places (p, 4) as shares of the corners and Jacobian shares (p, 5): du weights and both derivatives."""
+    """Return shares of the corners (p, 4) and u, v and weight (p, 3) of Gauss's points on the unit square."""
     node, weight = np.polynomial.legendre.leggauss(points)
     u, v = (0.5 * (item.ravel() + 1.0) for item in np.meshgrid(node, node, indexing="ij"))
     share = np.stack([(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v], axis=1)
