@@ -202,7 +202,8 @@ def _level_steps(
     yield
     answers: dict[str, list[SeaAnswer]] = {}
     # the same row with its damping at the ends of its band
-    others = [replace(at, row=at.row.damped(factor)) for factor in at.row.damping_band]
+    band = () if settings.nominal else at.row.damping_band
+    others = [replace(at, row=at.row.damped(factor)) for factor in band]
     varied: dict[str, list[list[SeaAnswer]]] = {}
 
     def answer(row: RowAtLevel, sea: SeaState) -> list[SeaAnswer]:
