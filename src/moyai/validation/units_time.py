@@ -16,7 +16,8 @@ import numpy as np
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.validation import ValidationCase
 from moyai.structures.units.assembly import RowAtLevel
-from moyai.structures.units.bem import Panels, capytaine_mesh, green_function, panels_of
+from moyai.structures.units.bem import Panels, capytaine_mesh, panels_of
+from moyai.structures.units.green import green_function
 from moyai.structures.units.hydrodynamics import RowHydrodynamics, solve_row
 from moyai.structures.units.mesh import HULL, row_mesh
 from moyai.structures.units.model import Connector

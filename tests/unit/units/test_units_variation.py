@@ -9,8 +9,8 @@ import pytest
 pytest.importorskip("capytaine", reason="Capytaine is not installed")
 
 from moyai.potential import shapes
-from moyai.structures.units.bem import capytaine_mesh, green_function, panels_of
-from moyai.structures.units.green import bed_function, exponentials
+from moyai.structures.units.bem import capytaine_mesh, panels_of
+from moyai.structures.units.green import bed_function, exponentials, green_function
 from moyai.structures.units.mesh import GAP, HULL, LID, PanelMesh, row_mesh, unit_mesh
 from moyai.structures.units.model import straight_row
 from moyai.structures.units.variation import even_variation, neighbours, rankine_terms, variation_of
@@ -100,7 +100,6 @@ def test_rankine_terms_are_those_of_fine_panels(box):
     varied = value[mother]
     for slope, factor in zip(found.slopes, np.concatenate([local.T, local.T**2])):
         varied = varied + factor * (slope @ value)[mother]
-    target = hull.centre[part]
     places = [hull.centre[part] * np.array([1.0, 1.0, sign]) for sign in (1.0, -1.0)]
     for number, term in enumerate((single, double)):
         wanted = sum(layers(place, fine)[number] @ varied for place in places)

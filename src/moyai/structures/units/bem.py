@@ -120,7 +120,7 @@ def panels_of(mesh: PanelMesh, centres: Array, gap_damping: float = 0.0) -> Pane
 def memory_needed(count: int, group: int = 1) -> float:
     """Return the memory [bytes] that one frequency takes with ``count`` panels and a group of mirrors."""
     part = count / group
-    return _COMPLEX * part**2 * (2.0 * group + 4.0)
+    return _COMPLEX * part**2 * (3.0 * group + 4.0)
 
 
 def memory_of_machine() -> float:

@@ -1,14 +1,15 @@
-"""Green function of the free surface: Capytaine's, with its part of finite depth as a sum of exponentials fitted closer.
+"""Green function of the free surface: Capytaine's, its sum of exponentials for finite depth fitted closer.
 
 Delhommeau writes what the bed adds as sources mirrored at depths that follow from a sum of exponentials
-[eq:units-exponentials]. The fits that come with Capytaine are 0.003 to 0.05 off where the function is of order one, which
-is 1 to 3 % in the heave damping of a box; the one here is some 1e-5 off.
+[eq:units-exponentials]. The fits that come with Capytaine are 0.003 to 0.05 off where the function is of order one,
+which is 1 to 3 % in the heave damping of a box; the one here is some 1e-5 off.
 """
 
 from __future__ import annotations
 
 import logging
 import math
+from contextlib import suppress
 from functools import lru_cache
 from typing import Any
 
@@ -98,8 +99,6 @@ def exponentials(kh: float) -> Array:
         return error
 
     start = np.linspace(math.log(0.05), math.log(8.0), EXPONENTIALS)
-    try:
+    with suppress(_Close):
         least_squares(misfit, start, method="lm", max_nfev=_TURNS * EXPONENTIALS)
-    except _Close:
-        pass
     return np.stack([-np.exp(best[1]), amplitudes(best[1])[0]])

@@ -292,8 +292,8 @@ class Settings:
         Whether the two-dimensional section is computed next to the row.
     time : TimeSettings
     nominal : bool
-        Whether the band of the damping is left out, and seas take coefficients at round frequencies, which serve the next
-        sea as well: for drafts.
+        Whether the band of the damping is left out, and seas take coefficients at round frequencies, which serve
+        the next sea as well: for drafts.
     """
 
     panel_size: float

@@ -18,7 +18,7 @@ from moyai.core.store import DatasetStore
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.sea.states import IrregularSea, RegularSea, SeaState
 from moyai.structures.units.assembly import RowAtLevel, assemble, level_notices, steady_load
-from moyai.structures.units.bem import Panels, green_function, panels_of
+from moyai.structures.units.bem import Panels, panels_of
 from moyai.structures.units.datasets import (
     hydrodynamics_dataset,
     irregular_dataset,
@@ -28,6 +28,7 @@ from moyai.structures.units.datasets import (
     with_damping_band,
 )
 from moyai.structures.units.field import map_points, wave_field
+from moyai.structures.units.green import green_function
 from moyai.structures.units.headlines import headlines_of
 from moyai.structures.units.hydrodynamics import RowHydrodynamics, solve_row
 from moyai.structures.units.mesh import row_mesh

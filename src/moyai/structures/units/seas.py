@@ -40,6 +40,7 @@ def band_of(sea: IrregularSea) -> tuple[float, float]:
     low, high = sea.spectrum.quantile(np.array([1e-3, 1.0 - ENERGY_LEFT_OUT]))
     return float(low), float(high)
 
+
 #: Step of the frequencies of a draft [rad/s], and the fewest of them in a sea
 ROUND, LEAST_ROUND = 0.1, 5
 
@@ -49,7 +50,7 @@ def frequencies_of(environment: Environment, settings: Settings) -> Array:
 
     Of a draft spectra take the round frequencies within, which they share with other seas.
     """
-    parts = [np.zeros(0)]
+    parts: list[Array] = [np.zeros(0)]
     if settings.frequencies is not None:
         parts.append(np.asarray(settings.frequencies, dtype=float))
     for sea in environment.sea_states:
@@ -58,7 +59,9 @@ def frequencies_of(environment: Environment, settings: Settings) -> Array:
         elif settings.frequencies is None:
             low, high = band_of(sea)
             parts.append(np.linspace(low, high, settings.frequency_count))
-            round_ones = ROUND * np.arange(math.ceil(low / ROUND), math.floor(high / ROUND) + 1)
+            round_ones: Array = np.asarray(
+                ROUND * np.arange(math.ceil(low / ROUND), math.floor(high / ROUND) + 1), dtype=float
+            )
             if settings.nominal and len(round_ones) >= LEAST_ROUND:
                 parts[-1] = round_ones
     omega = np.unique(np.round(np.concatenate(parts), 9))

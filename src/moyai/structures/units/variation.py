@@ -78,7 +78,7 @@ def variation_of(mesh: PanelMesh) -> Variation:
     along = 0.5 * (corners[:, 2] + corners[:, 3] - corners[:, 0] - corners[:, 1])
     axes = np.stack([across, along], axis=1)
     axes /= np.linalg.norm(axes, axis=2)[:, :, None]
-    frame = np.linalg.pinv(axes).transpose(0, 2, 1)
+    frame: Array = np.asarray(np.linalg.pinv(axes).transpose(0, 2, 1), dtype=float)
     slopes: list[csr_array] = [csr_array((count, count))] * 4
     for axis, (front, back) in enumerate(((1, 3), (2, 0))):
         first, far, sign = _chain(beyond, front, back)
