@@ -31,6 +31,7 @@ CASES = {
     "breakwater frequency, section": ("breakwater", "statics, mooring, frequency", "structure.section.beam"),
     "network statics": ("network", "statics", "current.speed"),
     "curtain statics": ("curtain", "statics", "current.speed"),
+    "units frequency, gyradius": ("units", "statics, frequency", "structure.roll_gyradius"),
 }
 IDLE = "document.querySelector('.state') && !document.querySelector('.state.working')"
 MOVE = """((path, share) => {

