@@ -25,6 +25,7 @@ from mathml import font_folder  # noqa: E402 - beside this file
 
 extensions = [
     "gallery",
+    "moving_picture",
     "reproduced_papers",
     "myst_parser",
     "sphinx.ext.autodoc",

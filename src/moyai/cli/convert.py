@@ -92,7 +92,8 @@ def convert(
         typer.Option(
             "--to",
             metavar="wamit|nemoh|bemio|orcaflex",
-            help="Write the coefficients of a result as files of this program; lines of a case or deck: orcaflex.",
+            help="Write coefficients of a result as files of this program; "
+            "orcaflex: the unit of a result, lines of a case or deck.",
         ),
     ] = None,
     sea: Annotated[
@@ -115,6 +116,9 @@ def convert(
     with guard(as_json):
         if to == "orcaflex" and file.suffix.lower() != ".nc":
             _write_lines(file, output or file.with_suffix(".yml"), water_level, depth, force=force, as_json=as_json)
+            return
+        if to == "orcaflex":
+            _write_vessel(file, output or file.with_suffix(".yml"), water_level, force=force, as_json=as_json)
             return
         if to is not None:
             _write_coefficients(file, to, output, water_level, sea, force=force, as_json=as_json)
@@ -176,11 +180,18 @@ def _write_coefficients(
         tell("files of NEMOH have no place for mean drift")
 
 
+def _write_vessel(file: Path, target: Path, water_level: str | None, *, force: bool, as_json: bool) -> None:
+    """Write the unit of a result as a vessel of OrcaFlex."""
+    from moyai.core.results import read_result
+    from moyai.interop.write_orcaflex_vessel import orcaflex_vessel
+
+    _write_model(target, *orcaflex_vessel(read_result(file), water_level), force=force, as_json=as_json)
+
+
 def _write_lines(
     file: Path, target: Path, water_level: str | None, depth: float | None, *, force: bool, as_json: bool
 ) -> None:
     """Write the lines of a deck or of a case of a network as a text data file of OrcaFlex."""
-    from moyai.cli.files import write_text
     from moyai.interop.moordyn_case import is_deck
     from moyai.interop.moordyn_reader import read_deck
     from moyai.interop.write_orcaflex import orcaflex_text
@@ -194,7 +205,13 @@ def _write_lines(
         from moyai.structures.network.case.line_deck import deck_of_case
 
         deck = deck_of_case(load_case(file), water_level)
-    text, notes = orcaflex_text(deck)
+    _write_model(target, *orcaflex_text(deck), force=force, as_json=as_json)
+
+
+def _write_model(target: Path, text: str, notes: tuple[str, ...], *, force: bool, as_json: bool) -> None:
+    """Write a text data file of OrcaFlex and say what it leaves out."""
+    from moyai.cli.files import write_text
+
     write_text(target, text, replace=force)
     if as_json:
         print_json({"file": str(target), "notes": list(notes), "faults": []})

@@ -18,13 +18,15 @@ if TYPE_CHECKING:
     from moyai.report.views import ReportedResult
 
 
-def run(case: Case, progress: Progress = silent, *, keep: Path | None = None, problem: Any = None) -> ReportedResult:
+def run(
+    case: Case | str | Path, progress: Progress = silent, *, keep: Path | None = None, problem: Any = None
+) -> ReportedResult:
     """Run all analyses that a case names.
 
     Parameters
     ----------
-    case : Case
-        From :func:`moyai.load_case`.
+    case : Case or path
+        From :func:`moyai.load_case`, or the file to load.
     progress : Progress
         Listener reported of every step. KeyboardInterrupt ends the run with what there is, status ``interrupted``.
     keep : Path or None
@@ -46,6 +48,10 @@ def run(case: Case, progress: Progress = silent, *, keep: Path | None = None, pr
     from moyai.core.kinds import structure_kind
     from moyai.report.views import with_views
 
+    if isinstance(case, str | Path):
+        from moyai.case.reader import load_case
+
+        case = load_case(case)
     problem = build(case) if problem is None else problem
     try:
         result = structure_kind(case.kind).run(problem, progress, keep)

@@ -136,11 +136,10 @@ def print_judgements(console: Console, result: Result) -> None:
         found = criteria_table(result)
     if found is None:
         return
-    table = _table(
-        ("Criterion", "left"), ("Limit", "left"), ("Found", "right"), ("Outcome", "left"), ("Source", "left")
-    )
+    shown = ("Criterion", "Limit", "Found", "Outcome", "Where", "Source")
+    table = _table(*((name, "right" if name == "Found" else "left") for name in shown))
     columns = {column.label: column.values for column in found.columns}
-    for row in zip(*(columns[name] for name in ("Criterion", "Limit", "Found", "Outcome", "Source")), strict=True):
+    for row in zip(*(columns[name] for name in shown), strict=True):
         table.add_row(*(said(str(cell)) for cell in row))
     console.print(table)
     if missing := without_limit(result):

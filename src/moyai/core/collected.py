@@ -32,6 +32,8 @@ class Collected:
         Identities and validity notices in the order in which they were found.
     failures : list of str
         What did not converge, one sentence each.
+    on_the_safe_side : list of str
+        Those of the failures that leave numbers which can only be smaller: a design that holds with them holds.
     interrupted : str
         Why the run ended early; empty when it did not.
     """
@@ -41,6 +43,7 @@ class Collected:
         self.checks: list[IdentityCheck] = []
         self.notices: list[Notice] = []
         self.failures: list[str] = []
+        self.on_the_safe_side: list[str] = []
         self.interrupted = ""
 
     def take(self, steps: Iterable[None], stopped: str = STOPPED) -> None:
@@ -76,6 +79,11 @@ class Collected:
         if outside:
             return "outside_validity", outside[0]
         return "converged", fulfilled
+
+    def _safe(self, status: Status) -> bool:
+        """Whether what did not converge leaves numbers on the safe side alone."""
+        sound = all(check.passed for check in self.checks)
+        return status == "not_converged" and sound and set(self.failures) <= set(self.on_the_safe_side)
 
     def close(
         self,
@@ -129,7 +137,7 @@ class Collected:
             notices=by_weight(self.notices if notices is None else notices),
             provenance=make_provenance(**known, seeds=list(seeds)),
             headlines=numbers,
-            verdict=judge(numbers, criteria, computed=status == "converged", left_out=left_out),
+            verdict=judge(numbers, criteria, computed=status == "converged" or self._safe(status), left_out=left_out),
         )
 
 

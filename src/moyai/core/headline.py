@@ -20,6 +20,8 @@ UNCONFIRMED = "not confirmed against the standard"
 """What the source of a criterion says of values that nobody has yet held against the standard itself."""
 SEAS_LEFT_OUT = "the seas of the case were not run"
 """What a run says that has seas and no analysis that runs them."""
+MOST_REALISATIONS = 100
+"""Realisations up to which more of them are proposed."""
 NONE = "none"
 """Text of a headline whose number is zero."""
 
@@ -40,6 +42,20 @@ class Band:
     #: Interval at whose unfavourable end a criterion is judged where the band itself does not decide, for instance the
     #: confidence interval of a mean over few seeds; ``None``: at the value itself.
     judged: tuple[float, float] | None = None
+    #: Realisations that the interval is of, and the key of the case that asks for more of them.
+    realisations: int = 0
+    more: str = ""
+    #: What the judged end comes to with very many realisations, the upper ends of coefficients in it.
+    settled: float | None = None
+    #: Whether the judged end lies beyond what a bound "at least" leaves open, as the growth that was seen goes on.
+    beyond_bound: bool = False
+
+    def scaled(self, less: float, more: float | None = None) -> Band:
+        """Return the band with its lower ends times ``less`` and its upper ends times ``more``, the same by default."""
+        more = less if more is None else more
+        judged = None if self.judged is None else (less * self.judged[0], more * self.judged[1])
+        settled = None if self.settled is None else more * self.settled
+        return replace(self, low=less * self.low, high=more * self.high, judged=judged, settled=settled)
 
 
 @dataclass(frozen=True)
@@ -107,7 +123,8 @@ class Headline:
         if band is not None:
             judged = band.get("judged")
             ends = {"low": float(band["low"]), "high": float(band["high"])}
-            band = Band(**{**band, **ends, "judged": None if judged is None else (float(judged[0]), float(judged[1]))})
+            judged = None if judged is None else (float(judged[0]), float(judged[1]))
+            band = Band(**{**band, **ends, "judged": judged})
         return cls(**{**record, "value": float(record["value"]), "band": band})
 
 
@@ -205,6 +222,8 @@ class Judgement:
     bound: Bound = ""
     #: See :attr:`Headline.judged_on`.
     judged_on: str = ""
+    #: What would decide a limit that lies between a mean over realisations and the end of its interval.
+    remedy: str = ""
 
     @property
     def shown_bound(self) -> Bound:
@@ -227,7 +246,7 @@ class Judgement:
         criterion = Criterion(**{**given, "limit": float(given["limit"])})
         return cls(
             criterion, float(record["value"]), record["outcome"], record.get("reason", ""), record.get("bound", ""),
-            record.get("judged_on", ""),
+            record.get("judged_on", ""), record.get("remedy", ""),
         )  # fmt: skip
 
 
@@ -366,7 +385,8 @@ def said(item: Judgement) -> str:
     relation = ("at most" if upward else "at least") if holds else ("above" if upward else "below")
     size = max(abs(value) if math.isfinite(value) else 0.0 for value in (item.value, criterion.limit))
     found, limit = (_spoken(criterion, value, size) for value in (item.value, criterion.limit))
-    return f"{criterion.words} {found} is {relation} {limit}"
+    remedy = f" ({item.remedy})" if item.remedy else ""
+    return f"{criterion.words} {found} is {relation} {limit}{remedy}"
 
 
 def _judged_by(criterion: Criterion, numbers: tuple[Headline, ...]) -> list[Headline]:
@@ -405,12 +425,36 @@ def _judge_one(criterion: Criterion, headline: Headline) -> Judgement:
         return _judge_parts(criterion, headline, value)
     good = value <= criterion.limit if upward else value >= criterion.limit
     # The true value lies below a bound "at most" and above a bound "at least"
+    if headline.band is not None and headline.band.beyond_bound and headline.bound != criterion.sense:
+        if good:
+            return Judgement(criterion, value, "holds", headline.where, "", headline.judged_on)
+        # beyond the limit that end proves nothing, the bound itself may
+        return _judge_one(criterion, replace(headline, band=None))
     proves = not headline.bound or (headline.bound == criterion.sense) == good
     if not proves:
         reason = f"only a bound is known ({headline.bound} this value)"
         return Judgement(criterion, value, "not judged", reason, headline.bound)
     outcome: Outcome = "holds" if good else "does not hold"
-    return Judgement(criterion, value, outcome, headline.where, headline.bound, headline.judged_on)
+    remedy = "" if good else _more_realisations(criterion, headline, value)
+    return Judgement(criterion, value, outcome, headline.where, headline.bound, headline.judged_on, remedy)
+
+
+def _more_realisations(criterion: Criterion, headline: Headline, judged: float) -> str:
+    """Return how many realisations would decide where the mean keeps a limit that the end of its interval does not.
+
+    The interval narrows with the square root of their number; the mean itself may move.
+    """
+    band, sign = headline.band, 1.0 if criterion.sense == "at most" else -1.0
+    if band is None or band.decides or not band.realisations:
+        return ""
+    settled = headline.value if band.settled is None else band.settled
+    room = sign * (criterion.limit - settled)
+    if not room > 0.0:
+        return ""
+    wanted = math.ceil(band.realisations * (sign * (judged - settled) / room) ** 2)
+    if wanted > MOST_REALISATIONS:
+        return f"the mean of {band.realisations} realisations keeps it, by too little to be proven"
+    return f"the mean of {band.realisations} realisations keeps it: {band.more}: {wanted} may prove it"
 
 
 def _judge_parts(criterion: Criterion, headline: Headline, value: float) -> Judgement:

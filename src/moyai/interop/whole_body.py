@@ -81,6 +81,31 @@ def from_planar(
     )
 
 
+def level_of_result(result: Result, water_level: str | None = None) -> str:
+    """Return the water level whose coefficients are asked for; the first when left out.
+
+    Raises
+    ------
+    InputError
+        When the result holds no coefficients, or not at this level.
+    """
+    levels = [
+        name
+        for name, group in result.tree.children.items()
+        if {"hydrodynamics", "statics"} <= set(group.children) and "added_mass" in group["hydrodynamics"]
+    ]
+    if not levels:
+        raise InputError(
+            "the result holds no coefficients of a floating body",
+            path="results",
+            allowed="results of a floating breakwater or of a row of units with the analysis frequency or time",
+        )
+    level = levels[0] if water_level is None else water_level
+    if level not in levels:
+        raise InputError(f"no water level '{level}' in the result", path="water_level", allowed=", ".join(levels))
+    return level
+
+
 @checks_words
 def coefficients_of_result(result: Result, *, water_level: str | None = None, sea: Sea = "beam") -> xr.Dataset:
     """Return the coefficients that a result holds, of the whole unit or of all units of a row.
@@ -98,20 +123,7 @@ def coefficients_of_result(result: Result, *, water_level: str | None = None, se
     InputError
         When the result holds none, or not at this level.
     """
-    levels = [
-        name
-        for name, group in result.tree.children.items()
-        if {"hydrodynamics", "statics"} <= set(group.children) and "added_mass" in group["hydrodynamics"]
-    ]
-    if not levels:
-        raise InputError(
-            "the result holds no coefficients of a floating body",
-            path="results",
-            allowed="results of a floating breakwater or of a row of units with the analysis frequency or time",
-        )
-    level = levels[0] if water_level is None else water_level
-    if level not in levels:
-        raise InputError(f"no water level '{level}' in the result", path="water_level", allowed=", ".join(levels))
+    level = level_of_result(result, water_level)
     group = result.tree.children[level].children
     statics = group["statics"].to_dataset(inherit=False)
     if "unit_x" in statics:

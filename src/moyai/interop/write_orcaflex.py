@@ -27,7 +27,9 @@ _ENDS = (
 _SECTIONS = "LineType, Length, TargetSegmentLength"
 _CURRENT = "CurrentDepth, CurrentFactor, CurrentRotation"
 #: kg, N over te, kN.
-_THOUSAND = 1e3
+THOUSAND = 1e3
+#: First of the notes on every file.
+UNREAD = "no OrcaFlex has read this file: look at units, phases and ends before use"
 
 
 def orcaflex_text(deck: MoorDynDeck) -> tuple[str, tuple[str, ...]]:
@@ -54,12 +56,12 @@ def orcaflex_text(deck: MoorDynDeck) -> tuple[str, tuple[str, ...]]:
     used = {line.line_type for strand in strands for line in strand}
     model: dict[str, Any] = {
         "General": {"UnitsSystem": "SI"},
-        "Environment": {"WaterDepth": depth, "Density": (deck.number("WtrDnsty") or 1025.0) / _THOUSAND},
+        "Environment": {"WaterDepth": depth, "Density": (deck.number("WtrDnsty") or 1025.0) / THOUSAND},
         "LineTypes": [_line_type(kind) for kind in deck.line_types if kind.name in used],
         "Lines": [_line(deck, strand) for strand in strands],
     }
     notes = [
-        "no OrcaFlex has read this file: look at units, phases and ends before use",
+        UNREAD,
         *_sea(deck, depth, model["Environment"]),
     ]
     moved = sorted({f"{point.number}" for point in _ends(deck, strands) if point.kind == "coupled"})
@@ -67,10 +69,11 @@ def orcaflex_text(deck: MoorDynDeck) -> tuple[str, tuple[str, ...]]:
         notes.append("the bed that varies is left out: it is flat at the depth of the deck")
     if moved:
         notes.append(f"points {', '.join(moved)} are fixed where they are: connect them to your vessel")
-    return _text(model), tuple(notes)
+    return text_of(model), tuple(notes)
 
 
-def _text(model: dict[str, Any]) -> str:
+def text_of(model: dict[str, Any]) -> str:
+    """Return a model as text data."""
     import yaml
 
     return _HEAD + yaml.safe_dump(model, sort_keys=False, default_flow_style=None, width=10_000, allow_unicode=True)
@@ -86,9 +89,9 @@ def _line_type(kind: DeckLineType) -> dict[str, Any]:
         "Category": "General",
         "OD": kind.diameter,
         "ID": 0.0,
-        "MassPerUnitLength": kind.mass_per_length / _THOUSAND,
-        "EA": kind.stiffness / _THOUSAND,
-        "EI": kind.bending_stiffness / _THOUSAND,
+        "MassPerUnitLength": kind.mass_per_length / THOUSAND,
+        "EA": kind.stiffness / THOUSAND,
+        "EI": kind.bending_stiffness / THOUSAND,
         "NormalDragCoefficient": kind.drag_normal,
         "AxialDragCoefficient": kind.drag_axial,
         "NormalAddedMassCoefficient": kind.added_mass_normal,

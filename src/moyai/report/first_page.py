@@ -137,7 +137,8 @@ def _asked(item: Judgement) -> str:
 
 
 def _place(item: Judgement) -> str:
-    return "; judged on ".join(filter(None, (item.reason, item.judged_on))) or DASH
+    place = "; judged on ".join(filter(None, (item.reason, item.judged_on)))
+    return "; ".join(filter(None, (place, item.remedy))) or DASH
 
 
 def criteria_note(items: Iterable[Judgement]) -> str:

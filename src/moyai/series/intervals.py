@@ -74,7 +74,7 @@ def student_quantile(confidence: float, freedom: float) -> float:
     return float(stdtrit(max(freedom, 1.0), 0.5 + 0.5 * confidence))
 
 
-def reach_of_mean(values: ArrayLike, probability: float = 0.95) -> float:
+def reach_of_mean(values: ArrayLike, probability: float = 0.95, *, alike: ArrayLike = ()) -> float:
     """Return how far the one-sided interval of a mean of largest values reaches above it [eq:extremes-mean-reach].
 
     Student's interval covers the mean of five largest values in 90 of 100 draws, since they are skewed; with the term
@@ -86,15 +86,22 @@ def reach_of_mean(values: ArrayLike, probability: float = 0.95) -> float:
         Independent largest values; 0 is returned for fewer than two.
     probability : float
         That the mean of very many samples lies below the end of the interval.
+    alike : array_like
+        More values whose scatter over their mean is that of the first, such as those of another mesh: the larger of
+        both scatters counts, known as well as the larger sample tells.
 
     Raises
     ------
     InputError
         For a probability of one half or less, or of one.
     """
-    found = np.asarray(values, dtype=np.float64)
+    found, others = np.asarray(values, dtype=np.float64), np.asarray(alike, dtype=np.float64)
     if found.size < 2:
         return 0.0
-    error = float(np.std(found, ddof=1)) / math.sqrt(found.size)
-    quantile = student_quantile(2.0 * probability - 1.0, found.size - 1)
+    scatter, freedom = float(np.std(found, ddof=1)), found.size - 1
+    if others.size > found.size and others.mean() != 0.0:
+        scatter = max(scatter, abs(float(np.std(others, ddof=1) * found.mean() / others.mean())))
+        freedom = others.size - 1
+    error = scatter / math.sqrt(found.size)
+    quantile = student_quantile(2.0 * probability - 1.0, freedom)
     return (quantile + GUMBEL_SKEWNESS / (6.0 * math.sqrt(found.size)) * (1.0 + 2.0 * quantile**2)) * error

@@ -10,6 +10,9 @@ from moyai.core.arrays import Array
 from moyai.core.headline import Band, Bound
 from moyai.series.intervals import reach_of_mean
 
+#: Key of breakwaters and rows of units that asks for more of them.
+MORE = "settings.time.realisations"
+
 
 def seeds(scatter: Array, bound: Array | None = None) -> Band | None:
     """Return the band of realisations: they scatter about their mean, which is the number.
@@ -22,7 +25,10 @@ def seeds(scatter: Array, bound: Array | None = None) -> Band | None:
     upper = scatter if bound is None or bound.size != scatter.size else np.fmax(bound, scatter)
     of = f"{scatter.size} realisations; judged at the 95 % end of their mean"
     ends = (float(scatter.mean()) - reach_of_mean(scatter), float(upper.mean()) + reach_of_mean(upper))
-    return Band(float(scatter.min()), float(scatter.max()), of, decides=False, judged=ends)
+    return Band(
+        float(scatter.min()), float(scatter.max()), of, decides=False, judged=ends,
+        realisations=scatter.size, more=MORE, settled=float(upper.mean()),
+    )  # fmt: skip
 
 
 def storms(value: float, mean: float, factor: float) -> Band | None:

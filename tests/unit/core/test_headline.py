@@ -10,7 +10,7 @@ import pytest
 import xarray as xr
 
 from moyai.core.collected import Collected
-from moyai.core.headline import SEAS_LEFT_OUT, Band, Criterion, Headline, Verdict, governing, judge
+from moyai.core.headline import SEAS_LEFT_OUT, Band, Criterion, Headline, Judgement, Verdict, governing, judge
 from moyai.core.results import read_result
 from moyai.core.vocabulary import Vocabulary
 
@@ -145,3 +145,32 @@ def test_what_was_left_out_proves_only_that_a_limit_is_broken() -> None:
     shallow = Headline("effective_depth", "depth", 3.0, "m")
     assert judge([shallow], [LEAST], computed=True, left_out=SEAS_LEFT_OUT).outcome == "does not hold"
     assert judge([replace(shallow, value=5.0)], [LEAST], computed=True, left_out=SEAS_LEFT_OUT).outcome == "not judged"
+
+
+def test_a_limit_between_a_mean_and_its_interval_names_the_realisations_that_may_prove_it():
+    """Half the room asks for four times the realisations; a mean that breaks the limit itself asks for none."""
+    band = Band(20.0, 40.0, "5 realisations", decides=False, judged=(26.0, 34.0), realisations=5, more="settings.many")
+    found = Headline("pull", "Pull", 30.0, "N", band=band)
+    limit = Criterion("greatest_pull", "pull", 32.0, "at most", "case file", unit="N")
+    verdict = judge([found], [limit], computed=True)
+    assert verdict.outcome == "does not hold"
+    assert "the mean of 5 realisations keeps it: settings.many: 20 may prove it" in verdict.message
+    (judged,) = verdict.judgements
+    assert Judgement.from_dict(judged.as_dict()) == judged
+    assert "settings.many" not in judge([found], [replace(limit, limit=29.0)], computed=True).message
+    close = judge([found], [replace(limit, limit=30.1)], computed=True)
+    assert "by too little to be proven" in close.message
+    assert judge([found], [replace(limit, limit=35.0)], computed=True).judgements[0].remedy == ""
+    assert Headline.from_dict(found.as_dict()) == found
+
+
+def test_a_bound_from_below_with_an_end_beyond_it_holds_where_that_end_keeps_the_limit():
+    band = Band(1.0, 2.0, "growth", decides=False, judged=(1.0, 8.0), beyond_bound=True)
+    found = Headline("pull", "Pull", 2.0, "N", bound="at least", band=band)
+    limit = Criterion("greatest_pull", "pull", 10.0, "at most", "case file", unit="N")
+    (item,) = judge([found], [limit], computed=True).judgements
+    assert (item.outcome, item.value) == ("holds", 8.0)
+    # beyond the limit that end proves nothing; the bound proves that a limit below it is broken
+    for least, outcome in ((5.0, "not judged"), (1.5, "does not hold")):
+        (item,) = judge([found], [replace(limit, limit=least)], computed=True).judgements
+        assert (item.outcome, item.value) == (outcome, 2.0)

@@ -325,36 +325,41 @@ def test_run_without_identities_does_not_claim_that_they_hold(tmp_path):
     assert float(result.tree["SWL/limits"]["surface_speed"]) == 0.2
 
 
-def test_cycle_table_is_the_oscillator(small):
-    """At a height that was run the table is the run itself, and it never falls with the height."""
-    from moyai.sea.dispersion import wave_number
-    from moyai.structures.curtain.analyses.impact import drag_coefficient, solve_impact
-    from moyai.structures.curtain.impact.settling import settled_cycles
-    from moyai.structures.curtain.limits.loads import _cycles
-    from moyai.structures.curtain.snaps.flow import depth_mean_factor
+def test_snap_table_is_the_sea_run_as_a_case(small):
+    """At a height that was run the table is that sea with its realisations, and it never falls with the height."""
+    from moyai.core.progress import silent
+    from moyai.sea.spectra import goda_peak_period, jonswap
+    from moyai.sea.states import IrregularSea
+    from moyai.series.intervals import reach_of_mean
+    from moyai.structures.curtain.analyses.impact import solve_impact
+    from moyai.structures.curtain.analyses.waves import wave_answer
+    from moyai.structures.curtain.limits.loads import _snaps
+    from moyai.structures.curtain.seas.squared_velocity import effective_height
 
     problem, _ = small
     unit = assemble(problem, "SWL", 0.0)
-    answer = solve_impact(unit, problem.settings.impact)
-    table = _cycles(unit, problem.settings, answer)
-    height = 2.0 * (7.0 / 10.0) ** 1.5
-    period, acting = 3.86 * math.sqrt(height), 1.8 * height
-    number = float(wave_number(2.0 * math.pi / period, 8.0, 9.81))
-    amplitude = acting * math.pi / period * float(depth_mean_factor(number, 4.0, unit.water))
-    settled = settled_cycles(
-        answer.impact,
-        drag_coefficient=drag_coefficient(unit, answer.impact.draught),
-        current=0.3,
-        velocity_amplitude=amplitude,
-        period=period,
-        least_settled=4,
-        least_analysed=10,
-    )
-    largest = settled.tension
-    assert table.tension(0.3, height) >= largest * (1.0 - 1e-9)
-    series = [table.tension(0.3, float(h)) for h in np.linspace(0.0, 2.0, 40)]
+    settings = problem.settings
+    answer = solve_impact(unit, settings.impact)
+    height = settings.limits.highest_height * (6.0 / 10.0) ** 1.5
+    period = goda_peak_period(settings.limits.period_of(height), 3.3)
+    table = _snaps(unit, settings, answer, 200.0 * period)
+    acting = float(effective_height(height, 0.0, settings.direction[0], 1.0))
+    sea = IrregularSea("sea", jonswap(acting, period, 3.3), unit.curtain.normal, duration=200.0 * period, seed=1)
+    there = replace(unit, surface_speed=0.3)
+    found = wave_answer(there, settings, sea, silent).groups[""]
+    tops = found["realisation_tension"].values
+    assert tops.size == settings.waves.realisations and tops.min() > 0.0
+    series = [table.tension(0.3, float(h)) for h in np.linspace(0.0, height, 20)]
     assert np.all(np.diff(series) >= 0.0) and series[0] == 0.0
-    assert table.tension(0.3, height) == pytest.approx(largest, rel=0.5)
+    # a lower sea that pulls harder counts at the higher one too
+    assert series[-1] >= tops.mean() * (1.0 - 1e-12)
+    own, judged = table._known[0.3, 6]
+    assert own == pytest.approx(tops.mean(), rel=1e-12)
+    assert judged == pytest.approx(tops.mean() + reach_of_mean(tops), rel=1e-12)
+    # what was not run is not run for a map: at least what is known
+    beyond = table.tension(0.3, settings.limits.highest_height, known=True)
+    assert beyond == pytest.approx(table.tension(0.3, height), rel=1e-12)
+    assert table.tension(0.7, height, known=True) == 0.0
 
 
 def test_anchor_loads_of_the_field_paper(tmp_path):

@@ -62,6 +62,34 @@ def test_mean_of_the_realisations_counts_and_the_larger_of_both_meshes():
     assert event_peak(storm(), "storm", "lower cable") is None
 
 
+def test_three_realisations_on_the_finer_mesh_scatter_as_the_five_on_the_coarser():
+    """The relative scatter of five, 17 %, is larger than that of three, 5 %: Student's value of four degrees counts."""
+    peak = event_peak(storm((40e3, 42e3, 44e3)), "storm", "upper cable")
+    coarse = np.array([31e3, 33e3, 23e3, 27e3, 36e3])
+    # a mean hardly smaller of three values that scatter widely reaches higher than that of the five
+    wide = event_peak(storm((10e3, 27e3, 52e3)), "storm", "upper cable")
+    assert wide.value == pytest.approx(30e3) and wide.run == "storm"
+    assert wide.judged > 29.67e3 + 3.2 * np.std([10e3, 27e3, 52e3], ddof=1) / math.sqrt(3)
+    scatter = 42e3 * coarse.std(ddof=1) / coarse.mean()
+    student = 2.1318
+    reach = (student + 1.1395 / (6 * math.sqrt(3)) * (1 + 2 * student**2)) * scatter / math.sqrt(3)
+    assert peak.judged == pytest.approx(42e3 + reach, rel=1e-4)
+
+
+def test_growth_with_the_cells_is_continued_as_a_power_to_ten_times_smaller_ones():
+    """Means of 29 and 42 kN on 8 and 12 cells grow as their number to the power 0.913."""
+    peak = event_peak(storm((40e3, 42e3, 44e3)), "storm", "upper cable")
+    power = math.log(42 / 29) / math.log(12 / 8)
+    assert peak.at_least and peak.ceiling == pytest.approx(peak.judged * 10.0**power, rel=1e-9)
+    # what falls with the cells does not grow
+    falling = event_peak(storm(), "storm", "upper cable")
+    assert falling.ceiling == falling.judged
+    groups = groups_of(storm((40e3, 42e3, 44e3)), 1e7, "at least")
+    criterion = Criterion("cables", "cable_utilisation", 1.0 / 3.0, "at most", "case file", as_factor=True)
+    (item,) = judge(curtain_headlines(groups, ["SWL"]), [criterion], computed=True).judgements
+    assert item.outcome == "holds" and item.value == pytest.approx(peak.ceiling / 1e7)
+
+
 def test_what_grows_with_the_cells_is_a_bound_and_warned_of():
     found = governing_peaks(storm(skirt=(10e3, 11e3)))
     assert {name: event for name, (event, _) in found.items()} == {"upper cable": "storm", "skirt": "storm"}
@@ -126,8 +154,19 @@ def test_limits_are_not_below_the_state_in_which_the_whole_span_holds():
         assert found["limit_current"].value == 0.236 and found["limit_wave_height"].text == "not known"
 
 
+@pytest.mark.parametrize("order", [("HW", "LW"), ("LW", "HW")])
+def test_the_whole_span_has_to_hold_at_every_level_for_a_limit(order):
+    """High water holds, low water does not: the state of the case is not held, in whatever order levels stand."""
+    groups = {}
+    for level, capacity in (("HW", 200e3), ("LW", 100e3)):
+        groups |= {path.replace("/SWL/", f"/{level}/"): data for path, data in groups_of(storm(), capacity, "").items()}
+    found = {item.name: item for item in curtain_headlines(groups, order)}
+    assert found["limit_current"].value == 0.236 and "LW" in found["limit_current"].where
+    assert found["limit_wave_height"].text == "not known" and "LW" in found["limit_wave_height"].where
+
+
 def test_a_bound_from_below_proves_no_strength():
-    numbers = curtain_headlines(groups_of(storm(), 200e3, "at least"), ["SWL"])
+    numbers = curtain_headlines(groups_of(storm((40e3, 42e3, 44e3)), 200e3, "at least"), ["SWL"])
     criterion = Criterion("cables", "cable_utilisation", 1.0 / 3.0, "at most", "case file", as_factor=True)
     (item,) = judge(numbers, [criterion], computed=True).judgements
     assert item.outcome == "not judged"

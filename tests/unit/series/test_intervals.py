@@ -84,3 +84,18 @@ def test_the_interval_of_a_mean_of_maxima_covers_what_it_says(count):
     error = drawn.std(axis=1, ddof=1) / np.sqrt(count)
     student = drawn.mean(axis=1) + student_quantile(0.9, count - 1) * error
     assert np.mean(student >= np.euler_gamma) < 0.93
+
+
+def test_more_values_of_the_same_scatter_narrow_an_interval_that_still_covers():
+    """Three values with five of another scale and the same relative scatter, most of them of the same seas."""
+    rng = np.random.default_rng(8)
+    seas, others = rng.random((4000, 5)), rng.random((4000, 5))
+    again = np.where(rng.random((4000, 5)) < 0.9, seas, others)
+    values, alike = (10.0 + 3.0 * -np.log(-np.log(drawn)) for drawn in (seas[:, :3], again))
+    mean = 10.0 + 3.0 * np.euler_gamma
+    alone = np.array([reach_of_mean(row) for row in values])
+    more = np.array([reach_of_mean(row, alike=2.3 * others) for row, others in zip(values, alike, strict=True)])
+    assert np.mean(values.mean(axis=1) + more >= mean) > 0.94
+    assert more.mean() < 0.9 * alone.mean()
+    # a smaller sample adds nothing
+    assert reach_of_mean(values[0], alike=alike[0, :2]) == alone[0]

@@ -5,7 +5,7 @@ import pytest
 import xarray as xr
 
 from moyai.core.headline import Criterion, judge
-from moyai.structures.units.headlines import _each, _waves, _with_damping, _with_roll, governing_seas
+from moyai.structures.units.headlines import _each, _waves, _with_damping, _with_tilt, governing_seas
 
 DOFS = ["sway", "heave", "roll"]
 
@@ -27,7 +27,7 @@ def test_the_time_domain_keeps_the_band_of_damping():
     time = motions("motion_amplitude", (0.05, 0.03))
     ((path, data),) = governing_seas({"/SWL/frequency/daily": frequency, "/SWL/time/daily": time})
     assert path == "/SWL/time/daily"
-    roll, other = _each([(path, _with_roll(data))], "roll")
+    roll, other = _each([(path, _with_tilt(data, "roll"))], "tilt")
     assert (roll.value, other.value) == pytest.approx((0.10, 0.06))
     assert (roll.band.low, roll.band.high) == pytest.approx((0.06, 0.15))
 
@@ -49,7 +49,7 @@ def test_realisations_are_widened_by_the_damping():
     )
     spread = {f"significant_motion_{end}": (dims, f * significant) for end, f in (("low", 0.8), ("high", 1.25))}
     frequency = time[["significant_motion"]].assign(spread)
-    (roll,) = _each([("/SWL/time/storm", _with_roll(_with_damping(time, frequency)))], "roll")
+    (roll,) = _each([("/SWL/time/storm", _with_tilt(_with_damping(time, frequency), "roll"))], "tilt")
     assert roll.value == pytest.approx(0.10) and not roll.band.decides
     assert (roll.band.low, roll.band.high) == pytest.approx((0.8 * 0.08, 1.25 * 0.12))
     # Johnson's interval of three skewed values: 4.899 standard errors of 0.02 / sqrt(3), then the damping

@@ -1,16 +1,17 @@
 """Directional spectra from a pressure gauge with a current meter, a buoy, an array: any set of linear sensors.
 
-The estimator is of the extended maximum entropy family [1]_: the spreading is the exponential of a Fourier series of
-the heading, fitted to the cross spectra with the weights of their sampling errors, the order chosen by Akaike's
-criterion. Mean heading and spread of a triplet follow also from its first Fourier coefficients in closed form [2]_.
+The estimator is of the extended maximum entropy family (Hashimoto and others 1994): the spreading is the exponential of
+a Fourier series of the heading, fitted to the cross spectra with the weights of their sampling errors, the order chosen
+by Akaike's criterion. Mean heading and spread of a triplet follow also from its first Fourier coefficients in closed
+form (Kuik and others 1988).
 
 References
 ----------
-.. [1] Hashimoto, N., Nagai, T. and Asai, T. (1994): Extension of the maximum entropy principle method for directional
-   wave spectrum estimation. Proc. 24th Coastal Engineering Conference, 232-246.
-   https://doi.org/10.1061/9780784400890.019
-.. [2] Kuik, A.J., van Vledder, G.Ph. and Holthuijsen, L.H. (1988): A method for the routine analysis of
-   pitch-and-roll buoy wave data. J. Phys. Oceanogr. 18, 1020-1034.
+Hashimoto, N., Nagai, T. and Asai, T. (1994): Extension of the maximum entropy principle method for directional wave
+spectrum estimation. Proc. 24th Coastal Engineering Conference, 232-246. https://doi.org/10.1061/9780784400890.019
+
+Kuik, A.J., van Vledder, G.Ph. and Holthuijsen, L.H. (1988): A method for the routine analysis of pitch-and-roll buoy
+wave data. J. Phys. Oceanogr. 18, 1020-1034.
 """
 
 from __future__ import annotations

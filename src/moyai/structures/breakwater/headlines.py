@@ -232,8 +232,7 @@ def _offset(domain: str, data: xr.Dataset, level: str, sea: str, frequency: xr.D
         if motion > 1.0:
             # what lines in motion add to the offset of lines at rest in the same events
             band = band or Band(value, value, "lines in motion in the events rerun")
-            ends = None if band.judged is None else (band.judged[0], band.judged[1] * motion)
-            band = replace(band, high=band.high * motion, judged=ends)
+            band = band.scaled(1.0, motion)
         within = float(data.attrs.get("duration", math.nan))
         detail = f"largest in {storm_words(within)}; " if math.isfinite(within) else ""
         detail += "; ".join(filter(None, (ALONE if bound else "", _motion_words(data), _slow_words(frequency))))
@@ -311,11 +310,8 @@ def _roll(domain: str, data: xr.Dataset, level: str, sea: str, frequency: xr.Dat
         if math.isfinite(low + high):
             of = str(frequency.attrs.get("damping_band", "damping"))
             given = band or Band(value, value, "")
-            ends = (given.low, given.high) if given.judged is None else given.judged
-            band = Band(
-                low * given.low, high * given.high, "; ".join(filter(None, (given.of, of))), given.judged is None,
-                None if given.judged is None else (low * ends[0], high * ends[1]),
-            )  # fmt: skip
+            of = "; ".join(filter(None, (given.of, of)))
+            band = replace(given.scaled(low, high), of=of, decides=given.judged is None)
     detail = f"significant double amplitude {math.degrees(significant):.3g}\u00b0"
     model = _motion_model(domain, data)
     return [

@@ -41,7 +41,8 @@ NOT_JUDGED = Headline(
 )  # fmt: skip
 _OTHER_DIRECTIONS = replace(
     NOT_JUDGED, text=f"{NOT_JUDGED.text}, other directions of current and waves",
-    detail="along the diagonal of a frame an anchor may bear some 40 % more than along its side: run both headings",
+    detail="along the diagonal of a frame an anchor may bear half as much again as along its side, and less volume is "
+    "left: run both headings",
 )  # fmt: skip
 TOO_SHORT = "one seed, too short to tell the scatter of its maximum"
 _SAME_LAWS = "the same net laws as for the volume"

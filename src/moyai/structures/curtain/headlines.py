@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from moyai.core.headline import Band, Bound, Criterion, Headline, judge, unfavourable
 from moyai.series.intervals import reach_of_mean
-from moyai.structures.curtain.analyses.event_peaks import event_band
+from moyai.structures.curtain.analyses.event_peaks import ceiling_of, event_band
 from moyai.structures.curtain.governing import model_of
 from moyai.structures.curtain.hierarchy import SPAN, STATICS
 from moyai.structures.curtain.limit_headlines import REMEDY, limit_headlines
@@ -52,6 +52,9 @@ _NOT_JUDGED = Headline(
     "seams and eyelets, and the holding of an anchor in its soil are not computed; waves in currents weaker than that "
     "of the case are computed at half of it alone, where the whole span is run by default",
 )  # fmt: skip
+#: Key that asks for more realisations.
+_MORE = "settings.waves.realisations"
+_NO_SEA = replace(_NOT_JUDGED, text=f"{_NOT_JUDGED.text}, irregular seas")
 _MISSING = "'settings.impact.chord' and a skirt that stretches, or 'dynamic' in 'analyses'"
 
 
@@ -134,7 +137,7 @@ def curtain_headlines(
         *limit_headlines(groups, levels, lambda level: _span_holds(loads, level)),
     ]
     if used:
-        found.append(_NOT_JUDGED)
+        found.append(_not_judged(groups))
     if used and not math.isnan(used[0].value):
         # the load behind the most used component stands next to it
         first = used[0]
@@ -266,9 +269,7 @@ def _used_headline(name: str, label: str, load: _Load) -> Headline:
         said = f"{of} without its snap, which needs {_MISSING}"
         return Headline(name, label, math.nan, "1", where=where, model=load.model, detail=said, text="not known")
     band = load.band
-    if band is not None:
-        ends = None if band.judged is None else (band.judged[0] / strength, band.judged[1] / strength)
-        band = Band(band.low / strength, band.high / strength, band.of, band.decides, ends)
+    band = None if band is None else band.scaled(1.0 / strength)
     return Headline(name, label, load.used, "1", where=where, model=load.model, band=band, bound=load.bound, detail=of)
 
 
@@ -299,7 +300,8 @@ def _impact_band(groups: Groups, load: _Load) -> Band | None:
     if steady is None:
         return None
     value, part = load.number("governing_load"), load.number("steady_load")
-    current = at_rest(groups[f"/{load.level}/statics"], _STEADY_NAMES[load.component])
+    name = _STEADY_NAMES.get(load.component)
+    current = part if name is None else at_rest(groups[f"/{load.level}/statics"], name)
     # a pretension above the load of the current stays where it is
     least = part if part > current * (1.0 + 1e-9) else 0.0
     low, high = (
@@ -361,15 +363,21 @@ def _mesh_band(table: xr.Dataset, load: _Load, value: float) -> Band | None:
     others = [event_band(table, str(name), component) for name in table["event"].values if str(name) != event]
     known = [item for item in others if math.isfinite(item[0])]
     high, judged = max([high, *(item[2] for item in known)]), max([judged, *(item[3] for item in known)])
-    if not low < max(high, judged):
+    ceiling = ceiling_of(table, component) if load.bound == "at least" else math.nan
+    if not low < max(high, judged) and math.isnan(ceiling):
         return None
     factor = value / whole
     low, high = factor * low, max(factor * high, value)
+    if math.isfinite(ceiling):
+        end = kilo(factor * ceiling, load.words("load_unit"))
+        of = f"meshes and events; judged at {end}, the growth from mesh to mesh continued to cells ten times smaller"
+        return Band(low, high, of, decides=False, judged=(low, factor * ceiling), beyond_bound=True)
     if count < 2:
         high = max(high, factor * judged)
         return Band(low, high, "meshes and events, the larger counts; drag at its value")
     of = f"{count} realisations and two meshes; drag at its value; judged at the 95 % end of the larger mean"
-    return Band(low, high, of, decides=False, judged=(low, factor * judged))
+    ends = (low, factor * judged)
+    return Band(low, high, of, decides=False, judged=ends, realisations=count, more=_MORE)
 
 
 def _energy_band(groups: Groups, load: _Load) -> Band | None:
@@ -430,7 +438,14 @@ def _wave_band(groups: Groups, load: _Load) -> Band | None:
         whole * own.low / own.top - less, max(whole * high / own.top + more, upper),
         f"{words}; {part}; judged at the 95 % end of the mean", decides=False,
         judged=(whole * (1.0 - own.reach / own.top) - less, max(whole * worst.judged / own.top + more, upper)),
+        realisations=worst.count, more=_MORE, settled=max(whole * worst.top / own.top + more, upper),
     )  # fmt: skip
+
+
+def _not_judged(groups: Groups) -> Headline:
+    """Return what is not judged; a sea pulls harder than regular waves as high as its highest."""
+    kinds = {data.attrs.get("kind") for path, data in groups.items() if path.split("/")[2:3] == ["waves"]}
+    return _NO_SEA if "regular" in kinds and "irregular" not in kinds else _NOT_JUDGED
 
 
 def _is_cycles(path: str, data: xr.Dataset, level: str) -> bool:
@@ -450,6 +465,8 @@ class _Cycles:
     #: From the number to the end of its interval.
     reach: float
     words: str
+    #: Realisations that the interval is of; none of regular waves.
+    count: int = 0
 
     @property
     def judged(self) -> float:
@@ -473,15 +490,19 @@ class _Cycles:
             reach = float(table["judged_tension"].max()) - top if "judged_tension" in table else 0.0
             return cls(low, top, high, reach, "largest of 100 periods")
         scatter = table["realisation_tension"].values
-        return cls(low, top, high, reach_of_mean(scatter), f"{scatter.size} realisations")
+        return cls(low, top, high, reach_of_mean(scatter), f"{scatter.size} realisations", scatter.size)
 
 
 def _steady_band(groups: Groups, load: _Load) -> Band | None:
-    name = _STEADY_NAMES.get(load.component)
     statics = groups.get(f"/{load.level}/statics")
-    if name is None or statics is None:
+    if statics is None:
         return None
-    return statics_band(statics, name)
+    if load.component == "joint":
+        # the load of a stretch of the curtain goes with the load per length
+        band, value = statics_band(statics, "line_load"), at_rest(statics, "line_load")
+        return None if band is None or not value > 0.0 else band.scaled(load.number("steady_load") / value)
+    name = _STEADY_NAMES.get(load.component)
+    return None if name is None else statics_band(statics, name)
 
 
 def _span_holds(loads: Sequence[_Load], level: str) -> bool:

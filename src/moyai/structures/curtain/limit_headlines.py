@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from typing import TYPE_CHECKING
 
 from moyai.core.headline import Band, Criterion, Headline
@@ -59,12 +60,11 @@ def limit_headlines(groups: Groups, levels: Sequence[str], span_holds: Callable[
         ]
         if not found:
             continue
-        limit, level, table = min(found, key=lambda item: _lowest(item[2], key, item[0]))
+        limit, level, table = min(found, key=partial(_held, groups, key, span_holds))
         governing = str(table.attrs.get(f"{key}_governing", ""))
         said = str(table.attrs.get("speed_limit_text" if key == "speed_limit" else "design_limit_note", ""))
         bound = str(table.attrs.get(f"{key}_bound", ""))
-        held = span_holds(level) and _deep_enough(groups, level)
-        proven = _in_the_case(groups, level, key) if held else math.nan
+        proven = _proven(groups, key, span_holds, level)
         if bound == "at least" and proven > limit:
             more = f"an upright plate, a bound, allows {limit:.3g} {unit}; " if limit > 0.0 else ""
             detail = f"the whole span holds in the state of the case; {more}the span is run in that state alone"
@@ -83,7 +83,8 @@ def limit_headlines(groups: Groups, levels: Sequence[str], span_holds: Callable[
         if key != "speed_limit" and math.isfinite(period):
             details.append(f"in waves of {period:.3g} s, as settings.limits takes the period with the height")
         if key != "speed_limit" and table.attrs.get("with_snaps"):
-            details.append("snaps by regular waves of the highest height, not by realisations of a sea")
+            lasting = float(table.attrs.get("sea_duration", math.nan)) / 60.0
+            details.append(f"snaps by realisations of JONSWAP seas of {lasting:.3g} min along the normal")
         if governing != "effective depth" and float(table.attrs.get("least_effective_depth", 1.0)) == 0.0:
             details.append("no depth is asked for: 'least_effective_depth' of 'criteria' has no default")
         if jump := str(table.attrs.get("limit_jump", "")) if key == "design_limit" else "":
@@ -115,6 +116,20 @@ def limit_headlines(groups: Groups, levels: Sequence[str], span_holds: Callable[
             detail="; ".join(details),
             text="" if limit > 0.0 else "none",
         )  # fmt: skip
+
+
+def _proven(groups: Groups, key: str, span_holds: Callable[[str], bool], level: str) -> float:
+    """Return the state of the case where the whole span was run at a level and holds in it; else NaN."""
+    return _in_the_case(groups, level, key) if span_holds(level) and _deep_enough(groups, level) else math.nan
+
+
+def _held(groups: Groups, key: str, span_holds: Callable[[str], bool], item: tuple[float, str, xr.Dataset]) -> float:
+    """Return what a level is known to hold: its limit, or the state of the case where the limit is but a bound."""
+    limit, level, table = item
+    proven = _proven(groups, key, span_holds, level)
+    if str(table.attrs.get(f"{key}_bound", "")) == "at least" and proven > limit:
+        return proven
+    return _lowest(table, key, limit)
 
 
 def weaker_currents(groups: Groups, found: Sequence[Headline]) -> tuple[Criterion, ...]:
@@ -170,4 +185,4 @@ def _limit_band(table: xr.Dataset, value: float) -> Band | None:
 def _height_band(table: xr.Dataset, value: float) -> Band | None:
     """Return the band of the largest height: impact, snaps and depth at their unfavourable ends."""
     low = _number(table, "design_limit_low")
-    return Band(low, value, "impact, snaps and depth at their unfavourable ends") if low < value else None
+    return Band(low, value, "impact, snaps, steady part and depth at their unfavourable ends") if low < value else None

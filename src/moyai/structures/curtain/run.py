@@ -10,7 +10,7 @@ from moyai.core.collected import Collected
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
 from moyai.core.validity import Notice
-from moyai.sea.states import RegularSea
+from moyai.sea.states import IrregularSea, RegularSea
 from moyai.structures.curtain.analyses.anchor import anchor_checks, anchor_dataset, anchor_notices
 from moyai.structures.curtain.analyses.dynamic import DynamicAnswer, dynamic_answer
 from moyai.structures.curtain.analyses.impact import ImpactAnswer, impact_checks, impact_notices, solve_impact
@@ -175,7 +175,8 @@ def _level_steps(
     yield
     if "limits" in settings.analyses:
         lost = _lost_depth(collected.groups.get(f"{root}/statics"), unit.depth)
-        collected.groups[f"{root}/limits"] = limits_dataset(unit, settings, proportions, curve, progress, lost)
+        lasting = max((sea.duration for sea in seas if isinstance(sea, IrregularSea)), default=None)
+        collected.groups[f"{root}/limits"] = limits_dataset(unit, settings, proportions, curve, progress, lost, lasting)
         yield
         if settings.limits.rose_step is not None:
             collected.groups[f"{root}/limits/rose"] = rose_dataset(unit, settings, seas, progress)

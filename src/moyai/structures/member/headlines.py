@@ -83,7 +83,7 @@ def headlines_of(problem: MemberProblem, groups: Mapping[str, xr.Dataset]) -> tu
         model += f", {CIRCULATION.name}"
     force = Headline(
         "peak_force", "largest force on the member", found.value, "N", found.where, model,
-        _band(found, ranges), bound=_bound(problem, found),
+        _band(found, ranges), bound=_bound(found),
         detail=_causes_text(shares) + _chance_text(found) + _crest_text(problem, found),
     )  # fmt: skip
     items = _with_the_others(problem, groups, "force", force)
@@ -103,7 +103,7 @@ def headlines_of(problem: MemberProblem, groups: Mapping[str, xr.Dataset]) -> tu
     if ends is not None and problem.support == "both_ends":
         end = Headline(
             "end_force", "largest force at an end", ends.value, "N", ends.where, model,
-            _band(ends, _ranges(problem, ends)), bound=_bound(problem, ends), detail=held + _ends_text(ends),
+            _band(ends, _ranges(problem, ends)), bound=_bound(ends), detail=held + _ends_text(ends),
         )  # fmt: skip
         items += _with_the_others(problem, groups, "end_force", end)
     if bending is not None:
@@ -114,7 +114,7 @@ def headlines_of(problem: MemberProblem, groups: Mapping[str, xr.Dataset]) -> tu
             where = "at the fixed end"
         moment = Headline(
             "bending_moment", "largest bending moment", bending.value, "N m", bending.where, model,
-            _band(bending, _ranges(problem, bending)), bound=_bound(problem, bending),
+            _band(bending, _ranges(problem, bending)), bound=_bound(bending),
             detail=f"{held}, {where}; of waves and current alone{_ends_text(bending)}",
         )  # fmt: skip
         items += _with_the_others(problem, groups, "bending_moment", moment)
@@ -178,11 +178,9 @@ def _crest(problem: MemberProblem, found: _Largest) -> float:
     return dnv_drag(DNV_CREST, roughness) / dnv_steady_drag(roughness)
 
 
-def _bound(problem: MemberProblem, found: _Largest) -> Bound:
-    """Return ``at most`` where drag decides and its amplification is kept at its crest, and what one sea proves."""
-    if found.sea.attrs.get("kind") != "regular" and alone(found.scatter):
-        return alone(found.scatter)
-    return "at most" if _crest(problem, found) > 1.0 and abs(_shares(found)[1]) >= DECIDES else ""
+def _bound(found: _Largest) -> Bound:
+    """Return what one realisation of a random sea proves; drag at the crest of its amplification has its band."""
+    return alone(found.scatter) if found.sea.attrs.get("kind") != "regular" else ""
 
 
 def _crest_text(problem: MemberProblem, found: _Largest) -> str:
@@ -245,7 +243,7 @@ def _with_the_others(
             value=item.value,
             where=item.where,
             band=_band(item, _ranges(problem, item)),
-            bound=_bound(problem, item),
+            bound=_bound(item),
             detail="",
         )
         for item in _all(groups, kind)
@@ -313,6 +311,7 @@ def _band(found: _Largest, ranges: tuple[MeasuredRange, ...]) -> Band:
     return Band(
         low * float(scatter.min()), high * float(scatter.max()), ", ".join(words), decides=False,
         judged=(low * (found.value - reach), high * (found.value + reach)),
+        realisations=scatter.size, more="settings.realisations", settled=high * found.value,
     )  # fmt: skip
 
 

@@ -19,7 +19,15 @@ from moyai.series.snaps import SnapRecord
 from moyai.structures.network.assembly import Assembly
 from moyai.structures.network.bodies import CoupledRun, coupled_sensitivity, run_coupled
 from moyai.structures.network.model import NetworkProblem
-from moyai.structures.network.refinement import affordable, check_event, check_peak, doubt, not_converged, unchecked
+from moyai.structures.network.refinement import (
+    affordable,
+    check_event,
+    check_peak,
+    doubt,
+    lowered,
+    not_converged,
+    unchecked,
+)
 from moyai.structures.network.resume import Earlier, joined, last_good_state, with_ends
 from moyai.structures.network.run_notices import capsized, peak_inside, realised_low, run_notices
 from moyai.structures.network.runs import RunPlan, motions_of
@@ -53,6 +61,8 @@ class Run:
     doubt: str = ""
     #: Why the peak is not converged; empty where it is, or was not checked.
     failure: str = ""
+    #: Whether finer runs all give less, so that the peak is on the safe side.
+    lowered: bool = False
 
 
 def options_of(problem: NetworkProblem, plan: RunPlan) -> dict[str, Any]:
@@ -138,16 +148,19 @@ def run(
         problem, assembly, plan, (begin, hung), (history, coupled), (governing, worst, why), earlier, reported
     )
     notices += told_of_peak
-    failure = ""
+    failure, safe = "", False
     if sensitivity is not None:
         strand = assembly.lines.get(governing)
         segments = 0 if strand is None else strand.bars.size
         failure = not_converged(sensitivity, problem.settings.peak_goal, governing, why, segments)
+        safe = bool(failure) and lowered(sensitivity, problem.settings.peak_goal)
+        if safe:
+            failure += "; finer runs give less, the design is judged at the larger peak"
     prefix = f"{plan.name}: "
     return Run(
         plan, history, series, frames, snaps, sensitivity, governing,
         tuple(replace(notice, message=f"{prefix}{notice.message}") for notice in notices),
-        tuple(replace(check, name=f"{prefix}{check.name}") for check in history.checks), why, failure,
+        tuple(replace(check, name=f"{prefix}{check.name}") for check in history.checks), why, failure, safe,
     )  # fmt: skip
 
 

@@ -32,6 +32,10 @@ _NOT_JUDGED = Headline(
     "not_judged", "Not judged", math.nan, "1", text="one line lost, wear and fatigue, shackles, soil of the anchors",
     condition=True,
 )  # fmt: skip
+_OTHER_DIRECTIONS = replace(
+    _NOT_JUDGED, text=f"{_NOT_JUDGED.text}, other directions of current and waves",
+    detail="lines square to current and waves may bear several times what lines along them do: run both headings",
+)  # fmt: skip
 _ONE_SEED = "one seed: others may give more"
 _MESH = "mesh: twice the segments, and their change continued"
 
@@ -71,7 +75,9 @@ def headlines_of(problem: NetworkProblem, groups: Mapping[str, xr.Dataset]) -> t
     items += _anchor(groups, peaks)
     items += _offsets(groups, single_anchors(problem))
     items += _mode(groups)
-    left = [_NOT_JUDGED] if problem.lines and peaks else []
+    around = problem.environment
+    loaded = around.sea_states or around.current is not None or problem.current_field is not None
+    left = [_OTHER_DIRECTIONS if loaded else _NOT_JUDGED] if problem.lines and peaks else []
     shown = [item for item in items if item.shown][:8]
     return (*(item for item in items if item in shown or not item.shown), *left)
 

@@ -246,6 +246,12 @@ def change_of(found: PeakSensitivity) -> float:
     return max(abs(value / found.peak - 1.0) for value in others)
 
 
+def lowered(found: PeakSensitivity, goal: float) -> bool:
+    """Whether half the step, twice the bars and damped bars all give less: the peak of the run is on the safe side."""
+    others = [value for value in (found.half_step, found.double_mesh, found.damped) if math.isfinite(value)]
+    return all(value <= found.peak * (1.0 + goal) for value in others)
+
+
 def band_of(found: PeakSensitivity) -> tuple[float, float]:
     """Return the range that the peak has with half the step, twice the bars, and bars of no length [N].
 

@@ -363,6 +363,8 @@ def _dynamic(
             collected.failures.append(f"{said}{plan.name}: {item.history.message}")
         if item.failure:
             collected.failures.append(f"{said}{plan.name}: {item.failure}")
+        if item.lowered:
+            collected.on_the_safe_side.append(collected.failures[-1])
         if item.history.status == "interrupted":
             collected.interrupted = f"{said}{plan.name}: {item.history.message}"
             raise KeyboardInterrupt

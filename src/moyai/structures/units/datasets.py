@@ -172,7 +172,7 @@ def regular_dataset(at: RowAtLevel, sea: RegularSea, answers: list[SeaAnswer], h
         "rao": (("period", "unit", "dof"), np.abs(motion)),
         "motion_amplitude": (("period", "unit", "dof"), amplitude * np.abs(motion)),
         "mean_offset": (("period", "unit", "dof"), offset),
-        "largest_offset": (("period", "unit"), np.abs(offset[..., 0]) + amplitude * np.abs(motion[..., 0])),
+        "largest_offset": (("period", "unit"), _farthest(offset, motion, amplitude)),
         "mean_drift": (("period", "direction"), np.array([item.drift for item in answers])),
         "connector_force_amplitude": (dims, force),
         "connector_moment_amplitude": (dims, moment),
@@ -266,7 +266,7 @@ def irregular_dataset(at: RowAtLevel, sea: IrregularSea, answer: SeaAnswer) -> x
         "significant_motion": (("unit", "dof"), motion.significant),
         "most_probable_maximum_motion": (("unit", "dof"), most),
         "mean_offset": (("unit", "dof"), offset),
-        "largest_offset": ("unit", np.abs(offset[:, 0]) + most[:, 0]),
+        "largest_offset": ("unit", np.linalg.norm(np.abs(offset[:, :2]) + most[:, :2], axis=1)),
         "mean_drift": ("direction", answer.drift),
         "connector_force_mean": (dims, mean_load[:, :3]),
         "connector_moment_mean": (dims, mean_load[:, 3:]),
@@ -314,10 +314,19 @@ def _gaussian_resultant(answer: SeaAnswer, duration: float) -> Array:
     return out
 
 
+def _farthest(offset: Array, motion: ComplexArray, amplitude: float = 1.0) -> Array:
+    """Return the largest horizontal distance from rest [m] over a period, of mean offsets and motions (..., dof)."""
+    turns = np.exp(-2j * np.pi * np.arange(_PHASES) / _PHASES)[:, None]
+    path = offset[..., None, :2] + amplitude * (motion[..., None, :2] * turns).real
+    return np.asarray(np.linalg.norm(path, axis=-1).max(axis=-1))
+
+
 def _status(answers: list[SeaAnswer]) -> str:
     return "converged" if all(item.converged for item in answers) else "not_converged"
 
 
+#: Phases of a period at which a distance is looked at.
+_PHASES = 360
 #: Numbers that are given a band of the damping.
 _BANDED = (
     "significant_motion", "motion_amplitude", "largest_offset", "line_tension_maximum", "connector_resultant_largest",

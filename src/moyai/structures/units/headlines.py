@@ -96,8 +96,8 @@ def _not_judged(seas: Seas) -> Headline:
     if any(np.nan_to_num(data["connector_moment_largest"].values).any() for _, data in seas):
         words.append("moments in connectors")
         detail.append("the moment in a connector is a number of the page, no strength of the case is held against it")
-    words.append("one line lost")
-    detail.append("no row with a line or a connector lost")
+    words += ["one line lost", "other directions of waves and current"]
+    detail.append("no row with a line or a connector lost, no directions but those of the seas of the case")
     return Headline("not_judged", "Not judged", math.nan, "1", text=", ".join(words), detail="; ".join(detail))
 
 
@@ -180,14 +180,7 @@ class _Largest:
         if damping is None or chance is None or not self.value > 0.0:
             return chance or damping
         less, more = damping.low / self.value, damping.high / self.value
-        low, high = chance.judged or (chance.low, chance.high)
-        return Band(
-            chance.low * less,
-            chance.high * more,
-            f"{chance.of}; {damping.of}",
-            chance.decides,
-            (low * less, high * more),
-        )
+        return replace(chance.scaled(less, more), of=f"{chance.of}; {damping.of}")
 
     @property
     def bound(self) -> Bound:
@@ -402,39 +395,40 @@ def _motions(seas: Seas) -> Iterator[Headline]:
         words = "mean, slow drift and waves" if offset.timed else "mean and waves"
         offsets.append(
             Headline(
-                "offset", "Largest sway of a unit from rest", offset.value, "m", offset.where, _model(offset),
+                "offset", "Largest offset of a unit from rest", offset.value, "m", offset.where, _model(offset),
                 bound="at least" if left_out else offset.bound, band=offset.band,
                 detail=words + _WITHOUT_DRIFT * left_out,
             )
         )  # fmt: skip
     yield from _all_judged(offsets)
-    rolls = [(path, _with_roll(data)) for path, data in seas]
-    yield from _all_judged(
-        [
+    tilts = []
+    for dof in ("roll", "pitch"):
+        turned = [(path, _with_tilt(data, dof)) for path, data in seas]
+        tilts += [
             Headline(
-                "roll", "Largest roll of a unit, double amplitude", roll.value, "rad", roll.where, _model(roll),
-                band=roll.band, bound=roll.bound,
+                "roll", f"Largest {dof} of a unit, double amplitude", tilt.value, "rad", tilt.where, _model(tilt),
+                band=tilt.band, bound=tilt.bound,
             )
-            for roll in _each(rolls, "roll")
-        ]
-    )  # fmt: skip
+            for tilt in _each(turned, "tilt")
+        ]  # fmt: skip
+    yield from _all_judged(tilts)
 
 
-def _with_roll(data: xr.Dataset) -> xr.Dataset:
-    """Return a sea with the largest double amplitude of roll, its ends over the damping and its realisations."""
+def _with_tilt(data: xr.Dataset, dof: str) -> xr.Dataset:
+    """Return a sea with the largest double amplitude of a turn, its ends over the damping and its realisations."""
     spread = "significant_motion" if "significant_motion" in data else "motion_amplitude"
     largest = next(
         name for name in ("most_probable_maximum_motion", "maximum_motion", spread)
         if name in data and (spread == "significant_motion" or name == spread)
     )  # fmt: skip
-    roll = 2.0 * data[largest].sel(dof="roll")
-    found = {"roll": roll}
+    tilt = 2.0 * data[largest].sel(dof=dof)
+    found = {"tilt": tilt}
     if f"{largest}_of_realisation" in data:
-        found["roll_of_realisation"] = 2.0 * data[f"{largest}_of_realisation"].sel(dof="roll")
-    own = data[spread].sel(dof="roll")
+        found["tilt_of_realisation"] = 2.0 * data[f"{largest}_of_realisation"].sel(dof=dof)
+    own = data[spread].sel(dof=dof)
     for end in ("_low", "_high"):
         if f"{spread}{end}" in data:
-            found[f"roll{end}"] = roll * (data[f"{spread}{end}"].sel(dof="roll") / own).where(own > 0.0, 1.0)
+            found[f"tilt{end}"] = tilt * (data[f"{spread}{end}"].sel(dof=dof) / own).where(own > 0.0, 1.0)
     return data.assign(found)
 
 

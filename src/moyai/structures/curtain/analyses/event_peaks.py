@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -25,6 +26,10 @@ COMPONENTS: Mapping[str, str] = {
 }
 #: Change of a tension from one mesh to the other, over the larger, beyond which the mesh does not carry it [-]
 MESH_CHANGE = 0.2
+
+
+#: What the growth of a tension with the cells is continued to, over the cells of the finest mesh.
+SMALLER = 10.0
 
 
 @dataclass(frozen=True)
@@ -53,7 +58,7 @@ class EventPeak:
     low: float
     #: ``low``, ``high``: Lowest and highest of all runs.
     high: float
-    #: Upper end of the one-sided 95 % interval of the mean; the value where there is one realisation.
+    #: Highest upper end of the one-sided 95 % intervals of the means; the value where there is one realisation.
     judged: float
     #: Run of which series are kept, of the mesh that counts.
     run: str
@@ -65,6 +70,8 @@ class EventPeak:
     means: tuple[float, ...] = ()
     #: Whether it is of one realisation of a random sea.
     alone: bool = False
+    #: Judged end with cells :data:`SMALLER` times smaller, as the growth from mesh to mesh goes on [N, N/m].
+    ceiling: float = math.nan
 
     @property
     def at_least(self) -> bool:
@@ -98,8 +105,12 @@ def event_peak(samples: Sequence[Sample], event: str, component: str) -> EventPe
     mean = {mesh: float(np.mean(_peaks(items, component))) for mesh, items in by_mesh.items()}
     counting = max(meshes, key=lambda mesh: mean[mesh])
     every, own = _peaks(mine, component), _peaks(by_mesh[counting], component)
+    # the sea is the same on every mesh: most realisations tell how far they scatter
+    most = _peaks(max(by_mesh.values(), key=len), component)
+    # the interval of a mesh with the smaller mean and fewer realisations may reach higher
+    judged = max(mean[mesh] + reach_of_mean(_peaks(items, component), alike=most) for mesh, items in by_mesh.items())
     found = EventPeak(
-        mean[counting], float(every.min()), float(every.max()), mean[counting] + reach_of_mean(own),
+        mean[counting], float(every.min()), float(every.max()), judged,
         by_mesh[counting][0].run, alone=own.size == 1 and by_mesh[counting][0].seed != 0,
     )  # fmt: skip
     if len(meshes) < 2:
@@ -108,7 +119,14 @@ def event_peak(samples: Sequence[Sample], event: str, component: str) -> EventPe
     return EventPeak(
         found.value, found.low, found.high, found.judged, found.run,
         1.0 - min(first, last) / max(first, last), last > first, (first, last), found.alone,
+        math.nan if found.alone else found.judged * SMALLER ** _growth(meshes, means),
     )  # fmt: skip
+
+
+def _growth(meshes: Sequence[tuple[int, int]], means: Sequence[float]) -> float:
+    """Return the steepest power of the cells along by which the mean grows from mesh to mesh, at least 0."""
+    steps = zip(meshes, meshes[1:], means, means[1:], strict=False)
+    return max(0.0, *(math.log(b / a) / math.log(fine[0] / coarse[0]) for coarse, fine, a, b in steps))
 
 
 def _shared_means(by_mesh: Mapping[tuple[int, int], Sequence[Sample]], component: str) -> list[float]:
@@ -151,6 +169,7 @@ def event_variables(samples: Sequence[Sample]) -> tuple[dict[str, Any], dict[str
             [[np.nan if one is None else getattr(one, field) for one in row] for row in peaks],
         )
         for suffix, field in (("", "value"), ("_low", "low"), ("_high", "high"), ("_judged", "judged"),
+                              ("_ceiling", "ceiling"),
                               ("_mesh_change", "change"))
     }  # fmt: skip
     data["event_realisations"] = ("event", [len({s.seed for s in samples if s.event == event}) for event in events])
@@ -169,6 +188,16 @@ def event_band(table: xr.Dataset, event: str, component: str) -> tuple[float, fl
     row = table.sel(event=event, span_component=component)
     value, low, high, judged = (float(row[f"event_peak{end}"]) for end in ("", "_low", "_high", "_judged"))
     return value, low, high, judged, int(table["event_realisations"].sel(event=event))
+
+
+def ceiling_of(table: xr.Dataset, component: str) -> float:
+    """Return the highest end that the growth with the cells leads to over all events; NaN where a mesh is missing."""
+    if "event_peak_ceiling" not in table:
+        return math.nan
+    ends = table["event_peak_ceiling"].sel(span_component=component).values
+    bears = table["event_peak"].sel(span_component=component).values > 0.0
+    known = np.where(np.isnan(ends), table["event_peak_judged"].sel(span_component=component).values, ends)
+    return float(known[bears].max()) if bears.any() else math.nan
 
 
 def mesh_notices(found: Mapping[str, tuple[str, EventPeak]]) -> tuple[Notice, ...]:

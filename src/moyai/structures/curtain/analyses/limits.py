@@ -21,7 +21,7 @@ from moyai.structures.curtain.assembly import LevelCurtain
 from moyai.structures.curtain.hierarchy import CYCLES, IMPACT, STRAIGHT, Role, hierarchy, role_of
 from moyai.structures.curtain.limits.loads import fastest_water, impact_load, sea_loads
 from moyai.structures.curtain.limits.search import Limit
-from moyai.structures.curtain.limits.utilisation import height_limit, speed_limit, utilisation
+from moyai.structures.curtain.limits.utilisation import AddedLoads, height_limit, speed_limit, utilisation
 from moyai.structures.curtain.model import Settings
 from moyai.structures.curtain.seas.loads import DragCurve, SeaLoads
 from moyai.structures.curtain.statics.hanging import CurtainStatics
@@ -44,6 +44,7 @@ def limits_dataset(
     curve: DragCurve,
     progress: Progress,
     lost_depth: float = 1.0,
+    duration: float | None = None,
 ) -> xr.Dataset:
     """Return the group ``limits``: largest height for currents up to each speed, and the utilisation over both.
 
@@ -61,9 +62,12 @@ def limits_dataset(
         Depth that the skirt loses at the lower end of the band over what it loses, in the current of the case: the
         largest current is searched once more with the depth asked for at that end, as the criterion does, and again
         with what it loses in the current that was found.
+    duration : float, optional
+        See :func:`sea_loads`.
     """
-    loads = sea_loads(unit, settings, answer, curve)
-    counted = CountedLimits(unit, settings, loads)
+    duration = 3600.0 * settings.waves.hours if duration is None else duration
+    loads = sea_loads(unit, settings, answer, curve, duration)
+    counted = CountedLimits(unit, settings, loads, duration)
     most, most_bound = counted.speed()
     speeds = _speeds(unit, settings, most)
     rows = []
@@ -72,7 +76,7 @@ def limits_dataset(
         rows.append(counted.height(speed))
     progress(f"operating limits, {unit.name}", len(speeds), len(speeds))
     heights = _heights(settings, max((row.value for row, _ in rows), default=0.0))
-    parts = _grid(unit, [counted.loads_in(speed) for speed in speeds], speeds, heights)
+    parts = _grid(unit, [replace(counted.loads_in(speed), known=True) for speed in speeds], speeds, heights)
     group = _limits_group(unit, settings, counted, _Found(most, most_bound, speeds, tuple(rows)), heights, parts)
     strict = _settled(counted, lost_depth)
     height = float(group["design_limit_height"])
@@ -116,19 +120,36 @@ def _strict(counted: CountedLimits, lost_depth: float) -> CountedLimits:
 
 
 def _design_low(strict: CountedLimits, speeds: tuple[float, ...]) -> xr.DataArray:
-    """Return the height held in currents up to that of the case with impact and snaps at their upper end [m]."""
+    """Return the height held in currents up to that of the case, loads at the upper ends of their bands [m]."""
     import xarray as xr
 
-    loads, own = strict.loads, strict.unit.surface_speed
-    struck = loads.impact or (loads.snaps[1] if loads.snaps is not None else None)
-    low = math.nan
+    own, low = strict.unit.surface_speed, math.nan
     if own > 0.0:
-        upper = 1.0 if struck is None else max(struck.uncertainty[1], 1.0)
-        impact = None if loads.impact is None else replace(loads.impact, factor=upper * loads.impact.factor)
-        severe = replace(strict, loads=replace(loads, impact=impact, snap_factor=upper * loads.snap_factor))
+        severe = replace(strict, loads=_severe(strict.unit, strict.loads))
         within = {speed for speed in speeds if speed < own * (1.0 - 1e-9)} | {own}
         low = min(severe.height(speed)[0].value for speed in within)
     return xr.DataArray(low)
+
+
+def _severe(unit: LevelCurtain, loads: SeaLoads) -> SeaLoads:
+    """Return loads with impact, snaps and steady part at the ends at which a design is judged."""
+    impact = loads.impact
+    if impact is not None:
+        impact = replace(impact, factor=max(impact.uncertainty[1], 1.0) * impact.factor)
+    return replace(loads, impact=impact, judged=True, steady_factors=_steady_factors(unit))
+
+
+def _steady_factors(unit: LevelCurtain) -> AddedLoads | None:
+    """Return the upper end of the band of the steady loads in the current of the case over their value [-]."""
+    if not unit.surface_speed > 0.0:
+        return None
+    try:
+        steady = unit.steady
+    except (InputError, ConvergenceError):
+        return None
+    names = ("upper_tension", "lower_tension", "sheet_tension", "anchor_line_tension", "line_load")
+    values = [(steady.governing.quantity(name), steady.band(name)[1]) for name in names]
+    return AddedLoads(*(high / value if high > value > 0.0 else 1.0 for value, high in values))
 
 
 @dataclass(frozen=True)
@@ -148,6 +169,8 @@ class CountedLimits:
     unit: LevelCurtain
     settings: Settings
     loads: SeaLoads
+    #: Of the seas that snaps are looked for in [s].
+    duration: float = math.nan
     solved: dict[float, CurtainStatics | None] = field(default_factory=dict)
 
     @property
@@ -168,7 +191,8 @@ class CountedLimits:
 
     def loads_in(self, speed: float) -> SeaLoads:
         """Return the loads that count in a current [m/s]."""
-        return self.loads if self.with_plate and self.role(speed) in ("governs", "bound") else self.sure
+        role = self.role(speed) if self.with_plate else "out of range"
+        return replace(self.loads, upright=role == "governs") if role in ("governs", "bound") else self.sure
 
     def speed(self) -> tuple[Limit, Bound]:
         """Return the largest current without waves, and whether it is a bound."""
@@ -192,7 +216,11 @@ class CountedLimits:
 
     def _height(self, loads: SeaLoads, speed: float) -> Limit:
         unit, highest = self.unit, self.settings.limits.highest_height
-        return height_limit(unit.hanging, unit.site, unit.requirements, loads, speed=speed, highest=highest)
+        snapping = loads.snaps is not None
+        loads = replace(loads, upright=snapping and self.role(speed) == "governs")
+        return height_limit(
+            unit.hanging, unit.site, unit.requirements, loads, speed=speed, highest=highest, first_only=snapping
+        )
 
     def _judged(
         self, find: Callable[[SeaLoads], Limit], place: Callable[[Limit], float], plate: bool
@@ -265,6 +293,7 @@ def _limits_group(
                 "wave_angle": limits.wave_angle,
                 "with_impact": int(loads.impact is not None),
                 "with_snaps": int(loads.snaps is not None),
+                "sea_duration": counted.duration,
                 "with_energy_model": int(loads.energy is not None),
                 "plate_role": counted.role(unit.surface_speed) if counted.with_plate else "",
             },
@@ -297,7 +326,7 @@ def _speed_band(unit: LevelCurtain, counted: CountedLimits, most: Limit) -> tupl
     """Return the largest current at both ends of what its load varies with, and what that is; NaN where there is none.
 
     A load at rest goes with C_D U^2 alone, so that a factor on one is the root of a factor on the other; with an impact
-    the limit is sought again with the ends of its band.
+    the limit is sought again with the ends of the bands of impact and steady part, as the state itself is judged.
     """
     if not most.reached:
         return math.nan, math.nan, ""
@@ -305,11 +334,9 @@ def _speed_band(unit: LevelCurtain, counted: CountedLimits, most: Limit) -> tupl
     if impact is None or most.governing in ("effective depth", "floats"):
         low, high = drag_factors(unit.hanging.drag)
         return most.value / math.sqrt(high), most.value / math.sqrt(low), "range of the drag coefficient"
-    ends = []
-    for factor in reversed(impact.uncertainty):
-        loads = replace(counted.loads, impact=replace(impact, factor=factor * impact.factor))
-        ends.append(replace(counted, loads=loads).speed()[0].value)
-    return min(ends[0], most.value), max(ends[1], most.value), "range of the impact alone"
+    gentle = replace(counted.loads, impact=replace(impact, factor=impact.uncertainty[0] * impact.factor))
+    low, high = (replace(counted, loads=loads).speed()[0].value for loads in (_severe(unit, counted.loads), gentle))
+    return min(low, most.value), max(high, most.value), "range of the impact and of the steady part"
 
 
 def speed_text(limit: Limit) -> str:
@@ -400,7 +427,10 @@ def _round_up(value: float) -> float:
 
 
 def _grid(unit: LevelCurtain, by_speed: list[SeaLoads], speeds: tuple[float, ...], heights: Array) -> Array:
-    """Return the utilisation of each part at each speed and height; infinite beyond equilibrium or breaking."""
+    """Return the utilisation of each part at each speed and height; infinite beyond equilibrium or breaking.
+
+    Above the first height that is too much snaps are those of that height: the utilisation is at least so much.
+    """
     required = unit.requirements
     out = np.full((len(speeds), heights.size, len(PARTS)), math.nan)
     for i, speed in enumerate(speeds):

@@ -16,7 +16,7 @@ from moyai.structures.curtain.analyses.impact import ImpactAnswer
 from moyai.structures.curtain.analyses.limits import impact_load
 from moyai.structures.curtain.assembly import LevelCurtain
 from moyai.structures.curtain.governing import governing_load, model_of
-from moyai.structures.curtain.hierarchy import CREST, IMPACT, ModelRole, hierarchy, role_of, upright_in
+from moyai.structures.curtain.hierarchy import CREST, CYCLES, IMPACT, ModelRole, hierarchy, role_of, upright_in
 from moyai.structures.curtain.limits.utilisation import AddedLoads, Strength
 from moyai.structures.curtain.model import COMPONENTS, Settings
 from moyai.structures.curtain.seas.loads import DragCurve, increase
@@ -84,7 +84,9 @@ def loads_dataset(
         What each model counts for; the hierarchy of the case when left out.
     """
     statics = unit.statics if unit.surface_speed > 0.0 else None
-    sources, notices = _wave_sources(unit, settings, waves, statics, oscillator, proportions, curve)
+    roles = roles or hierarchy(unit, settings)
+    upright = role_of(roles, CYCLES) == "governs"
+    sources, notices = _wave_sources(unit, settings, waves, statics, oscillator, proportions, curve, upright=upright)
     struck = AddedLoads() if answer is None else impact_load(unit, answer, settings).of_tension(answer.design_tension)
     name = "" if answer is None else f"impact, model {answer.design_model}"
     rows = []
@@ -99,7 +101,7 @@ def loads_dataset(
         ends = (1.0, 1.0) if answer is None else answer.uncertainty
         rows.append(_row(unit, component, steady, wave, (hit, ends[0] * hit, ends[1] * hit), best.source, name))
     weaker = _in_weaker_current(unit, settings, answer)
-    return _table(unit, rows, moved, roles or hierarchy(unit, settings), weaker), tuple(notices)
+    return _table(unit, rows, moved, roles, weaker), tuple(notices)
 
 
 def dynamic_loads_dataset(unit: LevelCurtain, moved: DynamicLoads) -> xr.Dataset:
@@ -261,8 +263,10 @@ def _wave_sources(
     oscillator: tuple[tuple[str, float], ...],
     proportions: ImpactAnswer | None,
     curve: DragCurve,
+    *,
+    upright: bool,
 ) -> tuple[list[_Added], list[Notice]]:
-    """Return what each wave adds by each model."""
+    """Return what each wave adds by each model; an upright plate that governs pulls at its anchor lines too."""
     sources: list[_Added] = []
     notices: list[Notice] = []
     anchor = settings.anchor_loads
@@ -294,8 +298,8 @@ def _wave_sources(
         with_energy = any(item.source.startswith("energy model") for item in sources)
         for name, tension in oscillator:
             whole = turned.of_tension(tension)
-            if with_energy:
-                # the energy model was fitted to anchor lines; fixed supports would overload them
+            if with_energy and not upright:
+                # the energy model was fitted to anchor lines of free toes; fixed supports would overload them
                 whole = replace(whole, anchor_line=0.0)
             more = whole if statics is None else increase(whole, statics)
             sources.append(_Added(more, f"slack and taut cycles, {name}"))

@@ -8,6 +8,7 @@ lead are run in half the current too, in which the skirt hangs deeper.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
@@ -39,8 +40,8 @@ from moyai.structures.curtain.variables import labelled
 if TYPE_CHECKING:
     import xarray as xr
 
-#: Realisations of an irregular sea on the finer mesh, at most: they find the change with the mesh
-_FINE_REALISATIONS = 3
+#: Part of the realisations of an irregular sea that the finer mesh is run with, three at least
+_FINE_REALISATIONS = 0.6
 #: Part of the current of the case that waves are run in as well.
 _WEAKER_CURRENT = 0.5
 
@@ -91,7 +92,8 @@ def span_peaks(
     while (event := found.unresolved(given.mesh)) is not None:
         name, mesh = event
         words = f", {mesh.along} by {mesh.down} cells"
-        if not found.event(drawn[name][:_FINE_REALISATIONS], mesh, words):
+        count = max(3, math.ceil(_FINE_REALISATIONS * len(drawn[name])))
+        if not found.event(drawn[name][:count], mesh, words):
             return found.stopped(by_name[name])
     if unit.surface_speed > 0.0 and "waves" in settings.analyses:
         there = replace(unit, surface_speed=_WEAKER_CURRENT * unit.surface_speed)

@@ -16,6 +16,7 @@ from moyai.core.validity import Notice
 from moyai.core.wording import spoken
 from moyai.sea import dispersion
 from moyai.sea.breaking import linear_wavelength
+from moyai.sea.components import WaveComponents
 from moyai.sea.states import IrregularSea, RegularSea, SeaState
 from moyai.series.snap_statistics import SnapFit, fit_snaps
 from moyai.structures.curtain.analyses.impact import drag_coefficient, impact_of
@@ -37,7 +38,7 @@ _WINDOW = 6.0  # peak periods on each side of the largest snap that are kept
 _MOST_POINTS = 6000
 #: Parts of the height of regular waves that are run too: snaps may lock into a gentle motion in a higher wave, which
 #: the lower ones of its train do not know.
-_LOWER = (0.9, 0.8, 0.7, 0.6, 0.5)
+_LOWER = (0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1)
 #: Start speed of the Impact object, which the oscillator does not use [m/s]
 _NO_SPEED = 1.0
 
@@ -235,18 +236,21 @@ def _series(
     return labelled(xr.Dataset(data, coords={"time": motion.time[keep]}, attrs={**attrs, "time_step": step}))
 
 
+def left_out(sea: IrregularSea) -> float:
+    """Return the time of the start that is left out of an irregular sea [s]."""
+    return min(_TRANSIENT * sea.spectrum.peak_period, 0.2 * sea.duration)
+
+
 def _irregular(unit: LevelCurtain, settings: WaveSettings, sea: IrregularSea, impact: Impact) -> WaveAnswer:
     """Run several realisations of a sea: their mean largest tension counts, and all their snaps make the law."""
     import xarray as xr
 
     peak = sea.spectrum.peak_period
-    transient = min(_TRANSIENT * peak, 0.2 * sea.duration)
-    runs = [
-        _realisation(unit, settings, replace(sea, seed=sea.seed + number), impact, transient)
-        for number in range(settings.realisations)
-    ]
+    transient = left_out(sea)
+    drawn = [replace(sea, seed=sea.seed + number) for number in range(settings.realisations)]
+    runs = [realisation(unit, settings, one, impact, waves_of(unit, settings, one)) for one in drawn]
     snaps = [found for found, _ in runs]
-    tops = np.array([_largest(found, transient) for found in snaps])
+    tops = np.array([largest_tension(found, transient) for found in snaps])
     tensions = np.concatenate([found.snap_tension for found in snaps])
     hours = sum(found.hours for found in snaps)
     fit, notices = _fit(unit, sea, tensions, hours, settings)
@@ -303,16 +307,13 @@ def _irregular(unit: LevelCurtain, settings: WaveSettings, sea: IrregularSea, im
     return WaveAnswer(groups, float(tops.mean()), float(tops.max()), (*reported, *notices))
 
 
-def _realisation(
-    unit: LevelCurtain, settings: WaveSettings, sea: IrregularSea, impact: Impact, transient: float
-) -> tuple[SeaSnaps, SkirtFlow]:
-    """Run one realisation; it starts just taut downstream where a current holds it there."""
+def waves_of(unit: LevelCurtain, settings: WaveSettings, sea: IrregularSea) -> WaveComponents:
+    """Return the waves of a realisation, whatever the current."""
     from moyai.sea.irregular import synthesise
 
-    peak = sea.spectrum.peak_period
-    step = settings.time_step if settings.time_step is not None else suggested_time_step(peak)
+    step = _step(settings, sea)
     check_samples(sea.duration, step)
-    waves = synthesise(
+    return synthesise(
         sea.spectrum,
         unit.water,
         duration=sea.duration,
@@ -321,6 +322,16 @@ def _realisation(
         spreading=sea.spreading,
         time_step=step,
     )
+
+
+def _step(settings: WaveSettings, sea: IrregularSea) -> float:
+    return settings.time_step if settings.time_step is not None else suggested_time_step(sea.spectrum.peak_period)
+
+
+def realisation(
+    unit: LevelCurtain, settings: WaveSettings, sea: IrregularSea, impact: Impact, waves: WaveComponents
+) -> tuple[SeaSnaps, SkirtFlow]:
+    """Run one realisation; it starts just taut downstream where a current holds it there."""
     flow = flow_over_skirt(
         waves,
         unit.water,
@@ -328,7 +339,7 @@ def _realisation(
         normal_heading=unit.curtain.normal,
         current=unit.normal_speed,
         duration=sea.duration,
-        time_step=step,
+        time_step=_step(settings, sea),
         velocity=settings.velocity,
         span=unit.curtain.span if sea.spreading is not None or _oblique(unit, sea) else 0.0,
     )
@@ -340,13 +351,14 @@ def _realisation(
         flow,
         drag_coefficient=drag_coefficient(unit, impact.draught),
         slowest=settings.slowest,
-        transient=transient,
+        transient=left_out(sea),
         start=start,
     )
     return snaps, flow
 
 
-def _largest(snaps: SeaSnaps, transient: float) -> float:
+def largest_tension(snaps: SeaSnaps, transient: float) -> float:
+    """Return the largest sum of the cable tensions [N] of a sea after its start."""
     after = snaps.motion.time >= transient
     return float(max([float(snaps.motion.tension[after].max()), *snaps.tension.tolist()]))
 

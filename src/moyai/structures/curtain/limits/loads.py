@@ -9,23 +9,30 @@ from functools import cache
 
 import numpy as np
 
+from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.sea.breaking import breaking_limit
+from moyai.sea.components import WaveComponents
+from moyai.sea.spectra import goda_peak_period, jonswap
+from moyai.sea.states import IrregularSea
 from moyai.structures.curtain.analyses.anchor import rope_model
-from moyai.structures.curtain.analyses.impact import ImpactAnswer, bulging_skirt, drag_coefficient
+from moyai.structures.curtain.analyses.impact import ImpactAnswer, bulging_skirt
+from moyai.structures.curtain.analyses.waves import largest_tension, left_out, realisation, waves_of
 from moyai.structures.curtain.assembly import LevelCurtain
 from moyai.structures.curtain.impact.cable import peak_by_energy
-from moyai.structures.curtain.impact.cycle_table import CycleTable
 from moyai.structures.curtain.impact.skirt import Skirt
 from moyai.structures.curtain.model import Settings
 from moyai.structures.curtain.seas.loads import DragCurve, ImpactLoad, SeaLoads
 from moyai.structures.curtain.seas.squared_velocity import effective_height, squared_velocity
 from moyai.structures.curtain.seas.states import DesignWave
+from moyai.structures.curtain.snaps.snap_table import SnapTable
 
 #: Without impact at a standstill the start speed keeps this ratio to the water's [-]
 _PAPER_RATIO = 1.0
 #: Step of the logarithm of the speed between chords that are solved, and the chord of a straight skirt over its length.
 _STEP, _STRAIGHT = 0.1, 1.0 - 1e-9
+#: Of the seas that snaps are looked for in; peak periods that are run of them.
+_PEAK_ENHANCEMENT, _PERIODS = 3.3, 300.0
 
 
 def impact_load(unit: LevelCurtain, answer: ImpactAnswer, settings: Settings) -> ImpactLoad:
@@ -105,7 +112,13 @@ def fastest_water(unit: LevelCurtain, settings: Settings, waves: tuple[DesignWav
     return 1.0001 * max(speeds)
 
 
-def sea_loads(unit: LevelCurtain, settings: Settings, answer: ImpactAnswer | None, curve: DragCurve) -> SeaLoads:
+def sea_loads(
+    unit: LevelCurtain,
+    settings: Settings,
+    answer: ImpactAnswer | None,
+    curve: DragCurve,
+    duration: float | None = None,
+) -> SeaLoads:
     """Return what any sea adds to the steady loads.
 
     Parameters
@@ -116,9 +129,12 @@ def sea_loads(unit: LevelCurtain, settings: Settings, answer: ImpactAnswer | Non
         None where neither impact nor slack and taut cycles were asked for.
     curve : DragCurve
         Loads at rest, up to :func:`fastest_water`.
+    duration : float, optional
+        Of a sea [s]; that of ``settings.waves.hours`` when left out.
     """
     limits, anchor = settings.limits, settings.anchor_loads
     asked = "impact" in settings.analyses
+    lasting = 3600.0 * settings.waves.hours if duration is None else duration
     lines = unit.curtain.anchors
     with_lines = anchor is not None and lines is not None and "anchor_loads" in settings.analyses
     return SeaLoads(
@@ -133,28 +149,46 @@ def sea_loads(unit: LevelCurtain, settings: Settings, answer: ImpactAnswer | Non
         pretension=_pretension(unit, settings),
         steady=0.0 if lines is None or lines.pretension is None else lines.pretension,
         impact=impact_load(unit, answer, settings) if answer is not None and asked and limits.impact else None,
-        snaps=None if answer is None else (_cycles(unit, settings, answer), impact_load(unit, answer, settings)),
+        snaps=None
+        if answer is None
+        else (_snaps(unit, settings, answer, lasting), impact_load(unit, answer, settings)),
     )
 
 
-def _cycles(unit: LevelCurtain, settings: Settings, answer: ImpactAnswer) -> CycleTable:
+def _snaps(unit: LevelCurtain, settings: Settings, answer: ImpactAnswer, duration: float) -> SnapTable:
+    """Return the snaps in JONSWAP seas of any height, long crested along the normal, with the periods of the limits."""
     rule, ratio = settings.direction
-    limits = settings.limits
+    limits, given = settings.limits, settings.waves
 
-    def acting(height: float) -> float:
-        return float(effective_height(height, limits.wave_angle, rule, ratio))
+    def stands(height: float) -> bool:
+        highest = float(effective_height(height, limits.wave_angle, rule, ratio))
+        return highest <= breaking_limit(limits.period_of(height), unit.water).height
 
-    at_unit = unit.site.current(1.0).depth_mean(-unit.depth, 0.0)
-    normal = unit.curtain.normal
-    return CycleTable(
-        answer.impact,
-        drag_coefficient(unit, answer.impact.draught),
-        unit.depth,
-        float(at_unit @ np.array([math.cos(normal), math.sin(normal)])),
-        acting,
-        limits.period_of,
-        limits.highest_height,
-    )
+    @cache
+    def seas(height: float) -> tuple[tuple[IrregularSea, WaveComponents], ...]:
+        """Return the realisations of a height, which are those of every current."""
+        acting = float(effective_height(height, limits.wave_angle, rule, 1.0))
+        period = goda_peak_period(limits.period_of(height), _PEAK_ENHANCEMENT)
+        spectrum = jonswap(acting, period, _PEAK_ENHANCEMENT)
+        drawn = [
+            IrregularSea("sea", spectrum, unit.curtain.normal, duration=min(duration, _PERIODS * period), seed=seed)
+            for seed in range(1, 1 + max(given.realisations, 2))
+        ]
+        return tuple((sea, waves_of(unit, given, sea)) for sea in drawn)
+
+    def realise(speed: float, height: float) -> Array:
+        there = replace(unit, surface_speed=speed)
+        tops = np.array(
+            [
+                largest_tension(realisation(there, given, sea, answer.impact, waves)[0], left_out(sea))
+                for sea, waves in seas(height)
+            ]
+        )
+        # the largest of a longer sea, by Gumbel's law of the largest of shorter ones
+        longer = math.log(duration / seas(height)[0][0].duration)
+        return tops + float(tops.std(ddof=1)) * math.sqrt(6.0) / math.pi * longer
+
+    return SnapTable(realise, stands, limits.highest_height)
 
 
 def _pretension(unit: LevelCurtain, settings: Settings) -> float | None:

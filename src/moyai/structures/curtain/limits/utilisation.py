@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import astuple, dataclass, field, replace
 from typing import Protocol
 
 import numpy as np
@@ -117,6 +117,10 @@ class AddedLoads:
             max(self.anchor_line, other.anchor_line),
             max(self.line_load, other.line_load),
         )
+
+    def plus(self, other: AddedLoads) -> AddedLoads:
+        """Return the sum of the loads of each component."""
+        return AddedLoads(*map(sum, zip(astuple(self), astuple(other), strict=True)))
 
 
 def utilisation(
@@ -343,7 +347,14 @@ def drowning_speed(curtain: HangingCurtain, site: Site, *, highest: float) -> fl
 
 
 def height_limit(
-    curtain: HangingCurtain, site: Site, required: Requirements, waves: WaveLoading, *, speed: float, highest: float
+    curtain: HangingCurtain,
+    site: Site,
+    required: Requirements,
+    waves: WaveLoading,
+    *,
+    speed: float,
+    highest: float,
+    first_only: bool = False,
 ) -> Limit:
     """Return the largest significant height [m] that every component bears in a current.
 
@@ -355,6 +366,8 @@ def height_limit(
         Surface speed of the current [m/s].
     highest : float
         Height up to which the limit is sought [m]; the highest wave, ratio times H, may not break.
+    first_only : bool
+        End at the first height that is too much, for loads that never fall with the height and take time.
     """
     try:
         statics = site.statics(curtain, speed)
@@ -371,7 +384,7 @@ def height_limit(
             return math.inf, "no equilibrium"
         return _worst(utilisation(state, required, 0.0, more))
 
-    return search(worst, highest)
+    return search(worst, highest, first_only=first_only)
 
 
 def operating_limits(

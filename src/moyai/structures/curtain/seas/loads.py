@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import astuple, dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -20,12 +20,12 @@ from moyai.core.options import checks_words
 from moyai.sea.water import Water
 from moyai.structures.curtain.assembly import LevelCurtain
 from moyai.structures.curtain.impact.cable import Impact, peak_by_energy
-from moyai.structures.curtain.impact.cycle_table import CycleTable
 from moyai.structures.curtain.impact.kernels import taut_shape
 from moyai.structures.curtain.impact.skirt import Skirt
 from moyai.structures.curtain.limits.utilisation import AddedLoads
 from moyai.structures.curtain.seas.anchor_energy import EnergyModel
 from moyai.structures.curtain.seas.squared_velocity import DirectionRule, effective_height, squared_velocity
+from moyai.structures.curtain.snaps.snap_table import SnapTable
 from moyai.structures.curtain.statics.hanging import CurtainStatics
 
 _CURVE_POINTS = 31
@@ -93,6 +93,11 @@ def _loads(statics: CurtainStatics) -> tuple[float, float, float, float, float]:
         statics.anchor_line_tension,
         statics.section.load,
     )
+
+
+def _beyond(statics: CurtainStatics, factors: AddedLoads) -> AddedLoads:
+    """Return what steady loads have at the upper end of their band beyond their value."""
+    return AddedLoads(*((factor - 1.0) * load for factor, load in zip(astuple(factors), _loads(statics), strict=True)))
 
 
 def increase(whole: AddedLoads, statics: CurtainStatics) -> AddedLoads:
@@ -181,9 +186,15 @@ class SeaLoads:
     #: An impact in the current, without waves.
     impact: ImpactLoad | None = None
     #: Slack and taut cycles, and how their tension goes to the components.
-    snaps: tuple[CycleTable, ImpactLoad] | None = None
-    #: On the tension of the cycles [-].
-    snap_factor: float = 1.0
+    snaps: tuple[SnapTable, ImpactLoad] | None = None
+    #: Whether the plate is upright, so that its snaps pull at the anchor lines as well as the energy model says.
+    upright: bool = False
+    #: Whether snaps count at the upper end of the interval of their mean.
+    judged: bool = False
+    #: Whether snaps are those of the heights that were run already: at least so much above them.
+    known: bool = False
+    #: Upper end of the band of the steady loads over their value [-], by component; None: at their value.
+    steady_factors: AddedLoads | None = None
 
     def water_speed(self, significant_height: float, speed: float, water: Water) -> float:
         """Return the root of the squared velocity under the crest of the highest wave [m/s] [eq:curtain-wave-drag]."""
@@ -202,9 +213,10 @@ class SeaLoads:
         found = increase(self.drag.at(moving), statics)
         if self.snaps is not None:
             table, proportions = self.snaps
-            struck = proportions.of_tension(self.snap_factor * table.tension(speed, significant_height))
-            if self.energy is not None:
-                # the energy model was fitted to anchor lines; fixed supports would overload them
+            tension = table.tension(speed, significant_height, judged=self.judged, known=self.known)
+            struck = proportions.of_tension(tension)
+            if self.energy is not None and not self.upright:
+                # the energy model was fitted to anchor lines of free toes; fixed supports would overload them
                 struck = replace(struck, anchor_line=0.0)
             found = found.larger(increase(struck, statics))
         if self.energy is None:
@@ -223,6 +235,6 @@ class SeaLoads:
         """Return what waves and impact add at a surface speed [m/s], the larger for each component."""
         found = self.waves(statics, significant_height, speed, water)
         found = found.larger(AddedLoads(anchor_line=self._lacking(statics)))
-        if self.impact is None:
-            return found
-        return found.larger(self.impact.at(self.normal_ratio * speed))
+        if self.impact is not None:
+            found = found.larger(self.impact.at(self.normal_ratio * speed))
+        return found if self.steady_factors is None else found.plus(_beyond(statics, self.steady_factors))

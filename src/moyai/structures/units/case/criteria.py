@@ -64,8 +64,12 @@ class UnitsCriteria(LineCriteria):
         + OFF
         + ".",
     )
-    greatest_offset: GreatestLength = Field(default=None, description="Largest sway from rest" + OFF + ".")
-    greatest_roll_deg: GreatestAngle = Field(default=None, description="Largest roll, double amplitude" + OFF + ".")
+    greatest_offset: GreatestLength = Field(
+        default=None, description="Largest horizontal distance from rest" + OFF + "."
+    )
+    greatest_roll_deg: GreatestAngle = Field(
+        default=None, description="Largest roll or pitch, double amplitude" + OFF + "."
+    )
     least_freeboard: LeastLength = Field(default=None, description="Freeboard that is left" + OFF + ".")
     least_metacentric_height: LeastLength = Field(default=None, description="Metacentric height GM" + OFF + ".")
 

@@ -15,10 +15,10 @@ from moyai.core.store import DatasetStore
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.sea.states import IrregularSea, RegularSea
 from moyai.structures.units.assembly import RowAtLevel
-from moyai.structures.units.hydrodynamics import RowHydrodynamics
+from moyai.structures.units.hydrodynamics import RowHydrodynamics, solve_row
 from moyai.structures.units.model import SNAP_RATIO, Settings
 from moyai.structures.units.seas import SeaAnswer
-from moyai.structures.units.time.band import dense_coefficients, wide_coefficients
+from moyai.structures.units.time.band import dense_coefficients, doubtful_gaps, wide_coefficients
 from moyai.structures.units.time.datasets import (
     Kept,
     irregular_time_dataset,
@@ -28,7 +28,7 @@ from moyai.structures.units.time.datasets import (
     status_of,
 )
 from moyai.structures.units.time.lines import Carried, rerun_events
-from moyai.structures.units.time.memory import RowMemory, fit_row_memory
+from moyai.structures.units.time.memory import FIT, RowMemory, fit_row_memory
 from moyai.structures.units.time.seas import TimeRun, Water3D, irregular_run, regular_run
 from moyai.structures.units.variables import labelled
 
@@ -39,6 +39,8 @@ if TYPE_CHECKING:
 LEAST_WAVES = 10.0
 #: Error of the memory that is told, of the largest response
 _TOLD = 0.02
+#: Turns in which frequencies are added where the memory misses what was interpolated, and most of them a turn.
+_MOST_TURNS, _MOST_GAPS = 2, 8
 
 
 @dataclass(frozen=True)
@@ -67,8 +69,7 @@ def water_in_time(
 ) -> tuple[Water3D, dict[str, xr.Dataset], list[IdentityCheck], list[Notice]]:  # fmt: skip
     """Solve the band of the memory and fit it; return also its dataset, identities and notices."""
     wide = wide_coefficients(hydro, settings.time.memory_frequencies, store=store, progress=progress)
-    band = float(hydro.omega[0]), float(hydro.omega[-1])
-    memory: RowMemory = fit_row_memory(*dense_coefficients(wide), band=band)
+    memory, wide = _fitted(hydro, wide, store, progress)
     checks = [replace(item, name=f"{at.name}: {item.name}") for item in memory.checks]
     notices = [
         Notice(
@@ -82,6 +83,27 @@ def water_in_time(
     ]  # fmt: skip
     data = {"memory": memory_dataset(at, memory, wide.omega)}
     return Water3D(at, wide, memory, steady, settings), data, checks, notices
+
+
+def _fitted(
+    hydro: RowHydrodynamics, wide: RowHydrodynamics, store: DatasetStore | None, progress: Progress
+) -> tuple[RowMemory, RowHydrodynamics]:
+    """Fit the memory; where it misses what stands between the frequencies, solve those in the middle and fit again."""
+    low, high = float(hydro.omega[0]), float(hydro.omega[-1])
+    for turn in range(_MOST_TURNS + 1):
+        dense = dense_coefficients(wide)
+        memory: RowMemory = fit_row_memory(*dense, band=(low, high))
+        if memory.error <= FIT or wide.panels is None or turn == _MOST_TURNS:
+            break
+        inside = (dense[0] >= low) & (dense[0] <= high)
+        error = np.where(inside, memory.misfit(*dense), 0.0)
+        further = doubtful_gaps(wide.omega, dense[0], error, 0.5 * FIT, _MOST_GAPS)
+        if not further.size:
+            break
+        added = solve_row(wide.panels, wide.water, wide.centres, further, wide.headings, store=store, progress=progress)
+        every = sorted((*wide.solutions, *added.solutions), key=lambda item: item.omega)
+        wide = replace(wide, solutions=tuple(every))
+    return memory, wide
 
 
 def sea_in_time(

@@ -79,4 +79,25 @@ def dense_coefficients(hydro: RowHydrodynamics) -> tuple[Array, Array, Array]:
     return every, added, damping
 
 
-__all__ = ["dense_coefficients", "further_frequencies", "memory_band", "wide_coefficients"]
+def doubtful_gaps(solved: Array, dense: Array, error: Array, least: float, most: int) -> Array:
+    """Return the middles [rad/s] of the gaps between solved frequencies in which a fit misses what was interpolated.
+
+    Parameters
+    ----------
+    solved, dense : ndarray
+        Frequencies that were solved and all that were fitted, increasing [rad/s].
+    error : ndarray
+        Of the fit at the dense ones.
+    least : float
+        Error below which a gap is no matter.
+    most : int
+        Number of gaps at most, the worst first.
+    """
+    gap = np.clip(np.searchsorted(solved, dense, side="right") - 1, 0, len(solved) - 2)
+    worst = np.zeros(len(solved) - 1)
+    np.maximum.at(worst, gap, error)
+    chosen = [number for number in np.argsort(-worst)[:most] if worst[number] > least]
+    return np.asarray(np.sort([0.5 * (solved[n] + solved[n + 1]) for n in chosen]))
+
+
+__all__ = ["dense_coefficients", "doubtful_gaps", "further_frequencies", "memory_band", "wide_coefficients"]

@@ -80,7 +80,7 @@ def run_numbers(given: TimeRun) -> dict[str, tuple[tuple[str, ...], Array]]:
     most = np.abs(loads).max(axis=0)
     out: dict[str, tuple[tuple[str, ...], Array]] = {
         "mean_offset": (("unit", "dof"), mean),
-        "largest_offset": (("unit",), np.abs(motion[..., 0]).max(axis=0)),
+        "largest_offset": (("unit",), np.linalg.norm(motion[..., :2], axis=-1).max(axis=0)),
         "maximum_motion": (("unit", "dof"), np.abs(motion - mean).max(axis=0)),
         "connector_force_mean": (_COMPONENT, loads[..., :3].mean(axis=0)),
         "connector_moment_mean": (_COMPONENT, loads[..., 3:].mean(axis=0)),

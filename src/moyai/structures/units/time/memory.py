@@ -79,6 +79,14 @@ class RowMemory:
         growth = np.exp(self.poles[None, :] * np.asarray(time, dtype=float)[:, None])
         return np.asarray(np.einsum("tk,kij->tij", growth, self.residues).real)
 
+    def misfit(self, omega: Array, added_mass: Array, damping: Array) -> Array:
+        """Return the error (f,) at frequencies [rad/s] with given coefficients, over the largest of each pair."""
+        own_mass, own_damping = self.coefficients(omega)
+        s = -1j * np.asarray(omega, dtype=float)[:, None, None]
+        wanted = damping + s * (added_mass - self.infinite_added_mass)
+        apart = own_damping - damping + s * (own_mass - added_mass)
+        return np.asarray((np.abs(apart) / _measure(wanted)).max(axis=(1, 2)))
+
     def coefficients(self, omega: Array) -> tuple[Array, Array]:
         """Return added mass and damping (n, m, m) at frequencies [rad/s]."""
         s = -1j * np.asarray(omega, dtype=float)[:, None]
