@@ -36,6 +36,7 @@ CASES = {
     "network statics": ("network", "statics", "current.speed", ""),
     "curtain statics": ("curtain", "statics", "current.speed", ""),
     "curtain impact": ("curtain", "statics, impact", "structure.span", "impact"),
+    "units frequency, gyradius": ("units", "statics, frequency", "structure.roll_gyradius", ""),
 }
 """Template, analyses (its own where empty), the number that moves, the section on the screen (the top where empty)."""
 IDLE = "document.querySelector('.state') && !document.querySelector('.state.working')"

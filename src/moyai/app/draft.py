@@ -33,6 +33,7 @@ CHEAP: dict[str, tuple[tuple[str, ...], ...]] = {
     "curtain": (("statics",), ("statics", "impact")),
     "cage": (("statics",),),
     "network": (("statics",),),
+    "units": (("statics",), ("statics", "frequency")),
     "member": (("forces",), ("sweep", "forces", "surface")),
 }
 """Analyses that a draft runs, by kind, in stages: each is drawn when it is there. Of those that the case names."""

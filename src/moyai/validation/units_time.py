@@ -16,7 +16,8 @@ import numpy as np
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.validation import ValidationCase
 from moyai.structures.units.assembly import RowAtLevel
-from moyai.structures.units.bem import Panels, capytaine_mesh, green_function, panels_of
+from moyai.structures.units.bem import Panels, capytaine_mesh, panels_of
+from moyai.structures.units.green import green_function
 from moyai.structures.units.hydrodynamics import RowHydrodynamics, solve_row
 from moyai.structures.units.mesh import HULL, row_mesh
 from moyai.structures.units.model import Connector
@@ -40,9 +41,10 @@ def _free(*connectors: Connector) -> RowAtLevel:
 
 @cache
 def _panels(size: float = COARSE, lid: bool = False) -> tuple[RowAtLevel, Panels]:
+    """Return two boxes; coarse panels are even, as those of Capytaine's own solver."""
     at = _free()
     mesh = row_mesh(at.section, at.row.length, at.row.placements, size, lid=lid, gap_lid=False)
-    return at, panels_of(mesh, at.centres)
+    return at, replace(panels_of(mesh, at.centres), even=size == COARSE)
 
 
 @cache
@@ -157,7 +159,7 @@ def infinite_frequency() -> float:
         diagonal_term_in_double_layer=True,
     )  # fmt: skip
     potential = np.linalg.solve(double, single @ panels.modes.T)
-    exact = -WATER.density * ((panels.modes * mesh.area) @ potential).real
+    exact = -WATER.density * ((panels.modes * panels.variation.areas) @ potential).real
     exact = 0.5 * (exact + exact.T)
     mass = (at.inertia + exact).diagonal()
     return float(np.max(np.abs(two_boxes_wide()[1].infinite_added_mass - exact) / np.sqrt(np.outer(mass, mass))))
@@ -173,13 +175,13 @@ def time_against_frequency() -> float:
         k = np.array([float(np.interp(omega, hydro.omega, hydro.wave_number))])
         excitation = hydro.at(np.array([omega]), k)[2][0, 1]
         period = 2.0 * math.pi / omega
-        step, count = period / 80.0, 80 * 60
+        step, count = period / 160.0, 160 * 120
         time = step * np.arange(count)
         ramp = 0.5 * (1.0 - np.cos(math.pi * np.minimum(time / (15.0 * period), 1.0)))
         load = ramp[:, None] * np.real(excitation * np.exp(-1j * omega * time)[:, None])
         run = RowInTime(at, memory, np.zeros(at.size), omega).run(load, step)
-        turn = np.exp(1j * omega * time[-800:])[:, None]
-        moved = 2.0 * np.mean(run.position[-800:] * turn, axis=0)
+        turn = np.exp(1j * omega * time[-1600:])[:, None]
+        moved = 2.0 * np.mean(run.position[-1600:] * turn, axis=0)
         found = respond(RowModel(at, hydro, np.zeros(12)), np.array([omega]), np.zeros(1)).motion[0, 1]
         for kind in (slice(0, 3), slice(3, 6)):
             one, two = (values.reshape(2, 6)[:, kind] for values in (moved, found))
@@ -189,7 +191,7 @@ def time_against_frequency() -> float:
 
 _CASES: tuple[ValidationCase, ...] = (
     ValidationCase(
-        "units: coefficients of two boxes, all pairs of motions", "Capytaine's own solver on the same panels",
+        "units: coefficients of two boxes, all pairs of motions", "Capytaine's own solver, even panels in both",
         against_capytaine, 0.0, 1e-3, False, "over the geometric mean of the diagonals",
     ),
     ValidationCase(
@@ -206,7 +208,7 @@ _CASES: tuple[ValidationCase, ...] = (
     ),
     ValidationCase(
         "units: two hinged boxes in regular oblique waves, time domain", "frequency domain", time_against_frequency,
-        0.0, 0.02, False, "error of the memory; steps of an eightieth of the period",
+        0.0, 0.02, False, "error of the memory; steps of a hundred and sixtieth of the period",
     ),
 )  # fmt: skip
 

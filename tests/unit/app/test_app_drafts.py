@@ -218,3 +218,43 @@ def test_random_moves_of_sliders_give_the_numbers_of_fresh_runs(
     assert [line.partition("#")[2] for line in text.splitlines()] == [
         line.partition("#")[2] for line in original.splitlines()
     ]
+
+
+def test_rows_of_units_are_drawn_at_rest_then_in_waves_with_kept_coefficients(tmp_path: Path, monkeypatch: Any) -> None:
+    """What does not touch the water takes the coefficients that are kept; the numbers are those of a fresh run."""
+    pytest.importorskip("capytaine", reason="Capytaine is not installed")
+    from moyai.structures.units import hydrodynamics
+
+    text = template("units").replace("panel_size: 2 m", "panel_size: 3.5 m").replace("count: 8", "count: 3")
+    drafts = Drafts(run, tmp_path / "kept")
+    _, rest, _, _ = drafts.answer(wish(tmp_path, text), silent)
+    assert rest["analyses"] == ["statics"] and not rest["last"]
+
+    def refuse(*_: Any) -> None:
+        raise AssertionError("coefficients are computed again")
+
+    computed = hydrodynamics.solve_frequency
+    monkeypatch.setattr(hydrodynamics, "solve_frequency", refuse)
+    for path, number in (
+        ("structure.roll_gyradius", "2.75"), ("structure.connectors[0].above_keel", "2.8"),
+        ("lines[0].segments[0].length", "58.4"), ("waves[1].significant_height", "1.4"), ("waves[0].height", "0.9"),
+    ):  # fmt: skip
+        checked, _, nominal, whole = drafts.answer(wish(tmp_path, text, edits={path: number}), silent)
+        assert nominal["nominal"] and whole["last"] and whole["analyses"] == ["statics", "frequency"]
+    monkeypatch.setattr(hydrodynamics, "solve_frequency", computed)
+    draft = stages_of(parse_yaml(checked["text"]), "units")[-1]
+    fresh = run(case_of(draft, tmp_path / "case.yaml"))
+    found = [(item["name"], float(item["value"])) for item in whole["headlines"]]
+    assert found == [(item.name, pytest.approx(float(item.value), rel=1e-9, nan_ok=True)) for item in fresh.headlines]
+
+
+def test_drafts_of_rows_share_round_frequencies_from_sea_to_sea() -> None:
+    from moyai.structures.units.seas import frequencies_of
+
+    text = template("units").replace("frequencies: {from: 0.7, to: 2.0, count: 8}", "frequencies: auto")
+    found = []
+    for period in ("6 s", "6.2 s"):
+        case = case_of(parse_yaml(text.replace("peak_period: 6 s", f"peak_period: {period}")), Path("case.yaml"))
+        nominal = structure_kind("units").nominal(build(case))
+        found.append(set(np.round(frequencies_of(nominal.environment, nominal.settings), 9)))
+    assert len(found[0] & found[1]) >= len(found[0]) - 2

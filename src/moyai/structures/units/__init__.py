@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,11 @@ class UnitsKind(FolderKind):
     package = __name__
     templates = (("units", "template.yaml"),)
     root_schema = "UnitsCase"
+
+    def nominal(self, problem: Any) -> Any | None:
+        if "frequency" not in problem.settings.analyses:
+            return None
+        return replace(problem, settings=replace(problem.settings, nominal=True))
 
     def run(self, problem: Any, progress: Progress, keep: Path | None) -> Result:
         from moyai.core.store import DatasetStore

@@ -184,16 +184,17 @@ class RowAtLevel:
 
     def tension_gradient(self, position: Array) -> Array:
         """Return the derivative of the tensions (lines, m) by the motions, by central differences."""
-        count = len(self.line_names)
-        out = np.zeros((count, self.size))
-        if not count:
-            return out
-        for dof in range(self.size):
-            step = 1e-4 * (1.0 if dof % 6 < 3 else 1.0 / self.row.length)
-            ahead, behind = position.copy(), position.copy()
-            ahead[dof] += step
-            behind[dof] -= step
-            out[:, dof] = (self.tensions(ahead) - self.tensions(behind)) / (2.0 * step)
+        out = np.zeros((len(self.line_names), self.size))
+        first = 0
+        for number, system in enumerate(self.systems):
+            own = position[6 * number : 6 * number + 6]
+            last = first + len(self.lines[number])
+            for dof in range(6) if last > first else ():
+                step = np.zeros(6)
+                step[dof] = 1e-4 * (1.0 if dof < 3 else 1.0 / self.row.length)
+                change = system.tensions(own + step) - system.tensions(own - step)
+                out[first:last, 6 * number + dof] = change / (2.0 * step[dof])
+            first = last
         return out
 
 

@@ -7,10 +7,9 @@ all headings are solved with one factorisation for each parity.
 
 from __future__ import annotations
 
-import logging
 import math
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -20,8 +19,10 @@ from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
 from moyai.sea.dispersion import wave_number
 from moyai.sea.water import Water
+from moyai.structures.units.green import green_function
 from moyai.structures.units.mesh import GAP, HULL, PanelMesh, turned_round
 from moyai.structures.units.symmetry import Symmetry, symmetry_of
+from moyai.structures.units.variation import Variation, even_variation, rankine_terms, variation_of
 
 #: Bytes of a complex number
 _COMPLEX = 16
@@ -31,28 +32,6 @@ LEAST_DEPTH = 0.1
 DIRECTIONS = 180
 #: Points whose field is evaluated at once
 _BATCH = 500
-
-
-@lru_cache(maxsize=1)
-def green_function() -> Any:
-    """Return Capytaine's Green function of the free surface.
-
-    Raises
-    ------
-    InputError
-        When Capytaine 3 is not installed.
-    """
-    logging.getLogger("capytaine").setLevel(logging.ERROR)
-    try:
-        from capytaine.green_functions.delhommeau import Delhommeau
-    except ImportError as error:
-        raise InputError(
-            "a row of units needs Capytaine 3, which is not installed",
-            parameter="kind",
-            remedy='pip install "moyai[bem3d]"',
-        ) from error
-    # the Prony series of Nemoh: waves far away agree with the energy of the body three times better than with the other
-    return Delhommeau(finite_depth_prony_decomposition_method="fortran")
 
 
 def engine_version() -> str:
@@ -77,12 +56,15 @@ class Panels:
     symmetry : Symmetry
     gap_damping : float
         epsilon of the lids in the gaps.
+    even : bool
+        Whether potentials are taken as even over a panel, as Capytaine does: for comparisons.
     """
 
     mesh: PanelMesh
     modes: Array
     symmetry: Symmetry
     gap_damping: float = 0.0
+    even: bool = False
 
     @cached_property
     def part(self) -> Any:
@@ -100,6 +82,29 @@ class Panels:
             found.append(capytaine_mesh(turned_round(corners) if over_x != over_y else corners))
         return tuple(found)
 
+    @cached_property
+    def variation(self) -> Variation:
+        """How quantities vary over the panels."""
+        return even_variation(self.mesh) if self.even else variation_of(self.mesh)
+
+    def rankine(self, depth: float) -> tuple[Array, Array]:
+        """Return what variation over the panels adds to single and double layer (q, n) in water of a depth [m]."""
+        kept: dict[float, tuple[Array, Array]] = self.__dict__.setdefault("_rankine", {})
+        if self.even:
+            nothing = np.zeros((len(self.symmetry.part), self.mesh.count))
+            return nothing, nothing
+        if depth not in kept:
+            engine, full = green_function(), capytaine_mesh(self.mesh.corners)
+
+            def even(points: Array) -> tuple[Array, Array]:
+                found: tuple[Array, Array] = engine.evaluate_rankine_only(
+                    points, full, adjoint_double_layer=False, diagonal_term_in_double_layer=False
+                )
+                return found
+
+            kept[depth] = rankine_terms(self.mesh, self.symmetry.part, self.variation, depth, even)
+        return kept[depth]
+
 
 def panels_of(mesh: PanelMesh, centres: Array, gap_damping: float = 0.0) -> Panels:
     """Return the panels with six motions of every unit about its centre (u, 3) [m], in axes of the row."""
@@ -115,7 +120,7 @@ def panels_of(mesh: PanelMesh, centres: Array, gap_damping: float = 0.0) -> Pane
 def memory_needed(count: int, group: int = 1) -> float:
     """Return the memory [bytes] that one frequency takes with ``count`` panels and a group of mirrors."""
     part = count / group
-    return _COMPLEX * part**2 * (2.0 * group + 4.0)
+    return _COMPLEX * part**2 * (3.0 * group + 4.0)
 
 
 def memory_of_machine() -> float:
@@ -209,16 +214,17 @@ def solve_frequency(panels: Panels, water: Water, omega: float, headings: Array)
     surface = _solved(panels, water, omega, k, given, incident)
     count = len(panels.modes)
     wet = mesh.part != GAP
-    weights = panels.modes * mesh.area
+    areas = panels.variation.areas
+    weights = panels.modes * areas
     force = -1j * omega * water.density * (weights[:, wet] @ surface[wet])
     on_motion = force[:, :count]
     froude_krylov = -1j * omega * water.density * (weights @ incident)
     excitation = (froude_krylov + force[:, count:]).T
     # the same from the radiation alone [eq:units-haskind]
     hull = mesh.part == HULL
-    flow = (incident_normal[hull] * mesh.area[hull, None]).T
+    flow = (incident_normal[hull] * areas[hull, None]).T
     by_radiation = froude_krylov.T - water.density * flow @ surface[hull, :count]
-    damped = (incident[~wet] * mesh.area[~wet, None]).T
+    damped = (incident[~wet] * areas[~wet, None]).T
     by_radiation = by_radiation + water.density * damped @ surface[~wet, :count]
     far = far_amplitudes(panels, water, omega, k, surface, given)
     return Solution(
@@ -288,15 +294,24 @@ def capytaine_mesh(corners: Array) -> Any:
 
 
 def _blocks(panels: Panels, water: Water, k: float) -> list[tuple[ComplexArray, ComplexArray]]:
-    """Return single and double layer of every image of the part on the part."""
-    engine = green_function()
-    return [
-        engine.evaluate(
+    """Return single and double layer of every image of the part on the part, of values at the centres."""
+    engine, group = green_function(), panels.symmetry
+    further = panels.rankine(water.depth)
+    share = panels.variation.areas / panels.mesh.area
+    level = np.abs(panels.mesh.centre[group.part, 2]) < 1e-9
+    found = []
+    for image, columns in zip(panels.images, group.images):
+        layers = engine.evaluate(
             panels.part, image, free_surface=0.0, water_depth=water.depth, wavenumber=k,
-            adjoint_double_layer=False, diagonal_term_in_double_layer=element == 0,
-        )
-        for element, image in enumerate(panels.images)
-    ]  # fmt: skip
+            adjoint_double_layer=False, diagonal_term_in_double_layer=False,
+        )  # fmt: skip
+        for layer, more in zip(layers, further):
+            layer *= share[columns]
+            layer += more[:, columns]
+        found.append(layers)
+    # the jump of the double layer at its own panel, on both sides of a panel in the surface
+    found[0][1][np.diag_indices(len(level))] += np.where(level, 1.0, 0.5)
+    return found
 
 
 def _solved(
@@ -341,7 +356,7 @@ def far_amplitudes(
     """Return the amplitudes (r, directions) of the far waves of solutions (n, r) [eq:units-far-field]."""
     mesh = panels.mesh
     angles = directions() if angles is None else angles
-    centre, normal, area = mesh.centre, mesh.normal, mesh.area[:, None]
+    centre, normal, area = mesh.centre, mesh.normal, panels.variation.areas[:, None]
     cosine, sine = np.cos(angles), np.sin(angles)
     phase = np.exp(-1j * k * (centre[:, [0]] * cosine + centre[:, [1]] * sine))
     profile = _depth_profile(centre[:, 2], k, water.depth)[:, None]
@@ -368,7 +383,8 @@ def elevation_at(
 ) -> ComplexArray:
     """Return the surface elevation (p, r) [m] at points (p, 2) of the row that solutions (n, r) make."""
     engine, full = green_function(), capytaine_mesh(panels.mesh.corners)
-    single, double = _layers(panels, surface, given)
+    share = (panels.variation.areas / panels.mesh.area)[:, None]
+    single, double = (share * item for item in _layers(panels, surface, given))
     out = np.empty((len(points), surface.shape[1]), dtype=complex)
     for start in range(0, len(points), _BATCH):
         some = points[start : start + _BATCH]

@@ -32,6 +32,9 @@ if TYPE_CHECKING:
 
 #: Accepted errors of the mesh, over the largest coefficient of the band
 SYMMETRY, HASKIND, ENERGY = 0.1, 0.05, 0.05
+#: Solutions that this process read last, oldest first, and their size
+_RECENT: dict[str, Solution] = {}
+RECENT_BYTES = 200_000_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -174,14 +177,13 @@ def solve_row(
     check_memory(panels)
     solutions = []
     base = key_of(
-        __version__, engine_version(), panels.mesh.corners, panels.mesh.part, centres, panels.gap_damping,
+        __version__, engine_version(), panels.mesh.corners, panels.mesh.part, centres, panels.gap_damping, panels.even,
         (water.depth, water.density, water.gravity), headings, DIRECTIONS,
     )  # fmt: skip
     for index, frequency in enumerate(omega):
         progress("coefficients of the row", index, len(omega))
         key = key_of(base, float(frequency))
-        kept = None if store is None else store.get(key)
-        found = _from_dataset(kept) if kept is not None else None
+        found = None if store is None else _at_hand(store, key)
         if found is None:
             found = solve_frequency(panels, water, float(frequency), headings)
             if store is not None:
@@ -191,6 +193,23 @@ def solve_row(
     return RowHydrodynamics(
         panels, water, centres, headings, tuple(solutions), _checks(tuple(solutions), panels, water)
     )
+
+
+def _at_hand(store: DatasetStore, key: str) -> Solution | None:
+    """Return a solution out of memory or out of the store."""
+    found = _RECENT.pop(key, None)
+    if found is None:
+        kept = store.get(key)
+        found = None if kept is None else _from_dataset(kept)
+    if found is not None:
+        _RECENT[key] = found
+        while sum(_size(item) for item in _RECENT.values()) > RECENT_BYTES and len(_RECENT) > 1:
+            _RECENT.pop(next(iter(_RECENT)))
+    return found
+
+
+def _size(found: Solution) -> int:
+    return found.radiation.nbytes + found.diffraction.nbytes
 
 
 _FIELDS = {

@@ -20,7 +20,7 @@ from moyai.structures.units.model import Placement
 
 HULL, LID, GAP = 0, 1, 2
 #: Share of cosine spacing in the cuts; the rest is even
-REFINEMENT = 0.8
+REFINEMENT = 1.0
 #: Least number of steps on a straight edge of the section that takes a twelfth of the girth or more: roll needs them
 LEAST_STEPS = 6
 _LONG_EDGE = 0.08
@@ -94,8 +94,8 @@ class PanelMesh:
         )
 
 
-def cuts(length: float, size: float, *, even: bool = False, refined: bool = True) -> Array:
-    """Return stations from 0 to ``length`` [m], closer at both ends, at most ``size`` apart [eq:units-cosine].
+def cuts(length: float, size: float, *, even: bool = False, refined: tuple[bool, bool] = (True, True)) -> Array:
+    """Return stations from 0 to ``length`` [m], closer at its ends, at most ``size`` apart [eq:units-cosine].
 
     Parameters
     ----------
@@ -103,18 +103,21 @@ def cuts(length: float, size: float, *, even: bool = False, refined: bool = True
         [m].
     even : bool
         Whether the number of steps is even, so that a plane of symmetry falls on a station.
-    refined : bool
-        Whether steps shrink to the ends; else they are equal.
+    refined : tuple of bool
+        Whether steps shrink to the start and to the end.
     """
-    share = REFINEMENT if refined else 0.0
+    share = REFINEMENT if any(refined) else 0.0
     count = max(1, math.ceil(length / size * (1.0 - share + share * 0.5 * math.pi) - 1e-9))
     if even and count % 2:
         count += 1
-    if count <= 2:
-        return np.linspace(0.0, length, count + 1)
     t = np.linspace(0.0, 1.0, count + 1)
-    stations = (1.0 - share) * t + share * 0.5 * (1.0 - np.cos(math.pi * t))
-    return np.asarray(length * 0.5 * (stations + 1.0 - stations[::-1]))
+    if all(refined):
+        if count <= 2:
+            return np.asarray(length * t)
+        stations = (1.0 - share) * t + share * 0.5 * (1.0 - np.cos(math.pi * t))
+        return np.asarray(length * 0.5 * (stations + 1.0 - stations[::-1]))
+    stations = (1.0 - share) * t + share * (1.0 - np.cos(0.5 * math.pi * t))
+    return np.asarray(length * (stations if refined[0] else 1.0 - stations[::-1]))
 
 
 def _girth(section: Section, chain: int, size: float) -> Array:
@@ -132,7 +135,10 @@ def _girth(section: Section, chain: int, size: float) -> Array:
         step = size if straight else min(size, length / max(2.0, turn / math.radians(_LARGEST_TURN)))
         if straight and length >= _LONG_EDGE * whole:
             step = min(size, length / LEAST_STEPS * (1.0 - REFINEMENT + REFINEMENT * 0.5 * math.pi))
-        fractions = cuts(length, step, even=level or not straight, refined=straight) / length
+        # no closer at the surface, where nothing is sharp
+        dry = abs(float(edges.start[number, 1])) < 1e-9, abs(float(edges.end[number, 1])) < 1e-9
+        refined = straight and not dry[0], straight and not dry[1]
+        fractions = cuts(length, step, even=level or not straight, refined=refined) / length
         points.append(one.points(fractions[1:])[0])
     return np.concatenate(points)
 
@@ -166,8 +172,8 @@ def unit_mesh(
         pieces.append(_ends(girth, end_size or size, length))
         if lid:
             left, right = float(girth[0, 0]), float(girth[-1, 0])
-            across = left + cuts(right - left, 1.5 * size, even=True, refined=False)
-            lids.append(_grid(across, cuts(length, 1.5 * size, even=even, refined=False) - 0.5 * length))
+            across = left + cuts(right - left, 1.5 * size, even=True, refined=(False, False))
+            lids.append(_grid(across, cuts(length, 1.5 * size, even=even, refined=(False, False)) - 0.5 * length))
     hull = np.concatenate(pieces)
     corners = np.concatenate([hull, *lids])
     part = np.full(len(corners), LID)
@@ -325,7 +331,7 @@ def _gap_lids(section: Section, length: float, placements: tuple[Placement, ...]
         near = one.to_row(np.array([(x, 0.5 * length, 0.0) for x in across]))
         far = other.to_row(np.array([(x, -0.5 * length, 0.0) for x in across]))
         width = float(np.linalg.norm(far - near, axis=1).max())
-        t = cuts(1.0, min(1.0, size / width), even=True, refined=False)
+        t = cuts(1.0, min(1.0, size / width), even=True, refined=(False, False))
         nodes = near[:, None] + t[None, :, None] * (far - near)[:, None]
         panels = [
             [nodes[i, j], nodes[i, j + 1], nodes[i + 1, j + 1], nodes[i + 1, j]]

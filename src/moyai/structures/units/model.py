@@ -291,6 +291,9 @@ class Settings:
     section_compare : bool
         Whether the two-dimensional section is computed next to the row.
     time : TimeSettings
+    nominal : bool
+        Whether the band of the damping is left out, and seas take coefficients at round frequencies, which serve
+        the next sea as well: for drafts.
     """
 
     panel_size: float
@@ -300,6 +303,7 @@ class Settings:
     drift: bool = True
     section_compare: bool = True
     time: TimeSettings = field(default_factory=TimeSettings)
+    nominal: bool = False
 
 
 @dataclass(frozen=True)

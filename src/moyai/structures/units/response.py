@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -34,6 +35,16 @@ class RowModel:
     at: RowAtLevel
     hydro: RowHydrodynamics
     position: Array
+
+    @cached_property
+    def tension_gradient(self) -> Array:
+        """Derivative of the tensions (lines, m) by the motions [N/m], [N]."""
+        return self.at.tension_gradient(self.position)
+
+    @cached_property
+    def line_stiffness(self) -> Array:
+        """Of all lines (m, m)."""
+        return self.at.line_stiffness(self.position)
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,7 +90,7 @@ def respond(model: RowModel, omega: Array, curve_stiffness: Array) -> RowRespons
     added, radiation, excitation = model.hydro.at(omega, k)
     joints, free = at.joints, at.free
     along = np.array([joint.along for joint in joints]).reshape(len(joints), at.size)
-    restoring = at.hydrostatic + at.line_stiffness(model.position)
+    restoring = at.hydrostatic + model.line_stiffness
     stiffness = restoring + at.springs[0]
     own = own_damping(at, added, restoring) + at.springs[1]
     headings = excitation.shape[1]
@@ -99,7 +110,7 @@ def respond(model: RowModel, omega: Array, curve_stiffness: Array) -> RowRespons
         loads[:, which] = held_load(at, left.swapaxes(1, 2))
     relative = _relative(at, motion)
     load = _joint_loads(at, omega, motion, relative, loads, given)
-    tension = motion @ at.tension_gradient(model.position).T
+    tension = motion @ model.tension_gradient.T
     velocity = -1j * w * motion
     power = 0.5 * np.real(np.sum(velocity.conj() * (velocity @ own), axis=2))
     return RowResponse(omega, motion, relative, load, np.asarray(tension), np.asarray(power, dtype=float))

@@ -18,7 +18,7 @@ from moyai.core.store import DatasetStore
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.sea.states import IrregularSea, RegularSea, SeaState
 from moyai.structures.units.assembly import RowAtLevel, assemble, level_notices, steady_load
-from moyai.structures.units.bem import Panels, green_function, panels_of
+from moyai.structures.units.bem import Panels, panels_of
 from moyai.structures.units.datasets import (
     hydrodynamics_dataset,
     irregular_dataset,
@@ -28,6 +28,7 @@ from moyai.structures.units.datasets import (
     with_damping_band,
 )
 from moyai.structures.units.field import map_points, wave_field
+from moyai.structures.units.green import green_function
 from moyai.structures.units.headlines import headlines_of
 from moyai.structures.units.hydrodynamics import RowHydrodynamics, solve_row
 from moyai.structures.units.mesh import row_mesh
@@ -76,7 +77,7 @@ def row_panels(at: RowAtLevel, settings: Settings, shortest: float) -> Panels:
     row = at.row
     mesh = row_mesh(
         at.section, row.length, row.placements, settings.panel_size,
-        lid=shortest > 0.7 * irregular_frequency(at), gap_lid=row.gap_damping_lid > 0.0,
+        lid=shortest > 0.5 * irregular_frequency(at), gap_lid=row.gap_damping_lid > 0.0,
     )  # fmt: skip
     return panels_of(mesh, at.centres, row.gap_damping_lid)
 
@@ -202,7 +203,8 @@ def _level_steps(
     yield
     answers: dict[str, list[SeaAnswer]] = {}
     # the same row with its damping at the ends of its band
-    others = [replace(at, row=at.row.damped(factor)) for factor in at.row.damping_band]
+    band = () if settings.nominal else at.row.damping_band
+    others = [replace(at, row=at.row.damped(factor)) for factor in band]
     varied: dict[str, list[list[SeaAnswer]]] = {}
 
     def answer(row: RowAtLevel, sea: SeaState) -> list[SeaAnswer]:

@@ -41,16 +41,29 @@ def band_of(sea: IrregularSea) -> tuple[float, float]:
     return float(low), float(high)
 
 
+#: Step of the frequencies of a draft [rad/s], and the fewest of them in a sea
+ROUND, LEAST_ROUND = 0.1, 5
+
+
 def frequencies_of(environment: Environment, settings: Settings) -> Array:
-    """Return the frequencies [rad/s] of the coefficients: regular waves exactly, spectra evenly over their energy."""
-    parts = [np.zeros(0)]
+    """Return the frequencies [rad/s] of the coefficients: regular waves exactly, spectra evenly over their energy.
+
+    Of a draft spectra take the round frequencies within, which they share with other seas.
+    """
+    parts: list[Array] = [np.zeros(0)]
     if settings.frequencies is not None:
         parts.append(np.asarray(settings.frequencies, dtype=float))
     for sea in environment.sea_states:
         if isinstance(sea, RegularSea):
             parts.append(2.0 * math.pi / np.asarray(sea.periods))
         elif settings.frequencies is None:
-            parts.append(np.linspace(*band_of(sea), settings.frequency_count))
+            low, high = band_of(sea)
+            parts.append(np.linspace(low, high, settings.frequency_count))
+            round_ones: Array = np.asarray(
+                ROUND * np.arange(math.ceil(low / ROUND), math.floor(high / ROUND) + 1), dtype=float
+            )
+            if settings.nominal and len(round_ones) >= LEAST_ROUND:
+                parts[-1] = round_ones
     omega = np.unique(np.round(np.concatenate(parts), 9))
     keep = [0] if len(omega) else []
     for index in range(1, len(omega)):

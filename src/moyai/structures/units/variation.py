@@ -1,0 +1,249 @@
+"""Variation of a quantity over its panels: parabolas through neighbours, areas and Rankine terms that follow from them.
+
+A value a panel stands for its centre. Along both directions of a panel a parabola through the centres of its
+neighbours tells how the quantity varies over it [eq:units-parabola]; what that adds to integrals with a smooth factor
+are other areas [eq:units-areas], what it adds to the layers of 1/r is computed once for all frequencies
+[eq:units-rankine]. Neighbours share a side and turn little: nothing is drawn round a sharp edge.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.sparse import csr_array
+
+from moyai.core.arrays import Array, IntArray
+from moyai.core.compiled import njit
+from moyai.structures.units.mesh import PanelMesh
+
+#: Least cosine between the normals of neighbours
+LEAST_COSINE = 0.85
+#: Points a direction of Gauss's rule, and the distance over the radius of a panel up to which each is taken
+_RULES = ((32, 1.5), (12, 4.0), (4, 10.0), (2, np.inf))
+#: Points of the rule for moments of a panel itself
+_OF_MOMENTS = 3
+#: Rows of the Rankine terms at once
+_ROWS = 200
+
+
+@dataclass(frozen=True, eq=False)
+class Variation:
+    """How quantities vary over the panels of a mesh.
+
+    Parameters
+    ----------
+    frame : ndarray (n, 2, 3)
+        Reciprocal of the two directions of every panel [-]: s and t of a point are frame @ (point - centre) [m].
+    slopes : tuple of sparse (n, n)
+        Factors of s, t, s^2, t^2 [1/m, 1/m, 1/m2, 1/m2] from the values at the centres.
+    areas : ndarray (n,)
+        That give the integral of a smooth quantity from its values at the centres [m2].
+    """
+
+    frame: Array
+    slopes: tuple[csr_array, ...]
+    areas: Array
+
+
+def neighbours(mesh: PanelMesh) -> IntArray:
+    """Return for each side of every panel (n, 4) the panel beyond times four plus its side; -1 where there is none."""
+    corners = mesh.corners
+    scale = 1e-7 * float(np.ptp(corners.reshape(-1, 3), axis=0).max())
+    _, name = np.unique(np.round(corners.reshape(-1, 3) / scale).astype(np.int64), axis=0, return_inverse=True)
+    name = name.reshape(-1, 4)
+    ends = np.sort(np.stack([name, np.roll(name, -1, axis=1)], axis=-1), axis=-1).reshape(-1, 2)
+    out = np.full(len(ends), -1, dtype=np.int64)
+    order = np.lexsort(ends.T)
+    same = (ends[order[1:]] == ends[order[:-1]]).all(axis=1) & (ends[order[1:], 0] != ends[order[1:], 1])
+    # a side of three panels or more joins none of them
+    lone = same & ~np.r_[False, same[:-1]] & ~np.r_[same[1:], False]
+    one, other = order[:-1][lone], order[1:][lone]
+    normal = mesh.normal
+    flat = (mesh.part[one // 4] == mesh.part[other // 4]) & (
+        np.einsum("ij,ij->i", normal[one // 4], normal[other // 4]) > LEAST_COSINE
+    )
+    one, other = one[flat], other[flat]
+    out[one], out[other] = other, one
+    return out.reshape(-1, 4)
+
+
+def variation_of(mesh: PanelMesh) -> Variation:
+    """Return the parabolas of a mesh [eq:units-parabola]."""
+    count, centre, corners = mesh.count, mesh.centre, mesh.corners
+    beyond = neighbours(mesh)
+    across = 0.5 * (corners[:, 1] + corners[:, 2] - corners[:, 0] - corners[:, 3])
+    along = 0.5 * (corners[:, 2] + corners[:, 3] - corners[:, 0] - corners[:, 1])
+    axes = np.stack([across, along], axis=1)
+    axes /= np.linalg.norm(axes, axis=2)[:, :, None]
+    frame: Array = np.asarray(np.linalg.pinv(axes).transpose(0, 2, 1), dtype=float)
+    slopes: list[csr_array] = [csr_array((count, count))] * 4
+    for axis, (front, back) in enumerate(((1, 3), (2, 0))):
+        first, far, sign = _chain(beyond, front, back)
+        slopes[axis], slopes[axis + 2] = _parabolas(centre, first, far, sign)
+    moments = _moments(mesh, frame)
+    areas = mesh.area + sum(slope.T @ moment for slope, moment in zip(slopes, moments))
+    return Variation(frame, tuple(slopes), np.asarray(areas))
+
+
+def even_variation(mesh: PanelMesh) -> Variation:
+    """Return no variation at all."""
+    nothing = csr_array((mesh.count, mesh.count))
+    return Variation(np.zeros((mesh.count, 2, 3)), (nothing,) * 4, mesh.area)
+
+
+def _chain(beyond: IntArray, front: int, back: int) -> tuple[IntArray, IntArray, Array]:
+    """Return the neighbour of every panel on one side and the one on the other side or next in line; -1 for none.
+
+    The third is 0 of panels with a neighbour on either side, else the direction in which both lie.
+    """
+    ahead, behind = beyond[:, front], beyond[:, back]
+    lone = (ahead < 0) | (behind < 0)
+    first = np.where(ahead < 0, behind, ahead)
+    # through the neighbour and out by its opposite side
+    opposite = np.where(first < 0, -1, first // 4 * 4 + (first % 4 + 2) % 4)
+    next_one = np.where(first < 0, -1, beyond.ravel()[opposite])
+    second = np.where(lone, next_one, behind)
+    sign = np.where(lone, np.where(ahead < 0, -1.0, 1.0), 0.0)
+    return np.where(first < 0, -1, first // 4), np.where(second < 0, -1, second // 4), sign
+
+
+def _parabolas(centre: Array, first: IntArray, second: IntArray, sign: Array) -> tuple[csr_array, csr_array]:
+    """Return the factors of distance and of its square of parabolas through centres; a line through two."""
+    count = len(centre)
+    own = np.arange(count)
+    one = np.linalg.norm(centre[first] - centre, axis=1) * np.where(sign == 0.0, 1.0, sign)
+    step = np.linalg.norm(centre[second] - np.where((sign == 0.0)[:, None], centre, centre[first]), axis=1)
+    two = np.where(sign == 0.0, -step, one + sign * step)
+    three = (first >= 0) & (second >= 0)
+    pair = (first >= 0) & (second < 0)
+    apart = np.where(three, two - one, 1.0)
+    one, two = np.where(first >= 0, one, 1.0), np.where(three, two, 2.0)
+    slope_one = np.where(three, two / (one * apart), np.where(pair, 1.0 / one, 0.0))
+    slope_two = np.where(three, -one / (two * apart), 0.0)
+    bend_one, bend_two = np.where(three, -1.0 / (one * apart), 0.0), np.where(three, 1.0 / (two * apart), 0.0)
+
+    def matrix(of_one: Array, of_two: Array) -> csr_array:
+        values = np.concatenate([of_one, of_two, -of_one - of_two])
+        columns = np.concatenate([np.where(first < 0, own, first), np.where(second < 0, own, second), own])
+        return csr_array((values, (np.tile(own, 3), columns)), shape=(count, count))
+
+    return matrix(slope_one, slope_two), matrix(bend_one, bend_two)
+
+
+def _rule(points: int) -> tuple[Array, Array]:
+    """Return shares of the corners (p, 4) and u, v and weight (p, 3) of Gauss's points on the unit square."""
+    node, weight = np.polynomial.legendre.leggauss(points)
+    u, v = (0.5 * (item.ravel() + 1.0) for item in np.meshgrid(node, node, indexing="ij"))
+    share = np.stack([(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v], axis=1)
+    return share, np.stack([u, v, 0.25 * np.outer(weight, weight).ravel()], axis=1)
+
+
+def _points(corners: Array, points: int) -> tuple[Array, Array]:
+    """Return points (n, p, 3) on panels and their areas (n, p)."""
+    share, place = _rule(points)
+    a, b, c, d = (corners[:, None, index] for index in range(4))
+    u, v = place[None, :, 0, None], place[None, :, 1, None]
+    one = (1 - v) * (b - a) + v * (c - d)
+    other = (1 - u) * (d - a) + u * (c - b)
+    area = np.linalg.norm(np.cross(one, other), axis=2) * place[:, 2]
+    return np.einsum("pk,nkx->npx", share, corners), area
+
+
+def _moments(mesh: PanelMesh, frame: Array) -> Array:
+    """Return the integrals of s, t, s^2, t^2 over every panel (4, n)."""
+    point, area = _points(mesh.corners, _OF_MOMENTS)
+    local = np.einsum("nkx,npx->knp", frame, point - mesh.centre[:, None])
+    return np.asarray(np.einsum("knp,np->kn", np.concatenate([local, local**2]), area))
+
+
+@njit(cache=True, error_model="numpy", fastmath=True)
+def _layers(
+    target: Any, image: Any, centre: Any, normal: Any, frame: Any, radius: Any, own: Any,
+    near: Any, points: Any, areas: Any, single: Any, double: Any,
+) -> None:  # fmt: skip
+    """Add the integrals of s, t, s^2, t^2 times 1/r and times its normal derivative over panels (4, rows, n).
+
+    ``image`` is 1 for the source itself, -1 for a mirror of it: a flat panel has no double layer on itself.
+    """
+    for row in range(target.shape[0]):
+        for panel in range(centre.shape[0]):
+            x, y, z = target[row, 0], target[row, 1], target[row, 2]
+            dx, dy, dz = x - centre[panel, 0], y - centre[panel, 1], z - centre[panel, 2]
+            ratio = np.sqrt(dx * dx + dy * dy + dz * dz) / radius[panel]
+            rule = 0
+            while ratio > near[rule]:
+                rule += 1
+            place, size = points[rule], areas[rule]
+            flat = own[row] == panel and image > 0
+            for p in range(place.shape[1]):
+                px, py, pz = place[panel, p, 0], place[panel, p, 1], place[panel, p, 2]
+                rx, ry, rz = x - px, y - py, z - pz
+                square = rx * rx + ry * ry + rz * rz
+                one = size[panel, p] / np.sqrt(square)
+                two = 0.0
+                if not flat:
+                    two = one / square * (rx * normal[panel, 0] + ry * normal[panel, 1] + rz * normal[panel, 2])
+                px, py, pz = px - centre[panel, 0], py - centre[panel, 1], pz - centre[panel, 2]
+                s = frame[panel, 0, 0] * px + frame[panel, 0, 1] * py + frame[panel, 0, 2] * pz
+                t = frame[panel, 1, 0] * px + frame[panel, 1, 1] * py + frame[panel, 1, 2] * pz
+                single[0, row, panel] += one * s
+                single[1, row, panel] += one * t
+                single[2, row, panel] += one * s * s
+                single[3, row, panel] += one * t * t
+                double[0, row, panel] += two * s
+                double[1, row, panel] += two * t
+                double[2, row, panel] += two * s * s
+                double[3, row, panel] += two * t * t
+
+
+def rankine_terms(
+    mesh: PanelMesh, part: IntArray, found: Variation, depth: float, constant: Callable[[Array], tuple[Array, Array]]
+) -> tuple[Array, Array]:
+    """Return what is added to single and double layer (q, n) on a part once areas are used [eq:units-rankine].
+
+    Parameters
+    ----------
+    mesh : PanelMesh
+    part : ndarray (q,) of int
+        Panels whose centres are the targets.
+    found : Variation
+    depth : float
+        Of the water [m].
+    constant : callable
+        Single and double layer of -1/(4 pi r) at points, of even panels.
+
+    Returns
+    -------
+    tuple of ndarray (q, n)
+        Of the source, its mirror in the surface and that in the bed.
+    """
+    rules = [_points(mesh.corners, points) for points, _ in _RULES]
+    near = np.array([limit for _, limit in _RULES])
+    radius = np.linalg.norm(mesh.corners - mesh.centre[:, None], axis=2).max(axis=1)
+    places, areas = tuple(item[0] for item in rules), tuple(item[1] for item in rules)
+    transposed = [slope.T.tocsr() for slope in found.slopes]
+    rest = 1.0 - found.areas / mesh.area
+    out = np.empty((2, len(part), mesh.count))
+    for start in range(0, len(part), _ROWS):
+        own = part[start : start + _ROWS]
+        target = mesh.centre[own]
+        mirrored = target * np.array([1.0, 1.0, -1.0])
+        images = [(target, 1), (mirrored, -1)]
+        if np.isfinite(depth):
+            images.append((mirrored - np.array([0.0, 0.0, 2.0 * depth]), -1))
+        layers = np.zeros((2, 4, len(own), mesh.count))
+        even = np.zeros((2, len(own), mesh.count))
+        for point, image in images:
+            _layers(
+                point, image, mesh.centre, mesh.normal, found.frame, radius, own, near, places, areas, *layers
+            )  # fmt: skip
+            even += constant(point)
+        total = even * rest
+        for moments, slope in zip(layers.swapaxes(0, 1), transposed):
+            for number in range(2):
+                total[number] -= (slope @ moments[number].T).T / (4.0 * np.pi)
+        out[:, start : start + _ROWS] = total
+    return out[0], out[1]
