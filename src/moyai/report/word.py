@@ -1,5 +1,8 @@
 """Write a document as a Word document (DOCX): text, tables and captions by the styles of a template, figures as images.
 
+Captions are counted by fields ``SEQ`` whose numbers are bookmarks; below the heading of each section a sentence names
+its tables and figures by fields ``REF``, so that Word counts both again when text is added (Ctrl+A, F9).
+
 The styles are those of Word by their English names (``Heading 1``, ``Table Grid``, ``Caption``), so that the template
 of an office gives fonts, heads and feet.
 """
@@ -7,6 +10,7 @@ of an office gives fonts, heads and feet.
 from __future__ import annotations
 
 import io
+import re
 import tempfile
 from pathlib import Path
 from typing import Any
@@ -33,6 +37,8 @@ from moyai.report.formatting import pretty_unit
 from moyai.report.html import badges_of, column_texts, foot_text, is_text_column, notice_items
 from moyai.report.language import for_its_reader
 
+#: What captions count, in the order in which a section names them.
+KINDS = ("Table", "Figure")
 WIDTH = 16.0  # of images and tables [cm], on a page that is no wider than A4
 _JAPANESE_FACE = "Yu Gothic"
 _DOTS = 160  # per inch
@@ -76,12 +82,14 @@ def render_docx(document: Document, template: Path | None = None) -> bytes:
 
 
 class _Writer:
-    """Writes blocks one below the other; counts figures and tables."""
+    """Writes blocks one below the other; counts figures and tables, from those of the template on."""
 
     def __init__(self, paper: Any) -> None:
         self._paper = paper
         self._known = {style.name for style in paper.styles}
-        self._count = {"Figure": 0, "Table": 0}
+        codes = paper.element.xpath("//w:instrText/text() | //w:fldSimple/@w:instr")
+        self._count = {kind: sum(f"SEQ {kind} " in f"{code} " for code in codes) for kind in KINDS}
+        self._marks = max((int(mark) for mark in paper.element.xpath("//w:bookmarkStart/@w:id")), default=0)
 
     def write(self, document: Document) -> None:
         """Write title, badges, sections and foot."""
@@ -99,8 +107,10 @@ class _Writer:
         _field(paper.add_paragraph(), r'TOC \o "1-2" \h', said("Contents: press F9 to fill in"))
         for section in document.sections:
             self._heading(section.title, 1)
+            line, before = self._text(""), dict(self._count)
             for block in section.blocks:
                 self._block(block, 2)
+            self._references(line, before)
         self._text(foot_text(document))
 
     def _text(self, text: str, style: str = "") -> Any:
@@ -158,12 +168,36 @@ class _Writer:
             self._text(said(f"Also in the interactive report: {others}."))
 
     def _caption(self, kind: str, text: str, keep: bool = False) -> None:
-        """Write a caption with a number that Word counts and can refer to."""
+        """Write a caption with a number that Word counts; the number is a bookmark."""
+        from docx.oxml import OxmlElement
+        from docx.oxml.ns import qn
+
         self._count[kind] += 1
+        self._marks += 1
         line = self._text(f"{said(kind)} ", "Caption")
         line.paragraph_format.keep_with_next = keep
+        start, end = OxmlElement("w:bookmarkStart"), OxmlElement("w:bookmarkEnd")
+        start.set(qn("w:name"), _mark(kind, self._count[kind]))
+        for element in (start, end):
+            element.set(qn("w:id"), str(self._marks))
+        line._p.append(start)
         _field(line, f"SEQ {kind} \\* ARABIC", str(self._count[kind]))
+        line._p.append(end)
         line.add_run(f". {text}")
+
+    def _references(self, line: Any, before: dict[str, int]) -> None:
+        """Name the captions since ``before`` in an empty paragraph, or take it away where there is none."""
+        named = [(kind, before[kind] + 1, self._count[kind]) for kind in KINDS if self._count[kind] > before[kind]]
+        if not named:
+            line._p.getparent().remove(line._p)
+            return
+        marks = [_mark(kind, number) for kind, first, last in named for number in dict.fromkeys((first, last))]
+        sentence = said(f"In this section: {', '.join(_counted(*item) for item in named)}.")
+        for part in re.split(r"(\d+)", sentence):
+            if part.isdecimal():
+                _field(line, f"REF {marks.pop(0)} \\h", part)
+            else:
+                line.add_run(part)
 
     def _picture(self, title: str, caption: str, image: bytes) -> None:
         from docx.shared import Cm
@@ -212,6 +246,18 @@ class _Writer:
         line = self._paper.add_paragraph()
         run = line.add_run(text)
         run.font.name, run.font.size = "Consolas", Pt(7.5)
+
+
+def _mark(kind: str, number: int) -> str:
+    """Return the name of the bookmark of a caption's number; Word hides names that begin with an underscore."""
+    return f"_Ref_moyai_{kind}_{number}"
+
+
+def _counted(kind: str, first: int, last: int) -> str:
+    """Return ``Table 3``, ``Tables 3 and 4`` or ``Tables 3 to 6``."""
+    if first == last:
+        return f"{kind} {first}"
+    return f"{kind}s {first} {'and' if last == first + 1 else 'to'} {last}"
 
 
 def _field(paragraph: Any, code: str, shown: str) -> None:

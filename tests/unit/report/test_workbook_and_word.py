@@ -30,6 +30,7 @@ from moyai.report.document import (
     NoticeBlock,
     Option,
     Panel,
+    Paragraph,
     Section,
     Series,
     Table,
@@ -129,6 +130,98 @@ def test_word_has_headings_counted_captions_tables_and_images():
     grid = paper.tables[1]
     assert [cell.text for cell in grid.rows[0].cells] == ["Line", "Tension [kN]", "Holds", "Reserve"]
     assert len(paper.inline_shapes) == 2
+
+
+def _fields(paper) -> list[tuple[str, str]]:
+    """Return code and cached text of every field, in order."""
+    found, code, text, state = [], "", "", ""
+    for part in paper.element.xpath("//w:fldChar | //w:instrText | //w:r[not(w:instrText)]/w:t"):
+        if part.tag.endswith("fldChar"):
+            state = part.get(part.tag.replace("fldChar", "fldCharType"))
+            if state == "begin":
+                code = text = ""
+            elif state == "end":
+                found.append((code.strip(), text))
+        elif part.tag.endswith("instrText"):
+            code += part.text
+        elif state == "separate":
+            text += part.text
+    return found
+
+
+def _bookmarks(paper) -> dict[str, str]:
+    """Return the text from each bookmark's start to its end, as Word takes it for a field REF."""
+    found = {}
+    for start in paper.element.xpath("//w:bookmarkStart"):
+        name, key = (start.get(start.tag.replace("bookmarkStart", entry)) for entry in ("name", "id"))
+        assert name not in found
+        text = ""
+        for node in start.itersiblings():
+            if node.tag.endswith("bookmarkEnd") and node.get(node.tag.replace("bookmarkEnd", "id")) == key:
+                break
+            text += "".join(node.xpath(".//w:t/text()"))
+        else:
+            raise AssertionError(f"{name} does not end")
+        found[name] = text
+    return found
+
+
+def _read_references(paper, wanted: list[str]) -> None:
+    """Check the sentences of the text, and that each of their numbers is that of the caption which it names."""
+    sentences = [line.text for line in paper.paragraphs if line._p.xpath(".//w:instrText[contains(., 'REF ')]")]
+    assert sentences == wanted
+    marks, fields = _bookmarks(paper), _fields(paper)
+    references = [(code.split(), text) for code, text in fields if code.startswith("REF ")]
+    assert references
+    for (_, name, switch), text in references:
+        assert marks[name] == text and switch == "\\h"
+    kinds = [name.split("_")[-2] for (_, name, _), _ in references]
+    assert kinds == sorted(kinds, reverse=True)  # tables, then figures
+    for kind in ("Table", "Figure"):
+        counted = [text for code, text in fields if code.startswith(f"SEQ {kind} ")]
+        assert counted == [str(number + 1) for number in range(len(counted))]
+        assert len(counted) == sum(f"_{kind}_" in name for name in marks)
+
+
+@pytest.mark.parametrize(
+    ("blocks", "wanted", "japanese"),
+    [
+        (("table",), "In this section: Table 1.", "この章：表 1。"),
+        (("figure", "table"), "In this section: Table 1, Figure 1.", "この章：表 1、図 1。"),
+        (
+            ("table",) * 2 + ("figure",) * 4,
+            "In this section: Tables 1 and 2, Figures 1 to 4.",
+            "この章：表 1 と 2、図 1～4。",
+        ),
+        (("figure",) * 2, "In this section: Figures 1 and 2.", "この章：図 1 と 2。"),
+        (("table",) * 12, "In this section: Tables 1 to 12.", "この章：表 1～12。"),
+    ],
+)
+@pytest.mark.parametrize("language", ["en", "ja"])
+def test_word_names_the_tables_and_figures_of_a_section_by_fields(blocks, wanted, japanese, language):
+    drawing = Drawing("section", "Section", SVG, SVG)
+    parts = tuple(_table() if kind == "table" else drawing for kind in blocks)
+    sections = (Section("all", "All", parts), Section("text", "Text", (Paragraph("no caption here"),)))
+    document = Document("A title", "", "converged", "", sections, language=language)
+    paper = docx.Document(io.BytesIO(render_docx(document)))
+    _read_references(paper, [wanted if language == "en" else japanese])
+    heading = next(place for place, line in enumerate(paper.paragraphs) if line.style.name == "Heading 1")
+    assert paper.paragraphs[heading + 1].text.startswith("In this section" if language == "en" else "この章")
+
+
+def test_word_goes_on_counting_where_a_template_has_captions_or_no_style_for_them(tmp_path):
+    first = Document("A title", "", "converged", "", (Section("all", "All", (_table(), _table())),))
+    (tmp_path / "office.docx").write_bytes(render_docx(first))
+    again = docx.Document(io.BytesIO(render_docx(_document(), tmp_path / "office.docx")))
+    _read_references(again, ["In this section: Tables 1 and 2.", "In this section: Tables 3 and 4, Figures 1 and 2."])
+    ids = again.element.xpath("//w:bookmarkStart/@w:id")
+    assert len(ids) == len(set(ids)) == 6
+    bare = docx.Document()
+    caption = bare.styles["Caption"].element
+    caption.getparent().remove(caption)
+    bare.save(tmp_path / "bare.docx")
+    paper = docx.Document(io.BytesIO(render_docx(_document(), tmp_path / "bare.docx")))
+    _read_references(paper, ["In this section: Tables 1 and 2, Figures 1 and 2."])
 
 
 def test_word_takes_the_styles_of_a_template(tmp_path):
