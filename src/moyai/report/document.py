@@ -134,6 +134,8 @@ class Column:
     links: Sequence[str] = ()
     #: Magnitude that chooses the display unit together with the values (see :func:`in_one_unit`).
     like: float = 0.0
+    #: The texts are numbers with unit and bound, ``at least 1.99 m``: a workbook parts them.
+    quantities: bool = False
 
 
 def in_one_unit(columns: Sequence[Column], unit: str = "N") -> tuple[Column, ...]:

@@ -119,8 +119,8 @@ def criteria_table(result: Result) -> Table | None:
         "Criteria",
         (
             Column("Criterion", [_asked(item) for item in items]),
-            Column("Limit", list(limits)),
-            Column("Found", list(found)),
+            Column("Limit", list(limits), quantities=True),
+            Column("Found", list(found), quantities=True),
             Column("Where", [_place(item) for item in items]),
             Column("Outcome", [item.outcome for item in items]),
             Column("Source", [item.criterion.source for item in items]),

@@ -33,7 +33,12 @@ _DISPLAY: dict[str, tuple[tuple[float, str, float], ...]] = {
     "N m s": ((0.0, "N m s", 1.0), (1e4, "kN m s", 1e-3)),
 }
 _NO_UNIT = {"", "1", "-"}
+_QUANTITY = re.compile(
+    rf"([-{MINUS}]?(?:\d+(?:\.\d+)?(?:e[-+]?\d+|×10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+))?|∞))"
+    r"(?:(°)| ((?:1/)?[^\W\d_][^\s,;:()]*(?: per [^\s,;:()]+)?|%|°[^\s,;:()]*))?"
+)
 _SUPERSCRIPTS = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
+_LOWERED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
 
 
 @dataclass(frozen=True)
@@ -214,6 +219,31 @@ def format_quantity(value: float, unit: str, digits: int = 3) -> str:
     if text == DASH or not shown.name:
         return text
     return f"{text}{shown.pretty}" if shown.name == "deg" else f"{text} {shown.pretty}"
+
+
+def read_quantity(text: str) -> tuple[float, str] | None:
+    """Return number and unit of what :func:`format_quantity` and its kin write, ``None`` of any other text.
+
+    Parameters
+    ----------
+    text : str
+        One number with its unit in one word; a dash alone is an unknown number.
+
+    Examples
+    --------
+    >>> read_quantity("3.46 kN"), read_quantity("4.57°"), read_quantity("2 of 3 runs")
+    ((3.46, 'kN'), (4.57, '°'), None)
+    """
+    if text == DASH:
+        return math.nan, ""
+    match = _QUANTITY.fullmatch(text)
+    if match is None:
+        return None
+    number, power, degrees, unit = match.groups()
+    plain = number.replace(MINUS, "-").replace("∞", "inf")
+    if power:
+        plain = f"{plain.partition('×')[0]}e{power.translate(_LOWERED)}"
+    return float(plain), degrees or unit or ""
 
 
 def format_percent(fraction: float, digits: int = 2) -> str:

@@ -113,13 +113,14 @@ def closing_section(result: Result) -> Section:
 def checks_table(result: Result) -> Table:
     """Return the identity checks of the run, figure against tolerance."""
     checks = result.checks
+    violations = ["no figure" if math.isnan(check.value) else f"{check.value:.2e}" for check in checks]
     return Table(
         "identity-checks",
         "Identity checks",
         (
             Column("Identity", [check.name for check in checks]),
-            Column("Violation", ["no figure" if math.isnan(check.value) else f"{check.value:.2e}" for check in checks]),
-            Column("Tolerance", [f"{check.tolerance:.2e}" for check in checks]),
+            Column("Violation", violations, quantities=True),
+            Column("Tolerance", [f"{check.tolerance:.2e}" for check in checks], quantities=True),
             Column("Met", ["yes" if check.passed else "NO" for check in checks]),
             Column("Meaning", [check.meaning for check in checks]),
         ),

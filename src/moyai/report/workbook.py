@@ -7,16 +7,17 @@ import math
 import re
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from moyai.core.arrays import Array
-from moyai.language import said
+from moyai.language import said, spoken_in, spoken_language
 from moyai.report.decimate import envelope_indices
-from moyai.report.document import Block, Cell, Choice, Document, Figure, KeyFigures, Listing, NoticeBlock, Table
+from moyai.report.document import Block, Cell, Choice, Column, Document, Figure, KeyFigures, Listing, NoticeBlock, Table
 from moyai.report.encoding import column_unit, figure_columns, scaled_cell
-from moyai.report.formatting import axis_label
+from moyai.report.formatting import axis_label, read_quantity
 from moyai.report.html import badges_of, foot_text, notice_items
 from moyai.report.language import for_its_reader
 from moyai.report.systems import UNITS_NOTES
@@ -30,6 +31,7 @@ NAME, ROWS = 31, 1_048_576
 #: Samples of a series, beyond which extremes alone are written
 LONGEST = 2000
 _WIDEST = 60
+_DETAIL = 4  # column of the longest texts of the summary
 
 
 @for_its_reader
@@ -117,6 +119,9 @@ class _Book:
         marks |= dict.fromkeys(table.failed, self._row["failed"])
         columns: list[tuple[str, Sequence[Cell] | Array]] = []
         for column in table.columns:
+            if column.quantities:
+                columns += _parted(column)
+                continue
             unit = column_unit(column)
             values = [_scaled(value, unit.factor) for value in column.values]
             columns.append((axis_label(column.label, unit.name), values))
@@ -145,7 +150,8 @@ class _Book:
         document = self._document
         sheet.set_column(0, 0, 42)
         sheet.set_column(1, 1, 24)
-        sheet.set_column(2, 2, 90)
+        sheet.set_column(2, 3, 10)
+        sheet.set_column(_DETAIL, _DETAIL, 90)
         sheet.write_string(0, 0, document.title, self._title)
         sheet.write_string(1, 0, document.subtitle)
         sheet.write_string(2, 0, said(UNITS_NOTES.get(document.units, "")), self._quiet)
@@ -153,28 +159,34 @@ class _Book:
         for badge in badges_of(document):
             sheet.write_string(row, 0, badge.label or said("Status"), self._top)
             sheet.write_string(row, 1, badge.word, self._bold)
-            sheet.write_string(row, 2, badge.message, self._wrapped)
+            sheet.write_string(row, _DETAIL, badge.message, self._wrapped)
             row += 1
         row += 1
         for block in document.blocks():
             if isinstance(block, KeyFigures):
+                heads = ("Governing number", "Value", "Unit", "Bound", "Where, model and band")
+                for column, head in enumerate(heads):
+                    sheet.write_string(row, column, said(head), self._head)
+                row += 1
                 for item in block.items:
+                    value, unit, bound = _quantity(item.text)
                     sheet.write_string(row, 0, item.label[:1].upper() + item.label[1:], self._top)
-                    sheet.write_string(row, 1, item.text, self._wrapped)
-                    sheet.write_string(row, 2, item.detail, self._wrapped)
+                    _write(sheet, row, 1, value, self._wrapped)
+                    for column, text in ((2, unit), (3, bound), (_DETAIL, item.detail)):
+                        _write(sheet, row, column, text, self._wrapped)
                     row += 1
         row += 1
         for block in document.blocks():
             if isinstance(block, NoticeBlock):
                 for severity, first, second in notice_items(block):
                     sheet.write_string(row, 0, said(severity.capitalize()), self._top)
-                    sheet.write_string(row, 2, f"{first}\n{second}" if second else first, self._wrapped)
+                    sheet.write_string(row, _DETAIL, f"{first}\n{second}" if second else first, self._wrapped)
                     row += 1
         row += 1
         for name, listed in self._sheets:
             quoted = name.replace("'", "''")
             sheet.write_url(row, 0, f"internal:'{quoted}'!A1", string=name)
-            sheet.write_string(row, 2, listed)
+            sheet.write_string(row, _DETAIL, listed)
             row += 1
         sheet.write_string(row + 1, 0, foot_text(document), self._quiet)
 
@@ -210,6 +222,35 @@ def _thinned(figure: Figure) -> tuple[Figure, str]:
     return replace(figure, series=series), words
 
 
+def _parted(column: Column) -> list[tuple[str, Sequence[Cell]]]:
+    """Return a column of quantities as numbers, with a column of units and one of bounds where it has any."""
+    values, units, bounds = zip(*map(_quantity, map(str, column.values)), strict=True)
+    found = [
+        (column.label, values),
+        (f"{column.label}: {said('unit')}", units),
+        (f"{column.label}: {said('bound')}", bounds),
+    ]
+    return [found[0], *(item for item in found[1:] if any(item[1]))]
+
+
+def _quantity(text: str) -> tuple[Cell, str, str]:
+    """Return number, unit and bound of a text in the language in force; a text that is no such quantity alone."""
+    for before, after in _bounds(spoken_language()):
+        if text.startswith(before) and text.endswith(after):
+            found = read_quantity(text[len(before) : len(text) - len(after)].strip())
+            if found is not None:
+                return *found, (before + after).strip()
+    return text, "", ""
+
+
+@cache
+def _bounds(language: str) -> tuple[tuple[str, str], ...]:
+    """Return what stands before and behind a number of a bound in a language; nothing last."""
+    with spoken_in(language):
+        texts = [said(f"{bound} 7") for bound in ("at least", "at most")]
+    return *((before, after) for before, _, after in (text.partition("7") for text in texts)), ("", "")
+
+
 def _scaled(value: Cell, factor: float) -> Cell:
     if isinstance(value, bool | np.bool_):
         return said("yes" if value else "no")
@@ -219,7 +260,8 @@ def _scaled(value: Cell, factor: float) -> Cell:
 def _write(sheet: Worksheet, row: int, column: int, value: Cell, style: Format | None) -> int:
     """Write a cell; return the characters that it takes."""
     if isinstance(value, str):
-        sheet.write_string(row, column, value, style)
+        if value:
+            sheet.write_string(row, column, value, style)
         return len(value)
     if value is None or math.isnan(value):
         return 0

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import io
 from dataclasses import replace
 
+import openpyxl
 import synthetic_result
 
 from moyai.core.headline import UNCONFIRMED, Criterion, Headline, Verdict, judge
@@ -15,6 +17,7 @@ from moyai.report.headlines import headline_figures
 from moyai.report.html import least_width, render_html
 from moyai.report.input_line import input_line
 from moyai.report.notices import first_page_notices, grouped
+from moyai.report.workbook import render_workbook
 from moyai.report.writer import compose_document
 
 FACTOR = Criterion(
@@ -69,6 +72,18 @@ def test_numbers_come_before_criteria_before_notices() -> None:
     columns = {column.label: list(column.values) for column in blocks[1].columns}
     assert columns["Outcome"] == ["does not hold", "holds"]
     assert columns["Found"] == ["0.476", "3.18 kN"] and columns["Limit"] == ["at least 2.00", "at most 5.00 kN"]
+
+
+def test_the_workbook_has_the_numbers_of_page_and_criteria_as_numbers() -> None:
+    book = openpyxl.load_workbook(io.BytesIO(render_workbook(compose_document(judged(FACTOR, UPLIFT)))))
+    rows = {row[0]: row[1:4] for row in book["Summary"].iter_rows(values_only=True) if row[0]}
+    assert rows["Largest line tension"] == (1766, "kN", None)
+    assert rows["Load over strength"] == (2.1, None, None) and rows["Uplift on an anchor"] == (3.18, "kN", None)
+    heads, *rest = book["Criteria"].iter_rows(values_only=True)
+    found = [dict(zip(heads, row, strict=True)) for row in rest[:2]]
+    assert [row["Limit"] for row in found] == [2, 5] and [row["Found"] for row in found] == [0.476, 3.18]
+    assert [row["Limit: unit"] for row in found] == [row["Found: unit"] for row in found] == [None, "kN"]
+    assert [row["Limit: bound"] for row in found] == ["at least", "at most"] and "Found: bound" not in heads
 
 
 def test_forces_of_the_page_have_one_unit() -> None:

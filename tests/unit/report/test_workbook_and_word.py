@@ -35,6 +35,7 @@ from moyai.report.document import (
     Series,
     Table,
 )
+from moyai.report.formatting import DASH, MINUS, display_unit, format_quantity, read_quantity
 from moyai.report.word import render_docx
 from moyai.report.workbook import LONGEST, NAME, render_workbook
 
@@ -102,11 +103,71 @@ def test_the_summary_has_badges_governing_numbers_notices_and_a_link_to_every_sh
     book = _read(_document())
     cells = [cell for row in book["Summary"].iter_rows() for cell in row if cell.value is not None]
     texts = [str(cell.value) for cell in cells]
-    for wanted in ("A title", "Holds", "Largest tension", "12.3 kN", "Warning"):
+    for wanted in ("A title", "Holds", "Largest tension", "kN", "Warning"):
         assert wanted in texts
+    assert [cell.value for cell in cells if cell.data_type == "n"] == [12.3]
     targets = {cell.hyperlink.location.rpartition("!")[0].strip("'") for cell in cells if cell.hyperlink}
     assert targets == set(book.sheetnames[1:])
     assert any("LWL: Lines [at rest]" in text for text in texts)
+
+
+@pytest.mark.parametrize("language", ["en", "ja"])
+def test_numbers_of_the_first_page_and_of_criteria_are_numbers_with_unit_and_bound_beside(language):
+    texts = (
+        "6.14 tf",
+        "at least 4.57°",
+        f"{MINUS}0.0152",
+        "at most 2.50×10⁻⁵ kN·m/rad",
+        "∞",
+        "DN 300",
+        DASH,
+        "36.5 %",
+    )
+    wanted = [
+        (6.14, "tf", None),
+        (4.57, "°", ("at least", "以上")),
+        (-0.0152, None, None),
+        (2.5e-5, "kN·m/rad", ("at most", "以下")),
+        ("inf", None, None),
+        ("DN 300", None, None),
+        (None, None, None),
+        (36.5, "%", None),
+    ]
+    rows = [(value, unit, bound and bound[language == "ja"]) for value, unit, bound in wanted]
+    criteria = Table(
+        "criteria",
+        "Criteria",
+        (
+            Column("Criterion", [f"number {row}" for row in range(len(texts))]),
+            Column("Limit", texts, quantities=True),
+            Column("Found", ["1.46e-05"] * len(texts), quantities=True),
+        ),
+    )
+    numbers = KeyFigures(tuple(KeyFigure(f"label {row}", text, "detail") for row, text in enumerate(texts)))
+    book = _read(Document("T", "", "converged", "", (Section("s", "S", (numbers, criteria)),), language=language))
+    summary = list(book.worksheets[0].iter_rows(values_only=True))
+    found = [row[1:4] for row in summary if str(row[0]).startswith("Label ")]
+    sheet = list(book.worksheets[1].iter_rows(min_row=2, values_only=True))
+    assert found == rows
+    assert [row[1:4] for row in sheet] == rows and {row[4] for row in sheet} == {1.46e-5}
+    heads = [cell.value for cell in book.worksheets[1][1] if cell.value]
+    assert len(heads) == len(set(heads)) == 5 and heads[2].startswith(heads[1])
+
+
+@pytest.mark.parametrize("unit", ["N", "m", "rad", "1", "N m/rad", "kg/m3", "m3/s"])
+def test_a_quantity_is_read_as_it_was_written(unit):
+    for value in (1.5e-9, 0.0, -0.031234, 7.0, 123.456, -98765.4, 4.2e9, math.inf, -math.inf):
+        shown = display_unit(unit, value)
+        number, name = read_quantity(format_quantity(value, unit, digits=9))
+        assert number == pytest.approx(value * shown.factor, rel=1e-8) and name == shown.pretty
+    assert math.isnan(read_quantity(format_quantity(math.nan, unit))[0])
+
+
+@pytest.mark.parametrize(
+    "text", ["", "A 3", "2 of 3", "1.2 to 1.4 m", "0.2.0", "3/4", "1 m, 2 m", "5–6 m", "1.8～2.3", "12 h 5"]
+)
+def test_other_texts_are_no_quantity(text):
+    assert read_quantity(text) is None
 
 
 def test_long_figures_keep_their_extremes_and_say_so():
@@ -115,7 +176,7 @@ def test_long_figures_keep_their_extremes_and_say_so():
     values = np.array([row[1] for row in rows[1:]], dtype=float)
     assert rows[0] == ("time [s]", "gauge [m]", "model [m]")
     assert len(values) <= LONGEST + 2 and values.max() == 7.0
-    assert any("every extreme kept" in str(row[2]) for row in book["Summary"].iter_rows(values_only=True))
+    assert any("every extreme kept" in str(row[4]) for row in book["Summary"].iter_rows(values_only=True))
     short = list(_read(_document(50))["Record"].iter_rows(values_only=True))
     assert len(short) == 51
 
@@ -250,6 +311,13 @@ def test_the_report_is_written_again_from_the_results(tmp_path):
     assert done.exit_code == 0, done.output
     assert (tmp_path / "again" / "report.html").read_text(encoding="utf-8") == first
     book = openpyxl.load_workbook(tmp_path / "again" / "report.xlsx")
+    shown = {row[0]: row for row in book["Summary"].iter_rows(values_only=True) if row[0]}
+    start = list(shown).index("Governing number")
+    assert sum(isinstance(row[1], float | int) for row in list(shown.values())[start:]) >= 3
+    heads, *rows = book["Identity checks"].iter_rows(values_only=True)
+    for label in ("Violation", "Tolerance"):
+        values = [row[heads.index(label)] for row in rows if row[0] and row[1]]
+        assert values and all(isinstance(value, float | int) or value in ("inf", "no figure") for value in values)
     tables = list((tmp_path / "again" / "report_tables").glob("*.csv"))
     assert len(book.sheetnames) > len(tables) and (tmp_path / "again" / "report.docx").exists()
     assert runner.invoke(app, ["report", str(tmp_path / "none.nc")]).exit_code == 2
