@@ -139,6 +139,8 @@ class _Book:
     ) -> None:
         """Write headed columns; the heads stay in sight."""
         sheet.freeze_panes(1, 0)
+        # numbers that are texts here are names: of units, of modes
+        sheet.ignore_errors({"number_stored_as_text": "A1:XFD1048576"})
         for number, (head, values) in enumerate(columns):
             sheet.write_string(0, number, head, self._head)
             widest = len(head) // 2

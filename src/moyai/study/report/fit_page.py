@@ -64,10 +64,10 @@ def compose(result: Result) -> Document:
         (
             Column("parameter", names),
             Column("unit", [unit or DASH for unit in units]),
-            Column("value", [_shown(row[2], row[3]) for row in rows]),
-            Column("standard error", [f"{row[3]:.2g}" for row in rows]),
-            Column("95 % from", [_shown(row[4], row[3]) for row in rows]),
-            Column("95 % to", [_shown(row[5], row[3]) for row in rows]),
+            Column("value", [_shown(row[2], row[3]) for row in rows], quantities=True),
+            Column("standard error", [f"{row[3]:.2g}" for row in rows], quantities=True),
+            Column("95 % from", [_shown(row[4], row[3]) for row in rows], quantities=True),
+            Column("95 % to", [_shown(row[5], row[3]) for row in rows], quantities=True),
         ),
     )
     unit = _unit(found)

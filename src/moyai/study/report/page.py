@@ -169,7 +169,7 @@ def _found(pages: StudyPages) -> tuple[Block, ...]:
         return ()
     columns = [Column("Case", [str(one.index) for one in found])]
     columns += [
-        Column(axis.name.replace("_", " "), [pages.labels(one.index)[n] for one in found])
+        Column(axis.name.replace("_", " "), [pages.labels(one.index)[n] for one in found], quantities=True)
         for n, axis in enumerate(pages.axes)
     ]
     if found[0].objective is not None:
@@ -201,7 +201,11 @@ def _governing(pages: StudyPages) -> tuple[Block, ...]:
             *([] if utilised else [Column("Unit", _units(pages))]),
             Column("Case", [str(one.index) for one in pages.governing]),
             *(
-                Column(axis.name.replace("_", " "), [pages.labels(one.index)[n] for one in pages.governing])
+                Column(
+                    axis.name.replace("_", " "),
+                    [pages.labels(one.index)[n] for one in pages.governing],
+                    quantities=True,
+                )
                 for n, axis in enumerate(pages.axes)
             ),
             Column("Replay", ["open" if link else "not run again" for link in links], links=links),
@@ -346,7 +350,7 @@ def _extremes(pages: StudyPages) -> tuple[Block, ...]:
         units = str(value.attrs.get("units", "1"))
         places = list(np.ndindex(*value.shape))
         columns = [
-            Column(str(dim), [_label(pages, str(dim), value, place[n]) for place in places])
+            Column(str(dim), [_label(pages, str(dim), value, place[n]) for place in places], quantities=True)
             for n, dim in enumerate(value.dims)
         ]
         for name, label in (
@@ -366,7 +370,7 @@ def _extremes(pages: StudyPages) -> tuple[Block, ...]:
         life = group["life"]
         places = list(np.ndindex(*life.shape))
         columns = [
-            Column(str(dim), [_label(pages, str(dim), life, place[n]) for place in places])
+            Column(str(dim), [_label(pages, str(dim), life, place[n]) for place in places], quantities=True)
             for n, dim in enumerate(life.dims)
         ]
         columns.append(Column("Life [years]", [float(life.values[place]) for place in places]))
@@ -381,7 +385,7 @@ def _extremes(pages: StudyPages) -> tuple[Block, ...]:
         units = str(level.attrs.get("units", "1"))
         places = list(np.ndindex(*level.shape[:-1]))
         columns = [
-            Column(str(dim), [_label(pages, str(dim), level, place[n]) for place in places])
+            Column(str(dim), [_label(pages, str(dim), level, place[n]) for place in places], quantities=True)
             for n, dim in enumerate(level.dims[:-1])
         ]
         for at, years in enumerate(level.coords["return_period"].values):
@@ -411,7 +415,9 @@ def _matrix(pages: StudyPages, names: tuple[str, ...]) -> tuple[Block, ...]:
         blocks.append(Paragraph(f"{len(chosen)} of {count} cases: failures and the largest. All are in study.csv."))
     columns = [Column("Case", [str(index) for index in chosen])]
     for n, axis in enumerate(pages.axes):
-        columns.append(Column(axis.name.replace("_", " "), [pages.labels(int(index))[n] for index in chosen]))
+        columns.append(
+            Column(axis.name.replace("_", " "), [pages.labels(int(index))[n] for index in chosen], quantities=True)
+        )
     columns.append(
         Column("Status", [_WORDS.get(str(pages.status[index]), str(pages.status[index])) for index in chosen])
     )
