@@ -83,3 +83,22 @@ def test_every_validation_page_has_a_table_of_evidence():
             continue
         rows = [line for line in path.read_text(encoding="utf-8").splitlines() if line.lstrip().startswith("|")]
         assert len(rows) >= 3, f"{path.name} has no table"
+
+
+#: How work went, where a page of evidence has to say a result or a limit.
+_DIARY = re.compile(
+    r"not done\b|not (?:yet )?(?:built|repaired)|: repaired|\ban earlier (?!one\b)|\bin (?:the same|\w+) runs?\s*[|)]"
+    r"|\btoday\b|busy machine|\. Before[, ]|\b(?:is|was|were) (?:not )?at hand\b",
+    re.IGNORECASE,
+)
+
+
+def test_validation_pages_say_results_and_limits_not_how_the_work_went():
+    assert _DIARY.search("| MoorPy in the same run |") and _DIARY.search("500 times (480 to 520 in four runs), equal")
+    assert _DIARY.search("It was\nnot built.".replace("\n", " ")) and not _DIARY.search("goes on from an earlier one")
+    found = {}
+    for path in sorted((DOCS / "validation").glob("*.md")):
+        words = _DIARY.findall(" ".join(path.read_text(encoding="utf-8").split()))
+        if words:
+            found[path.name] = words
+    assert not found, f"diary in docs/validation: {found}"
