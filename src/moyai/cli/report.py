@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from moyai.cli.console import OK, Spoken, guard, print_json, progress_bars, rich_console
+from moyai.cli.console import OK, Spoken, guard, print_json, progress_bars, rich_console, tell
 from moyai.core.errors import InputError
 from moyai.language import speak
 
@@ -46,6 +46,7 @@ def report(
     vtk: Annotated[
         bool, typer.Option("--vtk", help="Write structures in space over time as VTK too (ParaView).")
     ] = False,
+    xlsx: Annotated[bool, typer.Option("--xlsx", help="The workbook report.xlsx, which is always written.")] = True,
     units: Units = None,
     language: Language = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, faults included.")] = False,
@@ -75,6 +76,11 @@ def report(
             files = write_report(
                 result, folder, pdf=pdf, docx=docx, template=template, dxf=dxf, vtk=vtk, document=document
             )
+        endings = {path.suffix for path in files}
+        if vtk and ".pvd" not in endings:
+            tell("--vtk: the report shows no structure in space, no file is written")
+        if dxf is not None and ".dxf" not in endings:
+            tell("--dxf: the report shows no drawing to scale, no file is written")
         if as_json:
             figures = figure_records(key_figures(result, document))
             print_json({"key_figures": figures, "files": list(map(str, files)), "faults": []})

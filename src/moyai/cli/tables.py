@@ -95,7 +95,7 @@ def print_summary(
     """Print what a run gave: numbers, criteria, what limits them (each kind once), both badges, files."""
     from moyai.report.first_page import badges, units_of
     from moyai.report.notices import first_page_notices, grouped
-    from moyai.report.systems import UNITS_NOTES
+    from moyai.report.systems import UNITS_NOTES, displayed_in
 
     figures = key_figures(result, document)
     if figures:
@@ -115,7 +115,9 @@ def print_summary(
         console.print(said(f"{len(result.checks) - len(failed)} of {len(result.checks)} identity checks passed"))
     if units := UNITS_NOTES.get(units_of(result)):
         console.print(said(units), markup=False, soft_wrap=True)
-    for badge in badges(result):
+    with displayed_in(units_of(result)):
+        shown_badges = badges(result)
+    for badge in shown_badges:
         line = f"{badge.label}: {badge.word.lower()}" + (f": {badge.message}" if badge.message else "")
         console.print(said(line), markup=False, soft_wrap=True)
     console.print(f"{seconds:.1f} s", markup=False)

@@ -320,7 +320,7 @@ def judge(
         reasons: dict[str, list[str]] = {}
         for item in open_ones:
             reasons.setdefault(item.reason, []).append(item.criterion.words)
-        message = "; ".join(f"{', '.join(names)}: {reason}" for reason, names in reasons.items())
+        message = "; ".join(f"{', '.join(dict.fromkeys(names))}: {reason}" for reason, names in reasons.items())
         return Verdict("not judged", message, judgements)
     return Verdict("holds", _holding([item.criterion for item in found]) + _narrow(found), judgements)
 
@@ -432,8 +432,8 @@ def _judge_one(criterion: Criterion, headline: Headline) -> Judgement:
         return _judge_one(criterion, replace(headline, band=None))
     proves = not headline.bound or (headline.bound == criterion.sense) == good
     if not proves:
-        reason = f"only a bound is known ({headline.bound} this value)"
-        return Judgement(criterion, value, "not judged", reason, headline.bound)
+        found = Judgement(criterion, value, "not judged", "", headline.bound)
+        return replace(found, reason=f"only a bound is known ({found.shown_bound} this value)")
     outcome: Outcome = "holds" if good else "does not hold"
     remedy = "" if good else _more_realisations(criterion, headline, value)
     return Judgement(criterion, value, outcome, headline.where, headline.bound, headline.judged_on, remedy)

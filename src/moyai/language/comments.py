@@ -9,7 +9,7 @@ from moyai.language.current import said, spoken_language
 
 _COMMENT = re.compile(r"^([^#\n]*?)(\s*)#(\s*)(\S.*?)$", re.MULTILINE)
 # a key or a command that is commented out, with or without a comment of its own
-_CODE = re.compile(r"^(- |\{)|^[\w.]+:( |$)|^moyai |^yaml-language-server")
+_CODE = re.compile(r"^(- |\{)|^[a-z_][\w.]*:( |$)|^moyai |^yaml-language-server")
 
 
 def with_comments(text: str) -> str:

@@ -24,7 +24,7 @@ from moyai.report.document import (
 )
 from moyai.report.formatting import DASH, display_unit, format_number, format_percent
 from moyai.report.input_line import input_line
-from moyai.report.systems import UNITS_NOTES
+from moyai.report.systems import UNITS_NOTES, words_in_system
 
 COMPUTATION: dict[str, tuple[str, Tone]] = {
     "converged": ("Converged", "good"),
@@ -56,7 +56,7 @@ def badges(result: Result) -> tuple[Badge, ...]:
     found = [Badge("Computation", word, result.message, tone)]
     if result.verdict.message:
         word, tone = DESIGN[result.verdict.outcome]
-        found.append(Badge("Design", word, sentence(result.verdict.message), tone))
+        found.append(Badge("Design", word, sentence(words_in_system(result.verdict.message)), tone))
     return tuple(found)
 
 

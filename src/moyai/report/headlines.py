@@ -12,6 +12,7 @@ from moyai.core.results import Result
 from moyai.report.document import KeyFigure, KeyFigures
 from moyai.report.first_page import largest_by_unit, limit_and_found
 from moyai.report.formatting import DASH, display_unit, format_number
+from moyai.report.systems import words_in_system
 
 RATIO = "1"
 
@@ -79,9 +80,8 @@ def _quantity(value: float, unit: str, like: float) -> str:
 def _figure(headline: Headline, judged: list[Judgement], scale: Mapping[str, float]) -> KeyFigure:
     like = scale.get(headline.unit, 0.0)
     worst = max(judged, key=lambda item: (_severity(item), _use(item)), default=None)
-    detail = "; ".join(
-        part for part in (band_text(headline, like), headline.detail, headline.where, headline.model) if part
-    )
+    remark = words_in_system(headline.detail)
+    detail = "; ".join(part for part in (band_text(headline, like), remark, headline.where, headline.model) if part)
     if worst is None:
         return KeyFigure(headline.label, headline_text(headline, like), detail)
     judgement: Literal["", "good", "caution", "bad"] = {

@@ -13,7 +13,7 @@ from moyai.core.units import parse_unit
 SYSTEMS = ("SI", "tf")
 UNITS_NOTES = {
     "tf": "Units: forces in tf or kgf (1 tf = 9806.65 N), moments, stiffness and pressures accordingly. "
-    "Texts of notices, remarks and verdicts are in SI, as are the case and results.nc."
+    "Texts of notices are in SI, as are the case and results.nc."
 }
 """What a page says of units that are not SI."""
 _system: ContextVar[str] = ContextVar("system", default="SI")
@@ -70,3 +70,28 @@ def in_tonnes_force(unit: str, largest: float) -> tuple[str, float] | None:
             return None  # a unit of the user's own file
     small, large = found
     return large if largest * large[1] >= _LEAST_TONNE else small
+
+
+#: A number with a force, moment, load per length or pressure behind it, as remarks have it.
+_QUANTITY = re.compile(r"(?<![\w.])(-?\d+(?:\.\d+)?(?:e[+-]?\d+)?) ([kMG]?(?:N|Pa)(?:/m2|/m| m)?)(?![\w/·^])")
+
+
+def words_in_system(text: str) -> str:
+    """Return a remark with its forces in the system of units that is shown, to the digits that it has."""
+    return text if _system.get() == "SI" else _QUANTITY.sub(_in_system, text)
+
+
+def _in_system(match: re.Match[str]) -> str:
+    value = float(match[1]) * float(parse_unit(match[2]).factor)
+    stored = "N m" if match[2].endswith(" m") else re.sub("^[kMG]", "", match[2])
+    found = in_tonnes_force(stored, abs(value))
+    if found is None:
+        return match[0]
+    shown, factor = found
+    digits = max(len(match[1].lstrip("-").partition("e")[0].replace(".", "").strip("0")), 3)
+    return f"{_plain(value * factor, digits)} {shown}"
+
+
+def _plain(value: float, digits: int) -> str:
+    text = f"{value:.{digits}g}"
+    return f"{value:.0f}" if "e" in text and abs(value) >= 1.0 else text

@@ -96,7 +96,8 @@ def write_report(
     dxf : {"m", "mm"}, optional
         Write every drawing to scale as ``<name>_drawings/<key>.dxf`` in this unit; needs the extra ``moyai[dxf]``.
     vtk : bool
-        Write every structure in space over time as ``<name>_vtk/<key>.pvd`` with a file a moment.
+        Write every structure in space over time as ``<name>_vtk/<key>.pvd`` with a file a moment; nothing where the
+        report shows none.
     name : str
         Name of the files without ending; the tables go to ``<name>_tables``.
     units : {"SI", "tf"}, optional
@@ -133,8 +134,6 @@ def write_report(
         from moyai.report.vtk import document_vtk
 
         moments = list(document_vtk(document))
-        if not moments:
-            raise InputError("the report shows no structure in space", path="--vtk", remedy="leave out --vtk")
     written = [write_whole(folder / f"{name}.html", render_html(document).encode("utf-8"))]
     if pdf:
         from moyai.report.pdf import render_pdf

@@ -18,7 +18,7 @@ from moyai.cli.main import app
 from moyai.core.errors import InputError
 from moyai.report.encoding import column_unit
 from moyai.report.formatting import display_unit, format_quantity
-from moyai.report.systems import displayed_in
+from moyai.report.systems import displayed_in, words_in_system
 from moyai.report.workbook import render_workbook
 from moyai.report.writer import compose_document, write_report
 
@@ -62,7 +62,7 @@ def test_every_file_of_the_report_is_in_tonnes_force(tmp_path: Path) -> None:
     result = build(levels=ONE)
     files = write_report(result, tmp_path, units="tf")
     page = (tmp_path / "report.html").read_text(encoding="utf-8")
-    assert "Texts of notices, remarks and verdicts are in SI" in page
+    assert "Texts of notices are in SI" in page
     heads = [path.read_text(encoding="utf-8-sig").splitlines()[0] for path in files if path.suffix == ".csv"]
     assert any("[tf]" in head for head in heads)
     assert not [head for head in heads if re.search(r"\[[kM]?(N|Pa)\b", head)]
@@ -92,3 +92,14 @@ def test_a_case_says_its_units_and_keeps_its_hash() -> None:
     changed = case.replace("display", {"units": "tf"})
     assert changed.model.display.units == "tf"
     assert changed.case_hash == case.case_hash
+
+
+def test_forces_in_remarks_are_in_the_units_of_their_number() -> None:
+    said = "steady 3.97 kN; 18.5 kN of 300 kN; 228 N/m, 12.5 kN m; 0.05 kN; 3 m of 2.5 MPa; 0.5 rho, 12 knots"
+    assert words_in_system(said) == said
+    with displayed_in("tf"):
+        found = words_in_system(said)
+    assert (
+        found
+        == "steady 0.405 tf; 1.89 tf of 30.6 tf; 23.2 kgf/m, 1.27 tf m; 5.1 kgf; 3 m of 255 tf/m2; 0.5 rho, 12 knots"
+    )

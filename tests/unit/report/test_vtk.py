@@ -8,9 +8,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
-import pytest
 
-from moyai.core.errors import InputError
 from moyai.report.document import Document, Section
 from moyai.report.scene_3d import Body3D, Faces, Scene3D, animation_3d
 from moyai.report.vtk import document_vtk, frame_vtp
@@ -73,9 +71,21 @@ def test_the_collection_names_every_moment(tmp_path: Path) -> None:
     assert parts == [["part", "name"], ["0", "rope"], ["1", "chain <a>"], ["2", "sheet"], ["3", "box"]]
 
 
-def test_a_report_without_structures_in_space_says_so(tmp_path: Path) -> None:
+def test_a_report_without_structures_in_space_is_written_all_the_same(tmp_path: Path) -> None:
     from synthetic_result import build
 
-    with pytest.raises(InputError, match="no structure in space"):
-        write_report(build(time=False), tmp_path, vtk=True)
-    assert list(tmp_path.iterdir()) == []
+    files = write_report(build(time=False), tmp_path, vtk=True)
+    assert files and not any(path.suffix in (".pvd", ".vtp") for path in files)
+
+
+def test_the_command_says_what_there_was_no_file_for(tmp_path: Path) -> None:
+    from synthetic_result import build
+    from typer.testing import CliRunner
+
+    from moyai.cli.main import app
+
+    build(time=False).write(tmp_path / "results.nc")
+    ran = CliRunner().invoke(app, ["report", str(tmp_path / "results.nc"), "--vtk", "--xlsx", "--json"])
+    assert ran.exit_code == 0, ran.output
+    assert "no structure in space" in ran.output + ran.stderr
+    assert (tmp_path / "report.xlsx").exists()

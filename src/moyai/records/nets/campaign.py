@@ -136,6 +136,16 @@ def measure_nets(campaign: NetCampaign, progress: Progress = silent) -> NetFindi
     notices: list[Notice] = []
     for run in campaign.runs:
         notices.extend(record_notices(run))
+    if campaign.calibration == 0.0:
+        notices.append(
+            Notice(
+                "net-calibration",
+                "the intervals of coefficients count no error of the gauge's calibration: a share of it is one of the "
+                "coefficients as well",
+                severity="warning",
+                remedy="give 'calibration_error', for instance 0.01",
+            )
+        )
     search, vibration = _vibration(campaign, still, notices)
     total = len(still) + len(moving)
     tows = []
