@@ -87,7 +87,8 @@ def test_every_validation_page_has_a_table_of_evidence():
 
 #: How work went, where a page of evidence has to say a result or a limit.
 _DIARY = re.compile(
-    r"not done\b|not (?:yet )?(?:built|repaired)|: repaired|\ban earlier (?!one\b)|\bin (?:the same|two|three|four|five|six) runs?\s*[|)]"
+    r"not done\b|not (?:yet )?(?:built|repaired)|: repaired|\ban earlier (?!one\b)"
+    r"|\bin (?:the same|two|three|four|five|six) runs?\s*[|)]"
     r"|\btoday\b|busy machine|\. Before[, ]|\b(?:is|was|were) (?:not )?at hand\b",
     re.IGNORECASE,
 )
