@@ -219,7 +219,7 @@ def test_an_impact_carries_the_band_of_its_models_and_of_the_drift(tmp_path: Pat
     assert float(limits["speed_limit_low"]) < float(limits["speed_limit"]) < float(limits["speed_limit_high"])
     limit = headline(result, "limit_current")
     assert limit.value == pytest.approx(float(limits["speed_limit_low"]), rel=1e-12)
-    assert "range of the impact alone" in limit.detail
+    assert "range of the impact and of the steady part" in limit.detail
 
 
 @pytest.mark.parametrize("name", EVERY)

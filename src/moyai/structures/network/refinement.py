@@ -290,9 +290,9 @@ def not_converged(found: PeakSensitivity, goal: float, line: str, why: str, segm
     by_step = abs(found.half_step - found.peak)
     half, mesh, calm = (spoken(v, "N", like=found.peak) for v in (found.half_step, found.double_mesh, found.damped))
     damped = f", {calm} where bars are damped as well" if math.isfinite(found.damped) else ""
+    finer = f"{2 * segments} to {4 * segments} segments" if segments else "a finer net"
     remedy = (
-        f"{2 * segments} to {4 * segments} segments, more internal damping (damping_ratio: {DAMPING:g} of critical), "
-        "or a line that does not go slack"
+        f"{finer}, more internal damping (damping_ratio: {DAMPING:g} of critical), or a line that does not go slack"
         if by_mesh >= by_step
         else "a shorter settings.step, or the internal damping that the line has"
     )
