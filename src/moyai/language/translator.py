@@ -77,8 +77,8 @@ class _Template:
             return "'" not in value
         if self.is_separator:
             return True
-        if self.source[0].strip() and self.source[0] in value:
-            return False  # the phrase begins again: a list of such phrases, not one within the other
+        if self.source[0].count(" ") > 1 and self.source[0] in value:
+            return False  # several words begin again: a list of such phrases, not one within the other
         first = (
             not self.source[0] and number == self.order[0]
         )  # what stands before a colon is the place of the sentence
