@@ -146,7 +146,12 @@ def test_what_is_no_job_of_this_folder_is_left_out(queue: Any, tmp_path: Path, c
     place = folder.output / "a"
     until(jobs.add(Order("run", "a", place, folder.root, folder.root / "a.yaml")), "done")
     assert len(kept_jobs(folder)) == 1
-    content = json.loads((place / NAME).read_text())
+    for _ in range(500):  # the file is written once more when the job has ended
+        content = json.loads((place / NAME).read_text())
+        if content["state"] == "done":
+            break
+        time.sleep(0.02)
+    assert content["state"] == "done"
     (place / NAME).write_text(json.dumps(content | changes))
     assert kept_jobs(folder) == []
     for text in ("", "[]", "[" * 5000, "{}", "null"):
