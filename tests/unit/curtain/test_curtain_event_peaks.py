@@ -90,6 +90,12 @@ def test_growth_with_the_cells_is_continued_as_a_power_to_ten_times_smaller_ones
     assert item.outcome == "holds" and item.value == pytest.approx(peak.ceiling / 1e7)
 
 
+def test_meshes_that_differ_in_one_direction_alone_have_a_growth_too():
+    runs = [Sample("calm", f"calm, {down}", (2, down), 0, dict.fromkeys(COMPONENTS, 1e3 * down)) for down in (3, 4)]
+    peak = event_peak(runs, "calm", "upper cable")
+    assert peak.ceiling == pytest.approx(4e3 * 10.0)
+
+
 def test_what_grows_with_the_cells_is_a_bound_and_warned_of():
     found = governing_peaks(storm(skirt=(10e3, 11e3)))
     assert {name: event for name, (event, _) in found.items()} == {"upper cable": "storm", "skirt": "storm"}

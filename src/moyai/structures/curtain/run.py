@@ -10,7 +10,7 @@ from moyai.core.collected import Collected
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
 from moyai.core.validity import Notice
-from moyai.sea.states import IrregularSea, RegularSea
+from moyai.sea.states import RegularSea
 from moyai.structures.curtain.analyses.anchor import anchor_checks, anchor_dataset, anchor_notices
 from moyai.structures.curtain.analyses.dynamic import DynamicAnswer, dynamic_answer
 from moyai.structures.curtain.analyses.impact import ImpactAnswer, impact_checks, impact_notices, solve_impact
@@ -28,7 +28,7 @@ from moyai.structures.curtain.hierarchy import CYCLES, hierarchy, hierarchy_data
 from moyai.structures.curtain.limit_headlines import weaker_currents
 from moyai.structures.curtain.model import CurtainProblem
 from moyai.structures.curtain.seas.loads import drag_curve
-from moyai.structures.curtain.seas.states import DesignWave, design_waves, significant_height
+from moyai.structures.curtain.seas.states import DesignWave, design_waves, longest_sea, significant_height
 from moyai.structures.curtain.variables import VOCABULARY
 
 if TYPE_CHECKING:
@@ -175,8 +175,9 @@ def _level_steps(
     yield
     if "limits" in settings.analyses:
         lost = _lost_depth(collected.groups.get(f"{root}/statics"), unit.depth)
-        lasting = max((sea.duration for sea in seas if isinstance(sea, IrregularSea)), default=None)
-        collected.groups[f"{root}/limits"] = limits_dataset(unit, settings, proportions, curve, progress, lost, lasting)
+        collected.groups[f"{root}/limits"] = limits_dataset(
+            unit, settings, proportions, curve, progress, lost, longest_sea(seas)
+        )
         yield
         if settings.limits.rose_step is not None:
             collected.groups[f"{root}/limits/rose"] = rose_dataset(unit, settings, seas, progress)

@@ -126,7 +126,11 @@ def event_peak(samples: Sequence[Sample], event: str, component: str) -> EventPe
 def _growth(meshes: Sequence[tuple[int, int]], means: Sequence[float]) -> float:
     """Return the steepest power of the cells along by which the mean grows from mesh to mesh, at least 0."""
     steps = zip(meshes, meshes[1:], means, means[1:], strict=False)
-    return max(0.0, *(math.log(b / a) / math.log(fine[0] / coarse[0]) for coarse, fine, a, b in steps))
+    # meshes of few cells may differ in one direction alone
+    return max(
+        0.0,
+        *(math.log(b / a) / math.log(max(fine[0] / coarse[0], fine[1] / coarse[1])) for coarse, fine, a, b in steps),
+    )
 
 
 def _shared_means(by_mesh: Mapping[tuple[int, int], Sequence[Sample]], component: str) -> list[float]:

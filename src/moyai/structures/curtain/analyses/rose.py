@@ -22,7 +22,7 @@ from moyai.structures.curtain.analyses.limits import CountedLimits, fastest_wate
 from moyai.structures.curtain.assembly import LevelCurtain
 from moyai.structures.curtain.model import Settings
 from moyai.structures.curtain.seas.loads import DragCurve, drag_curve
-from moyai.structures.curtain.seas.states import significant_height
+from moyai.structures.curtain.seas.states import longest_sea, significant_height
 from moyai.structures.curtain.variables import labelled
 
 if TYPE_CHECKING:
@@ -65,6 +65,8 @@ class RoseLimits:
     settings: Settings
     #: Loads at rest over the speed of the water along the normal.
     curve: DragCurve
+    #: Of the seas that snaps are looked for in [s]; see :func:`sea_loads`.
+    duration: float | None = None
     _units: dict[float, tuple[LevelCurtain, ImpactAnswer | None]] = field(default_factory=dict, repr=False)
     _found: dict[tuple[float, float], Held] = field(default_factory=dict, repr=False)
 
@@ -81,7 +83,7 @@ class RoseLimits:
     def _search(self, normal: float, angle: float) -> Held:
         unit, answer = self._turned(normal)
         settings = replace(self.settings, limits=replace(self.settings.limits, wave_angle=angle))
-        counted = CountedLimits(unit, settings, sea_loads(unit, settings, answer, self.curve))
+        counted = CountedLimits(unit, settings, sea_loads(unit, settings, answer, self.curve, self.duration))
         found = []
         for share in _SHARES:
             limit, bound = counted.height(max(share * unit.surface_speed, _SLOWEST))
@@ -152,7 +154,8 @@ def rose_dataset(unit: LevelCurtain, settings: Settings, seas: Sequence[SeaState
     headings = own + step * np.arange(2 * half)
     square = turned_to(unit, unit.site.flow_heading)
     facing = replace(settings, limits=replace(settings.limits, wave_angle=0.0))
-    rose = RoseLimits(unit, settings, drag_curve(square, fastest_water(square, facing, ())))
+    curve = drag_curve(square, fastest_water(square, facing, ()))
+    rose = RoseLimits(unit, settings, curve, longest_sea(seas))
     rows, in_seas = [], []
     for count, normal in enumerate(normals):
         progress(f"limit rose, {unit.name}", count, half)

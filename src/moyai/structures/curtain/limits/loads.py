@@ -33,6 +33,8 @@ _PAPER_RATIO = 1.0
 _STEP, _STRAIGHT = 0.1, 1.0 - 1e-9
 #: Of the seas that snaps are looked for in; peak periods that are run of them.
 _PEAK_ENHANCEMENT, _PERIODS = 3.3, 300.0
+#: Acting over given height below which waves run along the curtain and draw it taut nowhere.
+_ALONG = 1e-6
 
 
 def impact_load(unit: LevelCurtain, answer: ImpactAnswer, settings: Settings) -> ImpactLoad:
@@ -177,6 +179,8 @@ def _snaps(unit: LevelCurtain, settings: Settings, answer: ImpactAnswer, duratio
         return tuple((sea, waves_of(unit, given, sea)) for sea in drawn)
 
     def realise(speed: float, height: float) -> Array:
+        if not float(effective_height(height, limits.wave_angle, rule, 1.0)) > _ALONG * height:
+            return np.zeros(2)
         there = replace(unit, surface_speed=speed)
         tops = np.array(
             [

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from moyai.sea.spectra import goda_peak_period
@@ -66,3 +67,8 @@ def significant_height(sea: SeaState) -> float:
         return sea.height
     # H_1/3 of a spectrum made from it differs a little from 4 sqrt(m0)
     return float(sea.spectrum.parameters.get("significant_height", sea.spectrum.significant_height))
+
+
+def longest_sea(seas: Sequence[SeaState]) -> float | None:
+    """Return the duration of the longest irregular sea [s]; None without one."""
+    return max((sea.duration for sea in seas if isinstance(sea, IrregularSea)), default=None)
