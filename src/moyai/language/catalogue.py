@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import ast
+import json
 import re
 from collections.abc import Iterator
 from functools import cache
@@ -61,7 +61,7 @@ def entries(text: str) -> Iterator[tuple[str, str]]:
         keyword, quote, rest = line.partition('"')
         if line.startswith("#") or not quote:
             continue
-        words = str(ast.literal_eval(quote + rest))
+        words = str(json.loads(quote + rest))  # the escapes of PO files are those of JSON
         if keyword.startswith("msgid"):
             if parts:
                 yield source, "".join(parts[1:])
