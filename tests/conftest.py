@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from moyai.core.processes import collect_rarely
 from moyai.core.vocabulary import Strictness
 
 # A name of a result that no vocabulary declares is an error in every test
@@ -14,9 +15,8 @@ Strictness.names = True
 # Workers, runs and the processes that tests start share their bytecode: to compile it takes longer than most tests
 sys.dont_write_bytecode = False
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
-# What is imported and collected stays to the end: collecting garbage as often as Python does went through it again and
-# again, a fifth of all time
-gc.set_threshold(100_000, 50, 50)
+# To look for garbage as often as Python does takes a fifth of all time: what is imported and collected stays to the end
+collect_rarely()
 # The workers of the tests take all cores
 os.environ.setdefault("MOYAI_COMPILE_PROCESSES", "0")
 # Messages are held against English, whatever the locale

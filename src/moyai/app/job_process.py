@@ -14,7 +14,7 @@ from typing import Any
 
 from moyai.app.draft import Run
 from moyai.core.errors import CaseError, MoyaiError
-from moyai.core.processes import die_with_parent
+from moyai.core.processes import collect_rarely, die_with_parent
 from moyai.core.progress import Pace, duration_words
 from moyai.language import speak
 from moyai.language.faults import fault_text
@@ -51,6 +51,7 @@ def work(pipe: Any, stop: Any, order: Order, run: Run) -> None:
     sys.stdout = sys.stderr = open(os.devnull, "w")  # noqa: SIM115 - as long as the process
     speak(order.language)
     die_with_parent()
+    collect_rarely()
     pace, told = Pace(), [0.0]
 
     def listen(what: str, done: float, total: float) -> None:

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from moyai.app.draft import VERSION, Drafts, Run, Wish
-from moyai.core.processes import die_with_parent
+from moyai.core.processes import collect_rarely, die_with_parent
 from moyai.language import said, speak, spoken_in
 
 LONGEST = 120.0
@@ -146,6 +146,7 @@ def _serve(pipe: Any, run: Run, stop: Any, language: str) -> None:
     """Answer wishes until the pipe closes; Ctrl-C is the parent's business."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     die_with_parent()
+    collect_rarely()
     warm_up()
     speak(language)
 

@@ -8,7 +8,6 @@ of date costs time, never a number: what it lacks is compiled by the run.
 
 from __future__ import annotations
 
-import gc
 import os
 import re
 import subprocess
@@ -19,6 +18,8 @@ from dataclasses import dataclass
 from importlib import import_module
 from importlib.resources import files
 from typing import Any
+
+from moyai.core.processes import collect_rarely
 
 #: Name of the environment variable with the number of further processes; 0 compiles in the run alone.
 PROCESSES = "MOYAI_COMPILE_PROCESSES"
@@ -167,7 +168,7 @@ def compiling_ahead(kind: str) -> Iterator[None]:
 
 
 if __name__ == "__main__":
-    gc.set_threshold(100_000, 50, 50)
+    collect_rarely()
     place, count, *kinds = sys.argv[1:]
     lists = parts_of(listed_kernels(*kinds), int(count))
     # who is done early goes on with the parts behind his own

@@ -12,7 +12,7 @@ from multiprocessing.connection import wait
 from typing import Any
 
 from moyai.core.errors import InputError
-from moyai.core.processes import die_with_parent
+from moyai.core.processes import collect_rarely, die_with_parent
 from moyai.core.progress import Progress, silent
 from moyai.study.axes import Combination
 from moyai.study.ledger import Record
@@ -66,7 +66,7 @@ def run_processes(task: Task, cases: tuple[Combination, ...], workers: int) -> I
                     if waiting and not worker.busy:
                         worker.give(*waiting.popleft())
                 ready = wait([worker.pipe for worker in crew if worker.busy], timeout=1.0)
-                for place, worker in enumerate(crew):
+                for worker in tuple(crew):
                     if worker.pipe not in ready:
                         continue
                     answer = worker.take()
@@ -91,7 +91,9 @@ def run_processes(task: Task, cases: tuple[Combination, ...], workers: int) -> I
                     else:
                         waiting.append((combination, deaths + 1))
                     worker.end()
-                    crew[place] = _Worker(context, task, cancel)
+                    crew.remove(worker)
+                    if waiting:
+                        crew.append(_Worker(context, task, cancel))
         finally:
             cancel.set()
             for worker in crew:
@@ -164,6 +166,7 @@ def _serve(pipe: Any, task: Task, cancel: Any) -> None:
     # Ctrl-C reaches every process of the terminal; the parent decides what happens then
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     die_with_parent()
+    collect_rarely()
     # Tells a case that kills its worker from a worker that cannot start
     with contextlib.suppress(OSError):
         pipe.send(_STARTED)

@@ -235,12 +235,13 @@ def test_rows_of_units_are_drawn_at_rest_then_in_waves_with_kept_coefficients(tm
 
     computed = hydrodynamics.solve_frequency
     monkeypatch.setattr(hydrodynamics, "solve_frequency", refuse)
-    for path, number in (
-        ("structure.roll_gyradius", "2.75"), ("structure.connectors[0].above_keel", "2.8"),
-        ("lines[0].segments[0].length", "58.4"), ("waves[1].significant_height", "1.4"), ("waves[0].height", "0.9"),
-    ):  # fmt: skip
-        checked, _, nominal, whole = drafts.answer(wish(tmp_path, text, edits={path: number}), silent)
-        assert nominal["nominal"] and whole["last"] and whole["analyses"] == ["statics", "frequency"]
+    edits = {
+        "structure.roll_gyradius": "2.75", "structure.connectors[0].above_keel": "2.8",
+        "lines[0].segments[0].length": "58.4", "waves[1].significant_height": "1.4", "waves[0].height": "0.9",
+    }  # fmt: skip
+    checked, _, nominal, whole = drafts.answer(wish(tmp_path, text, edits=edits), silent)
+    assert checked["faults"] == [] and all(number in checked["text"] for number in edits.values())
+    assert nominal["nominal"] and whole["last"] and whole["analyses"] == ["statics", "frequency"]
     monkeypatch.setattr(hydrodynamics, "solve_frequency", computed)
     draft = stages_of(parse_yaml(checked["text"]), "units")[-1]
     fresh = run(case_of(draft, tmp_path / "case.yaml"))

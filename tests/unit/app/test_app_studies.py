@@ -111,6 +111,7 @@ def test_a_study_runs_and_its_cases_are_opened(queue: Any, root: Path) -> None:
     assert makeable(root) == []
 
 
+@pytest.mark.slow  # jobs that are killed: test_app_jobs; studies that go on: test_study_execution
 @pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="no SIGKILL here")
 def test_a_study_that_was_killed_or_cancelled_goes_on(queue: Any, root: Path) -> None:
     (root / "study.yaml").write_text(STUDY.replace("One of a study", "slow"))

@@ -123,6 +123,7 @@ def test_all_periods_of_the_paper_agree_and_with_the_tangent_all_but_roll_in_lon
     assert ratios(result, "transmission_coefficient") == pytest.approx(1.0, abs=0.005)
     assert ratios(result, "motion_amplitude")[:, :2] == pytest.approx(1.0, abs=0.005)
     roll = ratios(result, "motion_amplitude")[:, 2]
+    # the longest wave has a third harmonic, which one harmonic does not know
     assert roll[:13] == pytest.approx(1.0, abs=0.01) and roll[13] == pytest.approx(1.0, abs=0.05)
     of_tangent = against_tangent(result)[:, 2]
     assert of_tangent[:11] == pytest.approx(1.0, abs=0.08)
@@ -156,16 +157,12 @@ def test_the_lines_alone_make_the_difference():
 
 def test_led_lines_give_the_motion_in_time_where_the_tangent_does_not():
     """No run in time stands behind the frequency domain: fairleads are led, and the body balances mean and harmonic."""
-    result = run(tank_model(0.04, (0.6, 1.2, 1.4, 1.6), restoring="equivalent"))
+    result = run(tank_model(0.04, (0.6, 1.4), restoring="equivalent"))
     assert result.status == "converged"
-    found = ratios(result, "motion_amplitude")
-    assert found[:, :2] == pytest.approx(1.0, abs=0.01)
-    assert found[:3, 2] == pytest.approx(1.0, abs=0.01)
-    # the longest wave has a third harmonic, which one harmonic does not know
-    assert found[3, 2] == pytest.approx(1.0, abs=0.05)
+    assert ratios(result, "motion_amplitude") == pytest.approx(1.0, abs=0.01)
     assert ratios(result, "transmission_coefficient") == pytest.approx(1.0, abs=0.005)
-    assert against_tangent(result)[2, 2] < 0.78
-    offset = [result.tree[f"SWL/{domain}/waves"].to_dataset()["mean_offset"].values[:3, 0] for domain in DOMAINS]
+    assert against_tangent(result)[1, 2] < 0.78
+    offset = [result.tree[f"SWL/{domain}/waves"].to_dataset()["mean_offset"].values[:, 0] for domain in DOMAINS]
     assert offset[0] == pytest.approx(offset[1], abs=5e-5)
     # the work of led lines is that of all forces, so that the far field keeps the energy
     energy = next(check for check in result.checks if check.name == "SWL, waves: energy of the moving body")
