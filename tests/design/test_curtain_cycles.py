@@ -38,7 +38,7 @@ STORM = "  - {name: storm, kind: jonswap, significant_height: 0.5 m, peak_period
 
 
 def daily(height: float) -> str:
-    return f"  - {{name: daily, kind: regular, height: {height} m, periods: [3 s, 4 s], heading_deg: 0}}"
+    return f"  - {{name: daily, kind: regular, height: {height} m, periods: [4 s], heading_deg: 0}}"
 
 
 @pytest.fixture(scope="module")

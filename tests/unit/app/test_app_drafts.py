@@ -225,7 +225,7 @@ def test_rows_of_units_are_drawn_at_rest_then_in_waves_with_kept_coefficients(tm
     pytest.importorskip("capytaine", reason="Capytaine is not installed")
     from moyai.structures.units import hydrodynamics
 
-    text = template("units").replace("panel_size: 2 m", "panel_size: 3.5 m").replace("count: 8", "count: 3")
+    text = template("units").replace("panel_size: 2 m", "panel_size: 4.5 m").replace("count: 8", "count: 3")
     drafts = Drafts(run, tmp_path / "kept")
     _, rest, _, _ = drafts.answer(wish(tmp_path, text), silent)
     assert rest["analyses"] == ["statics"] and not rest["last"]

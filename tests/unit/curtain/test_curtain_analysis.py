@@ -69,7 +69,8 @@ def flume_result(flume, tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def small(tmp_path_factory):
-    problem = problem_of(tmp_path_factory.mktemp("small"), SMALL)
+    few = SMALL.replace("  limits: {", "  waves: {realisations: 2}\n  limits: {speeds: [0.2 m/s, 0.7 m/s, 0.9 m/s], ")
+    problem = problem_of(tmp_path_factory.mktemp("small"), few)
     return problem, run(problem)
 
 
