@@ -127,9 +127,8 @@ def _text(name: str, text: str) -> Callable[[Path], list[Path]]:
 
 def _read_archive(name: str) -> Callable[[Path], Any]:
     def read(folder: Path) -> Any:
-        from moyai.sea.spectrum_archives import is_archive, read_archive
+        from moyai.sea.spectrum_archives import read_archive
 
-        is_archive(folder / name)
         return read_archive(folder / name)
 
     return read

@@ -27,16 +27,6 @@ class ShojiSolution:
     reduced_distance: float
 
 
-def modified_catenary_height(
-    horizontal_tension: float, reduced_distance: float, length: float, axial_stiffness: float, weight: float
-) -> float:
-    """Return zbar [m] of ``[eq:mooring-shoji]`` as printed, for given T_H [N], xbar [m], S [m], EA [N], w [N/m]."""
-    scale = horizontal_tension / weight
-    angle = reduced_distance / scale - weight * length / axial_stiffness
-    stretch = horizontal_tension * scale / (2.0 * axial_stiffness) * math.sinh(angle) ** 2
-    return scale * (math.cosh(angle) - 1.0) + stretch
-
-
 def solve_shoji(
     horizontal_distance: float, vertical_distance: float, length: float, axial_stiffness: float, weight: float
 ) -> ShojiSolution:

@@ -110,23 +110,6 @@ def read_archive(path: str | Path) -> SpectrumArchive:
         ) from None
 
 
-def is_archive(path: str | Path) -> bool:
-    """Whether a file looks like one that :func:`read_archive` reads."""
-    try:
-        head = Path(path).read_bytes()[:200]
-    except OSError:
-        return False
-    text = head.decode("latin-1").lstrip().lstrip("﻿")
-    return (
-        head[:3] == b"CDF"
-        or head[:4] == b"\x89HDF"
-        or text.upper().startswith("SWAN")
-        or "WAVEWATCH III SPECTRA" in text[:60]
-        or re.match(r"#?YY", text) is not None
-        or kind_of(path) != ""
-    )
-
-
 def mean_direction(density: Array, directions: Array, frequency: Array) -> float:
     """Return the mean direction of a 2-D spectrum (f, d) whose directions are where the waves come from [degrees]."""
     angle = np.radians(directions)

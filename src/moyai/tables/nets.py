@@ -173,11 +173,6 @@ class FoulingEntry:
     source: str
 
 
-def available_net_fouling() -> tuple[str, ...]:
-    """Return the names of the entries."""
-    return tuple(record["name"] for record in read_table(_FOULING))
-
-
 def net_fouling(name: str) -> FoulingEntry:
     """Return an entry of growth by its name.
 

@@ -8,13 +8,13 @@ import pytest
 
 from moyai.core.errors import InputError
 from moyai.tables.nets import (
-    available_net_fouling,
     available_net_materials,
     matsubara_net,
     matsubara_nets,
     net_fouling,
     net_material,
 )
+from moyai.tables.reader import read_table
 
 
 def test_geometric_solidities_of_the_ten_nets():
@@ -40,8 +40,8 @@ def test_materials_and_growth():
         assert 0.0 < material.modulus[0] <= material.modulus[1]
         assert 0.0 < material.strength[0] <= material.strength[1]
         assert 900.0 <= material.density <= 8600.0
-    for name in available_net_fouling():
-        entry = net_fouling(name)
+    for record in read_table("net_fouling.csv"):
+        entry = net_fouling(record["name"])
         # one factor each, never both
         assert math.isnan(entry.diameter_factor) != math.isnan(entry.drag_factor)
     assert net_fouling("ns9415").diameter_factor == 1.5
