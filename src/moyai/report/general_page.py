@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -49,13 +49,25 @@ def compose(result: Result) -> Document:
         blocks = group_blocks(group, path)
         if blocks:
             sections.append(Section(f"group-{path}", path, blocks))
-    sections.append(closing_section(result))
+    return page_of(result, str(root.attributes.get("structure", "")), sections)
+
+
+def page_of(result: Result, subtitle: str, sections: Iterable[Section]) -> Document:
+    """Return the report of a result: its sections that have blocks, then its checks and provenance.
+
+    Parameters
+    ----------
+    result : Result
+    subtitle : str
+        What the structure is, in a line.
+    sections : iterable of Section
+    """
     return Document(
         title=report_title(result),
-        subtitle=str(root.attributes.get("structure", "")),
+        subtitle=subtitle,
         status=result.status,
         message=result.message,
-        sections=tuple(sections),
+        sections=(*(section for section in sections if section.blocks), closing_section(result)),
         provenance=provenance(result),
     )
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from typing import Protocol, TypeVar
 
 from moyai.report.document import Block, Choice, Option, Paragraph
+from moyai.report.formatting import MINUS
 
 LEVEL_GROUP = "water-level"
 
@@ -17,11 +19,26 @@ class Named(Protocol):
     def name(self) -> str: ...
 
 
+class Elevated(Named, Protocol):
+    """What is run at one water level of known height."""
+
+    @property
+    def elevation(self) -> float: ...
+
+
 L = TypeVar("L", bound=Named)
 
 
 def _name_of(level: Named) -> str:
     return level.name
+
+
+def level_words(level: Elevated) -> str:
+    """Return the name of a water level with its height over datum, where that is known."""
+    if not math.isfinite(level.elevation):
+        return level.name
+    height = f"{level.elevation:+.2f} m".replace("-", MINUS)
+    return f"{level.name} ({height})"
 
 
 def at_each_level(

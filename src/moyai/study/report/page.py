@@ -25,7 +25,7 @@ from moyai.report.document import (
     Table,
 )
 from moyai.report.formatting import display_unit, format_number, format_quantity
-from moyai.report.general_page import case_listing, closing_section, notice_blocks, provenance, report_title
+from moyai.report.general_page import case_listing, notice_blocks, page_of
 from moyai.report.reading import root_of
 from moyai.study.found import Found, found_by_search
 from moyai.study.report.drawings import heat_map, parallel_coordinates, rose
@@ -73,14 +73,7 @@ def compose(result: Result) -> Document:
         Section("input", "Base case", (case_listing(root_of(result)),)),
     ]
     axes = " x ".join(f"{len(axis.labels)} {axis.name.replace('_', ' ')}" for axis in pages.axes)
-    return Document(
-        title=report_title(result),
-        subtitle=f"Study of {len(pages.status)} cases: {axes}",
-        status=result.status,
-        message=result.message,
-        sections=(*(section for section in sections if section.blocks), closing_section(result)),
-        provenance=provenance(result),
-    )
+    return page_of(result, f"Study of {len(pages.status)} cases: {axes}", sections)
 
 
 def interesting(pages: StudyPages, most: int = 6) -> tuple[str, ...]:

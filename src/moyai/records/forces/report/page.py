@@ -26,7 +26,7 @@ from moyai.report.document import (
 )
 from moyai.report.encoding import slug
 from moyai.report.formatting import DASH, format_number
-from moyai.report.general_page import case_listing, closing_section, notice_blocks, provenance, report_title
+from moyai.report.general_page import case_listing, notice_blocks, page_of
 from moyai.report.reading import Group, root_of
 
 COEFFICIENTS = (("inertia", "C_M"), ("drag", "C_D"))
@@ -57,14 +57,7 @@ def compose(result: Result) -> Document:
         Section("spread", "Bootstrap", tuple(_spread_figures(found))),
         Section("input", "Input", (case_listing(root),)),
     ]
-    return Document(
-        title=report_title(result),
-        subtitle=f"Force record {root.attributes.get('record', '')}".strip(),
-        status=result.status,
-        message=result.message,
-        sections=(*(section for section in sections if section.blocks), closing_section(result)),
-        provenance=provenance(result),
-    )
+    return page_of(result, f"Force record {root.attributes.get('record', '')}".strip(), sections)
 
 
 def _text(found: Group, name: str, method: str, component: str) -> tuple[str, bool]:

@@ -30,7 +30,7 @@ from moyai.report.document import (
 )
 from moyai.report.encoding import slug
 from moyai.report.formatting import format_number
-from moyai.report.general_page import case_listing, closing_section, notice_blocks, provenance, report_title
+from moyai.report.general_page import case_listing, notice_blocks, page_of
 from moyai.report.reading import Group, root_of
 
 _MOST_POINTS = 3000
@@ -62,14 +62,7 @@ def compose(result: Result) -> Document:
         Section("vibration", "Vibration of the carriage", (*_vibration(root.child("vibration")), *_tow_records(root))),
         Section("input", "Input", (case_listing(root),)),
     ]
-    return Document(
-        title=report_title(result),
-        subtitle="Coefficients of nets",
-        status=result.status,
-        message=result.message,
-        sections=(*(section for section in sections if section.blocks), closing_section(result)),
-        provenance=provenance(result),
-    )
+    return page_of(result, "Coefficients of nets", sections)
 
 
 def _key_figures(root: Group) -> tuple[Block, ...]:

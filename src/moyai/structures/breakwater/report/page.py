@@ -14,9 +14,9 @@ from moyai.report.document import (
     Section,
 )
 from moyai.report.drawing import SectionGeometry, mooring_elevation, section_detail
-from moyai.report.formatting import MINUS, format_quantity
-from moyai.report.general_page import case_listing, closing_section, provenance, report_title
-from moyai.report.levels import at_each_level
+from moyai.report.formatting import format_quantity
+from moyai.report.general_page import case_listing, page_of
+from moyai.report.levels import at_each_level, level_words
 from moyai.report.reading import Group, root_of
 from moyai.structures.breakwater.report import damping, figures, sea_figures, tables
 from moyai.structures.breakwater.report.reading import (
@@ -63,7 +63,7 @@ def compose(result: Result) -> Document:
     measured = root.child("measured")
 
     def each_level(compose_level: Callable[[Level], Sequence[Block | None]]) -> tuple[Block, ...]:
-        return at_each_level(levels, compose_level, words=_level_words, default=default)
+        return at_each_level(levels, compose_level, words=level_words, default=default)
 
     sections = [
         Section(
@@ -81,21 +81,7 @@ def compose(result: Result) -> Document:
         Section("time", "Time domain", each_level(_time_section(levels, decides))),
         Section("sensitivity", "Sensitivity", each_level(_sensitivity)),
     ]
-    return Document(
-        title=report_title(result),
-        subtitle=_subtitle(levels),
-        status=result.status,
-        message=result.message,
-        sections=(*(section for section in sections if section.blocks), closing_section(result)),
-        provenance=provenance(result),
-    )
-
-
-def _level_words(level: Level) -> str:
-    if not math.isfinite(level.elevation):
-        return level.name
-    height = f"{level.elevation:+.2f} m".replace("-", MINUS)
-    return f"{level.name} ({height})"
+    return page_of(result, _subtitle(levels), sections)
 
 
 def _subtitle(levels: tuple[Level, ...]) -> str:

@@ -7,9 +7,9 @@ from collections.abc import Callable, Sequence
 
 from moyai.core.results import Result
 from moyai.report.document import Block, Choice, Document, Option, Section
-from moyai.report.formatting import MINUS, format_quantity
-from moyai.report.general_page import case_listing, closing_section, provenance, report_title
-from moyai.report.levels import at_each_level
+from moyai.report.formatting import format_quantity
+from moyai.report.general_page import case_listing, page_of
+from moyai.report.levels import at_each_level, level_words
 from moyai.report.reading import Group, root_of
 from moyai.structures.curtain.report import figures, limits, sea_figures, sea_tables, tables
 from moyai.structures.curtain.report.drawing import drawings
@@ -39,7 +39,7 @@ def compose(result: Result) -> Document:
     default = next((n for n, level in enumerate(levels) if worst is not None and level.name == worst[0].name), 0)
 
     def each_level(compose_level: Callable[[CurtainLevel], Sequence[Block | None]]) -> tuple[Block, ...]:
-        return at_each_level(levels, compose_level, words=_level_words, default=default)
+        return at_each_level(levels, compose_level, words=level_words, default=default)
 
     record = [figures.flume_record(root), *tables.record_tables(root)]
     sections = [
@@ -65,21 +65,7 @@ def compose(result: Result) -> Document:
         Section("anchors", "Anchor loads", each_level(_anchors)),
         Section("limits", "Operating limits", each_level(_limits)),
     ]
-    return Document(
-        title=report_title(result),
-        subtitle=_subtitle(levels),
-        status=result.status,
-        message=result.message,
-        sections=(*(section for section in sections if section.blocks), closing_section(result)),
-        provenance=provenance(result),
-    )
-
-
-def _level_words(level: CurtainLevel) -> str:
-    if not math.isfinite(level.elevation):
-        return level.name
-    height = f"{level.elevation:+.2f} m".replace("-", MINUS)
-    return f"{level.name} ({height})"
+    return page_of(result, _subtitle(levels), sections)
 
 
 def _subtitle(levels: tuple[CurtainLevel, ...]) -> str:

@@ -15,7 +15,7 @@ from moyai.report.document import (
     Section,
 )
 from moyai.report.formatting import format_quantity
-from moyai.report.general_page import case_listing, closing_section, notice_blocks, provenance, report_title
+from moyai.report.general_page import case_listing, notice_blocks, page_of
 from moyai.report.headlines import headline_figures
 from moyai.report.levels import at_each_level
 from moyai.report.reading import Group, root_of
@@ -51,14 +51,7 @@ def compose(result: Result) -> Document:
         Section("surface", "Free surface", each_level(lambda level: [figures.surface_table(level)])),
         Section("time", "Forces over time", each_level(_time)),
     ]
-    return Document(
-        title=report_title(result),
-        subtitle=_subtitle(levels),
-        status=result.status,
-        message=result.message,
-        sections=(*(section for section in sections if section.blocks), closing_section(result)),
-        provenance=provenance(result),
-    )
+    return page_of(result, _subtitle(levels), sections)
 
 
 def _subtitle(levels: tuple[Group, ...]) -> str:

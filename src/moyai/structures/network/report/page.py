@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from moyai.core.results import Result
 from moyai.report.document import Block, Choice, Document, Option, Paragraph, Section
 from moyai.report.formatting import format_quantity
-from moyai.report.general_page import case_listing, closing_section, notice_blocks, provenance, report_title
+from moyai.report.general_page import case_listing, notice_blocks, page_of
 from moyai.report.headlines import headline_figures
 from moyai.report.levels import at_each_level
 from moyai.report.reading import root_of
@@ -52,14 +52,7 @@ def compose(result: Result) -> Document:
         ),
         Section("input", "Input", (case_listing(root), *each_level(lambda level: [tables.line_table(level)]))),
     ]  # fmt: skip
-    return Document(
-        title=report_title(result),
-        subtitle=_subtitle(levels),
-        status=result.status,
-        message=result.message,
-        sections=(*(section for section in sections if section.blocks), closing_section(result)),
-        provenance=provenance(result),
-    )
+    return page_of(result, _subtitle(levels), sections)
 
 
 def _subtitle(levels: tuple[NetworkLevel, ...]) -> str:

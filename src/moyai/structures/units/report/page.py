@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 
 from moyai.core.results import Result
 from moyai.report.document import Block, Choice, Document, Option, Paragraph, Section
-from moyai.report.general_page import case_listing, closing_section, notice_blocks, provenance, report_title
+from moyai.report.general_page import case_listing, notice_blocks, page_of
 from moyai.report.headlines import headline_figures
 from moyai.report.reading import Group, root_of
 from moyai.structures.units.report import figures
@@ -47,14 +47,7 @@ def compose(result: Result) -> Document:
         Section("lines", "Lines", at_each_level(lambda level: _tables(level, figures.line_table))),
         Section("input", "Input", (case_listing(root),)),
     ]
-    return Document(
-        title=report_title(result),
-        subtitle=_subtitle(levels),
-        status=result.status,
-        message=result.message,
-        sections=(*(section for section in sections if section.blocks), closing_section(result)),
-        provenance=provenance(result),
-    )
+    return page_of(result, _subtitle(levels), sections)
 
 
 def _summary(result: Result) -> tuple[Block, ...]:
