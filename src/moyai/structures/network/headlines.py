@@ -201,11 +201,11 @@ def _start_up(groups: Mapping[str, xr.Dataset], peak: _Peak) -> list[Headline]:
 
 def _numerical_band(summary: xr.Dataset, peak: _Peak) -> tuple[Band | None, list[str]]:
     if "sensitivity_peak" in summary and math.isfinite(float(summary["sensitivity_peak"])):
-        keys = ("sensitivity_peak", "half_step", "double_mesh", "half_viscosity", "double_viscosity", "damped")
+        keys = ("sensitivity_peak", "half_step", "double_mesh", "half_viscosity", "double_viscosity", "damped", "finest")
         values = [float(summary[key]) for key in keys]
         if summary.attrs.get(f"governing {peak.run}") == peak.line:
-            peak_of, half, mesh, less, more, damped = values
-            low, high = band_of(PeakSensitivity(peak_of, half, mesh, less, more, math.nan, damped))
+            peak_of, half, mesh, less, more, damped, finest = values
+            low, high = band_of(PeakSensitivity(peak_of, half, mesh, less, more, math.nan, damped, finest))
             words = "mesh and step: half the step, twice the segments, undamped and damped, and their change continued"
             band = Band(min(low, peak.value), max(high, peak.value), words)
             viscous = [value for value in values[3:5] if math.isfinite(value)]

@@ -75,6 +75,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "half_viscosity": ("N", "peak with half the viscosity"),
     "double_viscosity": ("N", "peak with twice the viscosity"),
     "damped": ("N", "peak on a finer mesh of damped bars"),
+    "finest": ("N", "peak on the finest mesh of its event"),
     "discretisation_error": ("1", "relative change of the peak with step and mesh together"),
     "viscosity_effect": ("1", "largest relative change of the peak with the viscosity"),
     "load_peak": ("N", "highest pull on the point"),
