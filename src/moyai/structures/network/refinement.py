@@ -185,9 +185,8 @@ def _down_to_links(
         finer, state = refined(network, factor, window.begin)
         kept = np.concatenate([factor * bars + part for part in range(factor)])
         shorter = {} if options.get("step") is None else {"step": options["step"] / factor}
-        run = simulate(
-            finer, motions, start=state, progress=progress, **{**options, **shorter, "keep_nodes": [0], "keep_bars": kept}
-        )
+        chosen = {**options, **shorter, "keep_nodes": [0], "keep_bars": kept}
+        run = simulate(finer, motions, start=state, progress=progress, **chosen)
         if run.status == "interrupted":
             raise KeyboardInterrupt
         if run.status != "converged":
@@ -327,8 +326,9 @@ def not_converged(found: PeakSensitivity, goal: float, line: str, why: str, segm
     by_step = abs(found.half_step - found.peak)
     half, mesh, calm = (spoken(v, "N", like=found.peak) for v in (found.half_step, found.double_mesh, found.damped))
     damped = f", {calm} where bars are damped as well" if math.isfinite(found.damped) else ""
-    below = f"; {found.factor * segments} segments give {spoken(found.finest, 'N', like=found.peak)}" if segments else ""
-    below = below if math.isfinite(found.finest) else ""
+    below = ""
+    if segments and math.isfinite(found.finest):
+        below = f"; {found.factor * segments} segments give {spoken(found.finest, 'N', like=found.peak)}"
     least, most = max(2, found.factor // 2), max(4, found.factor)
     finer = f"{least * segments} to {most * segments} segments" if segments else "a finer net"
     remedy = (

@@ -107,6 +107,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "solid_part_start": ("m", "one end, in axes of the body"),
     "solid_part_end": ("m", "other end, in axes of the body"),
     "solid_part_diameter": ("m", "diameter of the part"),
+    "held_pull": ("N", "pull of the net on its fixed and driven knots together"),
     "net_tension": ("N", "highest tension in the net since the row before"),
     "is_snap": ("1", "whether the peak exceeds the threshold"),
     "final_position": ("m", "last state"),
