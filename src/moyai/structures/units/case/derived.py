@@ -19,7 +19,7 @@ from moyai.structures.units.model import UnitsProblem
 from moyai.structures.units.run import WITH_WAVES, highest_frequency, irregular_frequency, row_panels
 from moyai.structures.units.seas import frequencies_of, headings_of
 from moyai.structures.units.time.band import further_frequencies, memory_band
-from moyai.structures.units.time.seas import STEPS_OF_WAVE
+from moyai.structures.units.time.model import STEPS_OF_WAVE
 
 #: Processor time of the Green function of two panels in finite depth [s], of one operation of the solver [s], and of a
 #: step through time over the square of the degrees of freedom [s]
