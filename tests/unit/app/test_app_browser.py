@@ -59,12 +59,10 @@ def app_at(start: Path, *options: str) -> Iterator[str]:
     assert ("終了した" if options else "has ended") in out and errors == ""
 
 
-@pytest.fixture(scope="module")
-def address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
-    """One app for all tests that begin with `opened`."""
-    file = tmp_path_factory.mktemp("app") / "pile.yaml"
-    file.write_text(MEMBER)
-    with app_at(file) as found:
+@pytest.fixture
+def address(tmp_path: Path) -> Iterator[str]:
+    (tmp_path / "pile.yaml").write_text(MEMBER)
+    with app_at(tmp_path / "pile.yaml") as found:
         yield found
 
 
@@ -73,17 +71,6 @@ def until(page: Any, expression: str, seconds: float = 60.0) -> None:
     while page.evaluate(f"Boolean({expression})") is not True:
         assert time.monotonic() < end, f"{expression}; errors: {page.errors}"
         time.sleep(0.05)
-
-
-def opened(page: Any, address: str) -> None:
-    """Open the case, as the file has it, whatever an earlier test left."""
-    page.send("Page.navigate", url=address)
-    until(page, f"{DRAWN} > 0")
-    if page.evaluate(TEXT) != MEMBER:
-        page.evaluate(f"{TEXT.removesuffix('.text')}.type({MEMBER!r})")
-        until(page, f"!{FIRST_ERROR} && {IDLE}")
-        page.evaluate("location.reload()")
-        until(page, f"{DRAWN} > 0 && {TEXT} === {MEMBER!r}")
 
 
 def sound(page: Any, address: str) -> None:
@@ -117,7 +104,8 @@ SET = """((path, value) => {
 
 def test_a_slider_redraws_the_figures(address: str) -> None:
     with pipe.Chromium(str(pipe.find_chromium()), 1280, 900) as page:
-        opened(page, address)
+        page.send("Page.navigate", url=address)
+        until(page, f"{DRAWN} > 0")
         assert page.evaluate("location.href.includes('token')") is False
         assert "httponly" not in page.evaluate("document.cookie").lower() and page.evaluate("document.cookie") == ""
         until(page, ON_SCREEN)
@@ -145,7 +133,8 @@ def test_a_slider_redraws_the_figures(address: str) -> None:
 
 def test_form_and_text_are_one_document(address: str) -> None:
     with pipe.Chromium(str(pipe.find_chromium()), 1280, 900) as page:
-        opened(page, address)
+        page.send("Page.navigate", url=address)
+        until(page, f"{DRAWN} > 0")
         page.evaluate(f"{PRESS}('Form')")
         until(page, f"{DIAMETER}")
         assert page.evaluate(f"{DIAMETER}.value") == "100 cm"
@@ -171,7 +160,8 @@ def test_form_and_text_are_one_document(address: str) -> None:
 def test_without_the_script_of_the_editor_there_is_a_text_area(address: str) -> None:
     with pipe.Chromium(str(pipe.find_chromium()), 1280, 900) as page:
         page.send("Network.setBlockedURLs", urls=["*codemirror.js*"])
-        opened(page, address)
+        page.send("Page.navigate", url=address)
+        until(page, f"{DRAWN} > 0")
         assert page.evaluate("document.querySelector('textarea').value") == MEMBER
         page.evaluate(f"{TEXT.removesuffix('.text')}.type({MEMBER.replace('water_depth', 'water_dept')!r})")
         until(page, "document.querySelector('.gutter .error')?.textContent === '5'")
@@ -400,7 +390,8 @@ def test_a_job_a_reload_and_two_tabs(address: str) -> None:
 @pytest.mark.slow
 def test_a_paper_is_computed_again(address: str) -> None:
     with pipe.Chromium(str(pipe.find_chromium()), 1280, 900) as page:
-        opened(page, address)
+        page.send("Page.navigate", url=address)
+        until(page, f"{DRAWN} > 0")
         page.evaluate("location.hash = '#/'")
         papers = "[...document.querySelectorAll('section')].find((one) => one.textContent.startsWith('Papers'))"
         until(page, papers)
