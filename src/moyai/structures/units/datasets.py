@@ -69,6 +69,8 @@ def statics_dataset(at: RowAtLevel, wind: Array, current: Array) -> xr.Dataset:
         "connector_y": ("connector", places[:, 1]),
         "connector_z": ("connector", places[:, 2]),
         "connector_breaking_load": ("connector", _known(np.array([j.connector.breaking_load for j in at.joints]))),
+        "connector_span": ("connector", np.array([j.span if j.pulls_in_line else np.nan for j in at.joints])),
+        "connector_axis": (("connector", "component"), np.array([j.connector.axis for j in at.joints]).reshape(-1, 3)),
         "steady_offset": (("unit", "dof"), at.in_unit_axes(rest.position)),
         "steady_force_of_wind": (("unit", "dof"), wind.reshape(-1, 6)),
         "steady_force_of_current": (("unit", "dof"), current.reshape(-1, 6)),

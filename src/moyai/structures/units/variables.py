@@ -29,6 +29,8 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "connector_x": ("m", "place of a connector, x"),
     "connector_y": ("m", "place of a connector, y"),
     "connector_z": ("m", "place of a connector, above still water"),
+    "connector_span": ("m", "distance of the ends at rest of a connector that is drawn from end to end"),
+    "connector_axis": ("1", "direction of a curve, axis of a hinge"),
     "connector_breaking_load": ("N", "breaking load of a connector"),
     "steady_offset": ("m", "offset under wind and current, axes of the unit (pitch, roll, yaw: rad)"),
     "steady_force_of_wind": ("N", "steady force of the wind on a unit, row axes (moments: N m)"),
