@@ -45,7 +45,7 @@ from moyai.cli.fit import fit
 from moyai.cli.help_pages import SpokenGroup
 from moyai.cli.measuring import measure
 from moyai.cli.query import query
-from moyai.cli.report import Language, Units
+from moyai.cli.report import Language, ReportCommand, Units
 from moyai.cli.report import report as report_command
 from moyai.cli.reproduce import reproduce
 from moyai.cli.scale import scale
@@ -79,7 +79,7 @@ app.command()(query)
 app.command()(fit)
 app.add_typer(measure)
 app.command()(compare)
-app.command("report")(report_command)
+app.command("report", cls=ReportCommand)(report_command)
 app.command()(convert)
 app.command()(scale)
 app.command()(reproduce)

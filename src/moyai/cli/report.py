@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import time
+from itertools import pairwise
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
+from typer.core import TyperCommand
 
 from moyai.cli.console import OK, Spoken, guard, print_json, progress_bars, rich_console, tell
 from moyai.core.errors import InputError
@@ -28,8 +30,23 @@ Language = Annotated[
 ]
 
 
+class ReportCommand(TyperCommand):
+    """The command, whose ``--dxf`` may stand without a unit."""
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Read the arguments; a bare ``--dxf`` means metres."""
+        return super().parse_args(ctx, [word for pair in pairwise([*args, "-"]) for word in _with_unit(*pair)])
+
+
+def _with_unit(word: str, following: str) -> tuple[str, ...]:
+    bare = word == "--dxf" and (following.startswith("-") or Path(following).exists() or following.endswith(".nc"))
+    return (word, "m") if bare else (word,)
+
+
 def report(
-    results: Annotated[Path, typer.Argument(metavar="RESULTS", help="results.nc of any command.", show_default=False)],
+    results: Annotated[
+        Path, typer.Argument(metavar="RESULTS", help="results.nc of any command, or its folder.", show_default=False)
+    ],
     output: Annotated[
         Path | None, typer.Option("--output", "-o", help="Folder; that of the results when absent.")
     ] = None,
@@ -41,7 +58,11 @@ def report(
     ] = None,
     dxf: Annotated[
         str | None,
-        typer.Option("--dxf", metavar="m|mm", help="Write the drawings to scale as DXF too, in metres or millimetres."),
+        typer.Option(
+            "--dxf",
+            metavar="m|mm",
+            help="Write the drawings to scale as DXF too, in metres (as with no word behind) or millimetres.",
+        ),
     ] = None,
     vtk: Annotated[
         bool, typer.Option("--vtk", help="Write structures in space over time as VTK too (ParaView).")
@@ -69,7 +90,7 @@ def report(
             result = result.said_in(asked)
         elif result.provenance.get("display_language"):
             speak(str(result.provenance["display_language"]))
-        folder = prepare_output(output if output is not None else results.parent)
+        folder = prepare_output(output if output is not None else (results if results.is_dir() else results.parent))
         with progress_bars(quiet) as progress:
             progress("report", 0, 1)
             document = compose_document(result)
