@@ -61,7 +61,7 @@ def report(
         typer.Option(
             "--dxf",
             metavar="m|mm",
-            help="Write the drawings to scale as DXF too, in metres (as with no word behind) or millimetres.",
+            help="Write the drawings to scale as DXF too; metres where no unit follows.",
         ),
     ] = None,
     vtk: Annotated[

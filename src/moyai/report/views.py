@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Generic, TypeVar
 from moyai.core.results import Result
 from moyai.core.results import read_result as read_stored
 from moyai.language import require_language
-from moyai.report.document import Document, Figure, KeyFigure, KeyFigures, Table
+from moyai.report.document import Document, Figure, KeyFigure, KeyFigures, Panel, Series, Table
 from moyai.report.encoding import column_unit, scaled_cell, slug, unique_slugs
 from moyai.report.first_page import badges, criteria_table, units_of
 from moyai.report.formatting import axis_label, pretty_unit
@@ -94,7 +94,9 @@ def _stems(text: str) -> frozenset[str]:
 
 def _inner_words(block: Table | Figure) -> str:
     """Return the heads of a table, or panels and curves of a figure."""
-    parts = block.columns if isinstance(block, Table) else (*block.panels, *block.series)
+    if isinstance(block, Table):
+        return " ".join(column.label for column in block.columns)
+    parts: tuple[Panel | Series, ...] = (*block.panels, *block.series)
     return " ".join(part.label for part in parts)
 
 
