@@ -84,16 +84,18 @@ def convert(
     output: Annotated[
         Path | None,
         typer.Option(
-            "--output", "-o", help="File to write; the name of FILE with another ending. With --to the folder."
+            "--output",
+            "-o",
+            help="File to write, FILE with another ending when absent; coefficients and gltf: the folder.",
         ),
     ] = None,
     to: Annotated[
         str | None,
         typer.Option(
             "--to",
-            metavar="wamit|nemoh|bemio|orcaflex",
+            metavar="wamit|nemoh|bemio|orcaflex|gltf",
             help="Write coefficients of a result as files of this program; "
-            "orcaflex: the unit of a result, lines of a case or deck.",
+            "orcaflex: unit and lines of a result, lines of a case or deck; gltf: structures in space, moving.",
         ),
     ] = None,
     sea: Annotated[
@@ -119,6 +121,9 @@ def convert(
             return
         if to == "orcaflex":
             _write_vessel(file, output or file.with_suffix(".yml"), water_level, force=force, as_json=as_json)
+            return
+        if to == "gltf":
+            _write_scenes(file, output, force=force, as_json=as_json)
             return
         if to is not None:
             _write_coefficients(file, to, output, water_level, sea, force=force, as_json=as_json)
@@ -178,6 +183,28 @@ def _write_coefficients(
         tell("the added mass at infinite frequency was found from the damping of the band")
     if several and program == "nemoh":
         tell("files of NEMOH have no place for mean drift")
+
+
+def _write_scenes(file: Path, output: Path | None, *, force: bool, as_json: bool) -> None:
+    """Write the structures in space of a result as glTF and say which."""
+    from moyai.core.files import write_whole
+    from moyai.report.gltf import document_gltf
+    from moyai.report.views import read_result
+
+    folder = output if output is not None else (file if file.is_dir() else file.parent) / "gltf"
+    made = list(document_gltf(read_result(file).document))
+    if not made:
+        raise InputError(
+            "the report shows no structure in space", path="--to", allowed="results of networks and flexible cages"
+        )
+    if there := [folder / name for name, _ in made if (folder / name).exists() and not force]:
+        raise InputError(f"{there[0]} exists", path="output", remedy="choose another folder, or add --force")
+    files = [write_whole(folder / name, data) for name, data in made]
+    if as_json:
+        print_json({"files": list(map(str, files)), "faults": []})
+        return
+    for path in files:
+        tell(f"wrote {path}")
 
 
 def _write_vessel(file: Path, target: Path, water_level: str | None, *, force: bool, as_json: bool) -> None:

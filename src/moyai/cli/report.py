@@ -67,13 +67,16 @@ def report(
     vtk: Annotated[
         bool, typer.Option("--vtk", help="Write structures in space over time as VTK too (ParaView).")
     ] = False,
+    gltf: Annotated[
+        bool, typer.Option("--gltf", help="Write structures in space as glTF too (.glb, an animation for slides).")
+    ] = False,
     xlsx: Annotated[bool, typer.Option("--xlsx", help="The workbook report.xlsx, which is always written.")] = True,
     units: Units = None,
     language: Language = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, faults included.")] = False,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No progress bars and no summary.")] = False,
 ) -> None:
-    """Write the report of a result again, without running: page, workbook and tables; PDF, Word, DXF on request."""
+    """Write the report of a result again, without running: page, workbook and tables; all else on request."""
     with guard(as_json, language):
         if template is not None and not docx:
             raise InputError("a template is for Word", path="--template", remedy="add --docx")
@@ -95,11 +98,12 @@ def report(
             progress("report", 0, 1)
             document = compose_document(result)
             files = write_report(
-                result, folder, pdf=pdf, docx=docx, template=template, dxf=dxf, vtk=vtk, document=document
+                result, folder, pdf=pdf, docx=docx, template=template, dxf=dxf, vtk=vtk, gltf=gltf, document=document
             )
         endings = {path.suffix for path in files}
-        if vtk and ".pvd" not in endings:
-            tell("--vtk: the report shows no structure in space, no file is written")
+        for asked_for, option, ending in ((vtk, "--vtk", ".pvd"), (gltf, "--gltf", ".glb")):
+            if asked_for and ending not in endings:
+                tell(f"{option}: the report shows no structure in space, no file is written")
         if dxf is not None and ".dxf" not in endings:
             tell("--dxf: the report shows no drawing to scale, no file is written")
         if as_json:

@@ -73,6 +73,7 @@ def write_report(
     template: Path | None = None,
     dxf: str | None = None,
     vtk: bool = False,
+    gltf: bool = False,
     name: str = "report",
     units: str | None = None,
     language: str | None = None,
@@ -99,6 +100,9 @@ def write_report(
     vtk : bool
         Write every structure in space over time as ``<name>_vtk/<key>.pvd`` with a file a moment; nothing where the
         report shows none.
+    gltf : bool
+        Write every structure in space as ``<name>_gltf/<key>.glb``, an animation for slides; nothing where the report
+        shows none.
     name : str
         Name of the files without ending; the tables go to ``<name>_tables``.
     units : {"SI", "tf"}, optional
@@ -146,6 +150,8 @@ def write_report(
         further(lambda: ((f"{name}_drawings/{slug(key)}.dxf", data) for key, data in _dxf(document, dxf)))
     if vtk:
         further(lambda: ((f"{name}_vtk/{key}", data) for key, data in _vtk(document)))
+    if gltf:
+        further(lambda: ((f"{name}_gltf/{key}", data) for key, data in _gltf(document)))
     written.append(write_whole(folder / f"{name}.xlsx", render_workbook(document)))
     with displayed_in(document.units), spoken_in(document.language):
         tables = in_the_language(document).tables()
@@ -182,3 +188,9 @@ def _vtk(document: Document) -> Iterable[tuple[str, bytes]]:
     from moyai.report.vtk import document_vtk
 
     return document_vtk(document)
+
+
+def _gltf(document: Document) -> Iterable[tuple[str, bytes]]:
+    from moyai.report.gltf import document_gltf
+
+    return document_gltf(document)

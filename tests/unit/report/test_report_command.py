@@ -64,7 +64,7 @@ def test_all_switches_together_write_what_can_be_written(
     folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setitem(sys.modules, "docx", None)  # as if it were not installed
-    switches = ["--pdf", "--docx", "--xlsx", "--vtk", "--dxf", "inch", "--json"]
+    switches = ["--pdf", "--docx", "--xlsx", "--vtk", "--gltf", "--dxf", "inch", "--json"]
     ran = RUN.invoke(app, ["report", str(folder), "-o", str(tmp_path), *switches])
     assert ran.exit_code == 2
     faults = json.loads(ran.stdout)["faults"]
