@@ -13,7 +13,7 @@ import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -154,7 +154,7 @@ def new(
 
 
 @app.command()
-def check(file: CaseFile, language: Language = None, as_json: AsJson = False) -> None:
+def check(file: CaseFile, units: Units = None, language: Language = None, as_json: AsJson = False) -> None:
     """Report all faults of a case file at once, and the numbers that follow from it."""
     with guard(as_json, language):
         from moyai.case.criteria import criteria_of
@@ -180,11 +180,13 @@ def check(file: CaseFile, language: Language = None, as_json: AsJson = False) ->
             print_json(record)
             return
         from moyai.cli.tables import print_criteria, print_derived
+        from moyai.report.systems import displayed_in, words_in_system
 
-        for warning in case.warnings:
-            complain(warning, "warning")
-        print_derived(rich_console(), case.title, numbers)
-        print_criteria(rich_console(), criteria)
+        with displayed_in(units or str(getattr(getattr(case.model, "display", None), "units", "SI"))):
+            for warning in case.warnings:
+                complain(replace(warning, message=words_in_system(warning.message)), "warning")
+            print_derived(rich_console(), case.title, numbers)
+            print_criteria(rich_console(), criteria)
         count = len(case.warnings)
         say(f"{file}: no faults" + (f", {counted(count, 'warning')}" if count else ""))
 

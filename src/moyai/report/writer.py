@@ -17,7 +17,7 @@ from moyai.language import require_language, spoken_in, spoken_language
 from moyai.report.document import Document
 from moyai.report.encoding import slug, table_csv, unique_slugs
 from moyai.report.first_page import units_of, with_first_page
-from moyai.report.language import in_the_language
+from moyai.report.language import in_the_language, with_words_in_system
 from moyai.report.systems import displayed_in
 
 
@@ -51,7 +51,7 @@ def compose_document(result: Result, units: str | None = None, language: str | N
             from moyai.report.overlay import with_measured_points
 
             document = with_measured_points(document, result)
-    return document
+        return document if units == "SI" else with_words_in_system(document)
 
 
 def _composed(result: Result) -> Document:

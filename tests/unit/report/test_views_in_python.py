@@ -155,4 +155,4 @@ def test_criteria_stand_in_the_notebook(result: ReportedResult) -> None:
     assert "at most 200 kN" in judged._repr_html_()
     heavy = judged.shown_in("tf")._repr_html_()
     assert "at most 20.4 tf" in heavy
-    assert "Texts of notices are in SI" in heavy
+    assert "The case and results.nc are in SI" in heavy
