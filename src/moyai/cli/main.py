@@ -446,7 +446,7 @@ def validate(
 
             def ended(outcome: Any) -> None:
                 if not as_json and not (quiet and outcome.passed):
-                    say(outcome_line(outcome))
+                    put(outcome_line(outcome))
                     sys.stdout.flush()
 
             outcomes = compute(choose(only or ()), progress, ended)

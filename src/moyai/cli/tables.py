@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, get_args
 
-from moyai.cli.console import say
+from moyai.cli.console import put, say
 from moyai.core.validation import ReferenceKind
 from moyai.language import said
 
@@ -182,15 +182,18 @@ def print_criteria(console: Console, criteria: Sequence[Criterion]) -> None:
 
 
 def outcome_line(outcome: Outcome) -> str:
-    """Return a case of ``moyai validate`` as one line: verdict, numbers, kind of the reference and its source."""
+    """Return a case of ``moyai validate`` as one line: verdict, numbers, kind of the reference and its source.
+
+    In the language in force; the name of the case and its source stay as they are.
+    """
     case = outcome.case
-    numbers = (
+    numbers = said(
         f"{_number(outcome.value)} against {_number(case.reference)}, error "
         f"{_error(outcome.error, case.relative)} of {_error(case.tolerance, case.relative)} allowed"
     )
-    failure = f" ({outcome.failure})" if outcome.failure else ""
-    verdict = "ok" if outcome.passed else "FAILED"
-    return f"{verdict:6}  {case.name}: {numbers}{failure}  |  {case.kind}  |  {case.source}"
+    failure = f" ({said(outcome.failure)})" if outcome.failure else ""
+    verdict = said("ok" if outcome.passed else "FAILED")
+    return f"{verdict:6}  {case.name}: {numbers}{failure}  |  {said(case.kind)}  |  {case.source}"
 
 
 def print_outcome_count(outcomes: Sequence[Outcome]) -> None:
@@ -200,7 +203,7 @@ def print_outcome_count(outcomes: Sequence[Outcome]) -> None:
     for kind in get_args(ReferenceKind):
         own = [outcome.passed for outcome in outcomes if outcome.case.kind == kind]
         if own:
-            say(f"  {kind}: {sum(own)} of {len(own)}")
+            put("  " + said(f"{kind}: {sum(own)} of {len(own)}"))
 
 
 def _number(value: float) -> str:
