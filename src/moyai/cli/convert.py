@@ -6,13 +6,14 @@ And what lets ``moyai run`` take a deck.
 from __future__ import annotations
 
 import re
+from dataclasses import replace as with_fields
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from moyai.cli.console import guard, print_json, tell
-from moyai.core.errors import InputError
+from moyai.core.errors import CaseError, Fault, InputError
 
 
 def motions_of(options: list[str]) -> dict[int | str, Path]:
@@ -208,11 +209,18 @@ def _write_scenes(file: Path, output: Path | None, *, force: bool, as_json: bool
 
 
 def _write_vessel(file: Path, target: Path, water_level: str | None, *, force: bool, as_json: bool) -> None:
-    """Write the unit of a result as a vessel of OrcaFlex."""
+    """Write the unit of a result as a vessel of OrcaFlex, on its lines."""
     from moyai.core.results import read_result
+    from moyai.interop.whole_body import level_of_result
     from moyai.interop.write_orcaflex_vessel import orcaflex_vessel
 
-    _write_model(target, *orcaflex_vessel(read_result(file), water_level), force=force, as_json=as_json)
+    result = read_result(file)
+    moorings = None
+    if result.tree.attrs.get("structure") == "breakwater":
+        from moyai.structures.breakwater.case.moorings import moorings_of_result
+
+        moorings = moorings_of_result(result, level_of_result(result, water_level))
+    _write_model(target, *orcaflex_vessel(result, water_level, moorings), force=force, as_json=as_json)
 
 
 def _write_lines(
@@ -222,17 +230,27 @@ def _write_lines(
     from moyai.interop.moordyn_case import is_deck
     from moyai.interop.moordyn_reader import read_deck
     from moyai.interop.write_orcaflex import orcaflex_text
+    from moyai.interop.write_orcaflex_vessel import orcaflex_network
 
     if not file.is_file():
         raise InputError(f"no such file: {file}", path="FILE")
     if is_deck(file):
-        deck = read_deck(file).in_depth(depth)
+        written = orcaflex_text(read_deck(file).in_depth(depth))
     else:
         from moyai.case.reader import load_case
-        from moyai.structures.network.case.line_deck import deck_of_case
+        from moyai.structures.network.case.line_deck import deck_and_boxes
 
-        deck = deck_of_case(load_case(file), water_level)
-    _write_model(target, *orcaflex_text(deck), force=force, as_json=as_json)
+        try:
+            deck, boxes = deck_and_boxes(load_case(file), water_level)
+        except CaseError as error:
+            raise CaseError([_for_orcaflex(fault) for fault in error.faults]) from None
+        written = orcaflex_network(deck, boxes) if boxes else orcaflex_text(deck)
+    _write_model(target, *written, force=force, as_json=as_json)
+
+
+def _for_orcaflex(fault: Fault) -> Fault:
+    """Return a fault of a deck in the words of the file that was asked for."""
+    return with_fields(fault, message=fault.message.replace("a deck of MoorDyn", "a file of OrcaFlex"))
 
 
 def _write_model(target: Path, text: str, notes: tuple[str, ...], *, force: bool, as_json: bool) -> None:
