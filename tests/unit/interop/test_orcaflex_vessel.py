@@ -101,6 +101,8 @@ ENDS = "Connection, ConnectionX, ConnectionY, ConnectionZ"
 def test_the_unit_stands_on_its_lines(tmp_path: Path) -> None:
     (tmp_path / "case.yaml").write_text(MOORED, encoding="utf-8")
     moyai.run(tmp_path / "case.yaml").write(tmp_path / "results.nc")
+    (level,) = moyai.read_result(tmp_path / "results.nc").tree.children.values()
+    statics = level["statics"].to_dataset()
     (tmp_path / "case.yaml").unlink()  # the result keeps the text of its case
     ran = CliRunner().invoke(app, ["convert", str(tmp_path / "results.nc"), "--to", "orcaflex", "--json"])
     assert ran.exit_code == 0, ran.output
@@ -113,7 +115,10 @@ def test_the_unit_stands_on_its_lines(tmp_path: Path) -> None:
     for line, aside in zip(model["Lines"], (-6.0, 6.0), strict=True):
         top, bottom = next(value for key, value in line.items() if key.startswith(ENDS))
         # x of the vessel runs along the crest, y along the waves: -y and x of the site
-        assert top[:4] == [vessel["Name"], -aside, pytest.approx(-3.0, abs=0.01), pytest.approx(-1.5, abs=0.01)]
+        # lines that differ heel the unit by 4.5 millirad about its keel, 2 m deep but for a millimetre
+        heel = float(statics["heel"])
+        across, up = -3.0 * np.cos(heel) + 0.5 * np.sin(heel), -2.0 + 0.5 * np.cos(heel) + 3.0 * np.sin(heel)
+        assert top[:4] == [vessel["Name"], -aside, pytest.approx(across, abs=1e-3), pytest.approx(up, abs=1e-3)]
         assert bottom[:4] == ["Fixed", -aside, pytest.approx(-40.0, abs=0.01), -10.0]
         sections = line["LineType, Length, TargetSegmentLength"]
         assert [section[:2] for section in sections] == [[kind["Name"], 8.5], [kind["Name"], 30.0]]
