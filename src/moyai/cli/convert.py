@@ -87,7 +87,7 @@ def convert(
         typer.Option(
             "--output",
             "-o",
-            help="File to write, FILE with another ending when absent; coefficients and gltf: the folder.",
+            help="File to write, FILE with another ending when absent; coefficients, gltf: the folder.",
         ),
     ] = None,
     to: Annotated[
@@ -117,11 +117,12 @@ def convert(
 ) -> None:
     """Turn a deck of MoorDyn into a case file of a network, or a case file into a deck; write coefficients."""
     with guard(as_json):
-        if to == "orcaflex" and file.suffix.lower() != ".nc":
-            _write_lines(file, output or file.with_suffix(".yml"), water_level, depth, force=force, as_json=as_json)
-            return
         if to == "orcaflex":
-            _write_vessel(file, output or file.with_suffix(".yml"), water_level, force=force, as_json=as_json)
+            target = _model_file(file, output)
+            if file.is_dir() or file.suffix.lower() == ".nc":
+                _write_vessel(file, target, water_level, force=force, as_json=as_json)
+            else:
+                _write_lines(file, target, water_level, depth, force=force, as_json=as_json)
             return
         if to == "gltf":
             _write_scenes(file, output, force=force, as_json=as_json)
@@ -246,6 +247,15 @@ def _write_lines(
             raise CaseError([_for_orcaflex(fault) for fault in error.faults]) from None
         written = orcaflex_network(deck, boxes) if boxes else orcaflex_text(deck)
     _write_model(target, *written, force=force, as_json=as_json)
+
+
+def _model_file(file: Path, output: Path | None) -> Path:
+    """Return the text data file to write: FILE.yml beside it, or in the folder that is named."""
+    if output is None:
+        return file / "results.yml" if file.is_dir() else file.with_suffix(".yml")
+    if output.suffix.lower() in (".yml", ".yaml", ".dat"):
+        return output
+    return output / f"{'results' if file.is_dir() else file.stem}.yml"
 
 
 def _for_orcaflex(fault: Fault) -> Fault:

@@ -174,3 +174,12 @@ def test_numbers_have_no_tail_and_a_current_no_needless_rows() -> None:
     found = np.interp(z, [row[0] for row in few], [row[1] for row in few])
     np.testing.assert_allclose(found, [row[1] for row in rows], atol=1.1e-3)
     assert len(_without_needless([[d, 1.0 - 0.05 * d, 0.0] for d in z.tolist()])) == 2
+
+
+def test_the_file_goes_into_a_folder_that_is_named(tmp_path: Path) -> None:
+    example = Path(__file__).resolve().parents[3] / "examples" / "network" / "moored_box.yaml"
+    (tmp_path / "there").mkdir()
+    for name, written in (("there", "there/moored_box.yml"), ("new", "new/moored_box.yml"), ("own.yml", "own.yml")):
+        ran = CliRunner().invoke(app, ["convert", str(example), "--to", "orcaflex", "-o", str(tmp_path / name)])
+        assert ran.exit_code == 0, ran.output
+        assert (tmp_path / written).is_file()
