@@ -346,6 +346,10 @@ def motion_table(level: Group, sea: Group, period: int | None) -> Table | None:
     for number, dof in enumerate(DOFS):
         columns.append(Column(dof.capitalize(), list(motion[:, number]), "m" if dof in _LEVEL_MOTIONS else "rad"))
     columns.append(Column("Mean sway", list(offset[:, 0]), "m"))
+    drift = _of_period(sea, "mean_drift_of_unit", period, "unit", "direction")
+    if drift is not None:
+        pushed = [Column(f"Mean drift {way}", list(drift[:, n]), "N") for n, way in enumerate(("across", "along"))]
+        columns += in_one_unit(pushed)
     when = "" if period is None else f", T = {float(sea.require('period', 'period')[period]):g} s"
     return Table(
         _key(level, "motions", sea, period),
