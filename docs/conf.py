@@ -27,6 +27,7 @@ extensions = [
     "gallery",
     "moving_picture",
     "reproduced_papers",
+    "validation_results",
     "myst_parser",
     "sphinx.ext.autodoc",
     "sphinx.ext.napoleon",
