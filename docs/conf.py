@@ -26,6 +26,7 @@ from mathml import font_folder  # noqa: E402 - beside this file
 extensions = [
     "gallery",
     "moving_picture",
+    "report_pictures",
     "reproduced_papers",
     "validation_results",
     "myst_parser",
