@@ -20,6 +20,7 @@ from collections.abc import Callable, Iterator
 from html import escape
 from pathlib import Path
 from typing import Any, ClassVar
+from unittest import mock
 
 from docutils import nodes
 from docutils.parsers.rst import directives
@@ -82,8 +83,11 @@ def measured(kind: str, folder: str, file: str) -> Callable[[], Any]:
         with elsewhere() as place:
             shutil.copytree(ROOT / "examples" / folder, place / "example")
             with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
-                runpy.run_path(str(place / "example" / "make_records.py"), run_name="__main__")
-                app(["measure", kind, str(place / "example" / file), "-o", "out"], standalone_mode=False)
+                with mock.patch.object(sys, "argv", ["make_records.py"]):
+                    runpy.run_path(str(place / "example" / "make_records.py"), run_name="__main__")
+                code = app(["measure", kind, str(place / "example" / file), "-o", "out"], standalone_mode=False)
+            if code:
+                raise RuntimeError(f"moyai measure {kind} of the example ends with {code}")
             return moyai.read_result(place / "out" / "results.nc")
 
     return run

@@ -176,12 +176,15 @@ class _FromResults(SphinxDirective):
 
 
 class Validation(_FromResults):
-    """Figure and table of one or more topics: ``{validation} sea``; ``:curve:`` takes a curve as the figure."""
+    """Figure and table of one or more topics: ``{validation} sea``.
+
+    ``:curve:`` draws a curve too, ``:cases:`` takes those whose names have one of these words, parted by commas.
+    """
 
     required_arguments = 1
     final_argument_whitespace = True
     has_content = False
-    option_spec: ClassVar[dict[str, Any]] = {"curve": directives.unchanged}
+    option_spec: ClassVar[dict[str, Any]] = {"curve": directives.unchanged, "cases": directives.unchanged}
 
     def run(self) -> list[nodes.Node]:
         """Return the figure, the command and the table."""
@@ -191,11 +194,15 @@ class Validation(_FromResults):
         unknown = set(wanted) - set(topics())
         if unknown:
             raise self.error(f"no topic of moyai validate: {', '.join(sorted(unknown))}")
-        found = [record for record in self.records() if record["topic"] in wanted]
+        words = [word.strip() for word in self.options.get("cases", "").split(",")]
+        found = [record for record in self.records()
+                 if record["topic"] in wanted and any(word in record["name"] for word in words)]  # fmt: skip
         command = f"moyai validate --only {' --only '.join(wanted)}"
         for record in found:
             if not record["passed"]:
                 self.state_machine.reporter.warning(f"validation case fails: {record['name']} {record['failure']}")
+        if not found and set(wanted) - set(SLOW):
+            raise self.error(f"no validation case of {self.arguments[0]}: {self.options.get('cases', '')}")
         if not found:
             return [nodes.raw("", f"<p>Left out of the quick build: <code>{command}</code>.</p>", format="html")]
         drawn = ""
@@ -203,9 +210,9 @@ class Validation(_FromResults):
             from validation_curves import CURVES
 
             drawn = figure(*CURVES[self.options["curve"]](found))
-        words = f"Each point is a row of the table: error over what is allowed, {len(found)} cases."
+        caption = f"Each point is a row of the table: error over what is allowed, {len(found)} cases."
         html = (
-            f"{drawn}{figure(error_chart(found), words)}<p>Computed with this documentation; command of every row: "
+            f"{drawn}{figure(error_chart(found), caption)}<p>Computed with this documentation; command of every row: "
             f"<code>{command}</code></p>{rows(found)}"
         )
         return [nodes.raw("", html, format="html")]
