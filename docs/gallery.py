@@ -149,7 +149,10 @@ def first_things(result: Any) -> tuple[str, str, list[tuple[str, str]]]:
     if not picture:
         picture = next((draw_figure(one).decode("utf-8") for one in blocks if isinstance(one, Figure)), "")
     numbers = next((one.items for one in blocks if isinstance(one, KeyFigures)), ())
-    return document.title, picture, [(one.label, one.text) for one in numbers[:HEADLINES]]
+    told = [
+        (one.label, one.text) for one in numbers if re.search(r"\d", one.text)
+    ]  # not the line on what is not judged
+    return document.title, picture, told[:HEADLINES]
 
 
 class Gallery(SphinxDirective):

@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import math
 import os
+import re
 from collections.abc import Sequence
 from html import escape
 from pathlib import Path
@@ -73,8 +74,13 @@ def amount(value: float, relative: bool) -> str:
     if not value:
         return "0"
     value = 100.0 * value if relative else value
-    text = f"{value:.2g}" if 1e-3 <= value < 1e4 else f"{value:.1e}".replace("e-0", "e-")
+    text = f"{value:.2g}" if 1e-3 <= value < 1e4 else number(float(f"{value:.1e}"))
     return f"{text} %" if relative else text
+
+
+def number(value: float) -> str:
+    """Return a number with six digits, powers of ten without filling zeros."""
+    return re.sub(r"e([+-])0*", r"e\1", f"{value:.6g}" if abs(value) > 1e-6 else f"{value:.2g}").replace("e+", "e")
 
 
 def mark(kind: str, x: float, y: float, hint: str = "") -> str:
@@ -147,14 +153,14 @@ def figure(svg: str, words: str) -> str:
 def rows(records: Sequence[dict[str, Any]]) -> str:
     """Return the table of records as HTML."""
     lines = []
-    for number, record in enumerate(records):
-        value = "-" if record["value"] is None else f"{record['value']:.7g}"
+    for row, record in enumerate(records, 1):
+        value = "-" if record["value"] is None else number(record["value"])
         relative = record["relative"]
         note = f'<br><span class="quiet">{escape(record["note"])}</span>' if record["note"] else ""
         error = "-" if record["error"] is None else amount(record["error"], relative)
         lines.append(
-            f"<tr><td>{number + 1}</td><td>{escape(record['name'].split(': ', 1)[-1])}</td><td>{value}</td>"
-            f"<td>{record['reference']:.7g}</td><td>{escape(record['source'])}<br>"
+            f"<tr><td>{row}</td><td>{escape(record['name'].split(': ', 1)[-1])}</td><td>{value}</td>"
+            f"<td>{number(record['reference'])}</td><td>{escape(record['source'])}<br>"
             f'<span class="quiet">{record["reference_kind"]}</span></td><td>{error}</td>'
             f"<td>{amount(record['tolerance'], relative)}{note}</td></tr>"
         )

@@ -90,7 +90,7 @@ def test_rows_hold_value_reference_kind_error_and_what_is_allowed() -> None:
 
 
 @pytest.mark.parametrize(
-    ("value", "relative", "text"), [(0.0, True, "0"), (2.5e-3, True, "0.25 %"), (3e-15, False, "3.0e-15")]
+    ("value", "relative", "text"), [(0.0, True, "0"), (2.5e-3, True, "0.25 %"), (3e-15, False, "3e-15")]
 )
 def test_errors_as_text(value: float, relative: bool, text: str) -> None:
     assert validation_results.amount(value, relative) == text
