@@ -66,12 +66,13 @@ def pairs(english: Any, japanese: Any, name: str = "") -> Iterator[tuple[str, st
             yield from pairs(one, two, name)
 
 
-def compared(result: Result) -> tuple[list[str], int]:
+def compared(result: Result, file: str = "") -> tuple[list[str], int]:
     """Return the English words left in the report of a result in Japanese, with the texts they stand in, and its texts.
 
-    Words of the case file are the reader's own. Every number has to stand in both languages.
+    Words of the case file, or of that of a study, are the reader's own. Every number has to stand in both languages.
     """
-    own = set(latin_words(str(result.tree.attrs.get("case_text", "")).replace("_", " ").replace(":", " ")))
+    text = f"{file}\n{result.tree.attrs.get('case_text', '')}"
+    own = set(latin_words(text.replace("_", " ").replace(":", " ")))
     return compared_document(compose_document(result, language="ja"), own)
 
 
