@@ -39,7 +39,7 @@ def compose(result: Result) -> Document:
 
     sections = [
         Section("summary", "Summary", (*_summary(result), *notice_blocks(result))),
-        Section("row", "The row", at_each_level(lambda level: [figures.plan(level), figures.rest_table(level)])),
+        Section("row", "The row", at_each_level(_row)),
         Section("waves", "Waves around the row", at_each_level(_maps)),
         Section("connectors", "Connectors", at_each_level(lambda level: _tables(level, figures.connector_table))),
         Section("motions", "Motions", at_each_level(_motions)),
@@ -55,6 +55,10 @@ def compose(result: Result) -> Document:
         sections=(*(section for section in sections if section.blocks), closing_section(result)),
         provenance=provenance(result),
     )
+
+
+def _row(level: Group) -> list[Block | None]:
+    return [figures.plan(level), *figures.sections(level), figures.rest_table(level)]
 
 
 def _summary(result: Result) -> tuple[Block, ...]:
