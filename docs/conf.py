@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import importlib.metadata
+import logging
 import pkgutil
 import re
 import sys
@@ -23,10 +24,16 @@ version = release = importlib.metadata.version("moyai")
 sys.path.insert(0, str(Path(__file__).parent))
 from mathml import font_folder  # noqa: E402 - beside this file
 
+logging.getLogger("fontTools").setLevel(
+    logging.WARNING
+)  # else a line for each table that a subset of a font leaves out
+
 extensions = [
     "gallery",
     "moving_picture",
+    "report_pictures",
     "reproduced_papers",
+    "validation_results",
     "myst_parser",
     "sphinx.ext.autodoc",
     "sphinx.ext.napoleon",

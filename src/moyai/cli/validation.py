@@ -49,6 +49,10 @@ class Outcome:
             "error": self.error,
             "tolerance": self.case.tolerance,
             "passed": self.passed,
+            "topic": self.topic,
+            "relative": self.case.relative,
+            "note": self.case.note,
+            "failure": self.failure,
         }
 
 

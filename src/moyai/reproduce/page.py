@@ -73,10 +73,10 @@ def _summary(found: Reproduction) -> tuple[Block, ...]:
     paper = found.paper
     drawn = sum(one.drawn is not None for one in found.figures)
     items = (
-        KeyFigure("Statements that agree", f"{found.count('agrees')} of {len(found.rows)}"),
+        KeyFigure("Statements that agree", f"{found.count('agrees')} of all {len(found.rows)}"),
         KeyFigure("Statements that differ", str(found.count("differs")), "each with its reason in the table"),
         KeyFigure("Statements left open", str(found.count("open")), "measured points that only figures show"),
-        KeyFigure("Figures drawn again", f"{drawn} of {len(found.figures)}"),
+        KeyFigure("Figures drawn again", f"{drawn} of all {len(found.figures)}"),
         KeyFigure("Equations in the code", str(len(paper.equations))),
     )
     mode = "Quick run: fewer waves, coarser variations. " if found.quick else ""

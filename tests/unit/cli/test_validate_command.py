@@ -48,6 +48,10 @@ def test_records_have_the_agreed_keys(cases):
         "error": abs(3.1416 - math.pi) / math.pi,
         "tolerance": 1e-5,
         "passed": True,
+        "topic": "circle",
+        "relative": True,
+        "note": GOOD.note,
+        "failure": "",
     }
     assert second["error"] == 1e-12
 

@@ -11,13 +11,13 @@ DOCS = Path(__file__).resolve().parents[3] / "docs"
 JAPANESE = re.compile("[\u3040-\u30ff\u4e00-\u9fff]")
 TUTORIALS = (
     "first_breakwater.md", "first_curtain.md", "flexible_cage.md", "rigid_cage.md", "submerged_member.md", "network.md",
-    "records_to_model.md", "towed_nets.md", "in_python.md",
+    "records_to_model.md", "towed_nets.md", "in_python.md", "app.md", "add_a_structure.md",
 )  # fmt: skip
 
 
 def blocks(path: Path, *kinds: str) -> list[str]:
     """Return the blocks of a page that are of some kinds, all without one."""
-    found = re.findall(r"^```(\S*)\n(.*?)^```$", path.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
+    found = re.findall(r"^```([^\n]*)\n(.*?)^```$", path.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
     return [text for kind, text in found if not kinds or kind in kinds]
 
 
@@ -30,8 +30,33 @@ def test_case_files_are_those_of_the_english_page(name: str) -> None:
 def test_programs_and_commands_are_those_of_the_english_page(name: str) -> None:
     """So what the tests run of the English page runs of the Japanese one."""
     japanese = blocks(DOCS / "ja" / name)
-    assert len(japanese) >= 2
+    assert japanese
     assert japanese == blocks(DOCS / "tutorial" / name)
+
+
+@pytest.mark.parametrize(
+    "name", [path.name for path in sorted((DOCS / "tutorial").glob("*.md")) if path.stem != "index"]
+)
+def test_every_tutorial_stands_in_japanese_with_its_pictures(name: str) -> None:
+    """Pictures of reports are drawn in the language of the page; photographs are those of the English page."""
+    english, japanese = ((DOCS / folder / name).read_text(encoding="utf-8") for folder in ("tutorial", "ja"))
+    assert name in TUTORIALS
+    asked = re.findall(r"^:(?:of|show): (\S+)$", english, re.MULTILINE)
+    assert asked == re.findall(r"^:(?:of|show): (\S+)$", japanese, re.MULTILINE)
+    photographs = [f"../tutorial/{file}" for file in re.findall(r"^!\[[^]]*\]\((\S+)\)$", english, re.MULTILINE)]
+    assert photographs == re.findall(r"^!\[[^]]*\]\((\S+)\)$", japanese, re.MULTILINE)
+    assert asked or photographs
+
+
+def test_the_page_of_the_papers_tells_the_same_numbers() -> None:
+    english, japanese = ((DOCS / name).read_text(encoding="utf-8") for name in ("reproduce.md", "ja/reproduce.md"))
+    assert blocks(DOCS / "ja" / "reproduce.md", "{eval-rst}") == blocks(DOCS / "reproduce.md", "{eval-rst}")
+    (said,), (spoken,) = blocks(DOCS / "reproduce.md", "text"), blocks(DOCS / "ja" / "reproduce.md", "text")
+    assert spoken.replace("moyai --language ja", "moyai") == said
+    found = [set(re.findall(r"\d+\.\d+", text)) for text in (english, japanese)]
+    assert found[0] == found[1] and len(found[0]) >= 6
+    keys = [re.findall(r"^\| `(\w+)` \|", text, re.MULTILINE) for text in (english, japanese)]
+    assert keys[0] == keys[1] and len(keys[0]) == 5
 
 
 def test_every_page_is_japanese_and_in_the_contents() -> None:

@@ -1,21 +1,30 @@
-"""Holds a report in Japanese against the same in English."""
+"""Holds a report in Japanese against the same in English, and looks for letters that no font has."""
 
 from __future__ import annotations
 
+import base64
+import io
 import re
 import warnings
+import zipfile
+import zlib
 from collections.abc import Collection, Iterator
 from dataclasses import fields, is_dataclass
 from html import unescape
 from typing import Any
+
+from fontTools.ttLib import TTFont
 
 from moyai.core.results import Result
 from moyai.language import spoken_in
 from moyai.language.words import latin_words, numbers
 from moyai.report.document import Document, Figure, Listing, NoticeBlock, Table
 from moyai.report.figures_static import draw_figure
-from moyai.report.html import notice_items
+from moyai.report.fonts import JAPANESE, packaged_font
+from moyai.report.html import notice_items, render_html
 from moyai.report.language import in_the_language
+from moyai.report.pdf import render_pdf
+from moyai.report.word import render_docx
 from moyai.report.writer import compose_document
 
 _SVG_TEXT = re.compile(r"<(?:text|title|tspan)\b[^>]*>([^<]+)<")
@@ -57,12 +66,13 @@ def pairs(english: Any, japanese: Any, name: str = "") -> Iterator[tuple[str, st
             yield from pairs(one, two, name)
 
 
-def compared(result: Result) -> tuple[list[str], int]:
+def compared(result: Result, file: str = "") -> tuple[list[str], int]:
     """Return the English words left in the report of a result in Japanese, with the texts they stand in, and its texts.
 
-    Words of the case file are the reader's own. Every number has to stand in both languages.
+    Words of the case file, or of that of a study, are the reader's own. Every number has to stand in both languages.
     """
-    own = set(latin_words(str(result.tree.attrs.get("case_text", "")).replace("_", " ").replace(":", " ")))
+    text = f"{file}\n{result.tree.attrs.get('case_text', '')}"
+    own = set(latin_words(text.replace("_", " ").replace(":", " ")))
     return compared_document(compose_document(result, language="ja"), own)
 
 
@@ -89,3 +99,65 @@ def drawn_without_boxes(result: Result, most: int = 3) -> int:
         for figure in figures:
             assert draw_figure(in_the_language(figure), image_format="png").startswith(b"\x89PNG")
     return len(figures)
+
+
+def without_boxes(document: Document) -> dict[str, set[str]]:
+    """Return the letters of page, PDF and Word that no font of theirs has; a figure drawn without one is an error."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        pdf, word = render_pdf(document), render_docx(document)
+    return {"page": missing_in_page(render_html(document)), "PDF": missing_in_pdf(pdf), "Word": missing_in_word(word)}
+
+
+def wide(text: str) -> set[str]:
+    """Return the letters of a text for which a Japanese font is needed."""
+    return {letter for letter in text if ord(letter) > 0x2E7F}
+
+
+def missing_in_page(page: str) -> set[str]:
+    """Return the Japanese letters of a page that are not in the font embedded in it."""
+    data = re.search(r"data:font/woff;base64,([A-Za-z0-9+/=]+)", page)
+    assert data, "the page brings no font"
+    known = TTFont(io.BytesIO(base64.b64decode(data[1]))).getBestCmap()
+    return {letter for letter in wide(page) if ord(letter) not in known}
+
+
+_ESCAPES = {b"n": b"\n", b"r": b"\r", b"t": b"\t", b"b": b"\b", b"f": b"\f"}
+
+
+def _unescaped(found: re.Match[bytes]) -> bytes:
+    """Return the byte that an escape of a PDF string stands for."""
+    code = found[1]
+    return bytes([int(code, 8)]) if code.isdigit() else _ESCAPES.get(code, code)
+
+
+def missing_in_pdf(pdf: bytes) -> set[str]:
+    """Return the fonts of a PDF of which glyph 0, the empty box, is drawn."""
+    boxes, texts = set(), 0
+    for found in re.finditer(rb"stream\r?\n(.*?)\r?\nendstream", pdf, re.DOTALL):
+        try:
+            stream = zlib.decompress(found[1])
+        except zlib.error:
+            continue
+        for font, shown in re.findall(rb"/(f\d+) [\d.]+ Tf(.*?)\bET\b", stream, re.DOTALL):
+            for text in re.findall(rb"\(((?:\\.|[^\\()])*)\)", shown, re.DOTALL):
+                codes = re.sub(rb"\\([0-7]{3}|.)", _unescaped, text, flags=re.DOTALL)
+                texts += 1
+                if any(codes[at : at + 2] == b"\0\0" for at in range(0, len(codes), 2)):
+                    boxes.add(f"glyph 0 of {font.decode()}")
+    assert texts, "the PDF holds no text"
+    return boxes
+
+
+def missing_in_word(word: bytes) -> set[str]:
+    """Return the Japanese letters of a Word report that IPAex Gothic has not, and faces that are not Japanese."""
+    file = packaged_font()
+    assert file is not None
+    known = TTFont(file).getBestCmap()
+    with zipfile.ZipFile(io.BytesIO(word)) as parts:
+        text = "".join(parts.read(name).decode("utf-8") for name in parts.namelist() if name.endswith("document.xml"))
+        faces = re.findall(r'w:eastAsia="([^"]+)"', parts.read("word/styles.xml").decode("utf-8") + text)
+    shown = wide(unescape("".join(re.findall(r"<w:t[^>]*>([^<]*)<", text))))
+    assert shown, "the Word report holds no Japanese"
+    strange = {face for face in faces if face not in JAPANESE and not re.fullmatch("[a-z]{2}-[A-Z]{2}", face)}
+    return {letter for letter in shown if ord(letter) not in known} | strange

@@ -193,14 +193,15 @@ def _six(runs: Runs) -> Finding:
 
 def _two(runs: Runs) -> Finding:
     wave = min(runs.slack, key=lambda one: abs(one.turn - 2.0))
-    words = ", ".join(f"{one.turn:.1f} at {one.period:g} s" for one in runs.slack)
-    return judged(abs(wave.turn - 2.0) < 0.5, f"degrees to either side: {words}")
+    turns, periods = (", ".join(each) for each in zip(*((f"{one.turn:.1f}", f"{one.period:g}") for one in runs.slack)))
+    return judged(abs(wave.turn - 2.0) < 0.5, f"{turns} degrees to either side at T = {periods} s")
 
 
 def _third(runs: Runs) -> Finding:
     pairs = [(one.period, one.turn / runs.at(runs.slack, one.period).turn) for one in runs.taut
              if abs(runs.at(runs.slack, one.period).period - one.period) < 1e-9]  # fmt: skip
-    words = "taut over slack at equal period: " + ", ".join(f"{ratio:.1f} at {period:g} s" for period, ratio in pairs)
+    ratios, periods = (", ".join(each) for each in zip(*((f"{ratio:.1f}", f"{period:g}") for period, ratio in pairs)))
+    words = f"taut over slack {ratios} at T = {periods} s"
     return judged(
         max(ratio for _, ratio in pairs) > 2.5, words,
         "slack rotation falls with the period; the paper's two records may be of different waves, whose periods "

@@ -250,9 +250,8 @@ def _roll_falls(runs: Runs) -> Finding:
 def _roll_in_time(runs: Runs) -> Finding:
     ratio, moved, still = paired(runs, runs.drifted_time, "motion_ratio", "roll")
     near = _near(ratio)
-    words = "roll in time over that of the frequency domain: " + ", ".join(
-        f"{value:.2f} at L/B = {place:.2f}" for place, value in zip(ratio[near], (moved / still)[near])
-    )
+    shares, places = (", ".join(f"{value:.2f}" for value in each) for each in ((moved / still)[near], ratio[near]))
+    words = f"roll in time over that of the frequency domain: {shares} at L/B = {places}"
     return judged(bool(np.all(moved[near] < still[near])), words)
 
 

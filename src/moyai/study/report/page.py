@@ -328,7 +328,7 @@ def _exceedance(pages: StudyPages, name: str) -> Figure | None:
     key = f"exceedance-{name}".replace("/", "-").replace(" ", "-")
     return Figure(
         key,
-        f"Exceedance of {label}",
+        f"Exceedance: {label}",
         (Abscissa("share", what, "", True),),
         (Panel(_short(name, label), shown.name),),
         (series,),
