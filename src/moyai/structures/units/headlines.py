@@ -245,7 +245,7 @@ def _connectors(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Headli
                 Headline(
                     "connector_utilisation", "Largest force over breaking load of a connector", share.value, "1",
                     share.where, _model(share), band=share.band, bound="at least" if _stretched(share) else share.bound,
-                    judged_on="its force alone, without the moment" * bent,
+                    judged_on="the force without the moment" * bent,
                 )
                 for share in _each(seas, "connector_resultant_largest", over=load)
             ]
