@@ -29,14 +29,14 @@ if TYPE_CHECKING:
 VERSION = 1
 """Version of the messages between server and page (docs/tutorial/app.md)."""
 CHEAP: dict[str, tuple[tuple[str, ...], ...]] = {
-    "breakwater": (("statics", "mooring"), ("statics", "mooring", "frequency")),
+    "breakwater": (("statics", "mooring"), ("statics", "frequency"), ("statics", "mooring", "frequency")),
     "curtain": (("statics",), ("statics", "impact")),
     "cage": (("statics",),),
     "network": (("statics",),),
     "units": (("statics",), ("statics", "frequency")),
     "member": (("forces",), ("sweep", "forces", "surface")),
 }
-"""Analyses that a draft runs, by kind, in stages: each is drawn when it is there. Of those that the case names."""
+"""Analyses that a draft runs, by kind: the first that give what is on the screen, then the last. Of those of the case."""
 REGULAR_ONLY = ("member",)
 """Kinds whose drafts leave irregular seas out, where there are regular ones."""
 PINNED = "pinned"
@@ -90,7 +90,7 @@ class Drafts:
         self._keep = keep
         self._rest = rest
         self._pinned: dict[str, Other] = {}
-        self._shown: dict[str, set[str]] = {}
+        self._lacking: dict[str, set[str]] = {}
 
     def answer(self, wish: Wish, progress: Progress) -> Iterator[dict[str, Any]]:
         """Yield the case as read and checked, then its draft where it has no errors."""
@@ -125,9 +125,13 @@ class Drafts:
 
     def _stages(self, drafts: list[Document], whole: Case, wish: Wish) -> Iterator[_Stage]:
         """Yield what is drawn one after the other: a draft of what is on the screen, at last the whole answer."""
-        first = next((one for one in drafts if set(wish.shown) <= self._shown.get(_key_of(one), set(wish.shown))), None)
-        for draft in [drafts[-1]] if first is None or first is drafts[-1] else [first, drafts[-1]]:
+        first = next(
+            (one for one in drafts if not self._lacking.get(_key_of(one), set()) & set(wish.shown)), drafts[-1]
+        )
+        for draft in [first] if first is drafts[-1] else [first, drafts[-1]]:
             case, last = like_checked(whole, draft), draft is drafts[-1]
+            if last and wish.shown and first is not draft:
+                break  # what is on the screen is drawn; the whole follows at once
             kind, problem = structure_kind(case.kind), build(case)
             nominal = kind.nominal(problem)
             alone = kind.at_level(problem if nominal is None else nominal, wish.level)
@@ -150,13 +154,18 @@ class Drafts:
             raise KeyboardInterrupt
         if stage.words:
             result = result.with_notices(Notice("draft", stage.words, severity="warning"))
-        composed = compose_document(result)
+        shown = set(wish.shown)
+        composed = compose_document(result, only=None if stage.last or not shown else shown)
         if wish.pinned and wish.pinned != whole.text:
             other = self._other(wish, document, progress)
             if other is not None:
                 composed = _laid_over(composed, result, other)
         html, data = render_parts(composed)
-        self._shown[_key_of(document)] = {*(slug(section.key) for section in composed.sections), *data["figures"]}
+        here = {*(slug(section.key) for section in composed.sections), *data["figures"]}
+        if stage.last:  # what the whole report has not either is no want of its first drafts
+            self._lacking = {key: names & here for key, names in self._lacking.items()}
+        else:
+            self._lacking.setdefault(_key_of(document), set()).update(shown - here)
         return {
             "message": "drawn",
             "analyses": list(document.data["analyses"]),

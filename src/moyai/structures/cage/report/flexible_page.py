@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from moyai.core.results import Result
 from moyai.report.document import Block, Choice, Document, Option, Section
 from moyai.report.formatting import format_quantity
-from moyai.report.general_page import case_listing, closing_section, notice_blocks, provenance, report_title
+from moyai.report.general_page import case_listing, chapters, notice_blocks, provenance, report_title
 from moyai.report.headlines import headline_figures
 from moyai.report.levels import at_each_level
 from moyai.report.reading import Group, root_of
@@ -35,13 +35,14 @@ def compose(result: Result) -> Document:
     def each_level(compose_level: Callable[[Level], Sequence[Block | None]]) -> tuple[Block, ...]:
         return at_each_level(levels, compose_level, choice_of_one=False)
 
-    sections = [
-        Section("summary", "Summary", (*_summary(result), *notice_blocks(result))),
-        Section("shape", "Shape at rest", each_level(lambda level: [rest_views(level), figures.volume_figure(level)])),
-        Section(
+    sections = chapters(
+        result,
+        ("summary", "Summary", lambda: (*_summary(result), *notice_blocks(result))),
+        ("shape", "Shape at rest", lambda: each_level(lambda level: [rest_views(level), figures.volume_figure(level)])),
+        (
             "loads",
             "Drag and loads at rest",
-            each_level(
+            lambda: each_level(
                 lambda level: [
                     figures.drag_figure(level),
                     tables.law_table(level),
@@ -51,17 +52,17 @@ def compose(result: Result) -> Document:
                 ]
             ),
         ),
-        Section("collar", "Collar", each_level(lambda level: [figures.collar_figure(level)])),
-        Section("time", "In waves", each_level(_time)),
-        Section("cage", "The cage", each_level(lambda level: [tables.cage_table(level)])),
-        Section("input", "Input", (case_listing(root),)),
-    ]
+        ("collar", "Collar", lambda: each_level(lambda level: [figures.collar_figure(level)])),
+        ("time", "In waves", lambda: each_level(_time)),
+        ("cage", "The cage", lambda: each_level(lambda level: [tables.cage_table(level)])),
+        ("input", "Input", lambda: (case_listing(root),)),
+    )
     return Document(
         title=report_title(result),
         subtitle=_subtitle(levels),
         status=result.status,
         message=result.message,
-        sections=(*(section for section in sections if section.blocks), closing_section(result)),
+        sections=sections,
         provenance=provenance(result),
     )
 
