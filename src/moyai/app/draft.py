@@ -36,7 +36,7 @@ CHEAP: dict[str, tuple[tuple[str, ...], ...]] = {
     "units": (("statics",), ("statics", "frequency")),
     "member": (("forces",), ("sweep", "forces", "surface")),
 }
-"""Analyses that a draft runs, by kind: the first that give what is on the screen, then the last. Of those of the case."""
+"""Analyses of a draft by kind, of those of the case: the first that give what is on the screen, then the last."""
 REGULAR_ONLY = ("member",)
 """Kinds whose drafts leave irregular seas out, where there are regular ones."""
 PINNED = "pinned"
@@ -133,7 +133,7 @@ class Drafts:
             if last and wish.shown and first is not draft:
                 break  # what is on the screen is drawn; the whole follows at once
             kind, problem = structure_kind(case.kind), build(case)
-            nominal = kind.nominal(problem)
+            nominal = kind.nominal(problem, wish.shown)
             alone = kind.at_level(problem if nominal is None else nominal, wish.level)
             if alone is not None or nominal is not None:
                 yield _Stage(

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import replace
 from functools import cache
 from importlib import import_module
@@ -112,10 +112,11 @@ class StructureKind(Kind):
     def derived(self, case: Any) -> Any:
         """Return the numbers that ``moyai check`` shows, a tuple of :class:`moyai.case.derived.Number`."""
 
-    def nominal(self, problem: Any) -> Any | None:
+    def nominal(self, problem: Any, shown: Collection[str] = ()) -> Any | None:
         """Return a problem without what only tells how far its answer varies: ranges, bands, other laws, other speeds.
 
-        For a first draft, marked as such. None where there is nothing of it to leave out.
+        For a first draft, marked as such; ``shown`` names the sections of the report that are looked at, all where it
+        is empty. None where there is nothing to leave out.
         """
         return None
 

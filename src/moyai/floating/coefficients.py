@@ -148,14 +148,15 @@ class Hydrodynamics:
 
         known = {name: values for name in _OVER_FREQUENCY if (values := getattr(self, name)) is not None}
         if len(self.omega) == 1:
-            return replace(
-                self, omega=wanted, **{name: np.repeat(values, len(inside), axis=0) for name, values in known.items()}
-            )
+            held: dict[str, Any] = {name: np.repeat(values, len(inside), axis=0) for name, values in known.items()}
+            return replace(self, omega=wanted, **held)
         # One spline of all columns: setting it up costs more than the columns do
         columns = [_real_columns(values) for values in known.values()]
         found = scipy.interpolate.CubicSpline(self.omega, np.concatenate(columns, axis=1))(inside)
         parts = np.split(found, np.cumsum([column.shape[1] for column in columns])[:-1], axis=1)
-        along = {name: _as_columns_of(part, values) for part, (name, values) in zip(parts, known.items())}
+        along: dict[str, Any] = {
+            name: _as_columns_of(part, values) for part, (name, values) in zip(parts, known.items())
+        }
         return replace(self, omega=wanted, **along)
 
     def excitation_at(self, omega: ArrayLike, heading: ArrayLike | None = None) -> ComplexArray:

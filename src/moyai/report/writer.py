@@ -36,7 +36,7 @@ def compose_document(
     language : {"en", "ja"}, optional
         Language that the document is shown in; that of the case when left out, else the one in force, English.
     only : collection of str, optional
-        Keys of the sections that are wanted, for a draft; the others are left out. All of a result with measured points.
+        Keys of the sections that are wanted, for a draft; the others are left out.
 
     Returns
     -------

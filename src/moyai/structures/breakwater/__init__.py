@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -19,10 +20,11 @@ class BreakwaterKind(FolderKind):
     templates = (("breakwater", "template.yaml"),)
     root_schema = "BreakwaterCase"
 
-    def nominal(self, problem: Any) -> Any | None:
+    def nominal(self, problem: Any, shown: Collection[str] = ()) -> Any | None:
         breakwater = replace(problem.breakwater, damping=replace(problem.breakwater.damping, band=(1.0, 1.0)))
         settings = problem.settings.model_copy(update={"drift": False})
-        return replace(problem, breakwater=breakwater, settings=settings, nominal=True)
+        operators = not shown or "response" in shown
+        return replace(problem, breakwater=breakwater, settings=settings, nominal=True, operators=operators)
 
     def at_level(self, problem: Any, level: str) -> Any | None:
         names = [name for name, _ in problem.environment.water_levels]

@@ -167,10 +167,11 @@ def _frequency_steps(
     unit, hydro = model.unit, model.hydro
     seas = problem.environment.sea_states
     main = float(seas[0].heading) if seas else 0.0
-    found = frequency_regular.operators(model, operator_frequencies(unit, problem), main, seas)
-    collected.groups[f"{root}/rao"] = found.dataset
-    collected.checks.extend(found.checks)
-    collected.notices.extend((*found.notices, *check_screening(unit.water.depth, unit.draught)))
+    if problem.operators:
+        found = frequency_regular.operators(model, operator_frequencies(unit, problem), main, seas)
+        collected.groups[f"{root}/rao"] = found.dataset
+        collected.checks.extend(found.checks)
+        collected.notices.extend((*found.notices, *check_screening(unit.water.depth, unit.draught)))
     if not problem.nominal:
         collected.checks.extend(drift_check(model, main, seas))
     collected.notices.extend(viscous_notices(unit))

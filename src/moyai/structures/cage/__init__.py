@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -35,7 +35,7 @@ class CageKind(FolderKind):
             return derived_rigid.derived_numbers(case)
         return derived_flexible.derived_numbers(case)
 
-    def nominal(self, problem: Any) -> Any | None:
+    def nominal(self, problem: Any, shown: Collection[str] = ()) -> Any | None:
         settings = problem.settings
         if "statics" not in settings.analyses or not hasattr(settings, "other_laws"):
             return None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import replace
 from typing import Any
 
@@ -16,7 +17,7 @@ class CurtainKind(FolderKind):
     templates = (("curtain", "template.yaml"),)
     root_schema = "CurtainCase"
 
-    def nominal(self, problem: Any) -> Any | None:
+    def nominal(self, problem: Any, shown: Collection[str] = ()) -> Any | None:
         if not {"statics", "impact"} & set(problem.settings.analyses):
             return None
         return replace(problem, settings=replace(problem.settings, nominal=True))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -19,7 +20,7 @@ class UnitsKind(FolderKind):
     templates = (("units", "template.yaml"),)
     root_schema = "UnitsCase"
 
-    def nominal(self, problem: Any) -> Any | None:
+    def nominal(self, problem: Any, shown: Collection[str] = ()) -> Any | None:
         if "frequency" not in problem.settings.analyses:
             return None
         return replace(problem, settings=replace(problem.settings, nominal=True))

@@ -11,7 +11,6 @@ from moyai.report.document import (
     Choice,
     Document,
     Option,
-    Section,
 )
 from moyai.report.drawing import SectionGeometry, mooring_elevation, section_detail
 from moyai.report.formatting import MINUS, format_quantity

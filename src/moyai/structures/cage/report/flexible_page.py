@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from moyai.core.results import Result
-from moyai.report.document import Block, Choice, Document, Option, Section
+from moyai.report.document import Block, Choice, Document, Option
 from moyai.report.formatting import format_quantity
 from moyai.report.general_page import case_listing, chapters, notice_blocks, provenance, report_title
 from moyai.report.headlines import headline_figures

@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from moyai.core.results import Result
-from moyai.report.document import Block, Choice, Document, Option, Paragraph, Section
+from moyai.report.document import Block, Choice, Document, Option, Paragraph
 from moyai.report.formatting import format_quantity
 from moyai.report.general_page import case_listing, chapters, notice_blocks, provenance, report_title
 from moyai.report.headlines import headline_figures

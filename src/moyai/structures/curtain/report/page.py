@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 
 from moyai.core.results import Result
-from moyai.report.document import Block, Choice, Document, Option, Section
+from moyai.report.document import Block, Choice, Document, Option
 from moyai.report.formatting import MINUS, format_quantity
 from moyai.report.general_page import case_listing, chapters, provenance, report_title
 from moyai.report.levels import at_each_level

@@ -12,7 +12,6 @@ from moyai.report.document import (
     Document,
     Option,
     Paragraph,
-    Section,
 )
 from moyai.report.formatting import format_quantity
 from moyai.report.general_page import case_listing, chapters, notice_blocks, provenance, report_title

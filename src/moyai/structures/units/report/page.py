@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from moyai.core.results import Result
-from moyai.report.document import Block, Choice, Document, Option, Paragraph, Section
+from moyai.report.document import Block, Choice, Document, Option, Paragraph
 from moyai.report.general_page import case_listing, chapters, notice_blocks, provenance, report_title
 from moyai.report.headlines import headline_figures
 from moyai.report.reading import Group, root_of
