@@ -30,7 +30,7 @@ VERSION = 1
 """Version of the messages between server and page (docs/tutorial/app.md)."""
 CHEAP: dict[str, tuple[tuple[str, ...], ...]] = {
     "breakwater": (("statics", "mooring"), ("statics", "frequency"), ("statics", "mooring", "frequency")),
-    "curtain": (("statics",), ("statics", "impact")),
+    "curtain": (("statics",), ("impact",), ("statics", "impact")),
     "cage": (("statics",),),
     "network": (("statics",),),
     "units": (("statics",), ("statics", "frequency")),
