@@ -15,6 +15,7 @@ from moyai.app.changes import changed
 from moyai.app.documents import OpenCase, stem_of
 from moyai.app.form import form_of
 from moyai.app.gallery import gallery
+from moyai.app.pins import renamed, with_pin
 from moyai.case.yaml_reader import parse_yaml
 from moyai.core.errors import InputError
 from moyai.core.kinds import structure_kinds
@@ -105,8 +106,17 @@ async def _undo(app: App, request: Request) -> Response:
 
 
 async def _pin(app: App, request: Request) -> Response:
-    document = _case(app, request)
-    document.pinned = "" if document.pinned else document.text
+    """Pin the state of a case; ``id`` names a pin that gets another name, or goes where there is none."""
+    document, content = _case(app, request), await body_of(request)
+    key, name = text_in(content, "id"), text_in(content, "name")
+    if key and not any(pin.key == key for pin in document.pins):
+        raise KeyError(key)
+    if not key:
+        document.pins = with_pin(document.pins, name, document.text)
+    elif name:
+        document.pins = renamed(document.pins, key, name)
+    else:
+        document.pins = tuple(pin for pin in document.pins if pin.key != key)
     return json_answer(document.record())
 
 

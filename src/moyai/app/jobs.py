@@ -13,10 +13,10 @@ from pathlib import Path
 from typing import Any
 
 from moyai.app.downloads import makeable
-from moyai.app.draft import Run
 from moyai.app.folder import Folder
 from moyai.app.job_process import Order, work
 from moyai.app.job_records import ENDED, Kept, keep, kept_jobs
+from moyai.app.pins import Run
 from moyai.language import said
 
 GRACE = 2.0

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from moyai.app.changes import with_key, with_scalar, without_key
-from moyai.app.draft import Run
 from moyai.app.folder import Folder, refuse_foreign_files, within
+from moyai.app.pins import Run
 from moyai.case.paths import resolve
 from moyai.case.reader import written
 from moyai.case.yaml_reader import Document, parse_yaml, read_yaml

@@ -18,7 +18,7 @@ from typing import Any
 import pytest
 from app_runs import MEMBER, words_of_files
 
-from moyai.app.draft import stages_of
+from moyai.app.stages import stages_of
 from moyai.case.reader import case_of
 from moyai.case.templates import template
 from moyai.case.yaml_reader import parse_yaml
