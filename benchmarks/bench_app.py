@@ -52,6 +52,13 @@ MOVE = """((path, share) => {
   for (const name of ['input', 'change']) range.dispatchEvent(new Event(name, { bubbles: true }));
 })"""
 
+DRAWN_AFTER = """((move) => new Promise((drawn) => {
+  const report = document.querySelector('.report');
+  new MutationObserver((_, one) => { if (report.dataset.latency) { one.disconnect(); drawn(true); } })
+    .observe(report, { attributes: true, attributeFilter: ['data-latency'] });
+  move();
+}))"""
+
 
 def driver() -> Any:
     """Return the module that drives Chromium, which stands with the tests of the reports."""
@@ -112,8 +119,8 @@ def measured(page: Any, file: str, path: str, section: str, moves: int, app: int
     found = []
     for number in range(moves + 1):
         before = times_of(app, page.process_id)
-        page.evaluate(f"{MOVE}({path!r}, {0.4 + 0.2 * ((number * 7) % 11) / 11.0})")
-        until(page, "document.querySelector('.report').dataset.latency")
+        # without asking again and again, which would be work of the page
+        page.evaluate(f"{DRAWN_AFTER}(() => {MOVE}({path!r}, {0.4 + 0.2 * ((number * 7) % 11) / 11.0}))")
         after = times_of(app, page.process_id)
         latency = float(page.evaluate("document.querySelector('.report').dataset.latency"))
         found.append((latency, after[0] - before[0], after[1] - before[1]))

@@ -11,12 +11,12 @@ from starlette.requests import Request
 from starlette.responses import Response, StreamingResponse
 
 from moyai.app.answers import Endpoint, body_of, json_answer, text_in
-from moyai.app.changes import changed
 from moyai.app.documents import OpenCase, stem_of
-from moyai.app.form import form_of
 from moyai.app.gallery import gallery
 from moyai.app.pins import renamed, with_pin
-from moyai.case.yaml_reader import parse_yaml
+from moyai.case.form import form_of
+from moyai.case.text_changes import with_key, with_scalar, without_key
+from moyai.case.yaml_reader import Document, parse_yaml
 from moyai.core.errors import InputError
 from moyai.core.kinds import structure_kinds
 
@@ -93,10 +93,41 @@ async def _change(app: App, request: Request) -> Response:
     """Change one value or key of a text; the record of the case holds the new text."""
     document, content = _case(app, request), await body_of(request)
     text = text_in(content, "text")
-    after = await asyncio.to_thread(lambda: changed(parse_yaml(text, document.name), content).text)
+    after = await asyncio.to_thread(lambda: _changed(parse_yaml(text, document.name), content).text)
     document.change(text, "typing")
     document.change(after, f"form {content['path']}")
     return json_answer(document.record())
+
+
+def _changed(document: Document, wish: dict[str, Any]) -> Document:
+    """Return the document after a change that the page asks for.
+
+    Parameters
+    ----------
+    document : Document
+    wish : dict
+        ``change`` (``set``, ``add`` or ``remove``), ``path``, and what the change needs: ``value``, ``quoted``,
+        ``after``.
+
+    Raises
+    ------
+    InputError
+        When it is no change of this case.
+    ValueError
+        When the wish is malformed.
+    """
+    path, value, after = wish.get("path"), wish.get("value"), wish.get("after", "")
+    steps = isinstance(path, list) and all(isinstance(step, str | int) and not isinstance(step, bool) for step in path)
+    if not path or not steps or not isinstance(after, str):
+        raise ValueError("'path' is a list of keys and numbers")
+    where = tuple(path)
+    if wish.get("change") == "set" and isinstance(value, str):
+        return with_scalar(document, where, value.strip(), as_text=wish.get("quoted") is True)
+    if wish.get("change") == "add":
+        return with_key(document, where, value, after=after)
+    if wish.get("change") == "remove":
+        return without_key(document, where)
+    raise ValueError("a change is 'set', 'add' or 'remove'")
 
 
 async def _undo(app: App, request: Request) -> Response:

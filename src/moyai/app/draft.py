@@ -8,13 +8,13 @@ from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from moyai.app.edits import with_number
 from moyai.app.folder import refuse_foreign_files
 from moyai.app.pins import Pin, Pinned, Run
 from moyai.app.sliders import sliders_of
 from moyai.app.stages import stages_of
 from moyai.case.builder import build
 from moyai.case.reader import case_of, like_checked
+from moyai.case.text_numbers import with_number
 from moyai.case.yaml_reader import Document, parse_yaml
 from moyai.core.errors import CaseError, Fault, MoyaiError
 from moyai.core.kinds import structure_kind

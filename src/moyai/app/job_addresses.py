@@ -15,7 +15,8 @@ from moyai.app.folder import within
 from moyai.app.job_process import Order
 from moyai.app.jobs import FILES
 from moyai.app.security import REPORT_POLICY
-from moyai.app.study_jobs import case_text, refuse_foreign_base, so_far, table_of
+from moyai.app.study_jobs import refuse_foreign_base, so_far
+from moyai.study.cases_so_far import case_text, table_of
 
 if TYPE_CHECKING:
     from moyai.app.server import App

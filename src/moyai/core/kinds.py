@@ -81,6 +81,10 @@ class StructureKind(Kind):
     Types of :mod:`moyai.case` stand above this module; they are named in the docstrings.
     """
 
+    #: Path in the case file and name of the numbers that a design is tried with, the most wanted first; those of site,
+    #: current and sea follow of themselves
+    numbers: tuple[tuple[str, str], ...] = ()
+
     @abstractmethod
     def schema(self) -> Any:
         """Return the root schema of the case files, a subclass of :class:`moyai.case.schema_types.Block`."""

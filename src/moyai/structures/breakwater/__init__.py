@@ -18,6 +18,21 @@ class BreakwaterKind(FolderKind):
     name = "breakwater"
     package = __name__
     templates = (("breakwater", "template.yaml"),)
+    numbers = (
+        ("structure.section.beam", "Beam"),
+        ("structure.draught", "Draught"),
+        ("structure.mass", "Mass"),
+        ("structure.length", "Length of a unit"),
+        ("structure.centre_of_gravity_above_keel", "Centre of gravity above keel"),
+        ("structure.roll_gyradius", "Gyradius of roll"),
+        ("lines[0].segments[0].length", "Line length, first line"),
+        ("lines[1].segments[0].length", "Line length, second line"),
+        ("lines[0].segments[0].diameter", "Chain diameter, first line"),
+        ("lines[0].anchor.x", "Anchor, first line"),
+        ("site.water_depth", "Water depth"),
+        ("waves[0].height", "Wave height"),
+        ("wind.speed", "Wind speed"),
+    )
     root_schema = "BreakwaterCase"
 
     def nominal(self, problem: Any, shown: Collection[str] = ()) -> Any | None:

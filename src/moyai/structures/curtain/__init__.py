@@ -15,6 +15,16 @@ class CurtainKind(FolderKind):
     name = "curtain"
     package = __name__
     templates = (("curtain", "template.yaml"),)
+    numbers = (
+        ("structure.skirt.length", "Depth of the skirt"),
+        ("structure.span", "Span"),
+        ("structure.length", "Length of the curtain"),
+        ("structure.toe.chain_mass", "Chain at the toe"),
+        ("structure.skirt.submerged_weight", "Weight of the sheet under water"),
+        ("structure.floats.buoyancy", "Buoyancy of the floats"),
+        ("structure.drag.coefficient", "Drag coefficient"),
+        ("structure.passing_fraction", "Share of flow under the toe"),
+    )
     root_schema = "CurtainCase"
 
     def nominal(self, problem: Any, shown: Collection[str] = ()) -> Any | None:
