@@ -129,7 +129,8 @@ def _steps(problem: FlexibleCageProblem, collected: Collected, progress: Progres
                 if value in (0.0, speed):
                     _NEAR[place] = (found.state, *_NEAR.get(place, ())[: _MOST_NEAR - 1])
                 rests.append(found)
-                collected.groups[f"{root}/statics"] = statics_dataset(model, speeds[: number + 1], heading, rests)
+                if not problem.settings.nominal or number == len(speeds) - 1:
+                    collected.groups[f"{root}/statics"] = statics_dataset(model, speeds[: number + 1], heading, rests)
                 yield
             progress("rest in the current", len(speeds), len(speeds))
             statics = collected.groups[f"{root}/statics"]
