@@ -65,7 +65,7 @@ def test_scripts_show_no_words_but_through_say() -> None:
 def test_sliders_have_japanese_names() -> None:
     labels = {label for kind in structure_kinds() for _, label in (*structure_kind(kind).numbers, *COMMON)}
     with spoken_in("ja"):
-        assert [label for label in sorted(labels) if latin_words(said(label))] == []
+        assert [label for label in sorted(labels) if latin_words(said(label)) or " " in said(label)] == []
 
 
 @pytest.fixture
