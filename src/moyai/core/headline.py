@@ -433,7 +433,8 @@ def _judge_one(criterion: Criterion, headline: Headline) -> Judgement:
     proves = not headline.bound or (headline.bound == criterion.sense) == good
     if not proves:
         found = Judgement(criterion, value, "not judged", "", headline.bound)
-        return replace(found, reason=f"only a bound is known ({found.shown_bound} this value)")
+        judged_on = headline.judged_on or headline.where
+        return replace(found, reason=f"only a bound is known ({found.shown_bound} this value)", judged_on=judged_on)
     outcome: Outcome = "holds" if good else "does not hold"
     remedy = "" if good else _more_realisations(criterion, headline, value)
     return Judgement(criterion, value, outcome, headline.where, headline.bound, headline.judged_on, remedy)

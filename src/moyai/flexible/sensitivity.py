@@ -48,6 +48,9 @@ class PeakSensitivity:
     #: On a finer mesh whose bars are damped by a part of critical [N]; NaN where it was not run. Fronts on undamped
     #: bars overshoot by a part that no finer mesh takes away.
     damped: float = math.nan
+    #: With every bar cut in ``factor`` [N]; NaN where no such mesh was run.
+    finest: float = math.nan
+    factor: int = 1
 
     @property
     def discretisation_error(self) -> float:

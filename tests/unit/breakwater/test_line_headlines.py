@@ -47,7 +47,7 @@ def test_what_the_reruns_leave_open_is_judged():
     found = headline(line_headlines([opened]), "line_utilisation")
     closed = headline(line_headlines([GOVERNS]), "line_utilisation")
     assert found.value == closed.value and found.band.judged[1] == pytest.approx(closed.band.judged[1] + 0.5)
-    assert "could raise it to 2400 kN" in headline(line_headlines([opened]), "line_tension").detail
+    assert "could raise the mean to 2400 kN" in headline(line_headlines([opened]), "line_tension").detail
     assert judge([closed], (FACTOR,), computed=True).outcome == "holds"
     assert judge([found], (FACTOR,), computed=True).outcome == "does not hold"
 

@@ -7,9 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from moyai.sea.current import uniform
 from moyai.sea.water import Water
+from moyai.structures.curtain.limit_headlines import limit_headlines
 from moyai.structures.curtain.limits.search import NOT_REACHED, search
 from moyai.structures.curtain.limits.utilisation import (
     Requirements,
@@ -172,3 +174,16 @@ def test_distance_of_anchors_is_judged_by_what_grows_with_it():
 def test_joints_that_bear_more_than_a_span_set_no_length():
     assert math.isinf(joint_spacing(134.0, Strength(180e3, 3.0), 20.0))
     assert joint_spacing(134.0, Strength(180e3, 3.0), 1000.0) == pytest.approx(447.76, abs=0.01)
+
+
+def test_the_period_beside_a_limit_height_is_that_of_the_height_printed() -> None:
+    """The height that is held at the unfavourable end is printed; its period follows from it by T = c sqrt(H)."""
+    table = xr.Dataset(
+        {"design_limit_height": 0.64, "design_limit_low": 0.36},
+        attrs={"design_limit_governing": "anchor", "design_limit_period": 3.86 * 0.8, "period_follows_height": 1},
+    )
+    groups = {"/LW": xr.Dataset(), "/LW/limits": table}
+    shown = {item.name: item for item in limit_headlines(groups, ["LW"], lambda _: False)}
+    limit = shown["limit_wave_height"]
+    assert limit.value == pytest.approx(0.36)
+    assert f"in waves of {3.86 * 0.6:.3g} s" in limit.detail

@@ -15,11 +15,11 @@ from moyai.sea.components import WaveComponents
 from moyai.sea.environment import Environment
 from moyai.structures.units.assembly import assemble
 from moyai.structures.units.bem import panels_of
+from moyai.structures.units.drift import share_drift
 from moyai.structures.units.hydrodynamics import solve_row
 from moyai.structures.units.mesh import row_mesh
 from moyai.structures.units.model import Connector, Curve, UnitLine
 from moyai.structures.units.response import RowModel, respond
-from moyai.structures.units.seas import share_drift
 from moyai.structures.units.time.kernel import joint_force
 from moyai.structures.units.time.lines import Carried, events_of, moving_line, rerun, rerun_events
 from moyai.structures.units.time.memory import _Basis, _passive, _residues, fit_row_memory

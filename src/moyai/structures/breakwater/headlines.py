@@ -312,7 +312,7 @@ def _roll(domain: str, data: xr.Dataset, level: str, sea: str, frequency: xr.Dat
             given = band or Band(value, value, "")
             of = "; ".join(filter(None, (given.of, of)))
             band = replace(given.scaled(low, high), of=of, decides=given.judged is None)
-    detail = f"significant double amplitude {math.degrees(significant):.3g}\u00b0"
+    detail = f"amplitude; significant double amplitude {math.degrees(significant):.3g}\u00b0"
     model = _motion_model(domain, data)
     return [
         Headline("roll", "Largest roll", value, "rad", place(level, sea), model, band, alone(scatter), detail=detail)

@@ -203,9 +203,12 @@ def _tensions(loads: Sequence[_Load], groups: Groups) -> Iterator[Headline]:
         mine = sorted((one for one in loads if one.component in components), key=lambda one: one.value, reverse=True)
         found = [_tension(name, label, load, groups) for load in mine]
         worst = max(found[1:], key=_end, default=None)
-        yield from found[:1]
-        if worst is not None and _end(worst) > _end(found[0]):
-            yield replace(worst, shown=False)
+        if worst is None or not _end(worst) > _end(found[0]):
+            yield from found[:1]
+        elif worst.bound or found[0].bound:
+            yield from (found[0], replace(worst, shown=False))
+        else:
+            yield worst
 
 
 def _tension(name: str, label: str, load: _Load, groups: Groups) -> Headline:
@@ -222,18 +225,21 @@ def _tension(name: str, label: str, load: _Load, groups: Groups) -> Headline:
 def _used(loads: Sequence[_Load]) -> Iterator[tuple[float, Headline]]:
     """Return each load over its strength, with its utilisation, the safety factor included.
 
-    Of each kind the most used component is shown; another level or component whose judged end is worse, and what a
-    weaker current proves where only a bound is known, are judged with it.
+    Of each kind the component and level that is judged worst is shown, the most used where that one is a bound; another
+    that is worse, and what a weaker current proves where only a bound is known, are judged with it.
     """
     for name, label, components in _USED:
         known = [one for one in loads if one.component in components and math.isfinite(one.used)]
-        shown = max(known, key=lambda one: one.number("utilisation"), default=None)
-        if shown is None:
+        each = [(one, _used_headline(name, label, one)) for one in known]
+        if not each:
             continue
-        yield shown.number("utilisation"), _used_headline(name, label, shown)
-        open_ones = [_used_headline(name, label, one) for one in known if one is not shown]
+        # what is judged worst is shown; where that is no number to design with, the most used component
+        rated = [pair for pair in each if not pair[1].bound and math.isfinite(pair[1].value)]
+        top = max(each, key=lambda pair: pair[0].number("utilisation"))
+        shown, first = max(rated, key=lambda pair: _end(pair[1])) if rated and top in rated else top
+        yield shown.number("utilisation"), first
+        open_ones = [headline for one, headline in each if one is not shown]
         worst = max([*open_ones, *_in_weaker(name, label, known)], key=_end, default=None)
-        first = _used_headline(name, label, shown)
         if worst is not None and (first.bound or _end(worst) > _end(first)):
             yield shown.number("utilisation"), replace(worst, shown=False)
 

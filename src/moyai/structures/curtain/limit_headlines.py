@@ -79,9 +79,7 @@ def limit_headlines(groups: Groups, levels: Sequence[str], span_holds: Callable[
             details.append("with the impact when the current draws the curtain taut")
         if bound == "at most":
             details.append("no snap is counted: add 'waves' or 'dynamic' to 'analyses'")
-        period = float(table.attrs.get("design_limit_period", math.nan))
-        if key != "speed_limit" and math.isfinite(period):
-            details.append(f"in waves of {period:.3g} s, as settings.limits takes the period with the height")
+        found_at = limit
         if key != "speed_limit" and table.attrs.get("with_snaps"):
             lasting = float(table.attrs.get("sea_duration", math.nan)) / 60.0
             details.append(f"snaps by realisations of JONSWAP seas of {lasting:.3g} min along the normal")
@@ -107,6 +105,11 @@ def limit_headlines(groups: Groups, levels: Sequence[str], span_holds: Callable[
             # what is held is what holds at the unfavourable end
             details.insert(0, f"{limit:.3g} {unit} at the values themselves; {band.of}")
             limit = band.low
+        period = float(table.attrs.get("design_limit_period", math.nan))
+        if key != "speed_limit" and math.isfinite(period) and limit > 0.0:
+            # the period of the height that is printed, not of the one at the values themselves
+            period *= math.sqrt(limit / found_at) if table.attrs.get("period_follows_height", 1) else 1.0
+            details.append(f"in waves of {period:.3g} s, as settings.limits takes the period with the height")
         own = _number(table, "surface_speed")
         if key == "speed_limit" and own > 0.0 and not said:
             details.append(f"{limit / own:.2f} of the current of the case, {own:.3g} m/s")

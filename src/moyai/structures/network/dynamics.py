@@ -20,6 +20,7 @@ from moyai.structures.network.assembly import Assembly
 from moyai.structures.network.bodies import CoupledRun, coupled_sensitivity, run_coupled
 from moyai.structures.network.model import NetworkProblem
 from moyai.structures.network.refinement import (
+    LANDING,
     affordable,
     check_event,
     check_peak,
@@ -197,10 +198,12 @@ def _worth(
         if problem.settings.mesh_check == "off" or coupled is not None:
             return None, [unchecked(why)] if why else [], history
         motions, options = motions_of(problem, plan.duration), options_of(problem, plan)
-        if affordable(history, bool(why)):
+        event = (governing, plan.skip, plan.period, options, reported, why)
+        checked = check_event(assembly, history, motions, *event) if LANDING in why else None
+        if checked is None and affordable(history, bool(why)):
             checked = check_peak(assembly, history, motions, governing, starts[0], plan.skip, options, reported)
-        else:
-            checked = check_event(assembly, history, motions, governing, plan.skip, plan.period, options, reported)
+        elif checked is None and LANDING not in why:
+            checked = check_event(assembly, history, motions, *event)
         return checked, [unchecked(why)] if checked is None and why else [], history
     except (ConvergenceError, InputError) as error:
         return None, [Notice("sensitivity-failed", error.fault.message, remedy=error.fault.remedy)], history

@@ -17,6 +17,7 @@ from moyai.core.headline import Band, Bound, Headline, governing, unfavourable
 from moyai.core.wording import spoken
 from moyai.flexible.sensitivity import PeakSensitivity
 from moyai.series.block_maxima import Maximum, maximum_of
+from moyai.structures.network.held_rows import held_headlines
 from moyai.structures.network.model import NetworkProblem
 from moyai.structures.network.refinement import LANDING, band_of
 from moyai.structures.network.single_anchor import single_anchors
@@ -73,6 +74,7 @@ def headlines_of(problem: NetworkProblem, groups: Mapping[str, xr.Dataset]) -> t
         items += _start_up(groups, peak)
         items += _utilisation(problem, groups, peaks)
     items += _anchor(groups, peaks)
+    items += held_headlines(problem, groups, DYNAMIC)
     items += _offsets(groups, single_anchors(problem))
     items += _mode(groups)
     around = problem.environment
@@ -201,11 +203,12 @@ def _start_up(groups: Mapping[str, xr.Dataset], peak: _Peak) -> list[Headline]:
 
 def _numerical_band(summary: xr.Dataset, peak: _Peak) -> tuple[Band | None, list[str]]:
     if "sensitivity_peak" in summary and math.isfinite(float(summary["sensitivity_peak"])):
-        keys = ("sensitivity_peak", "half_step", "double_mesh", "half_viscosity", "double_viscosity", "damped")
+        finer = ("half_step", "double_mesh", "half_viscosity", "double_viscosity", "damped", "finest")
+        keys = ("sensitivity_peak", *finer)
         values = [float(summary[key]) for key in keys]
         if summary.attrs.get(f"governing {peak.run}") == peak.line:
-            peak_of, half, mesh, less, more, damped = values
-            low, high = band_of(PeakSensitivity(peak_of, half, mesh, less, more, math.nan, damped))
+            peak_of, half, mesh, less, more, damped, finest = values
+            low, high = band_of(PeakSensitivity(peak_of, half, mesh, less, more, math.nan, damped, finest))
             words = "mesh and step: half the step, twice the segments, undamped and damped, and their change continued"
             band = Band(min(low, peak.value), max(high, peak.value), words)
             viscous = [value for value in values[3:5] if math.isfinite(value)]

@@ -36,7 +36,9 @@ LEAD, AFTER, SAME_EVENT = 3.0, 0.25, 0.02
 FEW_BARS = 5
 #: Doubt of a peak that finer segments only lower: lumps that stop on the bed pull harder than a smooth line.
 LANDING = "segments that land on the bed send fronts along the line"
-_FRONTS = ("wave-front", "landing-front")
+#: Bars times steps that the finest mesh of one event may take, diameters below which bars of a line mean nothing, and
+#: the change of a peak that lands with twice the bars below which no finer mesh is run.
+LADDER_WORK, SHORTEST_BAR, LANDED = 3e8, 2.0, 0.1
 
 
 def doubt(assembly: Assembly, history: History, snaps: Mapping[str, SnapRecord], line: str) -> str:
@@ -122,11 +124,14 @@ def check_event(
     period: float,
     options: Mapping[str, Any],
     progress: Progress,
+    why: str = "",
 ) -> PeakSensitivity | None:
     """Run only the event of the highest tension again, with half the step and with every bar cut in two.
 
     The event is run first on the mesh and step of the run: where that does not give its peak again within
     :data:`SAME_EVENT` the start has not faded, and nothing is known. What finer runs change is taken in proportion.
+    Fronts of segments that land never come twice at one height: there the highest of the event by itself is the
+    measure, and bars are cut further until it stands or bars are as short as the line is thick.
 
     Returns
     -------
@@ -153,16 +158,45 @@ def check_event(
     if same.status != "converged":
         return None
     again = float(np.max(same.tension_peak[same.time >= same.time[0] + window.lead]))
-    if abs(again / peak - 1.0) > SAME_EVENT:
+    lands = LANDING in why
+    if abs(again / peak - 1.0) > SAME_EVENT and not lands:
         return None
     found = check_peak(assembly, same, motions, line, window.begin, window.lead, chosen, progress)
     if found is None:
         return None
+    if lands:
+        found = _down_to_links(found, same, motions, bars, window, chosen, progress)
     scale = peak / again
     return replace(
         found, peak=peak, half_step=scale * found.half_step, double_mesh=scale * found.double_mesh,
-        damped=scale * found.damped,
+        damped=scale * found.damped, finest=scale * found.finest,
     )  # fmt: skip
+
+
+def _down_to_links(
+    found: PeakSensitivity, event: History, motions: Mapping[str, Motion], bars: np.ndarray, window: Window,
+    options: Mapping[str, Any], progress: Progress,
+) -> PeakSensitivity:  # fmt: skip
+    """Cut the bars of an event in four, eight ... as long as its highest tension changes by a tenth each time."""
+    network, factor, last = event.network, 4, found.double_mesh
+    own = network.bars.length[bars] / (SHORTEST_BAR * network.bars.of_type("diameter")[bars])
+    most = min(int(np.min(own)), math.isqrt(int(LADDER_WORK / (len(network.bars) * event.steps))))
+    while factor <= most:
+        finer, state = refined(network, factor, window.begin)
+        kept = np.concatenate([factor * bars + part for part in range(factor)])
+        shorter = {} if options.get("step") is None else {"step": options["step"] / factor}
+        chosen = {**options, **shorter, "keep_nodes": [0], "keep_bars": kept}
+        run = simulate(finer, motions, start=state, progress=progress, **chosen)
+        if run.status == "interrupted":
+            raise KeyboardInterrupt
+        if run.status != "converged":
+            break
+        peak = float(np.max(run.tension_peak[run.time >= run.time[0] + window.lead]))
+        found = replace(found, finest=peak, factor=factor)
+        if abs(peak / last - 1.0) <= LANDED or factor == most:
+            break
+        factor, last = min(2 * factor, most), peak
+    return found
 
 
 def _bars_of(assembly: Assembly, line: str) -> np.ndarray:
@@ -245,14 +279,17 @@ def change_of(found: PeakSensitivity) -> float:
     """Return the largest relative change of the peak with half the step, twice the bars, and bars that are damped."""
     if found.peak == 0.0:
         return 0.0
-    others = [value for value in (found.half_step, found.double_mesh, found.damped) if math.isfinite(value)]
-    return max(abs(value / found.peak - 1.0) for value in others)
+    return max(abs(value / found.peak - 1.0) for value in _finer(found))
 
 
 def lowered(found: PeakSensitivity, goal: float) -> bool:
     """Whether half the step, twice the bars and damped bars all give less: the peak of the run is on the safe side."""
-    others = [value for value in (found.half_step, found.double_mesh, found.damped) if math.isfinite(value)]
-    return all(value <= found.peak * (1.0 + goal) for value in others)
+    return all(value <= found.peak * (1.0 + goal) for value in _finer(found))
+
+
+def _finer(found: PeakSensitivity) -> list[float]:
+    others = (found.half_step, found.double_mesh, found.damped, found.finest)
+    return [value for value in others if math.isfinite(value)]
 
 
 def band_of(found: PeakSensitivity) -> tuple[float, float]:
@@ -262,8 +299,7 @@ def band_of(found: PeakSensitivity) -> tuple[float, float]:
     best: twice the bars take half of the error.
     """
     ends = [found.peak, found.half_step, found.double_mesh, max(2.0 * found.double_mesh - found.peak, 0.0)]
-    if math.isfinite(found.damped):
-        ends.append(found.damped)
+    ends += [value for value in (found.damped, found.finest) if math.isfinite(value)]
     return min(ends), max(ends)
 
 
@@ -290,7 +326,11 @@ def not_converged(found: PeakSensitivity, goal: float, line: str, why: str, segm
     by_step = abs(found.half_step - found.peak)
     half, mesh, calm = (spoken(v, "N", like=found.peak) for v in (found.half_step, found.double_mesh, found.damped))
     damped = f", {calm} where bars are damped as well" if math.isfinite(found.damped) else ""
-    finer = f"{2 * segments} to {4 * segments} segments" if segments else "a finer net"
+    below = ""
+    if segments and math.isfinite(found.finest):
+        below = f"; {found.factor * segments} segments give {spoken(found.finest, 'N', like=found.peak)}"
+    least, most = max(2, found.factor // 2), max(4, found.factor)
+    finer = f"{least * segments} to {most * segments} segments" if segments else "a finer net"
     remedy = (
         f"{finer}, more internal damping (damping_ratio: {DAMPING:g} of critical), or a line that does not go slack"
         if by_mesh >= by_step
@@ -299,7 +339,7 @@ def not_converged(found: PeakSensitivity, goal: float, line: str, why: str, segm
     return (
         f"the peak of '{line}', {spoken(found.peak, 'N')}, is {mesh} with twice the segments{damped} and {half} "
         f"with half the step: {100.0 * change_of(found):.0f} % where {100.0 * goal:g} % is asked for"
-        f"{' (' + why + ')' if why else ''}; {remedy}"
+        f"{' (' + why + ')' if why else ''}{below}; {remedy}"
     )
 
 

@@ -15,6 +15,7 @@ from moyai.series.snaps import SnapRecord, find_snaps
 from moyai.structures.network.assembly import Assembly
 from moyai.structures.network.bodies import CoupledRun
 from moyai.structures.network.equilibrium import AXES, MEASURES, TURNS, highest_pulls, line_numbers, named_points, pulls
+from moyai.structures.network.held_rows import held_pulls
 from moyai.structures.network.model import NetworkProblem
 from moyai.structures.network.noise import without_noise
 from moyai.structures.network.resume import last_good_state
@@ -81,6 +82,9 @@ def series_of(assembly: Assembly, plan: RunPlan, history: History) -> xr.Dataset
             np.stack([history.tension_peak[:, bars].max(axis=1) for bars in assembly.net_bars.values()], axis=1),
             {"units": "N", "long_name": "highest tension in the net since the row before"},
         )
+        held = held_pulls(network, assembly.net_bars, position, history.tension)
+        if held is not None:
+            data["held_pull"] = (("time", "net", "axis"), held)
     if plan.waves is not None:
         data["surface_elevation"] = ("time", plan.waves.elevation(time) * _grown(plan, time))
     out = labelled(

@@ -65,7 +65,7 @@ def summary_dataset(
     if known:
         for key in (
             "peak", "half_step", "double_mesh", "half_viscosity", "double_viscosity", "discretisation_error",
-            "viscosity_effect", "damped",
+            "viscosity_effect", "damped", "finest",
         ):  # fmt: skip
             label = "sensitivity_peak" if key == "peak" else key
             values = [getattr(item.sensitivity, key) if item.sensitivity else math.nan for item in runs]

@@ -8,14 +8,14 @@ all headings are solved with one factorisation for each parity.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 from scipy.linalg import lu_factor, lu_solve
 
-from moyai.core.arrays import Array, ComplexArray
+from moyai.core.arrays import Array, ComplexArray, IntArray
 from moyai.core.errors import InputError
 from moyai.sea.dispersion import wave_number
 from moyai.sea.water import Water
@@ -182,6 +182,13 @@ class Solution:
     radiated: ComplexArray
     scattered: ComplexArray
     haskind: Array
+
+    def among(self, columns: IntArray) -> Solution:
+        """Return the solution in some of its headings."""
+        return replace(
+            self, excitation=self.excitation[columns], diffraction=self.diffraction[:, columns],
+            scattered=self.scattered[columns],
+        )  # fmt: skip
 
 
 def directions() -> Array:

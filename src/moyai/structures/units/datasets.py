@@ -135,6 +135,11 @@ def _mean_loads(at: RowAtLevel, answer: SeaAnswer) -> Array:
     return out
 
 
+def _of_units(answer: SeaAnswer) -> Array:
+    """Return the mean drift of every unit (u, 3): across, along, about the vertical through its centre."""
+    return answer.pushed.reshape(-1, 6)[:, [0, 1, 5]]
+
+
 def _drift_of(drift: Array, answer: SeaAnswer, headings: Array) -> dict[str, Any]:
     return {
         "drift_per_amplitude_squared": (("omega", "wave_direction", "direction"), drift),
@@ -174,6 +179,7 @@ def regular_dataset(at: RowAtLevel, sea: RegularSea, answers: list[SeaAnswer], h
         "mean_offset": (("period", "unit", "dof"), offset),
         "largest_offset": (("period", "unit"), _farthest(offset, motion, amplitude)),
         "mean_drift": (("period", "direction"), np.array([item.drift for item in answers])),
+        "mean_drift_of_unit": (("period", "unit", "direction"), np.array([_of_units(item) for item in answers])),
         "connector_force_amplitude": (dims, force),
         "connector_moment_amplitude": (dims, moment),
         "connector_force_mean": (dims, mean_load[..., :3]),
@@ -268,6 +274,7 @@ def irregular_dataset(at: RowAtLevel, sea: IrregularSea, answer: SeaAnswer) -> x
         "mean_offset": (("unit", "dof"), offset),
         "largest_offset": ("unit", np.linalg.norm(np.abs(offset[:, :2]) + most[:, :2], axis=1)),
         "mean_drift": ("direction", answer.drift),
+        "mean_drift_of_unit": (("unit", "direction"), _of_units(answer)),
         "connector_force_mean": (dims, mean_load[:, :3]),
         "connector_moment_mean": (dims, mean_load[:, 3:]),
         "connector_significant_force": (dims, 2.0 * load.standard_deviation[:, :3]),

@@ -13,6 +13,7 @@ from moyai.floating.irregular import response_statistics
 from moyai.sea.environment import Environment
 from moyai.sea.states import IrregularSea, RegularSea, SeaState
 from moyai.structures.units.assembly import RowAtLevel, RowPosition, steady_position
+from moyai.structures.units.drift import drift_of_units
 from moyai.structures.units.hydrodynamics import RowHydrodynamics
 from moyai.structures.units.model import Settings
 from moyai.structures.units.response import (
@@ -109,6 +110,10 @@ class SeaAnswer:
         Under wind, current and mean drift.
     drift : ndarray (3,)
         Mean drift of the whole row [N, N, N m].
+    pushed : ndarray (m,)
+        The same as loads on the units.
+    unit_drift : ndarray (f, h, m)
+        Of the units per amplitude squared, at the frequencies and headings of ``coarse``; empty of regular waves.
     coarse : RowResponse
         At the frequencies of the coefficients; of regular waves in all headings that were solved, of an irregular sea
         in its own.
@@ -127,6 +132,8 @@ class SeaAnswer:
 
     rest: RowPosition
     drift: Array
+    pushed: Array
+    unit_drift: Array
     coarse: RowResponse
     far: FarWaves
     fine: RowResponse
@@ -134,27 +141,6 @@ class SeaAnswer:
     headings: Array
     curve_stiffness: Array
     converged: bool
-
-
-def share_drift(at: RowAtLevel, drift: Array) -> Array:
-    """Return a drift force (3,) of the whole row as loads (m,) on its units [eq:units-shared-drift].
-
-    Every unit bears the same force, and a couple of forces makes up the moment; of a single unit its yaw moment.
-    """
-    out = np.zeros(at.size)
-    count = at.row.count
-    plan = at.centres[:, :2]
-    middle = plan.mean(axis=0)
-    out[0::6], out[1::6] = drift[0] / count, drift[1] / count
-    left = drift[2] - (middle[0] * drift[1] - middle[1] * drift[0])
-    arm = plan - middle
-    square = float((arm**2).sum())
-    if square == 0.0:
-        out[5] = left
-    else:
-        out[0::6] -= left * arm[:, 1] / square
-        out[1::6] += left * arm[:, 0] / square
-    return out
 
 
 def regular_answer(
@@ -166,7 +152,7 @@ def regular_answer(
     for period in sea.periods:
         omega = np.array([2.0 * math.pi / period])
         row = int(np.argmin(np.abs(hydro.omega - omega[0])))
-        drift = np.zeros(3)
+        drift, pushed = np.zeros(3), np.zeros(at.size)
         rest = steady_position(at, steady)
         curves, converged, relaxed = np.zeros(len(at.joints)), False, _Relaxed(len(at.joints))
         for _ in range(_TURNS):
@@ -182,23 +168,25 @@ def regular_answer(
                     for joint in at.joints
                 ]
             )  # fmt: skip
-            moved = drift
+            moved = pushed
             if settings.drift:
                 coarse = respond(model, hydro.omega, curves)
-                moved = amplitude**2 * far_waves(model, coarse).drift[row, column[0]]
-            settled = _near(new, curves) and _near(moved, drift)
-            curves, drift = relaxed.towards(curves, new), moved
+                whole = far_waves(model, coarse).drift
+                drift = amplitude**2 * whole[row, column[0]]
+                moved = amplitude**2 * drift_of_units(model, coarse, whole, np.array([row]), column)[0, 0]
+            settled = _near(new, curves) and _near(moved, pushed)
+            curves, pushed = relaxed.towards(curves, new), moved
             if settled:
                 converged = True
                 break
-            rest = steady_position(at, steady + share_drift(at, drift))
+            rest = steady_position(at, steady + pushed)
         model = RowModel(at, hydro, rest.position)
         coarse = respond(model, hydro.omega, curves)
         far = far_waves(model, coarse)
         answers.append(
             SeaAnswer(
-                rest, drift, coarse, far, _picked(coarse, row, column), np.zeros((0, 0)), hydro.headings[column],
-                curves, converged,
+                rest, drift, pushed, np.zeros((0, 0, at.size)), coarse, far, _picked(coarse, row, column),
+                np.zeros((0, 0)), hydro.headings[column], curves, converged,
             )
         )  # fmt: skip
     return answers
@@ -252,7 +240,9 @@ def irregular_answer(
     coarse_density = np.asarray(sea.spectrum.density_at(hydro.omega), dtype=float)[:, None] * coarse_share
     weights = cell_weights(hydro.omega, low, high)
     one = _of_headings(hydro, columns)
-    drift, curves, converged = np.zeros(3), np.zeros(len(at.joints)), False
+    drift, pushed = np.zeros(3), np.zeros(at.size)
+    unit_drift = np.zeros((len(hydro.omega), len(headings), at.size))
+    curves, converged = np.zeros(len(at.joints)), False
     relaxed = _Relaxed(len(at.joints))
     rest = steady_position(at, steady)
     for _ in range(_TURNS):
@@ -267,21 +257,24 @@ def irregular_answer(
                 for joint in at.joints
             ]
         )  # fmt: skip
-        moved = drift
+        moved = pushed
         if settings.drift:
-            coefficient = far_waves(model, respond(model, hydro.omega, curves)).drift
-            moved = np.einsum("f,fh,fhc->c", 2.0 * weights, coarse_density, coefficient)
-        settled = _near(new, curves) and _near(moved, drift)
-        curves, drift = relaxed.towards(curves, new), moved
+            coarse = respond(model, hydro.omega, curves)
+            whole = far_waves(model, coarse).drift
+            unit_drift = drift_of_units(model, coarse, whole)
+            drift = np.einsum("f,fh,fhc->c", 2.0 * weights, coarse_density, whole)
+            moved = np.einsum("f,fh,fhm->m", 2.0 * weights, coarse_density, unit_drift)
+        settled = _near(new, curves) and _near(moved, pushed)
+        curves, pushed = relaxed.towards(curves, new), moved
         if settled:
             converged = True
             break
-        rest = steady_position(at, steady + share_drift(at, drift))
+        rest = steady_position(at, steady + pushed)
     model = RowModel(at, one, rest.position)
     coarse = respond(model, hydro.omega, curves)
     return SeaAnswer(
-        rest, drift, coarse, far_waves(model, coarse), respond(model, omega, curves), density, headings, curves,
-        converged,
+        rest, drift, pushed, unit_drift, coarse, far_waves(model, coarse), respond(model, omega, curves), density,
+        headings, curves, converged,
     )  # fmt: skip
 
 

@@ -41,6 +41,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "motion_amplitude": ("m", "amplitude of motion, axes of the unit (pitch, roll, yaw: rad)"),
     "mean_offset": ("m", "mean offset, axes of the unit (pitch, roll, yaw: rad)"),
     "mean_drift": ("N", "mean drift on the whole row along x and y (moment about z: N m)"),
+    "mean_drift_of_unit": ("N", "mean drift of a unit along x and y (moment about its own vertical axis: N m)"),
     "drift_per_amplitude_squared": ("N/m2", "mean drift on the whole row per amplitude squared (moment: N/m)"),
     "hydrostatic_stiffness": ("N/m", "restoring of weight and buoyancy, row axes (with turns: N, N m)"),
     "connector_force_amplitude": ("N", "amplitude of the force in a connector, axes of the unit before it"),

@@ -247,7 +247,7 @@ def _open(peak: LinePeak) -> str:
     raised = kilonewton(float(peak.bound.mean()))
     if raised == kilonewton(float(peak.scatter.mean())):
         return ""
-    return f"events that were not rerun could raise it to {raised}, where it is judged"
+    return f"events that were not rerun could raise the mean to {raised}; judged at the end of the interval round that"
 
 
 def _other_level(highest: LinePeak, peaks: list[LinePeak]) -> str:

@@ -219,7 +219,7 @@ def mesh_notices(found: Mapping[str, tuple[str, EventPeak]]) -> tuple[Notice, ..
     return (
         Notice(
             "span-mesh",
-            f"peaks of the whole span move with the mesh: {said}",
+            f"peaks of the whole span move with the mesh, in the realisations that both have: {said}",
             max(peak.change for _, peak in apart.values()),
             MESH_CHANGE,
             remedy="run 'dynamic' with more cells, or design with the bound of the upright plate",

@@ -83,6 +83,7 @@ def limits_dataset(
     return group.assign(design_limit_low=_design_low(_strict(counted, lost_depth), speeds)).assign_attrs(
         speed_limit_of_least_depth=math.nan if strict.unit is unit else strict.speed()[0].value,
         design_limit_period=settings.limits.period_of(height) if height > 0.0 else math.nan,
+        period_follows_height=int(settings.limits.period is None),
     )
 
 

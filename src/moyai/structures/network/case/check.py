@@ -50,6 +50,11 @@ def check(model: NetworkCase, findings: Findings, folder: Path) -> None:
     check_sheets(model, findings)
     _check_files(model, findings, folder)
     _check_settings(model, findings, folder)
+    if getattr(model.criteria, "line_safety_factor", None) is not None and not model.structure.lines:
+        findings.fault(
+            ("criteria", "line_safety_factor"), "the case has no lines, and bars of nets have no breaking load",
+            remedy="give 'greatest_tension' of a bar in its place",
+        )  # fmt: skip
     if not findings.sound("site", "waves", "structure", "current", "settings"):
         return
     lines = model.structure.lines.values()

@@ -39,7 +39,7 @@ def criteria(model: Any, given: Any) -> Iterator[Criterion]:
     strong = [kind for kind in types if getattr(kind, "catalogue", None) or getattr(kind, "breaking_load", None)]
     yield from line_criteria(
         given,
-        DEFAULT_CODE if strong else "",
+        DEFAULT_CODE if strong and model.structure.lines else "",
         "dynamic" if "dynamic" in model.analyses else "quasi_static",
         [getattr(kind, "catalogue", None) for kind in types],
     )

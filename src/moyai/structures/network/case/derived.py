@@ -25,6 +25,7 @@ def derived_numbers(case: Case) -> tuple[Number, ...]:
     from moyai.flexible.result import State
     from moyai.sea.dispersion import wave_number
     from moyai.structures.network.assembly import assemble
+    from moyai.structures.network.refinement import DOUBTFUL_WORK, LADDER_WORK
     from moyai.structures.network.runs import run_plans
 
     problem = build(case)
@@ -75,6 +76,9 @@ def derived_numbers(case: Case) -> tuple[Number, ...]:
                     "s",
                     2,
                 )
+                if problem.settings.mesh_check == "auto" and not (problem.settings.sensitivity or problem.bodies):
+                    further = min(10.0 * cost, (DOUBTFUL_WORK + LADDER_WORK) / _NODE_STEPS_PER_SECOND)
+                    add(group, "with the checks of mesh and step, at most about", cost + further, "s", 2)
             if plan.waves is not None:
                 length = 2.0 * math.pi / wave_number(2.0 * math.pi / plan.period, water.depth, water.gravity)
                 add(group, "wave length", length, "m")

@@ -225,7 +225,7 @@ def worth_table(level: NetworkLevel) -> Table | None:
     dynamic = level.part("dynamic")
     names = (
         ("sensitivity_peak", "Peak"), ("half_step", "half the step"), ("double_mesh", "twice the bars"),
-        ("damped", "finer and damped"),
+        ("damped", "finer and damped"), ("finest", "finest mesh of its event"),
         ("half_viscosity", "half the viscosity"), ("double_viscosity", "twice the viscosity"),
     )  # fmt: skip
     values = [dynamic.real(key, "run") for key, _ in names]

@@ -10,6 +10,7 @@ from moyai.case.derived import Number
 from moyai.case.reader import Case
 from moyai.interop.bodies import bodies_of
 from moyai.sea.dispersion import wave_number
+from moyai.sea.states import IrregularSea
 from moyai.structures.units.assembly import RowAtLevel, assemble
 from moyai.structures.units.bem import memory_needed
 from moyai.structures.units.coefficients_file import read_row
@@ -18,9 +19,11 @@ from moyai.structures.units.model import UnitsProblem
 from moyai.structures.units.run import WITH_WAVES, highest_frequency, irregular_frequency, row_panels
 from moyai.structures.units.seas import frequencies_of, headings_of
 from moyai.structures.units.time.band import further_frequencies, memory_band
+from moyai.structures.units.time.model import STEPS_OF_WAVE
 
-#: Processor time of the Green function of two panels in finite depth [s], and of one operation of the solver [s]
-_PER_PAIR, _PER_OPERATION = 2.5e-6, 1.5e-10
+#: Processor time of the Green function of two panels in finite depth [s], of one operation of the solver [s], and of a
+#: step through time over the square of the degrees of freedom [s]
+_PER_PAIR, _PER_OPERATION, _PER_STEP = 2.5e-6, 1.5e-10, 5e-8
 
 
 def derived_numbers(case: Case) -> tuple[Number, ...]:
@@ -83,5 +86,9 @@ def _panel_numbers(level: str, at: RowAtLevel, problem: UnitsProblem) -> Iterato
         area = problem.map_area
         points = area.cells[0] * area.cells[1] + len(area.points) + (LINE_POINTS if area.line is not None else 0)
         seconds += omega.size * points * mesh.count * _PER_PAIR
+    if "time" in problem.settings.analyses:
+        steps = problem.settings.time.time_step or 2.0 * math.pi / float(omega.max()) / STEPS_OF_WAVE
+        lasting = sum(sea.duration for sea in problem.environment.sea_states if isinstance(sea, IrregularSea))
+        seconds += problem.settings.time.realisations * lasting / steps * _PER_STEP * (6 * at.row.count) ** 2
     yield Number(group, level, "memory in GiB", memory_needed(mesh.count, mirrors) / 2**30, "", 2)
     yield Number(group, level, "processor time, about", seconds, "s", 2)

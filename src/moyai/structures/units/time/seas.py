@@ -19,7 +19,7 @@ from moyai.sea.synthesis import choose_band
 from moyai.structures.units.assembly import RowAtLevel
 from moyai.structures.units.hydrodynamics import RowHydrodynamics
 from moyai.structures.units.model import Settings, TimeSettings
-from moyai.structures.units.seas import SeaAnswer, columns_of, share_drift
+from moyai.structures.units.seas import SeaAnswer, columns_of
 from moyai.structures.units.time.memory import RowMemory
 from moyai.structures.units.time.model import STEPS_OF_WAVE, RowInTime, RowRun
 
@@ -130,7 +130,7 @@ def regular_run(
     excitation = water.hydro.at(np.array([omega]), k)[2][0, column]
     time = step * np.arange(count)
     wave = cosine_ramp(time, ramp) * 0.5 * sea.height * np.exp(-1j * omega * time)
-    load = (wave[:, None] * excitation).real + water.steady + share_drift(at, answer.drift)
+    load = (wave[:, None] * excitation).real + water.steady + answer.pushed
     run = model.run(load, step, progress=progress, name=f", {at.name}, {sea.name}, {period:.3g} s")
     one = WaveComponents(
         np.array([omega]), np.array([0.5 * sea.height]), np.zeros(1), np.array([sea.heading]), k, at.water
@@ -182,15 +182,12 @@ def forcing_of(
     if water.settings.drift:
         law = "newman"
         coarse = answer.coarse.omega
-        table = np.array(
-            [
-                [np.interp(components.omega, coarse, answer.far.drift[:, heading, part]) for part in range(3)]
-                for heading in range(answer.far.drift.shape[1])
-            ]
-        )
-        per_square = table[own, :, np.arange(len(own))]
-        unit = np.array([share_drift(at, row) for row in np.eye(3)])
-        drift = per_square @ unit
+        table = answer.unit_drift
+        drift = np.empty((len(own), at.size))
+        for heading in range(table.shape[1]):
+            mine = own == heading
+            for part in range(at.size):
+                drift[mine, part] = np.interp(components.omega[mine], coarse, table[:, heading, part])
     return components, IrregularForcing(
         omega=components.omega, amplitude=components.complex_amplitude, excitation=excitation, drift=drift,
         steady=np.zeros(at.size), drift_law=law, ramp=ramp,

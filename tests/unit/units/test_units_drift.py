@@ -1,0 +1,97 @@
+"""Mean drift of single units: exact where there are no waves, symmetric, and summed up that of the far waves."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from moyai.structures.units.bem import Panels, panels_of, solve_frequency
+from moyai.structures.units.drift import drift_of_units, reconciled
+from moyai.structures.units.hydrodynamics import RowHydrodynamics, solve_row
+from moyai.structures.units.mesh import row_mesh
+from moyai.structures.units.near_field import NearField
+from moyai.structures.units.response import RowModel, far_waves, respond
+from moyai.validation.units import LENGTH, WATER, at_rest, row
+
+OMEGA = np.array([1.2])
+
+
+def _panels(size: float, count: int = 2) -> tuple[NearField, Panels]:
+    at = at_rest(row(count=count))
+    mesh = row_mesh(at.section, LENGTH, at.row.placements, size, lid=True, gap_lid=False)
+    panels = panels_of(mesh, at.centres)
+    return NearField(at, panels), panels
+
+
+def _solved(size: float, heading: float) -> tuple[NearField, RowHydrodynamics]:
+    field, panels = _panels(size)
+    return field, solve_row(panels, WATER, field.at.centres, OMEGA, np.array([heading]))
+
+
+def test_a_hull_in_still_water_is_pushed_nowhere() -> None:
+    """Whatever its place: what its own weight and buoyancy do to second order adds up to nothing."""
+    field, panels = _panels(2.5, 1)
+    solution = solve_frequency(panels, WATER, 1.2, np.zeros(1))
+    still = replace(
+        solution, omega=1e-7, added_mass=0.0 * solution.added_mass, damping=0.0 * solution.damping,
+        excitation=0.0 * solution.excitation, radiation=0.0 * solution.radiation,
+        diffraction=0.0 * solution.diffraction, wave_number=1e-14,
+    )  # fmt: skip
+    motion = np.array([[0.3, -0.2j, 0.5, 0.08 + 0.05j, 0.1 - 0.04j, 0.07]])
+    lifted = NearField(field.at, panels)
+    # without the incident wave, whose potential has no bound in so slow a wave
+    with pytest.MonkeyPatch.context() as patch:
+        nothing = np.zeros((panels.mesh.count, 1), dtype=complex)
+        patch.setattr("moyai.structures.units.near_field.incident_on", lambda *_: (nothing, nothing))
+        force = lifted.drift(still, np.zeros(1), motion)[0, 0]
+    size = 0.25 * WATER.density * WATER.gravity * LENGTH * 0.5**2
+    assert np.abs(force[:2]).max() < 1e-6 * size
+
+
+@pytest.mark.parametrize("heading", [0.0, 0.6])
+def test_pressures_on_the_hulls_add_up_to_the_far_waves(heading: float) -> None:
+    """Held, and moving freely; what is left shrinks with the panels."""
+    left = []
+    for size in (2.5, 1.5):
+        field, hydro = _solved(size, heading)
+        model = RowModel(field.at, hydro, np.zeros(field.at.size))
+        free = respond(model, OMEGA, np.zeros(len(field.at.joints)))
+        for found in (free, replace(free, motion=np.zeros_like(free.motion))):
+            whole = far_waves(model, found).drift[0, 0]
+            near = field.drift(hydro.solutions[0], hydro.headings, found.motion[0])[0]
+            left.append(np.linalg.norm(near[:, :2].sum(axis=0) - whole[:2]) / np.linalg.norm(whole[:2]))
+    assert max(left[2:]) < 0.1 and max(left[2:]) < max(left[:2])
+
+
+def test_two_units_abeam_bear_the_same_and_push_each_other() -> None:
+    field, hydro = _solved(2.5, 0.0)
+    model = RowModel(field.at, hydro, np.zeros(field.at.size))
+    found = respond(model, OMEGA, np.zeros(len(field.at.joints)))
+    whole = far_waves(model, found).drift
+    loads = drift_of_units(model, found, whole)[0, 0].reshape(2, 6)
+    assert loads[0, 0] == pytest.approx(loads[1, 0], rel=1e-9) and loads[0, 0] > 0.0
+    assert loads[0, 1] == pytest.approx(-loads[1, 1], rel=1e-9) and abs(loads[0, 1]) > 1e-3 * loads[0, 0]
+    assert loads[0, 5] == pytest.approx(-loads[1, 5], rel=1e-9)
+
+
+def test_the_seaward_unit_shelters_the_next_and_the_sum_is_kept() -> None:
+    field, hydro = _solved(2.5, np.radians(70.0))
+    model = RowModel(field.at, hydro, np.zeros(field.at.size))
+    found = respond(model, OMEGA, np.zeros(len(field.at.joints)))
+    whole = far_waves(model, found).drift
+    loads = drift_of_units(model, found, whole)[0, 0].reshape(2, 6)
+    plan = field.at.centres
+    assert loads[:, :2].sum(axis=0) == pytest.approx(whole[0, 0, :2], rel=1e-9)
+    moment = loads[:, 5] + plan[:, 0] * loads[:, 1] - plan[:, 1] * loads[:, 0]
+    assert moment.sum() == pytest.approx(whole[0, 0, 2], rel=1e-9)
+    # waves travel towards +y: the first unit meets them
+    assert plan[0, 1] < plan[1, 1] and loads[0, 1] > loads[1, 1]
+
+
+def test_what_is_left_of_the_sum_goes_as_the_size_of_each() -> None:
+    field, _ = _panels(2.5)
+    near = np.array([[3.0, 0.0, 0.0], [1.0, 0.0, 0.0]])
+    loads = reconciled(field.at, near, np.array([8.0, 0.0, 0.0])).reshape(2, 6)
+    assert loads[:, 0] == pytest.approx([6.0, 2.0])
