@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from html import escape
 from typing import TYPE_CHECKING, Any
 
 from moyai.core.kinds import structure_kind
@@ -59,3 +60,29 @@ def derived_numbers(case: Case) -> tuple[Number, ...]:
     """
     numbers: tuple[Number, ...] = structure_kind(case.kind).derived(case)
     return numbers
+
+
+def case_html(case: Case) -> str:
+    """Return a case as a piece of HTML for a notebook; nothing is loaded.
+
+    Parameters
+    ----------
+    case : Case
+    """
+    parts = [f"<strong>{escape(case.title)}</strong>", f"<div>{escape(case.kind)}, {escape(str(case.path))}</div>"]
+    parts += [f"<div>warning: {escape(str(fault))}</div>" for fault in case.warnings]
+    numbers = derived_numbers(case)
+    for group in dict.fromkeys(number.group for number in numbers):
+        own = [number for number in numbers if number.group == group]
+        levels = tuple(dict.fromkeys(number.column for number in own))
+        rows = [_row("th", (group, *levels, ""))]
+        for label, unit in dict.fromkeys((number.label, number.unit) for number in own):
+            texts = {number.column: number.text for number in own if (number.label, number.unit) == (label, unit)}
+            rows.append(_row("td", (label, *(texts.get(level, "") for level in levels), unit)))
+        parts.append(f"<table>{''.join(rows)}</table>")
+    parts.append(f"<details><summary>case file</summary><pre>{escape(case.text)}</pre></details>")
+    return f'<div class="moyai-case">{"".join(parts)}</div>'
+
+
+def _row(tag: str, cells: tuple[str, ...]) -> str:
+    return f"<tr>{''.join(f'<{tag}>{escape(cell)}</{tag}>' for cell in cells)}</tr>"

@@ -61,6 +61,15 @@ class Case:
         """Folder of the file, from which it names other files."""
         return self.path.parent
 
+    def _repr_html_(self) -> str:
+        """Return what a notebook shows: title, numbers that follow from the case, warnings, the text folded away."""
+        from moyai.case.derived import case_html
+
+        return case_html(self)
+
+    def __repr__(self) -> str:
+        return f"<case of kind {self.kind}: {self.title!r}, {self.path}>"
+
     def located(self, error: InputError) -> InputError:
         """Return an error of a run with the key that its parameter came from, and the line of that key."""
         return Findings(self.document, structure_kind(self.kind).keys()).located(error)

@@ -6,13 +6,14 @@ And what lets ``moyai run`` take a deck.
 from __future__ import annotations
 
 import re
+from dataclasses import replace as with_fields
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from moyai.cli.console import guard, print_json, tell
-from moyai.core.errors import InputError
+from moyai.core.errors import CaseError, Fault, InputError
 
 
 def motions_of(options: list[str]) -> dict[int | str, Path]:
@@ -84,16 +85,18 @@ def convert(
     output: Annotated[
         Path | None,
         typer.Option(
-            "--output", "-o", help="File to write; the name of FILE with another ending. With --to the folder."
+            "--output",
+            "-o",
+            help="File to write, FILE with another ending when absent; coefficients, gltf: the folder.",
         ),
     ] = None,
     to: Annotated[
         str | None,
         typer.Option(
             "--to",
-            metavar="wamit|nemoh|bemio|orcaflex",
+            metavar="wamit|nemoh|bemio|orcaflex|gltf",
             help="Write coefficients of a result as files of this program; "
-            "orcaflex: the unit of a result, lines of a case or deck.",
+            "orcaflex: unit and lines of a result, lines of a case or deck; gltf: structures in space, moving.",
         ),
     ] = None,
     sea: Annotated[
@@ -114,11 +117,15 @@ def convert(
 ) -> None:
     """Turn a deck of MoorDyn into a case file of a network, or a case file into a deck; write coefficients."""
     with guard(as_json):
-        if to == "orcaflex" and file.suffix.lower() != ".nc":
-            _write_lines(file, output or file.with_suffix(".yml"), water_level, depth, force=force, as_json=as_json)
-            return
         if to == "orcaflex":
-            _write_vessel(file, output or file.with_suffix(".yml"), water_level, force=force, as_json=as_json)
+            target = _model_file(file, output)
+            if file.is_dir() or file.suffix.lower() == ".nc":
+                _write_vessel(file, target, water_level, force=force, as_json=as_json)
+            else:
+                _write_lines(file, target, water_level, depth, force=force, as_json=as_json)
+            return
+        if to == "gltf":
+            _write_scenes(file, output, force=force, as_json=as_json)
             return
         if to is not None:
             _write_coefficients(file, to, output, water_level, sea, force=force, as_json=as_json)
@@ -180,12 +187,41 @@ def _write_coefficients(
         tell("files of NEMOH have no place for mean drift")
 
 
+def _write_scenes(file: Path, output: Path | None, *, force: bool, as_json: bool) -> None:
+    """Write the structures in space of a result as glTF and say which."""
+    from moyai.core.files import write_whole
+    from moyai.report.gltf import document_gltf
+    from moyai.report.views import read_result
+
+    folder = output if output is not None else (file if file.is_dir() else file.parent) / "gltf"
+    made = list(document_gltf(read_result(file).document))
+    if not made:
+        raise InputError(
+            "the report shows no structure in space", path="--to", allowed="results of networks and flexible cages"
+        )
+    if there := [folder / name for name, _ in made if (folder / name).exists() and not force]:
+        raise InputError(f"{there[0]} exists", path="output", remedy="choose another folder, or add --force")
+    files = [write_whole(folder / name, data) for name, data in made]
+    if as_json:
+        print_json({"files": list(map(str, files)), "faults": []})
+        return
+    for path in files:
+        tell(f"wrote {path}")
+
+
 def _write_vessel(file: Path, target: Path, water_level: str | None, *, force: bool, as_json: bool) -> None:
-    """Write the unit of a result as a vessel of OrcaFlex."""
+    """Write the unit of a result as a vessel of OrcaFlex, on its lines."""
     from moyai.core.results import read_result
+    from moyai.interop.whole_body import level_of_result
     from moyai.interop.write_orcaflex_vessel import orcaflex_vessel
 
-    _write_model(target, *orcaflex_vessel(read_result(file), water_level), force=force, as_json=as_json)
+    result = read_result(file)
+    moorings = None
+    if result.tree.attrs.get("structure") == "breakwater":
+        from moyai.structures.breakwater.case.moorings import moorings_of_result
+
+        moorings = moorings_of_result(result, level_of_result(result, water_level))
+    _write_model(target, *orcaflex_vessel(result, water_level, moorings), force=force, as_json=as_json)
 
 
 def _write_lines(
@@ -195,17 +231,36 @@ def _write_lines(
     from moyai.interop.moordyn_case import is_deck
     from moyai.interop.moordyn_reader import read_deck
     from moyai.interop.write_orcaflex import orcaflex_text
+    from moyai.interop.write_orcaflex_vessel import orcaflex_network
 
     if not file.is_file():
         raise InputError(f"no such file: {file}", path="FILE")
     if is_deck(file):
-        deck = read_deck(file).in_depth(depth)
+        written = orcaflex_text(read_deck(file).in_depth(depth))
     else:
         from moyai.case.reader import load_case
-        from moyai.structures.network.case.line_deck import deck_of_case
+        from moyai.structures.network.case.line_deck import deck_and_boxes
 
-        deck = deck_of_case(load_case(file), water_level)
-    _write_model(target, *orcaflex_text(deck), force=force, as_json=as_json)
+        try:
+            deck, boxes = deck_and_boxes(load_case(file), water_level)
+        except CaseError as error:
+            raise CaseError([_for_orcaflex(fault) for fault in error.faults]) from None
+        written = orcaflex_network(deck, boxes) if boxes else orcaflex_text(deck)
+    _write_model(target, *written, force=force, as_json=as_json)
+
+
+def _model_file(file: Path, output: Path | None) -> Path:
+    """Return the text data file to write: FILE.yml beside it, or in the folder that is named."""
+    if output is None:
+        return file / "results.yml" if file.is_dir() else file.with_suffix(".yml")
+    if output.suffix.lower() in (".yml", ".yaml", ".dat"):
+        return output
+    return output / f"{'results' if file.is_dir() else file.stem}.yml"
+
+
+def _for_orcaflex(fault: Fault) -> Fault:
+    """Return a fault of a deck in the words of the file that was asked for."""
+    return with_fields(fault, message=fault.message.replace("a deck of MoorDyn", "a file of OrcaFlex"))
 
 
 def _write_model(target: Path, text: str, notes: tuple[str, ...], *, force: bool, as_json: bool) -> None:

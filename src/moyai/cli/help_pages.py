@@ -28,6 +28,13 @@ _NOT_FIRST = "、。；：，．）」』〕】％・～ーっょゃゅ)],.;:%"
 _HANGING = "、。"
 _NOT_LAST = "（「『〔【(["
 _PIECES = re.compile(r"[!-~]+ ?|.", re.DOTALL)
+#: Short sentences of click, by words that a message of the catalogue can be found by.
+_WHOLE = (
+    (r"^Missing (argument|option) ('.*')\.$", r"Missing, and has to be given: \1 \2"),
+    (r"^No such command ('[^']*')\.$", r"There is no command of the name \1"),
+    (r"^Option ('[^']*') requires an argument\.$", r"There is no value behind the option \1"),
+    (r"^Option ('[^']*') does not take a value\.$", r"No value may stand behind the option \1"),
+)
 #: What click puts behind the help of an option: [required], [default: 3].
 _EXTRA = re.compile(r"^(.*?)(\s\s\[[^\[\]]*\])$", re.DOTALL)
 
@@ -128,7 +135,17 @@ class SpokenGroup(TyperGroup):
     def main(self, args: Sequence[str] | None = None, *rest: Any, **named: Any) -> Any:
         """Run the command; the language of help is that of ``--language`` at any place, else of the locale."""
         with spoken_in(_language_of_help(sys.argv[1:] if args is None else args)):
-            return super().main(args, *rest, **named)
+            if spoken_language() == "en" or not named.get("standalone_mode", True):
+                return super().main(args, *rest, **named)
+            try:
+                code = super().main(args, *rest, **{**named, "standalone_mode": False})
+            except Exception as error:
+                # errors of options: the classes differ between releases of the parser, what they can do does not
+                if not hasattr(error, "format_message"):
+                    raise
+                _tell_of(error)
+                code = error.exit_code  # type: ignore[attr-defined]
+            sys.exit(code if isinstance(code, int) else 0)
 
     def get_command(self, ctx: Any, cmd_name: str) -> Any:
         """Return a command, its page and its line in the list of commands in the language in force."""
@@ -139,6 +156,21 @@ class SpokenGroup(TyperGroup):
                 first = re.split(r"\n\s*\n", inspect.cleandoc(command.help))[0]
                 command.short_help = said(" ".join(first.split()))
         return command
+
+
+def _tell_of(error: Any) -> None:
+    """Print usage and what is wrong with the words of a command."""
+    lines, context = [], getattr(error, "ctx", None)
+    message = error.format_message()
+    if context is not None and message == context.get_help():
+        lines = [message]  # no command at all: its page
+    else:
+        if context is not None:
+            lines = [context.get_usage(), said(f"Try '{context.command_path} --help' for help."), ""]
+        for short, whole in _WHOLE:
+            message = re.sub(short, whole, message)
+        lines.append(f"{said('Error')}: {said(message)}")
+    sys.stderr.write("\n".join(lines) + "\n")
 
 
 def _language_of_help(arguments: Sequence[str]) -> str:

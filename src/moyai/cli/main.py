@@ -13,7 +13,7 @@ import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -45,7 +45,7 @@ from moyai.cli.fit import fit
 from moyai.cli.help_pages import SpokenGroup
 from moyai.cli.measuring import measure
 from moyai.cli.query import query
-from moyai.cli.report import Language, Units
+from moyai.cli.report import Language, ReportCommand, Units
 from moyai.cli.report import report as report_command
 from moyai.cli.reproduce import reproduce
 from moyai.cli.scale import scale
@@ -79,7 +79,7 @@ app.command()(query)
 app.command()(fit)
 app.add_typer(measure)
 app.command()(compare)
-app.command("report")(report_command)
+app.command("report", cls=ReportCommand)(report_command)
 app.command()(convert)
 app.command()(scale)
 app.command()(reproduce)
@@ -154,7 +154,7 @@ def new(
 
 
 @app.command()
-def check(file: CaseFile, language: Language = None, as_json: AsJson = False) -> None:
+def check(file: CaseFile, units: Units = None, language: Language = None, as_json: AsJson = False) -> None:
     """Report all faults of a case file at once, and the numbers that follow from it."""
     with guard(as_json, language):
         from moyai.case.criteria import criteria_of
@@ -180,11 +180,13 @@ def check(file: CaseFile, language: Language = None, as_json: AsJson = False) ->
             print_json(record)
             return
         from moyai.cli.tables import print_criteria, print_derived
+        from moyai.report.systems import displayed_in, words_in_system
 
-        for warning in case.warnings:
-            complain(warning, "warning")
-        print_derived(rich_console(), case.title, numbers)
-        print_criteria(rich_console(), criteria)
+        with displayed_in(units or str(getattr(getattr(case.model, "display", None), "units", "SI"))):
+            for warning in case.warnings:
+                complain(replace(warning, message=words_in_system(warning.message)), "warning")
+            print_derived(rich_console(), case.title, numbers)
+            print_criteria(rich_console(), criteria)
         count = len(case.warnings)
         say(f"{file}: no faults" + (f", {counted(count, 'warning')}" if count else ""))
 
@@ -444,7 +446,7 @@ def validate(
 
             def ended(outcome: Any) -> None:
                 if not as_json and not (quiet and outcome.passed):
-                    say(outcome_line(outcome))
+                    put(outcome_line(outcome))
                     sys.stdout.flush()
 
             outcomes = compute(choose(only or ()), progress, ended)

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import time
+from itertools import pairwise
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
+from typer.core import TyperCommand
 
 from moyai.cli.console import OK, Spoken, guard, print_json, progress_bars, rich_console, tell
 from moyai.core.errors import InputError
@@ -28,8 +30,23 @@ Language = Annotated[
 ]
 
 
+class ReportCommand(TyperCommand):
+    """The command, whose ``--dxf`` may stand without a unit."""
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Read the arguments; a bare ``--dxf`` means metres."""
+        return super().parse_args(ctx, [word for pair in pairwise([*args, "-"]) for word in _with_unit(*pair)])
+
+
+def _with_unit(word: str, following: str) -> tuple[str, ...]:
+    bare = word == "--dxf" and (following.startswith("-") or Path(following).exists() or following.endswith(".nc"))
+    return (word, "m") if bare else (word,)
+
+
 def report(
-    results: Annotated[Path, typer.Argument(metavar="RESULTS", help="results.nc of any command.", show_default=False)],
+    results: Annotated[
+        Path, typer.Argument(metavar="RESULTS", help="results.nc of any command, or its folder.", show_default=False)
+    ],
     output: Annotated[
         Path | None, typer.Option("--output", "-o", help="Folder; that of the results when absent.")
     ] = None,
@@ -41,10 +58,17 @@ def report(
     ] = None,
     dxf: Annotated[
         str | None,
-        typer.Option("--dxf", metavar="m|mm", help="Write the drawings to scale as DXF too, in metres or millimetres."),
+        typer.Option(
+            "--dxf",
+            metavar="m|mm",
+            help="Write the drawings to scale as DXF too; metres where no unit follows.",
+        ),
     ] = None,
     vtk: Annotated[
         bool, typer.Option("--vtk", help="Write structures in space over time as VTK too (ParaView).")
+    ] = False,
+    gltf: Annotated[
+        bool, typer.Option("--gltf", help="Write structures in space as glTF too (.glb, an animation for slides).")
     ] = False,
     xlsx: Annotated[bool, typer.Option("--xlsx", help="The workbook report.xlsx, which is always written.")] = True,
     units: Units = None,
@@ -52,7 +76,7 @@ def report(
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, faults included.")] = False,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No progress bars and no summary.")] = False,
 ) -> None:
-    """Write the report of a result again, without running: page, workbook and tables; PDF, Word, DXF on request."""
+    """Write the report of a result again, without running: page, workbook and tables; all else on request."""
     with guard(as_json, language):
         if template is not None and not docx:
             raise InputError("a template is for Word", path="--template", remedy="add --docx")
@@ -69,16 +93,17 @@ def report(
             result = result.said_in(asked)
         elif result.provenance.get("display_language"):
             speak(str(result.provenance["display_language"]))
-        folder = prepare_output(output if output is not None else results.parent)
+        folder = prepare_output(output if output is not None else (results if results.is_dir() else results.parent))
         with progress_bars(quiet) as progress:
             progress("report", 0, 1)
             document = compose_document(result)
             files = write_report(
-                result, folder, pdf=pdf, docx=docx, template=template, dxf=dxf, vtk=vtk, document=document
+                result, folder, pdf=pdf, docx=docx, template=template, dxf=dxf, vtk=vtk, gltf=gltf, document=document
             )
         endings = {path.suffix for path in files}
-        if vtk and ".pvd" not in endings:
-            tell("--vtk: the report shows no structure in space, no file is written")
+        for asked_for, option, ending in ((vtk, "--vtk", ".pvd"), (gltf, "--gltf", ".glb")):
+            if asked_for and ending not in endings:
+                tell(f"{option}: the report shows no structure in space, no file is written")
         if dxf is not None and ".dxf" not in endings:
             tell("--dxf: the report shows no drawing to scale, no file is written")
         if as_json:

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 import typer
 
-from moyai.cli.console import OK, guard, print_json, progress_bars, say
+from moyai.cli.console import OK, Spoken, guard, print_json, progress_bars, say
 
 
 def reproduce(
@@ -45,9 +45,12 @@ def reproduce(
         with progress_bars(quiet or as_json) as progress:
             found = run_paper(paper, quick=quick, points=tuple(points or ()), progress=progress)
             progress("page", 0, 1)
+            from moyai.report.views import with_views
             from moyai.reproduce.page import agreement_words, write
 
             result = as_result(found)
+            if Spoken.language is not None:
+                result = with_views(result).said_in(Spoken.language)
             files = write(found, result, folder)
             progress("page", 1, 1)
         if as_json:

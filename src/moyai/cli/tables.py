@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, get_args
 
-from moyai.cli.console import say
+from moyai.cli.console import put, say
 from moyai.core.validation import ReferenceKind
 from moyai.language import said
 
@@ -41,9 +43,23 @@ def print_derived(console: Console, title: str, numbers: Sequence[Number]) -> No
         levels = tuple(dict.fromkeys(number.column for number in members))
         table = _table((group, "left"), *((level, "right") for level in levels), ("", "left"))
         for label, unit in dict.fromkeys((number.label, number.unit) for number in members):
-            texts = {number.column: number.text for number in members if (number.label, number.unit) == (label, unit)}
-            table.add_row(said(label), *(texts.get(level, "") for level in levels), unit)
+            row = [number for number in members if (number.label, number.unit) == (label, unit)]
+            texts, shown = _in_system(row)
+            table.add_row(said(label), *(texts.get(level, "") for level in levels), shown)
         console.print(table)
+
+
+def _in_system(row: Sequence[Number]) -> tuple[dict[str, str], str]:
+    """Return the texts of one number at each water level and their unit, in the system of units that is shown."""
+    from moyai.report.systems import in_tonnes_force
+
+    stored = re.sub(r"\b[kMG](?=(N|Pa)\b)", "", row[0].unit)
+    largest = max((abs(number.value) for number in row if math.isfinite(number.value)), default=0.0)
+    found = in_tonnes_force(stored, largest)
+    if found is None:
+        return {number.column: number.text for number in row}, row[0].unit
+    unit, factor = found
+    return {item.column: replace(item, value=item.value * factor, unit="").text for item in row}, unit
 
 
 def print_table(console: Console, table: ReportTable) -> None:
@@ -95,7 +111,7 @@ def print_summary(
     """Print what a run gave: numbers, criteria, what limits them (each kind once), both badges, files."""
     from moyai.report.first_page import badges, units_of
     from moyai.report.notices import first_page_notices, grouped
-    from moyai.report.systems import UNITS_NOTES, displayed_in
+    from moyai.report.systems import UNITS_NOTES, displayed_in, words_in_system
 
     figures = key_figures(result, document)
     if figures:
@@ -104,9 +120,11 @@ def print_summary(
             table.add_row(said(item.label), said(item.text), said(item.detail))
         console.print(table)
     print_judgements(console, result)
-    for group in grouped(first_page_notices(result)):
+    with displayed_in(units_of(result)):
+        notices = [(group, words_in_system(group.notice.message)) for group in grouped(first_page_notices(result))]
+    for group, message in notices:
         where = f" ({group.where})" if group.where else ""
-        console.print(said(f"{group.severity}: {group.notice.message}{where}"), markup=False, soft_wrap=True)
+        console.print(said(f"{group.severity}: {message}{where}"), markup=False, soft_wrap=True)
     failed = [check for check in result.checks if not check.passed]
     for check in failed:
         text = f"failed check: {check.name}: {check.value:.2e} > {check.tolerance:.2e}"
@@ -164,15 +182,18 @@ def print_criteria(console: Console, criteria: Sequence[Criterion]) -> None:
 
 
 def outcome_line(outcome: Outcome) -> str:
-    """Return a case of ``moyai validate`` as one line: verdict, numbers, kind of the reference and its source."""
+    """Return a case of ``moyai validate`` as one line: verdict, numbers, kind of the reference and its source.
+
+    In the language in force; the name of the case and its source stay as they are.
+    """
     case = outcome.case
-    numbers = (
+    numbers = said(
         f"{_number(outcome.value)} against {_number(case.reference)}, error "
         f"{_error(outcome.error, case.relative)} of {_error(case.tolerance, case.relative)} allowed"
     )
-    failure = f" ({outcome.failure})" if outcome.failure else ""
-    verdict = "ok" if outcome.passed else "FAILED"
-    return f"{verdict:6}  {case.name}: {numbers}{failure}  |  {case.kind}  |  {case.source}"
+    failure = f" ({said(outcome.failure)})" if outcome.failure else ""
+    verdict = said("ok" if outcome.passed else "FAILED")
+    return f"{verdict:6}  {case.name}: {numbers}{failure}  |  {said(case.kind)}  |  {case.source}"
 
 
 def print_outcome_count(outcomes: Sequence[Outcome]) -> None:
@@ -182,7 +203,7 @@ def print_outcome_count(outcomes: Sequence[Outcome]) -> None:
     for kind in get_args(ReferenceKind):
         own = [outcome.passed for outcome in outcomes if outcome.case.kind == kind]
         if own:
-            say(f"  {kind}: {sum(own)} of {len(own)}")
+            put("  " + said(f"{kind}: {sum(own)} of {len(own)}"))
 
 
 def _number(value: float) -> str:

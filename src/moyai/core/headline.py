@@ -429,7 +429,9 @@ def _judge_one(criterion: Criterion, headline: Headline) -> Judgement:
         if good:
             return Judgement(criterion, value, "holds", headline.where, "", headline.judged_on)
         # beyond the limit that end proves nothing, the bound itself may
-        return _judge_one(criterion, replace(headline, band=None))
+        found = _judge_one(criterion, replace(headline, band=None))
+        more = headline.band.more if found.outcome == "not judged" else ""
+        return replace(found, remedy=f"{more}: more may prove it") if more else found
     proves = not headline.bound or (headline.bound == criterion.sense) == good
     if not proves:
         found = Judgement(criterion, value, "not judged", "", headline.bound)

@@ -39,6 +39,7 @@ _FURTHER = {
     "comparison": "moyai.records.comparison",
     "study": "moyai.study.report",
     "fit": "moyai.study.report.fit",
+    "reproduction": "moyai.reproduce.stored",
 }
 
 

@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 Status = Literal["converged", "outside_validity", "not_converged", "interrupted", "failed"]
 
 TIME_CONVENTION = "Re(X exp(-i omega t))"
+RESULT_FILES = ("results.nc", "study.nc", "fit.nc")
+"""Names that the commands give to results; the first there is is taken from a folder."""
 DIRECTION_CONVENTION = "heading 0 travels towards +x, 90 degrees towards +y; x, y, z right-handed, z up"
 
 
@@ -170,9 +172,36 @@ def write_result(result: Result, path: Path) -> Path:
     return path
 
 
+def _file_of_result(path: Path) -> Path:
+    """Return the file of a result; of a folder the one that a command wrote there.
+
+    Raises
+    ------
+    InputError
+        When there is none, or the path names a case.
+    """
+    if path.is_dir():
+        found = [path / name for name in RESULT_FILES if (path / name).is_file()]
+        if not found:
+            raise InputError(f"no {RESULT_FILES[0]} in the folder {path}", path="result")
+        return found[0]
+    if not path.exists():
+        raise InputError(f"no such file: {path}", path="result")
+    if path.suffix.lower() in (".yaml", ".yml"):
+        raise InputError(
+            f"{path.name} is a case file, no result", path="result", remedy=f"run it first: moyai run {path}"
+        )
+    return path
+
+
 @reads("a result of moyai", named="result")
 def read_result(path: str | os.PathLike[str]) -> Result:
     """Read a result written by :meth:`Result.write`.
+
+    Parameters
+    ----------
+    path : path
+        The file, or the folder of the run.
 
     Raises
     ------
@@ -183,9 +212,7 @@ def read_result(path: str | os.PathLike[str]) -> Result:
 
     from moyai.core.netcdf_reader import read_tree
 
-    file = Path(path)
-    if not file.exists():
-        raise InputError(f"no such file: {file}", path="result")
+    file = _file_of_result(Path(path))
     if netcdf_engine(file, "a result of moyai", named="result") != "h5netcdf":
         raise InputError(f"{file} was not written by moyai: it is NetCDF 3", path="result")
     try:

@@ -14,7 +14,7 @@ What differs between the two models, and how it is met:
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -244,9 +244,9 @@ def to_deck(network: Network, *, title: str = "") -> MoorDynDeck:
     points = tuple(_point(network, node, number[node]) for node in number)
     # one ratio for all types, or the deck would have been refused
     ratio = network.bars.types[0].diameter / equivalent[0] if equivalent else 1.0
-    kinds, type_names = _line_types(network, equivalent)
+    kinds = deck_line_types(network.bars.types)
     lines = tuple(
-        DeckLine(k + 1, type_names[kind], number[first], number[last], total, count)
+        DeckLine(k + 1, kinds[kind].name, number[first], number[last], total, count)
         for k, (first, last, kind, total, count) in enumerate(runs)
     )
     options = [
@@ -371,11 +371,17 @@ def _point(network: Network, node: int, number: int) -> DeckPoint:
     )  # fmt: skip
 
 
-def _line_types(network: Network, equivalent: list[float]) -> tuple[tuple[DeckLineType, ...], list[str]]:
-    """Return the types with names that hold no blank and differ, and the name of each."""
+def deck_line_types(kinds: Sequence[BarType]) -> tuple[DeckLineType, ...]:
+    """Return line types of a deck in the order of their materials, with names that hold no blank and differ.
+
+    Parameters
+    ----------
+    kinds : sequence of BarType
+    """
     found: list[DeckLineType] = []
     names: list[str] = []
-    for kind, diameter in zip(network.bars.types, equivalent, strict=True):
+    for kind in kinds:
+        diameter = math.sqrt(4.0 * kind.volume_per_length / math.pi)
         base = "_".join(kind.name.replace("#", "_").replace("!", "_").split()) or "line"
         name, count = base, 1
         while name in names:
@@ -397,4 +403,4 @@ def _line_types(network: Network, equivalent: list[float]) -> tuple[tuple[DeckLi
         if abs(ratio - 1.0) > 1e-12:
             made = replace(made, drag_normal=made.drag_normal * ratio, drag_axial=made.drag_axial * ratio)
         found.append(made)
-    return tuple(found), names
+    return tuple(found)

@@ -45,7 +45,9 @@ def write_coefficients(program: str, dataset: xr.Dataset, folder: str | Path, *,
         Unknown program, a file that exists, or what the format needs and the coefficients lack.
     """
     if program not in _WRITERS:
-        raise InputError(f"unknown program {program!r}", path="--to", allowed=", ".join(_WRITERS))
+        raise InputError(
+            f"unknown program {program!r}", path="--to", allowed=", ".join((*_WRITERS, "orcaflex", "gltf"))
+        )
     files = {Path(folder) / name: content for name, content in _WRITERS[program](dataset).items()}
     _require_absent([] if replace else files)
     return [write_whole(path, content) for path, content in files.items()]

@@ -8,6 +8,7 @@ from still water.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -26,6 +27,8 @@ _ENDS = (
 )
 _SECTIONS = "LineType, Length, TargetSegmentLength"
 _CURRENT = "CurrentDepth, CurrentFactor, CurrentRotation"
+#: How far a current may lie beside its straight lines, over its largest speed.
+_STRAIGHT = 1e-3
 #: kg, N over te, kN.
 THOUSAND = 1e3
 #: First of the notes on every file.
@@ -47,6 +50,26 @@ def orcaflex_text(deck: MoorDynDeck) -> tuple[str, tuple[str, ...]]:
     InputError
         For bodies and rods, free points that are more than a border, stretch by a table, or a deck without a depth.
     """
+    model, notes = orcaflex_model(deck, {})
+    return text_of(model), notes
+
+
+def orcaflex_model(
+    deck: MoorDynDeck, held: Mapping[int, tuple[str, Sequence[float]]]
+) -> tuple[dict[str, Any], tuple[str, ...]]:
+    """Return the model of a deck's lines with their water, and what it leaves out.
+
+    Parameters
+    ----------
+    deck : MoorDynDeck
+    held : mapping
+        Object that holds a point of the deck, and its place there [m]; other ends are fixed where they are.
+
+    Raises
+    ------
+    InputError
+        See :func:`orcaflex_text`.
+    """
     depth = deck.depth
     if depth is None or not math.isfinite(depth):
         raise InputError("a text data file of OrcaFlex needs a water depth", path="WtrDpth", remedy="give --depth")
@@ -57,29 +80,49 @@ def orcaflex_text(deck: MoorDynDeck) -> tuple[str, tuple[str, ...]]:
     model: dict[str, Any] = {
         "General": {"UnitsSystem": "SI"},
         "Environment": {"WaterDepth": depth, "Density": (deck.number("WtrDnsty") or 1025.0) / THOUSAND},
-        "LineTypes": [_line_type(kind) for kind in deck.line_types if kind.name in used],
-        "Lines": [_line(deck, strand) for strand in strands],
+        "LineTypes": [line_type_data(kind) for kind in deck.line_types if kind.name in used],
+        "Lines": [_line(deck, strand, held) for strand in strands],
     }
     notes = [
         UNREAD,
         *_sea(deck, depth, model["Environment"]),
     ]
-    moved = sorted({f"{point.number}" for point in _ends(deck, strands) if point.kind == "coupled"})
+    moved = sorted(
+        {f"{point.number}" for point in _ends(deck, strands) if point.kind == "coupled"} - set(map(str, held))
+    )
     if deck.seafloor is not None and deck.seafloor_depth is None:
         notes.append("the bed that varies is left out: it is flat at the depth of the deck")
     if moved:
         notes.append(f"points {', '.join(moved)} are fixed where they are: connect them to your vessel")
-    return text_of(model), tuple(notes)
+    return model, tuple(notes)
 
 
 def text_of(model: dict[str, Any]) -> str:
     """Return a model as text data."""
     import yaml
 
-    return _HEAD + yaml.safe_dump(model, sort_keys=False, default_flow_style=None, width=10_000, allow_unicode=True)
+    return _HEAD + yaml.safe_dump(
+        _rounded(model), sort_keys=False, default_flow_style=None, width=10_000, allow_unicode=True
+    )
 
 
-def _line_type(kind: DeckLineType) -> dict[str, Any]:
+def _rounded(value: Any) -> Any:
+    """Return data whose numbers have no tail of rounding and no negative zero."""
+    if isinstance(value, dict):
+        return {key: _rounded(entry) for key, entry in value.items()}
+    if isinstance(value, list | tuple):
+        return [_rounded(entry) for entry in value]
+    return float(f"{value:.14g}") + 0.0 if isinstance(value, float) else value
+
+
+def line_type_data(kind: DeckLineType) -> dict[str, Any]:
+    """Return the data of a line type.
+
+    Raises
+    ------
+    InputError
+        For one that stretches by a table or slowly.
+    """
     if not isinstance(kind.stiffness, float | int) or kind.slow is not None:
         raise InputError(
             f"line type '{kind.name}' stretches by a table or slowly", path="line_types", allowed="one stiffness EA"
@@ -145,14 +188,54 @@ def _ends(deck: MoorDynDeck, strands: list[list[DeckLine]]) -> list[DeckPoint]:
     return [point for strand in strands for point in _end_points(deck, strand)]
 
 
-def _line(deck: MoorDynDeck, strand: list[DeckLine]) -> dict[str, Any]:
+def _line(deck: MoorDynDeck, strand: list[DeckLine], held: Mapping[int, tuple[str, Sequence[float]]]) -> dict[str, Any]:
     begin, end = _end_points(deck, strand)
+    first = begin.position[2] > end.position[2]
+    return line_data(
+        f"Line{strand[0].number}",
+        [held.get(point.number, ("Fixed", point.position)) for point in (begin, end)],
+        [(line.line_type, line.length, line.length / line.segments) for line in strand],
+        "End A" if first else "End B",
+    )
+
+
+def line_data(
+    name: str,
+    ends: Sequence[tuple[str, Sequence[float]]],
+    sections: Sequence[tuple[str, float, float]],
+    top: str = "End A",
+) -> dict[str, Any]:
+    """Return the data of a line.
+
+    Parameters
+    ----------
+    name : str
+    ends : sequence
+        What each end is connected to, and its place there [m].
+    sections : sequence
+        Line type, length and longest segment [m], from the first end.
+    top : str
+    """
     return {
-        "Name": f"Line{strand[0].number}",
-        "TopEnd": "End A" if begin.position[2] > end.position[2] else "End B",
-        _ENDS: [["Fixed", *map(float, point.position), 0.0, 0.0, 0.0, None, None] for point in (begin, end)],
-        _SECTIONS: [[line.line_type, line.length, line.length / line.segments] for line in strand],
+        "Name": name,
+        "TopEnd": top,
+        _ENDS: [[held, *map(float, place), 0.0, 0.0, 0.0, None, None] for held, place in ends],
+        _SECTIONS: [list(section) for section in sections],
     }
+
+
+def _without_needless(rows: list[list[float]]) -> list[list[float]]:
+    """Return rows of a table that straight lines between them bring back to a thousandth; the ends stay."""
+    table = np.array(rows)
+    if len(table) < 3 or not np.all(np.diff(table[:, 0]) > 0.0):
+        return rows
+    kept = [0, len(table) - 1]
+    while True:
+        off = [abs(table[:, k] - np.interp(table[:, 0], table[kept, 0], table[kept, k])) for k in (1, 2)]
+        worst = np.max([off[0], off[1] / 90.0], axis=0)
+        if worst.max() <= _STRAIGHT:
+            return [rows[k] for k in kept]
+        kept = sorted([*kept, int(np.argmax(worst))])
 
 
 def _sea(deck: MoorDynDeck, depth: float, environment: dict[str, Any]) -> list[str]:
@@ -170,7 +253,8 @@ def _sea(deck: MoorDynDeck, depth: float, environment: dict[str, Any]) -> list[s
                 for z, part, turn in zip(deck.current.z, speed, turned, strict=True)
             ]
             environment["RefCurrentSpeed"], environment["RefCurrentDirection"] = float(speed[top]), heading
-            environment[_CURRENT] = sorted(row for row in rows if -1e-9 <= row[0] <= depth * (1.0 + 1e-9))
+            inside = sorted(row for row in rows if -1e-9 <= row[0] <= depth * (1.0 + 1e-9))
+            environment[_CURRENT] = _without_needless(inside)
     if deck.current_field is not None:
         notes.append("the current that changes over place and time is left out")
     if deck.waves is not None:

@@ -190,3 +190,22 @@ def element_shape(element: LineElement, fairlead: ArrayLike, water_depth: float,
         horizontal=fraction * reach,
         height=fraction * span[2],
     )
+
+
+def even_points(element: LineElement, fairlead: ArrayLike, water_depth: float, count: int = 60) -> Array:
+    """Return a member of a line system as evenly spaced points from its anchor to its fairlead; shape (count, 3) [m].
+
+    Parameters
+    ----------
+    element : LineElement
+    fairlead : array_like
+        Place of its fairlead, in the axes of its anchor [m].
+    water_depth : float
+        [m].
+    count : int
+        Number of points.
+    """
+    points = element_shape(element, fairlead, water_depth).points
+    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+    even = np.linspace(0.0, along[-1], count)
+    return np.stack([np.interp(even, along, column) for column in points.T], axis=1)

@@ -277,6 +277,17 @@ class Section:
         object.__setattr__(self, "_chains", tuple(chains))
         object.__setattr__(self, "_wetted_plates", tuple(plates))
 
+    def drawn(self) -> Array:
+        """Return what to draw, outlines closed and parted by NaN; a plate runs there and back; shape (n, 2) [m]."""
+        gap = np.full((1, 2), np.nan)
+        pieces = []
+        for outline in self.outlines:
+            points = outline.edges.polyline()
+            pieces += [points, points[:1], gap]
+        for plate in self.plates:
+            pieces += [plate.outline, plate.outline[-2::-1], gap]
+        return np.concatenate(pieces[:-1])
+
     @property
     def wetted_plates(self) -> tuple[WettedPlate, ...]:
         """The parts of the plates that are under water, joined to what they touch.

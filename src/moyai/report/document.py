@@ -227,14 +227,16 @@ class Stroke:
     style: str
     points: Array
     closed: bool = False
+    #: Of the line or body that it belongs to.
+    name: str = ""
 
 
 @dataclass(frozen=True)
 class Disc:
-    """A circle [m]."""
+    """A circle [m], in space at the height of its centre."""
 
     style: str
-    centre: tuple[float, float]
+    centre: tuple[float, ...]
     radius: float
 
 
@@ -243,7 +245,7 @@ class Words:
     """A text of ``size`` [m] at a point [m]; ``anchor`` is ``start``, ``middle`` or ``end``."""
 
     style: str
-    place: tuple[float, float]
+    place: tuple[float, ...]
     text: str
     size: float
     anchor: str
@@ -298,13 +300,6 @@ class Animation:
     def still(self) -> str:
         """Return the picture for paper as SVG."""
         return self.picture if isinstance(self.picture, str) else self.picture()
-
-    @property
-    def shapes(self) -> tuple[Shape, ...]:
-        """Return a structure in space that stands still, for drawing programs; nothing of one that moves."""
-        from moyai.report.scene_3d import shapes_3d
-
-        return shapes_3d(self.scene_3d) if self.scene_3d is not None and self.scene_3d.is_still else ()
 
 
 @dataclass(frozen=True)

@@ -50,12 +50,27 @@ class SectionGeometry:
         )
 
 
-def mooring_elevation(geometry: SectionGeometry) -> Sketch:
+def outlines_of(x: Array, z: Array) -> tuple[Array, ...]:
+    """Return closed outlines, shape (n, 2) each, of points that NaN parts.
+
+    Parameters
+    ----------
+    x, z : ndarray, shape (n,)
+        [m].
+    """
+    parts = np.split(np.stack([x, z], axis=1), np.flatnonzero(~np.isfinite(x)))
+    cleaned = [part[np.isfinite(part).all(axis=1)] for part in parts]
+    return tuple(part for part in cleaned if len(part) >= 3)
+
+
+def mooring_elevation(geometry: SectionGeometry, waves: bool = True) -> Sketch:
     """Draw the body on its lines, the bed and the water to one scale, with axes and main distances.
 
     Parameters
     ----------
     geometry : SectionGeometry
+    waves : bool
+        Whether waves of heading 0 travel to the right, and an arrow shows it.
 
     Returns
     -------
@@ -90,9 +105,10 @@ def mooring_elevation(geometry: SectionGeometry) -> Sketch:
         sketch.dimension(at, 0.0, at, bottom, f"h = {_metres(depth)}", offset=0.001)
     sketch.level_mark(x1 + 0.7 * pad, 0.0)
     _axes(sketch, (0.0, 0.0), 46.0)
-    wave_x, wave_y = sketch.px(x0 - 0.5 * pad), sketch.pz(max(z1, 0.0)) - 16.0
-    sketch.arrow((wave_x, wave_y), (wave_x + 70.0, wave_y), "dimension")
-    sketch.label(wave_x + 78.0, wave_y + 4.0, "waves of heading 0°", "start")
+    if waves:
+        wave_x, wave_y = sketch.px(x0 - 0.5 * pad), sketch.pz(max(z1, 0.0)) - 16.0
+        sketch.arrow((wave_x, wave_y), (wave_x + 70.0, wave_y), "wave")
+        sketch.label(wave_x + 78.0, wave_y + 4.0, "waves of heading 0°", "start")
     return sketch
 
 

@@ -71,7 +71,7 @@ def with_first_page(document: Document, result: Result) -> Document:
     Parameters
     ----------
     document : Document
-        As its composer made it.
+        As its composer made it; badges of its own stay.
     result : Result
     """
     first, *others = document.sections
@@ -86,7 +86,7 @@ def with_first_page(document: Document, result: Result) -> Document:
         blocks.append(Paragraph(said, quiet=True))
     ordered = (Section(first.key, first.title, tuple(blocks)), *others)
     sections = tuple(replace(section, blocks=tuple(map(in_like_units, section.blocks))) for section in ordered)
-    return replace(document, badges=badges(result), sections=sections)
+    return replace(document, badges=document.badges or badges(result), sections=sections)
 
 
 def in_like_units(block: Block) -> Block:

@@ -105,7 +105,7 @@ def embedded_style(text: str) -> str:
 
     options = subset.Options(layout_features=[], hinting=False, notdef_outline=True)
     options.flavor = "woff"
-    with TTFont(file) as font:
+    with TTFont(file, recalcTimestamp=False) as font:
         cut = subset.Subsetter(options)
         cut.populate(text="".join(sorted(letter for letter in set(text) if ord(letter) > 127)))
         cut.subset(font)

@@ -37,6 +37,7 @@ from moyai.report.formatting import DASH, column_decimals, format_fixed, format_
 from moyai.report.language import for_its_reader
 from moyai.report.notices import grouped
 from moyai.report.packing import pack_arrays
+from moyai.report.systems import words_in_system
 
 STATUS_WORDS = {status: word for status, (word, _) in COMPUTATION.items()}
 LEAST_LETTER = 9.0
@@ -475,7 +476,7 @@ def notice_items(block: NoticeBlock) -> list[tuple[str, str, str]]:
     """
     items = [("error", *check_text(check)) for check in block.failed_checks]
     items += [(group.severity, *notice_text(group.notice, group.where)) for group in grouped(block.notices)]
-    return [(severity, said(first), said(second)) for severity, first, second in items]
+    return [(severity, said(words_in_system(head)), said(words_in_system(more))) for severity, head, more in items]
 
 
 def check_text(check: IdentityCheck) -> tuple[str, str]:

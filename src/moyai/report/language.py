@@ -31,7 +31,7 @@ from moyai.report.document import (
     Table,
     Words,
 )
-from moyai.report.systems import displayed_in
+from moyai.report.systems import displayed_in, words_in_system
 
 _T = TypeVar("_T")
 _R = TypeVar("_R")
@@ -85,42 +85,58 @@ def in_the_language(item: _T) -> _T:
     """
     if spoken_language() == "en":
         return item
-    found: _T = _translated(item)
+    found: _T = _changed(item, said, _translated)
+    return found
+
+
+def with_words_in_system(document: Document) -> Document:
+    """Return a document whose texts have their forces in the system of units that is shown; the case stays.
+
+    Parameters
+    ----------
+    document : Document
+        Its badges and governing numbers have them already.
+    """
+    found: Document = _changed(document, words_in_system, lambda item: item)
     return found
 
 
 def _translated(item: Any) -> Any:
+    """Return what is more than texts: cells that lead somewhere, and animations."""
+    if isinstance(item, Column) and item.links:
+        return replace(item, values=[_OF_LINKS.get(value, value) for value in item.values])  # type: ignore[arg-type]
+    if isinstance(item, Animation):
+        return replace(item, scene=_scene(item.scene), picture=partial(_still, item.picture, spoken_language()))
+    return item
+
+
+def _changed(item: Any, change: Callable[[str], str], further: Callable[[Any], Any]) -> Any:
     if isinstance(item, tuple):
-        return tuple(map(_translated, item))
+        return tuple(_changed(entry, change, further) for entry in item)
     if not is_dataclass(item) or isinstance(item, type):
         return item
-    kind = type(item)
-    changes: dict[str, Any] = {name: said(getattr(item, name)) for name in _TEXTS.get(kind, ())}
+    item = further(item)
+    changes: dict[str, Any] = {name: change(getattr(item, name)) for name in _TEXTS.get(type(item), ())}
     for entry in fields(item):
         value = getattr(item, entry.name)
         if entry.name not in changes and isinstance(value, tuple) and value and is_dataclass(value[0]):
-            changes[entry.name] = _translated(value)
+            changes[entry.name] = _changed(value, change, further)
     if isinstance(item, Column):
-        meant = _OF_LINKS if item.links else {}
-        changes["values"] = [
-            said(meant.get(value, value)) if isinstance(value, str) else value for value in item.values
-        ]
+        changes["values"] = [change(value) if isinstance(value, str) else value for value in item.values]
     elif isinstance(item, Figure):
-        changes["categories"] = tuple(map(said, item.categories))
+        changes["categories"] = tuple(map(change, item.categories))
     elif isinstance(item, Drawing):
-        changes |= {"svg": _svg(item.svg), "fixed_svg": _svg(item.fixed_svg)}
-    elif isinstance(item, Animation):
-        changes |= {"scene": _scene(item.scene), "picture": partial(_still, item.picture, spoken_language())}
+        changes |= {"svg": _svg(item.svg, change), "fixed_svg": _svg(item.fixed_svg, change)}
     return replace(item, **changes)
 
 
 def _still(picture: str | Callable[[], str], language: str) -> str:
     with spoken_in(language):
-        return _svg(picture if isinstance(picture, str) else picture())
+        return _svg(picture if isinstance(picture, str) else picture(), said)
 
 
-def _svg(text: str) -> str:
-    return _SVG_TEXT.sub(lambda match: match[1] + escape(said(unescape(match[2])), quote=False), text)
+def _svg(text: str, change: Callable[[str], str]) -> str:
+    return _SVG_TEXT.sub(lambda match: match[1] + escape(change(unescape(match[2])), quote=False), text)
 
 
 def _named(value: Any) -> Any:

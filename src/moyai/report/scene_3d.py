@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 from moyai.core.arrays import Array, IntArray
 from moyai.core.errors import InputError
 from moyai.report.decimate import envelope_indices
-from moyai.report.document import Animation, Stroke
+from moyai.report.document import Animation
 from moyai.report.encoding import encode_array, encode_quantised
 from moyai.report.formatting import display_unit
 
@@ -388,16 +388,3 @@ def animation_3d(key: str, title: str, scene: Scene3D, caption: str = "") -> Ani
     from moyai.report.still_3d import still_3d
 
     return Animation(key, title, scene_3d(scene), caption, partial(still_3d, scene), scene)
-
-
-def shapes_3d(scene: Scene3D) -> tuple[Stroke, ...]:
-    """Return what stands still as lines and faces in space, each of the kind it belongs to."""
-    place = scene.position[0]
-    names = scene.names or ("bars",) * len(scene.bars)
-    found = [Stroke(name, place[ends]) for name, ends in zip(names, scene.bars, strict=True)]
-    for faces in scene.faces:
-        found += [Stroke(faces.name, place[corners], True) for corners in np.asarray(faces.nodes, dtype=np.int64)]
-    for body in scene.bodies:
-        corners = body.vertices @ body.rotation[0].T + body.origin[0]
-        found += [Stroke(body.name, corners[list(face)], True) for face in body.faces]
-    return tuple(found)

@@ -7,6 +7,8 @@ light colours into the drawing for paper.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from contextlib import contextmanager
 from html import escape
 
 import numpy as np
@@ -24,6 +26,8 @@ _PAPER = """
 .ghost{fill:none;stroke:#b4540a;stroke-width:1;stroke-dasharray:4 3;opacity:.75}
 .buoy{fill:#f2b544;stroke:#1b2430;stroke-width:1}
 .flow{stroke:#1f7ab0;fill:none;stroke-width:1.2}.flow-head{fill:#1f7ab0}
+.wave{stroke:#1f7ab0;fill:none;stroke-width:1.4}.wave-head{fill:#1f7ab0}
+.net{fill:none;stroke:#3f7d4e;stroke-width:.6}.weight{fill:#5b6775;stroke:none}
 .chord{stroke:#5b6775;fill:none;stroke-width:.8;stroke-dasharray:2 3}
 .dimension{stroke:#5b6775;fill:none;stroke-width:.8}.dimension-head{fill:#5b6775}
 .ratio-0{fill:#08519c;stroke:none;shape-rendering:crispEdges}.ratio-1{fill:#3182bd;stroke:none;shape-rendering:crispEdges}.ratio-2{fill:#6baed6;stroke:none;shape-rendering:crispEdges}.ratio-3{fill:#9ecae1;stroke:none;shape-rendering:crispEdges}.ratio-4{fill:#deebf7;stroke:none;shape-rendering:crispEdges}
@@ -90,6 +94,10 @@ class Sketch:
         self._shapes.append(Stroke(style, known, closed))
         steps = " ".join(f"{self.px(x):.1f},{self.pz(z):.1f}" for x, z in known)
         self._parts.append(f'<path class="{style}" d="M{steps.replace(" ", " L")}{" Z" if closed else ""}"/>')
+
+    def segment(self, start: tuple[float, float], end: tuple[float, float], style: str) -> None:
+        """Draw a straight line between two points [m]."""
+        self.path(np.array([start, end]), style)
 
     def rectangle(self, x0: float, z1: float, x1: float, z0: float, style: str) -> None:
         """Fill a rectangle between two corners [m]."""
@@ -195,6 +203,20 @@ class Sketch:
         self._parts.append(
             f'<path class="hollow" d="M{cx:.1f},{cy:.1f} L{cx - 5:.1f},{cy - 8:.1f} L{cx + 5:.1f},{cy - 8:.1f} Z"/>'
         )
+
+    @contextmanager
+    def on_the_page_alone(self) -> Iterator[None]:
+        """Draw what drawing programs do not get, such as a line that the page cuts."""
+        kept = len(self._shapes)
+        yield
+        del self._shapes[kept:]
+
+    @contextmanager
+    def off_the_page(self) -> Iterator[None]:
+        """Draw for drawing programs what the page has no room for."""
+        kept = len(self._parts)
+        yield
+        del self._parts[kept:]
 
     def svg(self) -> str:
         """Return the drawing."""

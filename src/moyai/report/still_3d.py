@@ -52,7 +52,7 @@ class _Camera:
         return np.stack([x, y, depth], axis=-1)
 
 
-def _display_box(scene: Scene3D) -> tuple[Array, Array, bool, bool]:
+def display_box(scene: Scene3D) -> tuple[Array, Array, bool, bool]:
     """Return the box that is drawn, and whether surface and bed are in it (as the player decides)."""
     low, high = (np.array(corner) for corner in scene.box())
     size = high - low
@@ -92,7 +92,7 @@ def _path(points: Array, attributes: str, *, closed: bool = False) -> str:
     return f'<path d="{data}" {attributes}/>'
 
 
-def _elevation(scene: Scene3D, row: int, x: Array, y: Array) -> Array:
+def surface_elevation(scene: Scene3D, row: int, x: Array, y: Array) -> Array:
     from moyai.report.scene_3d import Surface3D
 
     waves = scene.waves
@@ -123,7 +123,7 @@ def still_3d(scene: Scene3D) -> str:
     from moyai.report.scene_3d import home_view
 
     row = int(np.argmin(np.abs(scene.time - scene.moment)))
-    low, high, surface, bed = _display_box(scene)
+    low, high, surface, bed = display_box(scene)
     camera = _camera(low, high, *home_view(*scene.box()))
     parts: list[str] = []
     if bed and scene.bed is not None:
@@ -163,7 +163,7 @@ def _water(scene: Scene3D, row: int, low: Array, high: Array, camera: _Camera) -
     for side in range(4):
         a, b = np.array(corners[side]), np.array(corners[(side + 1) % 4])
         x, y = ((1.0 - u) * a[k] + u * b[k] for k in (0, 1))
-        edge = camera.project(np.stack([x, y, _elevation(scene, row, x, y)], axis=1))
+        edge = camera.project(np.stack([x, y, surface_elevation(scene, row, x, y)], axis=1))
         edges.append(edge)
         if normals[side][0] * camera.away[0] + normals[side][1] * camera.away[1] > 1e-6:
             foot = camera.project(np.array([[b[0], b[1], low[2]], [a[0], a[1], low[2]]]))
@@ -175,7 +175,7 @@ def _water(scene: Scene3D, row: int, low: Array, high: Array, camera: _Camera) -
             place = np.full((count + 1, 2), 0.0)
             place[:, along] = low[along] + u * (high[along] - low[along])
             place[:, 1 - along] = low[1 - along] + share * (high[1 - along] - low[1 - along])
-            line = np.column_stack([place, _elevation(scene, row, place[:, 0], place[:, 1])])
+            line = np.column_stack([place, surface_elevation(scene, row, place[:, 0], place[:, 1])])
             style = f'fill="none" stroke="{_LINE}" stroke-width="0.5" stroke-opacity="0.25"'
             sheet.append(_path(camera.project(line), style))
     return walls, sheet

@@ -13,7 +13,7 @@ from moyai.core.units import parse_unit
 SYSTEMS = ("SI", "tf")
 UNITS_NOTES = {
     "tf": "Units: forces in tf or kgf (1 tf = 9806.65 N), moments, stiffness and pressures accordingly. "
-    "Texts of notices are in SI, as are the case and results.nc."
+    "The case and results.nc are in SI."
 }
 """What a page says of units that are not SI."""
 _system: ContextVar[str] = ContextVar("system", default="SI")
@@ -72,8 +72,12 @@ def in_tonnes_force(unit: str, largest: float) -> tuple[str, float] | None:
     return large if largest * large[1] >= _LEAST_TONNE else small
 
 
-#: A number with a force, moment, load per length or pressure behind it, as remarks have it.
-_QUANTITY = re.compile(r"(?<![\w.])(-?\d+(?:\.\d+)?(?:e[+-]?\d+)?) ([kMG]?(?:N|Pa)(?:/m2|/m| m)?)(?![\w/·^])")
+#: A number, or a range of two, with a force, moment, load per length or pressure behind it, as remarks have it.
+_NUMBER = r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?"
+_QUANTITY = re.compile(
+    rf"(?<![\w.])(?:({_NUMBER})( to | ± | or )|(?<=between )({_NUMBER})( and ))?({_NUMBER}) "
+    r"([kMG]?(?:N|Pa)(?:/m2|/m²|/m| m)?)(?![\w/·^])"
+)
 
 
 def words_in_system(text: str) -> str:
@@ -82,14 +86,21 @@ def words_in_system(text: str) -> str:
 
 
 def _in_system(match: re.Match[str]) -> str:
-    value = float(match[1]) * float(parse_unit(match[2]).factor)
-    stored = "N m" if match[2].endswith(" m") else re.sub("^[kMG]", "", match[2])
-    found = in_tonnes_force(stored, abs(value))
+    first, joint = match[1] or match[3], match[2] or match[4] or ""
+    unit = match[6].replace("²", "2")
+    factor = float(parse_unit(unit).factor)
+    stored = "N m" if unit.endswith(" m") else re.sub("^[kMG]", "", unit)
+    texts = [text for text in (first, match[5]) if text]
+    found = in_tonnes_force(stored, max(abs(float(text)) for text in texts) * factor)
     if found is None:
         return match[0]
-    shown, factor = found
-    digits = max(len(match[1].lstrip("-").partition("e")[0].replace(".", "").strip("0")), 3)
-    return f"{_plain(value * factor, digits)} {shown}"
+    shown, share = found
+    numbers = [_plain(float(text) * factor * share, _digits(text)) for text in texts]
+    return f"{joint.join(numbers)} {shown}"
+
+
+def _digits(text: str) -> int:
+    return max(len(text.lstrip("-").partition("e")[0].replace(".", "").strip("0")), 3)
 
 
 def _plain(value: float, digits: int) -> str:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Mapping, Sequence
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 from html import escape
@@ -12,8 +13,8 @@ from typing import TYPE_CHECKING, Generic, TypeVar
 from moyai.core.results import Result
 from moyai.core.results import read_result as read_stored
 from moyai.language import require_language
-from moyai.report.document import Document, Figure, KeyFigure, KeyFigures, Table
-from moyai.report.encoding import column_unit, scaled_cell, unique_slugs
+from moyai.report.document import Document, Figure, KeyFigure, KeyFigures, Panel, Series, Table
+from moyai.report.encoding import column_unit, scaled_cell, slug, unique_slugs
 from moyai.report.first_page import badges, criteria_table, units_of
 from moyai.report.formatting import axis_label, pretty_unit
 from moyai.report.headlines import headline_figures
@@ -28,31 +29,53 @@ _B = TypeVar("_B", bound=Table | Figure)
 _V = TypeVar("_V")
 _COLOURS = {"good": "#1a7f37", "caution": "#9a6700", "bad": "#b00020", "neutral": "#666666"}
 _LISTED = 40  # names in a message
+#: What a block without its water level is called, by what a reader may look for.
+_ALIASES = {"transmission": "coefficients", "reflection": "coefficients", "line-tensions": "loads"}
 
 
 class Views(Mapping[str, _V], Generic[_B, _V]):
     """Blocks of a report by name, each turned into what Python works with when it is asked for.
 
-    Names are those of the files of a report (``hwl-lines-at-rest``). ``_`` may stand for ``-``, and the end of a name
-    is enough where it is the end of one only.
+    Names are those of the files of a report (``hwl-lines-at-rest``). ``_`` may stand for ``-``. A short name is enough
+    where one block answers to it: the name without its water level, its end, or words of name and title or of the heads
+    and curves (``line_tensions``, ``transmission``), looked for in this order.
     """
 
-    def __init__(self, what: str, blocks: Sequence[_B], view: Callable[[_B], _V]) -> None:
+    def __init__(self, what: str, blocks: Sequence[_B], view: Callable[[_B], _V], levels: Iterable[str] = ()) -> None:
         self._what = what
         self._view = view
         self._blocks: dict[str, _B] = dict(zip(unique_slugs(block.key for block in blocks), blocks, strict=True))
+        self._levels = tuple(f"{slug(level)}-".replace("_", "-") for level in levels)
 
     def __getitem__(self, name: str) -> _V:
-        wanted = name.replace("_", "-").lower()
-        plain = {key: key.replace("_", "-") for key in self._blocks}
-        found = [key for key, text in plain.items() if text == wanted]
-        found = found or [key for key, text in plain.items() if text.endswith(f"-{wanted}")]
+        found = self._called(name)
         if len(found) == 1:
             return self._view(self._blocks[found[0]])
         known = found or list(self._blocks)
         listed = ", ".join(known[:_LISTED]) + (f" and {len(known) - _LISTED} more" if len(known) > _LISTED else "")
-        reason = f"{len(found)} {self._what}s end in" if found else f"no {self._what} is called"
+        reason = f"{len(found)} {self._what}s answer to" if found else f"no {self._what} is called"
         raise KeyError(f"{reason} {name!r}; there are: {listed or 'none'}")
+
+    def _called(self, name: str) -> list[str]:
+        """Return the names that a short one may mean: those of the closest kind of likeness that has any."""
+        wanted = name.replace("_", "-").lower()
+        alias, asked = _ALIASES.get(wanted, wanted), _stems(wanted)
+        plain = {key: key.replace("_", "-") for key in self._blocks}
+        short = {key: text.removeprefix(self._level_of(text)) for key, text in plain.items()}
+        said = {key: f"{plain[key]} {block.title}" for key, block in self._blocks.items()}
+        ways: tuple[Callable[[str], bool], ...] = (
+            lambda key: plain[key] == wanted,
+            lambda key: short[key] == wanted,
+            lambda key: plain[key].endswith(f"-{wanted}"),
+            lambda key: short[key] == alias,
+            lambda key: asked <= _stems(said[key]),
+            lambda key: asked <= _stems(f"{said[key]} {_inner_words(self._blocks[key])}"),
+        )
+        hits = ([key for key in plain if way(key)] for way in ways)
+        return next((keys for keys in hits if keys), []) if asked else []
+
+    def _level_of(self, text: str) -> str:
+        return max((level for level in self._levels if text.startswith(level)), key=len, default="")
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._blocks)
@@ -62,6 +85,19 @@ class Views(Mapping[str, _V], Generic[_B, _V]):
 
     def __repr__(self) -> str:
         return f"{self._what}s: {', '.join(self._blocks)}"
+
+
+def _stems(text: str) -> frozenset[str]:
+    """Return the words of a text without the ending of a plural."""
+    return frozenset(word.rstrip("s") or word for word in re.findall(r"[^\W_]+", text.lower()))
+
+
+def _inner_words(block: Table | Figure) -> str:
+    """Return the heads of a table, or panels and curves of a figure."""
+    if isinstance(block, Table):
+        return " ".join(column.label for column in block.columns)
+    parts: tuple[Panel | Series, ...] = (*block.panels, *block.series)
+    return " ".join(part.label for part in parts)
 
 
 class ReportedResult(Result):
@@ -82,14 +118,18 @@ class ReportedResult(Result):
             with displayed_in(self.document.units):
                 return table_frame(table)
 
-        return Views("table", self.document.tables(), frame)
+        return Views("table", self.document.tables(), frame, self._levels())
 
     @property
     def figures(self) -> Views[Figure, PlotlyFigure]:
         """Figures of the report as figures of plotly."""
         from moyai.report.plotly_figure import plotly_figure
 
-        return Views("figure", [item for item in self.document.blocks() if isinstance(item, Figure)], plotly_figure)
+        drawn = [item for item in self.document.blocks() if isinstance(item, Figure)]
+        return Views("figure", drawn, plotly_figure, self._levels())
+
+    def _levels(self) -> list[str]:
+        return [name for name, node in self.tree.children.items() if "water_level" in node.attrs]
 
     def shown_in(self, units: str) -> ReportedResult:
         """Return the result with its report, tables and figures in ``SI`` or ``tf``; its data stay in SI.

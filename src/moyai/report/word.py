@@ -70,6 +70,8 @@ def render_docx(document: Document, template: Path | None = None) -> bytes:
         raise InputError(
             "Word documents need the package python-docx", path="--docx", remedy='pip install "moyai[docx]"'
         ) from None
+    if template is not None and not template.is_file():
+        raise InputError(f"no such file: {template}", path="--template")
     try:
         paper = docx.Document(None if template is None else str(template))
     except Exception as error:

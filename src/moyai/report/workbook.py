@@ -28,9 +28,13 @@ if TYPE_CHECKING:
 
 #: Characters of the name of a sheet, and rows of a sheet, at most
 NAME, ROWS = 31, 1_048_576
-#: Samples of a series, beyond which extremes alone are written
-LONGEST = 2000
-_WIDEST = 60
+#: Samples of a series, beyond which extremes alone are written: at most, at least where there are many
+LONGEST, SHORTEST = 2000, 400
+#: Numbers of figures, about, beyond which series are shortened: a workbook takes 3 us a number to write
+NUMBERS = 100_000
+#: Words with which the name of a sheet does not end
+_HANGING = frozenset(("a", "an", "and", "at", "by", "for", "from", "in", "of", "on", "or", "over", "the", "to", "with"))
+_WIDEST, _NUMBER = 60, 10  # characters of a column at most, of a number
 _DETAIL = 4  # column of the longest texts of the summary
 
 
@@ -75,6 +79,9 @@ class _Book:
         }
         self._used: set[str] = set()
         self._sheets: list[tuple[str, str]] = []
+        figures = [block for block in document.blocks() if isinstance(block, Figure)]
+        numbers = sum(min(len(item.y), LONGEST) for figure in figures for item in figure.series)
+        self._longest = max(min(LONGEST, LONGEST * NUMBERS // max(numbers, 1)), SHORTEST)
 
     def write(self) -> None:
         """Write every sheet, the summary as the first."""
@@ -130,7 +137,7 @@ class _Book:
             sheet.write_string(table.row_count + 2, 0, table.note, self._quiet)
 
     def _figure(self, figure: Figure, place: str) -> None:
-        thinned, words = _thinned(figure)
+        thinned, words = _thinned(figure, self._longest)
         sheet = self._sheet(figure.title, f"{place}: {said('data of the figure')} '{figure.title}'{words}")
         self._columns(sheet, figure_columns(thinned), {})
 
@@ -144,8 +151,11 @@ class _Book:
         for number, (head, values) in enumerate(columns):
             sheet.write_string(0, number, head, self._head)
             widest = len(head) // 2
-            for row, value in enumerate(values[: ROWS - 1]):
-                widest = max(widest, _write(sheet, row + 1, number, value, marks.get(row)))
+            if isinstance(values, np.ndarray) and values.dtype.kind == "f" and not marks:
+                widest = max(widest, _write_numbers(sheet, number, values[: ROWS - 1]))
+            else:
+                for row, value in enumerate(values[: ROWS - 1]):
+                    widest = max(widest, _write(sheet, row + 1, number, value, marks.get(row)))
             sheet.set_column(number, number, min(max(widest, 10) + 2, _WIDEST))
 
     def _summary(self, sheet: Worksheet) -> None:
@@ -194,21 +204,24 @@ class _Book:
 
 
 def _shortened(text: str, length: int) -> str:
-    """Return the words of a text that fit into a length, the first cut where it alone does not."""
+    """Return the words of a text that fit into a length, none left hanging; the first may be cut."""
     if len(text) <= length:
         return text
-    return (text[: length + 1].rpartition(" ")[0] or text[:length]).rstrip(" ,;:'")
+    words = text[: length + 1].split(" ")[:-1]
+    while len(words) > 1 and words[-1].lower() in _HANGING:
+        words.pop()
+    return (" ".join(words) or text[:length]).rstrip(" ,;:'")
 
 
-def _thinned(figure: Figure) -> tuple[Figure, str]:
+def _thinned(figure: Figure, longest: int) -> tuple[Figure, str]:
     """Return a figure with long series thinned, every extreme kept, and words that say so."""
-    lengths = {len(item.y) for item in figure.series if len(item.y) > LONGEST}
+    lengths = {len(item.y) for item in figure.series if len(item.y) > longest}
     if not lengths:
         return figure, ""
     kept = {}
     for length in lengths:
         alike = np.column_stack([np.asarray(item.y, dtype=float) for item in figure.series if len(item.y) == length])
-        kept[length] = envelope_indices(alike, max(LONGEST // (2 * alike.shape[1]), 1))
+        kept[length] = envelope_indices(alike, max(longest // (2 * alike.shape[1]), 1))
     series = tuple(
         replace(
             item,
@@ -259,6 +272,17 @@ def _scaled(value: Cell, factor: float) -> Cell:
     return scaled_cell(value, factor)
 
 
+def _write_numbers(sheet: Worksheet, column: int, values: Array) -> int:
+    """Write numbers below a head; return the characters that they take."""
+    put = sheet.write_number
+    for row, value in enumerate(values.tolist(), start=1):
+        if math.isfinite(value):
+            put(row, column, value)
+        else:
+            _write(sheet, row, column, value, None)
+    return _NUMBER
+
+
 def _write(sheet: Worksheet, row: int, column: int, value: Cell, style: Format | None) -> int:
     """Write a cell; return the characters that it takes."""
     if isinstance(value, str):
@@ -271,4 +295,4 @@ def _write(sheet: Worksheet, row: int, column: int, value: Cell, style: Format |
         sheet.write_string(row, column, "inf" if value > 0.0 else "-inf", style)
         return 4
     sheet.write_number(row, column, float(value), style)
-    return 10
+    return _NUMBER

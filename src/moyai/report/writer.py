@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Collection
+from collections.abc import Callable, Collection, Iterable
 from dataclasses import replace
 from pathlib import Path
 
-from moyai.core.errors import InputError
+from moyai.core.errors import CaseError, InputError
 from moyai.core.files import write_whole
 from moyai.core.kinds import kind_of_result
 from moyai.core.results import Result
@@ -19,7 +19,7 @@ from moyai.report.encoding import slug, table_csv, unique_slugs
 from moyai.report.first_page import units_of, with_first_page
 from moyai.report.general_page import compose as general_page
 from moyai.report.general_page import composing_only
-from moyai.report.language import in_the_language
+from moyai.report.language import in_the_language, with_words_in_system
 from moyai.report.systems import displayed_in
 
 
@@ -58,9 +58,9 @@ def compose_document(
             from moyai.report.overlay import with_measured_points
 
             document = with_measured_points(document, result)
-    if only is None:
-        return document
-    return replace(document, sections=tuple(section for section in document.sections if section.key in only))
+        if only is not None:
+            document = replace(document, sections=tuple(one for one in document.sections if one.key in only))
+        return document if units == "SI" else with_words_in_system(document)
 
 
 def _composed(result: Result) -> Document:
@@ -80,6 +80,7 @@ def write_report(
     template: Path | None = None,
     dxf: str | None = None,
     vtk: bool = False,
+    gltf: bool = False,
     name: str = "report",
     units: str | None = None,
     language: str | None = None,
@@ -106,6 +107,9 @@ def write_report(
     vtk : bool
         Write every structure in space over time as ``<name>_vtk/<key>.pvd`` with a file a moment; nothing where the
         report shows none.
+    gltf : bool
+        Write every structure in space as ``<name>_gltf/<key>.glb``, an animation for slides; nothing where the report
+        shows none.
     name : str
         Name of the files without ending; the tables go to ``<name>_tables``.
     units : {"SI", "tf"}, optional
@@ -123,7 +127,10 @@ def write_report(
     Raises
     ------
     InputError
-        When the folder cannot be written or ``name`` is no file name.
+        When the folder cannot be written or ``name`` is no file name. When PDF, Word, DXF, VTK or glTF cannot be made
+        (a package or font is missing, the template or unit is none): after everything else is written.
+    CaseError
+        When this holds for several of them.
     """
     if not name or name in {".", ".."} or re.search(r'[\\/:*?"<>|\x00-\x1f]', name):
         raise InputError(f"{name!r} is no file name", path="name", remedy="leave out slashes and the like")
@@ -132,27 +139,26 @@ def write_report(
 
     folder = Path(directory)
     document = document or compose_document(result, units, language)
-    drawings: list[tuple[str, bytes]] = []
-    if dxf is not None:
-        from moyai.report.dxf import document_dxf
-
-        drawings = list(document_dxf(document, dxf))
-    moments: list[tuple[str, bytes]] = []
-    if vtk:
-        from moyai.report.vtk import document_vtk
-
-        moments = list(document_vtk(document))
     written = [write_whole(folder / f"{name}.html", render_html(document).encode("utf-8"))]
+    faults: list[InputError] = []
+
+    def further(files: Callable[[], Iterable[tuple[str, bytes]]]) -> None:
+        # what is missing for one kind of file does not stop the rest
+        try:
+            written.extend([write_whole(folder / file, data) for file, data in files()])
+        except InputError as error:
+            faults.append(error)
+
     if pdf:
-        from moyai.report.pdf import render_pdf
-
-        written.append(write_whole(folder / f"{name}.pdf", render_pdf(document)))
+        further(lambda: [(f"{name}.pdf", _pdf(document))])
     if docx:
-        from moyai.report.word import render_docx
-
-        written.append(write_whole(folder / f"{name}.docx", render_docx(document, template)))
-    written += [write_whole(folder / f"{name}_drawings" / f"{slug(key)}.dxf", data) for key, data in drawings]
-    written += [write_whole(folder / f"{name}_vtk" / key, data) for key, data in moments]
+        further(lambda: [(f"{name}.docx", _docx(document, template))])
+    if dxf is not None:
+        further(lambda: ((f"{name}_drawings/{slug(key)}.dxf", data) for key, data in _dxf(document, dxf)))
+    if vtk:
+        further(lambda: ((f"{name}_vtk/{key}", data) for key, data in _vtk(document)))
+    if gltf:
+        further(lambda: ((f"{name}_gltf/{key}", data) for key, data in _gltf(document)))
     written.append(write_whole(folder / f"{name}.xlsx", render_workbook(document)))
     with displayed_in(document.units), spoken_in(document.language):
         tables = in_the_language(document).tables()
@@ -160,4 +166,38 @@ def write_report(
             # the byte order mark makes spreadsheets read the file as UTF-8
             data = table_csv(table).encode("utf-8-sig")
             written.append(write_whole(folder / f"{name}_tables" / f"{key}.csv", data))
+    if len(faults) > 1:
+        raise CaseError([error.fault for error in faults])
+    if faults:
+        raise faults[0]
     return written
+
+
+def _pdf(document: Document) -> bytes:
+    from moyai.report.pdf import render_pdf
+
+    return render_pdf(document)
+
+
+def _docx(document: Document, template: Path | None) -> bytes:
+    from moyai.report.word import render_docx
+
+    return render_docx(document, template)
+
+
+def _dxf(document: Document, unit: str) -> Iterable[tuple[str, bytes]]:
+    from moyai.report.dxf import document_dxf
+
+    return document_dxf(document, unit)
+
+
+def _vtk(document: Document) -> Iterable[tuple[str, bytes]]:
+    from moyai.report.vtk import document_vtk
+
+    return document_vtk(document)
+
+
+def _gltf(document: Document) -> Iterable[tuple[str, bytes]]:
+    from moyai.report.gltf import document_gltf
+
+    return document_gltf(document)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from moyai.core.files import write_whole
 from moyai.core.results import Result
-from moyai.language import spoken_in, spoken_language
+from moyai.language import spoken_in
 from moyai.report.document import (
     Badge,
     Block,
@@ -66,7 +66,6 @@ def compose(found: Reproduction, result: Result) -> Document:
         sections=sections,
         provenance=result.provenance,
         badges=(badge,),
-        language=spoken_language(),
     )
 
 
@@ -195,8 +194,9 @@ def write(found: Reproduction, result: Result, folder: Path) -> list[Path]:
         The page, results.nc, then tables and figures as CSV, then the case files.
     """
     from moyai.report.html import render_html
+    from moyai.report.writer import compose_document
 
-    document = compose(found, result)
+    document = compose_document(result)
     written = [write_whole(folder / "report.html", render_html(document).encode("utf-8"))]
     written.append(result.write(folder / "results.nc"))
     with spoken_in(document.language):

@@ -118,7 +118,7 @@ def reproduce(
 
 
 def as_result(found: Reproduction) -> Result:
-    """Return the numbers behind the page as a result: one group a figure, one for the statements.
+    """Return the numbers behind the page as a result: one group a figure, one for the statements, one for the page.
 
     Parameters
     ----------
@@ -127,6 +127,7 @@ def as_result(found: Reproduction) -> Result:
     import xarray as xr
 
     from moyai.core.results import Result, make_provenance
+    from moyai.reproduce.stored import GROUP, stored_page
 
     rows = [row.as_dict() for row in found.rows]
     columns = {name: ("row", np.array([row[name] for row in rows], dtype=object)) for name in rows[0]}
@@ -135,6 +136,7 @@ def as_result(found: Reproduction) -> Result:
         if isinstance(one.drawn, Figure):
             groups[f"/figure_{one.number}"] = _dataset(one.drawn)
     title = f"{found.paper.authors} ({found.paper.year})"
+    groups[f"/{GROUP}"] = stored_page(found)
     groups["/"] = xr.Dataset(attrs={"structure": "reproduction", "title": title, "paper": found.paper.key})
     words = ", ".join(f"{found.count(verdict)} {word}" for verdict, word in _WORDS)
     return Result(

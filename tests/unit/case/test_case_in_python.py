@@ -1,9 +1,12 @@
 """Cases made and changed in Python: the same as the file that says so."""
 
+from html import escape
+
 import numpy as np
 import pytest
 
 import moyai
+from moyai.case.derived import derived_numbers
 from moyai.core.errors import CaseError, InputError
 
 TEXT = moyai.template("breakwater")
@@ -42,3 +45,14 @@ def test_changed_values_are_those_of_a_file_that_says_so():
 def test_faults_of_a_change_are_named(path, value, error, words):
     with pytest.raises(error, match=words.replace("[", r"\[")):
         moyai.load_case(TEXT).replace(path, value)
+
+
+def test_a_notebook_shows_what_follows_from_a_case():
+    case = moyai.load_case(moyai.template("breakwater")).replace("title", "Pier <3>")
+    page = case._repr_html_()
+    assert "Pier &lt;3&gt;" in page and "<3>" not in page
+    for number in derived_numbers(case)[:5]:
+        assert f"<td>{number.label}</td>" in page and f"<td>{number.text}</td>" in page
+    assert "<script" not in page and "src=" not in page and "&lt;3&gt;</pre>" not in page
+    assert escape(case.text) in page
+    assert repr(case).startswith("<case of kind breakwater: 'Pier <3>'") and len(repr(case)) < 300

@@ -62,3 +62,47 @@ def test_lines_are_broken_between_letters() -> None:
     assert wrapped("あいう。", 6) == ["あいう。"]
     assert wrapped("ab（い", 4) == ["ab", "（い"]
     assert wrapped("", 10) == [""]
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["report", "--nope"], "エラー: そのようなオプションはない：--nope"),
+        (["report"], "エラー: 引数 'RESULTS' がない"),
+        (["nope"], "エラー: そのようなコマンドはない：'nope'"),
+        (["reprot"], "エラー: そのようなコマンドはない：'reprot'。'report', 'reproduce'か"),
+        ([], "エラー: コマンドがない"),
+        (["report", "a", "b"], "エラー: 余分な引数がある（b）"),
+        (["report", "a", "--units"], "エラー: オプション '--units' には値が要る"),
+        (["report", "a", "--pdf=3"], "エラー: オプション '--pdf' は値を取らない"),
+        (["convert", "a", "--duration", "abc"], "'--duration'の値が正しくない：数値を与える。"),
+        (["convert", "a", "--depth", "-3"], "'--depth'の値が正しくない：0.000001 以上の値を与える"),
+    ],
+)
+def test_errors_of_options_are_japanese(words: list[str], message: str) -> None:
+    found = CliRunner().invoke(app, ["--language", "ja", *words])
+    assert found.exit_code == 2
+    assert message in found.stderr
+    assert "Error" not in found.stderr and "Try" not in found.stderr
+    english = CliRunner().invoke(app, ["--language", "en", *words])
+    assert english.exit_code == 2 and "Error: " in english.stderr
+
+
+def test_exit_codes_are_those_of_the_command() -> None:
+    assert CliRunner().invoke(app, ["--language", "ja", "--version"]).exit_code == 0
+    assert CliRunner().invoke(app, ["--language", "ja", "check", "absent.yaml"]).exit_code == 2
+
+
+def test_cases_of_validation_are_said_in_japanese() -> None:
+    from moyai.cli.tables import outcome_line
+    from moyai.cli.validation import Outcome
+    from moyai.core.validation import ValidationCase
+    from moyai.language import spoken_in
+
+    case = ValidationCase("mooring: chain by hand", "MoorPy test case", lambda: 1.0, 2.0, 0.01)
+    with spoken_in("ja"):
+        line = outcome_line(Outcome("mooring", case, 2.002))
+    # names of cases and sources are bibliography
+    name, kind, source = line.split("  |  ")
+    assert name == "ok      mooring: chain by hand: 2.002（基準 2）、誤差 0.1 %（許容 1 %）"
+    assert (kind, source) == ("他のプログラム", "MoorPy test case")

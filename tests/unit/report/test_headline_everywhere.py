@@ -42,9 +42,10 @@ def _breakwater(tables: Tables) -> float:
 
 
 def _curtain(tables: Tables) -> float:
-    """Return the governing load of the anchor line over its breaking load, of the least favourable level."""
+    """Return the governing load of the anchor line over its breaking load, of the level that is judged worst."""
     rows = [table.sel(component="anchor line") for path, table in tables.items() if path.endswith("/loads")]
-    return max(float(row["governing_load"] / row["capacity"]) for row in rows)
+    worst = max(rows, key=lambda row: float(row["steady_high"] / row["capacity"]))
+    return float(worst["governing_load"] / worst["capacity"])
 
 
 def _cage(tables: Tables) -> float:

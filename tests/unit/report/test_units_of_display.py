@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import json
 import math
 import re
 from pathlib import Path
@@ -16,8 +17,13 @@ from typer.testing import CliRunner
 import moyai
 from moyai.cli.main import app
 from moyai.core.errors import InputError
+from moyai.core.validity import Notice
+from moyai.report.document import Column, Document, Listing, NoticeBlock, Paragraph, Section, Table
 from moyai.report.encoding import column_unit
 from moyai.report.formatting import display_unit, format_quantity
+from moyai.report.html import render_html
+from moyai.report.language import with_words_in_system
+from moyai.report.sketch import Sketch
 from moyai.report.systems import displayed_in, words_in_system
 from moyai.report.workbook import render_workbook
 from moyai.report.writer import compose_document, write_report
@@ -44,7 +50,7 @@ def test_other_systems_are_refused() -> None:
 
 
 def test_columns_of_one_unit_share_tonnes_or_kilograms_force() -> None:
-    from moyai.report.document import Column, in_one_unit
+    from moyai.report.document import in_one_unit
 
     with displayed_in("tf"):
         columns = in_one_unit((Column("a", [10.0], "N"), Column("b", [2e4], "N")))
@@ -62,7 +68,7 @@ def test_every_file_of_the_report_is_in_tonnes_force(tmp_path: Path) -> None:
     result = build(levels=ONE)
     files = write_report(result, tmp_path, units="tf")
     page = (tmp_path / "report.html").read_text(encoding="utf-8")
-    assert "Texts of notices are in SI" in page
+    assert "The case and results.nc are in SI" in page
     heads = [path.read_text(encoding="utf-8-sig").splitlines()[0] for path in files if path.suffix == ".csv"]
     assert any("[tf]" in head for head in heads)
     assert not [head for head in heads if re.search(r"\[[kM]?(N|Pa)\b", head)]
@@ -103,3 +109,47 @@ def test_forces_in_remarks_are_in_the_units_of_their_number() -> None:
         found
         == "steady 0.405 tf; 1.89 tf of 30.6 tf; 23.2 kgf/m, 1.27 tf m; 5.1 kgf; 3 m of 255 tf/m2; 0.5 rho, 12 knots"
     )
+
+
+def test_both_ends_of_a_range_change_together() -> None:
+    said = "12.0 to 30.8 kN; between 2 and 3 kN/m, 0.4 ± 0.1 kN; legs 1 and 20 kN; 3 to 5 m"
+    with displayed_in("tf"):
+        found = words_in_system(said)
+        assert words_in_system(found) == found
+    assert found == "1.22 to 3.14 tf; between 0.204 and 0.306 tf/m, 40.8 ± 10.2 kgf; legs 1 and 2.04 tf; 3 to 5 m"
+
+
+def test_no_remark_of_a_page_is_left_in_newtons() -> None:
+    notice = Notice("kind", "a line bears 12.0 to 30.8 kN", remedy="choose one of 40 kN")
+    drawn = Sketch((-1.0, 1.0, -1.0, 1.0))
+    drawn.label(5.0, 5.0, "pull 25 kN", "start")
+    blocks = (
+        NoticeBlock((notice,)), Paragraph("at 5.0 kN/m"), drawn.drawing("d", "Drawing", "of 3 kN"),
+        Table("t", "Table", (Column("Where", ["steady 8.0 kN"]),), "note of 9 kN"), Listing("case", "load: 7 kN"),
+    )  # fmt: skip
+    document = Document("t", "", "converged", "", (Section("s", "S", blocks),), units="tf")
+    with displayed_in("tf"):
+        document = with_words_in_system(document)
+    page = render_html(document)
+    assert set(re.findall(r"[\d.]+ [kM]?N\b", page)) == {"7 kN"}  # the case as it was typed
+    for text in ("1.22 to 3.14 tf", "4.08 tf", "0.51 tf/m", "2.55 tf", "0.816 tf", "0.918 tf", "0.306 tf"):
+        assert text in page, text
+
+
+@pytest.mark.parametrize("words", [["--units", "tf"], []])
+def test_check_shows_forces_in_the_units_asked(tmp_path: Path, words: list[str]) -> None:
+    text = moyai.template("breakwater")
+    file = tmp_path / "case.yaml"
+    file.write_text(text if words else text + "\ndisplay: {units: tf}\n", encoding="utf-8")
+    found = CliRunner().invoke(app, ["check", str(file), *words])
+    assert found.exit_code == 0, found.output
+    assert re.search(r"\d +(tf|kgf)", found.output)
+    assert not re.search(r"\d +[kM]?(N|Pa)\b", found.output)
+    plain = CliRunner().invoke(app, ["check", str(file), "--units", "SI"]).output
+    tension = r"seaward: tension at the fairlead +([\d.]+)"
+    (heavy,), (si,) = (re.findall(tension, shown) for shown in (found.output, plain))
+    assert float(heavy) * 9.80665 == pytest.approx(float(si), rel=2e-3)
+    record = json.loads(CliRunner().invoke(app, ["check", str(file), *words, "--json"]).output)
+    assert not any("tf" in number["shown"] for number in record["derived"])
+    wrong = CliRunner().invoke(app, ["check", str(file), "--units", "stone"])
+    assert wrong.exit_code == 2 and "'stone' is no system of units" in wrong.output

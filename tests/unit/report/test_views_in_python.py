@@ -18,7 +18,7 @@ from moyai.core.validity import Notice
 from moyai.report.document import Abscissa, Figure, Mark, Panel, Series
 from moyai.report.encoding import figure_columns
 from moyai.report.plotly_figure import plotly_figure
-from moyai.report.views import ReportedResult, with_views
+from moyai.report.views import ReportedResult, Views, with_views
 
 
 @pytest.fixture(scope="module")
@@ -47,9 +47,30 @@ def test_names_take_underscores_and_ends_and_a_wrong_one_names_those_that_exist(
     assert result.tables[level.replace("-", "_")].equals(result.tables[level])
     with pytest.raises(KeyError, match=rf"no table is called 'absent'; there are: .*{level}"):
         result.tables["absent"]
-    with pytest.raises(KeyError, match=r"\d figures end in 'rao'; there are: \S+-rao, \S+-rao"):
+    with pytest.raises(KeyError, match=r"\d figures answer to 'rao'; there are: \S+-rao, \S+-rao"):
         result.figures["rao"]
     assert "absent" not in result.tables
+
+
+def test_plain_names_stand_for_one_block_and_an_ambiguous_one_lists_its_choices() -> None:
+    x = np.array([1.0, 2.0])
+
+    def block(key: str, title: str, label: str = "K") -> Figure:
+        series = (Series(label, {"x": x}, x),)
+        return Figure(key, title, (Abscissa("x", "T"),), (Panel("coefficient"),), series)
+
+    one = [block("hwl-coefficients", "Reflection and transmission"), block("hwl-regular-coefficients", "Transmission")]
+    views = Views("figure", one, lambda found: found.key, ["HWL"])
+    # without the level, before the end of a name; then words of title and curves
+    assert views["coefficients"] == views["transmission"] == "hwl-coefficients"
+    assert views["regular"] == views["coefficients_regular"] == "hwl-regular-coefficients"
+    two = [*one, block("lwl-coefficients", "Reflection and transmission", "K_T Macagno")]
+    views = Views("figure", two, lambda found: found.key, ["HWL", "LWL"])
+    with pytest.raises(KeyError, match="2 figures answer to 'transmission'; there are: hwl-coefficients, lwl-coeff"):
+        views["transmission"]
+    assert views["macagno"] == "lwl-coefficients"
+    with pytest.raises(KeyError, match="no figure is called '_'"):
+        views["_"]
 
 
 def test_every_figure_becomes_one_of_plotly_with_its_data(result: ReportedResult) -> None:
@@ -134,4 +155,4 @@ def test_criteria_stand_in_the_notebook(result: ReportedResult) -> None:
     assert "at most 200 kN" in judged._repr_html_()
     heavy = judged.shown_in("tf")._repr_html_()
     assert "at most 20.4 tf" in heavy
-    assert "Texts of notices are in SI" in heavy
+    assert "The case and results.nc are in SI" in heavy

@@ -37,7 +37,7 @@ from moyai.report.document import (
 )
 from moyai.report.formatting import DASH, MINUS, display_unit, format_quantity, read_quantity
 from moyai.report.word import render_docx
-from moyai.report.workbook import LONGEST, NAME, render_workbook
+from moyai.report.workbook import LONGEST, NAME, NUMBERS, _shortened, render_workbook
 
 SVG = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 40 20"><rect width="40" height="20"/></svg>'
 
@@ -179,6 +179,34 @@ def test_long_figures_keep_their_extremes_and_say_so():
     assert any("every extreme kept" in str(row[4]) for row in book["Summary"].iter_rows(values_only=True))
     short = list(_read(_document(50))["Record"].iter_rows(values_only=True))
     assert len(short) == 51
+
+
+def test_many_long_records_are_shortened_to_what_is_written_in_a_second():
+    time = np.linspace(0.0, 600.0, 5000)
+    records = []
+    for number in range(60):
+        values = np.sin(time + number)
+        values[1234 + number] = 9.0 + number
+        series = tuple(Series(f"s{k}", {"t": time}, values * (k + 1)) for k in range(5))
+        records.append(Figure(f"record-{number}", f"Record {number}", (Abscissa("t", "time"),), (Panel("y"),), series))
+    book = _read(Document("t", "", "converged", "", (Section("a", "A", tuple(records)),)))
+    rows = [list(book[f"Record {number}"].iter_rows(min_row=2, values_only=True)) for number in range(60)]
+    assert sum(len(one) * 6 for one in rows) < 1.3 * NUMBERS
+    assert all(max(row[1] for row in one) == 9.0 + number for number, one in enumerate(rows))
+    assert all(one[0][0] == 0.0 and one[-1][0] == 600.0 for one in rows)
+
+
+@pytest.mark.parametrize(
+    ("title", "name"),
+    [
+        ("Wave heights over the incident one: ferry wash", "Wave heights over the incident"),
+        ("Notices on the range of validity of it", "Notices on the range"),
+        ("Motions and forces over the period: x", "Motions and forces"),
+        ("Pneumonoultramicroscopicsilicovolcanoconiosis", "Pneumonoultramicroscopicsilicov"),
+    ],
+)
+def test_names_of_sheets_end_with_a_word_that_says_something(title, name):
+    assert _shortened(title, NAME) == name
 
 
 def test_word_has_headings_counted_captions_tables_and_images():

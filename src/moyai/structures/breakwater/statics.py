@@ -12,7 +12,7 @@ from moyai.core.validity import Notice
 from moyai.floating.modes import NaturalModes, natural_modes
 from moyai.floating.offset import mean_offset
 from moyai.mooring.lines import LineElement
-from moyai.mooring.shape import element_shape
+from moyai.mooring.shape import even_points
 from moyai.structures.breakwater.assembly import FloatingUnit
 from moyai.structures.breakwater.hydrodynamics import UnitHydrodynamics
 from moyai.structures.breakwater.model import MooringLine
@@ -46,7 +46,7 @@ def statics_dataset(
     breakwater, statics = unit.breakwater, unit.statics
     offset = mean_offset(unit.mooring, statics.stiffness, steady)
     matrix = ("influenced_dof", "radiating_dof")
-    outline_x, outline_z = _outline(unit)
+    outline_x, outline_z = unit.section.drawn().T
     out: dict[str, Any] = {
         "draught": ((), -unit.section.keel),
         "body_mass": ((), unit.mass),
@@ -105,19 +105,6 @@ def _modes(moored: NaturalModes, free: NaturalModes) -> dict[str, Any]:
     }
 
 
-def _outline(unit: FloatingUnit) -> tuple[Array, Array]:
-    """Return the hull at rest as points of the site, outlines closed and parted by NaN; a plate runs there and back."""
-    pieces = []
-    for outline in unit.section.outlines:
-        points = outline.edges.polyline()
-        pieces.append(np.concatenate([points, points[:1], np.full((1, 2), np.nan)]))
-    for plate in unit.section.plates:
-        points = plate.outline
-        pieces.append(np.concatenate([points, points[-2::-1], np.full((1, 2), np.nan)]))
-    every = np.concatenate(pieces)[:-1]
-    return every[:, 0], every[:, 1]
-
-
 def _lines(unit: FloatingUnit) -> dict[str, Any]:
     """Return what is known of the lines at rest, one entry a kind; shapes in site axes."""
     kinds = len(unit.lines)
@@ -161,10 +148,9 @@ def _lines(unit: FloatingUnit) -> dict[str, Any]:
 def line_points(unit: FloatingUnit, line: LineElement, shift: Array) -> Array:
     """Return a line as evenly spaced points (LINE_POINTS, 2) in site axes, its fairlead moved by ``shift`` [m]."""
     centre = np.array([unit.centre[0], 0.0, unit.centre[1]])
-    points = element_shape(line, np.asarray(line.fairlead) + shift, unit.water.depth + unit.centre[1]).points + centre
-    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
-    even = np.linspace(0.0, along[-1], LINE_POINTS)
-    return np.stack([np.interp(even, along, points[:, 0]), np.interp(even, along, points[:, 2])], axis=1)
+    fairlead = np.asarray(line.fairlead) + shift
+    points: Array = even_points(line, fairlead, unit.water.depth + unit.centre[1], LINE_POINTS) + centre
+    return points[:, [0, 2]]
 
 
 def moving_shapes(unit: FloatingUnit, runs: list[xr.Dataset]) -> xr.Dataset | None:

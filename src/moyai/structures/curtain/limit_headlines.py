@@ -65,8 +65,9 @@ def limit_headlines(groups: Groups, levels: Sequence[str], span_holds: Callable[
         said = str(table.attrs.get("speed_limit_text" if key == "speed_limit" else "design_limit_note", ""))
         bound = str(table.attrs.get(f"{key}_bound", ""))
         proven = _proven(groups, key, span_holds, level)
-        if bound == "at least" and proven > limit:
-            more = f"an upright plate, a bound, allows {limit:.3g} {unit}; " if limit > 0.0 else ""
+        waves = key == "design_limit"
+        if bound == "at least" and (proven > limit or (waves and math.isfinite(proven))):
+            more = f"an upright plate, a bound, allows {limit:.3g} {unit}; " if limit > 0.0 and not waves else ""
             detail = f"the whole span holds in the state of the case; {more}the span is run in that state alone"
             yield Headline(
                 name, label, proven, unit, where=f"{where}: {level}", model=SPAN, bound="at least", detail=detail
@@ -82,7 +83,9 @@ def limit_headlines(groups: Groups, levels: Sequence[str], span_holds: Callable[
         found_at = limit
         if key != "speed_limit" and table.attrs.get("with_snaps"):
             lasting = float(table.attrs.get("sea_duration", math.nan)) / 60.0
-            details.append(f"snaps by realisations of JONSWAP seas of {lasting:.3g} min along the normal")
+            angle = math.degrees(float(table.attrs.get("wave_angle", 0.0)))
+            along = "along the normal" if abs(angle) < 0.05 else f"at {angle:.3g} deg from the normal"
+            details.append(f"snaps by realisations of JONSWAP seas of {lasting:.3g} min {along}")
         if governing != "effective depth" and float(table.attrs.get("least_effective_depth", 1.0)) == 0.0:
             details.append("no depth is asked for: 'least_effective_depth' of 'criteria' has no default")
         if jump := str(table.attrs.get("limit_jump", "")) if key == "design_limit" else "":
@@ -93,9 +96,11 @@ def limit_headlines(groups: Groups, levels: Sequence[str], span_holds: Callable[
                 0.0,
                 ["the depth that is asked for is not kept in the current of the case, at its lower end"],
             )
-        if limit <= 0.0 and bound == "at least":
-            # a bound that fails proves nothing about the curtain
+        if bound == "at least" and (limit <= 0.0 or waves):
+            # a bound that fails proves nothing about the curtain, and in waves it bounds neither sheet nor anchors
             words = f"the load of an upright plate, a bound, is already too much for the {governing} without waves"
+            if limit > 0.0:
+                words = "an upright plate bounds neither the sheet nor the anchors of a free toe in waves"
             run = groups.get(f"/{level}/dynamic")
             more = REMEDY if run is None else "the whole span is run in the seas of the case alone, to be run in others"
             detail = f"{words}; {more}"
@@ -130,8 +135,11 @@ def _held(groups: Groups, key: str, span_holds: Callable[[str], bool], item: tup
     """Return what a level is known to hold: its limit, or the state of the case where the limit is but a bound."""
     limit, level, table = item
     proven = _proven(groups, key, span_holds, level)
-    if str(table.attrs.get(f"{key}_bound", "")) == "at least" and proven > limit:
-        return proven
+    if str(table.attrs.get(f"{key}_bound", "")) == "at least":
+        if proven > limit:
+            return proven
+        if key == "design_limit":
+            return proven if math.isfinite(proven) else -math.inf
     return _lowest(table, key, limit)
 
 

@@ -35,6 +35,8 @@ class Joint:
         Relative motion of all motions of all units.
     held : ndarray (c, 6)
         Directions of the relative motion that are held.
+    span : float
+        Distance of its ends at rest [m].
     """
 
     name: str
@@ -43,6 +45,12 @@ class Joint:
     place: Array
     relative: Array
     held: Array
+    span: float = 0.0
+
+    @property
+    def pulls_in_line(self) -> bool:
+        """Whether it is drawn from end to end, so that motion across stretches it as well."""
+        return self.connector.kind in ("chain", "rubber")
 
     @property
     def along(self) -> Array:
@@ -81,7 +89,8 @@ def joints_of(row: FloatingRow, centres: Array, draught: float) -> tuple[Joint, 
                 motion[3:, 3:] = frame
                 relative[:, columns] = sign * motion
             name = connector.name if len(connector.pairs) == 1 else f"{connector.name} {first + 1}-{second + 1}"
-            joints.append(Joint(name, connector, (first, second), place, relative, _held(connector)))
+            span = float(np.linalg.norm(far - near))
+            joints.append(Joint(name, connector, (first, second), place, relative, _held(connector), span))
     return tuple(joints)
 
 

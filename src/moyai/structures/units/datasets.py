@@ -9,6 +9,7 @@ import numpy as np
 
 from moyai.core.arrays import Array, ComplexArray
 from moyai.floating.irregular import response_statistics
+from moyai.mooring.shape import even_points
 from moyai.sea.states import IrregularSea, RegularSea
 from moyai.structures.units.assembly import RowAtLevel, steady_position
 from moyai.structures.units.connectors import Joint
@@ -45,6 +46,10 @@ def statics_dataset(at: RowAtLevel, wind: Array, current: Array) -> xr.Dataset:
     lines = [line for group in at.lines for line in group]
     anchor = np.array([np.add(line.anchor, centre) for line, centre in zip(lines, centres)]).reshape(-1, 3)
     fairlead = np.array([np.add(line.fairlead, centre) for line, centre in zip(lines, centres)]).reshape(-1, 3)
+    shapes = np.array(
+        [even_points(line, line.fairlead, at.water.depth + centre[2]) + centre for line, centre in zip(lines, centres)]
+    ).reshape(len(lines), -1, 3)
+    outline = at.section.drawn()
     places = np.array([joint.place for joint in at.joints]).reshape(-1, 3)
     out: dict[str, Any] = {
         "draught": ((), at.draught),
@@ -62,6 +67,12 @@ def statics_dataset(at: RowAtLevel, wind: Array, current: Array) -> xr.Dataset:
         "fairlead_y": ("line", fairlead[:, 1]),
         "anchor_z": ("line", anchor[:, 2]),
         "fairlead_z": ("line", fairlead[:, 2]),
+        "line_unit": ("line", [number + 1 for number, group in enumerate(at.lines) for _ in group]),
+        "mooring_x": (("line", "line_point"), shapes[..., 0]),
+        "mooring_y": (("line", "line_point"), shapes[..., 1]),
+        "mooring_z": (("line", "line_point"), shapes[..., 2]),
+        "outline_x": ("outline_point", outline[:, 0]),
+        "outline_z": ("outline_point", outline[:, 1]),
         "unit_centre_z": ("unit", at.centres[:, 2]),
         "breaking_load": ("line", _known(at.breaking_load)),
         "line_tension_mean": ("line", at.tensions(rest.position)),
@@ -69,6 +80,8 @@ def statics_dataset(at: RowAtLevel, wind: Array, current: Array) -> xr.Dataset:
         "connector_y": ("connector", places[:, 1]),
         "connector_z": ("connector", places[:, 2]),
         "connector_breaking_load": ("connector", _known(np.array([j.connector.breaking_load for j in at.joints]))),
+        "connector_span": ("connector", np.array([j.span if j.pulls_in_line else np.nan for j in at.joints])),
+        "connector_axis": (("connector", "component"), np.array([j.connector.axis for j in at.joints]).reshape(-1, 3)),
         "steady_offset": (("unit", "dof"), at.in_unit_axes(rest.position)),
         "steady_force_of_wind": (("unit", "dof"), wind.reshape(-1, 6)),
         "steady_force_of_current": (("unit", "dof"), current.reshape(-1, 6)),

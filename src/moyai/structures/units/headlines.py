@@ -16,6 +16,7 @@ from moyai.core.arrays import Array
 from moyai.core.headline import Band, Bound, Headline, governing
 from moyai.core.wording import spoken
 from moyai.series.realisations import ALONE, alone, seeds
+from moyai.structures.units.across import stretch_across
 from moyai.structures.units.model import DAMPING_BAND, SNAP_RATIO
 
 if TYPE_CHECKING:
@@ -230,6 +231,7 @@ def _all_judged(items: list[Headline]) -> list[Headline]:
 
 
 def _connectors(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Headline]:
+    seas = [(path, _with_stretch(groups, path, data)) for path, data in seas]
     each = _each(seas, "connector_resultant_largest")
     if not each:
         return
@@ -242,7 +244,7 @@ def _connectors(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Headli
             [
                 Headline(
                     "connector_utilisation", "Largest force over breaking load of a connector", share.value, "1",
-                    share.where, _model(share), band=share.band, bound=share.bound,
+                    share.where, _model(share), band=share.band, bound="at least" if _stretched(share) else share.bound,
                     judged_on="its force alone, without the moment" * bent,
                 )
                 for share in _each(seas, "connector_resultant_largest", over=load)
@@ -256,8 +258,8 @@ def _connectors(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Headli
     yield from _all_judged(
         [
             Headline(
-                "gap_motion", "Largest opening and closing of a gap at a connector", opening.value, "m", opening.where,
-                _model(opening), band=opening.band, bound=opening.bound,
+                "gap_motion", "Largest opening and closing of a gap at a connector, about its mean", opening.value, "m",
+                opening.where, _model(opening), band=opening.band, bound=opening.bound,
             )
             for opening in _each(opened, "opened")
             if opening.value > 1e-9
@@ -274,6 +276,19 @@ def _connectors(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Headli
             for damage in _each([item for item in worn if "duration" in item[1].attrs], "worn")
         ]
     )  # fmt: skip
+
+
+def _with_stretch(groups: Mapping[str, xr.Dataset], path: str, data: xr.Dataset) -> xr.Dataset:
+    """Return a sea with what motion across its connectors would stretch them."""
+    if "relative_motion_largest" not in data or "elongation_highest" not in data:
+        return data
+    stretch = stretch_across(groups[f"/{path.split('/')[1]}/statics"], data)
+    return data.assign(stretch_across=(data["elongation_highest"].dims, stretch))
+
+
+def _stretched(found: _Largest) -> float:
+    """Return what motion across would stretch any of the connectors of a sea [m]."""
+    return float(np.max(found.data["stretch_across"].values, initial=0.0)) if "stretch_across" in found.data else 0.0
 
 
 def _with_opening(data: xr.Dataset) -> xr.Dataset:
@@ -299,9 +314,12 @@ def _connector_force(found: _Largest) -> Headline:
         if found.timed
         else "mean and waves together, along the direction that bears most"
     )
+    across = f"motion across would stretch a connector by {_stretched(found):.3g} m, not counted"
+    details = (words, ALONE if found.bound else "", across if _stretched(found) else "")
     return Headline(
         "connector_force", "Largest force in a connector", found.value, "N", found.where, _model(found),
-        band=found.band, bound=found.bound, detail="; ".join(filter(None, (words, ALONE if found.bound else ""))),
+        band=found.band, bound="at least" if _stretched(found) else found.bound,
+        detail="; ".join(filter(None, details)),
     )  # fmt: skip
 
 

@@ -17,6 +17,7 @@ from moyai.core.results import Result
 from moyai.core.store import DatasetStore
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.sea.states import IrregularSea, RegularSea, SeaState
+from moyai.structures.units.across import across_notices
 from moyai.structures.units.assembly import RowAtLevel, assemble, level_notices, steady_load
 from moyai.structures.units.bem import Panels, panels_of
 from moyai.structures.units.datasets import (
@@ -147,6 +148,7 @@ def run(problem: UnitsProblem, progress: Progress = silent, *, store: DatasetSto
     """
     collected = Collected()
     collected.take(_steps(problem, collected, store, progress))
+    collected.notices.extend(across_notices(collected.groups))
     return _result(problem, collected)
 
 

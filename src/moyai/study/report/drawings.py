@@ -83,7 +83,7 @@ def heat_map(pages: StudyPages, name: str, columns: AxisLabels, rows: AxisLabels
     worst_of = ", ".join(pages.axes[place].name.replace("_", " ") for place in others)
     caption = f"{label}{f' [{shown.name}]' if shown.name else ''}" + (f"; worst over {worst_of}" if others else "")
     key = f"map-{name}-{columns.name}-{rows.name}".replace("/", "-").replace(" ", "-")
-    title = f"{label} over {columns.name.replace('_', ' ')} and {rows.name.replace('_', ' ')}"
+    title = f"{label}: over {columns.name.replace('_', ' ')} and {rows.name.replace('_', ' ')}"
     return Drawing(key, title, svg, with_colours(svg), caption + ". Grey: no result.")
 
 

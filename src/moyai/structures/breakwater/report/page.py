@@ -10,12 +10,14 @@ from moyai.report.document import (
     Block,
     Choice,
     Document,
+    Drawing,
     Option,
 )
 from moyai.report.drawing import SectionGeometry, mooring_elevation, section_detail
 from moyai.report.formatting import MINUS, format_quantity
 from moyai.report.general_page import case_listing, chapters, provenance, report_title
 from moyai.report.levels import at_each_level
+from moyai.report.plan import LineInPlan, UnitInPlan, unit_plan
 from moyai.report.reading import Group, root_of
 from moyai.structures.breakwater.report import damping, figures, sea_figures, tables
 from moyai.structures.breakwater.report.reading import (
@@ -146,13 +148,34 @@ def _drawings(level: Level) -> Sequence[Block | None]:
         )
     ]
     if geometry.lines:
-        drawings.insert(
-            0,
-            mooring_elevation(geometry).drawing(
-                figures.key(level, "elevation"), "Mooring at rest", "To scale, at rest."
-            ),
-        )
+        elevation = mooring_elevation(geometry)
+        drawings.insert(0, elevation.drawing(figures.key(level, "elevation"), "Mooring at rest", "To scale, at rest."))
+    if (plan := _plan(level, geometry)) is not None:
+        drawings.append(plan)
     return drawings
+
+
+def _plan(level: Level, geometry: SectionGeometry) -> Drawing | None:
+    """Return the unit from above on its lines, with the ways of the waves."""
+    statics = level.group.child("statics")
+    length = statics.value("unit_length")
+    count, anchor, held = (statics.real(name, "line") for name in ("line_count", "anchor_x", "fairlead_x"))
+    if not math.isfinite(length):
+        return None
+    lines: list[LineInPlan] = []
+    if count is not None and anchor is not None and held is not None:
+        rows = zip(statics.labels("line"), count, anchor, held, strict=True)
+        lines = [LineInPlan(name, int(alike), float(far), float(near)) for name, alike, far, near in rows]
+    every = [sea.domain(name) for sea in map(level.sea, level.sea_names()) for name in ("frequency", "time")]
+    found = [attribute_number(domain, "heading") for domain in every]
+    x0, x1, _, _ = geometry.box(with_lines=False)
+    sketch = unit_plan(UnitInPlan(x0, x1, length, lines, [value for value in found if math.isfinite(value)]))
+    return sketch.drawing(
+        figures.key(level, "plan"),
+        "Unit and mooring in plan",
+        "To scale. Alike lines are drawn evenly along the unit: their places along the crest do not enter the "
+        "computation.",
+    )
 
 
 def _at_rest(level: Level) -> Sequence[Block | None]:

@@ -20,7 +20,7 @@ from moyai.report.animation import (
 )
 from moyai.report.decimate import focus_indices, mean_crossing_period, window_around
 from moyai.report.document import Abscissa, Animation, Block, Column, Figure, Mark, Panel, Series, Table
-from moyai.report.drawing import snapshot
+from moyai.report.drawing import outlines_of, snapshot
 from moyai.report.formatting import format_quantity, largest_magnitude
 from moyai.report.reading import Group, common_scale
 from moyai.report.sketch import with_colours
@@ -243,10 +243,7 @@ def outlines_at_rest(level: Level) -> tuple[Array, ...]:
             return ()
         half = 0.5 * beam
         return (np.array([[-half, -draught], [half, -draught], [half, freeboard], [-half, freeboard]]),)
-    breaks = np.flatnonzero(~np.isfinite(x))
-    parts = np.split(np.stack([x, z], axis=1), breaks)
-    cleaned = [part[np.isfinite(part).all(axis=1)] for part in parts]
-    return tuple(part for part in cleaned if len(part) >= 3)
+    return outlines_of(x, z)
 
 
 def lines_rest_shapes(level: Level) -> tuple[tuple[str, Array], ...]:

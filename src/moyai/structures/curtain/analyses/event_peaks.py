@@ -28,8 +28,9 @@ COMPONENTS: Mapping[str, str] = {
 MESH_CHANGE = 0.2
 
 
-#: What the growth of a tension with the cells is continued to, over the cells of the finest mesh.
-SMALLER = 10.0
+#: What the growth of a tension with the cells is continued to, over the cells of the finest mesh: some 0.2 m, the
+#: spacing of eyelets, within which seams bear and not the sheet; and its steepest power, that near a point load.
+SMALLER, STEEPEST = 4.0, 1.0
 
 
 @dataclass(frozen=True)
@@ -119,7 +120,7 @@ def event_peak(samples: Sequence[Sample], event: str, component: str) -> EventPe
     return EventPeak(
         found.value, found.low, found.high, found.judged, found.run,
         1.0 - min(first, last) / max(first, last), last > first, (first, last), found.alone,
-        math.nan if found.alone else found.judged * SMALLER ** _growth(meshes, means),
+        math.nan if found.alone else found.judged * SMALLER ** min(_growth(meshes, means), STEEPEST),
     )  # fmt: skip
 
 

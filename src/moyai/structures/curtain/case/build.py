@@ -303,11 +303,8 @@ def settings_of(model: schema.CurtainCase, environment: Environment) -> Settings
             loads.direction_rule,
             loads.pretension,
         )
-    if limits.wave_angle_deg is not None:
-        angle = math.radians(limits.wave_angle_deg)
-    else:
-        normal = math.radians(model.structure.normal_deg)
-        angle = environment.sea_states[0].heading - normal if environment.sea_states else 0.0
+    # along the normal the waves load a curtain most, whatever the seas of the case and their order
+    angle = math.radians(limits.wave_angle_deg or 0.0)
     return Settings(
         analyses=model.analyses,
         impact=ImpactSettings(

@@ -422,7 +422,7 @@ class Limits(Block):
         default=True, description="Whether the impact counts in the table, where it was asked for. Default: true."
     )
     wave_angle_deg: Annotated[float, QuantityOf(quantities.ANGLE_DEGREES)] | None = Field(
-        default=None, description="Of the waves from the normal; absent: that of the first sea state, or 0."
+        default=None, description="Of the waves from the normal. Default: 0, which loads a curtain most."
     )
     rose_step_deg: Literal[5, 10, 15, 30, 45] | None = Field(
         default=None,

@@ -189,15 +189,16 @@ def plan_drawing(level: CurtainLevel) -> Sketch | None:
     sketch = Sketch(box, margin=(10.0, 14.0, 10.0, 44.0), title="Plan of the curtain between its supports")
     sketch.rectangle(box[0], box[3], box[1], box[2], "water")
     for (ends, whole), (start, end) in zip(tops, lines, strict=True):
-        sketch.path(ends, "mooring")
-        x, y = float(ends[1, 0]), float(ends[1, 1])
         if whole:
-            size = 5 / sketch.scale
-            sketch.rectangle(x - size, y + size, x + size, y - size, "anchor")
-            sketch.text(x, y, "anchor", shift=(0.0, -10.0))
-        else:
-            reach = float(math.hypot(*(end[:2] - start[:2])))
+            _anchor_in_plan(sketch, ends)
+            continue
+        x, y = float(ends[1, 0]), float(ends[1, 1])
+        reach = float(math.hypot(*(end[:2] - start[:2])))
+        with sketch.on_the_page_alone():
+            sketch.path(ends, "mooring")
             sketch.text(x, y, f"to its anchor, {metres(reach)} from the float", shift=(0.0, -8.0))
+        with sketch.off_the_page():
+            _anchor_in_plan(sketch, _across(np.array([start, end])[:, :2]), f"anchor, {metres(reach)} from the float")
     chord = _across(shape[[0, -1]])
     sketch.path(chord, "chord")
     for other in others:
@@ -207,6 +208,14 @@ def plan_drawing(level: CurtainLevel) -> Sketch | None:
         sketch.dot(float(x), float(y), 7.0, "buoy")
     _plan_dimensions(sketch, level, shape, box)
     return sketch
+
+
+def _anchor_in_plan(sketch: Sketch, ends: Array, words: str = "anchor") -> None:
+    x, y = float(ends[1, 0]), float(ends[1, 1])
+    size = 5 / sketch.scale
+    sketch.path(ends, "mooring")
+    sketch.rectangle(x - size, y + size, x + size, y - size, "anchor")
+    sketch.text(x, y, words, shift=(0.0, -10.0))
 
 
 def _cut(ends: Array, most: float) -> tuple[Array, bool]:

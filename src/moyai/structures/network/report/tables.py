@@ -156,7 +156,7 @@ def peaks_table(level: NetworkLevel, run: Group) -> Table | None:
             _column("Mean", of("line_tension_mean"), "N"),
             _column("Standard deviation", of("deviation"), "N"),
             _column("of breaking load", None if use is None else 100.0 * use, "%"),
-            _column("Slack for", None if (v := of("slack_share")) is None else 100.0 * v, "% of time"),
+            _column("Slack, share of time", None if (v := of("slack_share")) is None else 100.0 * v, "%"),
             _column("Contacts", of("contacts"), "", digits=6, trim=True),
             _column("Snaps", of("snaps"), "", digits=6, trim=True),
             _column("Highest snap", of("largest_snap"), "N"),

@@ -32,6 +32,9 @@ STABLE_SHARE = 0.05
 STABLE_SOURCE = (
     f"default of moyai: 5 % of the draught, as Japanese port practice asks of caissons afloat, {UNCONFIRMED}"
 )
+#: Breaking load over the largest force of a connector, where the case asks for nothing.
+CONNECTOR_FACTOR = 2.0
+CONNECTOR_SOURCE = "default of moyai: 2 on the breaking load of a connector; no code"
 GreatestRatio = Annotated[float | None, QuantityOf(quantities.NUMBER, above=0.0)]
 
 
@@ -96,11 +99,12 @@ def criteria(model: Any, given: Any) -> Iterator[Criterion]:
         "" if "time" in model.analyses else "quasi_static",
         [getattr(part, "catalogue", None) for line in moored for part in line.segments if not hasattr(part, "clump")],
     )
-    factor = given.connector_safety_factor
-    if factor is not None:
+    asked, given_loads = given.connector_safety_factor, [one.breaking_load for one in model.structure.connectors]
+    if asked is not None or (computed and any(given_loads)):
         yield Criterion(
-            "connector_safety_factor", "connector_utilisation", 1.0 / factor, "at most", CASE,
-            "factor of safety of the connectors", as_factor=True,
+            "connector_safety_factor", "connector_utilisation", 1.0 / (asked or CONNECTOR_FACTOR), "at most",
+            CASE if asked is not None else CONNECTOR_SOURCE, "factor of safety of the connectors", as_factor=True,
+            assumed=asked is None,
         )  # fmt: skip
     for key, (headline, unit, words) in _OWN.items():
         if getattr(given, key) is not None:

@@ -8,6 +8,7 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.report.document import Abscissa, Column, Drawing, Figure, Mark, Panel, Series, Table, in_one_unit
+from moyai.report.drawing import SectionGeometry, mooring_elevation, outlines_of, section_detail
 from moyai.report.encoding import slug
 from moyai.report.formatting import format_number, trimmed
 from moyai.report.reading import Group, common_scale
@@ -17,6 +18,8 @@ from moyai.report.sketch import Sketch
 CLASSES = (0.2, 0.4, 0.6, 0.8, 1.0, 1.2, 1.4, 1.6)
 #: Cells along the longer side of the map that are drawn; values between points are interpolated
 _CELLS = 72
+#: Lines whose names the plan shows, at most; angle to the row below which waves of heading 0 run across a unit [rad]
+_NAMED, _ALONG = 24, 1e-6
 DOFS = ("sway", "surge", "heave", "pitch", "roll", "yaw")
 _LEVEL_MOTIONS = DOFS[:3]
 
@@ -38,17 +41,72 @@ def plan(level: Group) -> Drawing | None:
     low, high = points.min(axis=0), points.max(axis=0)
     pad = 0.06 * float(np.max(high - low))
     sketch = Sketch(
-        (low[0] - pad, high[0] + pad, low[1] - pad, high[1] + pad), width=_width(high - low), title="The row in plan"
-    )
+        (low[0] - pad, high[0] + pad, low[1] - pad, high[1] + pad), width=_width(high - low),
+        margin=(10.0, 44.0, 64.0, 40.0), title="The row in plan",
+    )  # fmt: skip
+    names = statics.labels("line")
     if ends[0] is not None and ends[1] is not None:
-        for anchor, fairlead in zip(*ends):
-            sketch.path(np.array([anchor, fairlead]), "mooring")
-            sketch.dot(float(anchor[0]), float(anchor[1]), 3.0, "anchor")
+        for name, anchor, fairlead in zip(names, ends[0], ends[1]):
+            sketch.segment(anchor, fairlead, "mooring")
+            x, y = float(anchor[0]), float(anchor[1])
+            sketch.dot(x, y, 3.0, "anchor")
+            right = x > float(fairlead[0])
+            if len(names) <= _NAMED:
+                sketch.text(x, y, name, shift=(0.0, -7.0), anchor="end" if right else "start", size=11.0)
     _units(sketch, statics, corners)
     _axes(sketch, low, pad)
+    _plan_distances(sketch, corners, (low, high))
     return sketch.drawing(
         slug(level.name, "plan"), "The row in plan", "Units with their numbers, connectors (dots), lines and anchors."
     )
+
+
+def _plan_distances(sketch: Sketch, corners: Array, box: tuple[Array, Array]) -> None:
+    """Measure the row, one unit where the row lies along y, and all with the lines."""
+    (x0, y0), (x1, y1) = (find(axis=0) for find in (corners.reshape(-1, 2).min, corners.reshape(-1, 2).max))
+    low, high = box
+    aside, below = (high[0] - x1) * sketch.scale, (y0 - low[1]) * sketch.scale
+    sketch.dimension(x1, y1, x1, y0, f"{_words(y1 - y0)} m", offset=aside + 24.0)
+    sketch.dimension(x0, y1, x1, y1, f"{_words(x1 - x0)} m", offset=(y1 - high[1]) * sketch.scale - 24.0)
+    first = corners[0]
+    if len(corners) > 1 and np.ptp(first[:, 1]) > np.ptp(first[:, 0]):
+        a, b = float(first[:, 1].min()), float(first[:, 1].max())
+        sketch.dimension(x0, b, x0, a, f"l = {_words(b - a)} m", offset=-24.0)
+    if low[0] < x0 or high[0] > x1:
+        sketch.dimension(low[0], y0, high[0], y0, f"{_words(high[0] - low[0])} m", offset=below + 24.0)
+
+
+def sections(level: Group) -> list[Drawing]:
+    """Return the section of a unit: on the lines of the first one, and alone with its dimensions."""
+    statics = level.child("statics")
+    x, z = statics.real("outline_x", "outline_point"), statics.real("outline_z", "outline_point")
+    if x is None or z is None:
+        return []
+    at = [statics.real(name, "unit") for name in ("unit_x", "unit_y", "unit_heading", "unit_centre_z")]
+    place_x, place_y, heading, height = (0.0 if values is None else float(values[0]) for values in at)
+    owner = statics.array("line_unit", "line")
+    shapes = [statics.require(f"mooring_{axis}", "line", "line_point") for axis in "xyz"]
+    lines = []
+    for number in np.flatnonzero(np.asarray(owner) == 1):
+        name = statics.labels("line")[number]
+        px, py, pz = (shape[number] for shape in shapes)
+        across = (px - place_x) * math.cos(heading) + (py - place_y) * math.sin(heading)
+        lines.append((name, np.stack([across, pz], axis=1)))
+    facts = statics.attributes
+    geometry = SectionGeometry(
+        outlines_of(x, z), (0.0, height), statics.value("draught"),
+        statics.value("freeboard"), float(facts.get("beam", math.nan)), float(facts.get("height", math.nan)),
+        float(level.attributes["water_depth"]), lines,
+    )  # fmt: skip
+    alone = section_detail(geometry).drawing(
+        slug(level.name, "section"), "Section of a unit",
+        "To scale. Positive roll turns the top towards +x.",
+    )  # fmt: skip
+    if not lines:
+        return [alone]
+    elevation = mooring_elevation(geometry, waves=abs(heading) < _ALONG)
+    caption = "To scale, across the unit; lines at rest without wind and current."
+    return [elevation.drawing(slug(level.name, "elevation"), "The first unit on its lines", caption), alone]
 
 
 def _width(span: Array) -> float:
@@ -288,6 +346,10 @@ def motion_table(level: Group, sea: Group, period: int | None) -> Table | None:
     for number, dof in enumerate(DOFS):
         columns.append(Column(dof.capitalize(), list(motion[:, number]), "m" if dof in _LEVEL_MOTIONS else "rad"))
     columns.append(Column("Mean sway", list(offset[:, 0]), "m"))
+    drift = _of_period(sea, "mean_drift_of_unit", period, "unit", "direction")
+    if drift is not None:
+        pushed = [Column(f"Mean drift {way}", list(drift[:, n]), "N") for n, way in enumerate(("across", "along"))]
+        columns += in_one_unit(pushed)
     when = "" if period is None else f", T = {float(sea.require('period', 'period')[period]):g} s"
     return Table(
         _key(level, "motions", sea, period),

@@ -40,7 +40,7 @@ def compose(result: Result) -> Document:
     sections = chapters(
         result,
         ("summary", "Summary", lambda: (*_summary(result), *notice_blocks(result))),
-        ("row", "The row", lambda: at_each_level(lambda level: [figures.plan(level), figures.rest_table(level)])),
+        ("row", "The row", lambda: at_each_level(_row)),
         ("waves", "Waves around the row", lambda: at_each_level(_maps)),
         ("connectors", "Connectors", lambda: at_each_level(lambda level: _tables(level, figures.connector_table))),
         ("motions", "Motions", lambda: at_each_level(_motions)),
@@ -56,6 +56,10 @@ def compose(result: Result) -> Document:
         sections=sections,
         provenance=provenance(result),
     )
+
+
+def _row(level: Group) -> list[Block | None]:
+    return [figures.plan(level), *figures.sections(level), figures.rest_table(level)]
 
 
 def _summary(result: Result) -> tuple[Block, ...]:
