@@ -4,7 +4,8 @@
 
 Prints JSON lines: median and 95th percentile in milliseconds over single moves until the first draft of what is on the
 screen is drawn, each after the whole answer to the one before; the first one of each structure (which fills caches) is
-left out. On a machine that does other things the numbers are theirs too.
+left out. On a machine that does other things the numbers are theirs too; the processor time of the server and of the
+main thread of the page over the same span (``server_ms``, ``page_ms``, where the system tells it) are not.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from __future__ import annotations
 import argparse
 import importlib.util
 import json
+import math
 import re
 import statistics
 import subprocess
@@ -50,6 +52,13 @@ MOVE = """((path, share) => {
   for (const name of ['input', 'change']) range.dispatchEvent(new Event(name, { bubbles: true }));
 })"""
 
+DRAWN_AFTER = """((move) => new Promise((drawn) => {
+  const report = document.querySelector('.report');
+  new MutationObserver((_, one) => { if (report.dataset.latency) { one.disconnect(); drawn(true); } })
+    .observe(report, { attributes: true, attributeFilter: ['data-latency'] });
+  move();
+}))"""
+
 
 def driver() -> Any:
     """Return the module that drives Chromium, which stands with the tests of the reports."""
@@ -78,8 +87,27 @@ def text_of(name: str, analyses: str, path: str, section: str = "") -> str:
     return f"{text.rstrip()}\napp: {{sliders: ['{path}']}}\n"
 
 
-def measured(page: Any, file: str, path: str, section: str, moves: int) -> list[float]:
-    """Return the milliseconds of every move, the first left out."""
+def processor_ms(process: int, threads: str = "*") -> float:
+    """Return the processor time of a process [ms]; NaN where the system does not tell it."""
+    stats = list(Path(f"/proc/{process}/task").glob(f"{threads}/schedstat"))
+    return sum(int(one.read_text().split()[0]) for one in stats) / 1e6 if stats else math.nan
+
+
+def below(process: int) -> list[int]:
+    """Return the processes that a process has started, and those that they have."""
+    lists = Path(f"/proc/{process}/task").glob("*/children")
+    found = [int(child) for one in lists for child in one.read_text().split()]
+    return [*found, *(inner for child in found for inner in below(child))]
+
+
+def times_of(app: int, browser: int) -> tuple[float, float]:
+    """Return the processor time of the server and of the main threads of the pages until now [ms]."""
+    pages = [one for one in below(browser) if "--type=renderer" in Path(f"/proc/{one}/cmdline").read_text()]
+    return sum(map(processor_ms, [app, *below(app)])), sum(processor_ms(one, str(one)) for one in pages)
+
+
+def measured(page: Any, file: str, path: str, section: str, moves: int, app: int) -> list[tuple[float, float, float]]:
+    """Return latency and processor times of every move [ms], the first left out."""
     page.evaluate("location.hash = '#/'")
     card = f"[...document.querySelectorAll('.card')].find((one) => one.textContent.endsWith({file!r}))"
     until(page, card)
@@ -90,9 +118,12 @@ def measured(page: Any, file: str, path: str, section: str, moves: int) -> list[
         page.evaluate(f"document.getElementById({section!r}).scrollIntoView({{ behavior: 'instant' }})")
     found = []
     for number in range(moves + 1):
-        page.evaluate(f"{MOVE}({path!r}, {0.4 + 0.2 * ((number * 7) % 11) / 11.0})")
-        until(page, "document.querySelector('.report').dataset.latency")
-        found.append(float(page.evaluate("document.querySelector('.report').dataset.latency")))
+        before = times_of(app, page.process_id)
+        # without asking again and again, which would be work of the page
+        page.evaluate(f"{DRAWN_AFTER}(() => {MOVE}({path!r}, {0.4 + 0.2 * ((number * 7) % 11) / 11.0}))")
+        after = times_of(app, page.process_id)
+        latency = float(page.evaluate("document.querySelector('.report').dataset.latency"))
+        found.append((latency, after[0] - before[0], after[1] - before[1]))
         until(page, WHOLE)
     return found[1:]
 
@@ -118,9 +149,12 @@ def main() -> None:
                 page.send("Page.navigate", url=found[0])
                 for name, (_, _, path, section) in chosen.items():
                     file = f"{name.replace(' ', '_').replace(',', '')}.yaml"
-                    times = sorted(measured(page, file, path, section, given.moves))
-                    high = times[min(len(times) - 1, round(0.95 * (len(times) - 1)))]
-                    record = {"case": name, "moves": len(times), "median_ms": statistics.median(times), "p95_ms": high}
+                    rows = measured(page, file, path, section, given.moves, process.pid)
+                    times, server, main = (sorted(column) for column in zip(*rows))
+                    record = {"case": name, "moves": len(times), "median_ms": statistics.median(times)}
+                    record["p95_ms"] = times[round(0.95 * (len(times) - 1))]
+                    record |= {"server_ms": round(statistics.median(server)), "page_ms": round(statistics.median(main))}
+                    record["sum_p95_ms"] = round(sorted(row[1] + row[2] for row in rows)[round(0.95 * (len(rows) - 1))])
                     print(json.dumps(record), flush=True)
         finally:
             process.terminate()

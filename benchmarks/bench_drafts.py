@@ -19,19 +19,21 @@ from bench_app import CASES, text_of
 
 from moyai.app.draft import Drafts, Wish
 from moyai.app.sliders import sliders_of
+from moyai.app.worker import message
 from moyai.case.yaml_reader import parse_yaml
 from moyai.cli.runner import run
 from moyai.core.progress import silent
 
 
-def stages(drafts: Drafts, wish: Wish) -> list[float]:
-    """Return the processor time until each drawing [ms]."""
+def stages(drafts: Drafts, wish: Wish) -> list[tuple[float, float]]:
+    """Return the processor time until each drawing [ms] and what is sent of it [kB]."""
     begin, found = time.process_time(), []
     for said in drafts.answer(wish, silent):
+        size = len(message(said["message"], **{key: item for key, item in said.items() if key != "message"})) / 1e3
         if said["message"] == "not drawn" or said.get("faults"):
             raise ValueError(said["faults"])
         if said["message"] == "drawn":
-            found.append(1e3 * (time.process_time() - begin))
+            found.append((1e3 * (time.process_time() - begin), size))
     return found
 
 
@@ -55,8 +57,9 @@ def main() -> None:
                 edits = {path: f"{number:.{slider['decimals']}f}"}
                 wish = Wish(text, Path(held, "case.yaml"), Path(held), edits, shown=(section,) if section else ())
                 rows.append(stages(drafts, wish))
-        drawn = [round(statistics.median(stage)) for stage in zip(*rows[1:])]
-        print(json.dumps({"case": name, "moves": given.moves, "drawn_ms": drawn}), flush=True)
+        stages_of_moves = list(zip(*rows[1:]))
+        drawn, sent = ([round(statistics.median(one[n] for one in stage)) for stage in stages_of_moves] for n in (0, 1))
+        print(json.dumps({"case": name, "moves": given.moves, "drawn_ms": drawn, "sent_kB": sent}), flush=True)
 
 
 if __name__ == "__main__":

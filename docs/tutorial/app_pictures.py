@@ -1,7 +1,7 @@
 """Make the pictures of the tutorial of the app: ``python docs/tutorial/app_pictures.py FOLDER [--all]``.
 
 Starts the app on templates in a temporary folder and photographs it in headless Chromium; with ``--all`` every
-structure, wide and narrow, light and dark, to be looked at.
+structure, wide and narrow, light and dark, to be looked at; with ``--language ja`` those in Japanese.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from typing import Any
 
 from moyai.case.templates import template
 
-KINDS = ("breakwater", "curtain", "cage", "rigid_cage", "network", "member")
+KINDS = ("breakwater", "curtain", "cage", "rigid_cage", "network", "member", "units")
 DRAWN = (
     "document.querySelector('.state') && !document.querySelector('.state.working') && "
     "Number(document.querySelector('.report')?.dataset.sequence || 0) > 0"
@@ -61,6 +61,12 @@ def press(page: Any, words: str) -> None:
     page.evaluate(f"[...document.querySelectorAll('button')].find((one) => one.textContent === {words!r}).click()")
 
 
+def show(page: Any, tab: str) -> None:
+    """Show one of the ways to change a case."""
+    page.evaluate(f"document.querySelector('[data-tab={tab}][role=tab]').click()")
+    time.sleep(0.6)
+
+
 def open_case(page: Any, start: str, file: str) -> None:
     """Open a case file from the first page and wait for its figures."""
     page.evaluate("location.hash = '#/'")
@@ -78,14 +84,18 @@ def main() -> None:
     options.add_argument("folder", type=Path)
     options.add_argument("--all", action="store_true")
     options.add_argument("--only", default="")
+    options.add_argument("--language", default="en")
     given = options.parse_args()
     given.folder.mkdir(parents=True, exist_ok=True)
     driver = chromium()
     with tempfile.TemporaryDirectory() as held:
         for kind in KINDS:
-            Path(held, f"{kind}.yaml").write_text(template(kind), encoding="utf-8")
+            text = template(kind)
+            if kind == "units":  # at rest: the waves around a row take minutes
+                text = re.sub("^analyses:.*$", "analyses: [statics]", text, flags=re.MULTILINE)
+            Path(held, f"{kind}.yaml").write_text(text, encoding="utf-8")
         Path(held, "study.yaml").write_text(STUDY, encoding="utf-8")
-        command = [sys.executable, "-m", "moyai", "app", held, "--no-browser"]
+        command = [sys.executable, "-m", "moyai", "--language", given.language, "app", held, "--no-browser"]
         process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
         try:
             assert process.stdout is not None
@@ -111,14 +121,18 @@ def tutorial(page: Any, address: str, folder: Path) -> None:
     page.evaluate("document.querySelector('.subtitle').textContent = 'cases'")
     page.screenshot(folder / "app_cases.png", whole=False)
     open_case(page, address, "breakwater.yaml")
-    press(page, "Pin")
-    page.evaluate("""(() => { const range = document.querySelectorAll('.slider input[type=range]')[1];
-      range.value = Number(range.value) + 8 * Number(range.step);
-      for (const name of ['input', 'change']) range.dispatchEvent(new Event(name, { bubbles: true })); })()""")
-    time.sleep(1.0)
-    until(page, DRAWN)
-    time.sleep(2.0)
+    for steps in (8, 8):
+        press(page, "Pin")
+        page.evaluate(f"""(() => {{ const range = document.querySelectorAll('.slider input[type=range]')[1];
+          range.value = Number(range.value) + {steps} * Number(range.step);
+          for (const name of ['input', 'change']) range.dispatchEvent(new Event(name, {{ bubbles: true }})); }})()""")
+        time.sleep(1.0)
+        until(page, DRAWN)
+    until(page, "document.querySelector('.report').dataset.whole === '1' && document.getElementById('response')")
+    page.evaluate("document.getElementById('response').scrollIntoView({ behavior: 'instant' })")
+    time.sleep(4.0)
     page.screenshot(folder / "app_case.png", whole=False)
+    page.evaluate("scrollTo(0, 0)")
     press(page, "Form")
     until(page, "document.querySelector('.form .field')")
     time.sleep(0.5)
@@ -153,15 +167,12 @@ def everything(page: Any, address: str, given: argparse.Namespace) -> None:
             open_case(page, address, f"{kind}.yaml")
             page.screenshot(given.folder / f"{kind}_{scheme}.png", whole=False)
             if scheme == "light":
-                press(page, "Form")
-                time.sleep(0.6)
+                show(page, "form")
                 page.screenshot(given.folder / f"{kind}_form.png", whole=False)
             page.resize(390, 844)
-            for tab in ("Numbers", "Form", "Text"):
-                press(page, tab)
-                time.sleep(0.6)
-                page.screenshot(given.folder / f"{kind}_{scheme}_{tab.lower()}_390.png", whole=False)
-            press(page, "Numbers")
+            for tab in ("form", "written", "numbers"):
+                show(page, tab)
+                page.screenshot(given.folder / f"{kind}_{scheme}_{tab}_390.png", whole=False)
 
 
 if __name__ == "__main__":

@@ -11,11 +11,12 @@ from starlette.requests import Request
 from starlette.responses import Response, StreamingResponse
 
 from moyai.app.answers import Endpoint, body_of, json_answer, text_in
-from moyai.app.changes import changed
 from moyai.app.documents import OpenCase, stem_of
-from moyai.app.form import form_of
 from moyai.app.gallery import gallery
-from moyai.case.yaml_reader import parse_yaml
+from moyai.app.pins import renamed, with_pin
+from moyai.case.form import form_of
+from moyai.case.text_changes import with_key, with_scalar, without_key
+from moyai.case.yaml_reader import Document, parse_yaml
 from moyai.core.errors import InputError
 from moyai.core.kinds import structure_kinds
 
@@ -92,10 +93,41 @@ async def _change(app: App, request: Request) -> Response:
     """Change one value or key of a text; the record of the case holds the new text."""
     document, content = _case(app, request), await body_of(request)
     text = text_in(content, "text")
-    after = await asyncio.to_thread(lambda: changed(parse_yaml(text, document.name), content).text)
+    after = await asyncio.to_thread(lambda: _changed(parse_yaml(text, document.name), content).text)
     document.change(text, "typing")
     document.change(after, f"form {content['path']}")
     return json_answer(document.record())
+
+
+def _changed(document: Document, wish: dict[str, Any]) -> Document:
+    """Return the document after a change that the page asks for.
+
+    Parameters
+    ----------
+    document : Document
+    wish : dict
+        ``change`` (``set``, ``add`` or ``remove``), ``path``, and what the change needs: ``value``, ``quoted``,
+        ``after``.
+
+    Raises
+    ------
+    InputError
+        When it is no change of this case.
+    ValueError
+        When the wish is malformed.
+    """
+    path, value, after = wish.get("path"), wish.get("value"), wish.get("after", "")
+    steps = isinstance(path, list) and all(isinstance(step, str | int) and not isinstance(step, bool) for step in path)
+    if not path or not steps or not isinstance(after, str):
+        raise ValueError("'path' is a list of keys and numbers")
+    where = tuple(path)
+    if wish.get("change") == "set" and isinstance(value, str):
+        return with_scalar(document, where, value.strip(), as_text=wish.get("quoted") is True)
+    if wish.get("change") == "add":
+        return with_key(document, where, value, after=after)
+    if wish.get("change") == "remove":
+        return without_key(document, where)
+    raise ValueError("a change is 'set', 'add' or 'remove'")
 
 
 async def _undo(app: App, request: Request) -> Response:
@@ -105,8 +137,17 @@ async def _undo(app: App, request: Request) -> Response:
 
 
 async def _pin(app: App, request: Request) -> Response:
-    document = _case(app, request)
-    document.pinned = "" if document.pinned else document.text
+    """Pin the state of a case; ``id`` names a pin that gets another name, or goes where there is none."""
+    document, content = _case(app, request), await body_of(request)
+    key, name = text_in(content, "id"), text_in(content, "name")
+    if key and not any(pin.key == key for pin in document.pins):
+        raise KeyError(key)
+    if not key:
+        document.pins = with_pin(document.pins, name, document.text)
+    elif name:
+        document.pins = renamed(document.pins, key, name)
+    else:
+        document.pins = tuple(pin for pin in document.pins if pin.key != key)
     return json_answer(document.record())
 
 

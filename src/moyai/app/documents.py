@@ -9,6 +9,7 @@ from typing import Any
 
 from moyai.app.draft import Wish
 from moyai.app.folder import CASE_ENDINGS, Folder
+from moyai.app.pins import Pin
 from moyai.case.templates import template
 from moyai.core.errors import InputError
 from moyai.core.files import write_whole
@@ -33,8 +34,8 @@ class OpenCase:
 
     Attributes
     ----------
-    pinned : str
-        Text of the pinned case, empty where there is none.
+    pins : tuple of Pin
+        States that are drawn faint under this one.
     earlier : list of str
         What undo goes back to.
     """
@@ -44,7 +45,7 @@ class OpenCase:
         self.name = name
         self.text = text
         self.saved = saved
-        self.pinned = ""
+        self.pins: tuple[Pin, ...] = ()
         self.earlier: list[str] = []
         self.changed: tuple[str, float] = ("", 0.0)
 
@@ -74,7 +75,7 @@ class OpenCase:
 
     def wish(self, folder: Folder, text: str, edits: dict[str, str], shown: tuple[str, ...], level: str) -> Wish:
         """Return what the worker is asked for."""
-        return Wish(text, folder.root / self.name, folder.root, edits, self.pinned, shown=shown, level=level)
+        return Wish(text, folder.root / self.name, folder.root, edits, self.pins, shown=shown, level=level)
 
     def record(self) -> dict[str, Any]:
         """Return what the page needs to show it."""
@@ -83,7 +84,7 @@ class OpenCase:
             "name": self.name,
             "text": self.text,
             "unsaved": self.text != self.saved,
-            "pinned": bool(self.pinned),
+            "pins": [{"id": pin.key, "name": pin.name} for pin in self.pins],
             "can_undo": bool(self.earlier),
         }
 

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-import hashlib
 import time
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from moyai.app.edits import with_number
 from moyai.app.folder import refuse_foreign_files
+from moyai.app.pins import Pin, Pinned, Run
 from moyai.app.sliders import sliders_of
+from moyai.app.stages import stages_of
 from moyai.case.builder import build
 from moyai.case.reader import case_of, like_checked
+from moyai.case.text_numbers import with_number
 from moyai.case.yaml_reader import Document, parse_yaml
 from moyai.core.errors import CaseError, Fault, MoyaiError
 from moyai.core.kinds import structure_kind
@@ -23,31 +24,15 @@ from moyai.language.faults import spoken_fault
 
 if TYPE_CHECKING:
     from moyai.case.reader import Case
-    from moyai.core.results import Result
-    from moyai.report.differences import Other
 
 VERSION = 1
 """Version of the messages between server and page (docs/tutorial/app.md)."""
-CHEAP: dict[str, tuple[tuple[str, ...], ...]] = {
-    "breakwater": (("statics", "mooring"), ("statics", "mooring", "frequency")),
-    "curtain": (("statics",), ("statics", "impact")),
-    "cage": (("statics",),),
-    "network": (("statics",),),
-    "units": (("statics",), ("statics", "frequency")),
-    "member": (("forces",), ("sweep", "forces", "surface")),
-}
-"""Analyses that a draft runs, by kind, in stages: each is drawn when it is there. Of those that the case names."""
-REGULAR_ONLY = ("member",)
-"""Kinds whose drafts leave irregular seas out, where there are regular ones."""
-PINNED = "pinned"
 NOMINAL = (
     "nominal numbers only, at one water level, without drift, ranges, bands, other laws or speeds: "
     "the whole answer may judge otherwise"
 )
 ONE_LEVEL = "one water level only: the whole answer may judge otherwise"
 _TEXT_LIMIT = 2_000_000
-
-Run = Callable[..., "Result"]
 
 
 @dataclass(frozen=True)
@@ -62,8 +47,8 @@ class Wish:
     root: Path
     #: Numbers to put at paths, in the unit as written.
     edits: Mapping[str, str] = field(default_factory=dict)
-    #: Text of the case that is drawn faint under this one; empty for none.
-    pinned: str = ""
+    #: States that are drawn faint under this one.
+    pins: tuple[Pin, ...] = ()
     #: Other analyses than the cheap ones.
     analyses: tuple[str, ...] = ()
     #: Sections and figures of the report that are on the screen: the first draft has them.
@@ -73,7 +58,7 @@ class Wish:
 
 
 class Drafts:
-    """Makes drafts; keeps pinned ones and coefficients that took long.
+    """Makes drafts; keeps pinned states and coefficients that took long.
 
     Parameters
     ----------
@@ -89,8 +74,9 @@ class Drafts:
         self._run = run
         self._keep = keep
         self._rest = rest
-        self._pinned: dict[str, Other] = {}
-        self._shown: dict[str, set[str]] = {}
+        self._pinned = Pinned(run, keep)
+        self._lacking: dict[str, set[str]] = {}
+        self._complete: dict[str, set[str]] = {}
 
     def answer(self, wish: Wish, progress: Progress) -> Iterator[dict[str, Any]]:
         """Yield the case as read and checked, then its draft where it has no errors."""
@@ -125,21 +111,25 @@ class Drafts:
 
     def _stages(self, drafts: list[Document], whole: Case, wish: Wish) -> Iterator[_Stage]:
         """Yield what is drawn one after the other: a draft of what is on the screen, at last the whole answer."""
-        first = next((one for one in drafts if set(wish.shown) <= self._shown.get(_key_of(one), set(wish.shown))), None)
-        for draft in [drafts[-1]] if first is None or first is drafts[-1] else [first, drafts[-1]]:
+        first = next(
+            (one for one in drafts if not self._lacking.get(_key_of(one), set()) & set(wish.shown)), drafts[-1]
+        )
+        for draft in [first] if first is drafts[-1] else [first, drafts[-1]]:
             case, last = like_checked(whole, draft), draft is drafts[-1]
+            if last and wish.shown and first is not draft:
+                break  # what is on the screen is drawn; the whole follows at once
             kind, problem = structure_kind(case.kind), build(case)
-            nominal = kind.nominal(problem)
+            nominal = kind.nominal(problem, wish.shown)
             alone = kind.at_level(problem if nominal is None else nominal, wish.level)
             if alone is not None or nominal is not None:
-                yield _Stage(
-                    draft, case, nominal if alone is None else alone, ONE_LEVEL if nominal is None else NOMINAL
-                )
+                words = ONE_LEVEL if nominal is None else NOMINAL
+                yield _Stage(draft, case, drafts[-1], nominal if alone is None else alone, words)
             elif not last:
-                yield _Stage(draft, case)
-        yield _Stage(draft, case, last=True)
+                yield _Stage(draft, case, drafts[-1])
+        yield _Stage(draft, case, draft, last=True)
 
     def _drawn(self, stage: _Stage, whole: Document, wish: Wish, progress: Progress) -> dict[str, Any]:
+        from moyai.report.differences import with_pinned
         from moyai.report.encoding import slug
         from moyai.report.html import render_parts
         from moyai.report.writer import compose_document
@@ -150,13 +140,18 @@ class Drafts:
             raise KeyboardInterrupt
         if stage.words:
             result = result.with_notices(Notice("draft", stage.words, severity="warning"))
-        composed = compose_document(result)
-        if wish.pinned and wish.pinned != whole.text:
-            other = self._other(wish, document, progress)
-            if other is not None:
-                composed = _laid_over(composed, result, other)
+        shown = set(wish.shown)
+        composed = compose_document(result, only=None if stage.last or not shown else shown)
+        pins = [pin for pin in wish.pins if pin.text != whole.text]
+        others = self._pinned.of(pins, wish, stage.whole, progress if stage.last else None)
+        if others:
+            composed = with_pinned(composed, result, others)
+            if shown and not stage.last:
+                composed = replace(composed, sections=tuple(one for one in composed.sections if one.key in shown))
         html, data = render_parts(composed)
-        self._shown[_key_of(document)] = {*(slug(section.key) for section in composed.sections), *data["figures"]}
+        self._learn(
+            _key_of(document), {*(slug(one.key) for one in composed.sections), *data["figures"]}, shown, stage.last
+        )
         return {
             "message": "drawn",
             "analyses": list(document.data["analyses"]),
@@ -168,24 +163,17 @@ class Drafts:
             "data": data,
         }
 
-    def _other(self, wish: Wish, shown: Document, progress: Progress) -> Other | None:
-        from moyai.report.differences import Other
-        from moyai.report.writer import compose_document
-
-        mark = hashlib.sha256(repr((wish.pinned, wish.file, shown.data["analyses"])).encode()).hexdigest()
-        if mark not in self._pinned:
-            try:
-                document = parse_yaml(wish.pinned, wish.file.name)
-                refuse_foreign_files(wish.root, wish.file.parent, document.data)
-                kind = case_of(document, wish.file).kind
-                pinned = replace(document, data=_like(document, shown, kind, wish.analyses))
-                result = self._run(case_of(pinned, wish.file), progress, keep=self._keep)
-            except MoyaiError:
-                return None
-            while len(self._pinned) > 8:
-                self._pinned.pop(next(iter(self._pinned)))
-            self._pinned[mark] = Other(PINNED, result, compose_document(result))
-        return self._pinned[mark]
+    def _learn(self, key: str, here: set[str], shown: set[str], last: bool) -> None:
+        """Remember which sections and figures of the whole report the analyses of a draft do not give."""
+        if last:
+            for draft, own in self._complete.items():
+                self._lacking[draft] = here - own
+            # what the whole report has not either is no want of its first drafts
+            self._lacking = {draft: names & here for draft, names in self._lacking.items()}
+        elif shown:
+            self._lacking.setdefault(key, set()).update(shown - here)
+        else:
+            self._complete[key] = here
 
 
 @dataclass(frozen=True)
@@ -194,6 +182,8 @@ class _Stage:
 
     document: Document
     case: Case
+    #: With the analyses of the whole answer.
+    whole: Document
     #: None for that of the case.
     problem: Any = None
     #: What is said of a problem that leaves something out.
@@ -204,61 +194,6 @@ class _Stage:
 
 def _key_of(document: Document) -> str:
     return f"{document.data['structure']['kind']} {document.data['analyses']}"
-
-
-def _like(document: Document, shown: Document, kind: str, analyses: tuple[str, ...]) -> dict[str, Any]:
-    """Return the keys of a pinned case with the analyses of the draft that it is shown with."""
-    return {**stages_of(document, kind, analyses)[-1].data, "analyses": shown.data["analyses"]}
-
-
-def _laid_over(composed: Any, result: Result, other: Other) -> Any:
-    """Return the report with the pinned one drawn faint in its figures, and the differences of the first page."""
-    from moyai.report.differences import DIFFERENCES, headline_table
-    from moyai.report.document import Section
-    from moyai.report.overlay import lay_over, with_figures
-
-    laid, _ = lay_over(composed, other.document, other.name)
-    faint = f"({other.name})"
-    laid = with_figures(
-        laid,
-        lambda figure: replace(
-            figure, series=tuple(replace(one, faint=one.faint or one.label.endswith(faint)) for one in figure.series)
-        ),
-    )
-    table = headline_table(result, other)
-    if table is None:
-        return laid
-    first, *rest = laid.sections
-    return replace(laid, sections=(first, Section(DIFFERENCES, "Differences", (table,)), *rest))
-
-
-def stages_of(document: Document, kind: str, analyses: tuple[str, ...] = ()) -> list[Document]:
-    """Return a case with its own cheap analyses, stage by stage; where it has none, with the first of its kind.
-
-    Parameters
-    ----------
-    document : Document
-    kind : str
-    analyses : tuple of str
-        Taken in place of the cheap ones, with all seas.
-    """
-    data = document.data
-    if analyses:
-        return [replace(document, data={**data, "analyses": list(analyses)})]
-    stages = CHEAP.get(kind, ())
-    own = data.get("analyses", [name for stage in stages[-1:] for name in stage])
-    own = [own] if isinstance(own, str) else list(own)
-    chosen: list[list[str]] = []
-    for stage in stages:
-        names = [name for name in own if name in stage]
-        if names and names not in chosen:
-            chosen.append(names)
-    if not chosen:
-        chosen = [[stages[0][0]]] if stages else [own[:1]]
-    if kind in REGULAR_ONLY and isinstance(data.get("waves"), list):
-        regular = [sea for sea in data["waves"] if isinstance(sea, dict) and sea.get("kind") == "regular"]
-        data = {**data, "waves": regular or data["waves"]}
-    return [replace(document, data={**data, "analyses": names}) for names in chosen]
 
 
 def _sliders_by_keys(document: Document) -> list[dict[str, Any]]:

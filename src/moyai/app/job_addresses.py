@@ -12,10 +12,11 @@ from moyai.app.answers import Endpoint, body_of, json_answer, text_in
 from moyai.app.documents import stem_of
 from moyai.app.downloads import MADE, made
 from moyai.app.folder import within
+from moyai.app.job import FILES
 from moyai.app.job_process import Order
-from moyai.app.jobs import FILES
 from moyai.app.security import REPORT_POLICY
-from moyai.app.study_jobs import case_text, refuse_foreign_base, so_far, table_of
+from moyai.app.study_jobs import refuse_foreign_base, so_far
+from moyai.study.cases_so_far import case_text, table_of
 
 if TYPE_CHECKING:
     from moyai.app.server import App

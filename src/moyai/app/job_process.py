@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from moyai.app.draft import Run
+from moyai.app.pins import Run
 from moyai.core.errors import CaseError, MoyaiError
 from moyai.core.processes import collect_rarely, die_with_parent
 from moyai.core.progress import Pace, duration_words

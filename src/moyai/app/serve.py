@@ -8,8 +8,8 @@ from collections.abc import Callable
 from importlib.util import find_spec
 from pathlib import Path
 
-from moyai.app.draft import Run
 from moyai.app.folder import CASE_ENDINGS, Folder, within
+from moyai.app.pins import Run
 from moyai.core.errors import InputError
 from moyai.language import spoken_language
 

@@ -16,9 +16,9 @@ from starlette.routing import Route
 from moyai.app import case_addresses, job_addresses
 from moyai.app.answers import answering
 from moyai.app.documents import Documents
-from moyai.app.draft import Run
 from moyai.app.folder import Folder
 from moyai.app.jobs import Jobs
+from moyai.app.pins import Run
 from moyai.app.security import Guard, Secrets
 from moyai.app.words import marked, page_words
 from moyai.app.worker import DraftWorker
@@ -27,7 +27,7 @@ from moyai.report.encoding import page_json
 
 _SCRIPTS = (
     "page", "case", "gallery", "editor", "plain_text", "code_text", "codemirror",
-    "form", "sliders", "live", "jobs", "server",
+    "form", "sliders", "pins", "tabs", "live", "jobs", "server",
 )  # fmt: skip
 _OWN = ("app.css", *(f"{name}.js" for name in _SCRIPTS))
 _TYPES = {"css": "text/css", "js": "text/javascript", "html": "text/html"}

@@ -6,8 +6,9 @@ import math
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from moyai.app.edits import number_at
+from moyai.case.text_numbers import number_at
 from moyai.case.yaml_reader import Document
+from moyai.core.kinds import structure_kind, structure_kinds
 from moyai.language import said
 
 _MOST = 12
@@ -46,95 +47,8 @@ _SEA = (
 _SEAS = tuple((path.format(number), label) for number in range(8) for path, label in _SEA)
 _CURRENT = (("current.speed", "Current speed"), ("current.heading_deg", "Current heading"))
 
-PATHS: dict[str, tuple[tuple[str, str], ...]] = {
-    "breakwater": (
-        ("structure.section.beam", "Beam"),
-        ("structure.draught", "Draught"),
-        ("structure.mass", "Mass"),
-        ("structure.length", "Length of a unit"),
-        ("structure.centre_of_gravity_above_keel", "Centre of gravity above keel"),
-        ("structure.roll_gyradius", "Gyradius of roll"),
-        ("lines[0].segments[0].length", "Line length, first line"),
-        ("lines[1].segments[0].length", "Line length, second line"),
-        ("lines[0].segments[0].diameter", "Chain diameter, first line"),
-        ("lines[0].anchor.x", "Anchor, first line"),
-        *_SITE,
-        *_SEAS[:1],
-        ("wind.speed", "Wind speed"),
-        *_CURRENT[:1],
-        *_SEAS[1:],
-    ),
-    "units": (
-        ("structure.centre_of_gravity_above_keel", "Centre of gravity above keel"),
-        ("structure.roll_gyradius", "Gyradius of roll"),
-        ("structure.pitch_gyradius", "Gyradius of pitch"),
-        ("structure.damping.fraction_of_critical", "Damping, share of critical"),
-        ("structure.connectors[0].above_keel", "Height of the first connector"),
-        ("structure.connectors[0].stiffness", "Stiffness of the first connector"),
-        ("structure.connectors[0].slack", "Slack of the first connector"),
-        ("lines[0].segments[0].length", "Line length, first line"),
-        ("lines[0].segments[0].diameter", "Chain diameter, first line"),
-        ("structure.section.beam", "Beam"),
-        ("structure.draught", "Draught"),
-        *_SITE,
-        ("wind.speed", "Wind speed"),
-        *_CURRENT[:1],
-        *_SEAS,
-    ),
-    "curtain": (
-        ("structure.skirt.length", "Depth of the skirt"),
-        ("structure.span", "Span"),
-        ("structure.length", "Length of the curtain"),
-        ("structure.toe.chain_mass", "Chain at the toe"),
-        ("structure.skirt.submerged_weight", "Weight of the sheet under water"),
-        ("structure.floats.buoyancy", "Buoyancy of the floats"),
-        ("structure.drag.coefficient", "Drag coefficient"),
-        ("structure.passing_fraction", "Share of flow under the toe"),
-        *_CURRENT,
-        *_SITE,
-        *_SEAS,
-    ),
-    "cage": (
-        ("structure.size", "Diameter or side"),
-        ("structure.net.wall_depth", "Depth of the net wall"),
-        ("structure.net.cone_depth", "Depth of the cone"),
-        ("structure.net.twine_diameter", "Twine diameter"),
-        ("structure.net.mesh_pitch", "Mesh pitch"),
-        ("structure.net.aperture", "Aperture"),
-        ("structure.sinkers.mass", "Mass of a sinker"),
-        ("structure.mooring.anchor_distance", "Anchor distance"),
-        ("structure.mooring.anchor_line[0].length", "Rope of the anchor line"),
-        ("structure.mooring.pull_down", "Pull down"),
-        ("structure.mooring.stiffness", "Stiffness of a line"),
-        ("structure.weight.mass", "Mass as weighed"),
-        *_CURRENT,
-        *_SITE,
-        *_SEAS,
-    ),
-    "network": (
-        ("structure.points.buoy.diameter", "Diameter of the buoy"),
-        ("structure.points.buoy.mass", "Mass of the buoy"),
-        ("structure.lines.mooring.length", "Length of the line"),
-        ("structure.line_types.chain.diameter", "Diameter of the chain"),
-        *_CURRENT,
-        *_SITE,
-        *_SEAS,
-    ),
-    "member": (
-        ("structure.section.diameter", "Diameter"),
-        ("structure.section.side", "Side"),
-        ("structure.section.width", "Width"),
-        ("structure.section.height", "Height of the section"),
-        ("structure.start.z", "Level of the start"),
-        ("structure.end.z", "Level of the end"),
-        ("structure.section_angle_deg", "Turn of the section"),
-        ("structure.drag.roughness", "Roughness"),
-        *_CURRENT,
-        *_SITE,
-        *_SEAS,
-    ),
-}
-"""Paths that are looked for in a case, by kind, the most wanted first; those that a case lacks are left out."""
+COMMON = (*_CURRENT, *_SITE, *_SEAS)
+"""Paths and names of the numbers that any structure may have."""
 
 
 def sliders_of(document: Document, kind: str, drawn: Any = None) -> list[dict[str, Any]]:
@@ -150,7 +64,7 @@ def sliders_of(document: Document, kind: str, drawn: Any = None) -> list[dict[st
     """
     found: dict[int, Slider] = {}
     own = _own(document.data)
-    for path, label in own or PATHS.get(kind, (*_SITE, *_CURRENT, *_SEAS)):
+    for path, label in own or (*_numbers_of(kind), *COMMON):
         written = number_at(document, path)
         # A sea that stands as a block alone answers to several paths
         if written is None or written.start in found or not (own or _is_drawn(document.data, drawn, path)):
@@ -162,11 +76,15 @@ def sliders_of(document: Document, kind: str, drawn: Any = None) -> list[dict[st
     return [asdict(item) for item in found.values()]
 
 
+def _numbers_of(kind: str) -> tuple[tuple[str, str], ...]:
+    return structure_kind(kind).numbers if kind in structure_kinds() else ()
+
+
 def _own(data: Any) -> list[tuple[str, str]]:
     """Return path and label of the numbers that a case names under ``app.sliders``."""
     block = data.get("app") if isinstance(data, dict) else None
     paths = block.get("sliders") if isinstance(block, dict) else None
-    labels = {path: label for table in PATHS.values() for path, label in table}
+    labels = {path: label for kind in structure_kinds() for path, label in (*_numbers_of(kind), *COMMON)}
     named = [path for path in paths if isinstance(path, str)] if isinstance(paths, list) else []
     return [(path, labels.get(path) or _label(path)) for path in named]
 

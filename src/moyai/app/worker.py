@@ -14,7 +14,8 @@ from collections.abc import AsyncIterator
 from pathlib import Path
 from typing import Any
 
-from moyai.app.draft import VERSION, Drafts, Run, Wish
+from moyai.app.draft import VERSION, Drafts, Wish
+from moyai.app.pins import Run
 from moyai.core.processes import collect_rarely, die_with_parent
 from moyai.language import said, speak, spoken_in
 

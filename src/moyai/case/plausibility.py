@@ -10,6 +10,7 @@ import math
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 from moyai.case.faults import value_at
@@ -107,6 +108,7 @@ def _numbers(value: Any, path: KeyPath) -> Iterator[tuple[KeyPath, float]]:
         yield path, float(value)
 
 
+@lru_cache(maxsize=16384)
 def _matched(path: KeyPath, steps: tuple[str, ...]) -> tuple[str | int, ...] | None:
     """Return what the stars of a pattern stand for in a path, ``None`` where it does not fit."""
     if "**" in steps:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import replace
 from functools import cache
 from importlib import import_module
@@ -82,6 +82,10 @@ class StructureKind(Kind):
     Types of :mod:`moyai.case` stand above this module; they are named in the docstrings.
     """
 
+    #: Path in the case file and name of the numbers that a design is tried with, the most wanted first; those of site,
+    #: current and sea follow of themselves
+    numbers: tuple[tuple[str, str], ...] = ()
+
     @abstractmethod
     def schema(self) -> Any:
         """Return the root schema of the case files, a subclass of :class:`moyai.case.schema_types.Block`."""
@@ -113,10 +117,11 @@ class StructureKind(Kind):
     def derived(self, case: Any) -> Any:
         """Return the numbers that ``moyai check`` shows, a tuple of :class:`moyai.case.derived.Number`."""
 
-    def nominal(self, problem: Any) -> Any | None:
+    def nominal(self, problem: Any, shown: Collection[str] = ()) -> Any | None:
         """Return a problem without what only tells how far its answer varies: ranges, bands, other laws, other speeds.
 
-        For a first draft, marked as such. None where there is nothing of it to leave out.
+        For a first draft, marked as such; ``shown`` names the sections of the report that are looked at, all where it
+        is empty. None where there is nothing to leave out.
         """
         return None
 

@@ -10,6 +10,7 @@ import sys
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
+from functools import cache
 from importlib import metadata
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -77,23 +78,29 @@ def make_provenance(**entries: Any) -> dict[str, Any]:
     """Collect version, packages, conventions and time of the run, with ``entries`` on top."""
     from moyai import __version__
 
-    packages = {}
-    for name in ("numpy", "scipy", "numba", "xarray", "raschii"):
-        try:
-            packages[name] = metadata.version(name)
-        except metadata.PackageNotFoundError:
-            packages[name] = "absent"
     return {
         "moyai_version": __version__,
         "python": platform.python_version(),
         "platform": f"{platform.system()} {platform.machine()}",
-        "packages": packages,
+        "packages": dict(_packages()),
         "created": datetime.now(UTC).isoformat(timespec="seconds"),
         "command": " ".join([Path(sys.argv[0]).name, *sys.argv[1:]]) if sys.argv and sys.argv[0] else "",
         "time_convention": TIME_CONVENTION,
         "direction_convention": DIRECTION_CONVENTION,
         **entries,
     }
+
+
+@cache
+def _packages() -> tuple[tuple[str, str], ...]:
+    """Return the packages that numbers rest on, with their versions."""
+    found = []
+    for name in ("numpy", "scipy", "numba", "xarray", "raschii"):
+        try:
+            found.append((name, metadata.version(name)))
+        except metadata.PackageNotFoundError:
+            found.append((name, "absent"))
+    return tuple(found)
 
 
 def split_complex(dataset: xr.Dataset) -> xr.Dataset:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from os import PathLike
 
@@ -163,7 +164,7 @@ def solve_equilibrium(
 
 
 def nearby_equilibrium(
-    network: Network, flow: Flow, start: State, *, tolerance: float, most_steps: int
+    network: Network, flow: Flow, starts: Sequence[State], *, tolerance: float, most_steps: int
 ) -> Equilibrium | None:
     """Return the rest beside a state by Newton's method, ``None`` where a few steps find none: for drafts.
 
@@ -172,8 +173,8 @@ def nearby_equilibrium(
     network : Network
     flow : Flow
         Steady current.
-    start : State
-        Rest of a network that differs little.
+    starts : sequence of State
+        Rests of networks that differ little; the one that is closest to rest here is taken.
     tolerance : float
         Force left over the largest force at work.
     most_steps : int
@@ -182,7 +183,8 @@ def nearby_equilibrium(
     network = at_rest(network)
     problem = Relaxation(network, flow, math.inf)
     fixed = network.nodes.kind != 0
-    place = np.where(fixed[:, None], network.nodes.position, start.position)
+    places = [np.where(fixed[:, None], network.nodes.position, start.position) for start in starts]
+    place = places[0] if len(places) == 1 else min(places, key=lambda one: problem.look(one).residual)
     found = problem.attempt(place, turn=1.0, most=most_steps, tolerance=tolerance, soft=_NEAR_SOFT)
     if not found.converged:
         return None

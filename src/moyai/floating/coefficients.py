@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
     from moyai.potential.solution import RadiationDiffraction
 
+_OVER_FREQUENCY = ("added_mass", "radiation_damping", "excitation", "reflection", "transmission", "radiated_wave")
+
 
 @dataclass(frozen=True)
 class Hydrodynamics:
@@ -144,23 +146,18 @@ class Hydrodynamics:
             )
         inside = np.clip(wanted, low, high)
 
-        def along(values: Any) -> Any:
-            if values is None:
-                return None
-            if len(self.omega) == 1:
-                return np.repeat(values, len(inside), axis=0)
-            return scipy.interpolate.CubicSpline(self.omega, values, axis=0)(inside)
-
-        return replace(
-            self,
-            omega=wanted,
-            added_mass=along(self.added_mass),
-            radiation_damping=along(self.radiation_damping),
-            excitation=along(self.excitation),
-            reflection=along(self.reflection),
-            transmission=along(self.transmission),
-            radiated_wave=along(self.radiated_wave),
-        )
+        known = {name: values for name in _OVER_FREQUENCY if (values := getattr(self, name)) is not None}
+        if len(self.omega) == 1:
+            held: dict[str, Any] = {name: np.repeat(values, len(inside), axis=0) for name, values in known.items()}
+            return replace(self, omega=wanted, **held)
+        # One spline of all columns: setting it up costs more than the columns do
+        columns = [_real_columns(values) for values in known.values()]
+        found = scipy.interpolate.CubicSpline(self.omega, np.concatenate(columns, axis=1))(inside)
+        parts = np.split(found, np.cumsum([column.shape[1] for column in columns])[:-1], axis=1)
+        along: dict[str, Any] = {
+            name: _as_columns_of(part, values) for part, (name, values) in zip(parts, known.items())
+        }
+        return replace(self, omega=wanted, **along)
 
     def excitation_at(self, omega: ArrayLike, heading: ArrayLike | None = None) -> ComplexArray:
         """Return the excitation (k, m) per unit amplitude of k wave components.
@@ -280,3 +277,16 @@ class Hydrodynamics:
             radiated_wave=None if wave is None else np.ascontiguousarray(wave),
             length=length,
         )
+
+
+def _real_columns(values: Any) -> Array:
+    """Return numbers over the first axis as columns, imaginary parts behind the real ones."""
+    flat = values.reshape(len(values), -1)
+    return np.concatenate([flat.real, flat.imag], axis=1) if np.iscomplexobj(flat) else flat
+
+
+def _as_columns_of(columns: Array, like: Any) -> Any:
+    """Undo :func:`_real_columns` for numbers of the shape of ``like`` at other places."""
+    half = columns.shape[1] // 2
+    flat = columns[:, :half] + 1j * columns[:, half:] if np.iscomplexobj(like) else columns
+    return flat.reshape(len(columns), *like.shape[1:])

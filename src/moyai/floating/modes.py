@@ -11,9 +11,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
+from moyai.core.remembered import Remembered
+from moyai.core.store import key_of
 from moyai.core.validity import Notice
 from moyai.floating.arrays import square_matrix
 from moyai.floating.coefficients import Hydrodynamics
+
+_KNOWN: Remembered[NaturalModes] = Remembered(16)
 
 
 @dataclass(frozen=True)
@@ -71,10 +75,18 @@ def natural_modes(
     size = hydrodynamics.size
     inertia = square_matrix(inertia, size, "inertia")
     stiffness = square_matrix(stiffness, size, "stiffness")
-    restoring = 0.5 * (stiffness + stiffness.T)
     if np.any(np.diag(inertia) <= 0.0):
         raise InputError("a mode has no inertia", parameter="inertia", allowed="a positive diagonal")
     extra = np.zeros((size, size)) if damping is None else square_matrix(damping, size, "damping")
+    hydro = hydrodynamics
+    known = (hydro.modes, hydro.omega, hydro.added_mass, hydro.radiation_damping, hydro.infinite_frequency_added_mass)
+    return _KNOWN.of(
+        key_of(*known, inertia, stiffness, extra), lambda: _natural_modes(hydrodynamics, inertia, stiffness, extra)
+    )
+
+
+def _natural_modes(hydrodynamics: Hydrodynamics, inertia: Array, stiffness: Array, extra: Array) -> NaturalModes:
+    size, restoring = hydrodynamics.size, 0.5 * (stiffness + stiffness.T)
     added = added_mass_function(hydrodynamics)
 
     scale = 1.0 / np.sqrt(np.diag(inertia))

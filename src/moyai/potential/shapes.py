@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -21,6 +22,11 @@ def _positive(**lengths: float) -> None:
 def rectangle(beam: float, height: float) -> Hull:
     """Return a box."""
     _positive(beam=beam, height=height)
+    return _rectangle(float(beam), float(height))
+
+
+@lru_cache(maxsize=64)
+def _rectangle(beam: float, height: float) -> Hull:
     half = 0.5 * beam
     return Hull((Outline(np.array([(-half, 0.0), (half, 0.0), (half, height), (-half, height)])),), name="rectangle")
 

@@ -58,6 +58,31 @@ def read_others(paths: Sequence[Path]) -> tuple[Other, ...]:
     return tuple(found)
 
 
+def with_pinned(document: Document, result: Result, others: Sequence[Other]) -> Document:
+    """Return a report with other results faint in its figures and the differences of the first page from each.
+
+    Parameters
+    ----------
+    document : Document
+        Report of ``result``, composed, or sections of it.
+    result : Result
+    others : sequence of Other
+        One that has nothing in common with this one is left out.
+    """
+    for number, other in enumerate(others):
+        document, _ = lay_over(document, other.document, other.name, number, faint=True)
+    tables = [table for other in others if (table := headline_table(result, other)) is not None]
+    return _with_differences(document, tables)
+
+
+def _with_differences(document: Document, blocks: Sequence[Block]) -> Document:
+    """Return a report with a section of differences behind its first."""
+    if not blocks or not document.sections:
+        return document
+    first, *rest = document.sections
+    return replace(document, sections=(first, Section(DIFFERENCES, "Differences", tuple(blocks)), *rest))
+
+
 def with_others(document: Document, result: Result, others: Sequence[Other]) -> Document:
     """Return a report with other results in its figures and tables of the differences behind its first section.
 
@@ -91,10 +116,7 @@ def with_others(document: Document, result: Result, others: Sequence[Other]) -> 
         if pairs:
             blocks.append(series_table(pairs, other.name))
         blocks.append(_paragraph(other.name, len(common), len(known), len(pairs)))
-    if not blocks:
-        return document
-    first, *rest = document.sections
-    return replace(document, sections=(first, Section(DIFFERENCES, "Differences", tuple(blocks)), *rest))
+    return _with_differences(document, blocks)
 
 
 def _paragraph(name: str, common: int, count: int, pairs: int) -> Paragraph:

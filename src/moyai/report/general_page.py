@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
 from typing import Any
 
 import numpy as np
@@ -30,6 +32,7 @@ from moyai.report.notices import first_page_notices
 from moyai.report.reading import Group, root_of, walk
 
 MOST_CURVES = 12
+_ONLY: ContextVar[Collection[str] | None] = ContextVar("sections", default=None)
 
 
 def compose(result: Result) -> Document:
@@ -109,6 +112,31 @@ def case_listing(root: Group) -> Block:
     if not text:
         return Paragraph("The result does not carry the text of its case file.", quiet=True)
     return Listing("Case file as it was run", text)
+
+
+def chapters(*parts: tuple[str, str, Callable[[], Iterable[Block]]]) -> tuple[Section, ...]:
+    """Return the sections of a report that have something to show.
+
+    Parameters
+    ----------
+    *parts : tuple
+        Key, title and what gives the blocks. Under :func:`composing_only` no others are composed than the first and
+        those that it names.
+    """
+    wanted = _ONLY.get()
+    chosen = [part for part in parts if wanted is None or part is parts[0] or part[0] in wanted]
+    made = (Section(key, title, tuple(blocks())) for key, title, blocks in chosen)
+    return tuple(section for section in made if section.blocks)
+
+
+@contextmanager
+def composing_only(keys: Collection[str] | None) -> Iterator[None]:
+    """Compose a part of the report in this block of code: these sections; all for None."""
+    token = _ONLY.set(keys)
+    try:
+        yield
+    finally:
+        _ONLY.reset(token)
 
 
 def closing_section(result: Result) -> Section:

@@ -94,7 +94,9 @@ def figures_of(document: Document) -> dict[str, Figure]:
     return found
 
 
-def lay_over(document: Document, other: Document, name: str, number: int = 0) -> tuple[Document, tuple[Pair, ...]]:
+def lay_over(
+    document: Document, other: Document, name: str, number: int = 0, *, faint: bool = False
+) -> tuple[Document, tuple[Pair, ...]]:
     """Lay the series of another report over every figure that both have.
 
     Parameters
@@ -105,6 +107,8 @@ def lay_over(document: Document, other: Document, name: str, number: int = 0) ->
         Name of the other result in the legends.
     number : int
         Which of several others it is; chooses the dash.
+    faint : bool
+        Whether its series are drawn faint.
 
     Returns
     -------
@@ -128,7 +132,7 @@ def lay_over(document: Document, other: Document, name: str, number: int = 0) ->
             if own is not None:
                 pairs.append(_pair(figure, own, moved))
             dash = _DASHES[number % len(_DASHES)] if item.dash == "solid" else _DASHES[(number + 1) % len(_DASHES)]
-            added.append(replace(moved, label=f"{item.label} ({name})", dash=dash))
+            added.append(replace(moved, label=f"{item.label} ({name})", dash=dash, faint=item.faint or faint))
         if not added:
             return figure
         caption = f"{figure.caption} Laid over: {name}.".strip()

@@ -88,6 +88,12 @@ class Group:
         """The variables and coordinates of the node, which xarray puts together anew whenever it is asked."""
         return {} if self.node is None else dict(self.node.variables)
 
+    @cached_property
+    def _declared(self) -> Vocabulary | None:
+        """The vocabulary where names are held to it: columns of a file of the user's have names of the user's."""
+        own = self.vocabulary
+        return own if own is not None and (self.node is None or own.at(self.node.path) is not None) else None
+
     def children(self) -> tuple[Group, ...]:
         """Return the groups directly below."""
         return (
@@ -104,10 +110,8 @@ class Group:
         VocabularyError
             When no result of this kind can have it, where names are held strictly (the tests).
         """
-        own = self.vocabulary
-        # columns of a file of the user's have names of the user's
-        if own is not None and (self.node is None or own.at(self.node.path) is not None):
-            own.require(name)
+        if self._declared is not None:
+            self._declared.require(name)
         # a variable as it stands: with its coordinates about it a report would take twice as long
         found = self._variables.get(name)
         if found is None:
@@ -143,10 +147,20 @@ class Group:
 
         ``None`` where the variable is absent, has other dimensions or lacks a label.
         """
-        found = self.selected(name, **choice)
-        if found is None or set(found.dims) != set(dims):
+        found = self.variable(name)
+        if found is None or set(found.dims) != {*dims, *choice}:
             return None
-        return np.asarray(found.transpose(*dims).values)
+        # By hand: with a variable made of every part a report would take twice as long
+        at: dict[Hashable, int] = {}
+        for dim, label in choice.items():
+            known = self._variables.get(dim)
+            places = np.flatnonzero(known.values == label) if known is not None else np.zeros(0, dtype=int)
+            if not places.size:
+                return None
+            at[dim] = int(places[0])
+        left = [dim for dim in found.dims if dim not in at]
+        values = np.asarray(found.values)[tuple(at.get(dim, slice(None)) for dim in found.dims)]
+        return np.asarray(values if left == list(dims) else values.transpose([left.index(dim) for dim in dims]))
 
     def real(self, name: str, *dims: str, **choice: str) -> Array | None:
         """As :meth:`array`, the modulus of complex values."""

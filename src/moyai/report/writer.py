@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Collection, Iterable
 from dataclasses import replace
 from pathlib import Path
 
@@ -17,11 +17,15 @@ from moyai.language import require_language, spoken_in, spoken_language
 from moyai.report.document import Document
 from moyai.report.encoding import slug, table_csv, unique_slugs
 from moyai.report.first_page import units_of, with_first_page
+from moyai.report.general_page import compose as general_page
+from moyai.report.general_page import composing_only
 from moyai.report.language import in_the_language, with_words_in_system
 from moyai.report.systems import displayed_in
 
 
-def compose_document(result: Result, units: str | None = None, language: str | None = None) -> Document:
+def compose_document(
+    result: Result, units: str | None = None, language: str | None = None, only: Collection[str] | None = None
+) -> Document:
     """Turn a result into a document.
 
     Parameters
@@ -31,6 +35,8 @@ def compose_document(result: Result, units: str | None = None, language: str | N
         System of units of the document; that of the case when left out, else SI.
     language : {"en", "ja"}, optional
         Language that the document is shown in; that of the case when left out, else the one in force, English.
+    only : collection of str, optional
+        Keys of the sections that are wanted, for a draft; the others are left out.
 
     Returns
     -------
@@ -44,13 +50,16 @@ def compose_document(result: Result, units: str | None = None, language: str | N
     """
     if units is not None:
         result = replace(result, provenance={**result.provenance, "display_units": units})
-    with displayed_in(units_of(result)) as units:
+    measured = MEASURED_GROUP.strip("/") in result.tree.children
+    with displayed_in(units_of(result)) as units, composing_only(None if measured else only):
         language = require_language(language or str(result.provenance.get("display_language") or spoken_language()))
         document = replace(_composed(result), units=units, language=language)
-        if MEASURED_GROUP.strip("/") in result.tree.children:
+        if measured:
             from moyai.report.overlay import with_measured_points
 
             document = with_measured_points(document, result)
+        if only is not None:
+            document = replace(document, sections=tuple(one for one in document.sections if one.key in only))
         return document if units == "SI" else with_words_in_system(document)
 
 
@@ -59,9 +68,7 @@ def _composed(result: Result) -> Document:
     if kind is not None:
         return with_first_page(kind.compose(result), result)
     # A kind that is not known gets a plain listing of all groups
-    from moyai.report.general_page import compose
-
-    return with_first_page(compose(result), result)
+    return with_first_page(general_page(result), result)
 
 
 def write_report(

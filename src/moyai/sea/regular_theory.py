@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from functools import lru_cache
 from typing import Literal
 
 import numpy as np
@@ -46,7 +47,7 @@ def theory_of(
 def regular_wave(
     theory: RegularTheory, height: float, period: float, heading: float, water: Water, current_along_wave: float = 0.0
 ) -> tuple[WaveComponents, NonlinearWave | None]:
-    """Return a regular wave with its crest at the origin at t = 0.
+    """Return a regular wave with its crest at the origin at t = 0; the last waves are kept in memory.
 
     Returns
     -------
@@ -60,6 +61,13 @@ def regular_wave(
     ConvergenceError
         When the stream function finds no such wave.
     """
+    return _regular_wave(theory, float(height), float(period), float(heading), water, float(current_along_wave))
+
+
+@lru_cache(maxsize=256)
+def _regular_wave(
+    theory: RegularTheory, height: float, period: float, heading: float, water: Water, current_along_wave: float
+) -> tuple[WaveComponents, NonlinearWave | None]:
     if theory_of(theory, height, period, water, current_along_wave) == "linear":
         return RegularWave(height, period, heading, water, current_along_wave).components(), None
     steep = nonlinear_wave(

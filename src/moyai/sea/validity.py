@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
@@ -91,6 +92,11 @@ def recommended_theory(height: float, period: float, water: Water, current_along
     """
     if not (math.isfinite(height) and height >= 0.0):
         raise InputError(f"wave height is {height:g} m", parameter="height", allowed="at least 0 m")
+    return _recommended_theory(float(height), float(period), water, float(current_along_wave))
+
+
+@lru_cache(maxsize=1024)
+def _recommended_theory(height: float, period: float, water: Water, current_along_wave: float) -> TheoryAdvice:
     length = linear_wavelength(period, water, current_along_wave)
     eps = math.pi * height / length
     data = stokes_coefficients(height, length, water, 5).data
@@ -141,6 +147,13 @@ def check_wave(
     tuple of Notice
         ``wave-breaking`` (error), ``wave-near-breaking``, ``ursell-number``, ``wave-theory``; empty when all is well.
     """
+    return _check_wave(float(height), float(period), water, theory, order, float(current_along_wave))
+
+
+@lru_cache(maxsize=1024)
+def _check_wave(
+    height: float, period: float, water: Water, theory: Theory, order: int, current_along_wave: float
+) -> tuple[Notice, ...]:
     advice = recommended_theory(height, period, water, current_along_wave)
     notices = [*_breaking_notices(height, period, water, current_along_wave)]
     number = 1 if theory == "airy" else order

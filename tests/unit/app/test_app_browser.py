@@ -18,7 +18,7 @@ from typing import Any
 import pytest
 from app_runs import MEMBER, words_of_files
 
-from moyai.app.draft import stages_of
+from moyai.app.stages import stages_of
 from moyai.case.reader import case_of
 from moyai.case.templates import template
 from moyai.case.yaml_reader import parse_yaml
@@ -203,10 +203,51 @@ def test_the_page_in_japanese_shows_no_english(tmp_path: Path) -> None:
         sound(page, address)
 
 
+LABELS = "[...MOYAI.figures.values()].flatMap((one) => one.drawn ? one.plot.data.map((trace) => trace.name) : [])"
+PINS = "[...document.querySelectorAll('.pins input')].map((one) => one.value)"
+FULL = "document.querySelector('.figure .full').click()"
+
+
+def test_pins_are_named_drawn_and_taken_away(address: str) -> None:
+    def has(name: str) -> str:
+        return f"{LABELS}.some((one) => one.endswith('({name})'))".replace("endswith", "endsWith")
+
+    with pipe.Chromium(str(pipe.find_chromium()), 1280, 900) as page:
+        page.send("Page.navigate", url=address)
+        until(page, f"{DRAWN} > 0 && {IDLE}")
+        for value, names in ((80, ["state 1"]), (120, ["state 1", "Diameter 80 cm"])):
+            page.evaluate(f"{PRESS}('Pin')")
+            until(page, f"JSON.stringify({PINS}) === {json.dumps(json.dumps(names, separators=(',', ':')))}")
+            page.evaluate(f"{MOVE}({value})")
+            until(page, f"{TEXT}.includes('{value} cm') && {IDLE}")
+        page.evaluate("document.querySelector('.figure').scrollIntoView()")
+        until(page, f"{has('state 1')} && {has('Diameter 80 cm')}")
+        assert page.evaluate("document.querySelectorAll('#differences table').length") == 2
+        page.evaluate("""(() => {
+          const name = document.querySelector('.pins input');
+          name.value = 'as built';
+          name.dispatchEvent(new Event('change', { bubbles: true }));
+        })()""")
+        until(page, f"{has('as built')} && !{has('state 1')}")
+        page.evaluate("window.old = true; location.reload()")
+        until(page, f"!window.old && {DRAWN} > 0 && {IDLE} && {PINS}.length === 2 && {has('as built')}")
+        page.evaluate("document.querySelector('.pins .remove').click()")
+        until(page, f"{PINS}.join() === 'Diameter 80 cm' && {IDLE} && !{has('as built')} && {has('Diameter 80 cm')}")
+        page.resize(390, 900)
+        until(page, "document.documentElement.scrollWidth <= innerWidth + 1", 10.0)
+        page.resize(1280, 900)
+        page.send("Runtime.evaluate", expression=FULL, userGesture=True)
+        until(page, "document.fullscreenElement?.querySelector('.plot').offsetHeight > 600")
+        page.send("Runtime.evaluate", expression=FULL, userGesture=True)
+        until(page, "!document.fullscreenElement && document.querySelector('.figure .plot').offsetHeight < 600")
+        sound(page, address)
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", (*KINDS, "units"))
 def test_every_structure_opens_and_follows_a_slider(kind: str, tmp_path: Path) -> None:
-    (tmp_path / f"{kind}.yaml").write_text(template(kind))
+    # The waves around a row take minutes
+    (tmp_path / f"{kind}.yaml").write_text(_only("units", "statics") if kind == "units" else template(kind))
     with app_at(tmp_path / f"{kind}.yaml") as address, pipe.Chromium(str(pipe.find_chromium()), 1400, 900) as page:
         page.send("Page.navigate", url=address)
         until(page, f"{DRAWN} > 0 && {IDLE}", 120.0)

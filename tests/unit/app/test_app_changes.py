@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
-from moyai.app.changes import flow, with_key, with_scalar, without_key
 from moyai.case.templates import template
+from moyai.case.text_changes import flow, with_key, with_scalar, without_key
 from moyai.case.yaml_reader import parse_yaml
 from moyai.core.errors import InputError
 

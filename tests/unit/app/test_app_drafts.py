@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import base64
 import json
 import os
 import re
@@ -15,16 +16,21 @@ import numpy as np
 import pytest
 from app_runs import MEMBER, run_slowly
 
-from moyai.app.draft import Drafts, Wish, stages_of
+from moyai.app.draft import Drafts, Wish
+from moyai.app.pins import MOST, Pin, renamed, with_pin
 from moyai.app.sliders import sliders_of
+from moyai.app.stages import stages_of
 from moyai.app.worker import DraftWorker
 from moyai.case.builder import build
 from moyai.case.reader import case_of
 from moyai.case.templates import template
 from moyai.case.yaml_reader import parse_yaml
 from moyai.cli.runner import run
+from moyai.core.errors import InputError
 from moyai.core.kinds import structure_kind
 from moyai.core.progress import silent
+from moyai.report.document import Figure
+from moyai.report.writer import compose_document
 
 
 def wish(folder: Path, text: str, **more: Any) -> Wish:
@@ -33,6 +39,10 @@ def wish(folder: Path, text: str, **more: Any) -> Wish:
 
 def only(name: str, analyses: str) -> str:
     return re.sub("^analyses:.*$", f"analyses: [{analyses}]", template(name), flags=re.MULTILINE)
+
+
+def decoded(coded: Any) -> np.ndarray:
+    return np.asarray(coded if isinstance(coded, list) else np.frombuffer(base64.b64decode(coded["f4"]), "<f4"), float)
 
 
 @pytest.mark.parametrize(("name", "kind"), [("network", "network"), ("rigid_cage", "cage"), ("quick", "member")])
@@ -84,17 +94,20 @@ def test_the_first_draft_has_the_water_level_on_the_screen(tmp_path: Path, chose
 
 
 def test_the_first_draft_has_what_is_on_the_screen(tmp_path: Path) -> None:
-    """Statics at the top of the page, waves at once where they are looked at."""
+    """Statics at the top of the page, waves at once where they are looked at, and no other section."""
     text = only("breakwater", "statics, mooring, frequency")
     drafts = Drafts(run, tmp_path / "kept")
     drawn = [one["analyses"] for one in drafts.answer(wish(tmp_path, text), silent) if one["message"] == "drawn"]
     assert drawn == [["statics", "mooring"], *[["statics", "mooring", "frequency"]] * 2]
     drawn = [one for one in drafts.answer(wish(tmp_path, text, shown=("seas",)), silent) if one["message"] == "drawn"]
     assert [(one["nominal"], one["last"]) for one in drawn] == [(True, False), (False, True)]
-    assert all(one["analyses"][-1] == "frequency" for one in drawn)
+    assert [one["analyses"] for one in drawn] == [["statics", "frequency"], ["statics", "mooring", "frequency"]]
+    sections = [re.findall('<section id="([^"]+)"', one["html"]) for one in drawn]
+    assert sections[0] == ["seas"] and set(sections[1]) > {"summary", "rest", "response", "seas"}
+    assert drawn[0]["data"]["figures"].keys() < drawn[1]["data"]["figures"].keys(), "of the same names"
     figures = [name for name in drawn[1]["data"]["figures"] if name.startswith("hwl-") and name.endswith("-rao")]
-    drawn = [one for one in drafts.answer(wish(tmp_path, text, shown=tuple(figures)), silent) if "nominal" in one]
-    assert figures and drawn[0]["analyses"][-1] == "frequency"
+    drawn = list(drafts.answer(wish(tmp_path, text, shown=("response", *figures), level="hwl"), silent))
+    assert figures and drawn[1]["analyses"][-1] == "frequency" and set(figures) <= drawn[1]["data"]["figures"].keys()
 
 
 @pytest.mark.parametrize("name", ["network", "rigid_cage", "member"])
@@ -122,12 +135,40 @@ def test_a_number_that_went_too_far_can_be_moved_back(tmp_path: Path) -> None:
     assert checked["text"] == MEMBER
 
 
-def test_the_pinned_case_lies_under_the_live_one(tmp_path: Path) -> None:
-    other = MEMBER.replace("100 cm", "80 cm")
-    _, drawn = Drafts(run, tmp_path).answer(wish(tmp_path, MEMBER, pinned=other), silent)
-    assert 'id="differences"' in drawn["html"]
-    series = [one for figure in drawn["data"]["figures"].values() for one in figure["series"]]
-    assert any(one["label"].endswith("(pinned)") and one["faint"] for one in series)
+def test_pinned_states_lie_under_the_live_one(tmp_path: Path) -> None:
+    pins: tuple[Pin, ...] = ()
+    for name, size in (("slender", "80 cm"), ("stout", "120 cm"), ("no case", "none")):
+        pins = with_pin(pins, name, MEMBER.replace("100 cm", size))
+    drafts = Drafts(run, tmp_path)
+    _, drawn = drafts.answer(wish(tmp_path, MEMBER, pins=pins), silent)
+    for name in ("slender", "stout"):
+        assert f"First page: here and {name}" in drawn["html"]
+    fresh = run(case_of(stages_of(parse_yaml(MEMBER.replace("100 cm", "80 cm")), "member")[-1], tmp_path / "p.yaml"))
+    whole = compose_document(fresh)
+    for figure in drawn["data"]["figures"].values():
+        own = [one for one in figure["series"] if not one["label"].endswith(("(slender)", "(stout)"))]
+        under = {one["label"]: one for one in figure["series"] if one not in own}
+        assert under.keys() == {f"{one['label']} ({name})" for one in own for name in ("slender", "stout")}
+        for one in own:
+            pair = [under[f"{one['label']} ({name})"] for name in ("slender", "stout")]
+            assert all(pinned["faint"] and pinned["tone"] == one["tone"] for pinned in pair), "faint, in their colours"
+            assert len({one["dash"], *(pinned["dash"] for pinned in pair)}) == 3
+    forces = next(block for block in whole.blocks() if isinstance(block, Figure))
+    shown = next(one for one in drawn["data"]["figures"].values() if one["title"] == forces.title)
+    pinned = next(one for one in shown["series"] if one["label"] == f"{forces.series[0].label} (slender)")
+    assert decoded(shown["arrays"][pinned["y"]]) == pytest.approx(forces.series[0].y, rel=1e-6)
+    _, drawn = drafts.answer(wish(tmp_path, MEMBER, pins=pins[1:]), silent)
+    assert "slender" not in drawn["html"]
+
+
+def test_pins_have_names_of_their_own_and_an_end() -> None:
+    pins: tuple[Pin, ...] = ()
+    for _ in range(MOST):
+        pins = with_pin(pins, "a " * 40, "")
+    assert len({pin.name for pin in pins}) == MOST
+    with pytest.raises(InputError, match="states are pinned"):
+        with_pin(pins, "one more", "")
+    assert renamed(pins, pins[1].key, pins[0].name)[1].name != pins[0].name
 
 
 BOMB = "a0: &a0 [x, x, x, x, x, x, x, x, x]\n" + "".join(

@@ -7,9 +7,9 @@ from typing import Any
 
 import pytest
 
-from moyai.app.changes import with_key
-from moyai.app.form import form_of
+from moyai.case.form import form_of
 from moyai.case.templates import template
+from moyai.case.text_changes import with_key
 from moyai.case.yaml_reader import parse_yaml
 from moyai.core.errors import InputError
 

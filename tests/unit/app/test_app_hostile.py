@@ -21,8 +21,9 @@ from typing import Any
 import pytest
 from app_runs import MEMBER
 
-from moyai.app.draft import Drafts, Wish, stages_of
+from moyai.app.draft import Drafts, Wish
 from moyai.app.sliders import sliders_of
+from moyai.app.stages import stages_of
 from moyai.case.reader import case_of
 from moyai.case.templates import template
 from moyai.case.yaml_reader import parse_yaml

@@ -86,12 +86,18 @@ def test_a_case_from_opening_to_saving(page: Page) -> None:
     assert (checked["sequence"], checked["message"], drawn["message"]) == (1, "checked", "drawn")
     before = drawn["headlines"][0]["value"]
 
-    assert page.post(f"/api/cases/{key}/pin")["pinned"]
+    (pin,) = page.post(f"/api/cases/{key}/pin", {"name": "as built"})["pins"]
     moves = {"structure.section.diameter": "90"}
     checked, drawn = page.draft(key, sequence=2, text=text, edits=moves, gesture="slider")
     assert checked["text"] == MEMBER.replace("100 cm", "90 cm")
     assert drawn["headlines"][0]["value"] < before
-    assert "(pinned)" in json.dumps(drawn["data"])
+    assert "(as built)" in json.dumps(drawn["data"])
+    first, second = page.post(f"/api/cases/{key}/pin", {"name": "as  built"})["pins"]
+    assert (first["name"], second["name"]) == ("as built", "as built #2")
+    assert page.post(f"/api/cases/{key}/pin", {"id": first["id"], "name": "wide"})["pins"][0]["name"] == "wide"
+    assert page.get(f"/api/cases/{key}").json()["pins"][1] == second, "a reload finds the pins"
+    assert page.post(f"/api/cases/{key}/pin", {"id": pin["id"]})["pins"] == [second]
+    page.post(f"/api/cases/{key}/pin", {"id": "none"}, status=404)
     assert page.get(f"/api/cases/{key}").json()["text"] == checked["text"], "a reload finds the text of now"
 
     page.post(f"/api/cases/{key}/save")

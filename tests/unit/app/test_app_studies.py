@@ -17,10 +17,11 @@ from moyai.app.downloads import made, makeable
 from moyai.app.folder import Folder
 from moyai.app.job_process import Order
 from moyai.app.jobs import Job, Jobs
-from moyai.app.study_jobs import case_text, refuse_foreign_base, so_far, table_of
+from moyai.app.study_jobs import refuse_foreign_base, so_far
 from moyai.case.yaml_reader import parse_yaml
 from moyai.cli.runner import run
 from moyai.core.errors import CaseError, InputError
+from moyai.study.cases_so_far import case_text, table_of
 
 STUDY = """\
 moyai: 1

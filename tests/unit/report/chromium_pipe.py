@@ -70,6 +70,10 @@ class Chromium:
         os.close(self._read)
         self._folder.cleanup()
 
+    @property
+    def process_id(self) -> int:
+        return self._process.pid
+
     def send(self, method: str, **parameters: Any) -> dict[str, Any]:
         """Send a command and wait for its answer."""
         self._number += 1

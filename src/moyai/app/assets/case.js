@@ -3,8 +3,10 @@ import { editorOf } from "/assets/editor.js";
 import { Form } from "/assets/form.js";
 import { watchJobs } from "/assets/jobs.js";
 import { Live } from "/assets/live.js";
+import { Pins } from "/assets/pins.js";
 import { element, get, post, say, stream, tell } from "/assets/server.js";
 import { Sliders } from "/assets/sliders.js";
+import { tabs } from "/assets/tabs.js";
 
 const PATIENCE = 500; // ms after which a further request overtakes one on its way that has drawn nothing, at least
 const TYPING = 350; // ms of rest before a typed text is sent
@@ -17,6 +19,7 @@ export class CaseView {
     this.edits = new Map();
     this.typed = 0;
     this.form = new Form((wish) => this.change(wish));
+    this.pins = new Pins((wish) => this.pin(wish));
     this.sliders = new Sliders((path, number) => this.sliderMoved(path, number));
   }
   async open() {
@@ -25,16 +28,16 @@ export class CaseView {
     const button = (words, act, title) => element("button", { type: "button", onclick: act, title }, words);
     this.title = element("h1", {}, record.name);
     this.undoButton = button(say("Undo"), () => this.undo(), say("Back to the text before the last change (Alt+Z)"));
-    this.pinButton = button(say("Pin"), () => this.pin(), say("Keep this state, faint under the next ones"));
+    const pin = button(say("Pin"), () => this.pin({ name: this.lately || say("state {0}", this.pinned + 1) }), say("Keep this state, faint under the next ones"));
     this.saveButton = button(say("Save"), () => this.save(), say("Write the text to its file"));
     this.state = element("p", { class: "quiet state", role: "status" }, say("drawing …"));
     this.report = element("div", { class: "report" });
     this.jump = element("select", { "aria-label": say("Go to a section"), onchange: () => { document.getElementById(this.jump.value)?.scrollIntoView({ behavior: "instant" }); } });
     this.content.replaceChildren(
       element("div", { class: "controls" }, this.title,
-        element("div", { class: "toolbar" }, button(say("Run"), () => this.run(), say("Full run as a job, with the report")), this.undoButton, this.pinButton,
+        element("div", { class: "toolbar" }, button(say("Run"), () => this.run(), say("Full run as a job, with the report")), this.undoButton, pin,
           this.saveButton, element("a", { href: `${this.address}/case.yaml`, download: true }, say("Take the case"))),
-        this.tabs(), this.sliders.element, this.form.element, this.editor.element),
+        this.pins.element, tabs((name) => this.showTab(name)), this.sliders.element, this.form.element, this.editor.element),
       element("div", { class: "look" }, element("div", { class: "top" }, this.state, this.jump), this.report));
     this.report.addEventListener("click", (event) => {
       const link = event.target.closest("a[href^='#']");
@@ -46,26 +49,9 @@ export class CaseView {
     this.take(record);
     this.send("opened");
   }
-  // Wide: the text stays, numbers and form change places above it. Narrow: one of the three.
-  tabs() {
-    const names = [["numbers", say("Numbers")], ["form", say("Form")], ["written", say("Text")]], list = element("div", { class: "tabs", role: "tablist", "aria-label": say("Ways to change the case") });
-    const choose = (name, focus) => {
-      for (const button of list.children) {
-        const chosen = button.dataset.tab === name;
-        button.setAttribute("aria-selected", String(chosen));
-        button.tabIndex = chosen ? 0 : -1;
-        if (chosen && focus) button.focus();
-      }
-      this.content.dataset.tab = this.tab = name;
-      if (name === "form") this.renewForm();
-    };
-    list.append(...names.map(([name, words]) => element("button", { type: "button", role: "tab", "data-tab": name, onclick: () => choose(name) }, words)));
-    list.addEventListener("keydown", (event) => {
-      const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key], at = names.findIndex(([name]) => name === this.tab);
-      if (step) choose(names[(at + step + names.length) % names.length][0], true);
-    });
-    choose("numbers");
-    return list;
+  showTab(name) {
+    this.content.dataset.tab = this.tab = name;
+    if (name === "form") this.renewForm();
   }
   async renewForm() {
     const turn = this.formTurn = (this.formTurn || 0) + 1;
@@ -110,7 +96,8 @@ export class CaseView {
     document.title = `${record.name} · moyai`;
     this.editor.text = record.text;
     this.undoButton.disabled = !record.can_undo;
-    this.pinButton.textContent = record.pinned ? say("Unpin") : say("Pin");
+    this.pinned = record.pins.length;
+    this.pins.show(record.pins);
     this.saveButton.disabled = !record.unsaved;
   }
   textChanged() {
@@ -124,6 +111,8 @@ export class CaseView {
     this.live.pause();
     this.report.dataset.whole = "";
     this.edits.set(path, number);
+    const { label, unit } = this.sliders.rows.get(path).spec;
+    this.lately = `${label} ${number} ${unit}`.trim();
     this.send(`slider ${path}`);
   }
   async send(gesture) {
@@ -204,8 +193,8 @@ export class CaseView {
     this.take(await post(`${this.address}/undo`));
     this.send("undo");
   }
-  async pin() {
-    this.take(await post(`${this.address}/pin`));
+  async pin(wish) {
+    this.take(await post(`${this.address}/pin`, wish));
     this.send("pin");
   }
   async save() {

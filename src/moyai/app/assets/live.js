@@ -35,14 +35,14 @@ export class Live {
     this.remember();
     const held = this.anchor();
     const opened = this.opened(), figures = new Map(), made = [], older = whole ? [] : this.keep(fresh.content);
+    for (const [name, old] of MOYAI.figures) if (older.some((section) => section.contains(old.element))) figures.set(name, old);
     const stays = (element) => older.some((section) => section.contains(element)), before = MOYAI.data;
     const players = MOYAI.players.filter((player) => stays(player.holder));
     const looks = new Map(MOYAI.players.filter((player) => !players.includes(player)).map((player) => [player.holder.dataset.scene, lookOf(player)]));
     MOYAI.data = older.length ? Object.fromEntries(Object.keys(data).map((key) => [key, { ...before[key], ...data[key] }])) : data;
     for (const element of fresh.content.querySelectorAll("[data-figure]")) {
       const name = element.dataset.figure, old = MOYAI.figures.get(name);
-      if (stays(element)) figures.set(name, old);
-      else if (old && alike(old.spec, data.figures[name])) {
+      if (old && alike(old.spec, data.figures[name])) {
         renew(old, data.figures[name], element);
         element.replaceWith(old.element);
         figures.set(name, old);
@@ -53,7 +53,7 @@ export class Live {
       }
     }
     for (const [name, old] of MOYAI.figures) if (!figures.has(name) && old.drawn) Plotly.purge(old.plot);
-    this.holder.replaceChildren(fresh.content);
+    if (older.length) this.place(fresh.content); else this.holder.replaceChildren(fresh.content);
     for (const name of made) figures.set(name, new MOYAI.Figure(figures.get(name)));
     MOYAI.figures = figures;
     MOYAI.players = [];
@@ -92,16 +92,23 @@ export class Live {
       player.repaint();
     }
   }
-  // Put the sections that a draft leaves out where they stood, and the choices that it has no panes for.
+  // Put the sections of a draft in the places of the older ones of their name; the others are not touched.
+  place(content) {
+    let before = null;
+    for (const one of [...content.children]) {
+      const old = one.id ? document.getElementById(one.id) : this.holder.querySelector(".badges");
+      if (old) old.replaceWith(one); else if (before) before.after(one); else this.holder.append(one);
+      before = one;
+    }
+  }
+  // Return the sections that a draft leaves out, faded, and give it the choices that it has no panes for.
   keep(content) {
     const older = [];
-    let before = null;
     for (const section of this.holder.querySelectorAll("section[id]")) {
       const now = content.getElementById(section.id);
       if (!now) {
         section.classList.add("older");
         older.push(section);
-        if (before) before.after(section); else content.append(section);
       } else {
         for (const choice of now.querySelectorAll(".choice:not(:has(> .chooser))")) {
           const chooser = section.querySelector(`.choice[data-group="${choice.dataset.group}"] > .chooser`)?.cloneNode(true), known = choice.firstElementChild.dataset.option;
@@ -113,7 +120,6 @@ export class Live {
           }
         }
       }
-      before = now || section;
     }
     return older;
   }

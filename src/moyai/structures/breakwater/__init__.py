@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -17,12 +18,28 @@ class BreakwaterKind(FolderKind):
     name = "breakwater"
     package = __name__
     templates = (("breakwater", "template.yaml"),)
+    numbers = (
+        ("structure.section.beam", "Beam"),
+        ("structure.draught", "Draught"),
+        ("structure.mass", "Mass"),
+        ("structure.length", "Length of a unit"),
+        ("structure.centre_of_gravity_above_keel", "Centre of gravity above keel"),
+        ("structure.roll_gyradius", "Gyradius of roll"),
+        ("lines[0].segments[0].length", "Line length, first line"),
+        ("lines[1].segments[0].length", "Line length, second line"),
+        ("lines[0].segments[0].diameter", "Chain diameter, first line"),
+        ("lines[0].anchor.x", "Anchor, first line"),
+        ("site.water_depth", "Water depth"),
+        ("waves[0].height", "Wave height"),
+        ("wind.speed", "Wind speed"),
+    )
     root_schema = "BreakwaterCase"
 
-    def nominal(self, problem: Any) -> Any | None:
+    def nominal(self, problem: Any, shown: Collection[str] = ()) -> Any | None:
         breakwater = replace(problem.breakwater, damping=replace(problem.breakwater.damping, band=(1.0, 1.0)))
         settings = problem.settings.model_copy(update={"drift": False})
-        return replace(problem, breakwater=breakwater, settings=settings, nominal=True)
+        operators = not shown or "response" in shown
+        return replace(problem, breakwater=breakwater, settings=settings, nominal=True, operators=operators)
 
     def at_level(self, problem: Any, level: str) -> Any | None:
         names = [name for name, _ in problem.environment.water_levels]

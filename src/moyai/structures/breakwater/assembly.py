@@ -9,6 +9,7 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
+from moyai.core.remembered import Remembered, key_of_objects
 from moyai.core.validity import Notice
 from moyai.floating.statics import Hydrostatics, body_to_site, find_equilibrium, hydrostatics, inertia_matrix
 from moyai.mooring.lines import Line, LineElement, SpringLine
@@ -16,10 +17,18 @@ from moyai.mooring.planar import PlanarLineSystem
 from moyai.mooring.system import LineSystem
 from moyai.potential.sections import Section
 from moyai.sea.water import Water
-from moyai.structures.breakwater.model import Breakwater, BreakwaterProblem, Environment, MooringLine, MooringSpring
+from moyai.structures.breakwater.model import (
+    Breakwater,
+    BreakwaterProblem,
+    Damping,
+    Environment,
+    MooringLine,
+    MooringSpring,
+)
 
 IMBALANCE_LIMIT = 1.0  # per cent of the displacement above which the case is warned of (issue: over 1 % warned)
 HEEL_LIMIT = math.radians(1.0)
+_KNOWN: Remembered[tuple[float, float, float]] = Remembered(64)
 
 
 @dataclass(frozen=True)
@@ -314,8 +323,15 @@ def _is_balanced_upright(breakwater: Breakwater, water: Water, balance: _Balance
 
 
 def _equilibrium(breakwater: Breakwater, water: Water, balance: _Balance, start: float) -> tuple[float, float, float]:
-    """Find draught, heel and offset at rest."""
+    """Find draught, heel and offset at rest; once for units that differ only in what moves or damps them."""
+    still = replace(breakwater, damping=Damping(), roll_gyradius=1.0, additional_mass=(0.0, 0.0, 0.0))
+    key = key_of_objects(still, water, balance, start)
+    return _KNOWN.of(key, lambda: _found_equilibrium(breakwater, water, balance, start))
 
+
+def _found_equilibrium(
+    breakwater: Breakwater, water: Water, balance: _Balance, start: float
+) -> tuple[float, float, float]:
     def pull(x: float, z: float, heel: float) -> tuple[float, float, float]:
         draught = _draught_of(breakwater, z, heel)
         body_x = x - body_to_site(breakwater.centre_of_gravity, draught, heel)[0]

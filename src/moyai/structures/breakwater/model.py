@@ -166,6 +166,8 @@ class BreakwaterProblem:
     only_level: str = ""
     #: For a draft: coefficients of the nearest round draught and heel, without the second way to the drift.
     nominal: bool = False
+    #: Whether response operators are computed; a draft that shows none leaves them out.
+    operators: bool = True
     case_text: str = ""
     case_hash: str = ""
     criteria: tuple[Criterion, ...] = ()

@@ -167,10 +167,11 @@ def _frequency_steps(
     unit, hydro = model.unit, model.hydro
     seas = problem.environment.sea_states
     main = float(seas[0].heading) if seas else 0.0
-    found = frequency_regular.operators(model, operator_frequencies(unit, problem), main, seas)
-    collected.groups[f"{root}/rao"] = found.dataset
-    collected.checks.extend(found.checks)
-    collected.notices.extend((*found.notices, *check_screening(unit.water.depth, unit.draught)))
+    if problem.operators:
+        found = frequency_regular.operators(model, operator_frequencies(unit, problem), main, seas)
+        collected.groups[f"{root}/rao"] = found.dataset
+        collected.checks.extend(found.checks)
+        collected.notices.extend((*found.notices, *check_screening(unit.water.depth, unit.draught)))
     if not problem.nominal:
         collected.checks.extend(drift_check(model, main, seas))
     collected.notices.extend(viscous_notices(unit))
@@ -200,11 +201,11 @@ def _regular_sea(model: FrequencyModel, sea: RegularSea, shared: str | None, pro
 
 
 def _key_without_irregular_seas(problem: BreakwaterProblem, unit: FloatingUnit) -> str:
-    """Return a key of all that coefficients, statics and regular waves depend on.
+    """Return a key of all that coefficients, statics and the model depend on, and regular waves but for themselves.
 
-    Of the irregular seas that is the frequencies and headings that they add to those of the coefficients.
+    Of the seas that is the frequencies and headings that they add to those of the coefficients.
     """
-    regular = tuple(sea for sea in problem.environment.sea_states if isinstance(sea, RegularSea))
+    regular = tuple(replace(sea, height=1.0) for sea in problem.environment.sea_states if isinstance(sea, RegularSea))
     environment = replace(problem.environment, sea_states=())
     rest = (problem.breakwater, environment, problem.settings, problem.nominal)
     return key_of_objects(rest, unit.name, unit.level, regular, sea_frequencies(problem), headings_of(problem))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -20,6 +20,20 @@ class CageKind(FolderKind):
         ("cage", "template.yaml"),
         ("rigid_cage", "template_rigid.yaml"),
     )
+    numbers = (
+        ("structure.size", "Diameter or side"),
+        ("structure.net.wall_depth", "Depth of the net wall"),
+        ("structure.net.cone_depth", "Depth of the cone"),
+        ("structure.net.twine_diameter", "Twine diameter"),
+        ("structure.net.mesh_pitch", "Mesh pitch"),
+        ("structure.net.aperture", "Aperture"),
+        ("structure.sinkers.mass", "Mass of a sinker"),
+        ("structure.mooring.anchor_distance", "Anchor distance"),
+        ("structure.mooring.anchor_line[0].length", "Rope of the anchor line"),
+        ("structure.mooring.pull_down", "Pull down"),
+        ("structure.mooring.stiffness", "Stiffness of a line"),
+        ("structure.weight.mass", "Mass as weighed"),
+    )
     root_schema = "CageCase"
 
     def build(self, model: Any, folder: Path, *, case_text: str, case_hash: str) -> Any:
@@ -35,7 +49,7 @@ class CageKind(FolderKind):
             return derived_rigid.derived_numbers(case)
         return derived_flexible.derived_numbers(case)
 
-    def nominal(self, problem: Any) -> Any | None:
+    def nominal(self, problem: Any, shown: Collection[str] = ()) -> Any | None:
         settings = problem.settings
         if "statics" not in settings.analyses or not hasattr(settings, "other_laws"):
             return None

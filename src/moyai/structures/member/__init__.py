@@ -11,6 +11,16 @@ class MemberKind(FolderKind):
     name = "member"
     package = __name__
     templates = (("member", "template.yaml"),)
+    numbers = (
+        ("structure.section.diameter", "Diameter"),
+        ("structure.section.side", "Side"),
+        ("structure.section.width", "Width"),
+        ("structure.section.height", "Height of the section"),
+        ("structure.start.z", "Level of the start"),
+        ("structure.end.z", "Level of the end"),
+        ("structure.section_angle_deg", "Turn of the section"),
+        ("structure.drag.roughness", "Roughness"),
+    )
     root_schema = "MemberCase"
 
 

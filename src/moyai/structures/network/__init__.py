@@ -16,6 +16,12 @@ class NetworkKind(FolderKind):
     name = "network"
     package = __name__
     templates = (("network", "template.yaml"),)
+    numbers = (
+        ("structure.points.buoy.diameter", "Diameter of the buoy"),
+        ("structure.points.buoy.mass", "Mass of the buoy"),
+        ("structure.lines.mooring.length", "Length of the line"),
+        ("structure.line_types.chain.diameter", "Diameter of the chain"),
+    )
     root_schema = "NetworkCase"
 
     def run(self, problem: Any, progress: Progress, keep: Path | None) -> Result:

@@ -12,11 +12,10 @@ from moyai.report.document import (
     Document,
     Drawing,
     Option,
-    Section,
 )
 from moyai.report.drawing import SectionGeometry, mooring_elevation, section_detail
 from moyai.report.formatting import format_quantity
-from moyai.report.general_page import case_listing, page_of
+from moyai.report.general_page import case_listing, chapters, page_of
 from moyai.report.levels import at_each_level, level_words
 from moyai.report.plan import LineInPlan, UnitInPlan, unit_plan
 from moyai.report.reading import Group, root_of
@@ -67,22 +66,22 @@ def compose(result: Result) -> Document:
     def each_level(compose_level: Callable[[Level], Sequence[Block | None]]) -> tuple[Block, ...]:
         return at_each_level(levels, compose_level, words=level_words, default=default)
 
-    sections = [
-        Section(
+    sections = chapters(
+        (
             "summary",
             "Summary",
-            (
+            lambda: (
                 *summary_blocks(result, numbers, decides),
                 *each_level(lambda level: [sea_figures.tension_bars(level)]),
             ),
         ),
-        Section("input", "Input", (*_input(root, levels), *each_level(_drawings))),
-        Section("rest", "At rest", each_level(_at_rest)),
-        Section("response", "Response to waves", each_level(_response)),
-        Section("seas", "Sea states", each_level(lambda level: _seas(level, measured, decides))),
-        Section("time", "Time domain", each_level(_time_section(levels, decides))),
-        Section("sensitivity", "Sensitivity", each_level(_sensitivity)),
-    ]
+        ("input", "Input", lambda: (*_input(root, levels), *each_level(_drawings))),
+        ("rest", "At rest", lambda: each_level(_at_rest)),
+        ("response", "Response to waves", lambda: each_level(_response)),
+        ("seas", "Sea states", lambda: each_level(lambda level: _seas(level, measured, decides))),
+        ("time", "Time domain", lambda: each_level(_time_section(levels, decides))),
+        ("sensitivity", "Sensitivity", lambda: each_level(_sensitivity)),
+    )
     return page_of(result, _subtitle(levels), sections)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -29,7 +30,7 @@ LEAD, ASTRAY = 1e-3, 0.05
 #: Steps that Newton's method gets; it takes 10 to 50 where it finds a rest.
 NEWTON_STEPS = 100
 #: The same from the rest of a cage that differs little.
-NEAR_STEPS = 16
+NEAR_STEPS = 32
 #: Time of that motion over the square root of size over gravity.
 SETTLE_TIME = 15.0
 
@@ -57,7 +58,7 @@ def solve_rest(
     current: Current | None,
     *,
     start: State | None = None,
-    near: State | None = None,
+    near: Sequence[State] = (),
     progress: Progress = silent,
 ) -> CageRest:
     """Find a cage at rest in a current.
@@ -73,9 +74,9 @@ def solve_rest(
     current : Current, optional
     start : State, optional
         Rest in a similar current.
-    near : State, optional
-        Rest of a cage that differs little, for a draft: a few steps of Newton's method from there are enough, to a
-        thousandth of the largest tension; where they fail it is as if there were none.
+    near : sequence of State
+        Rests of cages that differ little, for a draft: a few steps of Newton's method from the best of them are enough,
+        to a thousandth of the largest tension; where they fail it is as if there were none.
     progress : Progress
 
     Raises
@@ -84,8 +85,8 @@ def solve_rest(
         When it does not come near rest.
     """
     network, flow = sheltered(model, built, current), Flow(current=current)
-    if near is not None and near.position.shape == network.nodes.position.shape:
-        beside = nearby_equilibrium(network, flow, near, tolerance=LEAD, most_steps=NEAR_STEPS)
+    if alike := [one for one in near if one.position.shape == network.nodes.position.shape]:
+        beside = nearby_equilibrium(network, flow, alike, tolerance=LEAD, most_steps=NEAR_STEPS)
         if beside is not None:
             return CageRest(built, network, current, beside.state, beside.tension, beside.residual, beside.steps)
     found = relax_network(

@@ -41,7 +41,8 @@ if TYPE_CHECKING:
 
 
 # The last rests of this process in still water and in the current of the site, from which those of a draft go on
-_NEAR: dict[tuple[str, bool], State] = {}
+_NEAR: dict[tuple[str, bool], tuple[State, ...]] = {}
+_MOST_NEAR = 6
 
 
 def run(problem: FlexibleCageProblem, progress: Progress = silent) -> Result:
@@ -123,12 +124,13 @@ def _steps(problem: FlexibleCageProblem, collected: Collected, progress: Progres
                 progress("rest in the current", number, len(speeds))
                 flow = ScaledCurrent(profile, value / speed) if profile is not None and value > 0.0 else None
                 place = (name, value == speed)
-                near = _NEAR.get(place) if problem.settings.nominal else None
+                near = _NEAR.get(place, ()) if problem.settings.nominal else ()
                 found = solve_rest(model, built, flow, start=rests[-1].state if rests else None, near=near)
                 if value in (0.0, speed):
-                    _NEAR[place] = found.state
+                    _NEAR[place] = (found.state, *_NEAR.get(place, ())[: _MOST_NEAR - 1])
                 rests.append(found)
-                collected.groups[f"{root}/statics"] = statics_dataset(model, speeds[: number + 1], heading, rests)
+                if not problem.settings.nominal or number == len(speeds) - 1:
+                    collected.groups[f"{root}/statics"] = statics_dataset(model, speeds[: number + 1], heading, rests)
                 yield
             progress("rest in the current", len(speeds), len(speeds))
             statics = collected.groups[f"{root}/statics"]

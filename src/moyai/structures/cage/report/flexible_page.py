@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from moyai.core.results import Result
-from moyai.report.document import Block, Choice, Document, Option, Section
+from moyai.report.document import Block, Choice, Document, Option
 from moyai.report.formatting import format_quantity
-from moyai.report.general_page import case_listing, notice_blocks, page_of
+from moyai.report.general_page import case_listing, chapters, notice_blocks, page_of
 from moyai.report.headlines import headline_figures
 from moyai.report.levels import at_each_level
 from moyai.report.reading import Group, root_of
@@ -35,13 +35,13 @@ def compose(result: Result) -> Document:
     def each_level(compose_level: Callable[[Level], Sequence[Block | None]]) -> tuple[Block, ...]:
         return at_each_level(levels, compose_level, choice_of_one=False)
 
-    sections = [
-        Section("summary", "Summary", (*_summary(result), *notice_blocks(result))),
-        Section("shape", "Shape at rest", each_level(lambda level: [rest_views(level), figures.volume_figure(level)])),
-        Section(
+    sections = chapters(
+        ("summary", "Summary", lambda: (*_summary(result), *notice_blocks(result))),
+        ("shape", "Shape at rest", lambda: each_level(lambda level: [rest_views(level), figures.volume_figure(level)])),
+        (
             "loads",
             "Drag and loads at rest",
-            each_level(
+            lambda: each_level(
                 lambda level: [
                     figures.drag_figure(level),
                     tables.law_table(level),
@@ -51,11 +51,11 @@ def compose(result: Result) -> Document:
                 ]
             ),
         ),
-        Section("collar", "Collar", each_level(lambda level: [figures.collar_figure(level)])),
-        Section("time", "In waves", each_level(_time)),
-        Section("cage", "The cage", each_level(lambda level: [tables.cage_table(level)])),
-        Section("input", "Input", (case_listing(root),)),
-    ]
+        ("collar", "Collar", lambda: each_level(lambda level: [figures.collar_figure(level)])),
+        ("time", "In waves", lambda: each_level(_time)),
+        ("cage", "The cage", lambda: each_level(lambda level: [tables.cage_table(level)])),
+        ("input", "Input", lambda: (case_listing(root),)),
+    )
     return page_of(result, _subtitle(levels), sections)
 
 

@@ -8,9 +8,9 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from moyai.core.results import Result
-from moyai.report.document import Block, Choice, Document, Option, Paragraph, Section
+from moyai.report.document import Block, Choice, Document, Option, Paragraph
 from moyai.report.formatting import format_quantity
-from moyai.report.general_page import case_listing, notice_blocks, page_of
+from moyai.report.general_page import case_listing, chapters, notice_blocks, page_of
 from moyai.report.headlines import headline_figures
 from moyai.report.levels import at_each_level
 from moyai.report.reading import Group, root_of
@@ -44,15 +44,15 @@ def compose(result: Result) -> Document:
         return at_each_level(levels, compose_level, choice_of_one=False)
 
     literal = str(root.attributes.get("equations", "")) == "literal"
-    sections = [
-        Section("summary", "Summary", (*_summary(result, literal), *notice_blocks(result))),
-        Section("cage", "Cage and mooring", each_level(_cage)),
-        Section("motions", "Motions", each_level(_motions)),
-        Section("tensions", "Line tensions", each_level(_tensions)),
-        Section("stiffness", "Line stiffness", each_level(_stiffness)),
-        Section("time", "Motion over time", each_level(_time)),
-        Section("input", "Input", (case_listing(root),)),
-    ]
+    sections = chapters(
+        ("summary", "Summary", lambda: (*_summary(result, literal), *notice_blocks(result))),
+        ("cage", "Cage and mooring", lambda: each_level(_cage)),
+        ("motions", "Motions", lambda: each_level(_motions)),
+        ("tensions", "Line tensions", lambda: each_level(_tensions)),
+        ("stiffness", "Line stiffness", lambda: each_level(_stiffness)),
+        ("time", "Motion over time", lambda: each_level(_time)),
+        ("input", "Input", lambda: (case_listing(root),)),
+    )
     return page_of(result, _subtitle(levels, literal), sections)
 
 

@@ -6,9 +6,9 @@ import math
 from collections.abc import Callable, Sequence
 
 from moyai.core.results import Result
-from moyai.report.document import Block, Choice, Document, Option, Section
+from moyai.report.document import Block, Choice, Document, Option
 from moyai.report.formatting import format_quantity
-from moyai.report.general_page import case_listing, page_of
+from moyai.report.general_page import case_listing, chapters, page_of
 from moyai.report.levels import at_each_level, level_words
 from moyai.report.reading import Group, root_of
 from moyai.structures.curtain.report import figures, limits, sea_figures, sea_tables, tables
@@ -42,29 +42,32 @@ def compose(result: Result) -> Document:
         return at_each_level(levels, compose_level, words=level_words, default=default)
 
     record = [figures.flume_record(root), *tables.record_tables(root)]
-    sections = [
-        Section(
+    sections = chapters(
+        (
             "summary",
             "Summary",
-            (
+            lambda: (
                 *summary_blocks(result, levels),
                 *each_level(lambda level: [figures.utilisation_bars(level), limits.operating_map(level)]),
             ),
         ),
-        Section("input", "Input", (case_listing(root), *each_level(lambda level: [site_table(level)]))),
-        Section("shape", "Shape", each_level(drawings)),
-        Section("loads", "Loads", each_level(tables.load_tables)),
-        Section("rest", "At rest in the current", each_level(_at_rest)),
-        Section(
+        ("input", "Input", lambda: (case_listing(root), *each_level(lambda level: [site_table(level)]))),
+        ("shape", "Shape", lambda: each_level(drawings)),
+        ("loads", "Loads", lambda: each_level(tables.load_tables)),
+        ("rest", "At rest in the current", lambda: each_level(_at_rest)),
+        (
             "impact",
             "Impact when it snaps taut",
-            (*each_level(lambda level: _impact(level, root)), *(block for block in record if block is not None)),
+            lambda: (
+                *each_level(lambda level: _impact(level, root)),
+                *(block for block in record if block is not None),
+            ),
         ),
-        Section("waves", "Waves: slack and taut", each_level(_waves)),
-        Section("dynamic", "The whole span through time", each_level(dynamic_blocks)),
-        Section("anchors", "Anchor loads", each_level(_anchors)),
-        Section("limits", "Operating limits", each_level(_limits)),
-    ]
+        ("waves", "Waves: slack and taut", lambda: each_level(_waves)),
+        ("dynamic", "The whole span through time", lambda: each_level(dynamic_blocks)),
+        ("anchors", "Anchor loads", lambda: each_level(_anchors)),
+        ("limits", "Operating limits", lambda: each_level(_limits)),
+    )
     return page_of(result, _subtitle(levels), sections)
 
 

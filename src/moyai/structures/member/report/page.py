@@ -12,10 +12,9 @@ from moyai.report.document import (
     Document,
     Option,
     Paragraph,
-    Section,
 )
 from moyai.report.formatting import format_quantity
-from moyai.report.general_page import case_listing, notice_blocks, page_of
+from moyai.report.general_page import case_listing, chapters, notice_blocks, page_of
 from moyai.report.headlines import headline_figures
 from moyai.report.levels import at_each_level
 from moyai.report.reading import Group, root_of
@@ -43,14 +42,14 @@ def compose(result: Result) -> Document:
         return at_each_level(levels, compose_level)
 
     purpose = str(root.attributes.get("purpose", ""))
-    sections = [
-        Section("summary", "Summary", (*_summary(result, purpose), *notice_blocks(result))),
-        Section("input", "Input", (case_listing(root), *each_level(_input))),
-        Section("law", "Inertia and circulation over KC", each_level(figures.over_keulegan_carpenter)),
-        Section("seas", "Sea states", each_level(_seas)),
-        Section("surface", "Free surface", each_level(lambda level: [figures.surface_table(level)])),
-        Section("time", "Forces over time", each_level(_time)),
-    ]
+    sections = chapters(
+        ("summary", "Summary", lambda: (*_summary(result, purpose), *notice_blocks(result))),
+        ("input", "Input", lambda: (case_listing(root), *each_level(_input))),
+        ("law", "Inertia and circulation over KC", lambda: each_level(figures.over_keulegan_carpenter)),
+        ("seas", "Sea states", lambda: each_level(_seas)),
+        ("surface", "Free surface", lambda: each_level(lambda level: [figures.surface_table(level)])),
+        ("time", "Forces over time", lambda: each_level(_time)),
+    )
     return page_of(result, _subtitle(levels), sections)
 
 

@@ -6,9 +6,9 @@ import math
 from collections.abc import Callable, Sequence
 
 from moyai.core.results import Result
-from moyai.report.document import Block, Choice, Document, Option, Paragraph, Section
+from moyai.report.document import Block, Choice, Document, Option, Paragraph
 from moyai.report.formatting import format_quantity
-from moyai.report.general_page import case_listing, notice_blocks, page_of
+from moyai.report.general_page import case_listing, chapters, notice_blocks, page_of
 from moyai.report.headlines import headline_figures
 from moyai.report.levels import at_each_level
 from moyai.report.reading import root_of
@@ -41,17 +41,17 @@ def compose(result: Result) -> Document:
     def runs(level: NetworkLevel) -> Sequence[Block | None]:
         return _of_runs(level, governing)
 
-    sections = [
-        Section("summary", "Summary", (*_summary(result, governing), *notice_blocks(result))),
-        Section("view", "In motion", each_level(lambda level: [_views(level, governing)])),
-        Section("runs", "Runs through time", each_level(runs)),
-        Section("rest", "At rest", each_level(_at_rest)),
-        Section(
+    sections = chapters(
+        ("summary", "Summary", lambda: (*_summary(result, governing), *notice_blocks(result))),
+        ("view", "In motion", lambda: each_level(lambda level: [_views(level, governing)])),
+        ("runs", "Runs through time", lambda: each_level(runs)),
+        ("rest", "At rest", lambda: each_level(_at_rest)),
+        (
             "modes", "Natural modes",
-            each_level(lambda level: [tables.mode_table(level), mode_animations(level)]),
+            lambda: each_level(lambda level: [tables.mode_table(level), mode_animations(level)]),
         ),
-        Section("input", "Input", (case_listing(root), *each_level(lambda level: [tables.line_table(level)]))),
-    ]  # fmt: skip
+        ("input", "Input", lambda: (case_listing(root), *each_level(lambda level: [tables.line_table(level)]))),
+    )  # fmt: skip
     return page_of(result, _subtitle(levels), sections)
 
 

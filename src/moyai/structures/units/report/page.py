@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from moyai.core.results import Result
-from moyai.report.document import Block, Choice, Document, Option, Paragraph, Section
-from moyai.report.general_page import case_listing, notice_blocks, page_of
+from moyai.report.document import Block, Choice, Document, Option, Paragraph
+from moyai.report.general_page import case_listing, chapters, notice_blocks, page_of
 from moyai.report.headlines import headline_figures
 from moyai.report.reading import Group, root_of
 from moyai.structures.units.report import figures
@@ -37,16 +37,16 @@ def compose(result: Result) -> Document:
             return ()
         return (Choice("water-level", "Water level", tuple(options)),)
 
-    sections = [
-        Section("summary", "Summary", (*_summary(result), *notice_blocks(result))),
-        Section("row", "The row", at_each_level(_row)),
-        Section("waves", "Waves around the row", at_each_level(_maps)),
-        Section("connectors", "Connectors", at_each_level(lambda level: _tables(level, figures.connector_table))),
-        Section("motions", "Motions", at_each_level(_motions)),
-        Section("time", "Records in time", at_each_level(_records)),
-        Section("lines", "Lines", at_each_level(lambda level: _tables(level, figures.line_table))),
-        Section("input", "Input", (case_listing(root),)),
-    ]
+    sections = chapters(
+        ("summary", "Summary", lambda: (*_summary(result), *notice_blocks(result))),
+        ("row", "The row", lambda: at_each_level(_row)),
+        ("waves", "Waves around the row", lambda: at_each_level(_maps)),
+        ("connectors", "Connectors", lambda: at_each_level(lambda level: _tables(level, figures.connector_table))),
+        ("motions", "Motions", lambda: at_each_level(_motions)),
+        ("time", "Records in time", lambda: at_each_level(_records)),
+        ("lines", "Lines", lambda: at_each_level(lambda level: _tables(level, figures.line_table))),
+        ("input", "Input", lambda: (case_listing(root),)),
+    )
     return page_of(result, _subtitle(levels), sections)
 
 

@@ -1,4 +1,4 @@
-"""Change a case in its text as its form asks: set a scalar, add a key, take one out.
+"""Change a case in its text: set a scalar, add a key, take one out.
 
 Comments, order and layout stay: only the characters of the value or of the key change. The text is read again after
 every change, and the change is refused unless it is the only difference.
@@ -145,37 +145,6 @@ def with_key(document: Document, path: KeyPath, value: Any, *, after: str = "") 
     head = text[:end] if text[:end].endswith(("\n", "\r")) else text[:end] + newline
     indent = " " * node.value[0][0].start_mark.column
     return _first_that_reads(document, path, [f"{head}{indent}{line}{newline}{text[end:]}"], wanted)
-
-
-def changed(document: Document, wish: dict[str, Any]) -> Document:
-    """Return the document after a change that the page asks for.
-
-    Parameters
-    ----------
-    document : Document
-    wish : dict
-        ``change`` (``set``, ``add`` or ``remove``), ``path``, and what the change needs: ``value``, ``quoted``,
-        ``after``.
-
-    Raises
-    ------
-    InputError
-        When it is no change of this case.
-    ValueError
-        When the wish is malformed.
-    """
-    path, value, after = wish.get("path"), wish.get("value"), wish.get("after", "")
-    steps = isinstance(path, list) and all(isinstance(step, str | int) and not isinstance(step, bool) for step in path)
-    if not path or not steps or not isinstance(after, str):
-        raise ValueError("'path' is a list of keys and numbers")
-    where = tuple(path)
-    if wish.get("change") == "set" and isinstance(value, str):
-        return with_scalar(document, where, value.strip(), as_text=wish.get("quoted") is True)
-    if wish.get("change") == "add":
-        return with_key(document, where, value, after=after)
-    if wish.get("change") == "remove":
-        return without_key(document, where)
-    raise ValueError("a change is 'set', 'add' or 'remove'")
 
 
 def flow(value: Any) -> str:
