@@ -68,7 +68,16 @@ def address(tmp_path: Path) -> Iterator[str]:
 
 def until(page: Any, expression: str, seconds: float = 60.0) -> None:
     end = time.monotonic() + seconds
-    while page.evaluate(f"Boolean({expression})") is not True:
+
+    def holds() -> bool:
+        try:
+            return bool(page.evaluate(f"Boolean({expression})"))
+        except RuntimeError as error:
+            if "navigated" in str(error):
+                return False  # asked while the page was loaded again
+            raise
+
+    while not holds():
         assert time.monotonic() < end, f"{expression}; errors: {page.errors}"
         time.sleep(0.05)
 
