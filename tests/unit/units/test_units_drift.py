@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from moyai.structures.units.bem import Panels, panels_of, solve_frequency
-from moyai.structures.units.drift import drift_of_units, reconciled
+from moyai.structures.units.drift import near_drift, reconciled
 from moyai.structures.units.hydrodynamics import RowHydrodynamics, solve_row
 from moyai.structures.units.mesh import row_mesh
 from moyai.structures.units.near_field import NearField
@@ -70,7 +70,7 @@ def test_two_units_abeam_bear_the_same_and_push_each_other() -> None:
     model = RowModel(field.at, hydro, np.zeros(field.at.size))
     found = respond(model, OMEGA, np.zeros(len(field.at.joints)))
     whole = far_waves(model, found).drift
-    loads = drift_of_units(model, found, whole)[0, 0].reshape(2, 6)
+    loads = reconciled(field.at, near_drift(model, found), whole)[0, 0].reshape(2, 6)
     assert loads[0, 0] == pytest.approx(loads[1, 0], rel=1e-9) and loads[0, 0] > 0.0
     assert loads[0, 1] == pytest.approx(-loads[1, 1], rel=1e-9) and abs(loads[0, 1]) > 1e-3 * loads[0, 0]
     assert loads[0, 5] == pytest.approx(-loads[1, 5], rel=1e-9)
@@ -81,7 +81,7 @@ def test_the_seaward_unit_shelters_the_next_and_the_sum_is_kept() -> None:
     model = RowModel(field.at, hydro, np.zeros(field.at.size))
     found = respond(model, OMEGA, np.zeros(len(field.at.joints)))
     whole = far_waves(model, found).drift
-    loads = drift_of_units(model, found, whole)[0, 0].reshape(2, 6)
+    loads = reconciled(field.at, near_drift(model, found), whole)[0, 0].reshape(2, 6)
     plan = field.at.centres
     assert loads[:, :2].sum(axis=0) == pytest.approx(whole[0, 0, :2], rel=1e-9)
     moment = loads[:, 5] + plan[:, 0] * loads[:, 1] - plan[:, 1] * loads[:, 0]

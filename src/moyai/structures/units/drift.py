@@ -31,41 +31,46 @@ def share_drift(at: RowAtLevel, drift: Array) -> Array:
     return out
 
 
-def drift_of_units(
-    model: RowModel, response: RowResponse, whole: Array, rows: IntArray | None = None, columns: Array | None = None
-) -> Array:
-    """Return the mean drift of every unit as loads (r, c, m) per amplitude squared.
+def near_drift(
+    model: RowModel, response: RowResponse, rows: IntArray | None = None, columns: Array | None = None
+) -> Array | None:
+    """Return what pressures on the hulls give every unit (r, c, u, 3) per amplitude squared.
 
     Parameters
     ----------
     model : RowModel
     response : RowResponse
         At the frequencies of the coefficients.
-    whole : ndarray (f, h, 3)
-        Of the row by its far waves.
     rows, columns : ndarray of int, optional
         Frequencies and headings asked for; all when left out.
+
+    Returns
+    -------
+    ndarray or None
+        None of a single unit, and of coefficients from a file, which has no pressures.
     """
     at, hydro = model.at, model.hydro
-    chosen: IntArray = np.arange(len(whole)) if rows is None else rows
-    headings: IntArray = np.arange(whole.shape[1]) if columns is None else columns.astype(np.int64)
-    asked = whole[chosen][:, headings]
     if hydro.panels is None or at.row.count == 1:
-        shared = np.array([share_drift(at, one) for one in np.eye(3)])
-        return np.asarray(asked @ shared)
+        return None
+    chosen: IntArray = np.arange(len(hydro.omega)) if rows is None else rows
+    headings: IntArray = np.arange(len(hydro.headings)) if columns is None else columns.astype(np.int64)
     field = NearField(at, hydro.panels)
-    near = [
-        field.drift(hydro.solutions[row].among(headings), hydro.headings[headings], response.motion[row, headings])
-        for row in chosen
-    ]
-    return reconciled(at, np.array(near), asked)
+    return np.array(
+        [
+            field.drift(hydro.solutions[row].among(headings), hydro.headings[headings], response.motion[row, headings])
+            for row in chosen
+        ]
+    )
 
 
-def reconciled(at: RowAtLevel, near: Array, whole: Array) -> Array:
+def reconciled(at: RowAtLevel, near: Array | None, whole: Array) -> Array:
     """Return loads (..., m) of units by pressures (..., u, 3), changed so that their sum is that of the far field.
 
-    What is left of a force goes to the units as the size of their own, what is left of the moment to all alike.
+    What is left of a force goes to the units as the size of their own, what is left of the moment to all alike. Without
+    pressures the whole is shared alike.
     """
+    if near is None:
+        return np.asarray(whole @ np.array([share_drift(at, one) for one in np.eye(3)]))
     near = near.copy()
     for part in range(2):
         size = np.abs(near[..., part])
@@ -80,4 +85,4 @@ def reconciled(at: RowAtLevel, near: Array, whole: Array) -> Array:
     return out
 
 
-__all__ = ["drift_of_units", "reconciled", "share_drift"]
+__all__ = ["near_drift", "reconciled", "share_drift"]

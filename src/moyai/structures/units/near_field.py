@@ -191,6 +191,16 @@ class NearField:
         """Numbers of the hull panels."""
         return np.flatnonzero(self.panels.mesh.part == HULL)
 
+    @cached_property
+    def normal(self) -> Array:
+        """Of the hull panels (p, 3)."""
+        return self.panels.mesh.normal[self.hull]
+
+    @cached_property
+    def centre(self) -> Array:
+        """Of all panels (n, 3) [m]."""
+        return self.panels.mesh.centre
+
     def displacement(self, motion: ComplexArray, unit: IntArray, point: Array) -> ComplexArray:
         """Return the displacement (h, p, 3) of points (p, 3) of units (p,) with motions (h, m)."""
         own = motion.reshape(len(motion), -1, 6)[:, unit]
@@ -212,12 +222,13 @@ class NearField:
         """
         mesh, water, omega = self.panels.mesh, self.at.water, solution.omega
         count, hull, line = self.at.row.count, self.hull, self.line
+        normal, centre = self.normal, self.centre
         incident, _ = incident_on(mesh, water, omega, solution.wave_number, headings)
         potential = incident + solution.diffraction + solution.radiation @ motion.T
         slopes, frame = self.panels.variation.slopes, self.panels.variation.frame
         # velocity on the hull: along it from the parabolas, across it that of the hull
-        moved = self.displacement(motion, mesh.unit[hull], mesh.centre[hull])
-        across = -1j * omega * np.einsum("hpc,pc->hp", moved, mesh.normal[hull])
+        moved = self.displacement(motion, mesh.unit[hull], centre[hull])
+        across = -1j * omega * np.einsum("hpc,pc->hp", moved, normal)
         along = np.array([np.asarray(slopes[axis] @ potential) for axis in range(2)])
         edges = self.edges
         carried = -1j * omega * self.displacement(motion, mesh.unit[edges.panel], edges.place)
@@ -225,15 +236,15 @@ class NearField:
         along[edges.axis, edges.panel] = mean
         more = np.zeros((2, *potential.shape))
         more[edges.axis, edges.panel] = own_square - np.abs(mean) ** 2
-        velocity = across[..., None] * mesh.normal[hull]
+        velocity = across[..., None] * normal
         velocity = velocity + sum(item[hull].T[..., None] * frame[hull, axis] for axis, item in enumerate(along))
         square = 0.5 * (np.sum(np.abs(velocity) ** 2, axis=2) + more.sum(axis=0)[hull].T)
         shifted = np.real(np.sum(moved.conj() * (-1j * omega * velocity), axis=2))
         weight = 0.5 * water.density * (square + shifted) * self.panels.variation.areas[hull]
         out = np.zeros((len(headings), count, 3))
-        self._add(out, weight, mesh.normal[hull, :2], mesh.unit[hull], mesh.centre[hull])
+        self._add(out, weight, normal[:, :2], mesh.unit[hull], centre[hull])
         # water that stands higher at the waterline than still water, or lower
-        place = np.einsum("wac,wc->wa", frame[line.panel], line.middle - mesh.centre[line.panel])
+        place = np.einsum("wac,wc->wa", frame[line.panel], line.middle - centre[line.panel])
         surface = potential[line.panel].astype(complex)
         for power in (1, 2):
             for axis in range(2):

@@ -13,7 +13,7 @@ from moyai.floating.irregular import response_statistics
 from moyai.sea.environment import Environment
 from moyai.sea.states import IrregularSea, RegularSea, SeaState
 from moyai.structures.units.assembly import RowAtLevel, RowPosition, steady_position
-from moyai.structures.units.drift import drift_of_units
+from moyai.structures.units.drift import near_drift, reconciled
 from moyai.structures.units.hydrodynamics import RowHydrodynamics
 from moyai.structures.units.model import Settings
 from moyai.structures.units.response import (
@@ -173,7 +173,8 @@ def regular_answer(
                 coarse = respond(model, hydro.omega, curves)
                 whole = far_waves(model, coarse).drift
                 drift = amplitude**2 * whole[row, column[0]]
-                moved = amplitude**2 * drift_of_units(model, coarse, whole, np.array([row]), column)[0, 0]
+                near = near_drift(model, coarse, np.array([row]), column)
+                moved = amplitude**2 * reconciled(at, near, whole[[row]][:, column])[0, 0]
             settled = _near(new, curves) and _near(moved, pushed)
             curves, pushed = relaxed.towards(curves, new), moved
             if settled:
@@ -245,7 +246,8 @@ def irregular_answer(
     curves, converged = np.zeros(len(at.joints)), False
     relaxed = _Relaxed(len(at.joints))
     rest = steady_position(at, steady)
-    for _ in range(_TURNS):
+    near, fresh = None, False
+    for turn in range(_TURNS):
         model = RowModel(at, one, rest.position)
         fine = respond(model, omega, curves)
         new = np.array(
@@ -261,14 +263,18 @@ def irregular_answer(
         if settings.drift:
             coarse = respond(model, hydro.omega, curves)
             whole = far_waves(model, coarse).drift
-            unit_drift = drift_of_units(model, coarse, whole)
+            # pressures cost most: those of the first turn serve until the rest settles
+            if not (turn and near is not None):
+                near, fresh = near_drift(model, coarse), True
+            unit_drift = reconciled(at, near, whole)
             drift = np.einsum("f,fh,fhc->c", 2.0 * weights, coarse_density, whole)
             moved = np.einsum("f,fh,fhm->m", 2.0 * weights, coarse_density, unit_drift)
         settled = _near(new, curves) and _near(moved, pushed)
         curves, pushed = relaxed.towards(curves, new), moved
-        if settled:
+        if settled and (fresh or near is None):
             converged = True
             break
+        near, fresh = (None if settled else near), False
         rest = steady_position(at, steady + pushed)
     model = RowModel(at, one, rest.position)
     coarse = respond(model, hydro.omega, curves)
