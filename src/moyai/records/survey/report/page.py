@@ -13,7 +13,7 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.core.results import Result
 from moyai.core.wording import counted
-from moyai.records.survey.report.compass import come_from, with_bearings
+from moyai.records.survey.report.compass import come_from, heading_figures, with_bearings
 from moyai.records.survey.report.lanes import Span, flag_lanes
 from moyai.report.document import (
     Abscissa,
@@ -93,10 +93,8 @@ def compose(result: Result) -> Document:
         ("blocks", "Channels", _channels),
         ("quality", "Quality", _quality),
     ):
-        if key in tree.children:
-            blocks = make(tree, clock)
-            if blocks:
-                sections.append(Section(key, title, tuple(blocks)))
+        if key in tree.children and (blocks := make(tree, clock)):
+            sections.append(Section(key, title, tuple(blocks)))
     sections.append(closing_section(result))
     return Document(
         title=report_title(result),
@@ -205,6 +203,7 @@ def _key_figures(result: Result, clock: _Clock) -> list[Block]:
                     f"{_left_out(tree, int(column), clock)}",
                 )
             )
+    items += heading_figures(tree, clock.start, clock.text)
     if "tensions" in tree.children:
         above, steady = _values(tree, "tensions", "maximum"), _values(tree, "tensions", "steady")
         largest = above + steady
