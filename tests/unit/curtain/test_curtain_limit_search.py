@@ -187,3 +187,8 @@ def test_the_period_beside_a_limit_height_is_that_of_the_height_printed() -> Non
     limit = shown["limit_wave_height"]
     assert limit.value == pytest.approx(0.36)
     assert f"in waves of {3.86 * 0.6:.3g} s" in limit.detail
+    # a height found by realisations has two digits, rounded down
+    drawn = table.assign(design_limit_low=0.3689).assign_attrs(with_snaps=1, sea_duration=1800.0)
+    groups = {"/LW": xr.Dataset(), "/LW/limits": drawn}
+    (found,) = [item for item in limit_headlines(groups, ["LW"], lambda _: False) if item.name == "limit_wave_height"]
+    assert found.value == pytest.approx(0.36)

@@ -110,6 +110,9 @@ def limit_headlines(groups: Groups, levels: Sequence[str], span_holds: Callable[
             # what is held is what holds at the unfavourable end
             details.insert(0, f"{limit:.3g} {unit} at the values themselves; {band.of}")
             limit = band.low
+        if waves and table.attrs.get("with_snaps"):
+            # realisations of a sea do not tell a third digit
+            limit = _two_digits(limit)
         period = float(table.attrs.get("design_limit_period", math.nan))
         if key != "speed_limit" and math.isfinite(period) and limit > 0.0:
             # the period of the height that is printed, not of the one at the values themselves
@@ -170,6 +173,14 @@ def _in_the_case(groups: Groups, level: str, key: str) -> float:
 
 def _number(table: xr.Dataset, name: str) -> float:
     return float(table[name]) if name in table else math.nan
+
+
+def _two_digits(value: float) -> float:
+    """Return a positive number with two digits, rounded down."""
+    if not value > 0.0:
+        return value
+    step = 10.0 ** (math.floor(math.log10(value)) - 1)
+    return math.floor(value / step + 1e-9) * step
 
 
 def _band(table: xr.Dataset, key: str, value: float) -> Band | None:
