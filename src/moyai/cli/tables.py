@@ -203,7 +203,7 @@ def print_outcome_count(outcomes: Sequence[Outcome]) -> None:
     for kind in get_args(ReferenceKind):
         own = [outcome.passed for outcome in outcomes if outcome.case.kind == kind]
         if own:
-            put("  " + said(f"{kind}: {sum(own)} of {len(own)}"))
+            put("  " + said(kind) + ": " + said(f"passed: {sum(own)} of {len(own)}"))
 
 
 def _number(value: float) -> str:

@@ -24,6 +24,7 @@ _PARTICLE = re.compile("(?<=[\u3040-\u309f]) (?=\\{)|(?<=\\}) (?=[\u3040-\u309f]
 _LONGEST = 12_000  # a text that is longer is no sentence
 _NAMELESS = frozenset(("a", "an", "the", "not", "each", "every", "all", "about", "up", "to"))
 _GLUED = 160  # characters of a phrase that is taken apart at its prepositions
+_SENTENCE = 14  # fixed characters from which a template reads before separators do
 _READINGS = 24  # ways that a template fits a text
 _ENDS, _GLUE_ENDS = (". ", "; ", ": "), (". ", "; ", ": ", ", ")
 _NAME, _PHRASE_NAME = 3, 2  # words that may stay English between translated ones: a name that the user gave
@@ -63,11 +64,16 @@ class _Template:
 
     @property
     def rank(self) -> tuple[int, int]:
-        """Place in the order of trial: sentences, separators, prepositions, adjectives; the longest first."""
+        """Place in the order of trial: sentences, separators, short sentences, prepositions, adjectives; longest first.
+
+        A short one (is not, in all) would read across a colon what a longer one says of the part behind it.
+        """
         if self.is_glue:
             adjective = len(self.order) == 1 and self.source[0] and len(self.words) == 1
-            return (3 if adjective else 2, -self.weight)
-        return (int(self.is_separator), -self.weight)
+            return (4 if adjective else 3, -self.weight)
+        if self.is_separator:
+            return (1, -self.weight)
+        return (0 if self.weight >= _SENTENCE else 2, -self.weight)
 
     def holds(self, number: int, value: str) -> bool:
         """Whether a part of a text may stand in a place: no end of a sentence or half a bracket in a phrase."""
