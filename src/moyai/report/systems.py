@@ -12,7 +12,7 @@ from moyai.core.units import parse_unit
 
 SYSTEMS = ("SI", "tf")
 UNITS_NOTES = {
-    "tf": "Units: forces in tf or kgf (1 tf = 9806.65 N), moments, stiffness and pressures accordingly. "
+    "tf": "Units: forces in tf or kgf (1 tf is 9806.65 newtons), moments, stiffness and pressures accordingly. "
     "The case and results.nc are in SI."
 }
 """What a page says of units that are not SI."""

@@ -68,7 +68,7 @@ def test_every_file_of_the_report_is_in_tonnes_force(tmp_path: Path) -> None:
     result = build(levels=ONE)
     files = write_report(result, tmp_path, units="tf")
     page = (tmp_path / "report.html").read_text(encoding="utf-8")
-    assert "The case and results.nc are in SI" in page
+    assert "The case and results.nc are in SI" in page and "9806.65" in page
     heads = [path.read_text(encoding="utf-8-sig").splitlines()[0] for path in files if path.suffix == ".csv"]
     assert any("[tf]" in head for head in heads)
     assert not [head for head in heads if re.search(r"\[[kM]?(N|Pa)\b", head)]
