@@ -38,17 +38,23 @@ class Views(Mapping[str, _V], Generic[_B, _V]):
 
     Names are those of the files of a report (``hwl-lines-at-rest``). ``_`` may stand for ``-``. A short name is enough
     where one block answers to it: the name without its water level, its end, or words of name and title or of the heads
-    and curves (``line_tensions``, ``transmission``), looked for in this order.
+    and curves (``line_tensions``, ``transmission``), looked for in this order; where one answers at every water level,
+    that of the level of the first page's governing number.
     """
 
-    def __init__(self, what: str, blocks: Sequence[_B], view: Callable[[_B], _V], levels: Iterable[str] = ()) -> None:
+    def __init__(
+        self, what: str, blocks: Sequence[_B], view: Callable[[_B], _V], levels: Iterable[str] = (), governs: str = ""
+    ) -> None:
         self._what = what
         self._view = view
         self._blocks: dict[str, _B] = dict(zip(unique_slugs(block.key for block in blocks), blocks, strict=True))
         self._levels = tuple(f"{slug(level)}-".replace("_", "-") for level in levels)
+        self._governs = f"{slug(governs)}-".replace("_", "-")
 
     def __getitem__(self, name: str) -> _V:
         found = self._called(name)
+        if len(found) > 1:
+            found = self._governing(found) or found
         if len(found) == 1:
             return self._view(self._blocks[found[0]])
         known = found or list(self._blocks)
@@ -73,6 +79,13 @@ class Views(Mapping[str, _V], Generic[_B, _V]):
         )
         hits = ([key for key in plain if way(key)] for way in ways)
         return next((keys for keys in hits if keys), []) if asked else []
+
+    def _governing(self, keys: list[str]) -> list[str]:
+        """Return the one of the governing level, where the same stands at several."""
+        plain = {key: key.replace("_", "-") for key in keys}
+        if len({text.removeprefix(self._level_of(text)) for text in plain.values()}) > 1:
+            return []
+        return [key for key, text in plain.items() if self._level_of(text) == self._governs]
 
     def _level_of(self, text: str) -> str:
         return max((level for level in self._levels if text.startswith(level)), key=len, default="")
@@ -118,7 +131,7 @@ class ReportedResult(Result):
             with displayed_in(self.document.units):
                 return table_frame(table)
 
-        return Views("table", self.document.tables(), frame, self._levels())
+        return Views("table", self.document.tables(), frame, self._levels(), self._governing_level())
 
     @property
     def figures(self) -> Views[Figure, PlotlyFigure]:
@@ -126,10 +139,16 @@ class ReportedResult(Result):
         from moyai.report.plotly_figure import plotly_figure
 
         drawn = [item for item in self.document.blocks() if isinstance(item, Figure)]
-        return Views("figure", drawn, plotly_figure, self._levels())
+        return Views("figure", drawn, plotly_figure, self._levels(), self._governing_level())
 
     def _levels(self) -> list[str]:
         return [name for name, node in self.tree.children.items() if "water_level" in node.attrs]
+
+    def _governing_level(self) -> str:
+        """Return the water level of the first number of the first page; empty where it names none."""
+        where = next((item.where for item in self.headlines if item.shown and item.where), "")
+        named = [level for level in self._levels() if re.search(rf"(?<!\w){re.escape(level)}(?!\w)", where)]
+        return named[0] if len(named) == 1 else ""
 
     def shown_in(self, units: str) -> ReportedResult:
         """Return the result with its report, tables and figures in ``SI`` or ``tf``; its data stay in SI.

@@ -69,6 +69,9 @@ def test_plain_names_stand_for_one_block_and_an_ambiguous_one_lists_its_choices(
     with pytest.raises(KeyError, match="2 figures answer to 'transmission'; there are: hwl-coefficients, lwl-coeff"):
         views["transmission"]
     assert views["macagno"] == "lwl-coefficients"
+    # the level of the governing number, where the same stands at several
+    views = Views("figure", two, lambda found: found.key, ["HWL", "LWL"], "LWL")
+    assert views["transmission"] == "lwl-coefficients" and views["regular"] == "hwl-regular-coefficients"
     with pytest.raises(KeyError, match="no figure is called '_'"):
         views["_"]
 
