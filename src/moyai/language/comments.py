@@ -7,9 +7,11 @@ from collections.abc import Iterator
 
 from moyai.language.current import said, spoken_language
 
-_COMMENT = re.compile(r"^([^#\n]*?)(\s*)#(\s*)(\S.*?)$", re.MULTILINE)
+_COMMENT = re.compile(r"^([^#\n]*?)([ \t]*)#([ \t]*)(\S.*?)$", re.MULTILINE)
 # a key or a command that is commented out, with or without a comment of its own
 _CODE = re.compile(r"^(- |\{)|^[a-z_][\w.]*:( |$)|^moyai |^yaml-language-server")
+# keys with values behind a key: what may stand in its place
+_KEYS = re.compile(r"^[a-z_]\w*: [\[{]")
 
 
 def with_comments(text: str) -> str:
@@ -39,7 +41,7 @@ def _parts(comment: str, alone: bool) -> Iterator[str]:
     _, mark, remark = comment.partition("  #")
     if mark:
         yield remark.strip()
-    elif not (alone and _CODE.match(comment)):
+    elif not (alone and _CODE.match(comment)) and not _KEYS.match(comment):
         yield comment
     elif comment.startswith("moyai ") and (words := _command(comment)[2]):
         yield words
@@ -50,7 +52,7 @@ def _translated(match: re.Match[str]) -> str:
     code, mark, remark = comment.partition("  #")
     if mark:
         comment = f"{code}  #{_spaced(remark)}"
-    elif before.strip() or not _CODE.match(comment):
+    elif (before.strip() or not _CODE.match(comment)) and not _KEYS.match(comment):
         comment = said(comment)
     elif comment.startswith("moyai "):
         command, gap_within, words = _command(comment)

@@ -21,6 +21,7 @@ _LETTERS = re.compile(r"[A-Za-z]+")
 _JAPANESE = "[\u3040-\u30ff\u3400-\u9fff]"
 _SCRIPTS = re.compile(f"{_JAPANESE}[A-Za-z0-9]|[A-Za-z0-9%°]{_JAPANESE}")
 _PARTICLE = re.compile("(?<=[\u3040-\u309f]) (?=\\{)|(?<=\\}) (?=[\u3040-\u309f])")
+_FORCE = re.compile(r"(?<=\} )[kM]?N(?![A-Za-z])")  # behind a place for its number
 _LONGEST = 12_000  # a text that is longer is no sentence
 _NAMELESS = frozenset(("a", "an", "the", "not", "each", "every", "all", "about", "up", "to"))
 _GLUED = 160  # characters of a phrase that is taken apart at its prepositions
@@ -111,6 +112,7 @@ class Translator:
 
     def __init__(self, messages: dict[str, str]) -> None:
         messages = dict(_without_stop(source, target) for source, target in messages.items())
+        messages = {**_in_tonnes(messages), **messages}
         self._whole = {source: target for source, target in messages.items() if "{0}" not in source}
         self._by_word: dict[str, list[_Template]] = {}
         templates = [_template(source, target) for source, target in messages.items() if "{0}" in source]
@@ -237,6 +239,16 @@ def _without_stop(source: str, target: str) -> tuple[str, str]:
     if len(source) > 4 and source.endswith(".") and not source.endswith("..") and target.endswith("。"):
         return source[:-1], target[:-1]
     return source, target
+
+
+def _in_tonnes(messages: dict[str, str]) -> dict[str, str]:
+    """Return the messages that hold a unit of force with tf and kgf in its place, as a page shows it that asks so."""
+    found: dict[str, str] = {}
+    for source, target in messages.items():
+        if _FORCE.search(source):
+            for unit in ("tf", "kgf"):
+                found[_FORCE.sub(unit, source)] = _FORCE.sub(unit, target)
+    return found
 
 
 def _template(source: str, target: str) -> _Template:
