@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -25,6 +26,9 @@ IMBALANCE_LIMIT = 1.0  # per cent of the displacement of a unit
 #: Half width that corners of curves are rounded over at rest, over the length of a unit; wider ones lead the way there
 ROUNDING = 1e-4
 _WIDER = (100.0, 10.0, 1.0)
+#: The same in smaller steps, the whole load put on by tenths before them, where these find no rest
+_SLOWLY = (100.0, 50.0, 20.0, 10.0, 5.0, 2.0, 1.0)
+_SHARES = tuple(0.1 * number for number in range(1, 10))
 _LEVELS = 41  # Simpson points over the draught for the current
 
 
@@ -359,39 +363,48 @@ def steady_position(at: RowAtLevel, load: Array) -> RowPosition:
     balanced[2::6] = rest[2::6]
     linear = at.hydrostatic + at.springs[0]
 
-    def imbalance(position: Array, width: float) -> Array:
+    def imbalance(position: Array, width: float, share: float = 1.0) -> Array:
         curves = at.curve_force(position, width)
-        return at.line_force(position) - balanced + curves + load - linear @ position
+        return at.line_force(position) - balanced + curves + share * load - linear @ position
 
     def tangent(position: Array, width: float) -> Array:
         return -(at.line_stiffness(position) + linear + _curve_stiffness(at, position, width))
 
     free = at.free
-
-    def forces(reduced: Array, width: float) -> Array:
-        return free.T @ imbalance(free @ reduced, width)
-
-    def slopes(reduced: Array, width: float) -> Array:
-        return free.T @ tangent(free @ reduced, width) @ free
-
     weight = float(at.masses.max()) * at.water.gravity
     size = np.tile([1.0, 1.0, 1.0, *([at.row.length] * 3)], at.row.count)
     scale = weight * np.sqrt(((free * size[:, None]) ** 2).sum(axis=0))
-    reduced = np.zeros(free.shape[1])
     curved = any(joint.connector.curve is not None for joint in at.joints)
-    for factor in (_WIDER if curved else (1.0,)) if at.row.lines or np.any(load) else ():
+
+    def found(start: Array, factor: float, share: float) -> Array:
+        """Return the motions left at rest with corners rounded over some widths, under a share of the load."""
         width = factor * at.rounding
+        return newton_with_line_search(
+            lambda motions: free.T @ imbalance(free @ motions, width, share),
+            lambda motions: free.T @ tangent(free @ motions, width) @ free,
+            start, scale, list(range(free.shape[1])), 1e-9,
+        )[0]  # fmt: skip
+
+    def settled(steps: Iterable[tuple[float, float]]) -> Array:
+        motions = np.zeros(free.shape[1])
+        for factor, share in steps:
+            motions = found(motions, factor, share)
+        return motions
+
+    reduced = np.zeros(free.shape[1])
+    if at.row.lines or np.any(load):
         try:
-            reduced, _, _ = newton_with_line_search(
-                partial(forces, width=width), partial(slopes, width=width),
-                reduced, scale, list(range(free.shape[1])), 1e-9,
-            )  # fmt: skip
-        except ConvergenceError as error:
-            raise InputError(
-                f"{at.name}: the row finds no rest under wind, current and drift: {error.fault.message}",
-                parameter="lines",
-                remedy="use stronger or more lines",
-            ) from error
+            reduced = settled((factor, 1.0) for factor in (_WIDER if curved else (1.0,)))
+        except ConvergenceError as first:
+            try:
+                growing = [(_SLOWLY[0], share) for share in _SHARES]
+                reduced = settled([*growing, *((factor, 1.0) for factor in _SLOWLY)])
+            except ConvergenceError:
+                raise InputError(
+                    f"{at.name}: the row finds no rest under wind, current and drift: {first.fault.message}",
+                    parameter="lines",
+                    remedy="use stronger or more lines",
+                ) from first
     position = free @ reduced
     return RowPosition(position, load, held_load(at, imbalance(position, at.rounding)))
 
