@@ -80,6 +80,10 @@ def report(
     with guard(as_json, language):
         if template is not None and not docx:
             raise InputError("a template is for Word", path="--template", remedy="add --docx")
+        if dxf is not None:
+            from moyai.report.dxf import require_drawing_unit
+
+            require_drawing_unit(dxf)
         from moyai.cli.runner import prepare_output
         from moyai.cli.tables import figure_records, key_figures, print_summary
         from moyai.report.views import read_result

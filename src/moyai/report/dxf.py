@@ -40,6 +40,17 @@ _CAPITALS = 0.72
 _WIDTH = 0.42
 
 
+def require_drawing_unit(unit: str) -> None:
+    """Refuse a unit that drawings are not written in.
+
+    Raises
+    ------
+    InputError
+    """
+    if unit not in _PER_METRE:
+        raise InputError(f"'{unit}' is no unit of a drawing", path="--dxf", allowed="m, mm")
+
+
 def document_dxf(document: Document, unit: str) -> tuple[tuple[str, bytes], ...]:
     """Return the key and the DXF file of every drawing to scale of a document, texts in the language of the document.
 
@@ -57,8 +68,7 @@ def document_dxf(document: Document, unit: str) -> tuple[tuple[str, bytes], ...]
     InputError
         When ezdxf is missing, or the unit is another.
     """
-    if unit not in _PER_METRE:
-        raise InputError(f"'{unit}' is no unit of a drawing", path="--dxf", allowed="m, mm")
+    require_drawing_unit(unit)
     with displayed_in(document.units), spoken_in(document.language):
         return tuple((key, shapes_dxf(in_the_language(shapes), unit)) for key, shapes in _drawn(document))
 

@@ -300,8 +300,11 @@ def span_animation(level: CurtainLevel, run: Group) -> Animation | None:
 
 
 def _words(group: Group, name: str, dim: str) -> list[str]:
-    values = group.array(name, dim)
-    return [] if values is None else [str(value) for value in values]
+    # words, which the readers of numbers leave out
+    node = group.node
+    if node is None or name not in node.variables or node.variables[name].dims != (dim,):
+        return []
+    return [str(value) for value in node.variables[name].values]
 
 
 def _waves(frames: Group) -> Waves3D | None:
