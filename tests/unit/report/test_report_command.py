@@ -64,12 +64,17 @@ def test_all_switches_together_write_what_can_be_written(
     folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setitem(sys.modules, "docx", None)  # as if it were not installed
-    switches = ["--pdf", "--docx", "--xlsx", "--vtk", "--gltf", "--dxf", "inch", "--json"]
+    switches = ["--pdf", "--docx", "--xlsx", "--vtk", "--gltf", "--dxf", "mm", "--json"]
     ran = RUN.invoke(app, ["report", str(folder), "-o", str(tmp_path), *switches])
     assert ran.exit_code == 2
     faults = json.loads(ran.stdout)["faults"]
-    assert [fault["path"] for fault in faults] == ["--docx", "--dxf"]
-    assert {path.name for path in tmp_path.iterdir()} == {"report.html", "report.pdf", "report.xlsx", "report_tables"}
+    assert [fault["path"] for fault in faults] == ["--docx"]
+    names = {path.name for path in tmp_path.iterdir()}
+    assert names >= {"report.html", "report.pdf", "report.xlsx", "report_tables"} and "report.docx" not in names
+    # a wrong unit is a slip of the command: nothing is written
+    slip = RUN.invoke(app, ["report", str(folder), "-o", str(tmp_path / "none"), "--dxf", "inch", "--json"])
+    assert slip.exit_code == 2 and json.loads(slip.stdout)["faults"][0]["path"] == "--dxf"
+    assert not (tmp_path / "none").exists()
     with pytest.raises(CaseError, match="'inch' is no unit"):
         write_report(build(time=False), tmp_path / "again", docx=True, dxf="inch")
     assert (tmp_path / "again" / "report_tables").is_dir()
