@@ -159,7 +159,7 @@ def check_event(
         return None
     again = float(np.max(same.tension_peak[same.time >= same.time[0] + window.lead]))
     lands = LANDING in why
-    if abs(again / peak - 1.0) > SAME_EVENT and not lands:
+    if not again > 0.0 or (abs(again / peak - 1.0) > SAME_EVENT and not lands):
         return None
     found = check_peak(assembly, same, motions, line, window.begin, window.lead, chosen, progress)
     if found is None:
