@@ -140,7 +140,7 @@ def _solve_joints(
 @njit(cache=True, error_model="numpy", pointer=True)
 def march(
     y: Any, v: Any, a: Any, z: Any, first: int, steps: int, h: float, load: Any, body: Any, memory: Any, held: Any,
-    lines: Any, joints: Any, limit: float, saved: Any,
+    lines: Any, joints: Any, drag: Any, limit: float, saved: Any,
 ) -> tuple[int, int]:  # fmt: skip
     """Advance ``steps`` steps from step number ``first``; y, v, a, z change in place.
 
@@ -164,12 +164,15 @@ def march(
     joints : tuple
         Of every curve: motion of its far end from its near end by y (j, 3, r), direction (j, 3) and length (j,) at rest
         (zero: it keeps its direction); then points of all curves, where each begins, dashpots, sides.
+    drag : tuple
+        Rows (k, r) of the measures of the edges, coefficients (k,), motion of the waves in them (n, k).
     saved : tuple
         y, v, a (n, r), memory on the constraints (n, c), line force (n, m), tension (n, lines), force of joints (n, j).
     """
     inverse, damping, stiffness, basis, tangent, balanced = body
     decay, before, after, residues = memory
     holder, parameters, index, nodes, last = lines
+    edges, rough, water = drag
     apart_by, axes, spans, xs, fs, ends, dashpots, sides = joints
     r, k, m, j = y.size, decay.size, basis.shape[0], spans.size
     c = held.shape[1]
@@ -203,6 +206,14 @@ def march(
             for n in range(r):
                 total -= damping[i, n] * v_p[n] + stiffness[i, n] * y_p[n]
             right[i] = total
+        for e in range(rough.size):
+            # with the speed that the last acceleration leads to: as good as the step, and nothing to solve
+            speed_past = -water[number, e]
+            for n in range(r):
+                speed_past += edges[e, n] * (v[n] + h * a[n])
+            pulled = rough[e] * abs(speed_past) * speed_past
+            for n in range(r):
+                right[n] -= edges[e, n] * pulled
         for i in range(r):
             ahead[i] = y_p[i] + 0.25 * h * h * a[i]
         _draw(ahead, apart_by, axes, spans, drawn_next, along_next)
