@@ -21,6 +21,8 @@ _LETTERS = re.compile(r"[A-Za-z]+")
 _JAPANESE = "[\u3040-\u30ff\u3400-\u9fff]"
 _SCRIPTS = re.compile(f"{_JAPANESE}[A-Za-z0-9]|[A-Za-z0-9%°]{_JAPANESE}")
 _PARTICLE = re.compile("(?<=[\u3040-\u309f]) (?=\\{)|(?<=\\}) (?=[\u3040-\u309f])")
+_QUALIFIED = re.compile(r"(.*\S) \(([^()]+)\)( \[[^][]*\])?")  # a name, where it is taken, its unit
+_COUNTED = re.compile(r"(\S+ .*[A-Za-z)]) (-?\d[\d.]*(?: \S+)?)")  # a name of several words and its value
 _FORCE = re.compile(r"(?<=\} )[kM]?N(?![A-Za-z])")  # behind a place for its number
 _LONGEST = 12_000  # a text that is longer is no sentence
 _NAMELESS = frozenset(("a", "an", "the", "not", "each", "every", "all", "about", "up", "to"))
@@ -148,14 +150,34 @@ class Translator:
         """Return the best reading of a text and how many English words it leaves."""
         if text in self._known:
             return self._known[text]
-        if (exact := self._exact(text)) is not None:
+        if (exact := self._exact(text) or self._name_in_place(text)) is not None:
             found = exact, 0
+        elif (known := self._name_with_value(text)) is not None:
+            found = known, 0
         elif left := len(latin_words(text)):
             found = self._sentence(text, left) if text.endswith(".") else self._read(text, left)
         else:
             found = text, 0
         self._known[text] = found
         return found
+
+    def _name_in_place(self, text: str) -> str | None:
+        """Return a name that is known as a whole, with the known words in brackets behind it."""
+        if (match := _QUALIFIED.fullmatch(text)) and (name := self._exact(match[1])):
+            where, left = self._best(match[2])
+            unit = (match[3] or "").strip()
+            return f"{name}（{where}）{unit}" if left == 0 else None
+        return None
+
+    def _name_with_value(self, text: str) -> str | None:
+        """Return a name that is known as a whole with the number behind it: significant height 0.5 m."""
+        match = _COUNTED.fullmatch(text)
+        name = self._exact(match[1]) if match and not latin_words(match[2]) else None
+        return f"{name} {match[2]}" if match and name else None
+
+    def _is_name(self, value: str) -> bool:
+        """Whether a text is a name that is known as a whole, whatever marks stand in it."""
+        return value == value.strip() and (self._exact(value) or self._name_in_place(value)) is not None
 
     def _sentence(self, text: str, left: int) -> tuple[str, int]:
         """Return the best reading of a text that ends with a full stop."""
@@ -176,7 +198,7 @@ class Translator:
             if template.is_glue and len(text) > _GLUED:
                 continue
             for values in template_readings(template.source, template.order, text):
-                if not all(template.holds(*item) for item in values.items()):
+                if not all(template.holds(*item) or self._is_name(item[1]) for item in values.items()):
                     continue
                 read = {
                     number: (value, 0) if number in template.quoted else self._best(value)

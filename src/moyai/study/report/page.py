@@ -72,7 +72,7 @@ def compose(result: Result) -> Document:
         Section("matrix", "Load-case matrix", _matrix(pages, names)),
         Section("input", "Base case", (case_listing(root_of(result)),)),
     ]
-    axes = " x ".join(f"{len(axis.labels)} {axis.name.replace('_', ' ')}" for axis in pages.axes)
+    axes = " x ".join(f"{len(axis.labels)} {axis.words}" for axis in pages.axes)
     return page_of(result, f"Study of {len(pages.status)} cases: {axes}", sections)
 
 
@@ -123,7 +123,8 @@ def _summary(pages: StudyPages) -> tuple[Block, ...]:
             found = pages.response(one.component)
             unit = found[1] if found is not None else "1"
             label = found[2] if found is not None else one.component
-            title = label if label.startswith(("largest", "most", "least")) else f"largest {label}"
+            said_so = label.startswith(("largest", "highest", "most probable largest"))
+            title = label if said_so else f"{label}: largest of all cases"
             title = title[:1].upper() + title[1:]
             items.append(KeyFigure(title, format_quantity(one.value, unit), words))
     for group in _groups(pages, "long term"):
@@ -162,7 +163,7 @@ def _found(pages: StudyPages) -> tuple[Block, ...]:
         return ()
     columns = [Column("Case", [str(one.index) for one in found])]
     columns += [
-        Column(axis.name.replace("_", " "), [pages.labels(one.index)[n] for one in found], quantities=True)
+        Column(axis.head, [pages.labels(one.index)[n] for one in found], quantities=True)
         for n, axis in enumerate(pages.axes)
     ]
     if found[0].objective is not None:
@@ -195,7 +196,7 @@ def _governing(pages: StudyPages) -> tuple[Block, ...]:
             Column("Case", [str(one.index) for one in pages.governing]),
             *(
                 Column(
-                    axis.name.replace("_", " "),
+                    axis.head,
                     [pages.labels(one.index)[n] for one in pages.governing],
                     quantities=True,
                 )
@@ -290,7 +291,7 @@ def _along(pages: StudyPages, name: str) -> Figure | None:
     flat, unit, label = found
     axis = next(axis for axis in pages.axes if len(axis.labels) > 1)
     shown = display_unit(unit, flat)
-    short = _short(name, label)
+    short = _short(label)
     key = f"along-{name}".replace("/", "-").replace(" ", "-")
     if axis.values is None or len(set(axis.values)) < len(axis.values):
         series = Series(label, {}, flat * shown.factor, style="bar")
@@ -299,13 +300,13 @@ def _along(pages: StudyPages, name: str) -> Figure | None:
         return Figure(key, label, (), (Panel(short, shown.name, from_zero=True),), (series,), categories=axis.labels)
     order = np.argsort(axis.values)
     series = Series(label, {"axis": axis.values[order]}, flat[order] * shown.factor, style="line+points")
-    abscissa = Abscissa("axis", axis.name.replace("_", " "), "" if axis.unit == "1" else axis.unit)
+    abscissa = Abscissa("axis", axis.words, axis.sign or ("" if axis.unit == "1" else axis.unit))
     return Figure(key, label, (abscissa,), (Panel(short, shown.name),), (series,))
 
 
-def _short(name: str, label: str) -> str:
-    """Return words that fit next to an axis."""
-    return label if len(label) <= 40 else name.rpartition("/")[2].replace("_", " ")
+def _short(label: str) -> str:
+    """Return words that fit next to an axis, below a title that says the whole."""
+    return label if len(label) <= 40 else "value"
 
 
 def _exceedance(pages: StudyPages, name: str) -> Figure | None:
@@ -330,7 +331,7 @@ def _exceedance(pages: StudyPages, name: str) -> Figure | None:
         key,
         f"Exceedance: {label}",
         (Abscissa("share", what, "", True),),
-        (Panel(_short(name, label), shown.name),),
+        (Panel(_short(label), shown.name),),
         (series,),
     )
 
@@ -408,9 +409,7 @@ def _matrix(pages: StudyPages, names: tuple[str, ...]) -> tuple[Block, ...]:
         blocks.append(Paragraph(f"{len(chosen)} of {count} cases: failures and the largest. All are in study.csv."))
     columns = [Column("Case", [str(index) for index in chosen])]
     for n, axis in enumerate(pages.axes):
-        columns.append(
-            Column(axis.name.replace("_", " "), [pages.labels(int(index))[n] for index in chosen], quantities=True)
-        )
+        columns.append(Column(axis.head, [pages.labels(int(index))[n] for index in chosen], quantities=True))
     columns.append(
         Column("Status", [_WORDS.get(str(pages.status[index]), str(pages.status[index])) for index in chosen])
     )
