@@ -33,6 +33,8 @@ extensions = [
     "moving_picture",
     "report_pictures",
     "reproduced_papers",
+    "held_by_tests",
+    "measured_speed",
     "validation_results",
     "myst_parser",
     "sphinx.ext.autodoc",
