@@ -187,7 +187,7 @@ def test_speed_is_drawn_from_its_records() -> None:
     assert {row["state"] for row in rows} == {"first", "warm"} and len(rows) > 8
     assert all(row["exit"] == 0 and row["seconds"] > 0.0 for row in rows)
     drawn = ElementTree.fromstring(measured_speed.bars(rows))
-    widths = [float(one.get("width", "0")) for one in drawn.findall(f"{SVG}rect")][3:]
+    widths = [float(one.get("width", "0")) for one in drawn.findall(f"{SVG}rect")[3:]]
     ratios = [row["ratio"] for row in rows]
     assert len(widths) == len(rows)
     assert widths.index(max(widths)) == ratios.index(max(ratios))
