@@ -22,7 +22,7 @@ _JAPANESE = "[\u3040-\u30ff\u3400-\u9fff]"
 _SCRIPTS = re.compile(f"{_JAPANESE}[A-Za-z0-9]|[A-Za-z0-9%°]{_JAPANESE}")
 _PARTICLE = re.compile("(?<=[\u3040-\u309f]) (?=\\{)|(?<=\\}) (?=[\u3040-\u309f])")
 _QUALIFIED = re.compile(r"(.*\S) \(([^()]+)\)( \[[^][]*\])?")  # a name, where it is taken, its unit
-_COUNTED = re.compile(r"(\S+ .*[A-Za-z)]) (-?\d[\d.]*(?: \S+)?)")  # a name of several words and its value
+_COUNTED = re.compile(r"(\S.*[A-Za-z)]) (-?\d[\d.]*(?: \S+)?)")  # a name and its value
 _FORCE = re.compile(r"(?<=\} )[kM]?N(?![A-Za-z])")  # behind a place for its number
 _LONGEST = 12_000  # a text that is longer is no sentence
 _NAMELESS = frozenset(("a", "an", "the", "not", "each", "every", "all", "about", "up", "to"))
@@ -117,6 +117,7 @@ class Translator:
         messages = {**_in_tonnes(messages), **messages}
         self._whole = {source: target for source, target in messages.items() if "{0}" not in source}
         self._by_word: dict[str, list[_Template]] = {}
+        self._templates = frozenset(source for source in messages if "{0}" in source)
         templates = [_template(source, target) for source, target in messages.items() if "{0}" in source]
         count: dict[str, int] = {}
         for template in templates:
@@ -156,6 +157,8 @@ class Translator:
             found = known, 0
         elif left := len(latin_words(text)):
             found = self._sentence(text, left) if text.endswith(".") else self._read(text, left)
+            if found[1] and (known := self._name_with_value(text, several=False)):
+                found = known, 0
         else:
             found = text, 0
         self._known[text] = found
@@ -169,11 +172,15 @@ class Translator:
             return f"{name}（{where}）{unit}" if left == 0 else None
         return None
 
-    def _name_with_value(self, text: str) -> str | None:
-        """Return a name that is known as a whole with the number behind it: significant height 0.5 m."""
+    def _name_with_value(self, text: str, *, several: bool = True) -> str | None:
+        """Return a name (of several words) that is known as a whole with its number: significant height 0.5 m."""
         match = _COUNTED.fullmatch(text)
-        name = self._exact(match[1]) if match and not latin_words(match[2]) else None
-        return f"{name} {match[2]}" if match and name else None
+        if match is None or latin_words(match[2]) or (several and " " not in match[1]):
+            return None
+        if f"{match[1]} {{0}}" in self._templates:
+            return None  # at least 2 is no name
+        name = self._exact(match[1])
+        return f"{name} {match[2]}" if name else None
 
     def _is_name(self, value: str) -> bool:
         """Whether a text is a name that is known as a whole, whatever marks stand in it."""

@@ -108,6 +108,8 @@ def test_names_stand_whole_in_headings(kind: str) -> None:
 
 def test_a_case_in_words() -> None:
     with spoken_in("ja"):
+        assert said("at least 2.00") == "2.00 以上"
+        assert said("diameter 0.7 m, water depth 15 m") == "直径 0.7 m、水深 15 m"
         assert (
             said("significant height 0.5 m, heading 15°, lost line seaward")
             == "有義波高 0.5 m、進行方向 15°、切れた索 沖側"

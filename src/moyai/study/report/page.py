@@ -109,7 +109,7 @@ def _summary(pages: StudyPages) -> tuple[Block, ...]:
     run = counts["run"] + counts["run with doubts"]
     detail = ", ".join(f"{count} {word}" for word, count in counts.items() if count and word != "run")
     judgement: Any = "good" if run == len(pages.status) and not counts["run with doubts"] else "caution"
-    items = [KeyFigure("Cases", f"{run} of {len(pages.status)}", detail or "all ran", judgement=judgement)]
+    items = [KeyFigure("Cases", f"{run} of {len(pages.status)} cases", detail or "all ran", judgement=judgement)]
     items += [_found_card(pages, one) for one in found_by_search(pages.result)[:_MOST_CARDS]]
     utilised = pages.result.tree.attrs.get("governing_kind", "") == "utilisation"
     # of a search its answers stand in their place
