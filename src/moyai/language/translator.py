@@ -91,6 +91,8 @@ class _Template:
         first = (
             not self.source[0] and number == self.order[0]
         )  # what stands before a colon is the place of the sentence
+        if value.endswith((";", ":")):
+            return False
         return not any(mark in value for mark in (_GLUE_ENDS if self.is_glue else _ENDS[: 3 if first else 2]))
 
     def filled(self, values: dict[int, str]) -> str:
@@ -157,8 +159,6 @@ class Translator:
             found = known, 0
         elif left := len(latin_words(text)):
             found = self._sentence(text, left) if text.endswith(".") else self._read(text, left)
-            if found[1] and (known := self._name_with_value(text, several=False)):
-                found = known, 0
         else:
             found = text, 0
         self._known[text] = found
@@ -191,6 +191,12 @@ class Translator:
         read, cost = self._best(text[:-1])
         return (f"{read}{self._stop}", cost) if cost < left else (text, left)
 
+    def _part(self, value: str, alone: bool) -> tuple[str, int]:
+        """Return the best reading of what stands in a place; a part that stands alone may be a name with its value."""
+        found = self._best(value)
+        known = self._name_with_value(value, several=False) if found[1] and alone else None
+        return found if known is None else (known, 0)
+
     def _exact(self, text: str) -> str | None:
         for form in (text, text[:1].lower() + text[1:], text[:1].upper() + text[1:]):
             if form in self._whole:
@@ -208,7 +214,7 @@ class Translator:
                 if not all(template.holds(*item) or self._is_name(item[1]) for item in values.items()):
                     continue
                 read = {
-                    number: (value, 0) if number in template.quoted else self._best(value)
+                    number: (value, 0) if number in template.quoted else self._part(value, template.is_separator)
                     for number, value in values.items()
                 }
                 rest = sum(cost for _, cost in read.values())

@@ -241,10 +241,10 @@ def test_two_hinged_bodies_with_a_slack_chain_against_a_plain_program(hydro, mem
     assert pull.max() > 1e5
     assert (pull == 0.0).mean() > 0.3
     assert np.abs(run.position - position).max() < 0.01 * np.abs(position).max()
-    assert np.abs(run.joint_force[:, 0] - pull).max() < 0.02 * pull.max()
+    assert np.abs(run.link_force[:, 0] - pull).max() < 0.02 * pull.max()
     # the largest loads: the records differ by the time of an impact
     assert np.abs(np.abs(run.held).max(axis=0) - np.abs(held).max(axis=0)).max() < 0.01 * np.abs(held).max()
-    assert run.joint_force.max() == pytest.approx(pull.max(), rel=0.01)
+    assert run.link_force.max() == pytest.approx(pull.max(), rel=0.01)
 
 
 def test_a_row_that_is_let_go_never_has_more_energy_than_at_first(memory):
@@ -261,12 +261,12 @@ def test_a_row_that_is_let_go_never_has_more_energy_than_at_first(memory):
     curve = at.joints[0].connector.curve
     elongation = run.position @ at.joints[0].along
     stored = np.where(elongation < -0.01, 0.5 * 1e7 * (elongation + 0.01) ** 2, 0.0)
-    assert np.allclose(run.joint_force[:, 0], np.minimum(curve.at(elongation), 0.0), atol=1.0)
+    assert np.allclose(run.link_force[:, 0], np.minimum(curve.at(elongation), 0.0), atol=1.0)
     pull = [system.tensions(run.position[:, 6 * n : 6 * n + 6])[:, 0] for n, system in enumerate(at.systems)]
     stored = stored + sum(0.5 * one**2 / 1e5 for one in pull)
     kinetic = 0.5 * np.einsum("ti,ij,tj->t", run.velocity, model.mass, run.velocity)
     total = kinetic + 0.5 * np.einsum("ti,ij,tj->t", run.position, at.hydrostatic, run.position) + stored
-    assert run.joint_force.min() < -1e4
+    assert run.link_force.min() < -1e4
     assert total.max() <= total[0] * (1.0 + 1e-3)
     assert total[-1] < 0.5 * total[0]
 

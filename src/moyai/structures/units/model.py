@@ -92,8 +92,8 @@ class Connector:
     name : str
     kind : str
         ``rigid`` holds all six relative motions, ``hinge`` all but the turn about its axis, ``ball`` the three
-        translations; ``spring`` has stiffness and damping of 6 x 6; ``rubber``, ``chain`` and ``fender`` act along one
-        direction with a curve of force over elongation.
+        translations; ``spring`` has stiffness and damping of 6 x 6; ``rubber``, ``chain`` and ``fender`` have a
+        curve of force over elongation, along one direction or from end to end.
     pairs : tuple of (int, int)
         Units that it joins, counted from 0.
     x, above_keel : float
@@ -109,6 +109,8 @@ class Connector:
         Largest resultant force [N]; infinite where it is not known.
     endurance : EnduranceCurve or None
         Cycles that it bears over the range of its force [N].
+    end_to_end : bool
+        Whether chain or rubber is drawn between its ends in space; else a curve acts along ``axis`` alone.
     """
 
     name: str
@@ -123,6 +125,7 @@ class Connector:
     linear_damping: float = 0.0
     breaking_load: float = math.inf
     endurance: EnduranceCurve | None = None
+    end_to_end: bool = False
 
 
 @dataclass(frozen=True)

@@ -156,7 +156,7 @@ def _joint_loads(
         if connector.curve is not None:
             elongation = motion @ joint.along
             force = (curve[..., number] - 1j * omega[:, None] * connector.linear_damping) * elongation
-            out[..., number, :3] += force[..., None] * np.asarray(connector.axis)
+            out[..., number, :3] += force[..., None] * joint.axis
     return out
 
 

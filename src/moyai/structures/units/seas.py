@@ -154,7 +154,7 @@ def regular_answer(
         row = int(np.argmin(np.abs(hydro.omega - omega[0])))
         drift, pushed = np.zeros(3), np.zeros(at.size)
         rest = steady_position(at, steady)
-        curves, converged, relaxed = np.zeros(len(at.joints)), False, _Relaxed(len(at.joints))
+        curves, converged, mixed = np.zeros(len(at.joints)), False, _Mixed()
         for _ in range(_TURNS):
             model = RowModel(at, hydro, rest.position)
             found = respond(model, hydro.omega[[row]], curves)
@@ -162,7 +162,7 @@ def regular_answer(
             new = np.array(
                 [
                     0.0 if joint.connector.curve is None else harmonic_stiffness(
-                        joint.connector.curve, float(joint.along @ rest.position),
+                        joint.connector.curve, joint.elongation(rest.position),
                         amplitude * float(np.abs(found.motion[0, column[0]] @ joint.along)),
                     )
                     for joint in at.joints
@@ -176,10 +176,10 @@ def regular_answer(
                 near = near_drift(model, coarse, np.array([row]), column)
                 moved = amplitude**2 * reconciled(at, near, whole[[row]][:, column])[0, 0]
             settled = _near(new, curves) and _near(moved, pushed)
-            curves, pushed = relaxed.towards(curves, new), moved
             if settled:
-                converged = True
+                curves, pushed, converged = new, moved, True
                 break
+            curves, pushed = mixed.towards(curves, pushed, new, moved)
             rest = steady_position(at, steady + pushed)
         model = RowModel(at, hydro, rest.position)
         coarse = respond(model, hydro.omega, curves)
@@ -201,19 +201,43 @@ def _picked(response: RowResponse, row: int, columns: Array) -> RowResponse:
     )  # fmt: skip
 
 
-class _Relaxed:
-    """Steps of a fixed-point iteration, each entry by itself: shorter when it turns back, longer when it goes on."""
+class _Mixed:
+    """Fixed-point iteration of stiffnesses and drift together, mixed after Anderson from its last steps.
 
-    def __init__(self, count: int) -> None:
-        self._factor, self._last = np.full(count, 0.5), np.zeros(count)
+    Stiffnesses and forces are each measured by their largest; a stiffness never falls below zero.
+    """
 
-    def towards(self, old: Array, new: Array) -> Array:
-        """Return the next value between the old one and what it leads to."""
-        step = new - old
-        back = step * self._last < 0.0
-        self._factor = np.where(back, 0.5 * self._factor, np.minimum(1.2 * self._factor, 1.0))
-        self._last = step
-        return np.asarray(old + self._factor * step)
+    def __init__(self, depth: int = 5) -> None:
+        self._depth = depth
+        self.forget()
+
+    def forget(self) -> None:
+        """Start anew, where the map itself has changed."""
+        self._points: list[Array] = []
+        self._steps: list[Array] = []
+
+    def towards(self, curves: Array, pushed: Array, new_curves: Array, new_pushed: Array) -> tuple[Array, Array]:
+        """Return the next stiffnesses and drift from the last and what they lead to."""
+        count = len(curves)
+        scale = np.concatenate(
+            [
+                np.full(len(part), max(float(np.max(np.abs(part), initial=0.0)), 1e-12))
+                for part in (new_curves, new_pushed)
+            ]
+        )
+        point = np.concatenate([curves, pushed])
+        step = np.concatenate([new_curves, new_pushed]) - point
+        self._points = [*self._points, point][-self._depth :]
+        self._steps = [*self._steps, step][-self._depth :]
+        # half a step alone, where there is nothing to mix: a curve that comes tight turns back
+        found = point + np.where(np.arange(len(step)) < count, 0.5, 1.0) * step
+        if len(self._steps) > 1:
+            changes = np.diff(self._steps, axis=0).T / scale[:, None]
+            moves = np.diff(self._points, axis=0).T
+            share = np.linalg.lstsq(changes, step / scale, rcond=1e-6)[0]
+            found = point + step - (moves + changes * scale[:, None]) @ share
+        found[:count] = np.maximum(found[:count], 0.0)
+        return found[:count], found[count:]
 
 
 def _near(new: Array, old: Array) -> bool:
@@ -244,7 +268,7 @@ def irregular_answer(
     drift, pushed = np.zeros(3), np.zeros(at.size)
     unit_drift = np.zeros((len(hydro.omega), len(headings), at.size))
     curves, converged = np.zeros(len(at.joints)), False
-    relaxed = _Relaxed(len(at.joints))
+    mixed = _Mixed()
     rest = steady_position(at, steady)
     near, fresh = None, False
     for turn in range(_TURNS):
@@ -253,7 +277,7 @@ def irregular_answer(
         new = np.array(
             [
                 0.0 if joint.connector.curve is None else gaussian_stiffness(
-                    joint.connector.curve, float(joint.along @ rest.position),
+                    joint.connector.curve, joint.elongation(rest.position),
                     float(response_statistics(omega, fine.motion @ joint.along, density).standard_deviation),
                 )
                 for joint in at.joints
@@ -270,10 +294,12 @@ def irregular_answer(
             drift = np.einsum("f,fh,fhc->c", 2.0 * weights, coarse_density, whole)
             moved = np.einsum("f,fh,fhm->m", 2.0 * weights, coarse_density, unit_drift)
         settled = _near(new, curves) and _near(moved, pushed)
-        curves, pushed = relaxed.towards(curves, new), moved
         if settled and (fresh or near is None):
-            converged = True
+            curves, pushed, converged = new, moved, True
             break
+        if fresh:
+            mixed.forget()
+        curves, pushed = mixed.towards(curves, pushed, new, moved)
         near, fresh = (None if settled else near), False
         rest = steady_position(at, steady + pushed)
     model = RowModel(at, one, rest.position)

@@ -169,7 +169,10 @@ def connector_of(entry: Any, count: int) -> Connector:
     else:
         reach = entry.clearance + _REACH
         curve = Curve((-reach, -entry.clearance, reach), (-entry.stiffness * _REACH, 0.0, 0.0))
-    return Connector(**base, axis=_axis(entry.direction), curve=curve, linear_damping=entry.damping)
+    return Connector(
+        **base, axis=_axis(entry.direction or "y"), curve=curve, linear_damping=entry.damping,
+        end_to_end=entry.direction is None,
+    )  # fmt: skip
 
 
 def _endurance(given: joints.Endurance | None) -> EnduranceCurve | None:
