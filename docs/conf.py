@@ -34,6 +34,7 @@ extensions = [
     "report_pictures",
     "reproduced_papers",
     "held_by_tests",
+    "japanese_lines",
     "measured_speed",
     "validation_results",
     "myst_parser",

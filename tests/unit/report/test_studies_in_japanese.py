@@ -22,6 +22,8 @@ from moyai.language.catalogue import catalogue
 from moyai.language.words import latin_words
 from moyai.report.language import in_the_language
 from moyai.report.writer import compose_document
+from moyai.study.report.page import interesting
+from moyai.study.report.reading import read_study
 
 STRUCTURES = {
     "breakwater": "breakwater", "curtain": "curtain", "flexible cage": "cage", "member": "member",
@@ -128,3 +130,16 @@ def test_the_title_of_a_study_is_printed_as_it_is(tmp_path: Path) -> None:
     )
     assert run.exit_code == 0, run.output
     assert "Spacing of the member: 1 ケース（直径：1）\n" in run.output and "1 ケース中 1 ケースを計算" in run.output
+
+
+def test_what_is_rounding_alone_is_not_watched() -> None:
+    """The moment about the middle of a member that is symmetric is 1e-11 N m, and varies by all of it."""
+    moments = [one for one in variables("member") if one.units == "N m"][:3]
+    result = study("member", moments)
+    group = result.tree["/SWL/waves/storm"].to_dataset(inherit=False)
+    names = list(group.data_vars)
+    group[names[0]] = group[names[0]] * 1e-13
+    result.tree["/SWL/waves/storm"] = xr.DataTree(group)
+    result.tree.attrs["watch"] = ""
+    assert f"SWL/waves/storm/{names[0]}" not in interesting(read_study(result))
+    assert f"SWL/waves/storm/{names[1]}" in interesting(read_study(result))

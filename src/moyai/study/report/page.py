@@ -40,6 +40,7 @@ _FITTED = {
     "acer": "Average conditional exceedance of the peaks, tail fitted by least squares",
 }
 _MOST_ROWS, _MOST_CARDS = 500, 5
+_ROUNDING = 1e-12  # of the largest value with the same unit
 _WORDS = {
     "converged": "run",
     "outside_validity": "run with doubts",
@@ -81,6 +82,8 @@ def interesting(pages: StudyPages, most: int = 6) -> tuple[str, ...]:
     tree = pages.result.tree
     dims = {axis.name for axis in pages.axes}
     found: list[tuple[int, str, float, float, str]] = []
+    units: dict[str, str] = {}
+    sizes: dict[str, float] = {}  # of each unit: a moment of 1e-11 N m next to those of 1e4 is rounding
     wanted = ("utilisation", "maximum", "transmission", "significant", "limit", "objective")
     for node in tree.subtree:
         for name, variable in node.data_vars.items():
@@ -94,8 +97,12 @@ def interesting(pages: StudyPages, most: int = 6) -> tuple[str, ...]:
                 continue
             spread = float(np.ptp(known) / (np.abs(known).max() or 1.0))
             rank = next((number for number, word in enumerate(wanted) if word in str(name)), len(wanted))
+            unit = str(variable.attrs.get("units", ""))
+            sizes[unit] = max(sizes.get(unit, 0.0), float(np.abs(known).max()))
             if spread > 1e-9 or rank < 1:
                 found.append((rank, str(name), spread, float(known.max()), full))
+                units[full] = unit
+    found = [one for one in found if abs(one[3]) >= _ROUNDING * sizes[units[one[4]]]]
     varies = {name: max(one[2] for one in found if one[1] == name) for _, name, *_ in found}
     # of like responses of several levels and seas that of the largest value comes first
     found.sort(key=lambda one: (one[0] - 0.5 * min(varies[one[1]], 1.0), one[1], -one[3], one[4]))
