@@ -24,6 +24,30 @@ _PARTICLE = re.compile("(?<=[\u3040-\u309f]) (?=\\{)|(?<=\\}) (?=[\u3040-\u309f]
 _QUALIFIED = re.compile(r"(.*\S) \(([^()]+)\)( \[[^][]*\])?")  # a name, where it is taken, its unit
 _COUNTED = re.compile(r"(\S.*[A-Za-z)]) (-?\d[\d.]*(?: \S+)?)")  # a name and its value
 _FORCE = re.compile(r"(?<=\} )[kM]?N(?![A-Za-z])")  # behind a place for its number
+_COUNTER = re.compile(r"\{(\d)\} ?(?:個|本|件|回|枚|基|台|行|列)(?![所分数目])")
+_DIGIT = re.compile(r"\d")
+_NUMERALS = frozenset(
+    [
+        "a",
+        "an",
+        "one",
+        "two",
+        "three",
+        "four",
+        "five",
+        "six",
+        "seven",
+        "eight",
+        "nine",
+        "ten",
+        "no",
+        "some",
+        "several",
+        "many",
+        "few",
+        "all",
+    ]
+)
 _LONGEST = 12_000  # a text that is longer is no sentence
 _NAMELESS = frozenset(("a", "an", "the", "not", "each", "every", "all", "about", "up", "to"))
 _GLUED = 160  # characters of a phrase that is taken apart at its prepositions
@@ -42,6 +66,8 @@ class _Template:
     words: frozenset[str]
     #: Places between quotation marks: keys and names, which are copied.
     quoted: frozenset[int]
+    #: Places for a number, behind which a word of counting stands in the target.
+    counted: frozenset[int]
 
     @property
     def weight(self) -> int:
@@ -84,6 +110,8 @@ class _Template:
             return False
         if number in self.quoted:
             return "'" not in value
+        if number in self.counted and not (_DIGIT.search(value) or value.split(" ")[0] in _NUMERALS):
+            return False
         if self.is_separator:
             return True
         if self.source[0].count(" ") > 1 and self.source[0] in value:
@@ -292,7 +320,8 @@ def _template(source: str, target: str) -> _Template:
     said, said_order = literals(_PARTICLE.sub("", target))
     words = frozenset(word.lower() for part in parts for word in _LETTERS.findall(part))
     quoted = (n for n, a, b in zip(order, parts, parts[1:], strict=False) if a.endswith("'") and b.startswith("'"))
-    return _Template(parts, order, said, said_order, words, frozenset(quoted))
+    counted = frozenset(int(number) for number in _COUNTER.findall(target))
+    return _Template(parts, order, said, said_order, words, frozenset(quoted), counted)
 
 
 @cache
