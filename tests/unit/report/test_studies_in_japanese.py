@@ -20,6 +20,7 @@ from moyai.core.vocabulary_page import vocabularies
 from moyai.language import said, spoken_in
 from moyai.language.catalogue import catalogue
 from moyai.language.words import latin_words
+from moyai.report.document import Table
 from moyai.report.language import in_the_language
 from moyai.report.writer import compose_document
 from moyai.study.report.page import interesting
@@ -143,3 +144,12 @@ def test_what_is_rounding_alone_is_not_watched() -> None:
     result.tree.attrs["watch"] = ""
     assert f"SWL/waves/storm/{names[0]}" not in interesting(read_study(result))
     assert f"SWL/waves/storm/{names[1]}" in interesting(read_study(result))
+
+
+def test_the_governing_value_is_in_the_units_of_the_reader() -> None:
+    (force,) = [one for one in variables("member") if one.name == "maximum_total_force"]
+    document = compose_document(study("member", [force]), language="ja", units="tf")
+    (table,) = [block for block in document.blocks() if getattr(block, "key", "") == "governing"]
+    assert isinstance(table, Table)
+    value = next(column for column in table.columns if column.label == "Value")
+    assert value.quantities and str(value.values[0]).endswith("kgf")

@@ -198,8 +198,9 @@ def _governing(pages: StudyPages) -> tuple[Block, ...]:
         utilised = pages.result.tree.attrs.get("governing_kind", "") == "utilisation"
         columns = [
             Column("Component", [one.component for one in pages.governing]),
-            Column("Utilisation" if utilised else "Value", [one.value for one in pages.governing], fixed=True),
-            *([] if utilised else [Column("Unit", _units(pages))]),
+            Column("Utilisation", [one.value for one in pages.governing], fixed=True)
+            if utilised
+            else Column("Value", _governing_values(pages), quantities=True),
             Column("Case", [str(one.index) for one in pages.governing]),
             *(
                 Column(
@@ -249,9 +250,11 @@ def _governing(pages: StudyPages) -> tuple[Block, ...]:
     return tuple(blocks)
 
 
-def _units(pages: StudyPages) -> list[str]:
+def _governing_values(pages: StudyPages) -> list[str]:
+    """Return the governing values with their units, which differ from row to row."""
     found = [pages.response(one.component) for one in pages.governing]
-    return [one[1] if one is not None else "" for one in found]
+    units = [one[1] if one is not None else "1" for one in found]
+    return [format_quantity(one.value, unit) for one, unit in zip(pages.governing, units, strict=True)]
 
 
 def _verdict(utilisation: float) -> str:
