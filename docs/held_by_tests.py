@@ -114,19 +114,27 @@ def _with_helpers(node: ast.FunctionDef, functions: dict[str, ast.FunctionDef]) 
 def allowed(tests: tuple[Test, ...]) -> str:
     """Return what the assertions of tests allow: the tightest and the widest; exact where they state nothing."""
     found: dict[str, set[float]] = {"": set(), "rel ": set(), "abs ": set()}
-    raises = False
+    raises = bounded = False
     for test in tests:
         for part in test.parts:
             for node in ast.walk(part):
                 for kind, value in _bounds(node):
                     found[kind].add(value)
                 raises = raises or (isinstance(node, ast.Attribute) and node.attr in ("raises", "warns"))
+                bounded = bounded or (isinstance(node, ast.Assert) and any(map(_is_order, ast.walk(node))))
     texts = []
     for kind, values in found.items():
         if values:
             least, most = min(values), max(values)
             texts.append(f"{kind}{_text(least)}" + (f" to {_text(most)}" if most > least else ""))
-    return "; ".join(texts) or ("refused" if raises else "exact")
+    return "; ".join(texts) or ("a bound in the test" if bounded else "refused" if raises else "exact")
+
+
+def _is_order(node: ast.AST) -> bool:
+    """Whether a node compares sizes."""
+    return isinstance(node, ast.Compare) and any(
+        isinstance(one, ast.Lt | ast.LtE | ast.Gt | ast.GtE) for one in node.ops
+    )
 
 
 def _text(value: float) -> str:
@@ -199,7 +207,7 @@ class HeldByTests(SphinxDirective):
         self.env.note_dependency(__file__)
         held: Any = nodes.container(classes=["held-by-tests"])
         self.state.nested_parse(StringList(lines, source=str(self.env.docname)), self.content_offset, held)
-        return list(held.children)
+        return [held]
 
 
 def setup(app: Sphinx) -> dict[str, bool]:

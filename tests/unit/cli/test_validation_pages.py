@@ -165,6 +165,10 @@ def test_second():
     assert len([]) < 5
 def test_refused():
     with pytest.raises(ValueError): raise ValueError
+def test_ordered():
+    assert 1 < LIMIT * 1000
+def test_equal():
+    assert 1 == 1
 """
 
 
@@ -176,7 +180,9 @@ def test_what_tests_allow_is_read_from_them(tmp_path: Path, monkeypatch: pytest.
         "1e-7; rel 0.001; abs 0.0002"
     )
     assert held_by_tests.allowed(held_by_tests.chosen("test_it.py -k refused")) == "refused"
-    assert len(held_by_tests.chosen('test_it.py -k "not (first or second)"')) == 1
+    assert held_by_tests.allowed(held_by_tests.chosen("test_it.py -k ordered")) == "a bound in the test"
+    assert held_by_tests.allowed(held_by_tests.chosen("test_it.py -k equal")) == "exact"
+    assert len(held_by_tests.chosen('test_it.py -k "not (first or second)"')) == 3
     assert held_by_tests.chosen("test_it.py -k third") == ()
     row = held_by_tests.read_rows(["within 77 of 0.003 | none | test_it.py -k first"])[0]
     assert held_by_tests.numbers_that_no_test_has(row) == ["77"]
