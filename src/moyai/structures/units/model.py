@@ -189,6 +189,8 @@ class FloatingRow:
         Fraction of critical damping of every motion of a unit, beyond wave radiation.
     linear_damping : ndarray (6,)
         Damping of a unit beyond wave radiation [N s/m, N m s].
+    viscous_factor : float
+        What the damping by eddies at the edges of the section is multiplied with; 0 where it is not computed.
     gap_damping_lid : float
         epsilon of the lids in the gaps; 0 for none.
     wind_drag_coefficient, current_drag_coefficient : float or None
@@ -204,6 +206,7 @@ class FloatingRow:
     lines: tuple[UnitLine, ...] = ()
     damping_fraction: Array = field(default_factory=lambda: np.zeros(6))
     linear_damping: Array = field(default_factory=lambda: np.zeros(6))
+    viscous_factor: float = 0.0
     gap_damping_lid: float = 0.0
     wind_drag_coefficient: float | None = None
     current_drag_coefficient: float | None = None
@@ -216,13 +219,15 @@ class FloatingRow:
     def damped(self, factor: float) -> FloatingRow:
         """Return the row with its damping beyond wave radiation times a factor."""
         return replace(
-            self, damping_fraction=factor * self.damping_fraction, linear_damping=factor * self.linear_damping
-        )
+            self, damping_fraction=factor * self.damping_fraction, linear_damping=factor * self.linear_damping,
+            viscous_factor=factor * self.viscous_factor,
+        )  # fmt: skip
 
     @property
     def damping_band(self) -> tuple[float, ...]:
         """Factors on the damping that answers are given a band for, those of a single breakwater; none without it."""
-        return DAMPING_BAND if np.any(self.damping_fraction) or np.any(self.linear_damping) else ()
+        own = np.any(self.damping_fraction) or np.any(self.linear_damping) or self.viscous_factor > 0.0
+        return DAMPING_BAND if own else ()
 
 
 @dataclass(frozen=True)

@@ -19,6 +19,7 @@ from moyai.structures.units.connectors import Joint, spring_matrices
 from moyai.structures.units.response import own_damping
 from moyai.structures.units.time import kernel
 from moyai.structures.units.time.memory import RowMemory, check_mass
+from moyai.structures.units.viscous import Eddies, eddies_of
 
 Status = Literal["converged", "diverged", "interrupted"]
 #: A motion beyond this many lengths of a unit is lost
@@ -65,6 +66,11 @@ class RowInTime:
         return np.asarray(own_damping(at, added, restoring)[0] + spring_matrices(linear, at.size)[1])
 
     @cached_property
+    def eddies(self) -> Eddies | None:
+        """Edges that shed eddies, where the case computes them."""
+        return eddies_of(self.at)
+
+    @cached_property
     def stiffness(self) -> Array:
         """Stiffness (m, m) of buoyancy and springs; lines and curves apart."""
         return np.asarray(self.at.hydrostatic + self.at.springs[0])
@@ -81,7 +87,7 @@ class RowInTime:
         free, fastest = self.at.free, 0.0
         mass = np.linalg.inv(free.T @ self.mass @ free)
         for link in self.at.links:
-            ends = link.ends @ free
+            ends = link.rows(np.zeros(self.at.size)) @ free
             mobility = ends @ mass @ ends.T
             # a line in space is pulled whichever way the units move apart
             light = link.axis @ mobility @ link.axis if link.span == 0.0 else np.linalg.eigvalsh(mobility)[-1]
@@ -97,11 +103,13 @@ class RowInTime:
         return holder, packed.parameters, packed.index, packed.nodes, np.zeros(len(every))
 
     def _joints(self) -> tuple[Any, ...]:
-        links, free = self.at.links, self.at.free
+        links = self.at.links
         xs = [np.zeros(0), *(np.array(link.curve.elongation, dtype=float) for link in links)]
         fs = [np.zeros(0), *(np.array(link.curve.force, dtype=float) for link in links)]
         return (
-            np.array([link.ends @ free for link in links]).reshape(len(links), 3, free.shape[1]),
+            np.array([link.pair for link in links], dtype=np.int64).reshape(len(links), 2),
+            np.array([link.arms for link in links], dtype=float).reshape(len(links), 2, 3),
+            np.array([link.bend for link in links], dtype=float),
             np.array([link.axis for link in links], dtype=float).reshape(len(links), 3),
             np.array([link.span for link in links], dtype=float), np.concatenate(xs), np.concatenate(fs),
             np.cumsum([len(x) for x in xs]), np.array([link.damping for link in links], dtype=float),
@@ -109,8 +117,9 @@ class RowInTime:
         )  # fmt: skip
 
     def run(
-        self, load: Array, step: float, *, start: Array | None = None, progress: Progress = silent, name: str = ""
-    ) -> RowRun:
+        self, load: Array, step: float, *, water: Array | None = None, start: Array | None = None,
+        progress: Progress = silent, name: str = "",
+    ) -> RowRun:  # fmt: skip
         """Integrate the row under given forces.
 
         Parameters
@@ -119,6 +128,8 @@ class RowInTime:
             Forces at the times ``step * arange(n)``, row axes; memory, buoyancy, lines and connectors apart.
         step : float
             [s].
+        water : ndarray (n, k) or None
+            Motion of the waves in the measures of the edges; still water without.
         start : ndarray (m,) or None
             Position from which it is let go; ``position`` without.
         progress : Progress
@@ -147,12 +158,26 @@ class RowInTime:
         v, z = np.zeros(size), np.zeros((len(poles), size), dtype=complex)
         self._first(load[0], y, mass, saved)
         a = saved[2][0].copy()
+        eddies = self.eddies
+        moving = np.zeros((count, 0 if eddies is None else len(eddies.points))) if water is None else water
+        rows = np.zeros((0, size)) if eddies is None else eddies.drag.directions @ free
+        drag = (np.ascontiguousarray(rows), np.zeros(0) if eddies is None else eddies.drag.coefficients, moving)
         body = (
             np.ascontiguousarray(inverse), np.ascontiguousarray(damping), np.ascontiguousarray(stiffness),
             np.ascontiguousarray(free), np.ascontiguousarray(tangent), self.balanced,
         )  # fmt: skip
         given = np.ascontiguousarray(load @ free)
-        arguments = (given, body, (decay, before, after, reduced), held, lines, joints, LIMIT * at.row.length, saved)
+        arguments = (
+            given,
+            body,
+            (decay, before, after, reduced),
+            held,
+            lines,
+            joints,
+            drag,
+            LIMIT * at.row.length,
+            saved,
+        )
         done, status, message = _driven(
             lambda first, steps: kernel.march(y, v, a, z, first, steps, step, *arguments), count - 1, step, progress,
             name,
@@ -161,7 +186,7 @@ class RowInTime:
         y_s, v_s, a_s, memory_s, line_s, tension_s, link_s = (item[:end] for item in saved)
         return RowRun(
             self, np.asarray(step * np.arange(end), dtype=float), load[:end], y_s, v_s, a_s, memory_s, line_s,
-            tension_s, link_s, step, status, message,
+            tension_s, link_s, step, status, message, moving,
         )  # fmt: skip
 
     def _first(self, load: Array, y: Array, mass: Array, saved: tuple[Array, ...]) -> None:
@@ -234,6 +259,8 @@ class RowRun:
         Of the curves of connectors, pulling positive.
     time_step : float
     status, message : str
+    water : ndarray (n, k)
+        Motion of the waves in the measures of the edges.
     """
 
     model: RowInTime
@@ -249,6 +276,7 @@ class RowRun:
     time_step: float
     status: Status
     message: str
+    water: Array
 
     @cached_property
     def position(self) -> Array:
@@ -265,6 +293,10 @@ class RowRun:
         left -= self.acceleration @ (free.T @ model.mass) + self.velocity @ (free.T @ model.damping)
         if model.at.line_names:
             left += self.line_force - model.balanced
+        if model.eddies is not None:
+            drag = model.eddies.drag
+            measure = self.velocity @ (free.T @ drag.directions.T) - self.water[: len(self.time)]
+            left -= (drag.coefficients * np.abs(measure) * measure) @ drag.directions
         for number, link in enumerate(model.at.links):
             left -= self.link_force[:, [number]] * link.along(self.position)
         return np.asarray(held_load(model.at, left) - self.held_memory)
