@@ -2,10 +2,40 @@
 
 from __future__ import annotations
 
+import math
+
 from moyai.core.validity import Notice
 from moyai.floating.statics import Hydrostatics
 
 IMBALANCE_LIMIT = 1.0
+
+
+def roll_notices(roll: float, *, freeboard: float, draught: float, beam: float, where: str) -> tuple[Notice, ...]:
+    """Check that a roll keeps the waterline of linear restoring.
+
+    Parameters
+    ----------
+    roll : float
+        Largest amplitude [rad].
+    freeboard, draught, beam : float
+        Of the body at rest [m].
+    where : str
+        Level and sea.
+    """
+    deck, bilge = math.atan2(2.0 * freeboard, beam), math.atan2(2.0 * draught, beam)
+    limit = min(deck, bilge)
+    if not roll > limit > 0.0:
+        return ()
+    what = "puts the deck edge under water" if deck <= bilge else "lifts the bilge out of the water"
+    return (
+        Notice(
+            "roll-beyond-linear",
+            f"{where}: a roll of {math.degrees(roll):.3g} deg {what}, which begins at {math.degrees(limit):.3g} deg; "
+            "restoring is linear and goes on straight: roll, and tensions in this sea, are rough",
+            value=roll, limit=limit, severity="warning",
+            remedy="raise the deck, widen the section or damp roll",
+        ),
+    )  # fmt: skip
 
 
 def check_statics(statics: Hydrostatics, *, vertical_pull: float, gravity: float) -> tuple[Notice, ...]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from scipy.integrate import solve_ivp
 from moyai.sea.environment import Environment
 from moyai.structures.units.assembly import RowAtLevel, assemble, steady_position
 from moyai.structures.units.connectors import stretch
+from moyai.structures.units.datasets import along_the_path
 from moyai.structures.units.links import PULLS, PUSHES, Work, displacement, part_of
 from moyai.structures.units.model import Connector, Curve, Placement, UnitLine
 from moyai.structures.units.time.memory import RowMemory
@@ -270,3 +272,15 @@ def test_a_chain_that_is_worked_rests_in_its_slack() -> None:
         lines = at.line_force(rest.position) - at.line_force(np.zeros(12))
         assert np.abs((load - pull + lines - at.hydrostatic @ rest.position)[[1, 7]]).max() < 200.0
     assert found[0] > found[1] > found[2] and found[0] > SLACK
+
+
+def test_lines_at_rest_along_the_motion_see_what_the_tangent_does_not() -> None:
+    """A level spring of 60 m whose end heaves by 3 m is drawn by the hypotenuse; its tangent knows nothing of heave."""
+    at = at_rest(springs=2e4)
+    motion = np.zeros((1, 1, 12), dtype=complex)
+    motion[0, 0, 2] = motion[0, 0, 8] = 2.0 * np.exp(0.7j)
+    answer = SimpleNamespace(rest=SimpleNamespace(position=np.zeros(12)), fine=SimpleNamespace(motion=motion))
+    found = along_the_path(at, [answer], 1.5)
+    assert found.shape == (1, 6)
+    assert found[0] == pytest.approx(2e4 * (np.hypot(60.0, 3.0) - 60.0), rel=0.01)
+    assert np.abs(at.tension_gradient(np.zeros(12))[:, [2, 8]]).max() < 1.0

@@ -15,6 +15,7 @@ from moyai.core.remembered import Remembered, key_of_objects
 from moyai.core.results import Result
 from moyai.core.store import DatasetStore
 from moyai.core.validity import Notice
+from moyai.floating.checks import roll_notices
 from moyai.structures.breakwater.assembly import FloatingUnit, assemble
 from moyai.structures.breakwater.checks import check_problem, check_unit, drift_check
 from moyai.structures.breakwater.frequency import irregular as frequency_irregular
@@ -280,12 +281,17 @@ def _result(problem: BreakwaterProblem, collected: Collected) -> Result:
         "case_text": problem.case_text,
     }
     seeds = [sea.seed for sea in problem.environment.sea_states if not isinstance(sea, RegularSea)]
+    found = headlines(collected.groups)
+    for item in (item for item in found if item.name == "roll" and item.shown):
+        rest = collected.groups[f"/{item.where.split(', ')[0]}/statics"]
+        sizes = {name: float(rest[name]) for name in ("freeboard", "draught", "beam")}
+        collected.notices.extend(roll_notices(item.value, where=item.where, **sizes))
     return collected.close(
         VOCABULARY,
         attributes,
         seeds,
         fulfilled="all identities hold and all iterations converged",
-        headlines=headlines(collected.groups),
+        headlines=found,
         criteria=problem.criteria,
         left_out=SEAS_LEFT_OUT
         if problem.environment.sea_states and not {"frequency", "time"} & set(problem.analyses)

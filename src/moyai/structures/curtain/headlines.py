@@ -376,7 +376,8 @@ def _mesh_band(table: xr.Dataset, load: _Load, value: float) -> Band | None:
     low, high = factor * low, max(factor * high, value)
     if math.isfinite(ceiling):
         end = kilo(factor * ceiling, load.words("load_unit"))
-        of = f"meshes and events; judged at {end}, the growth from mesh to mesh continued to cells four times smaller"
+        how = "to cells four times smaller" if component == "skirt" else "at first order"
+        of = f"meshes and events; judged at {end}, the growth from mesh to mesh continued {how}"
         more = "settings.dynamic.cells_along and cells_down"
         return Band(low, high, of, decides=False, judged=(low, factor * ceiling), beyond_bound=True, more=more)
     if count < 2:

@@ -18,6 +18,8 @@ REMEDY = "add 'dynamic' to 'analyses', with settings.dynamic.sheet_mass, for the
 
 #: Parts that an impact loads
 _STRUCK = ("upper cable", "lower cable", "sheet", "joint", "anchor line", "anchor")
+#: Angle of a sea from the normal up to which it stands for one along it [rad].
+FACING = math.radians(10.0)
 
 
 def _deep_enough(groups: Groups, level: str) -> bool:
@@ -164,11 +166,15 @@ def weaker_currents(groups: Groups, found: Sequence[Headline]) -> tuple[Criterio
 
 
 def _in_the_case(groups: Groups, level: str, key: str) -> float:
-    """Return the current of the case, or the largest significant height of its irregular seas; NaN without."""
+    """Return the current of the case, or the largest significant height of its irregular seas along the normal; or NaN.
+
+    The height that a curtain holds is that of a sea along the normal: an oblique sea proves nothing of it.
+    """
     if key == "speed_limit":
         return _number(groups[f"/{level}/limits"], "surface_speed")
     seas = [data for path, data in groups.items() if path.startswith(f"/{level}/waves/") and "realisations" in data]
-    return max((float(data["significant_height"]) for data in seas), default=math.nan)
+    facing = [data for data in seas if float(data.attrs.get("angle_from_normal", 0.0)) <= FACING]
+    return max((float(data["significant_height"]) for data in facing), default=math.nan)
 
 
 def _number(table: xr.Dataset, name: str) -> float:

@@ -331,7 +331,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "event_peak_low": ("N", "lowest of the highest tensions in the runs of the event"),
     "event_peak_high": ("N", "highest tension in all runs of the event"),
     "event_peak_judged": ("N", "upper end of the one-sided 95 % interval of the mean over the realisations"),
-    "event_peak_ceiling": ("N", "judged end with four times smaller cells, as the growth from mesh to mesh goes on"),
+    "event_peak_ceiling": ("N", "judged end as the change from mesh to mesh goes on"),
     "event_peak_mesh_change": ("1", "change of the mean from one mesh to the other, over the larger"),
     "event_realisations": ("1", "realisations of the sea of the event"),
     "sample_peak": ("N", "highest tension in one run of an event"),

@@ -217,7 +217,10 @@ def regular_dataset(at: RowAtLevel, sea: RegularSea, answers: list[SeaAnswer], h
         ),
         "line_tension_mean": (("period", "line"), mean_tension),
         "tension_amplitude": (("period", "line"), tension),
-        "line_tension_maximum": (("period", "line"), mean_tension + tension),
+        "line_tension_maximum": (
+            ("period", "line"),
+            np.maximum(mean_tension + tension, along_the_path(at, answers, amplitude)),
+        ),
     }
     drift = answers[0].far.drift.copy()
     for period, item in zip(sea.periods, answers):
@@ -228,6 +231,19 @@ def regular_dataset(at: RowAtLevel, sea: RegularSea, answers: list[SeaAnswer], h
     data = labelled(xr.Dataset(out, coords=coords))
     data.attrs |= {"kind": "regular", "heading": sea.heading, "status": _status(answers)}
     return data
+
+
+def along_the_path(at: RowAtLevel, answers: list[SeaAnswer], amplitude: float) -> Array:
+    """Return the largest tensions (n, lines) of lines at rest at every instant of the motion of each period.
+
+    The tangent at the mean does not see a line that comes taut.
+    """
+    phases = np.exp(-2j * np.pi * np.arange(_STATES) / _STATES)[:, None]
+    out = np.zeros((len(answers), len(at.line_names)))
+    for number, item in enumerate(answers if at.line_names else ()):
+        path = item.rest.position + amplitude * (item.fine.motion[0, 0] * phases).real
+        out[number] = np.max([at.tensions(position) for position in path], axis=0)
+    return out
 
 
 def _harmonic_resultant(force: ComplexArray, mean: Array) -> Array:
@@ -360,8 +376,8 @@ def _status(answers: list[SeaAnswer]) -> str:
     return "converged" if all(item.converged for item in answers) else "not_converged"
 
 
-#: Phases of a period at which a distance is looked at.
-_PHASES = 360
+#: Phases of a period at which a distance is looked at, and at which lines are.
+_PHASES, _STATES = 360, 36
 #: Numbers that are given a band of the damping.
 _BANDED = (
     "significant_motion", "motion_amplitude", "largest_offset", "line_tension_maximum", "connector_resultant_largest",
@@ -466,6 +482,7 @@ def map_dataset(
 
 
 __all__ = [
+    "along_the_path",
     "hydrodynamics_dataset",
     "irregular_dataset",
     "map_dataset",

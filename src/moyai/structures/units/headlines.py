@@ -410,7 +410,7 @@ def _of_line(found: _Largest, mean: float) -> tuple[Bound, str]:
     if _moved(found):
         still = float(found.data["line_tension_maximum_lines_at_rest"].values[found.index[-1]])
         return "", f"; {spoken(still, 'N', 3)} with lines at rest at every instant"
-    snapped = found.timed and found.value * found.scale > SNAP_RATIO * mean
+    snapped = found.value * found.scale > SNAP_RATIO * mean
     return ("at least", _SNAPS) if snapped else ("", "")
 
 

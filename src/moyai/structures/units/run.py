@@ -16,6 +16,7 @@ from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
 from moyai.core.store import DatasetStore
 from moyai.core.validity import IdentityCheck, Notice
+from moyai.floating.checks import roll_notices
 from moyai.sea.states import IrregularSea, RegularSea, SeaState
 from moyai.structures.units.across import across_notices
 from moyai.structures.units.assembly import RowAtLevel, assemble, level_notices, steady_load
@@ -404,12 +405,19 @@ def _result(problem: UnitsProblem, collected: Collected) -> Result:
         if "seed_of_realisation" in data
         for seed in data["seed_of_realisation"].values
     ]
+    found = headlines_of(collected.groups)
+    for item in (item for item in found if item.name == "roll" and item.shown):
+        rest = collected.groups[f"/{item.where.split(', ')[0]}/statics"]
+        sizes = {"freeboard": float(rest["freeboard"]), "draught": float(rest["draught"]), "beam": rest.attrs["beam"]}
+        # a row prints double amplitudes
+        if "pitch" not in item.label:
+            collected.notices.extend(roll_notices(0.5 * item.value, where=item.where, **sizes))
     return collected.close(
         VOCABULARY,
         attributes,
         seeds,
         fulfilled="all identities hold and all iterations converged",
-        headlines=headlines_of(collected.groups),
+        headlines=found,
         criteria=problem.criteria,
     )
 

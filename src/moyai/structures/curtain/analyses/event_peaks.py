@@ -71,7 +71,8 @@ class EventPeak:
     means: tuple[float, ...] = ()
     #: Whether it is of one realisation of a random sea.
     alone: bool = False
-    #: Judged end with cells :data:`SMALLER` times smaller, as the growth from mesh to mesh goes on [N, N/m].
+    #: Judged end as the change from mesh to mesh goes on: of the skirt to cells :data:`SMALLER` times smaller, of
+    #: cables and lines at first order [N, N/m].
     ceiling: float = math.nan
 
     @property
@@ -117,11 +118,22 @@ def event_peak(samples: Sequence[Sample], event: str, component: str) -> EventPe
     if len(meshes) < 2:
         return found
     first, last = means[0], means[-1]
+    grown = SMALLER ** min(_growth(meshes, means), STEEPEST) if component == "skirt" else _of_resultant(meshes, means)
     return EventPeak(
         found.value, found.low, found.high, found.judged, found.run,
         1.0 - min(first, last) / max(first, last), last > first, (first, last), found.alone,
-        math.nan if found.alone else found.judged * SMALLER ** min(_growth(meshes, means), STEEPEST),
+        math.nan if found.alone else found.judged * grown,
     )  # fmt: skip
+
+
+def _of_resultant(meshes: Sequence[tuple[int, int]], means: Sequence[float]) -> float:
+    """Return what the change between the two finest meshes, gone on with at first order, makes of a mean, at least 1.
+
+    The tension of a cable or line is a resultant: it has a limit, where the stress of a sheet has none at a point.
+    """
+    (coarse, fine), (first, last) = meshes[-2:], means[-2:]
+    ratio = max(fine[0] / coarse[0], fine[1] / coarse[1])
+    return max(1.0, 1.0 + (last - first) / (last * (ratio - 1.0)))
 
 
 def _growth(meshes: Sequence[tuple[int, int]], means: Sequence[float]) -> float:

@@ -285,7 +285,10 @@ def _irregular(unit: LevelCurtain, settings: WaveSettings, sea: IrregularSea, im
     fitted = np.full(peaks.size, math.nan) if fit is None else fit.exceedance(peaks)
     data["fitted_exceedance"] = ("snap", fitted)
     data["realisation_tension"] = ("seed", tops)
-    attrs = {"kind": "irregular", "law": settings.law, "seed": sea.seed, "peak_period": peak}
+    across = math.asin(abs(math.sin(sea.heading - unit.curtain.normal)))
+    attrs = {
+        "kind": "irregular", "law": settings.law, "seed": sea.seed, "peak_period": peak, "angle_from_normal": across,
+    }  # fmt: skip
     # shown is the realisation whose largest tension is nearest to the mean
     typical = int(np.argmin(np.abs(tops - tops.mean())))
     shown, flow = runs[typical]
