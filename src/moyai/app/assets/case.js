@@ -9,6 +9,7 @@ import { Sliders } from "/assets/sliders.js";
 import { tabs } from "/assets/tabs.js";
 
 const PATIENCE = 500; // ms after which a further request overtakes one on its way that has drawn nothing, at least
+const SOON = 250; // ms that figures may take to be drawn before the text
 const TYPING = 350; // ms of rest before a typed text is sent
 
 export class CaseView {
@@ -75,6 +76,7 @@ export class CaseView {
   }
   async change(wish) {
     const typed = this.typed;
+    this.catchUp();
     clearTimeout(this.timer);
     const record = await post(`${this.address}/change`, { ...wish, text: this.editor.text });
     if (typed !== this.typed) { tell(say("the text was changed meanwhile: do it again")); return; }
@@ -126,15 +128,16 @@ export class CaseView {
       return;
     }
     this.again = false;
-    const sequence = ++this.sequence, edits = Object.fromEntries(this.edits), typed = this.typed;
+    const sequence = ++this.sequence, edits = Object.fromEntries(this.edits), typed = this.typed, shown = this.live.shown();
     this.flying = performance.now();
     this.state.classList.add("working");
     this.live.remember();
     try {
-      await stream(`${this.address}/draft`, { sequence, text: this.editor.text, edits, gesture, shown: this.live.shown(), level: this.live.chosen.get("water-level") || "" }, (said) => this.hear(said, edits, typed));
+      await stream(`${this.address}/draft`, { sequence, text: this.editor.text, edits, gesture, shown, level: this.live.chosen.get("water-level") || "" }, (said) => this.hear(said, edits, typed));
     } catch (refused) {
       tell(refused.message);
     }
+    this.catchUp();
     if (sequence !== this.sequence) return;
     clearTimeout(this.overtaking);
     this.flying = 0;
@@ -143,13 +146,21 @@ export class CaseView {
   }
   hear(said, edits, typed) {
     if (this.closed) return;
-    if (said.message === "checked" && said.sequence >= this.checked) this.hearChecked(said, edits, typed);
-    else if (said.message === "drawn" && said.sequence >= this.drawn && said.sequence >= this.checked) this.hearDrawn(said);
-    else if (said.message === "not drawn") { this.editor.show(said.faults, []); this.say(say("not drawn; what is shown is older than the text"), true); }
+    if (said.message === "checked" && said.sequence >= this.checked) {
+      this.checked = said.sequence;
+      this.late = () => { if (said.sequence === this.checked) this.hearChecked(said, edits, typed); };
+      if (said.faults.length) this.catchUp(); else setTimeout(() => this.catchUp(), SOON);
+    } else if (said.message === "drawn" && said.sequence >= this.drawn && said.sequence >= this.checked) this.hearDrawn(said);
+    else if (said.message === "not drawn") { this.catchUp(); this.editor.show(said.faults, []); this.say(say("not drawn; what is shown is older than the text"), true); }
     else if (said.message === "lost") this.say(said.text, true);
   }
+  // Text, fields and marks follow the figures where those are there at once.
+  catchUp() {
+    const act = this.late;
+    this.late = null;
+    if (act) act();
+  }
   hearChecked(said, edits, typed) {
-    this.checked = said.sequence;
     for (const [path, number] of Object.entries(edits)) if (this.edits.get(path) === number) this.edits.delete(path);
     if (typed === this.typed) this.editor.text = said.text;
     this.editor.show(said.faults, said.warnings);
@@ -174,6 +185,7 @@ export class CaseView {
       this.flying = 0;
       if (this.again) this.send(this.gesture);
     }
+    setTimeout(() => this.catchUp(), 0);
     if (this.moved) { this.report.dataset.latency = Math.round(performance.now() - this.moved); this.moved = 0; }
   }
   listSections() {
