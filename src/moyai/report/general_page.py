@@ -77,7 +77,7 @@ def page_of(result: Result, subtitle: str, sections: Iterable[Section]) -> Docum
 
 def report_title(result: Result) -> str:
     """Return the title of a result."""
-    for source in (result.tree.attrs, result.provenance):
+    for source in (result.held.attrs, result.provenance):
         title = str(source.get("title", "")).strip()
         if title:
             return title
@@ -87,8 +87,8 @@ def report_title(result: Result) -> str:
 def provenance(result: Result) -> Mapping[str, Any]:
     """Return the provenance with the hash of the case on top of it."""
     entries = dict(result.provenance)
-    if "case_hash" not in entries and result.tree.attrs.get("case_hash"):
-        entries["case_hash"] = result.tree.attrs["case_hash"]
+    if "case_hash" not in entries and result.held.attrs.get("case_hash"):
+        entries["case_hash"] = result.held.attrs["case_hash"]
     return entries
 
 
