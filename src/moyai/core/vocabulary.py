@@ -14,12 +14,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from moyai.core.remembered import Remembered
+from moyai.core.remembered import Remembered, key_of_objects
 
 if TYPE_CHECKING:
     import xarray as xr
 
 _COORDINATES: Remembered[xr.Coordinates] = Remembered(256)
+_MOST_BYTES = 1 << 16
 #: Unit of texts, and of numbers whose unit changes from row to row and stands in another variable.
 NO_UNIT = ""
 #: Group below which each set of measured points of a case stands: x and y in units of the user's file.
@@ -252,9 +253,9 @@ class Vocabulary:
             return xr.Variable(dims, array, self._words(name, array.dtype))
 
         labels = {name: np.asarray(held) for name, held in coords.items() if not isinstance(held, tuple)}
-        key = repr([(name, held.dtype.str, held.tobytes()) for name, held in labels.items()])
+        few = sum(held.nbytes for held in labels.values()) <= _MOST_BYTES
         known = _COORDINATES.of(
-            f"{self.kind} {key}",
+            key_of_objects(self.kind, labels) if few else None,
             lambda: xr.Coordinates({name: made(name, name, held) for name, held in labels.items()}),
         )
         along = {name: made(name, *held) for name, held in coords.items() if isinstance(held, tuple)}
