@@ -43,6 +43,9 @@ def arc_position(start: ComplexArray, end: ComplexArray, bulge: Array, t: Array 
 
 def arc_slope(start: ComplexArray, end: ComplexArray, bulge: Array, t: Array | float) -> ComplexArray:
     """Derivative of :func:`arc_position` with respect to ``t``; its modulus is the length of the edge."""
+    if not np.any(bulge):
+        straight: ComplexArray = end - start + 0.0 * bulge * t
+        return straight
     half_sweep = 2.0 * np.arctan(bulge)
     values: ComplexArray = (end - start) / np.sinc(half_sweep / np.pi) * np.exp(1j * half_sweep * (2.0 * t - 1.0))
     return values

@@ -123,9 +123,7 @@ def chapters(*parts: tuple[str, str, Callable[[], Iterable[Block]]]) -> tuple[Se
         Key, title and what gives the blocks. Under :func:`composing_only` no others are composed than those that it
         names; the first stays, empty.
     """
-    return _with_blocks(
-        [Section(key, title, tuple(blocks()) if _wanted(key) else ()) for key, title, blocks in parts]
-    )
+    return _with_blocks([Section(key, title, tuple(blocks()) if _wanted(key) else ()) for key, title, blocks in parts])
 
 
 def _wanted(key: str) -> bool:

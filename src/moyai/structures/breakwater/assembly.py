@@ -336,8 +336,16 @@ def _is_balanced_upright(breakwater: Breakwater, water: Water, balance: _Balance
 
 def _equilibrium(breakwater: Breakwater, water: Water, balance: _Balance, start: float) -> tuple[float, float, float]:
     """Find draught, heel and offset at rest."""
+    upright = body_to_site(breakwater.centre_of_gravity, start, 0.0)
+    moored: PlanarLineSystem | None = None
+    if breakwater.lines and all(isinstance(line, MooringLine) for line in breakwater.lines):
+        moored = _system(site_lines(breakwater, water, upright, start, 0.0), water, upright)
 
     def pull(x: float, z: float, heel: float) -> tuple[float, float, float]:
+        if moored is not None:
+            force = moored.forces(np.array([x - upright[0], z - upright[1], heel]))
+            return float(force[0]), float(force[1]) + balance.leftover, float(force[2])
+        # a spring has its pretension wherever the unit is at rest
         draught = _draught_of(breakwater, z, heel)
         body_x = x - body_to_site(breakwater.centre_of_gravity, draught, heel)[0]
         centre = body_to_site(breakwater.centre_of_gravity, draught, heel)

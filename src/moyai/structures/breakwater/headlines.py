@@ -255,7 +255,9 @@ def _peak_factor(data: xr.Dataset, mode: int) -> float:
     if "most_probable_maximum_motion" not in data:
         return math.nan
     deviation = 0.25 * float(data.variables["significant_motion"].values[mode])
-    return float(data.variables["most_probable_maximum_motion"].values[mode]) / deviation if deviation > 0.0 else math.nan
+    return (
+        float(data.variables["most_probable_maximum_motion"].values[mode]) / deviation if deviation > 0.0 else math.nan
+    )
 
 
 def _in_motion(data: xr.Dataset) -> float:

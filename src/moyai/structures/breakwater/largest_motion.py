@@ -33,7 +33,9 @@ def beyond_range(data: xr.Dataset, statics: xr.Dataset | None) -> NDArray[np.boo
     """
     out = np.zeros(data.sizes["period"], dtype=bool)
     if "damping_work" in data and "dissipation" in data:
-        share = unexplained_share(data.variables["dissipation"].values, data.variables["damping_work"].values, SHOWN_LOSS)
+        share = unexplained_share(
+            data.variables["dissipation"].values, data.variables["damping_work"].values, SHOWN_LOSS
+        )
         out |= share > ENERGY_TOLERANCE
     if "line_tension_maximum" in data and data.sizes.get("line", 0):
         still = np.ones(data["line_tension_maximum"].shape, dtype=bool)
@@ -41,7 +43,9 @@ def beyond_range(data: xr.Dataset, statics: xr.Dataset | None) -> NDArray[np.boo
             still = data.variables["lines_in_motion"].values != 1.0
         if statics is not None and "unstretched_length" in statics:
             still = still & np.isfinite(statics.variables["unstretched_length"].values)
-        passing = data.variables["line_tension_maximum"].values > SNAP_RATIO * data.variables["line_tension_mean"].values
+        passing = (
+            data.variables["line_tension_maximum"].values > SNAP_RATIO * data.variables["line_tension_mean"].values
+        )
         out |= np.any(still & passing, axis=1)
     return out
 
@@ -107,7 +111,9 @@ class LargestOfPeriods:
             if mode == 0 and "mean_offset" in self.data:
                 source = self.frequency.sel(period=periods[row]) if out[row] and self.frequency is not None else None
                 mean = float(
-                    self.data.variables["mean_offset"].values[row, 0] if source is None else source.variables["mean_offset"].values[0]
+                    self.data.variables["mean_offset"].values[row, 0]
+                    if source is None
+                    else source.variables["mean_offset"].values[0]
                 )
                 detail.append(f"mean {mean:.3g} m")
             words = "; ".join(filter(None, (*detail, said)))

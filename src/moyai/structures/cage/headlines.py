@@ -321,7 +321,10 @@ def _tension(states: list[_State], runs: Runs) -> tuple[list[Headline], list[Hea
                 add(_dynamic_tension(run, line, where, by_level.get(level)), float(share))
     for state in [] if tensions else states:
         for line, name in enumerate(state.statics.variables["line"].values):
-            add(_static_tension(state, line, str(name)), float(state.statics.variables["utilisation"].values[state.row, line]))
+            add(
+                _static_tension(state, line, str(name)),
+                float(state.statics.variables["utilisation"].values[state.row, line]),
+            )
     if not used:
         return [], []
     utilisations = governing(used.values())

@@ -51,7 +51,6 @@ def operators(model: FrequencyModel, omega: Array, heading: float, seas: tuple[S
     Quadratic damping needs an amplitude: viscous damping computed from the section takes that of the first irregular
     sea of ``seas`` or of the first regular one; other quadratic damping is left out here.
     """
-    import xarray as xr
 
     unit, whole = model.unit, model.hydro.whole(heading)
     # Coefficients of another program may end earlier than the operators would
@@ -169,7 +168,9 @@ def regular_sea(model: FrequencyModel, sea: RegularSea, progress: Progress = sil
         "damping_band": band_words(model),
     }
     # from short periods to long ones
-    data = VOCABULARY.dataset({name: (along, values[::-1]) for name, (along, values) in out.items()}, coords, attributes)
+    data = VOCABULARY.dataset(
+        {name: (along, values[::-1]) for name, (along, values) in out.items()}, coords, attributes
+    )
     check: tuple[IdentityCheck, ...] = ()
     if hydro.has_far_field:
         check = energy_identity(model, solved.far, solved.motions, hydro, f"{unit.name}, {sea.name}")
