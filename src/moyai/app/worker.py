@@ -98,9 +98,8 @@ class DraftWorker:
                 return
             self._busy_with = name
             try:
+                # what is stale by now is given up by the process, or not drawn by the page
                 async for line in self._exchange(wish):
-                    if self._newest[name] != number:
-                        line = _STALE
                     yield line
             except BaseException:
                 # A page that has gone leaves answers in the pipe that belong to nobody
