@@ -82,12 +82,14 @@ class Drafts:
     def answer(self, wish: Wish, progress: Progress) -> Iterator[dict[str, Any]]:
         """Yield the case as read and checked, then its draft where it has no errors."""
         started = time.perf_counter()
-        text, checked, document = wish.text, False, None
+        text, checked = wish.text, False
+        document: Document | None = None
         try:
             if len(text) > _TEXT_LIMIT:
                 raise CaseError([Fault(f"the text is longer than {_TEXT_LIMIT // 1_000_000} million characters")])
-            known = self._last is not None and (self._last.text, self._last.file) == (text, wish.file.name)
-            document = self._last if known else parse_yaml(text, wish.file.name)
+            document = self._last
+            if document is None or (document.text, document.file) != (text, wish.file.name):
+                document = parse_yaml(text, wish.file.name)
             for path, number in wish.edits.items():
                 document = with_number(document, path, number)
             self._last, text = document, document.text

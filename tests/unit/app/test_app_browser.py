@@ -264,7 +264,7 @@ def press(page: Any, key: str, modifiers: int = 0) -> None:
     """Press and release a key as a keyboard does."""
     code = f"Key{key.upper()}" if len(key) == 1 and key.isalpha() else {" ": "Space"}.get(key, key)
     written = {"Enter": "\r", " ": " "}.get(key, key if len(key) == 1 and not modifiers else "")
-    how = {"key": key, "code": code, "windowsVirtualKeyCode": KEYS.get(key, ord(key[0].upper())), "modifiers": modifiers}
+    how = {"key": key, "code": code, "windowsVirtualKeyCode": KEYS[key], "modifiers": modifiers}
     page.send("Input.dispatchKeyEvent", type="keyDown", **how, **({"text": written} if written else {}))
     page.send("Input.dispatchKeyEvent", type="keyUp", **how)
 

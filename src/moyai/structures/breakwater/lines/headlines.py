@@ -168,8 +168,9 @@ def _line_peak(
     highest = float(np.nanmax(scatter)) if scatter.size else float(table[row])
     # A spring is linear at any tension; a chain at rest at every instant says nothing beyond the range
     known = moving or not chain or highest <= SNAP_RATIO * mean
+    period = float(data.variables["period"].values[row]) if regular else math.nan
     return LinePeak(
-        level, sea, line, float(data.variables["period"].values[row]) if regular else math.nan, float(table[row]), mean, load,
+        level, sea, line, period, float(table[row]), mean, load,
         of("maximum_anchor_vertical_tension"), of("maximum_anchor_horizontal_tension"), of("least_grounded_length"),
         model, known, scatter, scatter_of("maximum_anchor_vertical_tension"),
         scatter_of("maximum_anchor_horizontal_tension"),

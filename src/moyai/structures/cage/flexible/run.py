@@ -23,11 +23,12 @@ from moyai.sea.irregular import components_of_run
 from moyai.sea.states import IrregularSea
 from moyai.sea.water import Water
 from moyai.structures.cage.conditions import height_notices
-from moyai.structures.cage.flexible.build import CageNetwork, build_cage
+from moyai.structures.cage.flexible.build import build_cage
 from moyai.structures.cage.flexible.checks import problem_notices, rest_checks, rest_notices, run_checks, run_notices
 from moyai.structures.cage.flexible.equilibrium import CageRest, solve_rest
 from moyai.structures.cage.flexible.laws import laws_dataset
 from moyai.structures.cage.flexible.model import FlexibleCage
+from moyai.structures.cage.flexible.parts import CageNetwork
 from moyai.structures.cage.flexible.problem import FlexibleCageProblem
 from moyai.structures.cage.flexible.sensitivity import REST, mesh_dataset, rest_mesh_dataset, sensitivity_dataset
 from moyai.structures.cage.flexible.statics import cage_dataset, statics_dataset
