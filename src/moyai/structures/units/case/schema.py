@@ -8,6 +8,7 @@ from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 
 from moyai.case.schema_coefficients import word_of
 from moyai.case.schema_criteria import CRITERIA
+from moyai.case.schema_app import APP, App
 from moyai.case.schema_display import DISPLAY, Display
 from moyai.case.schema_environment import Current, SeaState, Site, Wind, refuse_no_seas
 from moyai.case.schema_lines import CatenaryLine, SpringLine
@@ -354,3 +355,4 @@ class UnitsCase(Block):
     settings: UnitsSettings = Field(default_factory=UnitsSettings, description="How the analyses are run.")
     measured: MeasuredSets = Field(default=(), description=MEASURED)
     display: Display = Field(default_factory=Display, description=DISPLAY)
+    app: App = Field(default_factory=App, description=APP)
