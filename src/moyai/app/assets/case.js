@@ -165,7 +165,7 @@ export class CaseView {
     if (typed === this.typed) this.editor.text = said.text;
     this.editor.show(said.faults, said.warnings);
     this.form.mark(said.faults);
-    if (this.tab === "form" || !said.faults.length && this.lastForm === undefined) this.renewForm();
+    if (this.tab === "form") this.renewForm();
     if (said.sliders) this.sliders.show(said.sliders);
     if (!said.faults.length) { this.say(say("drawing …")); this.undoButton.disabled = false; this.saveButton.disabled = false; }
     else this.say(said.faults.length === 1 ? say("1 error in the case; what is shown is older than the text") : say("{0} errors in the case; what is shown is older than the text", said.faults.length), true);
