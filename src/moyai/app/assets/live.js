@@ -137,7 +137,9 @@ export class Live {
   // Draw what is out of sight after a rest; a slider that moves puts it off.
   pause(rest = 1000) {
     clearTimeout(this.timer);
+    const turn = this.turn = (this.turn || 0) + 1;
     const next = () => {
+      if (turn !== this.turn) return; // put off since
       const at = Math.max(0, this.waiting.findIndex((figure) => near(figure))), [figure] = this.waiting.splice(at, 1);
       if (!figure) return;
       if (MOYAI.isVisible(figure.plot)) figure.draw();
