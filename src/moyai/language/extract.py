@@ -17,10 +17,10 @@ from moyai.language.words import latin_words
 
 #: What shows the texts it is given, by the name it is called by.
 _SHOWN = frozenset((
-    "Abscissa", "Animation", "Badge", "Choice", "Column", "Criterion", "Drawing", "Fault", "Figure",
-    "Headline", "IdentityCheck", "InputError", "KeyFigure", "Listing", "Mark", "Notice", "Option", "Panel",
-    "Paragraph", "Section", "Series", "Table", "column", "number", "said", "tell", "say", "Number", "Band",
-    "ConvergenceError", "_column",
+    "Abscissa", "Animation", "Badge", "Choice", "Column", "Criterion", "Drawing", "Fault", "Figure", "Faces",
+    "Headline", "IdentityCheck", "InputError", "KeyFigure", "Listing", "Mark", "Marker", "Notice", "Option",
+    "Panel", "Paragraph", "Section", "Series", "Table", "column", "number", "said", "tell", "say", "Number",
+    "Band", "ConvergenceError", "_column",
 ))  # fmt: skip
 #: Arguments of such calls that are keys.
 _KEYS = frozenset((

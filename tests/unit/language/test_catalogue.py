@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import re
 from pathlib import Path
 
@@ -12,7 +13,7 @@ import moyai
 from moyai.core.errors import InputError
 from moyai.language import language_of_the_locale, require_language
 from moyai.language.catalogue import catalogue, entries, page_catalogue
-from moyai.language.missing import COMMENTS, all_texts, coverage
+from moyai.language.missing import COMMENTS, all_texts, coverage, is_translated
 from moyai.language.words import numbers
 
 FILES = sorted((Path(moyai.__file__).parent / "language" / "ja").glob("*.po"))
@@ -78,6 +79,19 @@ def test_the_share_that_is_translated_does_not_fall() -> None:
         assert share[name] >= least, (
             f"{name}: {share[name]:.3f}; python -m moyai.language.missing lists what is missing"
         )
+
+
+def test_marks_of_moving_drawings_are_translated() -> None:
+    """Their words stand alone in the drawing, and only long runs show some of them."""
+    labels = {
+        node.args[1].value
+        for path in Path(moyai.__file__).parent.rglob("report/*.py")
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "Marker"
+        if isinstance(node.args[1], ast.Constant)
+    }
+    assert labels >= {"support", "anchor"}
+    assert {label for label in labels if not is_translated(label, "ja")} == set()
 
 
 LEAST = {

@@ -16,6 +16,8 @@ from moyai.mooring.space_kernel import space_line_force
 RUNNING, DIVERGED, UNSETTLED = 0, 1, 2
 _PASSES, _TURNS, _SWEEPS, _HALVINGS = 40, 60, 400, 80
 _SETTLED = 1e-8
+#: Share of the largest motion that an elongation may miss, change of its derivative within a pass of the step
+_STRAIGHT, _DIRECTION = 1e-10, 1e-5
 
 
 @njit(cache=True, error_model="numpy")
@@ -39,6 +41,61 @@ def joint_force(elongation: float, rate: float, x: Any, f: Any, dashpot: float, 
             return 0.0, 0.0
         return force, slope
     return force + dashpot * rate, slope
+
+
+@njit(cache=True, error_model="numpy")
+def _draw(
+    y: Any, basis: Any, pairs: Any, arms: Any, bends: Any, axes: Any, spans: Any, drawn: Any, along: Any
+) -> None:  # fmt: skip
+    """Write elongation (j,) and its derivative by y (j, r) of every curve at y [eq:units-turned]."""
+    moved, turn, direction, part = np.empty(3), np.empty((2, 3)), np.empty(3), np.empty(3)
+    for i in range(spans.size):
+        moved[:] = 0.0
+        for end in range(2):
+            sign, first = 2.0 * end - 1.0, 6 * pairs[i, end]
+            arm, w = arms[i, end], turn[end]
+            for c in range(3):
+                shift, w[c] = 0.0, 0.0
+                for n in range(y.size):
+                    shift += basis[first + c, n] * y[n]
+                    w[c] += basis[first + 3 + c, n] * y[n]
+                moved[c] += sign * shift
+            inner, size = 0.0, 0.0
+            for c in range(3):
+                inner += w[c] * arm[c]
+                size += w[c] * w[c]
+            for c in range(3):
+                second, third = (c + 1) % 3, (c + 2) % 3
+                turned = w[second] * arm[third] - w[third] * arm[second]
+                moved[c] += sign * (turned + 0.5 * bends[i] * (inner * w[c] - size * arm[c]))
+        change, square = 0.0, 0.0
+        for c in range(3):
+            change += moved[c] * axes[i, c]
+            square += moved[c] * moved[c]
+            direction[c] = axes[i, c]
+        drawn[i] = change
+        if spans[i] > 0.0:
+            change = 2.0 * spans[i] * change + square
+            length = np.sqrt(spans[i] * spans[i] + change)
+            drawn[i] = change / (length + spans[i])
+            for c in range(3):
+                direction[c] = (spans[i] * axes[i, c] + moved[c]) / length
+        along[i, :] = 0.0
+        for end in range(2):
+            sign, first = 2.0 * end - 1.0, 6 * pairs[i, end]
+            arm, w = arms[i, end], turn[end]
+            inner, across, over = 0.0, 0.0, 0.0
+            for c in range(3):
+                inner += w[c] * arm[c]
+                across += w[c] * direction[c]
+                over += direction[c] * arm[c]
+            for c in range(3):
+                second, third = (c + 1) % 3, (c + 2) % 3
+                part[c] = arm[second] * direction[third] - arm[third] * direction[second]
+                part[c] += bends[i] * (0.5 * (inner * direction[c] + across * arm[c]) - over * w[c])
+            for c in range(3):
+                for n in range(y.size):
+                    along[i, n] += sign * (direction[c] * basis[first + c, n] + part[c] * basis[first + 3 + c, n])
 
 
 @njit(cache=True, error_model="numpy")
@@ -115,7 +172,7 @@ def _solve_joints(
 @njit(cache=True, error_model="numpy", pointer=True)
 def march(
     y: Any, v: Any, a: Any, z: Any, first: int, steps: int, h: float, load: Any, body: Any, memory: Any, held: Any,
-    lines: Any, joints: Any, limit: float, saved: Any,
+    lines: Any, joints: Any, drag: Any, limit: float, saved: Any,
 ) -> tuple[int, int]:  # fmt: skip
     """Advance ``steps`` steps from step number ``first``; y, v, a, z change in place.
 
@@ -137,23 +194,28 @@ def march(
     lines : tuple
         Body of every line, parameters, index, nodes, last tensions.
     joints : tuple
-        Elongation by y (j, r), its place at rest (j,), then points of all curves, where each begins, dashpots, sides.
+        Of every curve: its units (j, 2), arms of its ends (j, 2, 3), 1 where turns count to second order (j,),
+        direction (j, 3) and length (j,) at rest (zero: it keeps its direction); then points of all curves, where each
+        begins, dashpots, sides.
+    drag : tuple
+        Rows (k, r) of the measures of the edges, coefficients (k,), motion of the waves in them (n, k).
     saved : tuple
         y, v, a (n, r), memory on the constraints (n, c), line force (n, m), tension (n, lines), force of joints (n, j).
     """
     inverse, damping, stiffness, basis, tangent, balanced = body
     decay, before, after, residues = memory
     holder, parameters, index, nodes, last = lines
-    along, place, xs, fs, ends, dashpots, sides = joints
-    r, k, m, j = y.size, decay.size, basis.shape[0], along.shape[0]
+    edges, rough, water = drag
+    pairs, arms, bends, axes, spans, xs, fs, ends, dashpots, sides = joints
+    r, k, m, j = y.size, decay.size, basis.shape[0], spans.size
     c = held.shape[1]
     history, right, free, new = np.empty(r), np.empty(r), np.empty(r), np.empty(r)
     y_p, v_p, pushed, former = np.empty(r), np.empty(r), np.zeros(r), np.empty(r)
     ahead, q, pull, tension = np.empty(r), np.empty(m), np.empty(m), np.zeros(parameters.shape[0])
     alpha, start, force = np.zeros(j), np.empty(j), np.zeros(j)
-    reach, speed = np.empty(j), np.empty(j)
-    answer = inverse @ np.ascontiguousarray(along.T)
-    compliance = along @ answer
+    reach, speed, drawn, drawn_next = np.empty(j), np.empty(j), np.empty(j), np.empty(j)
+    along, along_next = np.empty((j, r)), np.empty((j, r))
+    answer, compliance = np.empty((r, j)), np.empty((j, j))
     curves = (xs, fs, ends, dashpots, sides)
     has_lines = parameters.shape[0] > 0
     for step in range(steps):
@@ -175,14 +237,23 @@ def march(
             for n in range(r):
                 total -= damping[i, n] * v_p[n] + stiffness[i, n] * y_p[n]
             right[i] = total
-        for i in range(j):
-            total, rate = place[i], 0.0
+        for e in range(rough.size):
+            # with the speed that the last acceleration leads to: as good as the step, and nothing to solve
+            speed_past = -water[number, e]
             for n in range(r):
-                total += along[i, n] * y_p[n]
-                rate += along[i, n] * v_p[n]
-            reach[i], speed[i] = total, rate
-        settled = False
+                speed_past += edges[e, n] * (v[n] + h * a[n])
+            pulled = rough[e] * abs(speed_past) * speed_past
+            for n in range(r):
+                right[n] -= edges[e, n] * pulled
+        for i in range(r):
+            ahead[i] = y_p[i] + 0.25 * h * h * a[i]
+        _draw(ahead, basis, pairs, arms, bends, axes, spans, drawn_next, along_next)
+        settled, straight = False, True
         for _ in range(_PASSES):
+            if j > 0:
+                drawn[:], along[:] = drawn_next, along_next
+                answer = inverse @ np.ascontiguousarray(along.T)
+                compliance = along @ answer
             for i in range(r):
                 total = 0.0
                 for n in range(r):
@@ -191,20 +262,34 @@ def march(
                 new[i] = total
             if j > 0:
                 for i in range(j):
-                    total = 0.0
+                    # elongations are taken as straight about where they were last looked at
+                    length, rate, total = drawn[i], 0.0, 0.0
                     for n in range(r):
+                        length += along[i, n] * (y_p[n] - ahead[n])
+                        rate += along[i, n] * v_p[n]
                         total += along[i, n] * free[n]
-                    start[i] = total
+                    reach[i], speed[i], start[i] = length, rate, total
                 if not _solve_joints(start, reach, speed, h, compliance, curves, alpha, force):
                     return UNSETTLED, step
                 for i in range(r):
                     for n in range(j):
                         new[i] -= answer[i, n] * force[n]
-            if not has_lines:
-                settled = True
-                break
             for i in range(r):
                 ahead[i] = y_p[i] + 0.25 * h * h * new[i]
+            if j > 0:
+                _draw(ahead, basis, pairs, arms, bends, axes, spans, drawn_next, along_next)
+                straight = True
+                for i in range(j):
+                    # the straight line serves unless it misses the length or, where it bears, the direction
+                    missed = abs(drawn_next[i] - reach[i] - 0.25 * h * h * alpha[i])
+                    straight = straight and missed <= _STRAIGHT * limit
+                    for n in range(r if force[i] != 0.0 else 0):
+                        straight = straight and abs(along_next[i, n] - along[i, n]) <= _DIRECTION
+            if not has_lines and straight:
+                settled = True
+                break
+            if not has_lines:
+                continue
             for i in range(m):
                 total = 0.0
                 for n in range(r):
@@ -226,7 +311,7 @@ def march(
                     pushed[n] += basis[i, n] * total
             for i in range(r):
                 apart = max(apart, abs(pushed[i] - former[i]))
-            if apart <= 1e-7 * size:
+            if apart <= 1e-7 * size and straight:
                 settled = True
                 break
         if not settled:
