@@ -6,9 +6,9 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 
+from moyai.case.schema_app import APP, App
 from moyai.case.schema_coefficients import word_of
 from moyai.case.schema_criteria import CRITERIA
-from moyai.case.schema_app import APP, App
 from moyai.case.schema_display import DISPLAY, Display
 from moyai.case.schema_environment import Current, SeaState, Site, Wind, refuse_no_seas
 from moyai.case.schema_lines import CatenaryLine, SpringLine
