@@ -19,12 +19,12 @@ export class CaseView {
     this.sequence = this.checked = this.drawn = this.flying = 0;
     this.edits = new Map();
     this.typed = 0;
-    this.form = new Form((wish) => this.change(wish));
+    this.form = new Form((wish) => this.change(wish), this.address);
     this.pins = new Pins((wish) => this.pin(wish));
     this.sliders = new Sliders((path, number) => this.sliderMoved(path, number));
   }
   async open() {
-    const [record, editor] = await Promise.all([get(this.address), editorOf({ changed: () => this.textChanged(), undo: () => this.undo(), keysAt: (path) => this.keysAt(path) })]);
+    const [record, editor] = await Promise.all([get(this.address), editorOf({ changed: () => this.textChanged(), undo: () => this.undo(), keysAt: (path) => this.form.keysAt(path) })]);
     this.editor = editor;
     const button = (words, act, title) => element("button", { type: "button", onclick: act, title }, words);
     this.title = element("h1", {}, record.name);
@@ -52,27 +52,7 @@ export class CaseView {
   }
   showTab(name) {
     this.content.dataset.tab = this.tab = name;
-    if (name === "form") this.renewForm();
-  }
-  async renewForm() {
-    const turn = this.formTurn = (this.formTurn || 0) + 1;
-    try {
-      const { form } = await get(`${this.address}/form`);
-      if (turn !== this.formTurn) return;
-      this.lastForm = form;
-      this.form.show(form);
-    } catch (refused) {
-      if (turn === this.formTurn && !this.lastForm) this.form.refuse(refused.message);
-    }
-  }
-  async keysAt(path) {
-    if (!this.lastForm) await this.renewForm();
-    let group = this.lastForm;
-    for (const step of path) {
-      const entries = group ? group.entries : [], at = entries.findIndex((one) => one.path[one.path.length - 1] === step);
-      group = at < 0 ? null : entries[at];
-    }
-    return (group && group.absent) || [];
+    if (name === "form") this.form.renew();
   }
   async change(wish) {
     const typed = this.typed;
@@ -83,7 +63,7 @@ export class CaseView {
     this.edits.clear();
     this.typed++;
     this.take(record);
-    this.renewForm();
+    this.form.renew();
     this.send(`form ${wish.path.join(".")}`);
   }
   close() {
@@ -165,7 +145,7 @@ export class CaseView {
     if (typed === this.typed) this.editor.text = said.text;
     this.editor.show(said.faults, said.warnings);
     this.form.mark(said.faults);
-    if (this.tab === "form") this.renewForm();
+    if (this.tab === "form") this.form.renew();
     if (said.sliders) this.sliders.show(said.sliders);
     if (!said.faults.length) { this.say(say("drawing …")); this.undoButton.disabled = false; this.saveButton.disabled = false; }
     else this.say(said.faults.length === 1 ? say("1 error in the case; what is shown is older than the text") : say("{0} errors in the case; what is shown is older than the text", said.faults.length), true);

@@ -1,6 +1,6 @@
 // Draw a report that changes: figures keep their elements and their zoom, choices stay, what is on screen comes first.
 // A draft of a part leaves the other sections where they are, faded, until the whole answer is there.
-import { renewed, renewedWithin, settle } from "/assets/renew.js";
+import { alike, renewed, renewedWithin, renewFigure, settle } from "/assets/renew.js";
 import { element, say } from "/assets/server.js";
 
 export class Live {
@@ -44,7 +44,7 @@ export class Live {
     for (const element of fresh.content.querySelectorAll("[data-figure]")) {
       const name = element.dataset.figure, old = MOYAI.figures.get(name);
       if (old && alike(old.spec, data.figures[name])) {
-        renew(old, data.figures[name], element);
+        renewFigure(old, data.figures[name], element);
         element.kept = old;
         figures.set(name, old);
       } else {
@@ -191,15 +191,3 @@ const onScreen = (element) => {
   return box.bottom > Math.max(0, line?.top < 1 ? line.bottom : 0) && box.top < innerHeight;
 };
 const later = (act) => (window.requestIdleCallback ? requestIdleCallback(act, { timeout: 400 }) : setTimeout(act, 20));
-
-const frame = (spec) => JSON.stringify([spec.abscissae.map((one) => one.key), spec.panels.length, Boolean(spec.slider), spec.categories.length > 0]);
-const alike = (old, spec) => frame(old) === frame(spec);
-
-function renew(figure, spec, element) {
-  const zoomed = figure.range && JSON.stringify(figure.range) !== JSON.stringify(figure.spec.window || null);
-  if (!zoomed) figure.range = undefined;
-  figure.spec = spec;
-  figure.cache.clear();
-  figure.abscissa = spec.abscissae.find((one) => figure.abscissa && one.key === figure.abscissa.key) || spec.abscissae[0];
-  figure.element.querySelector("figcaption").replaceWith(element.querySelector("figcaption"));
-}

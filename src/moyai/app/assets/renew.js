@@ -46,3 +46,16 @@ function gone(node) {
   node.remove();
   return next;
 }
+
+const frame = (spec) => JSON.stringify([spec.abscissae.map((one) => one.key), spec.panels.length, Boolean(spec.slider), spec.categories.length > 0]);
+// Whether a figure can go on as another one of its name.
+export const alike = (old, spec) => frame(old) === frame(spec);
+
+export function renewFigure(figure, spec, element) {
+  const zoomed = figure.range && JSON.stringify(figure.range) !== JSON.stringify(figure.spec.window || null);
+  if (!zoomed) figure.range = undefined;
+  figure.spec = spec;
+  figure.cache.clear();
+  figure.abscissa = spec.abscissae.find((one) => figure.abscissa && one.key === figure.abscissa.key) || spec.abscissae[0];
+  renewed(figure.element.querySelector("figcaption"), element.querySelector("figcaption"));
+}
