@@ -75,20 +75,24 @@ class Drafts:
         self._keep = keep
         self._rest = rest
         self._pinned = Pinned(run, keep)
+        self._last: Document | None = None
         self._lacking: dict[str, set[str]] = {}
         self._complete: dict[str, set[str]] = {}
 
     def answer(self, wish: Wish, progress: Progress) -> Iterator[dict[str, Any]]:
         """Yield the case as read and checked, then its draft where it has no errors."""
         started = time.perf_counter()
-        text, checked, document = wish.text, False, None
+        text, checked = wish.text, False
+        document: Document | None = None
         try:
             if len(text) > _TEXT_LIMIT:
                 raise CaseError([Fault(f"the text is longer than {_TEXT_LIMIT // 1_000_000} million characters")])
-            document = parse_yaml(text, wish.file.name)
+            document = self._last
+            if document is None or (document.text, document.file) != (text, wish.file.name):
+                document = parse_yaml(text, wish.file.name)
             for path, number in wish.edits.items():
                 document = with_number(document, path, number)
-            text = document.text
+            self._last, text = document, document.text
             refuse_foreign_files(wish.root, wish.file.parent, document.data)
             case = case_of(document, wish.file)
             drafts = stages_of(document, case.kind, wish.analyses)
@@ -104,8 +108,8 @@ class Drafts:
             faults = error.faults if isinstance(error, CaseError) else (error.fault,)
             if not checked:
                 # The sliders stay, so that a number that went too far can be moved back
-                known = {} if document is None else {"sliders": _sliders_by_keys(document)}
-                yield _checked(text, faults, (), **known)
+                sliders = [] if document is None else _sliders_by_keys(document)
+                yield _checked(text, faults, (), **({} if document is None else {"sliders": sliders}))
             else:
                 yield {"message": "not drawn", "faults": [asdict(spoken_fault(fault)) for fault in faults]}
 

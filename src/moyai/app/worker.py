@@ -10,7 +10,9 @@ import os
 import signal
 import tempfile
 import time
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Callable
+from functools import partial
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -96,9 +98,8 @@ class DraftWorker:
                 return
             self._busy_with = name
             try:
+                # what is stale by now is given up by the process, or not drawn by the page
                 async for line in self._exchange(wish):
-                    if self._newest[name] != number:
-                        line = _STALE
                     yield line
             except BaseException:
                 # A page that has gone leaves answers in the pipe that belong to nobody
@@ -148,8 +149,8 @@ def _serve(pipe: Any, run: Run, stop: Any, language: str) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     die_with_parent()
     collect_rarely()
-    warm_up()
     speak(language)
+    warm_up(pipe.poll)
 
     def listen(what: str, done: float, total: float) -> None:
         if stop.is_set():
@@ -191,13 +192,15 @@ def _finite(value: Any) -> Any:
     return None if isinstance(value, float) and not abs(value) < float("inf") else value
 
 
-def warm_up() -> None:
-    """Import what every draft needs."""
-    import moyai.case.builder
-    import moyai.report.html
-    import moyai.report.writer  # noqa: F401
+def warm_up(wanted: Callable[[], Any]) -> None:
+    """Import what drafts need, until one is wanted: that one goes on with its own."""
     from moyai.core.kinds import structure_kind, structure_kinds
 
-    for name in structure_kinds():
+    modules = ("moyai.case.builder", "moyai.report.writer", "moyai.report.html", "xarray", "numba")
+    steps = [partial(import_module, name) for name in modules]
+    steps += [partial(lambda kind: structure_kind(kind).schema(), name) for name in structure_kinds()]
+    for step in steps:
+        if wanted():
+            return
         with contextlib.suppress(Exception):
-            structure_kind(name).schema()
+            step()

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 import tempfile
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -69,11 +68,11 @@ def run(
     ]
     result = result.with_notices(*warnings) if warnings else result
     if levels := _levels_left_out(case.model):
-        result = replace(result, verdict=left_open(result.verdict, f"not run: water level {', '.join(levels)}"))
+        result = result.changed(verdict=left_open(result.verdict, f"not run: water level {', '.join(levels)}"))
     if (display := getattr(case.model, "display", None)) is not None and display.units != "SI":
-        result = replace(result, provenance={**result.provenance, "display_units": display.units})
+        result = result.changed(provenance={**result.provenance, "display_units": display.units})
     if display is not None and display.language is not None:
-        result = replace(result, provenance={**result.provenance, "display_language": display.language})
+        result = result.changed(provenance={**result.provenance, "display_language": display.language})
     return with_views(result)
 
 

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
+from moyai.core.groups import Groups
 from moyai.core.headline import Criterion, Headline, judge
 from moyai.core.results import Result, Status, make_provenance
 from moyai.core.validity import IdentityCheck, Notice
@@ -130,7 +131,7 @@ class Collected:
         numbers = tuple(headlines)
         known = {name: attributes[name] for name in ("title", "case_hash", "structure")}
         return Result(
-            tree=xr.DataTree.from_dict({"/": xr.Dataset(attrs=dict(attributes)), **groups}),
+            tree=Groups.of({"/": xr.Dataset(attrs=dict(attributes)), **groups}),  # type: ignore[arg-type]
             status=status,
             message=message,
             checks=tuple(self.checks),

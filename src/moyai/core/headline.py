@@ -110,10 +110,9 @@ class Headline:
 
     def as_dict(self) -> dict[str, Any]:
         """Return a JSON-ready mapping (numbers that are not finite become text)."""
-        record = asdict(self)
-        record["value"] = _writable(self.value)
+        record = {**vars(self), "value": _writable(self.value)}
         if self.band is not None:
-            record["band"] |= {"low": _writable(self.band.low), "high": _writable(self.band.high)}
+            record["band"] = {**vars(self.band), "low": _writable(self.band.low), "high": _writable(self.band.high)}
         return record
 
     @classmethod

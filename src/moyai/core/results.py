@@ -13,13 +13,14 @@ from datetime import UTC, datetime
 from functools import cache
 from importlib import metadata
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, Self
 
 import numpy as np
 
 from moyai.core.errors import InputError, MoyaiError
 from moyai.core.files import partial_file
 from moyai.core.foreign_files import netcdf_engine, reads, require_plausible_size
+from moyai.core.groups import Groups
 from moyai.core.headline import Headline, Verdict, without_computation
 from moyai.core.validity import IdentityCheck, Notice
 
@@ -38,7 +39,7 @@ DIRECTION_CONVENTION = "heading 0 travels towards +x, 90 degrees towards +y; x, 
 class Result:
     """What a run hands back and what the file on disk holds."""
 
-    #: Groups of labelled data; every variable carries ``units`` and ``long_name``.
+    #: Groups of labelled data; every variable carries ``units`` and ``long_name``. Of a run it is made when asked for.
     tree: xr.DataTree
     #: ``converged``, ``outside_validity``, ``not_converged``, ``interrupted`` or ``failed``.
     status: Status = "converged"
@@ -55,13 +56,33 @@ class Result:
     #: Whether the design keeps its criteria; apart from ``status``, which speaks of the computation.
     verdict: Verdict = field(default_factory=Verdict)
 
+    def __post_init__(self) -> None:
+        if isinstance(self.tree, Groups):
+            object.__setattr__(self, "_groups", self.tree)
+            object.__delattr__(self, "tree")
+
+    def __getattr__(self, name: str) -> Any:
+        if name != "tree" or "_groups" not in self.__dict__:
+            raise AttributeError(f"a result has no attribute '{name}'")
+        object.__setattr__(self, "tree", self.__dict__["_groups"].tree())
+        return self.tree
+
+    @property
+    def held(self) -> Any:
+        """The tree, or groups that are read like it as long as nobody asked for the tree."""
+        return self.__dict__["tree"] if "tree" in self.__dict__ else self.__dict__["_groups"]
+
+    def changed(self, **changes: Any) -> Self:
+        """Return the result with other fields."""
+        return replace(self, **{"tree": self.held, **changes})
+
     def with_notices(self, *notices: Notice) -> Result:
         """Return the same result with further notices; an ``error`` among them lowers the status."""
         status = self.status
         if status == "converged" and any(notice.severity == "error" for notice in notices):
             status = "outside_validity"
         verdict = self.verdict if status == self.status else without_computation(self.verdict)
-        return replace(self, notices=(*self.notices, *notices), status=status, verdict=verdict)
+        return self.changed(notices=(*self.notices, *notices), status=status, verdict=verdict)
 
     def write(self, path: str | os.PathLike[str]) -> Path:
         """Write NetCDF under ``path``; a file under the final name is always complete.

@@ -10,11 +10,17 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from moyai.core.remembered import Remembered, key_of_objects
 
 if TYPE_CHECKING:
     import xarray as xr
 
+_COORDINATES: Remembered[xr.Coordinates] = Remembered(256)
+_MOST_BYTES = 1 << 16
 #: Unit of texts, and of numbers whose unit changes from row to row and stands in another variable.
 NO_UNIT = ""
 #: Group below which each set of measured points of a case stands: x and y in units of the user's file.
@@ -211,15 +217,51 @@ class Vocabulary:
 
         Words that a variable brings stay: those of one row of a table may be closer than the declaration.
         """
+        said = {name: self._words(str(name), held.dtype) for name, held in dataset.variables.items()}
+        if all(words.keys() <= dataset.variables[name].attrs.keys() for name, words in said.items()):
+            return dataset
         out = dataset.copy()
-        for name, held in out.variables.items():
-            known = self.variables.get(str(name))
-            if known is None:
-                continue
-            number = held.dtype.kind in "iufcb"
-            said = {"units": known.units, "long_name": known.long_name} if number else {"long_name": known.long_name}
-            held.attrs = {**said, **held.attrs}
+        for name, words in said.items():
+            out.variables[name].attrs = {**words, **out.variables[name].attrs}
         return out
+
+    def _words(self, name: str, dtype: np.dtype[Any]) -> dict[str, str]:
+        known = self.variables.get(name)
+        if known is None:
+            return {}
+        units = {"units": known.units} if dtype.kind in "iufcb" else {}
+        return {**units, "long_name": known.long_name}
+
+    def dataset(
+        self, data: Mapping[str, tuple[Any, Any]], coords: Mapping[str, Any], attrs: Mapping[str, Any] | None = None
+    ) -> xr.Dataset:
+        """Return a dataset with ``units`` and ``long_name`` on every declared variable.
+
+        Parameters
+        ----------
+        data : mapping
+            Dimensions and values by name.
+        coords : mapping
+            Labels of dimensions; dimensions and values of what stands along them. Labels met before cost nothing.
+        attrs : mapping, optional
+            Attributes of the dataset.
+        """
+        import xarray as xr
+
+        def made(name: str, dims: Any, values: Any) -> xr.Variable:
+            array = np.asarray(values)
+            return xr.Variable(dims, array, self._words(name, array.dtype))
+
+        labels = {name: np.asarray(held) for name, held in coords.items() if not isinstance(held, tuple)}
+        few = sum(held.nbytes for held in labels.values()) <= _MOST_BYTES
+        known = _COORDINATES.of(
+            key_of_objects(self.kind, labels) if few else None,
+            lambda: xr.Coordinates({name: made(name, name, held) for name, held in labels.items()}),
+        )
+        along = {name: made(name, *held) for name, held in coords.items() if isinstance(held, tuple)}
+        own = {name: made(name, *held) for name, held in data.items()}
+        out = xr.Dataset(own | along, coords=known, attrs=dict(attrs or {}))
+        return out.set_coords(list(along)) if along else out
 
     def described(self, groups: Mapping[str, xr.Dataset]) -> tuple[dict[str, xr.Dataset], tuple[str, ...]]:
         """Return the groups of a result, described, and what is wrong with their names: see :meth:`close`.

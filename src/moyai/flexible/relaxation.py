@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from moyai.core.arrays import Array
+from moyai.core.remembered import Remembered, key_of_objects
 from moyai.flexible import force_kernel, front_kernel, rest_kernel
 from moyai.flexible.arrays import KernelArrays, kernel_arrays, kernel_bed
 from moyai.flexible.flow import Flow
@@ -23,6 +24,7 @@ from moyai.flexible.sparse import SparsePlan, make_plan
 
 #: Steps below this turn of every bar [rad or strain] are taken whole, without a search along them.
 _SMALL_TURN = 1e-4
+_PLANS: Remembered[SparsePlan] = Remembered(8)
 
 
 def kernel_system(arrays: KernelArrays) -> tuple[object, ...]:
@@ -44,8 +46,9 @@ def mean_size(network: Network) -> float:
 
 def plan_of(network: Network, arrays: KernelArrays, parts: tuple[Part, ...] = ()) -> SparsePlan:
     """Plan the sparse solver of a network: bars first, hinges second, then the parts."""
-    bars = np.stack([arrays.start, arrays.end], axis=1)
-    return make_plan(network.nodes.position, [bars, arrays.hinges, *(part.members for part in parts)])
+    place, members = network.nodes.position, [np.stack([arrays.start, arrays.end], axis=1), arrays.hinges]
+    members += [part.members for part in parts]
+    return _PLANS.of(key_of_objects(place, members), lambda: make_plan(place, members))
 
 
 def kernel_plan(plan: SparsePlan) -> tuple[object, ...]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from typing import Protocol
 
 import numpy as np
@@ -236,8 +237,8 @@ def find_equilibrium(
 
     Notes
     -----
-    Newton's method on the exact immersed geometry with a tangent by central differences and a step that is halved
-    until the residual falls; solves [eq:floating-equilibrium].
+    Newton's method on the exact immersed geometry with a tangent by central differences, mended by Broyden's rule as
+    long as the residual falls tenfold, and a step that is halved until it falls; solves [eq:floating-equilibrium].
     """
     positive(mass, "mass")
     weight = mass * gravity
@@ -248,14 +249,17 @@ def find_equilibrium(
     breadth = _scale_of(hull, draught_start)
     scale = np.array([weight, weight, weight * breadth])
 
+    @cache
+    def displaced(draught: float, heel: float) -> tuple[float, float]:
+        section = _immersed_or_none(hull, draught, heel)
+        return (0.0, 0.0) if section is None else (section.area, section.centroid[0])
+
     def residual(position: Array) -> Array:
-        offset, draught, heel = position
+        offset, draught, heel = position.tolist()
         x_gravity, z_gravity = body_to_site(centre_of_gravity, draught, heel, offset)
         lines = (0.0, 0.0, 0.0) if line_pull is None else line_pull(x_gravity, z_gravity, heel)
-        area, x_buoyancy = 0.0, 0.0
-        section = _immersed_or_none(hull, draught, heel)
-        if section is not None:
-            area, x_buoyancy = section.area, section.centroid[0] + offset
+        area, centre = displaced(draught, heel)
+        x_buoyancy = centre + offset
         buoyancy = density * gravity * area * length
         # Positive roll carries a point on the +x side down, so an upward force there turns the body back
         values: Array = (
@@ -265,15 +269,18 @@ def find_equilibrium(
 
     value = residual(state)
     iterations = 0
+    tangent: Array | None = None
     steps = np.array([breadth, breadth, 1.0]) * 1e-6
     while float(np.max(np.abs(value[active]))) > tolerance and iterations < maximum_iterations:
         iterations += 1
-        tangent = np.empty((active.size, active.size))
-        for column, dof in enumerate(active):
-            ahead, behind = state.copy(), state.copy()
-            ahead[dof] += steps[dof]
-            behind[dof] -= steps[dof]
-            tangent[:, column] = (residual(ahead) - residual(behind))[active] / (2.0 * steps[dof])
+        known = tangent is not None
+        if tangent is None:
+            tangent = np.empty((active.size, active.size))
+            for column, dof in enumerate(active):
+                ahead, behind = state.copy(), state.copy()
+                ahead[dof] += steps[dof]
+                behind[dof] -= steps[dof]
+                tangent[:, column] = (residual(ahead) - residual(behind))[active] / (2.0 * steps[dof])
         step = -np.linalg.lstsq(tangent, value[active], rcond=None)[0]
         limit = np.array([0.5 * breadth, 0.5 * breadth, 0.3])[active]
         step /= max(1.0, float(np.max(np.abs(step) / limit)))
@@ -283,10 +290,16 @@ def find_equilibrium(
             trial[active] += step / 2.0**halving
             trial_value = residual(trial)
             if np.linalg.norm(trial_value[active]) < np.linalg.norm(value[active]):
+                moved, turned = (trial - state)[active], (trial_value - value)[active]
+                good = halving == 0 and np.linalg.norm(trial_value[active]) < 0.1 * np.linalg.norm(value[active])
+                # a step that did what the tangent said mends it; any other asks for a new one
+                tangent = tangent + np.outer(turned - tangent @ moved, moved) / (moved @ moved) if good else None
                 state, value, accepted = trial, trial_value, True
                 break
         if not accepted:
-            break
+            if not known:
+                break
+            tangent = None
     left = float(np.max(np.abs(value[active])))
     # Differences of the residual end at rounding: a stalled search below 1e-9 of the weight is an equilibrium
     if left > max(tolerance, 1e-9) or _immersed_or_none(hull, state[1], state[2]) is None:

@@ -15,14 +15,14 @@ from moyai.core.arrays import Array
 def rotation_matrix(angles: ArrayLike) -> Array:
     """Return R (..., 3, 3) for roll, pitch, yaw [rad] (..., 3)."""
     angles = np.asarray(angles, dtype=float)
-    cr, cp, cy = (np.cos(angles[..., i]) for i in range(3))
-    sr, sp, sy = (np.sin(angles[..., i]) for i in range(3))
-    rows = (
-        (cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr),
-        (sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr),
-        (-sp, cp * sr, cp * cr),
-    )
-    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+    cosine, sine = np.cos(angles), np.sin(angles)
+    cr, cp, cy = cosine[..., 0], cosine[..., 1], cosine[..., 2]
+    sr, sp, sy = sine[..., 0], sine[..., 1], sine[..., 2]
+    out = np.empty((*angles.shape, 3))
+    out[..., 0, 0], out[..., 0, 1], out[..., 0, 2] = cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr
+    out[..., 1, 0], out[..., 1, 1], out[..., 1, 2] = sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr
+    out[..., 2, 0], out[..., 2, 1], out[..., 2, 2] = -sp, cp * sr, cp * cr
+    return out
 
 
 def roll_pitch_yaw(rotation: ArrayLike) -> Array:

@@ -57,8 +57,6 @@ VOCABULARY = Vocabulary.of(
 
 def build_dataset(solution: RadiationDiffraction) -> xr.Dataset:
     """Return the dataset; the ``oblique_`` variables are there only when a heading is oblique."""
-    import xarray as xr
-
     normal = solution.normal
     over = solution._over_headings
     values: dict[str, Any] = {
@@ -78,24 +76,16 @@ def build_dataset(solution: RadiationDiffraction) -> xr.Dataset:
         values["oblique_added_mass"] = over("added_mass")
         values["oblique_radiation_damping"] = over("radiation_damping")
         values["oblique_radiated_wave"] = over("radiated_wave")
-    data = {
-        name: (dims.split(), values[name], {"units": units, "long_name": text})
-        for name, (dims, units, text) in _VARIABLES.items()
-        if name in values
-    }
+    data = {name: (dims.split(), values[name]) for name, (dims, _, _) in _VARIABLES.items() if name in values}
     names = list(solution.modes.names)
     coordinates = {
-        "omega": ("omega", normal.states.omega, {"units": "rad/s", "long_name": "angular frequency"}),
-        "period": ("omega", 2.0 * np.pi / normal.states.omega, {"units": "s", "long_name": "period"}),
-        "wavenumber": ("omega", normal.states.wave_number, {"units": "rad/m", "long_name": "wave number"}),
-        "wave_direction": (
-            "wave_direction",
-            solution.heading,
-            {"units": "rad", "long_name": "direction in which waves travel, 0 along +x"},
-        ),
-        "radiating_dof": ("radiating_dof", names, {"long_name": "mode that moves"}),
-        "influenced_dof": ("influenced_dof", names, {"long_name": "mode that is pushed"}),
-        "side": ("side", ["minus", "plus"], {"long_name": "side of the section, x to minus or plus infinity"}),
+        "omega": normal.states.omega,
+        "period": ("omega", 2.0 * np.pi / normal.states.omega),
+        "wavenumber": ("omega", normal.states.wave_number),
+        "wave_direction": solution.heading,
+        "radiating_dof": names,
+        "influenced_dof": names,
+        "side": ["minus", "plus"],
     }
     attributes = {
         **solution.conventions,
@@ -110,4 +100,4 @@ def build_dataset(solution: RadiationDiffraction) -> xr.Dataset:
         "checks": json.dumps([check.as_dict() for check in solution.checks]),
         "per": "metre of structure",
     }
-    return xr.Dataset(data, coords=coordinates, attrs=attributes)
+    return VOCABULARY.dataset(data, coordinates, attributes)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -42,6 +43,9 @@ def arc_position(start: ComplexArray, end: ComplexArray, bulge: Array, t: Array 
 
 def arc_slope(start: ComplexArray, end: ComplexArray, bulge: Array, t: Array | float) -> ComplexArray:
     """Derivative of :func:`arc_position` with respect to ``t``; its modulus is the length of the edge."""
+    if not np.any(bulge):
+        straight: ComplexArray = end - start + 0.0 * bulge * t
+        return straight
     half_sweep = 2.0 * np.arctan(bulge)
     values: ComplexArray = (end - start) / np.sinc(half_sweep / np.pi) * np.exp(1j * half_sweep * (2.0 * t - 1.0))
     return values
@@ -120,18 +124,18 @@ class Edges:
         starts: list[complex] = []
         ends: list[complex] = []
         bulges: list[float] = []
-        for start, end, bulge in zip(as_complex(self.start), as_complex(self.end), self.bulge):
-            length = float(abs(arc_slope(start, end, bulge, 0.0)))
-            fractions = [t for t in _level_crossings(start, end, float(bulge)) if min(t, 1.0 - t) * length > tolerance]
-            limits = np.array([0.0, *sorted(fractions), 1.0])
-            position = arc_position(start, end, bulge, limits)
-            position[0], position[-1] = start, end
-            position[1:-1] = position[1:-1].real
-            level = np.where(np.abs(position.imag) <= tolerance, 0.0, position.imag)
-            position = position.real + 1j * level
-            starts.extend(position[:-1])
-            ends.extend(position[1:])
-            bulges.extend(np.tan(np.arctan(bulge) * np.diff(limits)))
+        lengths = self.lengths.tolist()
+        for start, end, bulge, length in zip(
+            as_complex(self.start).tolist(), as_complex(self.end).tolist(), self.bulge.tolist(), lengths, strict=True
+        ):
+            fractions = [t for t in _level_crossings(start, end, bulge) if min(t, 1.0 - t) * length > tolerance]
+            limits = [0.0, *sorted(fractions), 1.0]
+            inner = [complex(arc_position(start, end, bulge, t)).real for t in limits[1:-1]]
+            corners = [start, *(complex(x) for x in inner), end]
+            corners = [complex(one.real) if abs(one.imag) <= tolerance else one for one in corners]
+            starts.extend(corners[:-1])
+            ends.extend(corners[1:])
+            bulges.extend(math.tan(math.atan(bulge) * (b - a)) for a, b in pairwise(limits))
         return Edges(as_points(starts), as_points(ends), np.array(bulges))
 
     def right_of(self, x: float, tolerance: float) -> Edges:

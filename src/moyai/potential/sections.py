@@ -414,7 +414,7 @@ def _wetted(outline: Outline, body: int) -> Sequence[Chain]:
     if not wet.any():
         return ()
     # A break lies before every edge that starts on the still water or follows a dry edge
-    breaks = np.flatnonzero(wet & ((edges.start[:, 1] == 0.0) | ~np.roll(wet, 1)))
+    breaks = np.flatnonzero(wet & ((edges.start[:, 1] == 0.0) | ~np.concatenate([wet[-1:], wet[:-1]])))
     if breaks.size == 0:
         return (Chain(edges, closed=True, body=body),)
     chains = []

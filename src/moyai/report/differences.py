@@ -126,7 +126,7 @@ def _paragraph(name: str, common: int, count: int, pairs: int) -> Paragraph:
 
 
 def _kind(result: Result) -> str:
-    return str(result.tree.attrs.get("structure", "of no known kind"))
+    return str(result.held.attrs.get("structure", "of no known kind"))
 
 
 def headline_table(result: Result, other: Other) -> Table | None:

@@ -78,11 +78,11 @@ def with_first_page(document: Document, result: Result) -> Document:
     numbers = [block for block in first.blocks if isinstance(block, KeyFigures)]
     notices = [block for block in first.blocks if isinstance(block, NoticeBlock)]
     rest = [block for block in first.blocks if not isinstance(block, KeyFigures | NoticeBlock)]
-    table = criteria_table(result)
-    conditions = input_line(result)
+    # empty where a draft is of other sections
+    table, conditions = (criteria_table(result), input_line(result)) if first.blocks else (None, "")
     said_of = [Paragraph(conditions, quiet=True)] if conditions else []
     blocks: list[Block] = [*numbers, *said_of, *([] if table is None else [table]), *notices, *rest]
-    if said := UNITS_NOTES.get(units_of(result)):
+    if first.blocks and (said := UNITS_NOTES.get(units_of(result))):
         blocks.append(Paragraph(said, quiet=True))
     ordered = (Section(first.key, first.title, tuple(blocks)), *others)
     sections = tuple(replace(section, blocks=tuple(map(in_like_units, section.blocks))) for section in ordered)

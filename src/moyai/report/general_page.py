@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import Any
@@ -70,14 +70,14 @@ def page_of(result: Result, subtitle: str, sections: Iterable[Section]) -> Docum
         subtitle=subtitle,
         status=result.status,
         message=result.message,
-        sections=(*(section for section in sections if section.blocks), closing_section(result)),
+        sections=(*_with_blocks(tuple(sections)), *((closing_section(result),) if _wanted("checks") else ())),
         provenance=provenance(result),
     )
 
 
 def report_title(result: Result) -> str:
     """Return the title of a result."""
-    for source in (result.tree.attrs, result.provenance):
+    for source in (result.held.attrs, result.provenance):
         title = str(source.get("title", "")).strip()
         if title:
             return title
@@ -87,8 +87,8 @@ def report_title(result: Result) -> str:
 def provenance(result: Result) -> Mapping[str, Any]:
     """Return the provenance with the hash of the case on top of it."""
     entries = dict(result.provenance)
-    if "case_hash" not in entries and result.tree.attrs.get("case_hash"):
-        entries["case_hash"] = result.tree.attrs["case_hash"]
+    if "case_hash" not in entries and result.held.attrs.get("case_hash"):
+        entries["case_hash"] = result.held.attrs["case_hash"]
     return entries
 
 
@@ -120,13 +120,20 @@ def chapters(*parts: tuple[str, str, Callable[[], Iterable[Block]]]) -> tuple[Se
     Parameters
     ----------
     *parts : tuple
-        Key, title and what gives the blocks. Under :func:`composing_only` no others are composed than the first and
-        those that it names.
+        Key, title and what gives the blocks. Under :func:`composing_only` no others are composed than those that it
+        names; the first stays, empty.
     """
-    wanted = _ONLY.get()
-    chosen = [part for part in parts if wanted is None or part is parts[0] or part[0] in wanted]
-    made = (Section(key, title, tuple(blocks())) for key, title, blocks in chosen)
-    return tuple(section for section in made if section.blocks)
+    return _with_blocks([Section(key, title, tuple(blocks()) if _wanted(key) else ()) for key, title, blocks in parts])
+
+
+def _wanted(key: str) -> bool:
+    only = _ONLY.get()
+    return only is None or key in only
+
+
+def _with_blocks(sections: Sequence[Section]) -> tuple[Section, ...]:
+    """Return the sections that hold something, and the first that a draft leaves empty."""
+    return tuple(one for one in sections if one.blocks or (one is sections[0] and not _wanted(one.key)))
 
 
 @contextmanager

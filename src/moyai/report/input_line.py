@@ -32,7 +32,7 @@ def input_line(result: Result) -> str:
     ----------
     result : Result
     """
-    text = str(result.tree.attrs.get("case_text", ""))
+    text = str(result.held.attrs.get("case_text", ""))
     try:
         case = parse_yaml(text).data if text.strip() else None
     except CaseError:
@@ -47,7 +47,7 @@ def input_line(result: Result) -> str:
         words = _said(case.get(name), _FLOW)
         parts.append(f"{name} {words}" if words else "")
     told = "; ".join(part for part in parts if part)
-    mark = str(result.tree.attrs.get("case_hash", ""))[:8]
+    mark = str(result.held.attrs.get("case_hash", ""))[:8]
     ending = f" Case {mark}." if mark else ""
     return f"Conditions: {told}.{ending}" if told else ""
 

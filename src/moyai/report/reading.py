@@ -43,12 +43,12 @@ def root_of(result: Result) -> Group:
     AbsentError
         When a group lacks what its analysis always writes.
     """
-    own = vocabulary_of(result.tree)
-    for node in () if own is None else result.tree.subtree:
+    own = vocabulary_of(result.held)
+    for node in () if own is None else result.held.subtree:
         missing = () if own is None else own.absent(node.path, node)
         if missing:
             raise _absent(node.path, *missing)
-    return Group("", result.tree, own)
+    return Group("", result.held, own)
 
 
 @dataclass(frozen=True)

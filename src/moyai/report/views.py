@@ -142,7 +142,7 @@ class ReportedResult(Result):
         return Views("figure", drawn, plotly_figure, self._levels(), self._governing_level())
 
     def _levels(self) -> list[str]:
-        return [name for name, node in self.tree.children.items() if "water_level" in node.attrs]
+        return [name for name, node in self.held.children.items() if "water_level" in node.attrs]
 
     def _governing_level(self) -> str:
         """Return the water level of the first number of the first page; empty where it names none."""
@@ -184,7 +184,8 @@ def with_views(result: Result) -> ReportedResult:
     """
     if isinstance(result, ReportedResult):
         return result
-    return ReportedResult(**{name: getattr(result, name) for name in Result.__dataclass_fields__})
+    rest = {name: getattr(result, name) for name in Result.__dataclass_fields__ if name != "tree"}
+    return ReportedResult(tree=result.held, **rest)
 
 
 def read_result(path: str | os.PathLike[str]) -> ReportedResult:

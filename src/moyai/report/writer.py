@@ -50,7 +50,7 @@ def compose_document(
     """
     if units is not None:
         result = replace(result, provenance={**result.provenance, "display_units": units})
-    measured = MEASURED_GROUP.strip("/") in result.tree.children
+    measured = MEASURED_GROUP.strip("/") in result.held.children
     with displayed_in(units_of(result)) as units, composing_only(None if measured else only):
         language = require_language(language or str(result.provenance.get("display_language") or spoken_language()))
         document = replace(_composed(result), units=units, language=language)
@@ -64,7 +64,7 @@ def compose_document(
 
 
 def _composed(result: Result) -> Document:
-    kind = kind_of_result(str(result.tree.attrs.get("structure", "")))
+    kind = kind_of_result(str(result.held.attrs.get("structure", "")))
     if kind is not None:
         return with_first_page(kind.compose(result), result)
     # A kind that is not known gets a plain listing of all groups

@@ -252,6 +252,121 @@ def test_pins_are_named_drawn_and_taken_away(address: str) -> None:
         sound(page, address)
 
 
+KEYS = {
+    "Tab": 9, "Enter": 13, "Escape": 27, " ": 32, "ArrowLeft": 37, "ArrowUp": 38, "ArrowRight": 39, "ArrowDown": 40,
+    "z": 90,
+}  # fmt: skip
+ALT, CONTROL, SHIFT = 1, 2, 8
+FOCUS = "document.activeElement"
+
+
+def press(page: Any, key: str, modifiers: int = 0) -> None:
+    """Press and release a key as a keyboard does."""
+    code = f"Key{key.upper()}" if len(key) == 1 and key.isalpha() else {" ": "Space"}.get(key, key)
+    written = {"Enter": "\r", " ": " "}.get(key, key if len(key) == 1 and not modifiers else "")
+    how = {"key": key, "code": code, "windowsVirtualKeyCode": KEYS[key], "modifiers": modifiers}
+    page.send("Input.dispatchKeyEvent", type="keyDown", **how, **({"text": written} if written else {}))
+    page.send("Input.dispatchKeyEvent", type="keyUp", **how)
+
+
+def tab_to(page: Any, wanted: str, back: bool = False, most: int = 80) -> None:
+    """Press Tab until an element with the focus fulfils an expression of ``one``."""
+    for _ in range(most):
+        press(page, "Tab", SHIFT if back else 0)
+        if page.evaluate(f"((one) => Boolean({wanted}))({FOCUS})"):
+            return
+    raise AssertionError(f"no Tab reaches {wanted}; the focus is on {page.evaluate(f'{FOCUS}.outerHTML')[:200]}")
+
+
+def test_a_session_by_keyboard_alone(address: str) -> None:
+    """From a card to a run with no pointer: slider, form, text, undo, pin, full screen, jobs and back."""
+    with pipe.Chromium(str(pipe.find_chromium()), 1280, 900) as page:
+        page.send("Page.navigate", url=address)
+        until(page, f"{DRAWN} > 0 && {IDLE}")
+        tab_to(page, "one.classList.contains('skip')")
+        press(page, "Enter")
+        tab_to(page, "one.textContent === 'Cases'", back=True)
+        press(page, "Enter")
+        until(page, "document.querySelector('.card')")
+        tab_to(page, "one.matches('.card') && one.textContent.includes('pile')")
+        press(page, "Enter")
+        until(page, f"location.hash.startsWith('#/case') && {DRAWN} > 0 && {IDLE}")
+
+        tab_to(page, "one.type === 'range' && one.closest('.slider').textContent.includes('Diameter')")
+        assert page.evaluate(f"{FOCUS}.matches(':focus-visible') && getComputedStyle({FOCUS}).outlineStyle !== 'none'")
+        press(page, "ArrowRight")
+        until(page, f"{TEXT} !== {MEMBER!r} && {IDLE}")
+        assert page.evaluate(f"{FOCUS}.type") == "range", "the slider keeps the focus when the page is drawn anew"
+        tab_to(page, "one.textContent === 'Pin'", back=True)
+        press(page, " ")
+        until(page, f"{PINS}.length === 1")
+        press(page, "z", ALT)
+        until(page, f"{TEXT} === {MEMBER!r} && {IDLE}")
+
+        tab_to(page, "one.role === 'tab'")
+        press(page, "ArrowRight")
+        until(page, f"{FOCUS}.textContent === 'Form' && {DIAMETER}")
+        for _ in range(40):
+            press(page, "Tab")
+            if page.evaluate(f"{FOCUS}.matches('summary') && !{FOCUS}.parentElement.open"):
+                press(page, "Enter")
+            if page.evaluate(f"{FOCUS} === {DIAMETER}"):
+                break
+        assert page.evaluate(f"{FOCUS} === {DIAMETER}"), "the field is reached"
+        page.evaluate(f"{FOCUS}.select()")
+        page.send("Input.insertText", text="90 cm")
+        press(page, "Tab")
+        until(page, f"{TEXT} === {MEMBER.replace('100 cm', '90 cm')!r} && {IDLE}")
+
+        tab_to(page, "one.matches('.cm-content')")
+        press(page, "Tab")
+        assert page.evaluate(f"{FOCUS}.closest('.cm-content')") is None, "Tab leaves the text"
+        tab_to(page, "one.matches('.full')")
+        press(page, "Enter")
+        until(page, "document.fullscreenElement")
+        press(page, "Enter")
+        until(page, "!document.fullscreenElement")
+
+        tab_to(page, "one.textContent === 'Run'", back=True)
+        press(page, "Enter")
+        until(page, "document.querySelector('.job')?.dataset.state === 'done'", 120.0)
+        tab_to(page, "one.matches('.job-files a') && one.textContent === 'Report'")
+        press(page, "Enter")
+        until(page, "document.querySelector('iframe')?.src.endsWith('report.html')")
+        sound(page, address)
+
+
+def test_figures_are_taken_away(address: str) -> None:
+    """CSV, SVG and PNG of a figure are of what is drawn now, after a move as well."""
+    take = "((what) => document.querySelector(`.figure [data-do=${what}]`).click())"
+    with pipe.Chromium(str(pipe.find_chromium()), 1280, 900) as page:
+        page.send("Page.navigate", url=address)
+        until(page, f"{DRAWN} > 0 && {IDLE}")
+        page.evaluate("document.querySelector('.figure').scrollIntoView({ behavior: 'instant' })")
+        name = page.evaluate("document.querySelector('.figure').dataset.figure")
+        drawn = f"MOYAI.figures.get({name!r})"
+        until(page, f"{drawn}.drawn")
+        contents = []
+        for value in (100, 80):
+            page.evaluate(f"{MOVE}({value})")
+            until(page, f"{TEXT}.includes('{value} cm') && {IDLE}")
+            page.evaluate(f"{take}('csv')")
+            lines = page.wait_download(f"{name}.csv").decode("utf-8-sig").splitlines()
+            (page.downloads / f"{name}.csv").unlink()
+            columns = list(zip(*(line.split(",") for line in lines[1:])))
+            shown = json.loads(page.evaluate(f"JSON.stringify([...{drawn}.plot.data[0].y])"))
+            found = [[float(cell) for cell in column if cell] for column in columns]
+            assert any(len(one) == len(shown) and one == pytest.approx(shown, rel=1e-3) for one in found)
+            contents.append(lines)
+        assert contents[0] != contents[1]
+        page.evaluate(f"{take}('svg')")
+        drawing = page.wait_download(f"{name}.svg").decode("utf-8")
+        assert drawing.startswith("<svg") and "</svg>" in drawing and len(drawing) > 5000
+        page.evaluate(f"{take}('png')")
+        assert page.wait_download(f"{name}.png").startswith(b"\x89PNG\r\n")
+        sound(page, address)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", (*KINDS, "units"))
 def test_every_structure_opens_and_follows_a_slider(kind: str, tmp_path: Path) -> None:

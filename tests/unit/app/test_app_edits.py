@@ -10,12 +10,13 @@ import pytest
 from moyai.app.folder import Folder, refuse_foreign_files
 from moyai.app.sliders import slider, sliders_of
 from moyai.app.stages import stages_of
+from moyai.case.reader import case_of
 from moyai.case.templates import template
 from moyai.case.text_numbers import number_at, with_number
 from moyai.case.yaml_reader import parse_yaml
 from moyai.core.errors import InputError
 
-TEMPLATES = ("breakwater", "curtain", "cage", "rigid_cage", "network", "member")
+TEMPLATES = ("breakwater", "curtain", "cage", "rigid_cage", "network", "member", "units")
 
 
 def kind_of(name: str) -> str:
@@ -98,6 +99,13 @@ def test_a_case_names_its_own_sliders() -> None:
     assert [one["label"] for one in found] == ["Line length, first line", "Draught"]
     own = parse_yaml(text.replace("structure.draught", "site.gravity"))
     assert sliders_of(own, "breakwater")[1]["label"] == "Gravity of site"
+
+
+@pytest.mark.parametrize("name", TEMPLATES)
+def test_every_structure_may_name_its_sliders(name: str) -> None:
+    path = sliders_of(parse_yaml(template(name)), kind_of(name))[0]["path"]
+    document = parse_yaml(f"{template(name)}\napp: {{sliders: ['{path}']}}\n")
+    assert [one["path"] for one in sliders_of(document, case_of(document, Path("case.yaml")).kind)] == [path]
 
 
 def test_drafts_take_the_cheap_analyses_of_the_case() -> None:

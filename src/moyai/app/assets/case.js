@@ -9,6 +9,7 @@ import { Sliders } from "/assets/sliders.js";
 import { tabs } from "/assets/tabs.js";
 
 const PATIENCE = 500; // ms after which a further request overtakes one on its way that has drawn nothing, at least
+const SOON = 250; // ms that figures may take to be drawn before the text
 const TYPING = 350; // ms of rest before a typed text is sent
 
 export class CaseView {
@@ -18,12 +19,12 @@ export class CaseView {
     this.sequence = this.checked = this.drawn = this.flying = 0;
     this.edits = new Map();
     this.typed = 0;
-    this.form = new Form((wish) => this.change(wish));
+    this.form = new Form((wish) => this.change(wish), this.address);
     this.pins = new Pins((wish) => this.pin(wish));
     this.sliders = new Sliders((path, number) => this.sliderMoved(path, number));
   }
   async open() {
-    const [record, editor] = await Promise.all([get(this.address), editorOf({ changed: () => this.textChanged(), undo: () => this.undo(), keysAt: (path) => this.keysAt(path) })]);
+    const [record, editor] = await Promise.all([get(this.address), editorOf({ changed: () => this.textChanged(), undo: () => this.undo(), keysAt: (path) => this.form.keysAt(path) })]);
     this.editor = editor;
     const button = (words, act, title) => element("button", { type: "button", onclick: act, title }, words);
     this.title = element("h1", {}, record.name);
@@ -51,37 +52,18 @@ export class CaseView {
   }
   showTab(name) {
     this.content.dataset.tab = this.tab = name;
-    if (name === "form") this.renewForm();
-  }
-  async renewForm() {
-    const turn = this.formTurn = (this.formTurn || 0) + 1;
-    try {
-      const { form } = await get(`${this.address}/form`);
-      if (turn !== this.formTurn) return;
-      this.lastForm = form;
-      this.form.show(form);
-    } catch (refused) {
-      if (turn === this.formTurn && !this.lastForm) this.form.refuse(refused.message);
-    }
-  }
-  async keysAt(path) {
-    if (!this.lastForm) await this.renewForm();
-    let group = this.lastForm;
-    for (const step of path) {
-      const entries = group ? group.entries : [], at = entries.findIndex((one) => one.path[one.path.length - 1] === step);
-      group = at < 0 ? null : entries[at];
-    }
-    return (group && group.absent) || [];
+    if (name === "form") this.form.renew();
   }
   async change(wish) {
     const typed = this.typed;
+    this.catchUp();
     clearTimeout(this.timer);
     const record = await post(`${this.address}/change`, { ...wish, text: this.editor.text });
     if (typed !== this.typed) { tell(say("the text was changed meanwhile: do it again")); return; }
     this.edits.clear();
     this.typed++;
     this.take(record);
-    this.renewForm();
+    this.form.renew();
     this.send(`form ${wish.path.join(".")}`);
   }
   close() {
@@ -126,15 +108,16 @@ export class CaseView {
       return;
     }
     this.again = false;
-    const sequence = ++this.sequence, edits = Object.fromEntries(this.edits), typed = this.typed;
+    const sequence = ++this.sequence, edits = Object.fromEntries(this.edits), typed = this.typed, shown = this.live.shown();
     this.flying = performance.now();
     this.state.classList.add("working");
     this.live.remember();
     try {
-      await stream(`${this.address}/draft`, { sequence, text: this.editor.text, edits, gesture, shown: this.live.shown(), level: this.live.chosen.get("water-level") || "" }, (said) => this.hear(said, edits, typed));
+      await stream(`${this.address}/draft`, { sequence, text: this.editor.text, edits, gesture, shown, level: this.live.chosen.get("water-level") || "" }, (said) => this.hear(said, edits, typed));
     } catch (refused) {
       tell(refused.message);
     }
+    this.catchUp();
     if (sequence !== this.sequence) return;
     clearTimeout(this.overtaking);
     this.flying = 0;
@@ -143,18 +126,26 @@ export class CaseView {
   }
   hear(said, edits, typed) {
     if (this.closed) return;
-    if (said.message === "checked" && said.sequence >= this.checked) this.hearChecked(said, edits, typed);
-    else if (said.message === "drawn" && said.sequence >= this.drawn && said.sequence >= this.checked) this.hearDrawn(said);
-    else if (said.message === "not drawn") { this.editor.show(said.faults, []); this.say(say("not drawn; what is shown is older than the text"), true); }
+    if (said.message === "checked" && said.sequence >= this.checked) {
+      this.checked = said.sequence;
+      this.late = () => { if (said.sequence === this.checked) this.hearChecked(said, edits, typed); };
+      if (said.faults.length) this.catchUp(); else setTimeout(() => this.catchUp(), SOON);
+    } else if (said.message === "drawn" && said.sequence >= this.drawn && said.sequence >= this.checked) this.hearDrawn(said);
+    else if (said.message === "not drawn") { this.catchUp(); this.editor.show(said.faults, []); this.say(say("not drawn; what is shown is older than the text"), true); }
     else if (said.message === "lost") this.say(said.text, true);
   }
+  // Text, fields and marks follow the figures where those are there at once.
+  catchUp() {
+    const act = this.late;
+    this.late = null;
+    if (act) act();
+  }
   hearChecked(said, edits, typed) {
-    this.checked = said.sequence;
     for (const [path, number] of Object.entries(edits)) if (this.edits.get(path) === number) this.edits.delete(path);
     if (typed === this.typed) this.editor.text = said.text;
     this.editor.show(said.faults, said.warnings);
     this.form.mark(said.faults);
-    if (this.tab === "form" || !said.faults.length && this.lastForm === undefined) this.renewForm();
+    if (this.tab === "form") this.form.renew();
     if (said.sliders) this.sliders.show(said.sliders);
     if (!said.faults.length) { this.say(say("drawing …")); this.undoButton.disabled = false; this.saveButton.disabled = false; }
     else this.say(said.faults.length === 1 ? say("1 error in the case; what is shown is older than the text") : say("{0} errors in the case; what is shown is older than the text", said.faults.length), true);
@@ -174,6 +165,7 @@ export class CaseView {
       this.flying = 0;
       if (this.again) this.send(this.gesture);
     }
+    setTimeout(() => this.catchUp(), 0);
     if (this.moved) { this.report.dataset.latency = Math.round(performance.now() - this.moved); this.moved = 0; }
   }
   listSections() {

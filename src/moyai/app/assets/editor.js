@@ -23,7 +23,7 @@ class Editor {
   show(faults, warnings) {
     const state = JSON.stringify([faults, warnings]);
     // Marks move with the text while it is typed; the same ones are put again only where they have changed
-    this.surface.mark(faults, warnings);
+    if (state !== this.state || state !== "[[],[]]") this.surface.mark(faults, warnings);
     if (state === this.state) return;
     this.state = state;
     const item = (one, tone, word) => element("li", { class: `notice ${tone}` }, element("strong", {}, word),

@@ -1,11 +1,33 @@
 // The form of the case: groups and fields as the server made them from the schema. Every change is an edit of the text.
-import { element, faultWords, say } from "/assets/server.js";
+import { element, faultWords, get, say } from "/assets/server.js";
 
 export class Form {
-  constructor(change) {
+  constructor(change, address) {
+    this.address = address;
     this.change = change;
     this.open = new Map();
     this.element = element("div", { class: "form", role: "group", "aria-label": say("Form of the case") });
+  }
+  async renew() {
+    const turn = this.turn = (this.turn || 0) + 1;
+    try {
+      const { form } = await get(`${this.address}/form`);
+      if (turn !== this.turn) return;
+      this.last = form;
+      this.show(form);
+    } catch (refused) {
+      if (turn === this.turn && !this.last) this.refuse(refused.message);
+    }
+  }
+  // Keys that the block at a path lacks.
+  async keysAt(path) {
+    if (!this.last) await this.renew();
+    let group = this.last;
+    for (const step of path) {
+      const entries = group ? group.entries : [], at = entries.findIndex((one) => one.path[one.path.length - 1] === step);
+      group = at < 0 ? null : entries[at];
+    }
+    return (group && group.absent) || [];
   }
   show(form) {
     const state = JSON.stringify(form);

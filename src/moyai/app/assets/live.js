@@ -1,5 +1,6 @@
 // Draw a report that changes: figures keep their elements and their zoom, choices stay, what is on screen comes first.
 // A draft of a part leaves the other sections where they are, faded, until the whole answer is there.
+import { alike, renewed, renewedWithin, renewFigure, settle } from "/assets/renew.js";
 import { element, say } from "/assets/server.js";
 
 export class Live {
@@ -43,8 +44,8 @@ export class Live {
     for (const element of fresh.content.querySelectorAll("[data-figure]")) {
       const name = element.dataset.figure, old = MOYAI.figures.get(name);
       if (old && alike(old.spec, data.figures[name])) {
-        renew(old, data.figures[name], element);
-        element.replaceWith(old.element);
+        renewFigure(old, data.figures[name], element);
+        element.kept = old;
         figures.set(name, old);
       } else {
         if (old && old.drawn) Plotly.purge(old.plot);
@@ -53,7 +54,7 @@ export class Live {
       }
     }
     for (const [name, old] of MOYAI.figures) if (!figures.has(name) && old.drawn) Plotly.purge(old.plot);
-    if (older.length) this.place(fresh.content); else this.holder.replaceChildren(fresh.content);
+    if (older.length) this.place(fresh.content); else renewedWithin(this.holder, fresh.content);
     for (const name of made) figures.set(name, new MOYAI.Figure(figures.get(name)));
     MOYAI.figures = figures;
     MOYAI.players = [];
@@ -97,8 +98,9 @@ export class Live {
     let before = null;
     for (const one of [...content.children]) {
       const old = one.id ? document.getElementById(one.id) : this.holder.querySelector(".badges");
-      if (old) old.replaceWith(one); else if (before) before.after(one); else this.holder.append(one);
-      before = one;
+      if (old) renewed(old, one); else if (before) before.after(one); else this.holder.append(one);
+      before = old || one;
+      settle(before);
     }
   }
   // Return the sections that a draft leaves out, faded, and give it the choices that it has no panes for.
@@ -135,7 +137,9 @@ export class Live {
   // Draw what is out of sight after a rest; a slider that moves puts it off.
   pause(rest = 1000) {
     clearTimeout(this.timer);
+    const turn = this.turn = (this.turn || 0) + 1;
     const next = () => {
+      if (turn !== this.turn) return; // put off since
       const at = Math.max(0, this.waiting.findIndex((figure) => near(figure))), [figure] = this.waiting.splice(at, 1);
       if (!figure) return;
       if (MOYAI.isVisible(figure.plot)) figure.draw();
@@ -181,17 +185,9 @@ function lookAgain(player, look) {
 }
 
 const near = (figure) => onScreen(figure.plot);
-const onScreen = (element) => { const box = element.getBoundingClientRect(); return box.bottom > 0 && box.top < innerHeight; };
+// What lies under the line that stays at the top is not seen.
+const onScreen = (element) => {
+  const box = element.getBoundingClientRect(), line = document.querySelector(".look > .top")?.getBoundingClientRect();
+  return box.bottom > Math.max(0, line?.top < 1 ? line.bottom : 0) && box.top < innerHeight;
+};
 const later = (act) => (window.requestIdleCallback ? requestIdleCallback(act, { timeout: 400 }) : setTimeout(act, 20));
-
-const frame = (spec) => JSON.stringify([spec.abscissae.map((one) => one.key), spec.panels.length, Boolean(spec.slider), spec.categories.length > 0]);
-const alike = (old, spec) => frame(old) === frame(spec);
-
-function renew(figure, spec, element) {
-  const zoomed = figure.range && JSON.stringify(figure.range) !== JSON.stringify(figure.spec.window || null);
-  if (!zoomed) figure.range = undefined;
-  figure.spec = spec;
-  figure.cache.clear();
-  figure.abscissa = spec.abscissae.find((one) => figure.abscissa && one.key === figure.abscissa.key) || spec.abscissae[0];
-  figure.element.querySelector("figcaption").replaceWith(element.querySelector("figcaption"));
-}

@@ -28,7 +28,7 @@ from moyai.structures.breakwater.model import (
 
 IMBALANCE_LIMIT = 1.0  # per cent of the displacement above which the case is warned of (issue: over 1 % warned)
 HEEL_LIMIT = math.radians(1.0)
-_KNOWN: Remembered[tuple[float, float, float]] = Remembered(64)
+_KNOWN: Remembered[FloatingUnit] = Remembered(64)
 
 
 @dataclass(frozen=True)
@@ -234,8 +234,20 @@ def assemble(problem: BreakwaterProblem, level_name: str, level: float) -> Float
     ------
     InputError
         When the body reaches the bed, sinks, or a line cannot be placed.
+
+    Notes
+    -----
+    Units that differ only in what moves or damps them share one search.
     """
     breakwater, environment = problem.breakwater, problem.environment
+    still = replace(breakwater, damping=Damping(), roll_gyradius=1.0, additional_mass=(0.0, 0.0, 0.0))
+    key = key_of_objects(still, environment.water, environment.water_levels[0], level_name, level)
+    unit = _KNOWN.of(key, lambda: _assembled(still, environment, level_name, level))
+    inertia = inertia_matrix(unit.mass, breakwater.roll_gyradius, breakwater.additional_mass)
+    return replace(unit, breakwater=breakwater, inertia=inertia)
+
+
+def _assembled(breakwater: Breakwater, environment: Environment, level_name: str, level: float) -> FloatingUnit:
     water = _checked_water(environment, level_name, level)
     reference = environment.water_at(environment.water_levels[0][1])
     balance = _reference_balance(breakwater, reference)
@@ -323,16 +335,17 @@ def _is_balanced_upright(breakwater: Breakwater, water: Water, balance: _Balance
 
 
 def _equilibrium(breakwater: Breakwater, water: Water, balance: _Balance, start: float) -> tuple[float, float, float]:
-    """Find draught, heel and offset at rest; once for units that differ only in what moves or damps them."""
-    still = replace(breakwater, damping=Damping(), roll_gyradius=1.0, additional_mass=(0.0, 0.0, 0.0))
-    key = key_of_objects(still, water, balance, start)
-    return _KNOWN.of(key, lambda: _found_equilibrium(breakwater, water, balance, start))
+    """Find draught, heel and offset at rest."""
+    upright = body_to_site(breakwater.centre_of_gravity, start, 0.0)
+    moored: PlanarLineSystem | None = None
+    if breakwater.lines and all(isinstance(line, MooringLine) for line in breakwater.lines):
+        moored = _system(site_lines(breakwater, water, upright, start, 0.0), water, upright)
 
-
-def _found_equilibrium(
-    breakwater: Breakwater, water: Water, balance: _Balance, start: float
-) -> tuple[float, float, float]:
     def pull(x: float, z: float, heel: float) -> tuple[float, float, float]:
+        if moored is not None:
+            force = moored.forces(np.array([x - upright[0], z - upright[1], heel]))
+            return float(force[0]), float(force[1]) + balance.leftover, float(force[2])
+        # a spring has its pretension wherever the unit is at rest
         draught = _draught_of(breakwater, z, heel)
         body_x = x - body_to_site(breakwater.centre_of_gravity, draught, heel)[0]
         centre = body_to_site(breakwater.centre_of_gravity, draught, heel)

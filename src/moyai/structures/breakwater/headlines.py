@@ -112,13 +112,13 @@ def _passed(groups: Mapping[str, xr.Dataset], level: str, sea: str) -> Iterator[
     data = groups.get(f"/{level}/frequency/{sea}")
     if data is None or "transmission_coefficient" not in data:
         return
-    values = np.atleast_1d(data["transmission_coefficient"].values)
+    values = np.atleast_1d(data.variables["transmission_coefficient"].values)
     regular = "period" in data.dims
     time: Mapping[Any, Any] = {} if regular else groups.get(f"/{level}/time/{sea}", {})
     in_time = float(time["transmission_coefficient"]) if "transmission_coefficient" in time else math.nan
     # every period: one near a resonance has the wider band
     for row in np.flatnonzero(np.isfinite(values)):
-        period, at = (float(data["period"].values[row]), int(row)) if regular else (math.nan, None)
+        period, at = (float(data.variables["period"].values[row]), int(row)) if regular else (math.nan, None)
         band = _damping_band(data, at)
         ground = DAMPING_ALONE if band is not None and band.high > band.low else ONE_DAMPING
         item = Headline(
@@ -132,7 +132,7 @@ def _damping_band(data: xr.Dataset, row: int | None) -> Band | None:
     """Return how far the transmission moves over what is uncertain in damping, where the sea carries it."""
     if "transmission_coefficient_low" not in data or "transmission_coefficient_high" not in data:
         return None
-    ends = [data[f"transmission_coefficient_{end}"].values for end in ("low", "high")]
+    ends = [data.variables[f"transmission_coefficient_{end}"].values for end in ("low", "high")]
     low, high = (float(item if row is None else item[row]) for item in ends)
     if not math.isfinite(low + high):
         return None
@@ -146,13 +146,13 @@ def _outside_the_band(groups: Mapping[str, xr.Dataset], where: str, data: xr.Dat
     if waves is None or statics is None or "transmission_macagno" not in waves:
         return "ends of the unit are not covered"
     if row is not None:
-        omega = 2.0 * math.pi / float(data["period"].values[row])
+        omega = 2.0 * math.pi / float(data.variables["period"].values[row])
     else:
-        omega = float(data["omega"].values[int(np.nanargmax(data["wave_spectrum"].values))])
-    known = waves["omega"].values
+        omega = float(data.variables["omega"].values[int(np.nanargmax(data.variables["wave_spectrum"].values))])
+    known = waves.variables["omega"].values
 
     def at(name: str) -> float:
-        return float(np.interp(omega, known, waves[name].values))
+        return float(np.interp(omega, known, waves.variables[name].values))
 
     share = float(statics["unit_length"]) / at("wavelength")
     return (
@@ -168,16 +168,16 @@ def _steady_load(groups: Mapping[str, xr.Dataset], levels: list[str]) -> list[He
         statics = groups.get(f"/{level}/statics")
         if statics is None or "steady_force_of_wind" not in statics:
             continue
-        parts = [float(statics[f"steady_force_of_{name}"].values[0]) for name in ("wind", "current")]
+        parts = [float(statics.variables[f"steady_force_of_{name}"].values[0]) for name in ("wind", "current")]
         drifts = [(level, 0.0, STILL)]
         for sea in seas_of(groups, level):
             data = groups.get(f"/{level}/frequency/{sea}")
             if data is None or "mean_drift_force" not in data:
                 continue
-            values = np.atleast_1d(data["mean_drift_force"].values)
+            values = np.atleast_1d(data.variables["mean_drift_force"].values)
             if np.isfinite(values).any():
                 row = int(np.nanargmax(np.abs(values)))
-                period = float(data["period"].values[row]) if "period" in data.dims else math.nan
+                period = float(data.variables["period"].values[row]) if "period" in data.dims else math.nan
                 drifts.append((place(level, sea, period), float(values[row]), STEADY))
         for where, drift, model in drifts:
             words = (
@@ -222,12 +222,12 @@ def _motion_headlines(groups: Mapping[str, xr.Dataset], levels: list[str]) -> li
 
 
 def _offset(domain: str, data: xr.Dataset, level: str, sea: str, frequency: xr.Dataset | None) -> list[Headline]:
-    mean = np.atleast_2d(data["mean_offset"].values)[:, 0] if "mean_offset" in data else np.array([math.nan])
+    mean = np.atleast_2d(data.variables["mean_offset"].values)[:, 0] if "mean_offset" in data else np.array([math.nan])
     model = _motion_model(domain, data)
     band, bound = None, alone(np.zeros(0))
     if "maximum_excursion" in data:
-        value = float(data["maximum_excursion"].values[0])
-        scatter = np.asarray(data["maximum_excursion_of_realisation"].values[:, 0], dtype=float)
+        value = float(data.variables["maximum_excursion"].values[0])
+        scatter = np.asarray(data.variables["maximum_excursion_of_realisation"].values[:, 0], dtype=float)
         band, bound, motion = seeds(scatter), alone(scatter), _in_motion(data)
         if motion > 1.0:
             # what lines in motion add to the offset of lines at rest in the same events
@@ -254,21 +254,23 @@ def _peak_factor(data: xr.Dataset, mode: int) -> float:
     """Return the most probable largest motion over its standard deviation; NaN in time, where it is not known."""
     if "most_probable_maximum_motion" not in data:
         return math.nan
-    deviation = 0.25 * float(data["significant_motion"].values[mode])
-    return float(data["most_probable_maximum_motion"].values[mode]) / deviation if deviation > 0.0 else math.nan
+    deviation = 0.25 * float(data.variables["significant_motion"].values[mode])
+    return (
+        float(data.variables["most_probable_maximum_motion"].values[mode]) / deviation if deviation > 0.0 else math.nan
+    )
 
 
 def _in_motion(data: xr.Dataset) -> float:
     """Return the largest offset in the events with lines in motion over that with lines at rest, 1 without events."""
     if "event_offset" not in data:
         return 1.0
-    return float(data["event_offset"].values[0] / data["event_offset_lines_at_rest"].values[0])
+    return float(data.variables["event_offset"].values[0] / data.variables["event_offset_lines_at_rest"].values[0])
 
 
 def _motion_words(data: xr.Dataset) -> str:
     if "event_offset" not in data:
         return ""
-    moving, still = (float(data[name].values[0]) for name in ("event_offset", "event_offset_lines_at_rest"))
+    moving, still = (float(data.variables[name].values[0]) for name in ("event_offset", "event_offset_lines_at_rest"))
     return f"in the events rerun with lines in motion {moving:.3g} m, with lines at rest {still:.3g} m"
 
 
@@ -277,14 +279,14 @@ def _motion_model(domain: str, data: xr.Dataset) -> str:
     if domain != "time":
         return FREQUENCY
     whole = "events_in_motion" not in data and "lines_in_motion" in data
-    return IN_MOTION if whole and bool((data["lines_in_motion"].values == 1.0).any()) else AT_REST
+    return IN_MOTION if whole and bool((data.variables["lines_in_motion"].values == 1.0).any()) else AT_REST
 
 
 def _slow_words(frequency: xr.Dataset | None) -> str:
     """Say what rules the slow drift: period, damping, and what half and twice the damping do."""
     if frequency is None or "slow_motion_deviation" not in frequency:
         return ""
-    slow = float(frequency["slow_motion_deviation"].values[0])
+    slow = float(frequency.variables["slow_motion_deviation"].values[0])
     low = float(frequency["slow_sway_deviation_double_damping"])
     high = float(frequency["slow_sway_deviation_half_damping"])
     ratio, period = float(frequency["slow_sway_damping_ratio"]), float(frequency["slow_sway_period"])
@@ -299,14 +301,14 @@ def _roll(domain: str, data: xr.Dataset, level: str, sea: str, frequency: xr.Dat
     name = "maximum_excursion" if "maximum_excursion" in data else "most_probable_maximum_motion"
     if name not in data or "significant_motion" not in data:
         return []
-    value, significant = float(data[name].values[2]), float(data["significant_motion"].values[2])
+    value, significant = float(data.variables[name].values[2]), float(data.variables["significant_motion"].values[2])
     each = f"{name}_of_realisation"
-    scatter = np.asarray(data[each].values[:, 2], dtype=float) if each in data else np.zeros(0)
+    scatter = np.asarray(data.variables[each].values[:, 2], dtype=float) if each in data else np.zeros(0)
     band = seeds(scatter) if scatter.size else storms(value, 0.0, _peak_factor(data, 2))
     if frequency is not None and "significant_motion_low" in frequency:
         # the frequency domain tells by how much damping moves roll; the time domain is run at its nominal value
-        own = float(frequency["significant_motion"].values[2])
-        low, high = (float(frequency[f"significant_motion_{end}"].values[2]) / own for end in ("low", "high"))
+        own = float(frequency.variables["significant_motion"].values[2])
+        low, high = (float(frequency.variables[f"significant_motion_{end}"].values[2]) / own for end in ("low", "high"))
         if math.isfinite(low + high):
             of = str(frequency.attrs.get("damping_band", "damping"))
             given = band or Band(value, value, "")

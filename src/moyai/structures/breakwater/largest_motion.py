@@ -33,15 +33,19 @@ def beyond_range(data: xr.Dataset, statics: xr.Dataset | None) -> NDArray[np.boo
     """
     out = np.zeros(data.sizes["period"], dtype=bool)
     if "damping_work" in data and "dissipation" in data:
-        share = unexplained_share(data["dissipation"].values, data["damping_work"].values, SHOWN_LOSS)
+        share = unexplained_share(
+            data.variables["dissipation"].values, data.variables["damping_work"].values, SHOWN_LOSS
+        )
         out |= share > ENERGY_TOLERANCE
     if "line_tension_maximum" in data and data.sizes.get("line", 0):
         still = np.ones(data["line_tension_maximum"].shape, dtype=bool)
         if "lines_in_motion" in data:
-            still = data["lines_in_motion"].values != 1.0
+            still = data.variables["lines_in_motion"].values != 1.0
         if statics is not None and "unstretched_length" in statics:
-            still = still & np.isfinite(statics["unstretched_length"].values)
-        passing = data["line_tension_maximum"].values > SNAP_RATIO * data["line_tension_mean"].values
+            still = still & np.isfinite(statics.variables["unstretched_length"].values)
+        passing = (
+            data.variables["line_tension_maximum"].values > SNAP_RATIO * data.variables["line_tension_mean"].values
+        )
         out |= np.any(still & passing, axis=1)
     return out
 
@@ -73,16 +77,16 @@ class LargestOfPeriods:
 
     def _of(self, data: xr.Dataset, domain: str, mode: int) -> Array:
         if mode == 0 and domain == "time" and "maximum_motion" in data:
-            return np.array(data["maximum_motion"].values[:, 0], dtype=float)
-        found = np.array(data["motion_amplitude"].values[:, mode], dtype=float)
+            return np.array(data.variables["maximum_motion"].values[:, 0], dtype=float)
+        found = np.array(data.variables["motion_amplitude"].values[:, mode], dtype=float)
         if mode == 0 and "mean_offset" in data:
-            found += np.abs(data["mean_offset"].values[:, 0])
+            found += np.abs(data.variables["mean_offset"].values[:, 0])
         return found
 
     def _headlines(self, name: str, label: str, unit: str, mode: int) -> list[Headline]:
         if "motion_amplitude" not in self.data:
             return []
-        periods, table = self.data["period"].values, self._of(self.data, self.domain, mode)
+        periods, table = self.data.variables["period"].values, self._of(self.data, self.domain, mode)
         out = beyond_range(self.data, self.statics) if self.domain == "time" else np.zeros(periods.size, dtype=bool)
         table[out] = np.nan
         if self.frequency is not None and out.any():
@@ -100,14 +104,16 @@ class LargestOfPeriods:
             model, value, mean = FIRST_ORDER, float(table[row]), 0.0
             if self.domain == "time" and not out[row]:
                 moving = "lines_in_motion" in self.data and bool(
-                    (self.data["lines_in_motion"].values[row] == 1.0).any()
+                    (self.data.variables["lines_in_motion"].values[row] == 1.0).any()
                 )
                 model = IN_MOTION if moving else AT_REST
             detail = []
             if mode == 0 and "mean_offset" in self.data:
                 source = self.frequency.sel(period=periods[row]) if out[row] and self.frequency is not None else None
                 mean = float(
-                    self.data["mean_offset"].values[row, 0] if source is None else source["mean_offset"].values[0]
+                    self.data.variables["mean_offset"].values[row, 0]
+                    if source is None
+                    else source.variables["mean_offset"].values[0]
                 )
                 detail.append(f"mean {mean:.3g} m")
             words = "; ".join(filter(None, (*detail, said)))
@@ -120,9 +126,9 @@ class LargestOfPeriods:
         """Return how far a motion moves over what is uncertain in damping, by its change in the frequency domain."""
         if self.frequency is None or "motion_amplitude_low" not in self.frequency:
             return None
-        row = int(np.flatnonzero(self.frequency["period"].values == period)[0])
+        row = int(np.flatnonzero(self.frequency.variables["period"].values == period)[0])
         names = (f"motion_amplitude{end}" for end in ("", "_low", "_high"))
-        own, low, high = (float(self.frequency[name].values[row, mode]) for name in names)
+        own, low, high = (float(self.frequency.variables[name].values[row, mode]) for name in names)
         if not (own > 0.0 and np.isfinite(low + high)):
             return None
         least, most = (mean + (value - mean) * end / own for end in (low, high))

@@ -36,7 +36,7 @@ from moyai.structures.breakwater.model import BreakwaterProblem, RegularSea
 from moyai.structures.breakwater.screening import check_screening
 from moyai.structures.breakwater.sensitivity import sensitivity_datasets
 from moyai.structures.breakwater.statics import mooring_dataset, moving_shapes, statics_dataset
-from moyai.structures.breakwater.variables import VOCABULARY, labelled
+from moyai.structures.breakwater.variables import VOCABULARY
 from moyai.structures.breakwater.viscous_damping import viscous_notices
 
 if TYPE_CHECKING:
@@ -139,9 +139,8 @@ def _level_steps(
         collected.notices.extend(hydro.notices)
         yield
     if "statics" in analyses or dynamic:
-        data, notices = _STATICS.of(shared, lambda: statics_dataset(unit, hydro, steady))
-        parts = {"steady_force_of_wind": ("dof", wind), "steady_force_of_current": ("dof", current)}
-        collected.groups[f"{root}/statics"] = labelled(data.assign(parts))
+        data, notices = _STATICS.of(shared, lambda: statics_dataset(unit, hydro, wind, current))
+        collected.groups[f"{root}/statics"] = data
         collected.notices.extend(notices)
         yield
     if "mooring" in analyses and unit.lines:
@@ -197,8 +196,7 @@ def _frequency_steps(
 def _regular_sea(model: FrequencyModel, sea: RegularSea, shared: str | None, progress: Progress) -> FrequencyResult:
     """Return the answer to regular waves: that of the case before where only its irregular seas were others."""
     key = None if shared is None else key_of_objects(shared, sea)
-    found = _REGULAR.of(key, lambda: frequency_regular.regular_sea(model, sea, progress))
-    return replace(found, dataset=found.dataset.copy())
+    return _REGULAR.of(key, lambda: frequency_regular.regular_sea(model, sea, progress))
 
 
 def _key_without_irregular_seas(problem: BreakwaterProblem, unit: FloatingUnit) -> str:

@@ -17,7 +17,7 @@ from moyai.structures.breakwater.assembly import FloatingUnit
 from moyai.structures.breakwater.hydrodynamics import UnitHydrodynamics
 from moyai.structures.breakwater.model import MooringLine
 from moyai.structures.breakwater.settings import MODES
-from moyai.structures.breakwater.variables import labelled
+from moyai.structures.breakwater.variables import VOCABULARY, labelled
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -29,7 +29,7 @@ CURVE_POINTS = 61
 
 
 def statics_dataset(
-    unit: FloatingUnit, hydro: UnitHydrodynamics | None, steady: Array
+    unit: FloatingUnit, hydro: UnitHydrodynamics | None, wind: Array, current: Array
 ) -> tuple[xr.Dataset, tuple[Notice, ...]]:
     """Return the group ``statics`` of a water level and its notices.
 
@@ -38,11 +38,10 @@ def statics_dataset(
     unit : FloatingUnit
     hydro : UnitHydrodynamics or None
         For natural periods; left out without.
-    steady : ndarray (3,)
-        Wind and current [N, N, N m].
+    wind, current : ndarray (3,)
+        Their steady forces [N, N, N m].
     """
-    import xarray as xr
-
+    steady = wind + current
     breakwater, statics = unit.breakwater, unit.statics
     offset = mean_offset(unit.mooring, statics.stiffness, steady)
     matrix = ("influenced_dof", "radiating_dof")
@@ -62,6 +61,8 @@ def statics_dataset(
         "section_height": ((), breakwater.hull.height),
         "unit_length": ((), breakwater.length),
         "steady_force": ("dof", steady),
+        "steady_force_of_wind": ("dof", wind),
+        "steady_force_of_current": ("dof", current),
         "steady_offset": ("dof", offset.position),
         "hydrostatic_stiffness": (matrix, statics.stiffness),
         "mooring_stiffness": (matrix, unit.mooring_stiffness),
@@ -93,7 +94,7 @@ def statics_dataset(
         "mode": list(MODES),
         "line": [line.name for line in unit.lines],
     }
-    return labelled(xr.Dataset(out, coords=coords)), tuple(notices)
+    return VOCABULARY.dataset(out, coords), tuple(notices)
 
 
 def _modes(moored: NaturalModes, free: NaturalModes) -> dict[str, Any]:

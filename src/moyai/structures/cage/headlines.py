@@ -169,10 +169,10 @@ def _mesh_factors(groups: Groups) -> dict[str, tuple[float, float]]:
     """Return by which factors a finer mesh may move each number: what a coarser one changed, either way."""
     found: dict[str, tuple[float, float]] = {}
     for path, group in groups.items():
-        if "/sensitivity/" not in path or COARSER not in group["variant"].values:
+        if "/sensitivity/" not in path or COARSER not in group.variables["variant"].values:
             continue
         given, coarser = (group["value"].sel(variant=name).values for name in ("as given", COARSER))
-        for quantity, first, other in zip(group["quantity"].values, given, coarser, strict=True):
+        for quantity, first, other in zip(group.variables["quantity"].values, given, coarser, strict=True):
             if first > 0.0 and math.isfinite(other):
                 change = min(abs(float(other) / float(first) - 1.0), 1.0)
                 low, high = found.get(str(quantity), (1.0, 1.0))
@@ -206,7 +206,7 @@ def _state(level: str, groups: Groups) -> _State | None:
     if statics is None:
         return None
     speed = float(groups[f"/{level}"].attrs["current"])
-    speeds = statics["current_speed"].values
+    speeds = statics.variables["current_speed"].values
     row = int(np.argmin(np.abs(speeds - speed)))
     if abs(float(speeds[row]) - speed) > 1e-6 * max(1.0, speed):
         return None
@@ -233,9 +233,9 @@ def _volume(states: list[_State], runs: Runs) -> list[Headline]:
     """Return the least volume in the current of the site and, judged with it, what the sea leaves for moments."""
     found = []
     for state in states:
-        shares = state.statics["volume_share"].values[state.row]
+        shares = state.statics.variables["volume_share"].values[state.row]
         value, at = float(shares.min()), int(np.argmin(shares))
-        built = float(state.cage["rest_volume"].values[at])
+        built = float(state.cage.variables["rest_volume"].values[at])
         detail = f"{volume_text(value * built)} of {volume_text(built)} as built"
         band = state.band("volume_share")
         found.append(
@@ -261,11 +261,11 @@ def _drag(states: list[_State], runs: Runs) -> list[Headline]:
     """Return the largest drag in the current of the site and, judged with it, what the sea brings for moments."""
     found = []
     for state in states:
-        value = float(state.statics["total_drag"].values[state.row])
-        along = state.statics["drag_along"].values[state.row]
+        value = float(state.statics.variables["total_drag"].values[state.row])
+        along = state.statics.variables["drag_along"].values[state.row]
         shares = [
             (str(part), float(share))
-            for part, share in zip(state.statics["part"].values, along)
+            for part, share in zip(state.statics.variables["part"].values, along)
             if abs(share) > 5e-3 * value
         ]
         detail = ", ".join(f"{part} {100.0 * share / value:.0f} %" for part, share in shares)
@@ -320,8 +320,11 @@ def _tension(states: list[_State], runs: Runs) -> tuple[list[Headline], list[Hea
             for line, share in enumerate(run["utilisation"].values):
                 add(_dynamic_tension(run, line, where, by_level.get(level)), float(share))
     for state in [] if tensions else states:
-        for line, name in enumerate(state.statics["line"].values):
-            add(_static_tension(state, line, str(name)), float(state.statics["utilisation"].values[state.row, line]))
+        for line, name in enumerate(state.statics.variables["line"].values):
+            add(
+                _static_tension(state, line, str(name)),
+                float(state.statics.variables["utilisation"].values[state.row, line]),
+            )
     if not used:
         return [], []
     utilisations = governing(used.values())
@@ -330,7 +333,7 @@ def _tension(states: list[_State], runs: Runs) -> tuple[list[Headline], list[Hea
 
 def _static_tension(state: _State, line: int, name: str) -> Headline:
     """Return the tension of a line in the current of the site with the band of the law of the net."""
-    value = float(state.statics["line_tension_maximum"].values[state.row, line])
+    value = float(state.statics.variables["line_tension_maximum"].values[state.row, line])
     return Headline(
         "line_tension", "tension of the governing line", value, "N", f"{name}, {state.where}", STATICS,
         state.band("line_tension_maximum", line), detail="no sea was run: waves are not in it",
@@ -361,8 +364,8 @@ def _offset(states: list[_State], runs: Runs) -> list[Headline]:
     """Return the largest way of a collar from its place in still water."""
     found: list[tuple[float, str, str, Band | None]] = []
     for state in states:
-        calm = state.statics["collar_place"].values[0]
-        away = state.statics["collar_place"].values[state.row] - calm
+        calm = state.statics.variables["collar_place"].values[0]
+        away = state.statics.variables["collar_place"].values[state.row] - calm
         found.append((float(np.linalg.norm(away[:, :2], axis=1).max()), state.where, STATICS, state.band("offset")))
         for level, where, run in runs:
             if level != state.level:
@@ -402,10 +405,10 @@ def _anchor(states: list[_State], runs: Runs) -> list[Headline]:
             found.append((pull, f"lower end of {names[anchors[at]]}, {where}", DYNAMIC, detail, band))
     for state in [] if found else states:
         if "anchor_pull" in state.statics and state.statics["anchor_pull"].size:
-            pulls = state.statics["anchor_pull"].values[state.row]
+            pulls = state.statics.variables["anchor_pull"].values[state.row]
             at = int(np.argmax(pulls))
-            up = float(state.statics["anchor_uplift"].values[state.row, at])
-            name = str(state.statics["anchor"].values[at])
+            up = float(state.statics.variables["anchor_uplift"].values[state.row, at])
+            name = str(state.statics.variables["anchor"].values[at])
             detail = f"upwards {up / 1e3:.3g} kN; no sea was run"
             found.append((float(pulls[at]), f"{name}, {state.where}", STATICS, detail, state.band("anchor_pull")))
     if not found:
@@ -426,7 +429,7 @@ def _net(states: list[_State], runs: Runs) -> list[Headline]:
         value = float(series[late].max())
         found.append((value, where, DYNAMIC, _band_in_sea(by_level.get(level), "net_tension", run, value, series)))
     for state in [] if found else states:
-        value = float(state.statics["net_tension"].values[state.row].max())
+        value = float(state.statics.variables["net_tension"].values[state.row].max())
         found.append((value, state.where, STATICS, state.band("net_tension")))
     return governing(
         Headline(
@@ -442,7 +445,7 @@ def _stress(states: list[_State], runs: Runs) -> list[Headline]:
     by_level = {state.level: state for state in states}
     for state in states:
         if "collar_stress_largest" in state.statics:
-            value = float(state.statics["collar_stress_largest"].values[state.row].max())
+            value = float(state.statics.variables["collar_stress_largest"].values[state.row].max())
             found.append((value, state.where, STATICS, state.band("collar_stress")))
     for level, where, run in runs:
         if "collar_stress_largest" in run:

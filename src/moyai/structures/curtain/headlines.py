@@ -68,10 +68,10 @@ class _Load:
     band: Band | None
 
     def number(self, name: str) -> float:
-        return float(self.row[name])
+        return float(self.row.variables[name].values)
 
     def words(self, name: str) -> str:
-        return str(self.row[name].values)
+        return str(self.row.variables[name].values)
 
     @property
     def value(self) -> float:
@@ -158,8 +158,8 @@ def _loads_of(groups: Groups, level: str) -> Iterator[_Load]:
     table = groups.get(f"/{level}/loads")
     if table is None:
         return
-    for component in table["component"].values:
-        row = table.sel(component=component)
+    for number, component in enumerate(table["component"].values):
+        row = table.isel(component=number)
         if math.isfinite(float(row["governing_load"])):
             load = _Load(level, str(component), row, None)
             yield replace(load, band=_band(groups, load))

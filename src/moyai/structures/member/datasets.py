@@ -13,7 +13,7 @@ from moyai.structures.member.checks import orbit_ratio
 from moyai.structures.member.march import CAUSES, WaveForces
 from moyai.structures.member.model import MemberProblem
 from moyai.structures.member.supports import stations
-from moyai.structures.member.variables import labelled
+from moyai.structures.member.variables import VOCABULARY, labelled
 from moyai.structures.member.waves import Wave
 
 if TYPE_CHECKING:
@@ -79,8 +79,6 @@ def _along(member: StraightMember, problem: MemberProblem) -> np.ndarray:
 
 def sea_dataset(problem: MemberProblem, member: StraightMember, runs: list[tuple[Wave, WaveForces]]) -> xr.Dataset:
     """Return numbers of every wave of a sea state; strips of the largest KC stand for the member."""
-    import xarray as xr
-
     waves = [wave for wave, _ in runs]
 
     def governing(name: str) -> np.ndarray:
@@ -122,23 +120,22 @@ def sea_dataset(problem: MemberProblem, member: StraightMember, runs: list[tuple
         "strip_reynolds": (("wave", "strip"), strips("reynolds")),
         "wet_share": (("wave", "strip"), strips("wet")),
     }
-    out = labelled(
-        xr.Dataset(
-            data,
-            coords={
-                "wave": [wave.name for wave in waves],
-                "wave_height": ("wave", np.array([wave.height for wave in waves])),
-                "period": ("wave", np.array([wave.period for wave in waves])),
-                "strip": _along(member, problem),
-                "station": stations(problem.settings.strips, member.length),
-                "axis": AXES,
-                "component": COMPONENTS,
-                "end": ["start", "end"],
-            },
-            attrs={"kind": "regular" if waves[0].regular else "irregular", "status": "converged"},
-        )
+    out = VOCABULARY.dataset(
+        data,
+        {
+            "wave": [wave.name for wave in waves],
+            "wave_height": ("wave", np.array([wave.height for wave in waves])),
+            "period": ("wave", np.array([wave.period for wave in waves])),
+            "strip": _along(member, problem),
+            "station": stations(problem.settings.strips, member.length),
+            "axis": list(AXES),
+            "component": list(COMPONENTS),
+            "end": ["start", "end"],
+        },
+        {"kind": "regular" if waves[0].regular else "irregular", "status": "converged"},
     )
-    out["strip_keulegan_carpenter"].attrs = {"units": "1", "long_name": "Keulegan-Carpenter number along the member"}
+    words = {"units": "1", "long_name": "Keulegan-Carpenter number along the member"}
+    out.variables["strip_keulegan_carpenter"].attrs = words
     return out
 
 
@@ -176,8 +173,6 @@ def _tail(wave: Wave, values: np.ndarray) -> np.ndarray:
 
 def time_dataset(wave: Wave, found: WaveForces) -> xr.Dataset:
     """Return the time series of one wave."""
-    import xarray as xr
-
     # at the end that bears most, and where the moment is largest
     size = np.linalg.norm(_tail(wave, found.held.sum(axis=0)), axis=2).max(axis=0)
     end, station = int(np.argmax(size[:2])), 2 + int(np.argmax(size[2:]))
@@ -186,15 +181,13 @@ def time_dataset(wave: Wave, found: WaveForces) -> xr.Dataset:
         parts[f"{name}_force"] = (("time", "component"), found.force[index])
         parts[f"{name}_end_force"] = (("time", "axis"), found.held[index, :, end])
         parts[f"{name}_bending_moment"] = (("time", "axis"), found.held[index, :, station])
-    return labelled(
-        xr.Dataset(
-            {
-                "surface_elevation": ("time", found.elevation),
-                "force": (("time", "component"), found.force.sum(axis=0)),
-                **parts,
-                "circulation": ("time", found.circulation),
-            },
-            coords={"time": found.time, "component": COMPONENTS, "axis": AXES},
-            attrs={"wave_height": wave.height, "period": wave.period, "wave": wave.name, "theory": wave.theory},
-        )
+    return VOCABULARY.dataset(
+        {
+            "surface_elevation": ("time", found.elevation),
+            "force": (("time", "component"), found.force.sum(axis=0)),
+            **parts,
+            "circulation": ("time", found.circulation),
+        },
+        {"time": found.time, "component": list(COMPONENTS), "axis": list(AXES)},
+        {"wave_height": wave.height, "period": wave.period, "wave": wave.name, "theory": wave.theory},
     )

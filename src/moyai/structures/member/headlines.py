@@ -67,7 +67,7 @@ class _Largest:
 
     def number(self, name: str) -> float:
         """Return a number of the wave, at the strip of the largest KC."""
-        return float(self.sea[name].values[self.wave])
+        return float(self.sea.variables[name].values[self.wave])
 
 
 def headlines_of(problem: MemberProblem, groups: Mapping[str, xr.Dataset]) -> tuple[Headline, ...]:
@@ -119,8 +119,8 @@ def headlines_of(problem: MemberProblem, groups: Mapping[str, xr.Dataset]) -> tu
         )  # fmt: skip
         items += _with_the_others(problem, groups, "end_force", end)
     if bending is not None:
-        along = bending.sea["maximum_bending_moment_along"].values[bending.wave]
-        place = float(bending.sea["station"].values[int(np.argmax(along))])
+        along = bending.sea.variables["maximum_bending_moment_along"].values[bending.wave]
+        place = float(bending.sea.variables["station"].values[int(np.argmax(along))])
         where = f"{place:.3g} m from its start"
         cause = "of the current alone" if bending.steady else "of waves and current alone"
         if problem.support != "both_ends" and int(np.argmax(along)) in (0, along.size - 1):
@@ -229,18 +229,18 @@ def _all(groups: Mapping[str, xr.Dataset], kind: _Kind) -> Iterator[_Largest]:
     """Yield the largest force or moment of every wave and sea."""
     name = "maximum_total_force" if kind == "force" else f"maximum_{kind}"
     for level, sea_name, wave, sea, series in _runs(groups):
-        value = float(np.max(sea[name].values[wave]))
-        causes = np.stack([series[f"{cause}_{kind}"].values for cause in ("inertia", "drag", "magnus")])
+        value = float(np.max(sea.variables[name].values[wave]))
+        causes = np.stack([series.variables[f"{cause}_{kind}"].values for cause in ("inertia", "drag", "magnus")])
         size = np.linalg.norm(causes.sum(axis=0), axis=1)
         if sea.attrs["kind"] == "regular":
             # the last row of a wave that takes time to settle: the first from the end that reaches the value
             row = len(size) - 1 - int(np.argmin(np.abs(size[::-1] - value)))
         else:
             row = int(np.argmax(size))
-        label = str(sea["wave"].values[wave])
+        label = str(sea.variables["wave"].values[wave])
         where = ", ".join(part for part in (sea_name, "" if label in ("sea", sea_name) else label, level) if part)
         each = f"{name}_of_realisation"
-        scatter = np.asarray(sea[each].values, dtype=float) if each in sea else np.array([value])
+        scatter = np.asarray(sea.variables[each].values, dtype=float) if each in sea else np.array([value])
         yield _Largest(where, causes, row, value, sea, wave, scatter, str(series.attrs["theory"]))
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from moyai.case.findings import Findings
 from moyai.case.schema_lines import CatalogueSegment
+from moyai.core.remembered import Remembered, key_of_objects
 from moyai.mooring.lines import Line
 
 if TYPE_CHECKING:
@@ -16,18 +17,24 @@ if TYPE_CHECKING:
 
     from moyai.structures.breakwater.assembly import FloatingUnit
 
+_COUNTED: Remembered[bool] = Remembered(64)
 #: Longest line that is looked for, over the line of the case
 _LONGEST = 3.0
 
 
 def count_panels(unit: FloatingUnit) -> None:
-    """Lay out the panels of a section without solving anything.
+    """Lay out the panels of a section without solving anything, once for every draught.
 
     Raises
     ------
     InputError
         For a section that needs more panels than memory and time allow.
     """
+    key = key_of_objects(unit.breakwater.hull, unit.draught, unit.heel, unit.water)
+    _COUNTED.of(key, lambda: _count(unit))
+
+
+def _count(unit: FloatingUnit) -> bool:
     from moyai.potential.mesh import Resolution, lay_out, require_memory
     from moyai.sea.dispersion import wave_number
     from moyai.structures.breakwater.hydrodynamics import band
@@ -36,6 +43,7 @@ def count_panels(unit: FloatingUnit) -> None:
     water = unit.water
     numbers = wave_number(np.array([omega.min(), omega.max()]), water.depth, water.gravity)
     require_memory(lay_out(unit.section, water.depth, (float(numbers[0]), float(numbers[1])), Resolution()))
+    return True
 
 
 def check_chain_on_bed(

@@ -36,7 +36,7 @@ from moyai.structures.breakwater.responses import (
 )
 from moyai.structures.breakwater.settings import MODES
 from moyai.structures.breakwater.slow_drift import SlowDrift, combined_extremes, slow_drift
-from moyai.structures.breakwater.variables import labelled
+from moyai.structures.breakwater.variables import VOCABULARY
 from moyai.structures.breakwater.viscous_damping import (
     band_factors,
     band_words,
@@ -58,8 +58,6 @@ def irregular_sea(
     model: FrequencyModel, sea: IrregularSea, omega: Array, progress: Progress = silent
 ) -> FrequencyResult:
     """Response spectra, significant and most probable largest values, transmission weighted by energy, mean drift."""
-    import xarray as xr
-
     unit = model.unit
     density = np.asarray(sea.spectrum.density_at(omega), dtype=float)
     progress("irregular sea", 0, 1)
@@ -129,8 +127,7 @@ def irregular_sea(
         "significant_relative_elevation": ((), relative),
     }
     coords = {"omega": omega, "dof": list(MODES), "line": [line.name for line in unit.lines]}
-    data = labelled(xr.Dataset(out, coords=coords))
-    data.attrs |= {
+    attributes = {
         "kind": "irregular",
         "heading": sea.heading,
         "duration": duration,
@@ -139,6 +136,7 @@ def irregular_sea(
         "damping_band": band_words(model),
         "drift": "none" if slow is None else "newman",
     }
+    data = VOCABULARY.dataset(out, coords, attributes)
     notices = list(settled.notices)
     lost = 1.0 - float(met.sum() / density.sum())
     if lost > 0.01:

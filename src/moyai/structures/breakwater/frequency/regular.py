@@ -32,7 +32,7 @@ from moyai.structures.breakwater.responses import (
 )
 from moyai.structures.breakwater.screening import transmission_macagno, transmission_ruol, transmission_wiegel
 from moyai.structures.breakwater.settings import MODES
-from moyai.structures.breakwater.variables import labelled
+from moyai.structures.breakwater.variables import VOCABULARY
 from moyai.structures.breakwater.viscous_damping import (
     band_factors,
     band_words,
@@ -51,7 +51,6 @@ def operators(model: FrequencyModel, omega: Array, heading: float, seas: tuple[S
     Quadratic damping needs an amplitude: viscous damping computed from the section takes that of the first irregular
     sea of ``seas`` or of the first regular one; other quadratic damping is left out here.
     """
-    import xarray as xr
 
     unit, whole = model.unit, model.hydro.whole(heading)
     # Coefficients of another program may end earlier than the operators would
@@ -84,8 +83,8 @@ def operators(model: FrequencyModel, omega: Array, heading: float, seas: tuple[S
         "wavelength": ("omega", length),
         "wavelength_over_beam": ("omega", length / beam),
     }
-    data = xr.Dataset(out, coords=coords, attrs={"heading": heading, "damping": linearised})
-    return FrequencyResult(labelled(data), checks, tuple(motions.notices))
+    data = VOCABULARY.dataset(out, coords, {"heading": heading, "damping": linearised})
+    return FrequencyResult(data, checks, tuple(motions.notices))
 
 
 def _solved(
@@ -117,8 +116,6 @@ def _band(model: FrequencyModel, hydro: Hydrodynamics, amplitude: Array, solved:
 
 def regular_sea(model: FrequencyModel, sea: RegularSea, progress: Progress = silent) -> FrequencyResult:
     """Motions, reflection, transmission, drift [eq:breakwater-drift] and tensions in regular waves, solved together."""
-    import xarray as xr
-
     unit = model.unit
     periods = np.sort(np.asarray(sea.periods, dtype=float))
     omega = 2.0 * math.pi / periods[::-1]
@@ -157,20 +154,23 @@ def regular_sea(model: FrequencyModel, sea: RegularSea, progress: Progress = sil
     elevation = deck_relative_elevation(unit, solved.motions, k, sea.heading) * amplitude
     out["relative_elevation"] = (dims, elevation)
     coords = {
-        "period": periods[::-1],
+        "period": periods,
         "dof": list(MODES),
         "influenced_dof": list(MODES),
         "radiating_dof": list(MODES),
         "line": [line.name for line in unit.lines],
     }
-    data = labelled(xr.Dataset(out, coords=coords)).sortby("period")
-    data.attrs |= {
+    attributes = {
         "kind": "regular",
         "height": sea.height,
         "heading": sea.heading,
         "status": worst_status(solved.status),
         "damping_band": band_words(model),
     }
+    # from short periods to long ones
+    data = VOCABULARY.dataset(
+        {name: (along, values[::-1]) for name, (along, values) in out.items()}, coords, attributes
+    )
     check: tuple[IdentityCheck, ...] = ()
     if hydro.has_far_field:
         check = energy_identity(model, solved.far, solved.motions, hydro, f"{unit.name}, {sea.name}")

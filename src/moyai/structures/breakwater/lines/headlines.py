@@ -133,9 +133,9 @@ def line_peaks(groups: Mapping[str, xr.Dataset], level: str) -> list[LinePeak]:
         ):
             continue
         domain, data = chosen
-        for number, line in enumerate(data["line"].values):
-            chain = bool(np.isfinite(statics["unstretched_length"].values[number]))
-            load = float(statics["breaking_load"].values[number])
+        for number, line in enumerate(data.variables["line"].values):
+            chain = bool(np.isfinite(statics.variables["unstretched_length"].values[number]))
+            load = float(statics.variables["breaking_load"].values[number])
             peak = _line_peak(domain, data, level, sea, str(line), number, load, chain)
             if peak is not None:
                 found.append(peak)
@@ -145,20 +145,20 @@ def line_peaks(groups: Mapping[str, xr.Dataset], level: str) -> list[LinePeak]:
 def _line_peak(
     domain: str, data: xr.Dataset, level: str, sea: str, line: str, number: int, load: float, chain: bool
 ) -> LinePeak | None:
-    table = np.atleast_2d(data["line_tension_maximum"].values)[:, number]
+    table = np.atleast_2d(data.variables["line_tension_maximum"].values)[:, number]
     if not np.isfinite(table).any():
         return None
     row = int(np.nanargmax(table))
 
     def of(name: str) -> float:
-        return float(np.atleast_2d(data[name].values)[row, number]) if name in data else math.nan
+        return float(np.atleast_2d(data.variables[name].values)[row, number]) if name in data else math.nan
 
     regular = "period" in data.dims
     moving = of("lines_in_motion") == 1.0
 
     def scatter_of(name: str) -> Array:
         name = f"{name}_of_realisation"
-        return np.asarray(data[name].values[:, number], dtype=float) if name in data else np.zeros(0)
+        return np.asarray(data.variables[name].values[:, number], dtype=float) if name in data else np.zeros(0)
 
     scatter = scatter_of("line_tension_maximum")
     model = (FIRST_ORDER if regular else FREQUENCY) if domain == "frequency" else (IN_MOTION if moving else AT_REST)
@@ -168,8 +168,9 @@ def _line_peak(
     highest = float(np.nanmax(scatter)) if scatter.size else float(table[row])
     # A spring is linear at any tension; a chain at rest at every instant says nothing beyond the range
     known = moving or not chain or highest <= SNAP_RATIO * mean
+    period = float(data.variables["period"].values[row]) if regular else math.nan
     return LinePeak(
-        level, sea, line, float(data["period"].values[row]) if regular else math.nan, float(table[row]), mean, load,
+        level, sea, line, period, float(table[row]), mean, load,
         of("maximum_anchor_vertical_tension"), of("maximum_anchor_horizontal_tension"), of("least_grounded_length"),
         model, known, scatter, scatter_of("maximum_anchor_vertical_tension"),
         scatter_of("maximum_anchor_horizontal_tension"),
@@ -365,8 +366,8 @@ def _bare_lines(groups: Mapping[str, xr.Dataset], levels: list[str]) -> str:
         statics = groups.get(f"/{level}/statics")
         if statics is None or "grounded_length" not in statics:
             continue
-        chains = np.isfinite(statics["unstretched_length"].values)
-        if bool(np.any((statics["grounded_length"].values <= 0.0) & chains)):
+        chains = np.isfinite(statics.variables["unstretched_length"].values)
+        if bool(np.any((statics.variables["grounded_length"].values <= 0.0) & chains)):
             found.append(level)
     return f"no line on the bed at rest at {', '.join(found)}" if found else ""
 
@@ -377,7 +378,7 @@ def tension_at_rest(groups: Mapping[str, xr.Dataset], levels: list[str]) -> list
         statics = groups.get(f"/{level}/statics")
         if statics is None or "fairlead_tension" not in statics or not statics["fairlead_tension"].size:
             continue
-        pulls = statics["fairlead_tension"].values
+        pulls = statics.variables["fairlead_tension"].values
         at = int(np.nanargmax(pulls))
         if best is None or pulls[at] > best[0]:
             best = float(pulls[at]), f"{level}, line {statics['line'].values[at]}", float(statics.breaking_load[at])

@@ -189,13 +189,13 @@ def design_speed(problem: FlexibleCageProblem) -> float:
 
 def rest_checks(level: str, statics: xr.Dataset) -> tuple[IdentityCheck, ...]:
     """Hold the pull on the anchors against the drag of the water on all parts."""
-    moving = statics["current_speed"].values > 0.0
+    moving = statics.variables["current_speed"].values > 0.0
     if not moving.any():
         return ()
     return (
         IdentityCheck(
             f"{level}: pull on the anchors equals the drag",
-            float(statics["balance"].values[moving].max()),
+            float(statics.variables["balance"].values[moving].max()),
             0.02,
             "difference of both horizontal forces over the drag, the worst current",
         ),
@@ -205,9 +205,9 @@ def rest_checks(level: str, statics: xr.Dataset) -> tuple[IdentityCheck, ...]:
 def rest_notices(level: str, model: FlexibleCage, statics: xr.Dataset, speed: float) -> tuple[Notice, ...]:
     """Tell what the rest of a cage shows that an engineer has to know, in the current of the site: no sweep decides."""
     notices = []
-    residual = float(statics["residual"].values.max())
+    residual = float(statics.variables["residual"].values.max())
     if residual > 1e-3:
-        worst = float(statics["current_speed"].values[int(np.argmax(statics["residual"].values))])
+        worst = float(statics.variables["current_speed"].values[int(np.argmax(statics.variables["residual"].values))])
         notices.append(
             Notice(
                 "cage-rest",
@@ -218,7 +218,7 @@ def rest_notices(level: str, model: FlexibleCage, statics: xr.Dataset, speed: fl
                 remedy="take volume and drag there as those of a net that flutters",
             )
         )
-    design = statics.isel(current=int(np.argmin(np.abs(statics["current_speed"].values - speed))))
+    design = statics.isel(current=int(np.argmin(np.abs(statics.variables["current_speed"].values - speed))))
     least = float(design["volume_share"].values.min())
     if least < 0.5:
         notices.append(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,6 +14,7 @@ from moyai.core.collected import Collected
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.headline import SEAS_LEFT_OUT
 from moyai.core.progress import Progress, silent
+from moyai.core.remembered import Remembered, key_of_objects
 from moyai.core.results import Result
 from moyai.core.validity import Notice
 from moyai.flexible.flow import Current
@@ -26,6 +28,7 @@ from moyai.structures.cage.flexible.checks import problem_notices, rest_checks, 
 from moyai.structures.cage.flexible.equilibrium import CageRest, solve_rest
 from moyai.structures.cage.flexible.laws import laws_dataset
 from moyai.structures.cage.flexible.model import FlexibleCage
+from moyai.structures.cage.flexible.parts import CageNetwork
 from moyai.structures.cage.flexible.problem import FlexibleCageProblem
 from moyai.structures.cage.flexible.sensitivity import REST, mesh_dataset, rest_mesh_dataset, sensitivity_dataset
 from moyai.structures.cage.flexible.statics import cage_dataset, statics_dataset
@@ -43,6 +46,9 @@ if TYPE_CHECKING:
 # The last rests of this process in still water and in the current of the site, from which those of a draft go on
 _NEAR: dict[tuple[str, bool], tuple[State, ...]] = {}
 _MOST_NEAR = 6
+# What cases share that differ in their currents and seas alone
+_BUILT: Remembered[CageNetwork] = Remembered(4)
+_STILL: Remembered[CageRest] = Remembered(4)
 
 
 def run(problem: FlexibleCageProblem, progress: Progress = silent) -> Result:
@@ -107,7 +113,8 @@ def _steps(problem: FlexibleCageProblem, collected: Collected, progress: Progres
     for index, (name, level) in enumerate(levels):
         progress("water levels", index, len(levels))
         model = problem.at_level(level)
-        built = build_cage(model)
+        key = key_of_objects(model, problem.settings.nominal)
+        built = _BUILT.of(key, partial(build_cage, model))
         root = f"/{name}"
         current = problem.environment.current
         profile = None if current is None else current.in_depth(model.water.depth)
@@ -125,7 +132,9 @@ def _steps(problem: FlexibleCageProblem, collected: Collected, progress: Progres
                 flow = ScaledCurrent(profile, value / speed) if profile is not None and value > 0.0 else None
                 place = (name, value == speed)
                 near = _NEAR.get(place, ()) if problem.settings.nominal else ()
-                found = solve_rest(model, built, flow, start=rests[-1].state if rests else None, near=near)
+                start = rests[-1].state if rests else None
+                solve = partial(solve_rest, model, built, flow, start=start, near=near)
+                found = _STILL.of(key, solve) if value == 0.0 else solve()
                 if value in (0.0, speed):
                     _NEAR[place] = (found.state, *_NEAR.get(place, ())[: _MOST_NEAR - 1])
                 rests.append(found)

@@ -18,7 +18,7 @@ def compose(result: Result) -> Document:
     -------
     Document
     """
-    if result.tree.attrs["cage_model"] == "rigid":
+    if result.held.attrs["cage_model"] == "rigid":
         from moyai.structures.cage.report.rigid_page import compose as compose_rigid
 
         return compose_rigid(result)

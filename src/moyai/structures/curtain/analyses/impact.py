@@ -248,20 +248,25 @@ def impact_notices(unit: LevelCurtain, settings: ImpactSettings, answer: ImpactA
 
 
 def impact_checks(unit: LevelCurtain, answer: ImpactAnswer) -> tuple[IdentityCheck, ...]:
-    """Return the identities of the impact: energy of model A and of A2, share of the plate's mass."""
+    """Return the identities of the impact: energy of model A and of A2, marching without a step but for a draft."""
     impact = answer.impact
     peak = peak_by_energy(impact)
     work = _work(impact, peak.displacement)
     kinetic = 0.5 * impact.deep_mass * impact.speed**2
-    fine = march_impact(impact, time_step=peak.time / 2000.0, duration=1.2 * peak.time).peak.tension
-    coarse = march_impact(impact, time_step=peak.time / 1000.0, duration=1.2 * peak.time).peak.tension
-    return (
+    energies = (
         IdentityCheck(
             f"{unit.name}: energy of model A", abs(work / kinetic - 1.0), 1e-8, "work of the cables = m U^2/2"
         ),
         IdentityCheck(
             f"{unit.name}: energy of model A2", answer.edges.energy_error, 1e-6, "kinetic energy + work = m U^2/2"
         ),
+    )
+    if unit.nominal:
+        return energies
+    fine = march_impact(impact, time_step=peak.time / 2000.0, duration=1.2 * peak.time).peak.tension
+    coarse = march_impact(impact, time_step=peak.time / 1000.0, duration=1.2 * peak.time).peak.tension
+    return (
+        *energies,
         IdentityCheck(
             f"{unit.name}: marching without a step is model A",
             abs((2.0 * fine - coarse) / peak.tension - 1.0),

@@ -124,7 +124,7 @@ def _in_weaker_current(
     bound alone, its load in the weaker current is a value all the same, and a skirt that hangs straighter may bear more
     in a weaker one [eq:curtain-hierarchy].
     """
-    top = 0.0 if answer is None else upright_in(unit)
+    top = 0.0 if answer is None or unit.nominal else upright_in(unit)
     if answer is None or not top > 0.0:
         return {}
     load = impact_load(unit, answer, settings)

@@ -62,7 +62,7 @@ def texts(group: Group, name: str) -> tuple[str, ...]:
     """Return a variable of words, empty where it is absent."""
     if group.node is None or name not in group.node.variables:
         return ()
-    found: Any = group.node[name]
+    found: Any = group.node.variables[name]
     return tuple(str(value) for value in np.atleast_1d(found.values))
 
 
