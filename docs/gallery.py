@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from docutils import nodes
+from kept_runs import kept_run
 from report_pictures import SPAR, measured, spar_at_work, spar_installed
 from sphinx.application import Sphinx
 from sphinx.util import logging
@@ -113,7 +114,7 @@ def make_card(path: Path, folder: Path, *, quick: bool) -> None:
     else:
         case = moyai.load_case(path)
         title = case.title
-        result = at_rest(case) if quick else moyai.run(case)
+        result = at_rest(case) if quick else kept_run(case)
     if whole and not is_study(path):
         moyai.write_report(result, folder)
     heading, picture, found = first_things(result)
@@ -130,9 +131,7 @@ def make_card(path: Path, folder: Path, *, quick: bool) -> None:
 
 def at_rest(case: Any) -> Any:
     """Return the equilibrium of a case, or its whole run where it has none."""
-    import moyai
-
-    return moyai.run(case if case.kind in WITHOUT_STATICS else case.replace("analyses", ["statics"]))
+    return kept_run(case if case.kind in WITHOUT_STATICS else case.replace("analyses", ["statics"]))
 
 
 def first_things(result: Any) -> tuple[str, str, list[tuple[str, str]]]:

@@ -24,6 +24,7 @@ from unittest import mock
 
 from docutils import nodes
 from docutils.parsers.rst import directives
+from kept_runs import kept_run
 from sphinx.application import Sphinx
 from sphinx.util import logging
 from sphinx.util.docutils import SphinxDirective
@@ -66,11 +67,9 @@ def standing_at(name: str, **changes: Any) -> Callable[[], Any]:
 
 
 def _changed(case: Any, changes: dict[str, Any]) -> Any:
-    import moyai
-
     for path, value in changes.items():
         case = case.replace(path, value)
-    return moyai.run(case)
+    return kept_run(case)
 
 
 def measured(kind: str, folder: str, file: str) -> Callable[[], Any]:

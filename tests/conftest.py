@@ -2,7 +2,9 @@
 
 import gc
 import os
+import shutil
 import sys
+import tempfile
 from pathlib import Path
 
 import pytest
@@ -21,6 +23,14 @@ collect_rarely()
 os.environ.setdefault("MOYAI_COMPILE_PROCESSES", "0")
 # Messages are held against English, whatever the locale
 os.environ["MOYAI_LANGUAGE"] = "en"
+# Results of examples that several tests read are kept for all workers; a name from outside is kept for longer
+_OWN = None if "MOYAI_KEPT_RUNS" in os.environ else os.environ.setdefault("MOYAI_KEPT_RUNS", tempfile.mkdtemp())
+
+
+def pytest_unconfigure() -> None:
+    """Remove what this process keeps."""
+    if _OWN is not None:
+        shutil.rmtree(_OWN, ignore_errors=True)
 
 
 def pytest_collection_finish() -> None:

@@ -10,10 +10,10 @@ from pathlib import Path
 import pytest
 from fontTools.ttLib import TTFont
 from japanese import compared, compared_document, drawn_without_boxes, missing_in_page, without_boxes
+from kept_runs import kept_run
 from synthetic_result import build
 from typer.testing import CliRunner
 
-import moyai
 from moyai.case.templates import template
 from moyai.cli.main import app
 from moyai.core.results import Result, read_result
@@ -40,7 +40,7 @@ CASES, STUDIES = examples("structure"), examples("study")
 
 def assert_japanese(case: str | Path, least: int) -> None:
     """Run a case and hold its report in Japanese against that in English."""
-    hold(moyai.run(moyai.load_case(case)), least)
+    hold(kept_run(case), least)
 
 
 def hold(result: Result, least: int, file: str = "") -> None:
