@@ -1,13 +1,14 @@
-"""Results of cases, run once for all who ask: pages of the documentation and tests.
+"""Results of cases and of papers, computed once for all who ask: pages of the documentation and tests.
 
 MOYAI_KEPT_RUNS names the folder where they are kept, under all that they depend on: the package and the case with the
-files that it names. Without it every case is run.
+files that it names. Without it each is computed.
 """
 
 from __future__ import annotations
 
 import hashlib
 import os
+import pickle
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import cache
@@ -29,12 +30,23 @@ def kept_run(case: Any) -> Any:
     folder = os.environ.get(FOLDER)
     if not folder:
         return moyai.run(case)
-    key = hashlib.sha256("\n".join((package_stamp(), case.kind, case.case_hash, case.path.name, case.text)).encode())
-    kept = Path(folder) / f"{key.hexdigest()[:24]}.nc"
-    with alone(kept.with_suffix(".lock")):
+    with _alone_at(Path(folder), ".nc", case.kind, case.case_hash, case.path.name, case.text) as kept:
         if not kept.exists():
             moyai.run(case).write(kept)
     return moyai.read_result(kept)
+
+
+def kept_paper(name: str, *, quick: bool) -> Any:
+    """Return a paper computed again, computed where nobody has done so before."""
+    from moyai.reproduce import reproduce
+
+    folder = os.environ.get(FOLDER)
+    if not folder:
+        return reproduce(name, quick=quick)
+    with _alone_at(Path(folder), ".pickle", name, str(quick)) as kept:
+        if not kept.exists():
+            kept.write_bytes(pickle.dumps(reproduce(name, quick=quick)))
+    return pickle.loads(kept.read_bytes())
 
 
 @cache
@@ -49,14 +61,19 @@ def package_stamp() -> str:
 
 
 @contextmanager
-def alone(lock: Path) -> Iterator[None]:
-    """Wait until no other process holds a file; where there are no such locks, each runs for itself."""
-    lock.parent.mkdir(parents=True, exist_ok=True)
+def _alone_at(folder: Path, suffix: str, *depends: str) -> Iterator[Path]:
+    """Wait until no other process works on what depends on these, and give its file.
+
+    Where there are no such locks, each process works for itself.
+    """
+    key = hashlib.sha256("\n".join((package_stamp(), *depends)).encode())
+    kept = folder / f"{key.hexdigest()[:24]}{suffix}"
+    folder.mkdir(parents=True, exist_ok=True)
     try:
         import fcntl
     except ImportError:
-        yield
+        yield kept
         return
-    with lock.open("w") as stream:
+    with kept.with_suffix(".lock").open("w") as stream:
         fcntl.flock(stream, fcntl.LOCK_EX)
-        yield
+        yield kept

@@ -22,6 +22,7 @@ from pathlib import Path
 from typing import Any, ClassVar
 from unittest import mock
 
+from computed_ahead import ahead
 from docutils import nodes
 from docutils.parsers.rst import directives
 from kept_runs import kept_run
@@ -249,7 +250,7 @@ class ReportPicture(SphinxDirective):
             raise self.error(f"no run {name}: {', '.join(RUNS)}")
         language = "ja" if self.env.docname.startswith("ja/") else "en"
         outdir = Path(self.env.app.outdir)
-        pictures = kept_pictures(name, outdir / "pictures")[language]
+        pictures = ahead(kept_pictures, name, outdir / "pictures")[language]
         if key not in pictures:
             raise self.error(f"no picture {key} of {name}: {', '.join(pictures)}")
         title, svg = pictures[key]

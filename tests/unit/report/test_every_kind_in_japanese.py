@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from fontTools.ttLib import TTFont
 from japanese import compared, compared_document, drawn_without_boxes, missing_in_page, without_boxes
-from kept_runs import kept_run
+from kept_runs import kept_paper, kept_run
 from synthetic_result import build
 from typer.testing import CliRunner
 
@@ -98,9 +98,9 @@ def test_studies(path: Path, tmp_path: Path) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("paper", ["arai", "matsubara", "nakamura", "sawaragi", "tabata"])
 def test_papers(paper: str) -> None:
-    from moyai.reproduce import as_result, compose, reproduce
+    from moyai.reproduce import as_result, compose
 
-    found = reproduce(paper, quick=True)
+    found = kept_paper(paper, quick=True)
     document = replace(compose(found, as_result(found)), language="ja")
     left, count = compared_document(document)
     assert count > 200
