@@ -47,7 +47,6 @@ SHORTER: dict[str, dict[str, Any]] = {
     "curtain/tidal_channel": {"waves[0].duration": "3 min"},
     "member/inclined_brace": {"waves[0].duration": "5 min"},
     "network/buoy": {"waves[0].duration": "60 s"},
-    "network/skirt": {"settings.duration": "5 s"},
     "tabata/kansai": {"waves[*].duration": "3 min"},
     "units/two_pontoons": {"settings.panel_size": "2.5 m", "settings.frequencies.count": 5},
 }
