@@ -40,11 +40,11 @@ def jobs(outdir: Path, text: str, *, quick: bool) -> Iterator[Job]:
 
     if "{validation" in text:
         yield validation_results.computed, (outdir / "validation",), {"quick": quick}
-    if "{reproduced-papers}" in text:
+    if ".. reproduced-papers::" in text:
         from moyai.reproduce import papers
 
         yield from ((reproduced_papers.compute, (paper.key, outdir), {}) for paper in papers())
-    if "{example-gallery}" in text:
+    if ".. example-gallery::" in text:
         places = ((path, gallery.folder_of(path, outdir)) for path in gallery.examples())
         yield from ((gallery.card, place, {"quick": quick}) for place in places)
     if "{moving-picture}" in text:
