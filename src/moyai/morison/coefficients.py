@@ -87,7 +87,9 @@ class KeuleganCarpenterTable:
             notices.append(
                 Notice(
                     "coefficients-outside-table",
-                    f"KC = {keulegan_carpenter:.3g} lies outside the table of {name}; its end value is kept",
+                    f"in steady flow the last value of the table of {name} is taken"
+                    if math.isinf(keulegan_carpenter)
+                    else f"KC = {keulegan_carpenter:.3g} lies outside the table of {name}; its end value is kept",
                     value=keulegan_carpenter,
                     limit=low if keulegan_carpenter < low else high,
                     remedy="extend the table",
@@ -185,9 +187,11 @@ def dnv_drag(keulegan_carpenter: float, relative_roughness: float) -> float:
     """Return C_D = C_DS psi(KC) of a circle (DNV-RP-C205, 6.7.2) [eq:morison-dnv-drag].
 
     Beyond KC = 12, where the recommended practice gives a figure, the factor keeps its value of KC = 12, the crest of
-    that figure.
+    that figure. In steady flow, at infinite KC, it is one.
     """
     steady = dnv_steady_drag(relative_roughness)
+    if math.isinf(keulegan_carpenter):
+        return steady
     level = 1.50 - 0.024 * (12.0 / steady - 10.0)
     if keulegan_carpenter < 0.75:
         factor = level - 1.0 - 2.0 * (keulegan_carpenter - 0.75)
@@ -264,7 +268,7 @@ def _range_notices(what: str, entry: DragEntry, flow: Conditions) -> list[Notice
 
 def _dnv_notices(flow: Conditions) -> list[Notice]:
     notices = _range_notices("DNV-RP-C205's drag", DragEntry(math.nan, math.nan, 1e6, math.inf, False, "D"), flow)
-    if flow.keulegan_carpenter > DNV_CREST:
+    if DNV_CREST < flow.keulegan_carpenter < math.inf:
         notices.append(
             Notice(
                 "drag-keulegan-carpenter",

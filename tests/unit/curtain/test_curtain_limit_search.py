@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,8 +12,9 @@ import xarray as xr
 
 from moyai.sea.current import uniform
 from moyai.sea.water import Water
+from moyai.structures.curtain.analyses.limits import CountedLimits
 from moyai.structures.curtain.limit_headlines import limit_headlines
-from moyai.structures.curtain.limits.search import NOT_REACHED, search
+from moyai.structures.curtain.limits.search import NOT_REACHED, Limit, search
 from moyai.structures.curtain.limits.utilisation import (
     Requirements,
     Site,
@@ -192,3 +194,17 @@ def test_the_period_beside_a_limit_height_is_that_of_the_height_printed() -> Non
     groups = {"/LW": xr.Dataset(), "/LW/limits": drawn}
     (found,) = [item for item in limit_headlines(groups, ["LW"], lambda _: False) if item.name == "limit_wave_height"]
     assert found.value == pytest.approx(0.36)
+
+
+@pytest.mark.parametrize(
+    ("role", "height", "bound"),
+    [("bound", 1.7, "at least"), ("bound", 0.0, ""), ("governs", 1.7, ""), ("out of range", 1.7, "")],
+)
+def test_breaking_above_a_plate_that_is_a_bound_proves_no_height(monkeypatch, role, height, bound):
+    """The plate knows neither sheet nor anchors of a free toe: a ceiling that it does not reach is no limit."""
+    loads = SimpleNamespace(impact=object(), snaps=object())
+    monkeypatch.setattr(CountedLimits, "role", lambda self, speed: role)
+    monkeypatch.setattr(CountedLimits, "loads_in", lambda self, speed: loads)
+    monkeypatch.setattr(CountedLimits, "_judged", lambda self, *_: (Limit(height, "breaking"), ""))
+    counted = CountedLimits(None, None, loads)
+    assert counted.height(0.3)[1] == bound

@@ -1,4 +1,4 @@
-"""Chains that act along the gap, and units that move across it; connectors with a breaking load are judged."""
+"""Chains that act along one direction, and units that move across it; connectors with a breaking load are judged."""
 
 from __future__ import annotations
 
@@ -10,47 +10,67 @@ import xarray as xr
 
 from moyai.case.reader import load_case
 from moyai.structures.units.across import across_notices, stretch_across
+from moyai.structures.units.connectors import Joint
+from moyai.structures.units.model import Connector
 
 EXAMPLE = Path(__file__).parents[3] / "examples" / "units" / "two_pontoons.yaml"
+ALONG = np.array([0.0, 1.0, 0.0])
 
 
-def _sea(across: float, elongation: float) -> xr.Dataset:
-    return xr.Dataset(
-        {
-            "relative_motion_largest": (("connector", "component"), [[across, 0.1, 0.0], [across, 0.1, 0.0]]),
-            "elongation_highest": ("connector", [elongation, elongation]),
-        },
-        coords={"connector": ["chain", "guide"]},
-    )
+def _joint(kind: str, in_space: bool) -> Joint:
+    connector = Connector(kind, kind, ((0, 1),), axis=(0.0, 1.0, 0.0), end_to_end=in_space)
+    empty = np.zeros((0, 6))
+    return Joint(kind, connector, (0, 1), np.zeros(3), np.zeros((6, 12)), empty, 0.5, np.zeros((3, 12)), ALONG)
 
 
-STATICS = xr.Dataset(
-    {
-        "connector_span": ("connector", [0.5, np.nan]),
-        "connector_axis": (("connector", "component"), [[0.0, 1.0, 0.0], [0.0, 1.0, 0.0]]),
-    }
-)
+JOINTS = (_joint("chain", True), _joint("chain", False), _joint("fender", False))
+
+
+def _motion(across: float) -> np.ndarray:
+    return np.tile([across, 0.1, 0.0], (3, 1))
+
+
+def _sea(*stretch: float) -> xr.Dataset:
+    return xr.Dataset({"stretch_across": ("connector", [*stretch])}, coords={"connector": ["chain", "guide"]})
 
 
 def test_a_chain_of_half_a_metre_is_stretched_as_its_ends_move_apart() -> None:
-    """Pythagoras: 0.5 m along and 1.2 m across are 1.3 m; a guide that is no chain is not drawn."""
-    assert stretch_across(STATICS, _sea(1.2, 0.09)) == pytest.approx([0.8, 0.0])
+    """Pythagoras: 0.5 m along and 1.2 m across are 1.3 m. In time a chain follows its ends; a fender is not drawn."""
+    highest = np.full(3, 0.09)
+    assert stretch_across(JOINTS, _motion(1.2), highest, in_time=False) == pytest.approx([0.8, 0.8, 0.0])
+    assert stretch_across(JOINTS, _motion(1.2), highest, in_time=True) == pytest.approx([0.0, 0.8, 0.0])
 
 
 def test_little_motion_across_does_not_count() -> None:
-    assert not stretch_across(STATICS, _sea(0.05, 0.09)).any()
+    assert not stretch_across(JOINTS, _motion(0.05), np.full(3, 0.09), in_time=False).any()
 
 
-def test_the_notice_names_level_sea_and_connector() -> None:
-    groups = {"/LW/statics": STATICS, "/LW/time/storm": _sea(1.2, 0.09), "/LW/time/storm/realisation": xr.Dataset()}
-    (notice,) = across_notices(groups)
+def test_the_notice_names_level_sea_and_connector_and_how_to_mend_it() -> None:
+    (notice,) = across_notices({"/LW/statics": xr.Dataset(), "/LW/time/storm": _sea(0.8, 0.0)})
     assert notice.message.startswith("LW, storm, chain") and "0.8 m" in notice.message
+    assert "direction" in notice.remedy
+    (notice,) = across_notices({"/LW/frequency/storm": _sea(0.8, 0.0)})
+    assert "time" in notice.remedy
 
 
-def test_connectors_with_a_breaking_load_are_judged_by_default(tmp_path: Path) -> None:
+def test_the_frequency_domain_is_silent_where_time_governs() -> None:
+    assert not list(across_notices({"/LW/frequency/storm": _sea(0.8, 0.0), "/LW/time/storm": _sea(0.0, 0.0)}))
+
+
+def _judged(tmp_path: Path, *changes: tuple[str, str]) -> dict[str, float]:
     text = EXAMPLE.read_text(encoding="utf-8")
-    (tmp_path / "case.yaml").write_text(text.replace("  connector_safety_factor: 2\n", ""), encoding="utf-8")
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new)
+    (tmp_path / "case.yaml").write_text(text, encoding="utf-8")
     from moyai.case.builder import build
 
-    (found,) = [item for item in build(load_case(tmp_path / "case.yaml")).criteria if "connector" in item.headline]
-    assert found.assumed and found.limit == 0.5
+    return {item.headline: item.limit for item in build(load_case(tmp_path / "case.yaml")).criteria if item.assumed}
+
+
+def test_connectors_with_a_breaking_load_and_gaps_are_judged_by_default(tmp_path: Path) -> None:
+    found = _judged(tmp_path, ("  connector_safety_factor: 2\n", ""))
+    assert found["connector_utilisation"] == 0.5
+    assert found["gap_closing"] == 1.0
+    found = _judged(tmp_path, ("  connector_safety_factor: 2\n", "  greatest_gap_closing: not_judged\n"))
+    assert "gap_closing" not in found

@@ -11,6 +11,7 @@ from moyai.structures.units.bem import Panels, panels_of, solve_frequency
 from moyai.structures.units.drift import near_drift, reconciled
 from moyai.structures.units.hydrodynamics import RowHydrodynamics, solve_row
 from moyai.structures.units.mesh import row_mesh
+from moyai.structures.units.model import Placement
 from moyai.structures.units.near_field import NearField
 from moyai.structures.units.response import RowModel, far_waves, respond
 from moyai.validation.units import LENGTH, WATER, at_rest, row
@@ -95,3 +96,16 @@ def test_what_is_left_of_the_sum_goes_as_the_size_of_each() -> None:
     near = np.array([[3.0, 0.0, 0.0], [1.0, 0.0, 0.0]])
     loads = reconciled(field.at, near, np.array([8.0, 0.0, 0.0])).reshape(2, 6)
     assert loads[:, 0] == pytest.approx([6.0, 2.0])
+
+
+def test_shares_of_what_is_left_do_not_depend_on_the_axes_of_the_row() -> None:
+    """Forces and places turned together give the same loads, turned."""
+    angle = 0.6
+    turn = np.array([[np.cos(angle), -np.sin(angle), 0.0], [np.sin(angle), np.cos(angle), 0.0], [0.0, 0.0, 1.0]])
+    straight = row()
+    placements = tuple(Placement(*(turn @ [place.x, place.y, 0.0])[:2], angle) for place in straight.placements)
+    generator = np.random.default_rng(3)
+    near, whole = generator.normal(size=(4, 1, 2, 3)), generator.normal(size=(4, 1, 3))
+    found = reconciled(at_rest(straight), near, whole).reshape(-1, 3)
+    turned = reconciled(at_rest(replace(straight, placements=placements)), near @ turn.T, whole @ turn.T)
+    assert np.allclose(turned.reshape(-1, 3), found @ turn.T, atol=1e-12)

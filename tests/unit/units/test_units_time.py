@@ -13,17 +13,20 @@ from moyai.mooring.space_kernel import space_line_force
 from moyai.mooring.table import compile_lines
 from moyai.sea.components import WaveComponents
 from moyai.sea.environment import Environment
+from moyai.sea.states import RegularSea
 from moyai.structures.units.assembly import assemble
 from moyai.structures.units.bem import panels_of
 from moyai.structures.units.drift import share_drift
 from moyai.structures.units.hydrodynamics import solve_row
 from moyai.structures.units.mesh import row_mesh
-from moyai.structures.units.model import Connector, Curve, UnitLine
+from moyai.structures.units.model import Connector, Curve, Settings, TimeSettings, UnitLine
 from moyai.structures.units.response import RowModel, respond
+from moyai.structures.units.seas import regular_answer
 from moyai.structures.units.time.kernel import joint_force
 from moyai.structures.units.time.lines import Carried, events_of, moving_line, rerun, rerun_events
 from moyai.structures.units.time.memory import _Basis, _passive, _residues, fit_row_memory
 from moyai.structures.units.time.model import RowInTime, step_weights
+from moyai.structures.units.time.seas import Water3D, regular_run
 from moyai.validation.units import WATER, row
 
 HINGE = Connector("h", "hinge", ((0, 1),), 0.0, 3.0, (1.0, 0.0, 0.0))
@@ -179,6 +182,31 @@ def test_regular_waves_move_the_row_as_in_the_frequency_domain(hydro, memory, he
             assert np.abs(loads - force)[3:].max() < allowed * np.abs(force[3:]).max()
 
 
+def test_eddies_in_regular_waves_are_those_of_equal_work_in_the_frequency_domain(hydro, memory):
+    """Near the resonance of roll, where they decide: first harmonics of the quadratic drag as it is."""
+    given = replace(row(), viscous_factor=1.0, damping_fraction=np.zeros(6))
+    at = assemble(given, Environment(WATER), "SWL", 0.0)
+    omega, height = 1.1, 1.0
+    own = replace(hydro, solutions=tuple(_with(item, memory) for item in hydro.solutions))
+    sea = RegularSea("w", height, (2.0 * np.pi / omega,), np.radians(40.0))
+    (answer,) = regular_answer(at, own, sea, np.zeros(12), Settings(2.0, drift=False))
+    assert answer.converged
+    settings = Settings(2.0, drift=False, time=TimeSettings(duration=300.0))
+    run = regular_run(Water3D(at, own, memory, np.zeros(12), settings), sea, sea.periods[0], answer).run
+    last = run.time > 200.0 - 1e-9
+    count = int(last.sum() // round(sea.periods[0] / run.time_step)) * round(sea.periods[0] / run.time_step)
+    position, time = run.position[-count:], run.time[-count:]
+    moved = 2.0 * np.mean(position * np.exp(1j * omega * time)[:, None], axis=0)
+    expected = 0.5 * height * answer.fine.motion[0, 0]
+    assert np.abs(moved - expected).max() < 0.02 * np.abs(expected).max()
+    assert abs(moved[4] - expected[4]) < 0.04 * abs(expected[4])
+    # they matter here
+    (without,) = regular_answer(
+        replace(at, row=replace(given, viscous_factor=0.0)), own, sea, np.zeros(12), Settings(2.0, drift=False)
+    )
+    assert abs(0.5 * height * without.fine.motion[0, 0, 4]) > 1.1 * abs(expected[4])
+
+
 def _with(item, memory):
     added, damping = memory.coefficients(np.array([item.omega]))
     return replace(item, added_mass=added[0], damping=damping[0])
@@ -241,10 +269,10 @@ def test_two_hinged_bodies_with_a_slack_chain_against_a_plain_program(hydro, mem
     assert pull.max() > 1e5
     assert (pull == 0.0).mean() > 0.3
     assert np.abs(run.position - position).max() < 0.01 * np.abs(position).max()
-    assert np.abs(run.joint_force[:, 0] - pull).max() < 0.02 * pull.max()
+    assert np.abs(run.link_force[:, 0] - pull).max() < 0.02 * pull.max()
     # the largest loads: the records differ by the time of an impact
     assert np.abs(np.abs(run.held).max(axis=0) - np.abs(held).max(axis=0)).max() < 0.01 * np.abs(held).max()
-    assert run.joint_force.max() == pytest.approx(pull.max(), rel=0.01)
+    assert run.link_force.max() == pytest.approx(pull.max(), rel=0.01)
 
 
 def test_a_row_that_is_let_go_never_has_more_energy_than_at_first(memory):
@@ -261,12 +289,12 @@ def test_a_row_that_is_let_go_never_has_more_energy_than_at_first(memory):
     curve = at.joints[0].connector.curve
     elongation = run.position @ at.joints[0].along
     stored = np.where(elongation < -0.01, 0.5 * 1e7 * (elongation + 0.01) ** 2, 0.0)
-    assert np.allclose(run.joint_force[:, 0], np.minimum(curve.at(elongation), 0.0), atol=1.0)
+    assert np.allclose(run.link_force[:, 0], np.minimum(curve.at(elongation), 0.0), atol=1.0)
     pull = [system.tensions(run.position[:, 6 * n : 6 * n + 6])[:, 0] for n, system in enumerate(at.systems)]
     stored = stored + sum(0.5 * one**2 / 1e5 for one in pull)
     kinetic = 0.5 * np.einsum("ti,ij,tj->t", run.velocity, model.mass, run.velocity)
     total = kinetic + 0.5 * np.einsum("ti,ij,tj->t", run.position, at.hydrostatic, run.position) + stored
-    assert run.joint_force.min() < -1e4
+    assert run.link_force.min() < -1e4
     assert total.max() <= total[0] * (1.0 + 1e-3)
     assert total[-1] < 0.5 * total[0]
 

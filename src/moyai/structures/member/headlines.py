@@ -23,6 +23,7 @@ from moyai.series.intervals import reach_of_mean
 from moyai.series.realisations import ALONE, alone
 from moyai.structures.member.model import MemberProblem
 from moyai.structures.member.supports import held_at
+from moyai.structures.member.waves import STEADY
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -59,6 +60,11 @@ class _Largest:
     scatter: Array
     theory: str
 
+    @property
+    def steady(self) -> bool:
+        """Whether it is of a current without waves."""
+        return self.theory == STEADY
+
     def number(self, name: str) -> float:
         """Return a number of the wave, at the strip of the largest KC."""
         return float(self.sea[name].values[self.wave])
@@ -78,8 +84,9 @@ def headlines_of(problem: MemberProblem, groups: Mapping[str, xr.Dataset]) -> tu
         return ()
     shares = _shares(found)
     ranges = _ranges(problem, found)
-    model = f"Morison's equation, {found.theory}, {ranges[1].name}, {ranges[0].name}"
-    if problem.circulation.counted:
+    laws = [found.theory, *(item.name for item in (ranges[:1] if found.steady else ranges[1::-1]))]
+    model = ", ".join(["Morison's equation", *laws])
+    if problem.circulation.counted and not found.steady:
         model += f", {CIRCULATION.name}"
     force = Headline(
         "peak_force", "largest force on the member", found.value, "N", found.where, model,
@@ -89,14 +96,19 @@ def headlines_of(problem: MemberProblem, groups: Mapping[str, xr.Dataset]) -> tu
     items = _with_the_others(problem, groups, "force", force)
     number, of_waves, reynolds = (found.number(key) for key in (_COEFFICIENTS, _CIRCULATION, "reynolds"))
     reported = [_range_text(item, found.number(_number_of(item)), reynolds) for item in ranges]
-    if number != of_waves:
-        reported.append(f"with the current, of the waves alone {of_waves:.3g}")
-    items.append(
-        Headline(
-            "keulegan_carpenter", _number_label(found), number, "1", found.where,
-            detail="; ".join([*reported, f"Re = {reynolds:.2g}"]), condition=True,
+    if found.steady:
+        items.append(
+            Headline("reynolds", "Reynolds number", reynolds, "1", found.where, detail=reported[0], condition=True)
         )
-    )  # fmt: skip
+    else:
+        if number != of_waves:
+            reported.append(f"with the current, of the waves alone {of_waves:.3g}")
+        items.append(
+            Headline(
+                "keulegan_carpenter", _number_label(found), number, "1", found.where,
+                detail="; ".join([*reported, f"Re = {reynolds:.2g}"]), condition=True,
+            )
+        )  # fmt: skip
     ends, bending = _largest(groups, "end_force"), _largest(groups, "bending_moment")
     held = held_at(problem.support)
     # a fixed end bears the whole force, which stands above
@@ -110,12 +122,13 @@ def headlines_of(problem: MemberProblem, groups: Mapping[str, xr.Dataset]) -> tu
         along = bending.sea["maximum_bending_moment_along"].values[bending.wave]
         place = float(bending.sea["station"].values[int(np.argmax(along))])
         where = f"{place:.3g} m from its start"
+        cause = "of the current alone" if bending.steady else "of waves and current alone"
         if problem.support != "both_ends" and int(np.argmax(along)) in (0, along.size - 1):
             where = "at the fixed end"
         moment = Headline(
             "bending_moment", "largest bending moment", bending.value, "N m", bending.where, model,
             _band(bending, _ranges(problem, bending)), bound=_bound(bending),
-            detail=f"{held}, {where}; of waves and current alone{_ends_text(bending)}",
+            detail=f"{held}, {where}; {cause}{_ends_text(bending)}",
         )  # fmt: skip
         items += _with_the_others(problem, groups, "bending_moment", moment)
     return (*items, _NOT_JUDGED)
@@ -145,6 +158,8 @@ def range_notices(problem: MemberProblem, groups: Mapping[str, xr.Dataset]) -> t
 def _range_notices(problem: MemberProblem, found: _Largest) -> Iterator[Notice]:
     shares = dict(zip(_CAUSES, _shares(found), strict=True))
     for cause, measured in zip(("drag", "inertia", "lift"), _ranges(problem, found), strict=False):
+        if found.steady:
+            continue  # a law of steady flow speaks of Reynolds numbers, and says so where it is read
         low, high = measured.keulegan_carpenter
         number = found.number(_number_of(measured))
         if abs(shares[cause]) < DECIDES or low <= number <= high:
@@ -172,7 +187,7 @@ def _ranges(problem: MemberProblem, found: _Largest) -> tuple[MeasuredRange, ...
 
 def _crest(problem: MemberProblem, found: _Largest) -> float:
     """Return the amplification of the drag that is kept at its crest beyond KC = 12, 1 where none is."""
-    if problem.rule.drag != "dnv_c205" or not found.number(_COEFFICIENTS) > DNV_CREST:
+    if problem.rule.drag != "dnv_c205" or found.steady or not found.number(_COEFFICIENTS) > DNV_CREST:
         return 1.0
     roughness = problem.roughness / problem.member.placed_section.breadth
     return dnv_drag(DNV_CREST, roughness) / dnv_steady_drag(roughness)
@@ -223,7 +238,7 @@ def _all(groups: Mapping[str, xr.Dataset], kind: _Kind) -> Iterator[_Largest]:
         else:
             row = int(np.argmax(size))
         label = str(sea["wave"].values[wave])
-        where = ", ".join(part for part in (sea_name, "" if label == "sea" else label, level) if part)
+        where = ", ".join(part for part in (sea_name, "" if label in ("sea", sea_name) else label, level) if part)
         each = f"{name}_of_realisation"
         scatter = np.asarray(sea[each].values, dtype=float) if each in sea else np.array([value])
         yield _Largest(where, causes, row, value, sea, wave, scatter, str(series.attrs["theory"]))
@@ -298,7 +313,8 @@ def _band(found: _Largest, ranges: tuple[MeasuredRange, ...]) -> Band:
         for chosen in product(*factors)
     ]
     words = [f"C_D -{100 * ranges[0].below:.0f} to +{100 * ranges[0].above:.0f} %"]
-    words.append(f"C_M -{100 * ranges[1].below:.0f} to +{100 * ranges[1].above:.0f} %")
+    if not found.steady:
+        words.append(f"C_M -{100 * ranges[1].below:.0f} to +{100 * ranges[1].above:.0f} %")
     if len(ranges) > 2:
         words.append(f"circulation ±{100 * ranges[2].above:.0f} %")
     own = float(np.linalg.norm(found.causes.sum(axis=0), axis=1)[found.row])

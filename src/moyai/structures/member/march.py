@@ -46,7 +46,7 @@ class WaveForces:
     #: (strips, 2), ``drag`` (strips, 2), ``force`` (strips, 2) largest force per length along both axes [N/m], ``wet``
     #: mean wetted share, ``circulation`` and ``settled_circulation`` mean [m2/s]; shape (strips, ...).
     strip: dict[str, Array]
-    #: Strip of the largest Keulegan-Carpenter number among those that are wet.
+    #: Strip of the largest Keulegan-Carpenter number among those that are wet; in a current alone of the fastest flow.
     governing: int
     notices: tuple[Notice, ...]
 
@@ -103,7 +103,8 @@ def march(problem: MemberProblem, member: StraightMember, wave: Wave) -> WaveFor
         circulations.append(gammas)
         elevations.append(_repeated(block.elevation, time, wave))
     strip = {name: np.concatenate([numbers[name] for numbers in found]) for name in found[0]}
-    governing = int(np.argmax(np.where(strip["wet"] > 0.0, strip["keulegan_carpenter"], -1.0)))
+    exposed = strip["reynolds" if wave.steady else "keulegan_carpenter"]
+    governing = int(np.argmax(np.where(strip["wet"] > 0.0, exposed, -1.0)))
     centre = count // 2
     return WaveForces(
         time=time,
@@ -120,7 +121,7 @@ def march(problem: MemberProblem, member: StraightMember, wave: Wave) -> WaveFor
 
 def _shown_time(problem: MemberProblem, wave: Wave) -> Array:
     """Return the times shown: the grid of an irregular sea, whole periods of a regular wave."""
-    if not wave.regular:
+    if not wave.regular or wave.steady:
         return wave.time
     law = problem.circulation
     periods = problem.settings.periods
@@ -171,16 +172,20 @@ def _block_forces(
     section = member.placed_section
     relative = block.orbital - block.body_velocity
     rate = block.acceleration - block.body_acceleration
-    if wave.regular:
+    if wave.steady:
+        omega = np.full(relative.shape[1], math.nan)
+    elif wave.regular:
         omega = np.full(relative.shape[1], 2.0 * math.pi / wave.period)
         rate = _local_rate(relative, wave.period)
     else:
         omega = np.maximum(mean_frequency(relative, rate), 1e-9)
-    numbers, drag, inertia, reported = _coefficients(problem, member, relative, rate, block, omega, wave.regular)
+    numbers, drag, inertia, reported = _coefficients(
+        problem, member, relative, rate, block, omega, wave.regular, wave.steady
+    )
     law = problem.circulation
     gamma_now = np.zeros(relative.shape[:2])
     settled = np.zeros(relative.shape[:2])
-    for number in range(relative.shape[1]):
+    for number in range(0 if wave.steady else relative.shape[1]):
         settled[:, number] = target_circulation(
             law,
             relative[:, number],
@@ -190,7 +195,7 @@ def _block_forces(
             area=section.area,
             gamma=law.gamma(float(numbers["beta"][number])),
         )
-    if law.counted:
+    if law.counted and not wave.steady:
         # where the member is dry there is nothing to turn
         gamma_now = _state(problem, wave, settled * (block.wet > 0.0), omega)
     forces = strip_forces(
@@ -277,6 +282,7 @@ def _coefficients(
     block: _Block,
     omega: Array,
     regular: bool,
+    steady: bool,
 ) -> tuple[dict[str, Array], Array, Array, list[Notice]]:
     """Return numbers, drag (strips, 2), inertia (strips, 2, 2) and notices of a block of strips."""
     section = member.placed_section
@@ -301,6 +307,9 @@ def _coefficients(
     whole_number = speed * 2.0 * math.pi / omega / width
     reynolds = speed * width / problem.kinematic_viscosity
     beta = width**2 * omega / (2.0 * math.pi * problem.kinematic_viscosity)
+    if steady:
+        # nothing goes to and fro: no orbit, and a flow that never turns back
+        whole_number = np.full_like(speed, math.inf)
     count = relative.shape[1]
     drag, inertia = np.empty((count, 2)), np.empty((count, 2, 2))
     reported: dict[str, Notice] = {}

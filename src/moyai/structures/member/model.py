@@ -104,8 +104,8 @@ class MemberProblem:
     environment: Environment
     seas: tuple[MemberSea, ...] = ()
     circulation: CirculationLaw = field(default_factory=CirculationLaw)
-    #: Drag by component or with the common speed; one of "component", "vector".
-    form: DragForm = "component"
+    #: Drag with the common speed or by component; one of "vector", "component".
+    form: DragForm = "vector"
     #: Height of the roughness k [m].
     roughness: float = 0.0
     motion: Motion | None = None

@@ -24,7 +24,7 @@ from moyai.structures.member.model import MemberProblem, RegularWaves
 from moyai.structures.member.surface import can_be_evaluated, relative_heading, surface_effect, surface_notices
 from moyai.structures.member.sweep import sweep
 from moyai.structures.member.variables import VOCABULARY, labelled
-from moyai.structures.member.waves import Wave, waves_of
+from moyai.structures.member.waves import CURRENT_ALONE, Wave, current_alone, waves_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -76,6 +76,15 @@ def _steps(problem: MemberProblem, collected: Collected, progress: Progress) -> 
         if "forces" in problem.settings.analyses:
             for sea in problem.seas:
                 yield from _sea_steps(problem, member, water, sea, collected, root, progress)
+            if not problem.seas:
+                wave = current_alone(problem, water)
+                found = march(problem, member, wave)
+                collected.groups[f"{root}/time/{CURRENT_ALONE}/wave 1"] = time_dataset(wave, found)
+                collected.groups[f"{root}/waves/{CURRENT_ALONE}"] = sea_dataset(problem, member, [(wave, found)])
+                collected.notices.extend(
+                    replace(one, message=f"{name}: {one.message}") for one in most_severe(list(found.notices))
+                )
+                yield
         if "surface" in problem.settings.analyses:
             for sea in problem.seas:
                 _surface(problem, member, water, sea, collected, root, progress)

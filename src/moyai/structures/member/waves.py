@@ -9,6 +9,7 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.morison.flow import Flow, LinearFlow, NonlinearFlow
+from moyai.sea.components import WaveComponents
 from moyai.sea.current import CurrentProfile
 from moyai.sea.dispersion import wave_number_in_current
 from moyai.sea.irregular import synthesise
@@ -19,10 +20,13 @@ from moyai.sea.states import IrregularSea
 from moyai.sea.water import Water
 from moyai.structures.member.model import MemberProblem, RegularWaves
 
+#: Name of the sea, and of what drives the member, where a current runs without waves
+CURRENT_ALONE, STEADY = "current", "steady current"
+
 
 @dataclass(frozen=True, eq=False)
 class Wave:
-    """One wave or irregular sea, ready to be run."""
+    """One wave or irregular sea, ready to be run; a current alone is a regular wave of no height and no period."""
 
     #: Of its run.
     name: str
@@ -42,6 +46,24 @@ class Wave:
     current: CurrentProfile | None = None
     #: In words.
     theory: str = "linear waves"
+
+    @property
+    def steady(self) -> bool:
+        """Whether it is a current without waves."""
+        return self.theory == STEADY
+
+
+def current_alone(problem: MemberProblem, water: Water) -> Wave:
+    """Return the current of a case without waves; its two steps of time are alike."""
+    current = problem.environment.current
+    assert current is not None
+    none = np.zeros(1)
+    flow = LinearFlow(WaveComponents(np.ones(1), none, none, none, np.ones(1), water), problem.settings.stretching)
+    heading = float(np.arctan2(*current.velocity(0.0)[1::-1]))
+    return Wave(
+        CURRENT_ALONE, flow, math.nan, math.nan, math.nan, heading, np.linspace(0.0, 1.0, 3), True,
+        current.in_depth(water.depth), STEADY,
+    )  # fmt: skip
 
 
 def mean_current(problem: MemberProblem, water: Water) -> tuple[float, float]:

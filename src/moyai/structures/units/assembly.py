@@ -20,6 +20,7 @@ from moyai.potential.sections import Section
 from moyai.sea.environment import Environment
 from moyai.sea.water import Water
 from moyai.structures.units.connectors import Joint, constraints, joints_of, null_space, spring_matrices
+from moyai.structures.units.links import Link, links_of
 from moyai.structures.units.model import FloatingRow, Placement, UnitLine
 
 IMBALANCE_LIMIT = 1.0  # per cent of the displacement of a unit
@@ -117,6 +118,11 @@ class RowAtLevel:
         return self._joined([one] * row.count)
 
     @cached_property
+    def links(self) -> tuple[Link, ...]:
+        """Curves of all connectors."""
+        return links_of(self.joints)
+
+    @cached_property
     def springs(self) -> tuple[Array, Array]:
         """Stiffness and damping (m, m) of connectors that are linear."""
         return spring_matrices(self.joints, self.size)
@@ -157,9 +163,8 @@ class RowAtLevel:
     def curve_force(self, position: Array, width: float) -> Array:
         """Return the force (m,) of connectors with a curve, its corners rounded over ``width`` [m]."""
         out = np.zeros(self.size)
-        for joint in self.joints:
-            if joint.connector.curve is not None:
-                out -= joint.connector.curve.rounded(float(joint.along @ position), width)[0] * joint.along
+        for link in self.links:
+            out -= link.curve.rounded(float(link.elongation(position)), width)[0] * link.along(position)
         return out
 
     @property
@@ -368,13 +373,13 @@ def steady_position(at: RowAtLevel, load: Array) -> RowPosition:
         return at.line_force(position) - balanced + curves + share * load - linear @ position
 
     def tangent(position: Array, width: float) -> Array:
-        return -(at.line_stiffness(position) + linear + _curve_stiffness(at, position, width))
+        curves = sum((link.stiffness(position, width) for link in at.links), np.zeros((at.size, at.size)))
+        return -(at.line_stiffness(position) + linear + curves)
 
     free = at.free
     weight = float(at.masses.max()) * at.water.gravity
     size = np.tile([1.0, 1.0, 1.0, *([at.row.length] * 3)], at.row.count)
     scale = weight * np.sqrt(((free * size[:, None]) ** 2).sum(axis=0))
-    curved = any(joint.connector.curve is not None for joint in at.joints)
 
     def found(start: Array, factor: float, share: float) -> Array:
         """Return the motions left at rest with corners rounded over some widths, under a share of the load."""
@@ -394,7 +399,7 @@ def steady_position(at: RowAtLevel, load: Array) -> RowPosition:
     reduced = np.zeros(free.shape[1])
     if at.row.lines or np.any(load):
         try:
-            reduced = settled((factor, 1.0) for factor in (_WIDER if curved else (1.0,)))
+            reduced = settled((factor, 1.0) for factor in (_WIDER if at.links else (1.0,)))
         except ConvergenceError as first:
             try:
                 growing = [(_SLOWLY[0], share) for share in _SHARES]
@@ -415,15 +420,6 @@ def held_load(at: RowAtLevel, force: Any) -> Any:
     if not len(g):
         return np.zeros((*np.shape(force)[:-1], 0))
     return np.asarray(force @ np.linalg.solve(g @ g.T, g).T)
-
-
-def _curve_stiffness(at: RowAtLevel, position: Array, width: float) -> Array:
-    out = np.zeros((at.size, at.size))
-    for joint in at.joints:
-        curve = joint.connector.curve
-        if curve is not None:
-            out += curve.rounded(float(joint.along @ position), width)[1] * np.outer(joint.along, joint.along)
-    return out
 
 
 def steady_load(at: RowAtLevel, environment: Environment) -> tuple[Array, Array]:

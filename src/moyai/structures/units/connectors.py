@@ -37,6 +37,10 @@ class Joint:
         Directions of the relative motion that are held.
     span : float
         Distance of its ends at rest [m].
+    ends : ndarray (3, m)
+        Motion of its far end less that of its near end, axes of the unit before it.
+    from_end_to_end : ndarray (3,)
+        Unit vector from the near end to the far end at rest, the same axes; zero where they meet.
     """
 
     name: str
@@ -45,17 +49,43 @@ class Joint:
     place: Array
     relative: Array
     held: Array
-    span: float = 0.0
+    span: float
+    ends: Array
+    from_end_to_end: Array
 
     @property
-    def pulls_in_line(self) -> bool:
-        """Whether it is drawn from end to end, so that motion across stretches it as well."""
-        return self.connector.kind in ("chain", "rubber")
+    def in_space(self) -> bool:
+        """Whether it is drawn from end to end, wherever the units carry them."""
+        return self.connector.end_to_end and self.span > 0.0
+
+    @property
+    def axis(self) -> Array:
+        """Direction of a curve at rest (3,), axes of the unit before it."""
+        return self.from_end_to_end if self.in_space else np.asarray(self.connector.axis, dtype=float)
 
     @property
     def along(self) -> Array:
-        """Elongation of a curve by all motions (m,)."""
-        return np.asarray(np.asarray(self.connector.axis) @ self.relative[:3])
+        """Elongation of a curve by small motions (m,)."""
+        return np.asarray(self.axis @ self.relative[:3])
+
+    def elongation(self, position: Array) -> float:
+        """Return the elongation of a curve [m] at a position (m,) of the row."""
+        if self.in_space:
+            return float(stretch(self.ends @ position, self.axis, self.span))
+        return float(self.along @ position)
+
+
+def stretch(moved: Array, axis: Array, span: float) -> Array:
+    """Return the elongation (...,) [m] of a line as its far end moves by (..., 3) [eq:units-in-space].
+
+    ``axis`` is its direction at rest, ``span`` its length there; zero for a line that keeps its direction.
+    """
+    along = moved @ axis
+    if span == 0.0:
+        return np.asarray(along)
+    # without the difference of two nearly equal lengths
+    change = 2.0 * span * along + np.sum(moved**2, axis=-1)
+    return np.asarray(change / (np.sqrt(span**2 + change) + span))
 
 
 def joints_of(row: FloatingRow, centres: Array, draught: float) -> tuple[Joint, ...]:
@@ -79,19 +109,23 @@ def joints_of(row: FloatingRow, centres: Array, draught: float) -> tuple[Joint, 
             far = other.to_row(np.array([connector.x, -half, height]))
             place = 0.5 * (near + far)
             frame = one.rotation.T
-            relative = np.zeros((6, 6 * row.count))
-            for unit, sign in ((first, -1.0), (second, 1.0)):
-                arm = place - centres[unit]
+            relative, ends = np.zeros((6, 6 * row.count)), np.zeros((3, 6 * row.count))
+            for unit, sign, end in ((first, -1.0, near), (second, 1.0, far)):
                 columns = slice(6 * unit, 6 * unit + 6)
-                motion = np.zeros((6, 6))
-                motion[:3, :3] = frame
-                motion[:3, 3:] = -frame @ cross_matrix(arm)
-                motion[3:, 3:] = frame
-                relative[:, columns] = sign * motion
+                relative[:3, columns] = sign * _motion_at(place - centres[unit], frame)
+                relative[3:, columns.start + 3 : columns.stop] = sign * frame
+                ends[:, columns] = sign * _motion_at(end - centres[unit], frame)
             name = connector.name if len(connector.pairs) == 1 else f"{connector.name} {first + 1}-{second + 1}"
-            span = float(np.linalg.norm(far - near))
-            joints.append(Joint(name, connector, (first, second), place, relative, _held(connector), span))
+            apart = frame @ (far - near)
+            span = float(np.linalg.norm(apart))
+            axis = apart / span if span > 0.0 else apart
+            joints.append(Joint(name, connector, (first, second), place, relative, _held(connector), span, ends, axis))
     return tuple(joints)
+
+
+def _motion_at(arm: Array, frame: Array) -> Array:
+    """Return the motion (3, 6) of a point at an arm from the centre of its unit, in the axes of ``frame``."""
+    return np.concatenate([frame, -frame @ cross_matrix(arm)], axis=1)
 
 
 def _held(connector: Connector) -> Array:

@@ -11,9 +11,11 @@ from moyai.core.arrays import Array, ComplexArray
 from moyai.floating.irregular import response_statistics
 from moyai.mooring.shape import even_points
 from moyai.sea.states import IrregularSea, RegularSea
+from moyai.structures.units.across import stretch_across
 from moyai.structures.units.assembly import RowAtLevel, steady_position
 from moyai.structures.units.connectors import Joint
 from moyai.structures.units.field import MapPoints, WaveField, height_ratio, line_transmission, sea_height_ratio
+from moyai.structures.units.gaps import gaps_of, largest_closing
 from moyai.structures.units.hydrodynamics import RowHydrodynamics
 from moyai.structures.units.mesh import waterplane
 from moyai.structures.units.model import DOFS, MapArea
@@ -32,6 +34,7 @@ def coords_of(at: RowAtLevel) -> dict[str, Any]:
         "connector": [joint.name for joint in at.joints],
         "component": ["x", "y", "z"],
         "line": list(at.line_names),
+        "gap": [gap.name for gap in gaps_of(at)],
     }
 
 
@@ -80,8 +83,7 @@ def statics_dataset(at: RowAtLevel, wind: Array, current: Array) -> xr.Dataset:
         "connector_y": ("connector", places[:, 1]),
         "connector_z": ("connector", places[:, 2]),
         "connector_breaking_load": ("connector", _known(np.array([j.connector.breaking_load for j in at.joints]))),
-        "connector_span": ("connector", np.array([j.span if j.pulls_in_line else np.nan for j in at.joints])),
-        "connector_axis": (("connector", "component"), np.array([j.connector.axis for j in at.joints]).reshape(-1, 3)),
+        "gap_width": ("gap", np.array([gap.width for gap in gaps_of(at)])),
         "steady_offset": (("unit", "dof"), at.in_unit_axes(rest.position)),
         "steady_force_of_wind": (("unit", "dof"), wind.reshape(-1, 6)),
         "steady_force_of_current": (("unit", "dof"), current.reshape(-1, 6)),
@@ -142,9 +144,9 @@ def _mean_loads(at: RowAtLevel, answer: SeaAnswer) -> Array:
             first += len(joint.held)
         if connector.stiffness is not None:
             out[number] += connector.stiffness @ (joint.relative @ position)
-        if connector.curve is not None:
-            force = connector.curve.rounded(float(joint.along @ position), at.rounding)[0]
-            out[number, :3] += force * np.asarray(connector.axis)
+    for link in at.links:
+        force = link.curve.rounded(float(link.elongation(position)), at.rounding)[0]
+        out[link.joint, :3] += force * link.direction(position)
     return out
 
 
@@ -183,6 +185,9 @@ def regular_dataset(at: RowAtLevel, sea: RegularSea, answers: list[SeaAnswer], h
     def reach(item: SeaAnswer, joint: Joint) -> float:
         return amplitude * float(np.abs(item.fine.motion[0, 0] @ joint.along))
 
+    def closing(item: SeaAnswer) -> Callable[[Array], Array]:
+        return lambda corners: amplitude * np.abs(corners @ item.fine.motion[0, 0])
+
     low, high = _by_curve(at, answers, reach, largest, resultant)
     dims = ("period", "connector", "component")
     out: dict[str, Any] = {
@@ -203,8 +208,13 @@ def regular_dataset(at: RowAtLevel, sea: RegularSea, answers: list[SeaAnswer], h
         "connector_stiffness_of_curve": (("period", "connector"), np.array([item.curve_stiffness for item in answers])),
         "elongation_lowest": (("period", "connector"), low),
         "elongation_highest": (("period", "connector"), high),
+        "stretch_across": (("period", "connector"), stretch_across(at.joints, relative[..., :3], high, in_time=False)),
         "relative_motion_largest": (dims, relative[..., :3]),
         "relative_turn_largest": (dims, relative[..., 3:]),
+        "gap_closing_largest": (
+            ("period", "gap"),
+            np.array([largest_closing(at, item.rest.position, closing(item)) for item in answers]),
+        ),
         "line_tension_mean": (("period", "line"), mean_tension),
         "tension_amplitude": (("period", "line"), tension),
         "line_tension_maximum": (("period", "line"), mean_tension + tension),
@@ -244,10 +254,10 @@ def _by_curve(
             curve = joint.connector.curve
             if curve is None:
                 continue
-            mean, reach = float(joint.along @ item.rest.position), reach_of(item, joint)
+            mean, reach = joint.elongation(item.rest.position), reach_of(item, joint)
             low[row, number], high[row, number] = mean - reach, mean + reach
             force = float(np.abs(curve.at(np.array([mean - reach, mean, mean + reach]))).max())
-            largest[row, number, :3] = force * np.abs(np.asarray(joint.connector.axis))
+            largest[row, number, :3] = force * np.abs(joint.axis)
             resultant[row, number] = force
     return low, high
 
@@ -298,8 +308,13 @@ def irregular_dataset(at: RowAtLevel, sea: IrregularSea, answer: SeaAnswer) -> x
         "connector_stiffness_of_curve": ("connector", answer.curve_stiffness),
         "elongation_lowest": ("connector", low[0]),
         "elongation_highest": ("connector", high[0]),
+        "stretch_across": ("connector", stretch_across(at.joints, relative[:, :3], high[0], in_time=False)),
         "relative_motion_largest": (dims, relative[:, :3]),
         "relative_turn_largest": (dims, relative[:, 3:]),
+        "gap_closing_largest": (
+            "gap",
+            largest_closing(at, answer.rest.position, lambda corners: largest(fine.motion @ corners.T)),
+        ),
         "line_tension_mean": ("line", mean_tension),
         "line_tension_maximum": ("line", mean_tension + largest(fine.tension)),
     }

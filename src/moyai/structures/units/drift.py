@@ -72,11 +72,11 @@ def reconciled(at: RowAtLevel, near: Array | None, whole: Array) -> Array:
     if near is None:
         return np.asarray(whole @ np.array([share_drift(at, one) for one in np.eye(3)]))
     near = near.copy()
-    for part in range(2):
-        size = np.abs(near[..., part])
-        size += 1e-9 * size.max(axis=-1, keepdims=True) + 1e-300
-        left = whole[..., part] - near[..., part].sum(axis=-1)
-        near[..., part] += left[..., None] * size / size.sum(axis=-1, keepdims=True)
+    # by the size of the vector: the shares do not depend on how the axes of the row lie
+    size = np.linalg.norm(near[..., :2], axis=-1)
+    size += 1e-9 * size.max(axis=-1, keepdims=True) + 1e-300
+    left = whole[..., :2] - near[..., :2].sum(axis=-2)
+    near[..., :2] += left[..., None, :] * (size / size.sum(axis=-1, keepdims=True))[..., None]
     plan = at.centres[:, :2]
     moment = near[..., 2] + plan[:, 0] * near[..., 1] - plan[:, 1] * near[..., 0]
     near[..., 2] += ((whole[..., 2] - moment.sum(axis=-1)) / at.row.count)[..., None]

@@ -16,7 +16,6 @@ from moyai.core.arrays import Array
 from moyai.core.headline import Band, Bound, Headline, governing
 from moyai.core.wording import spoken
 from moyai.series.realisations import ALONE, alone, seeds
-from moyai.structures.units.across import stretch_across
 from moyai.structures.units.model import DAMPING_BAND, SNAP_RATIO
 
 if TYPE_CHECKING:
@@ -42,6 +41,7 @@ def headlines_of(groups: Mapping[str, xr.Dataset]) -> tuple[Headline, ...]:
     found: list[Headline] = []
     if seas:
         found += _connectors(groups, seas)
+        found += _gaps(groups, seas)
         found += _lines(groups, seas)
         found += _motions(seas)
     found += _waves(maps)
@@ -230,8 +230,24 @@ def _all_judged(items: list[Headline]) -> list[Headline]:
     return [*kept, *(replace(item, shown=False, sea="") for item in open_ones)]
 
 
+def _gaps(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Headline]:
+    statics = groups[f"/{seas[0][0].split('/')[1]}/statics"]
+    if "gap_width" not in statics or not statics.sizes["gap"]:
+        return
+    width = np.asarray(statics["gap_width"].values, dtype=float)
+    yield from _all_judged(
+        [
+            Headline(
+                "gap_closing", "Largest share of a gap that closes at a corner of the hulls", closing.value, "1",
+                closing.where, _model(closing), band=closing.band, bound=closing.bound,
+                detail=f"{closing.value * closing.scale:.3g} m of {closing.scale:.3g} m; at 1 the hulls touch",
+            )
+            for closing in _each(seas, "gap_closing_largest", over=width)
+        ]
+    )  # fmt: skip
+
+
 def _connectors(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Headline]:
-    seas = [(path, _with_stretch(groups, path, data)) for path, data in seas]
     each = _each(seas, "connector_resultant_largest")
     if not each:
         return
@@ -276,14 +292,6 @@ def _connectors(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Headli
             for damage in _each([item for item in worn if "duration" in item[1].attrs], "worn")
         ]
     )  # fmt: skip
-
-
-def _with_stretch(groups: Mapping[str, xr.Dataset], path: str, data: xr.Dataset) -> xr.Dataset:
-    """Return a sea with what motion across its connectors would stretch them."""
-    if "relative_motion_largest" not in data or "elongation_highest" not in data:
-        return data
-    stretch = stretch_across(groups[f"/{path.split('/')[1]}/statics"], data)
-    return data.assign(stretch_across=(data["elongation_highest"].dims, stretch))
 
 
 def _stretched(found: _Largest) -> float:

@@ -92,8 +92,8 @@ class Connector:
     name : str
     kind : str
         ``rigid`` holds all six relative motions, ``hinge`` all but the turn about its axis, ``ball`` the three
-        translations; ``spring`` has stiffness and damping of 6 x 6; ``rubber``, ``chain`` and ``fender`` act along one
-        direction with a curve of force over elongation.
+        translations; ``spring`` has stiffness and damping of 6 x 6; ``rubber``, ``chain`` and ``fender`` have a
+        curve of force over elongation, along one direction or from end to end.
     pairs : tuple of (int, int)
         Units that it joins, counted from 0.
     x, above_keel : float
@@ -109,6 +109,8 @@ class Connector:
         Largest resultant force [N]; infinite where it is not known.
     endurance : EnduranceCurve or None
         Cycles that it bears over the range of its force [N].
+    end_to_end : bool
+        Whether chain or rubber is drawn between its ends in space; else a curve acts along ``axis`` alone.
     """
 
     name: str
@@ -123,6 +125,7 @@ class Connector:
     linear_damping: float = 0.0
     breaking_load: float = math.inf
     endurance: EnduranceCurve | None = None
+    end_to_end: bool = False
 
 
 @dataclass(frozen=True)
@@ -186,6 +189,8 @@ class FloatingRow:
         Fraction of critical damping of every motion of a unit, beyond wave radiation.
     linear_damping : ndarray (6,)
         Damping of a unit beyond wave radiation [N s/m, N m s].
+    viscous_factor : float
+        What the damping by eddies at the edges of the section is multiplied with; 0 where it is not computed.
     gap_damping_lid : float
         epsilon of the lids in the gaps; 0 for none.
     wind_drag_coefficient, current_drag_coefficient : float or None
@@ -201,6 +206,7 @@ class FloatingRow:
     lines: tuple[UnitLine, ...] = ()
     damping_fraction: Array = field(default_factory=lambda: np.zeros(6))
     linear_damping: Array = field(default_factory=lambda: np.zeros(6))
+    viscous_factor: float = 0.0
     gap_damping_lid: float = 0.0
     wind_drag_coefficient: float | None = None
     current_drag_coefficient: float | None = None
@@ -213,13 +219,15 @@ class FloatingRow:
     def damped(self, factor: float) -> FloatingRow:
         """Return the row with its damping beyond wave radiation times a factor."""
         return replace(
-            self, damping_fraction=factor * self.damping_fraction, linear_damping=factor * self.linear_damping
-        )
+            self, damping_fraction=factor * self.damping_fraction, linear_damping=factor * self.linear_damping,
+            viscous_factor=factor * self.viscous_factor,
+        )  # fmt: skip
 
     @property
     def damping_band(self) -> tuple[float, ...]:
         """Factors on the damping that answers are given a band for, those of a single breakwater; none without it."""
-        return DAMPING_BAND if np.any(self.damping_fraction) or np.any(self.linear_damping) else ()
+        own = np.any(self.damping_fraction) or np.any(self.linear_damping) or self.viscous_factor > 0.0
+        return DAMPING_BAND if own else ()
 
 
 @dataclass(frozen=True)

@@ -18,6 +18,7 @@ from moyai.structures.units.assembly import RowAtLevel, held_load
 from moyai.structures.units.bem import directions
 from moyai.structures.units.hydrodynamics import RowHydrodynamics
 from moyai.structures.units.model import Curve
+from moyai.structures.units.viscous import LinearEddies
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,7 +75,7 @@ class RowResponse:
     dissipated: Array
 
 
-def respond(model: RowModel, omega: Array, curve_stiffness: Array) -> RowResponse:
+def respond(model: RowModel, omega: Array, curve_stiffness: Array, eddies: LinearEddies | None = None) -> RowResponse:
     """Solve the connected row in waves of unit amplitude.
 
     Parameters
@@ -84,6 +85,8 @@ def respond(model: RowModel, omega: Array, curve_stiffness: Array) -> RowRespons
         [rad/s], within the band of the coefficients.
     curve_stiffness : ndarray (joints,) or (n, h, joints)
         Linear stiffness [N/m] that stands for the curve of every connector; zero where it has none.
+    eddies : LinearEddies or None
+        Drag of the edges in the sea that is answered.
     """
     at = model.at
     k = np.array([float(wave_number(w, at.water.depth, at.water.gravity)) for w in omega])
@@ -93,6 +96,11 @@ def respond(model: RowModel, omega: Array, curve_stiffness: Array) -> RowRespons
     restoring = at.hydrostatic + model.line_stiffness
     stiffness = restoring + at.springs[0]
     own = own_damping(at, added, restoring) + at.springs[1]
+    carried: ComplexArray | float = 0.0
+    if eddies is not None:
+        own = own + eddies.damping
+        carried = eddies.force(at, omega, model.hydro.headings)
+        excitation = excitation + carried
     headings = excitation.shape[1]
     given = np.broadcast_to(np.asarray(curve_stiffness, dtype=float), (len(omega), headings, len(joints)))
     w = omega[:, None, None]
@@ -112,7 +120,7 @@ def respond(model: RowModel, omega: Array, curve_stiffness: Array) -> RowRespons
     load = _joint_loads(at, omega, motion, relative, loads, given)
     tension = motion @ model.tension_gradient.T
     velocity = -1j * w * motion
-    power = 0.5 * np.real(np.sum(velocity.conj() * (velocity @ own), axis=2))
+    power = 0.5 * np.real(np.sum(velocity.conj() * (velocity @ own - carried), axis=2))
     return RowResponse(omega, motion, relative, load, np.asarray(tension), np.asarray(power, dtype=float))
 
 
@@ -156,7 +164,7 @@ def _joint_loads(
         if connector.curve is not None:
             elongation = motion @ joint.along
             force = (curve[..., number] - 1j * omega[:, None] * connector.linear_damping) * elongation
-            out[..., number, :3] += force[..., None] * np.asarray(connector.axis)
+            out[..., number, :3] += force[..., None] * joint.axis
     return out
 
 

@@ -33,7 +33,7 @@ from moyai.structures.units.green import green_function
 from moyai.structures.units.headlines import headlines_of
 from moyai.structures.units.hydrodynamics import RowHydrodynamics, solve_row
 from moyai.structures.units.mesh import row_mesh
-from moyai.structures.units.model import Settings, UnitsProblem
+from moyai.structures.units.model import DOFS, Settings, UnitsProblem
 from moyai.structures.units.seas import (
     ENERGY_LEFT_OUT,
     SeaAnswer,
@@ -48,6 +48,7 @@ from moyai.structures.units.section import SectionAnswer, comparable, section_an
 from moyai.structures.units.time.analysis import sea_in_time, water_in_time
 from moyai.structures.units.time.band import ABOVE
 from moyai.structures.units.variables import VOCABULARY
+from moyai.structures.units.viscous import eddy_notices
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -357,7 +358,21 @@ def _notices(problem: UnitsProblem, at: RowAtLevel) -> list[Notice]:
                 remedy="give 'structure.gap_damping_lid' and compare",
             )
         )
-    if not row.damping_fraction.any() and not row.linear_damping.any():
+    out.extend(replace(notice, message=f"{at.name}: {notice.message}") for notice in eddy_notices(at))
+    surge = DOFS.index("surge")
+    drifts = "time" in problem.settings.analyses and any(
+        isinstance(sea, IrregularSea) for sea in problem.environment.sea_states
+    )
+    if row.viscous_factor and drifts and not row.damping_fraction[surge] and not row.linear_damping[surge]:
+        out.append(
+            Notice(
+                "surge-without-damping",
+                "edges along the units shed no eddies in surge: slow drift along the row has no damping but that of "
+                "the waves, and its offsets are too large",
+                remedy="give structure.damping a fraction of critical in surge, or structure.additional_damping",
+            )
+        )
+    if not row.damping_fraction.any() and not row.linear_damping.any() and not row.viscous_factor:
         out.append(
             Notice(
                 "no-damping",

@@ -25,6 +25,7 @@ from moyai.structures.units.response import (
     harmonic_stiffness,
     respond,
 )
+from moyai.structures.units.viscous import LinearEddies, eddies_of
 
 #: Share of the energy of a spectrum beyond the highest frequency that is solved
 ENERGY_LEFT_OUT = 0.02
@@ -149,20 +150,32 @@ def regular_answer(
     """Return the answer to each period of regular waves of one height."""
     answers = []
     column = columns_of(hydro, np.array([sea.heading]))
+    eddies = eddies_of(at)
     for period in sea.periods:
         omega = np.array([2.0 * math.pi / period])
         row = int(np.argmin(np.abs(hydro.omega - omega[0])))
         drift, pushed = np.zeros(3), np.zeros(at.size)
         rest = steady_position(at, steady)
-        curves, converged, relaxed = np.zeros(len(at.joints)), False, _Relaxed(len(at.joints))
+        curves, converged, mixed = np.zeros(len(at.joints)), False, _Mixed()
+        amplitude = 0.5 * sea.height
+        linear = None if eddies is None else LinearEddies(eddies, np.zeros(len(eddies.points)), True)
+        if linear is not None:
+            # as of units that lie still
+            still = linear.measured(
+                at, omega, hydro.headings[column], np.zeros((1, len(column), at.size), dtype=complex)
+            )
+            linear = replace(linear, size=amplitude * np.abs(still[0, 0]))
         for _ in range(_TURNS):
             model = RowModel(at, hydro, rest.position)
-            found = respond(model, hydro.omega[[row]], curves)
-            amplitude = 0.5 * sea.height
+            found = respond(model, hydro.omega[[row]], curves, linear)
+            speeds = np.zeros(0)
+            if linear is not None:
+                measured = linear.measured(at, hydro.omega[[row]], hydro.headings[column], found.motion[:, column])
+                speeds = amplitude * np.abs(measured[0, 0])
             new = np.array(
                 [
                     0.0 if joint.connector.curve is None else harmonic_stiffness(
-                        joint.connector.curve, float(joint.along @ rest.position),
+                        joint.connector.curve, joint.elongation(rest.position),
                         amplitude * float(np.abs(found.motion[0, column[0]] @ joint.along)),
                     )
                     for joint in at.joints
@@ -170,19 +183,20 @@ def regular_answer(
             )  # fmt: skip
             moved = pushed
             if settings.drift:
-                coarse = respond(model, hydro.omega, curves)
+                coarse = respond(model, hydro.omega, curves, linear)
                 whole = far_waves(model, coarse).drift
                 drift = amplitude**2 * whole[row, column[0]]
                 near = near_drift(model, coarse, np.array([row]), column)
                 moved = amplitude**2 * reconciled(at, near, whole[[row]][:, column])[0, 0]
-            settled = _near(new, curves) and _near(moved, pushed)
-            curves, pushed = relaxed.towards(curves, new), moved
-            if settled:
-                converged = True
+            last = _sizes(linear)
+            if _near(new, curves) and _near(speeds, last) and _near(moved, pushed):
+                curves, pushed, converged = new, moved, True
                 break
+            curves, last, pushed = mixed.towards((curves, last, pushed), (new, speeds, moved))
+            linear = linear and replace(linear, size=last)
             rest = steady_position(at, steady + pushed)
         model = RowModel(at, hydro, rest.position)
-        coarse = respond(model, hydro.omega, curves)
+        coarse = respond(model, hydro.omega, curves, linear)
         far = far_waves(model, coarse)
         answers.append(
             SeaAnswer(
@@ -201,19 +215,42 @@ def _picked(response: RowResponse, row: int, columns: Array) -> RowResponse:
     )  # fmt: skip
 
 
-class _Relaxed:
-    """Steps of a fixed-point iteration, each entry by itself: shorter when it turns back, longer when it goes on."""
+class _Mixed:
+    """Fixed-point iteration of stiffnesses, speeds at edges and drift together, mixed after Anderson.
 
-    def __init__(self, count: int) -> None:
-        self._factor, self._last = np.full(count, 0.5), np.zeros(count)
+    Each is measured by its largest; stiffnesses and speeds never fall below zero.
+    """
 
-    def towards(self, old: Array, new: Array) -> Array:
-        """Return the next value between the old one and what it leads to."""
-        step = new - old
-        back = step * self._last < 0.0
-        self._factor = np.where(back, 0.5 * self._factor, np.minimum(1.2 * self._factor, 1.0))
-        self._last = step
-        return np.asarray(old + self._factor * step)
+    def __init__(self, depth: int = 5) -> None:
+        self._depth = depth
+        self.forget()
+
+    def forget(self) -> None:
+        """Start anew, where the map itself has changed."""
+        self._points: list[Array] = []
+        self._steps: list[Array] = []
+
+    def towards(self, old: tuple[Array, Array, Array], new: tuple[Array, Array, Array]) -> tuple[Array, Array, Array]:
+        """Return the next stiffnesses, speeds and drift from the last and what they lead to."""
+        parts = [np.full(len(part), max(float(np.max(np.abs(part), initial=0.0)), 1e-12)) for part in new]
+        scale, point = np.concatenate(parts), np.concatenate(old)
+        step = np.concatenate(new) - point
+        self._points = [*self._points, point][-self._depth :]
+        self._steps = [*self._steps, step][-self._depth :]
+        first, second = len(old[0]), len(old[0]) + len(old[1])
+        # half a step alone, where there is nothing to mix: a curve that comes tight turns back
+        found = point + np.where(np.arange(len(step)) < first, 0.5, 1.0) * step
+        if len(self._steps) > 1:
+            changes = np.diff(self._steps, axis=0).T / scale[:, None]
+            moves = np.diff(self._points, axis=0).T
+            share = np.linalg.lstsq(changes, step / scale, rcond=1e-6)[0]
+            found = point + step - (moves + changes * scale[:, None]) @ share
+        found[:second] = np.maximum(found[:second], 0.0)
+        return found[:first], found[first:second], found[second:]
+
+
+def _sizes(linear: LinearEddies | None) -> Array:
+    return np.zeros(0) if linear is None else linear.size
 
 
 def _near(new: Array, old: Array) -> bool:
@@ -244,16 +281,25 @@ def irregular_answer(
     drift, pushed = np.zeros(3), np.zeros(at.size)
     unit_drift = np.zeros((len(hydro.omega), len(headings), at.size))
     curves, converged = np.zeros(len(at.joints)), False
-    relaxed = _Relaxed(len(at.joints))
+    mixed = _Mixed()
     rest = steady_position(at, steady)
     near, fresh = None, False
+    eddies = eddies_of(at)
+    linear = None if eddies is None else LinearEddies(eddies, np.zeros(len(eddies.points)), False)
+    if linear is not None:
+        still = linear.measured(at, omega, one.headings, np.zeros((len(omega), len(headings), at.size), dtype=complex))
+        linear = replace(linear, size=response_statistics(omega, still, density).standard_deviation)
     for turn in range(_TURNS):
         model = RowModel(at, one, rest.position)
-        fine = respond(model, omega, curves)
+        fine = respond(model, omega, curves, linear)
+        speeds = np.zeros(0)
+        if linear is not None:
+            measured = linear.measured(at, omega, one.headings, fine.motion)
+            speeds = response_statistics(omega, measured, density).standard_deviation
         new = np.array(
             [
                 0.0 if joint.connector.curve is None else gaussian_stiffness(
-                    joint.connector.curve, float(joint.along @ rest.position),
+                    joint.connector.curve, joint.elongation(rest.position),
                     float(response_statistics(omega, fine.motion @ joint.along, density).standard_deviation),
                 )
                 for joint in at.joints
@@ -261,7 +307,7 @@ def irregular_answer(
         )  # fmt: skip
         moved = pushed
         if settings.drift:
-            coarse = respond(model, hydro.omega, curves)
+            coarse = respond(model, hydro.omega, curves, linear)
             whole = far_waves(model, coarse).drift
             # pressures cost most: those of the first turn serve until the rest settles
             if not (turn and near is not None):
@@ -269,18 +315,22 @@ def irregular_answer(
             unit_drift = reconciled(at, near, whole)
             drift = np.einsum("f,fh,fhc->c", 2.0 * weights, coarse_density, whole)
             moved = np.einsum("f,fh,fhm->m", 2.0 * weights, coarse_density, unit_drift)
-        settled = _near(new, curves) and _near(moved, pushed)
-        curves, pushed = relaxed.towards(curves, new), moved
+        last = _sizes(linear)
+        settled = _near(new, curves) and _near(speeds, last) and _near(moved, pushed)
         if settled and (fresh or near is None):
-            converged = True
+            curves, pushed, converged = new, moved, True
             break
+        if fresh:
+            mixed.forget()
+        curves, last, pushed = mixed.towards((curves, last, pushed), (new, speeds, moved))
+        linear = linear and replace(linear, size=last)
         near, fresh = (None if settled else near), False
         rest = steady_position(at, steady + pushed)
     model = RowModel(at, one, rest.position)
-    coarse = respond(model, hydro.omega, curves)
+    coarse = respond(model, hydro.omega, curves, linear)
     return SeaAnswer(
-        rest, drift, pushed, unit_drift, coarse, far_waves(model, coarse), respond(model, omega, curves), density,
-        headings, curves, converged,
+        rest, drift, pushed, unit_drift, coarse, far_waves(model, coarse), respond(model, omega, curves, linear),
+        density, headings, curves, converged,
     )  # fmt: skip
 
 

@@ -213,6 +213,10 @@ class CountedLimits:
         if self.loads_in(speed).snaps is None and limit.governing not in steady:
             # a steady drag knows no snap: the limit can only be lower
             return limit, "at most"
+        if limit.value > 0.0 and self.with_plate and self.role(speed) == "bound":
+            # a plate that is but a bound knows neither sheet nor anchors: breaking, depth or the end of the search
+            # above it prove nothing in waves
+            return limit, "at least"
         return limit, bound
 
     def _height(self, loads: SeaLoads, speed: float) -> Limit:

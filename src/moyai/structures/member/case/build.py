@@ -135,7 +135,9 @@ def _inertia(entry: Any) -> tuple[float, float] | str | KeuleganCarpenterTable:
     return (entry, entry) if isinstance(entry, float) else (entry[0], entry[1])
 
 
-def _circulation(entry: schema.Circulation) -> CirculationLaw:
+def _circulation(entry: schema.Circulation | None) -> CirculationLaw:
+    if entry is None:
+        return CirculationLaw(purpose="extreme")
     try:
         return CirculationLaw(
             strength=entry.strength,

@@ -36,6 +36,7 @@ def check(model: schema.MemberCase, findings: Findings, folder: Path) -> None:
     check_surroundings(model, findings, folder)
     _check_settings(model, findings)
     _check_motion(model, findings)
+    _check_current_alone(model, findings)
     if not findings.sound("site", "waves", "structure", "current", "settings"):
         return
     from moyai.structures.member.case.build import build_problem
@@ -85,6 +86,31 @@ def _check_motion(model: schema.MemberCase, findings: Findings) -> None:
                 remedy="leave 'period' out, so that the member moves with each wave, or use an irregular sea",
             )
             return
+
+
+def _check_current_alone(model: schema.MemberCase, findings: Findings) -> None:
+    if model.waves:
+        if model.structure.circulation is None:
+            findings.fault(
+                ("structure",), "the key 'circulation' is missing: what is done about the circulation at small KC",
+                allowed="purpose: extreme (left out, the safe side) or response (counted)",
+            )  # fmt: skip
+        return
+    if model.current is None:
+        findings.fault((), "neither waves nor a current are given", remedy="give 'waves', 'current' or both")
+        return
+    if model.structure.motion is not None:
+        findings.fault(
+            ("structure", "motion"), "a member moves with its waves, and there are none", remedy="give 'waves'"
+        )
+    drag = model.structure.drag
+    if isinstance(drag, schema.DragTable) and drag.law == "stokes_wang":
+        findings.fault(
+            ("structure", "drag"), "the law 'stokes_wang' speaks of small orbits; a current alone is steady",
+            allowed="steady, dnv_c205, api, or numbers",
+        )  # fmt: skip
+    if "forces" not in model.analyses:
+        findings.fault(("analyses",), "without waves there are forces alone", remedy="add 'forces'")
 
 
 def _check_place(problem: MemberProblem, findings: Findings) -> None:

@@ -238,10 +238,14 @@ class MemberStructure(Block):
     )
     drag: Drag = Field(description="C_D: a number, two along the axes of the section, {law: name} or {table: rows}.")
     drag_form: Literal["component", "vector"] = Field(
-        default="component", description="Drag u|u| along each axis, or u|U| with the common speed."
+        default="vector",
+        description="Drag u|U| with the speed across the member, the same whichever way the axes lie; or u|u| along "
+        "each axis by itself, as coefficients of a flow to and fro along one axis are found. Default: vector.",
     )
     kinematic_viscosity: Viscosity = Field(description="Of the water, 1.14e-6 m2/s at 15 degrees Celsius.")
-    circulation: Circulation = Field(description="What is done about the circulation at small KC.")
+    circulation: Circulation | None = Field(
+        default=None, description="What is done about the circulation at small KC; needed with waves."
+    )
     support: Literal["both_ends", "start", "end"] = Field(
         default="both_ends",
         description="Where it is held: resting simply on both ends, or fixed at its start or its end and free at the "
@@ -295,7 +299,7 @@ class MemberCase(Block):
     title: Annotated[str, Field(min_length=1, max_length=200)] = Field(description="Title of the report.")
     site: Site = Field(description="The water of the site.")
     waves: Annotated[tuple[MemberSeaState, ...], OneOrMany(), BeforeValidator(refuse_no_seas)] = Field(
-        description="One sea state, or a list of them; each is run."
+        default=(), description="One sea state, or a list of them; each is run. Without any the current runs alone."
     )
     current: Current | None = Field(default=None, description="Steady current.")
     structure: MemberStructure = Field(description="The member.")

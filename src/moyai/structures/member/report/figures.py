@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -127,7 +128,7 @@ def force_over_time(level: Group, sea: Group, run: Group) -> Figure | None:
     """Return forces by direction and cause, circulation and surface over time."""
     time = run.real("time", "time")
     force = run.array("force", "time", "component")
-    if time is None or force is None:
+    if time is None or force is None or math.isnan(float(run.attributes.get("period", 0.0) or 0.0)):
         return None
     causes = [(name, run.array(f"{name}_force", "time", "component")) for name in ("inertia", "drag", "magnus")]
     factor, unit = common_scale("N", force)
@@ -186,17 +187,18 @@ def along_member(level: Group, sea: Group) -> Figure | None:
         return None
     factor, unit = common_scale("N/m", force)
     loaded = [axis for axis in range(2) if force[:, :, axis].max() > 1e-9 * force.max()] or [0]
-    last = len(loaded) + 1
+    moving = not bool(np.isnan(number).all())
+    last = len(loaded) + moving
     series = []
     for tone, (wave, name) in enumerate(_few(sea.labels("wave"))):
         for panel, axis in enumerate(loaded):
             series.append(Series(name, {"s": place}, force[wave, :, axis] * factor, panel, tone))
-        series.append(Series(name, {"s": place}, number[wave], last - 1, tone))
+        if moving:
+            series.append(Series(name, {"s": place}, number[wave], last - 1, tone))
         if wet is not None and wet.min() < 1.0:
             series.append(Series(name, {"s": place}, wet[wave], last, tone))
-    panels = [Panel(f"largest force, {AXES[axis]} axis", unit, from_zero=True) for axis in loaded] + [
-        Panel("KC", from_zero=True)
-    ]
+    panels = [Panel(f"largest force, {AXES[axis]} axis", unit, from_zero=True) for axis in loaded]
+    panels += [Panel("KC", from_zero=True)] * moving
     if wet is not None and wet.min() < 1.0:
         panels.append(Panel("wetted share", from_zero=True))
     return Figure(
@@ -242,7 +244,8 @@ def _columns(sea: Group, entries: tuple[tuple[str, str, str, dict[str, str]], ..
     found = []
     for label, name, unit, choice in entries:
         values = sea.real(name, "wave", **choice)
-        if values is not None:
+        # a current alone has no height, no period, no KC
+        if values is not None and not np.isnan(values).all():
             found.append(Column(label, [float(value) for value in values], unit))
     return found
 

@@ -19,6 +19,7 @@ from moyai.report.headlines import headline_figures
 from moyai.report.levels import at_each_level
 from moyai.report.reading import Group, root_of
 from moyai.structures.member.report import figures
+from moyai.structures.member.waves import CURRENT_ALONE
 
 MOST_RUNS = 12
 
@@ -67,12 +68,19 @@ def _summary(result: Result, purpose: str) -> tuple[Block, ...]:
     figures_of = headline_figures(result)
     if figures_of is None:
         return (Paragraph("The result holds no forces."),)
+    if _current_alone(result):
+        return (figures_of,)
     said = (
         "The circulation of orbital flow is left out, which keeps the larger inertia force (purpose: extreme)."
         if purpose == "extreme"
         else "The circulation of orbital flow is counted (purpose: response); it lowers the inertia force."
     )
     return (figures_of, Paragraph(said))
+
+
+def _current_alone(result: Result) -> bool:
+    """Whether no wave was run."""
+    return any(path.endswith(f"/waves/{CURRENT_ALONE}") for path in result.tree.groups)
 
 
 def _input(level: Group) -> list[Block | None]:

@@ -106,9 +106,8 @@ def row_of(model: schema.UnitsCase, water: Water) -> FloatingRow:
         raise error.at(f"structure.section{inner}") from None
     placements = placements_of(unit.units)
     fraction, linear = np.zeros(6), np.zeros(6)
-    if unit.damping is not None:
-        for mode in unit.damping.modes:
-            fraction[DOFS.index(mode)] = unit.damping.fraction_of_critical
+    for mode in unit.damping.modes or ():
+        fraction[DOFS.index(mode)] = unit.damping.fraction_of_critical or 0.0
     if unit.additional_damping is not None:
         linear = np.array([getattr(unit.additional_damping, name) for name in DOFS])
     return FloatingRow(
@@ -122,6 +121,7 @@ def row_of(model: schema.UnitsCase, water: Water) -> FloatingRow:
         lines=tuple(line_of(entry, index, water, len(placements)) for index, entry in enumerate(model.lines)),
         damping_fraction=fraction,
         linear_damping=linear,
+        viscous_factor=unit.damping.computed_factor,
         gap_damping_lid=unit.gap_damping_lid,
         wind_drag_coefficient=unit.wind_drag_coefficient,
         current_drag_coefficient=unit.current_drag_coefficient,
@@ -169,7 +169,10 @@ def connector_of(entry: Any, count: int) -> Connector:
     else:
         reach = entry.clearance + _REACH
         curve = Curve((-reach, -entry.clearance, reach), (-entry.stiffness * _REACH, 0.0, 0.0))
-    return Connector(**base, axis=_axis(entry.direction), curve=curve, linear_damping=entry.damping)
+    return Connector(
+        **base, axis=_axis(entry.direction or "y"), curve=curve, linear_damping=entry.damping,
+        end_to_end=entry.direction is None,
+    )  # fmt: skip
 
 
 def _endurance(given: joints.Endurance | None) -> EnduranceCurve | None:

@@ -35,6 +35,7 @@ STABLE_SOURCE = (
 #: Breaking load over the largest force of a connector, where the case asks for nothing.
 CONNECTOR_FACTOR = 2.0
 CONNECTOR_SOURCE = "default of moyai: 2 on the breaking load of a connector; no code"
+TOUCH_SOURCE = "default of moyai: hulls do not touch"
 GreatestRatio = Annotated[float | None, QuantityOf(quantities.NUMBER, above=0.0)]
 
 
@@ -61,6 +62,10 @@ class UnitsCriteria(LineCriteria):
     greatest_gap_motion: GreatestLength = Field(
         default=None, description="Largest opening and closing of a gap" + OFF + "."
     )
+    greatest_gap_closing: Share = Field(
+        default=None,
+        description="Largest share of a gap that closes at a corner of the hulls; at 1 they touch" + OFF + ".",
+    )
     greatest_connector_damage: Share = Field(
         default=None,
         description="Largest share of the life of a connector that a sea takes; needs 'endurance' and the time domain"
@@ -86,6 +91,7 @@ _OWN = {
     "greatest_berth_ratio": ("berth_wave_height", "1", "wave height at the named points"),
     "greatest_connector_damage": ("connector_damage", "1", "share of the life of the connectors"),
     "greatest_gap_motion": ("gap_motion", "m", "motion of the gaps"),
+    "greatest_gap_closing": ("gap_closing", "1", "closing of the gaps"),
 }
 
 
@@ -113,6 +119,11 @@ def criteria(model: Any, given: Any) -> Iterator[Criterion]:
     seas = limit if isinstance(limit, dict) else {} if limit is None else {"": limit}
     for sea, value in seas.items():
         yield Criterion("greatest_transmission", "transmission", value, "at most", CASE, "transmission", sea=sea)
+    if given.greatest_gap_closing is None and computed and (model.structure.units.count or 0) > 1:
+        headline, unit, words = _OWN["greatest_gap_closing"]
+        yield Criterion(
+            "greatest_gap_closing", headline, 1.0, "at most", TOUCH_SOURCE, words, unit, assumed=True
+        )  # fmt: skip
     yield from given_criteria(given)
     if given.least_metacentric_height is None:
         yield plain_criterion("least_metacentric_height", STABLE_SHARE * model.structure.draught, STABLE_SOURCE)

@@ -30,6 +30,7 @@ from moyai.case.schema_types import (
     NonNegativeNumber,
     OneOrMany,
     PositiveLength,
+    PositiveNumber,
     QuantityOf,
     Range,
     RollDamping,
@@ -69,14 +70,38 @@ class Units(Block):
 
 
 class UnitDamping(Block):
-    """Damping beyond wave radiation, as a fraction of critical."""
+    """Damping beyond wave radiation: computed from the section, a fraction of critical, or both."""
 
-    fraction_of_critical: Fraction = Field(
-        description="zeta in C = 2 zeta sqrt((M + added mass)(stiffness)), of every unit by itself."
+    viscous: Literal["computed", "none"] | None = Field(
+        default=None,
+        description="'computed': by eddies at the edges of the section along every unit. Default: computed, unless "
+        "fraction_of_critical is given.",
     )
-    modes: Annotated[tuple[Mode, ...], Field(min_length=1), AfterValidator(once_each)] = Field(
-        description="Motions that it is applied to.", examples=[["sway", "heave", "roll"]]
+    viscous_factor: PositiveNumber = Field(
+        default=1.0, description="What the computed viscous damping is multiplied with. Default: 1."
     )
+    fraction_of_critical: Fraction | None = Field(
+        default=None, description="zeta in C = 2 zeta sqrt((M + added mass)(stiffness)), of every unit by itself."
+    )
+    modes: Annotated[tuple[Mode, ...], Field(min_length=1), AfterValidator(once_each)] | None = Field(
+        default=None, description="Motions that the fraction is applied to.", examples=[["sway", "heave", "roll"]]
+    )
+
+    @classmethod
+    def _between_keys(cls, data: dict[str, Any]) -> list[tuple[str, str, str]]:
+        faults = super()._between_keys(data)
+        if data.get("fraction_of_critical") is not None and data.get("modes") is None:
+            remedy = "give it: Motions that it is applied to, for instance [sway, heave, roll]"
+            faults.append(("", "the key 'modes' is missing", remedy))
+        if data.get("modes") is not None and data.get("fraction_of_critical") is None:
+            faults.append(("modes", "'modes' needs 'fraction_of_critical'", "give it, or leave 'modes' out"))
+        return faults
+
+    @property
+    def computed_factor(self) -> float:
+        """What the computed damping is multiplied with; 0 where it is not computed."""
+        computed = self.fraction_of_critical is None if self.viscous is None else self.viscous == "computed"
+        return self.viscous_factor if computed else 0.0
 
 
 class AdditionalUnitDamping(Block):
@@ -173,7 +198,9 @@ class UnitsStructure(Block):
     connectors: Annotated[tuple[ConnectorEntry, ...], Field(max_length=200)] = Field(
         default=(), description="What joins the units. Default: nothing, they float freely next to each other."
     )
-    damping: UnitDamping | None = Field(default=None, description="Damping as a fraction of critical.")
+    damping: UnitDamping = Field(
+        default_factory=UnitDamping, description="Damping beyond wave radiation. Default: computed from the section."
+    )
     additional_damping: AdditionalUnitDamping | None = Field(
         default=None, description="Linear damping beyond wave radiation."
     )

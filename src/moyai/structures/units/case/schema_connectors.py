@@ -131,15 +131,20 @@ def _rising(rows: tuple[tuple[float, float], ...]) -> tuple[tuple[float, float],
     return rows
 
 
-class _AlongLine(ConnectorBlock):
-    direction: Direction = Field(
-        default="y", description="Direction that it acts in, as 'axis' of a hinge. Default: y, along the row."
-    )
+class _Damped(ConnectorBlock):
     damping: DampingPerSpeed = Field(default=0.0, description="Force per rate of elongation. Default: none.")
 
 
-class RubberConnector(_AlongLine):
-    """A curve of force over elongation."""
+class _EndToEnd(_Damped):
+    direction: Direction | None = Field(
+        default=None,
+        description="Direction of a guide that it works in, as 'axis' of a hinge; motion across is then not seen. "
+        "Default: from its end on the one unit to that on the other, wherever these are.",
+    )
+
+
+class RubberConnector(_EndToEnd):
+    """A curve of force over elongation; without a direction it is drawn from end to end and pressed along the row."""
 
     kind: Literal["rubber"] = Field(description="Curve of force over elongation.")
     curve: Annotated[
@@ -150,7 +155,7 @@ class RubberConnector(_AlongLine):
     )
 
 
-class ChainConnector(_AlongLine):
+class ChainConnector(_EndToEnd):
     """Pulls when it is taut, bears nothing before."""
 
     kind: Literal["chain"] = Field(description="Chain or rope with slack.")
@@ -158,9 +163,12 @@ class ChainConnector(_AlongLine):
     slack: NonNegativeLength = Field(default=0.0, description="Elongation at which it is taut. Default: 0.")
 
 
-class FenderConnector(_AlongLine):
+class FenderConnector(_Damped):
     """Pushes when it is pressed, bears nothing before."""
 
+    direction: Direction = Field(
+        default="y", description="Direction that it pushes in, as 'axis' of a hinge. Default: y, along the row."
+    )
     kind: Literal["fender"] = Field(description="Fender.")
     stiffness: Stiffness = Field(description="When it is pressed.")
     clearance: NonNegativeLength = Field(default=0.0, description="Closing at which it is pressed. Default: 0.")

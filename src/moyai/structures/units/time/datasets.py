@@ -12,8 +12,10 @@ from moyai.core.arrays import Array
 from moyai.design.fatigue import damage
 from moyai.sea.states import IrregularSea, RegularSea
 from moyai.series.rainflow import count_cycles
+from moyai.structures.units.across import stretch_across
 from moyai.structures.units.assembly import RowAtLevel
 from moyai.structures.units.datasets import coords_of
+from moyai.structures.units.gaps import gaps_of
 from moyai.structures.units.time.memory import RowMemory
 from moyai.structures.units.time.seas import TimeRun
 from moyai.structures.units.variables import labelled
@@ -26,10 +28,10 @@ MOST_ROWS = 20_000
 #: Of a mean that is taken over realisations: also kept one by one
 _SCATTER = (
     "connector_resultant_largest", "connector_moment_resultant_largest", "line_tension_maximum", "largest_offset",
-    "gap_motion_largest", "connector_damage_rate", "maximum_motion",
+    "gap_motion_largest", "gap_closing_largest", "connector_damage_rate", "maximum_motion",
 )  # fmt: skip
 _LOWEST = ("elongation_lowest",)
-_HIGHEST = ("elongation_highest",)
+_HIGHEST = ("elongation_highest", "stretch_across")
 _CONNECTOR, _COMPONENT = ("connector",), ("connector", "component")
 
 
@@ -65,17 +67,19 @@ def run_numbers(given: TimeRun) -> dict[str, tuple[tuple[str, ...], Array]]:
     """Return the numbers of one run after its ramp, by their names."""
     run, part = given.run, given.kept
     at = run.model.at
-    motion = at.in_unit_axes(run.position[part])
+    motions = run.position[part]
+    motion = at.in_unit_axes(motions)
     mean = motion.mean(axis=0)
     loads = run.joint_loads[part]
     relative = np.array([run.relative(joint)[part] for joint in at.joints]).reshape(len(at.joints), -1, 6)
     relative = relative.swapaxes(0, 1)
     moved = np.abs(relative - relative.mean(axis=0)).max(axis=0)
     low, high = np.full(len(at.joints), np.nan), np.full(len(at.joints), np.nan)
-    for number, joint in enumerate(at.joints):
-        if joint.connector.curve is not None:
-            elongation = relative[:, number, :3] @ np.asarray(joint.connector.axis)
-            low[number], high[number] = elongation.min(), elongation.max()
+    for link in at.links:
+        elongation = link.elongation(motions)
+        low[link.joint] = np.fmin(low[link.joint], elongation.min())
+        high[link.joint] = np.fmax(high[link.joint], elongation.max())
+    stretch = stretch_across(at.joints, moved[:, :3], high, in_time=True)
     tension = run.tension[part]
     most = np.abs(loads).max(axis=0)
     out: dict[str, tuple[tuple[str, ...], Array]] = {
@@ -91,9 +95,14 @@ def run_numbers(given: TimeRun) -> dict[str, tuple[tuple[str, ...], Array]]:
         "connector_damage_rate": (_CONNECTOR, _damage(at, run.time[part], loads)),
         "elongation_lowest": (_CONNECTOR, low),
         "elongation_highest": (_CONNECTOR, high),
+        "stretch_across": (_CONNECTOR, stretch),
         "relative_motion_largest": (_COMPONENT, moved[:, :3]),
         "relative_turn_largest": (_COMPONENT, moved[:, 3:]),
         "gap_motion_largest": (_CONNECTOR, moved[:, 1]),
+        "gap_closing_largest": (
+            ("gap",),
+            np.array([np.max(motions @ gap.closing.T) for gap in gaps_of(at)]),
+        ),
         "line_tension_mean": (("line",), tension.mean(axis=0)),
         "line_tension_maximum": (("line",), tension.max(axis=0)),
         "line_tension_minimum": (("line",), tension.min(axis=0)),

@@ -16,6 +16,8 @@ from moyai.mooring.space_kernel import space_line_force
 RUNNING, DIVERGED, UNSETTLED = 0, 1, 2
 _PASSES, _TURNS, _SWEEPS, _HALVINGS = 40, 60, 400, 80
 _SETTLED = 1e-8
+#: Share of its length that a line in space may miss, change of its direction within a pass of the step
+_STRAIGHT, _DIRECTION = 1e-8, 1e-6
 
 
 @njit(cache=True, error_model="numpy")
@@ -39,6 +41,29 @@ def joint_force(elongation: float, rate: float, x: Any, f: Any, dashpot: float, 
             return 0.0, 0.0
         return force, slope
     return force + dashpot * rate, slope
+
+
+@njit(cache=True, error_model="numpy")
+def _draw(y: Any, apart_by: Any, axes: Any, spans: Any, drawn: Any, along: Any) -> None:
+    """Write elongation (j,) and its derivative by y (j, r) of every curve at y [eq:units-in-space]."""
+    for i in range(spans.size):
+        change, square, moved = 0.0, 0.0, np.zeros(3)
+        for c in range(3):
+            for n in range(y.size):
+                moved[c] += apart_by[i, c, n] * y[n]
+            change += moved[c] * axes[i, c]
+            square += moved[c] * moved[c]
+        drawn[i] = change
+        along[i, :] = 0.0
+        length = 0.0
+        if spans[i] > 0.0:
+            change = 2.0 * spans[i] * change + square
+            length = np.sqrt(spans[i] * spans[i] + change)
+            drawn[i] = change / (length + spans[i])
+        for c in range(3):
+            direction = axes[i, c] if length == 0.0 else (spans[i] * axes[i, c] + moved[c]) / length
+            for n in range(y.size):
+                along[i, n] += direction * apart_by[i, c, n]
 
 
 @njit(cache=True, error_model="numpy")
@@ -115,7 +140,7 @@ def _solve_joints(
 @njit(cache=True, error_model="numpy", pointer=True)
 def march(
     y: Any, v: Any, a: Any, z: Any, first: int, steps: int, h: float, load: Any, body: Any, memory: Any, held: Any,
-    lines: Any, joints: Any, limit: float, saved: Any,
+    lines: Any, joints: Any, drag: Any, limit: float, saved: Any,
 ) -> tuple[int, int]:  # fmt: skip
     """Advance ``steps`` steps from step number ``first``; y, v, a, z change in place.
 
@@ -137,25 +162,31 @@ def march(
     lines : tuple
         Body of every line, parameters, index, nodes, last tensions.
     joints : tuple
-        Elongation by y (j, r), its place at rest (j,), then points of all curves, where each begins, dashpots, sides.
+        Of every curve: motion of its far end from its near end by y (j, 3, r), direction (j, 3) and length (j,) at rest
+        (zero: it keeps its direction); then points of all curves, where each begins, dashpots, sides.
+    drag : tuple
+        Rows (k, r) of the measures of the edges, coefficients (k,), motion of the waves in them (n, k).
     saved : tuple
         y, v, a (n, r), memory on the constraints (n, c), line force (n, m), tension (n, lines), force of joints (n, j).
     """
     inverse, damping, stiffness, basis, tangent, balanced = body
     decay, before, after, residues = memory
     holder, parameters, index, nodes, last = lines
-    along, place, xs, fs, ends, dashpots, sides = joints
-    r, k, m, j = y.size, decay.size, basis.shape[0], along.shape[0]
+    edges, rough, water = drag
+    apart_by, axes, spans, xs, fs, ends, dashpots, sides = joints
+    r, k, m, j = y.size, decay.size, basis.shape[0], spans.size
     c = held.shape[1]
     history, right, free, new = np.empty(r), np.empty(r), np.empty(r), np.empty(r)
     y_p, v_p, pushed, former = np.empty(r), np.empty(r), np.zeros(r), np.empty(r)
     ahead, q, pull, tension = np.empty(r), np.empty(m), np.empty(m), np.zeros(parameters.shape[0])
     alpha, start, force = np.zeros(j), np.empty(j), np.zeros(j)
-    reach, speed = np.empty(j), np.empty(j)
+    reach, speed, drawn, drawn_next = np.empty(j), np.empty(j), np.empty(j), np.empty(j)
+    along, along_next = np.empty((j, r)), np.empty((j, r))
+    _draw(y, apart_by, axes, spans, drawn, along)
     answer = inverse @ np.ascontiguousarray(along.T)
     compliance = along @ answer
     curves = (xs, fs, ends, dashpots, sides)
-    has_lines = parameters.shape[0] > 0
+    has_lines, in_space = parameters.shape[0] > 0, np.any(spans > 0.0)
     for step in range(steps):
         number = first + step + 1
         for i in range(r):
@@ -175,14 +206,23 @@ def march(
             for n in range(r):
                 total -= damping[i, n] * v_p[n] + stiffness[i, n] * y_p[n]
             right[i] = total
-        for i in range(j):
-            total, rate = place[i], 0.0
+        for e in range(rough.size):
+            # with the speed that the last acceleration leads to: as good as the step, and nothing to solve
+            speed_past = -water[number, e]
             for n in range(r):
-                total += along[i, n] * y_p[n]
-                rate += along[i, n] * v_p[n]
-            reach[i], speed[i] = total, rate
-        settled = False
+                speed_past += edges[e, n] * (v[n] + h * a[n])
+            pulled = rough[e] * abs(speed_past) * speed_past
+            for n in range(r):
+                right[n] -= edges[e, n] * pulled
+        for i in range(r):
+            ahead[i] = y_p[i] + 0.25 * h * h * a[i]
+        _draw(ahead, apart_by, axes, spans, drawn_next, along_next)
+        settled, straight = False, not in_space
         for _ in range(_PASSES):
+            if in_space:
+                drawn[:], along[:] = drawn_next, along_next
+                answer = inverse @ np.ascontiguousarray(along.T)
+                compliance = along @ answer
             for i in range(r):
                 total = 0.0
                 for n in range(r):
@@ -191,20 +231,34 @@ def march(
                 new[i] = total
             if j > 0:
                 for i in range(j):
-                    total = 0.0
+                    # a line in space is taken as straight about where it was last looked at
+                    length, rate, total = (drawn[i] if spans[i] > 0.0 else 0.0), 0.0, 0.0
                     for n in range(r):
+                        length += along[i, n] * (y_p[n] - (ahead[n] if spans[i] > 0.0 else 0.0))
+                        rate += along[i, n] * v_p[n]
                         total += along[i, n] * free[n]
-                    start[i] = total
+                    reach[i], speed[i], start[i] = length, rate, total
                 if not _solve_joints(start, reach, speed, h, compliance, curves, alpha, force):
                     return UNSETTLED, step
                 for i in range(r):
                     for n in range(j):
                         new[i] -= answer[i, n] * force[n]
-            if not has_lines:
-                settled = True
-                break
             for i in range(r):
                 ahead[i] = y_p[i] + 0.25 * h * h * new[i]
+            if in_space:
+                _draw(ahead, apart_by, axes, spans, drawn_next, along_next)
+                straight = True
+                for i in range(j):
+                    # the straight line serves unless it misses the length or, where it bears, the direction
+                    missed = abs(drawn_next[i] - reach[i] - 0.25 * h * h * alpha[i])
+                    straight = straight and (spans[i] == 0.0 or missed <= _STRAIGHT * spans[i])
+                    for n in range(r if force[i] != 0.0 else 0):
+                        straight = straight and abs(along_next[i, n] - along[i, n]) <= _DIRECTION
+            if not has_lines and straight:
+                settled = True
+                break
+            if not has_lines:
+                continue
             for i in range(m):
                 total = 0.0
                 for n in range(r):
@@ -226,7 +280,7 @@ def march(
                     pushed[n] += basis[i, n] * total
             for i in range(r):
                 apart = max(apart, abs(pushed[i] - former[i]))
-            if apart <= 1e-7 * size:
+            if apart <= 1e-7 * size and straight:
                 settled = True
                 break
         if not settled:

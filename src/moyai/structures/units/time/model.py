@@ -19,6 +19,7 @@ from moyai.structures.units.connectors import Joint, spring_matrices
 from moyai.structures.units.response import own_damping
 from moyai.structures.units.time import kernel
 from moyai.structures.units.time.memory import RowMemory, check_mass
+from moyai.structures.units.viscous import Eddies, eddies_of
 
 Status = Literal["converged", "diverged", "interrupted"]
 #: A motion beyond this many lengths of a unit is lost
@@ -26,7 +27,6 @@ LIMIT = 10.0
 #: Steps of a contact between two units, of a period of the shortest waves
 STEPS_OF_CONTACT, STEPS_OF_WAVE = 20, 40
 SECONDS_BETWEEN_LOOKS = 0.3
-_SIDES = {"chain": 1.0, "fender": -1.0}
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,7 +58,7 @@ class RowInTime:
 
     @cached_property
     def damping(self) -> Array:
-        """Damping (m, m) but that of waves and of connectors with a curve."""
+        """Damping (m, m) but that of waves and of curves of connectors."""
         at = self.at
         added = self.memory.coefficients(np.array([self.damping_frequency]))[0]
         restoring = at.hydrostatic + at.line_stiffness(self.position)
@@ -66,19 +66,14 @@ class RowInTime:
         return np.asarray(own_damping(at, added, restoring)[0] + spring_matrices(linear, at.size)[1])
 
     @cached_property
+    def eddies(self) -> Eddies | None:
+        """Edges that shed eddies, where the case computes them."""
+        return eddies_of(self.at)
+
+    @cached_property
     def stiffness(self) -> Array:
         """Stiffness (m, m) of buoyancy and springs; lines and curves apart."""
         return np.asarray(self.at.hydrostatic + self.at.springs[0])
-
-    @cached_property
-    def curved(self) -> tuple[Joint, ...]:
-        """Connectors with a curve."""
-        return tuple(joint for joint in self.at.joints if joint.connector.curve is not None)
-
-    @cached_property
-    def along(self) -> Array:
-        """Elongation of the connectors with a curve (j, m) by all motions."""
-        return np.array([joint.along for joint in self.curved]).reshape(-1, self.at.size)
 
     @property
     def balanced(self) -> Array:
@@ -89,17 +84,15 @@ class RowInTime:
 
     def contact_step(self) -> float:
         """Return the step [s] that resolves the shortest contact of connectors with a curve; infinite without."""
-        if not self.curved:
-            return math.inf
-        free = self.at.free
+        free, fastest = self.at.free, 0.0
         mass = np.linalg.inv(free.T @ self.mass @ free)
-        light = np.einsum("jr,rs,js->j", self.along @ free, mass, self.along @ free)
-        steep = [
-            float(np.max(np.diff(joint.connector.curve.force) / np.diff(joint.connector.curve.elongation)))
-            for joint in self.curved
-            if joint.connector.curve is not None
-        ]
-        fastest = float(np.sqrt(np.max(light * np.array(steep))))
+        for link in self.at.links:
+            ends = link.ends @ free
+            mobility = ends @ mass @ ends.T
+            # a line in space is pulled whichever way the units move apart
+            light = link.axis @ mobility @ link.axis if link.span == 0.0 else np.linalg.eigvalsh(mobility)[-1]
+            steepest = np.max(np.diff(link.curve.force) / np.diff(link.curve.elongation))
+            fastest = max(fastest, float(np.sqrt(max(light * steepest, 0.0))))
         return 2.0 * math.pi / fastest / STEPS_OF_CONTACT if fastest > 0.0 else math.inf
 
     def _lines(self) -> tuple[Any, ...]:
@@ -110,24 +103,21 @@ class RowInTime:
         return holder, packed.parameters, packed.index, packed.nodes, np.zeros(len(every))
 
     def _joints(self) -> tuple[Any, ...]:
-        xs, fs, ends = [np.zeros(0)], [np.zeros(0)], [0]
-        for joint in self.curved:
-            curve = joint.connector.curve
-            assert curve is not None
-            xs.append(np.array(curve.elongation, dtype=float))
-            fs.append(np.array(curve.force, dtype=float))
-            ends.append(ends[-1] + len(curve.elongation))
-        free = self.at.free
+        links, free = self.at.links, self.at.free
+        xs = [np.zeros(0), *(np.array(link.curve.elongation, dtype=float) for link in links)]
+        fs = [np.zeros(0), *(np.array(link.curve.force, dtype=float) for link in links)]
         return (
-            np.ascontiguousarray(self.along @ free), np.zeros(len(self.curved)), np.concatenate(xs),
-            np.concatenate(fs), np.array(ends, dtype=np.int64),
-            np.array([joint.connector.linear_damping for joint in self.curved], dtype=float),
-            np.array([_SIDES.get(joint.connector.kind, 0.0) for joint in self.curved], dtype=float),
+            np.array([link.ends @ free for link in links]).reshape(len(links), 3, free.shape[1]),
+            np.array([link.axis for link in links], dtype=float).reshape(len(links), 3),
+            np.array([link.span for link in links], dtype=float), np.concatenate(xs), np.concatenate(fs),
+            np.cumsum([len(x) for x in xs]), np.array([link.damping for link in links], dtype=float),
+            np.array([link.side for link in links], dtype=float),
         )  # fmt: skip
 
     def run(
-        self, load: Array, step: float, *, start: Array | None = None, progress: Progress = silent, name: str = ""
-    ) -> RowRun:
+        self, load: Array, step: float, *, water: Array | None = None, start: Array | None = None,
+        progress: Progress = silent, name: str = "",
+    ) -> RowRun:  # fmt: skip
         """Integrate the row under given forces.
 
         Parameters
@@ -136,6 +126,8 @@ class RowInTime:
             Forces at the times ``step * arange(n)``, row axes; memory, buoyancy, lines and connectors apart.
         step : float
             [s].
+        water : ndarray (n, k) or None
+            Motion of the waves in the measures of the edges; still water without.
         start : ndarray (m,) or None
             Position from which it is let go; ``position`` without.
         progress : Progress
@@ -155,30 +147,44 @@ class RowInTime:
         stiffness = free.T @ self.stiffness @ free + tangent
         inverse = np.linalg.inv(mass + 0.5 * step * damping + 0.25 * step**2 * stiffness)
         lines, joints = self._lines(), self._joints()
-        count, size, joint_count = len(load), free.shape[1], len(self.curved)
+        count, size, link_count = len(load), free.shape[1], len(at.links)
         saved = (
             np.zeros((count, size)), np.zeros((count, size)), np.zeros((count, size)), np.zeros((count, len(g))),
-            np.zeros((count, at.size)), np.zeros((count, len(lines[0]))), np.zeros((count, joint_count)),
+            np.zeros((count, at.size)), np.zeros((count, len(lines[0]))), np.zeros((count, link_count)),
         )  # fmt: skip
         y = free.T @ (self.position if start is None else np.asarray(start, dtype=float))
         v, z = np.zeros(size), np.zeros((len(poles), size), dtype=complex)
         self._first(load[0], y, mass, saved)
         a = saved[2][0].copy()
+        eddies = self.eddies
+        moving = np.zeros((count, 0 if eddies is None else len(eddies.points))) if water is None else water
+        rows = np.zeros((0, size)) if eddies is None else eddies.drag.directions @ free
+        drag = (np.ascontiguousarray(rows), np.zeros(0) if eddies is None else eddies.drag.coefficients, moving)
         body = (
             np.ascontiguousarray(inverse), np.ascontiguousarray(damping), np.ascontiguousarray(stiffness),
             np.ascontiguousarray(free), np.ascontiguousarray(tangent), self.balanced,
         )  # fmt: skip
         given = np.ascontiguousarray(load @ free)
-        arguments = (given, body, (decay, before, after, reduced), held, lines, joints, LIMIT * at.row.length, saved)
+        arguments = (
+            given,
+            body,
+            (decay, before, after, reduced),
+            held,
+            lines,
+            joints,
+            drag,
+            LIMIT * at.row.length,
+            saved,
+        )
         done, status, message = _driven(
             lambda first, steps: kernel.march(y, v, a, z, first, steps, step, *arguments), count - 1, step, progress,
             name,
         )  # fmt: skip
         end = done + 1
-        y_s, v_s, a_s, memory_s, line_s, tension_s, joint_s = (item[:end] for item in saved)
+        y_s, v_s, a_s, memory_s, line_s, tension_s, link_s = (item[:end] for item in saved)
         return RowRun(
             self, np.asarray(step * np.arange(end), dtype=float), load[:end], y_s, v_s, a_s, memory_s, line_s,
-            tension_s, joint_s, step, status, message,
+            tension_s, link_s, step, status, message, moving,
         )  # fmt: skip
 
     def _first(self, load: Array, y: Array, mass: Array, saved: tuple[Array, ...]) -> None:
@@ -191,10 +197,9 @@ class RowInTime:
             saved[4][0] = at.line_force(position)
             saved[5][0] = at.tensions(position)
             force = force + saved[4][0] - self.balanced
-        for number, joint in enumerate(self.curved):
-            assert joint.connector.curve is not None
-            saved[6][0, number] = float(joint.connector.curve.at(np.array(joint.along @ position)))
-        force = force - saved[6][0] @ self.along
+        for number, link in enumerate(at.links):
+            saved[6][0, number] = float(link.curve.at(link.elongation(position)))
+            force = force - saved[6][0, number] * link.along(position)
         saved[2][0] = np.linalg.solve(mass, free.T @ force)
 
 
@@ -248,10 +253,12 @@ class RowRun:
     line_force : ndarray (n, m)
     tension : ndarray (n, lines)
         At the fairleads.
-    joint_force : ndarray (n, j)
-        Of the connectors with a curve.
+    link_force : ndarray (n, j)
+        Of the curves of connectors, pulling positive.
     time_step : float
     status, message : str
+    water : ndarray (n, k)
+        Motion of the waves in the measures of the edges.
     """
 
     model: RowInTime
@@ -263,10 +270,11 @@ class RowRun:
     held_memory: Array
     line_force: Array
     tension: Array
-    joint_force: Array
+    link_force: Array
     time_step: float
     status: Status
     message: str
+    water: Array
 
     @cached_property
     def position(self) -> Array:
@@ -283,7 +291,12 @@ class RowRun:
         left -= self.acceleration @ (free.T @ model.mass) + self.velocity @ (free.T @ model.damping)
         if model.at.line_names:
             left += self.line_force - model.balanced
-        left -= self.joint_force @ model.along
+        if model.eddies is not None:
+            drag = model.eddies.drag
+            measure = self.velocity @ (free.T @ drag.directions.T) - self.water[: len(self.time)]
+            left -= (drag.coefficients * np.abs(measure) * measure) @ drag.directions
+        for number, link in enumerate(model.at.links):
+            left -= self.link_force[:, [number]] * link.along(self.position)
         return np.asarray(held_load(model.at, left) - self.held_memory)
 
     def relative(self, joint: Joint) -> Array:
@@ -296,7 +309,7 @@ class RowRun:
         joints = self.model.at.joints
         out = np.zeros((len(self.time), len(joints), 6))
         rate = self.velocity @ self.model.at.free.T
-        first = curve = 0
+        first = 0
         for number, joint in enumerate(joints):
             connector = joint.connector
             if len(joint.held):
@@ -306,7 +319,6 @@ class RowRun:
                 out[:, number] += self.relative(joint) @ connector.stiffness.T
             if connector.damping is not None:
                 out[:, number] += rate @ (connector.damping @ joint.relative).T
-            if connector.curve is not None:
-                out[:, number, :3] += self.joint_force[:, [curve]] * np.asarray(connector.axis)
-                curve += 1
+        for number, link in enumerate(self.model.at.links):
+            out[:, link.joint, :3] += self.link_force[:, [number]] * link.direction(self.position)
         return out

@@ -10,7 +10,7 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.progress import Progress, silent
-from moyai.floating.forcing import IrregularForcing, cosine_ramp
+from moyai.floating.forcing import IrregularForcing, complex_sum, cosine_ramp
 from moyai.sea.components import WaveComponents
 from moyai.sea.dispersion import wave_number
 from moyai.sea.irregular import realisation_seed, synthesise
@@ -131,7 +131,12 @@ def regular_run(
     time = step * np.arange(count)
     wave = cosine_ramp(time, ramp) * 0.5 * sea.height * np.exp(-1j * omega * time)
     load = (wave[:, None] * excitation).real + water.steady + answer.pushed
-    run = model.run(load, step, progress=progress, name=f", {at.name}, {sea.name}, {period:.3g} s")
+    water_motion = None
+    if model.eddies is not None:
+        moving = model.eddies.water_motion(np.array(omega), np.array(sea.heading), at.water.depth, at.water.gravity)
+        water_motion = (wave[:, None] * moving).real
+    words = f", {at.name}, {sea.name}, {period:.3g} s"
+    run = model.run(load, step, water=water_motion, progress=progress, name=words)
     one = WaveComponents(
         np.array([omega]), np.array([0.5 * sea.height]), np.zeros(1), np.array([sea.heading]), k, at.water
     )
@@ -157,7 +162,13 @@ def irregular_run(
     mean = forcing.mean_drift()
     shape = cosine_ramp(step * np.arange(count), ramp)
     load += water.steady + (1.0 - shape)[:, None] * mean
-    run = model.run(load, step, progress=progress, name=f", {at.name}, {sea.name}, seed {seed}")
+    water_motion = None
+    if model.eddies is not None:
+        moving = model.eddies.water_motion(waves.omega, waves.heading, at.water.depth, at.water.gravity)
+        series = complex_sum(waves.omega, forcing.amplitude[:, None] * moving, step, count).real
+        water_motion = shape[:, None] * series
+    words = f", {at.name}, {sea.name}, seed {seed}"
+    run = model.run(load, step, water=water_motion, progress=progress, name=words)
     return TimeRun(run, waves, elevation[: len(run.time)], ramp, ramp, peak, seed, resolved)
 
 
