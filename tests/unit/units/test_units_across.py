@@ -20,7 +20,7 @@ ALONG = np.array([0.0, 1.0, 0.0])
 def _joint(kind: str, in_space: bool) -> Joint:
     connector = Connector(kind, kind, ((0, 1),), axis=(0.0, 1.0, 0.0), end_to_end=in_space)
     empty = np.zeros((0, 6))
-    return Joint(kind, connector, (0, 1), np.zeros(3), np.zeros((6, 12)), empty, 0.5, np.zeros((3, 12)), ALONG)
+    return Joint(kind, connector, (0, 1), np.zeros(3), np.zeros((6, 12)), empty, 0.5, np.eye(3), ALONG)
 
 
 JOINTS = (_joint("chain", True), _joint("chain", False), _joint("fender", False))

@@ -11,7 +11,7 @@ from scipy.integrate import solve_ivp
 from moyai.sea.environment import Environment
 from moyai.structures.units.assembly import RowAtLevel, assemble, steady_position
 from moyai.structures.units.connectors import stretch
-from moyai.structures.units.links import PULLS, PUSHES, part_of
+from moyai.structures.units.links import PULLS, PUSHES, displacement, part_of
 from moyai.structures.units.model import Connector, Curve, Placement, UnitLine
 from moyai.structures.units.time.memory import RowMemory
 from moyai.structures.units.time.model import RowInTime
@@ -40,26 +40,34 @@ def at_rest(*connectors: Connector, springs: float = 2e4, turned: float = 0.0) -
 
 
 def distance(at: RowAtLevel, position: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return both ends (2, 3) of the chain, each carried by its unit: translation and turn about its centre."""
-    ends, arms = [], []
+    """Return both ends (2, 3) of the chain, each carried by its unit, and how they move with its six motions (2, 6, 3).
+
+    The turn is that of a rotation vector, to second order.
+    """
+    ends, moved = [], []
     for number, along in ((0, 10.0), (1, -10.0)):
         place = at.row.placements[number]
         arm = place.rotation @ np.array([3.0, along, 1.0 - at.draught - at.centres[number, 2]])
         move = position[6 * number : 6 * number + 6]
-        ends.append(at.centres[number] + arm + move[:3] + np.cross(move[3:], arm))
-        arms.append(arm)
-    return np.array(ends), np.array(arms)
+        first = np.cross(move[3:], arm)
+        ends.append(at.centres[number] + arm + move[:3] + first + 0.5 * np.cross(move[3:], first))
+        turns = [
+            np.cross(axis, arm) + 0.5 * (np.cross(axis, first) + np.cross(move[3:], np.cross(axis, arm)))
+            for axis in np.eye(3)
+        ]
+        moved.append([*np.eye(3), *turns])
+    return np.array(ends), np.array(moved)
 
 
 def pull_of(at: RowAtLevel, position: np.ndarray) -> tuple[np.ndarray, float]:
     """Return the forces (m,) of the chain on both units, and its tension."""
-    ends, arms = distance(at, position)
+    ends, moved = distance(at, position)
     rest, _ = distance(at, np.zeros(12))
     apart = ends[1] - ends[0]
     length = float(np.linalg.norm(apart))
     tension = STIFFNESS * max(length - float(np.linalg.norm(rest[1] - rest[0])) - SLACK, 0.0)
     force = tension * apart / length
-    return np.concatenate([force, np.cross(arms[0], force), -force, np.cross(arms[1], -force)]), tension
+    return np.concatenate([moved[0] @ force, moved[1] @ -force]), tension
 
 
 def test_a_line_of_half_a_metre_that_is_drawn_across() -> None:
@@ -84,8 +92,18 @@ def test_length_and_force_are_those_of_two_ends_in_space(turned: float) -> None:
         assert float(link.elongation(position)) == pytest.approx(expected, abs=1e-12)
         force, tension = pull_of(at, position)
         assert np.allclose(-tension * link.along(position), force, rtol=1e-10, atol=1e-6)
-        # the joint reports the force on the unit before it, in that unit's axes
+        # the joint reports the force on the unit before it, in axes of that unit, which lies along y
         assert np.allclose(tension * link.direction(position), force[:3], rtol=1e-10, atol=1e-6)
+
+
+def test_a_unit_that_pitches_draws_its_ends_in() -> None:
+    """By (1 - cos t) of the half length, against the rotation itself to its third order."""
+    arm, turn = np.array([0.0, 7.0, 0.9]), np.array([0.1, 0.0, 0.0])
+    found = displacement(np.concatenate([np.zeros(3), turn]), arm)
+    c, s = np.cos(0.1), np.sin(0.1)
+    exact = np.array([0.0, 7.0 * (c - 1.0) - 0.9 * s, 7.0 * s + 0.9 * (c - 1.0)])
+    assert np.abs(found - exact).max() < 7.0 * 0.1**3 / 5.0
+    assert found[1] + 0.9 * 0.1 == pytest.approx(-7.0 * 0.1**2 / 2.0)
 
 
 def test_its_stiffness_is_the_derivative_of_its_force() -> None:

@@ -287,7 +287,7 @@ def test_a_row_that_is_let_go_never_has_more_energy_than_at_first(memory):
     model = RowInTime(at, memory, np.zeros(at.size), 1.1)
     run = model.run(np.zeros((4000, at.size)), 0.02, start=start)
     curve = at.joints[0].connector.curve
-    elongation = run.position @ at.joints[0].along
+    elongation = at.links[0].elongation(run.position)
     stored = np.where(elongation < -0.01, 0.5 * 1e7 * (elongation + 0.01) ** 2, 0.0)
     assert np.allclose(run.link_force[:, 0], np.minimum(curve.at(elongation), 0.0), atol=1.0)
     pull = [system.tensions(run.position[:, 6 * n : 6 * n + 6])[:, 0] for n, system in enumerate(at.systems)]

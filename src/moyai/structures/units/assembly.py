@@ -120,7 +120,7 @@ class RowAtLevel:
     @cached_property
     def links(self) -> tuple[Link, ...]:
         """Curves of all connectors."""
-        return links_of(self.joints)
+        return links_of(self.joints, self.centres)
 
     @cached_property
     def springs(self) -> tuple[Array, Array]:

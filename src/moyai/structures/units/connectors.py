@@ -37,8 +37,8 @@ class Joint:
         Directions of the relative motion that are held.
     span : float
         Distance of its ends at rest [m].
-    ends : ndarray (3, m)
-        Motion of its far end less that of its near end, axes of the unit before it.
+    frame : ndarray (3, 3)
+        From row axes to those of the unit before it.
     from_end_to_end : ndarray (3,)
         Unit vector from the near end to the far end at rest, the same axes; zero where they meet.
     """
@@ -50,7 +50,7 @@ class Joint:
     relative: Array
     held: Array
     span: float
-    ends: Array
+    frame: Array
     from_end_to_end: Array
 
     @property
@@ -69,10 +69,9 @@ class Joint:
         return np.asarray(self.axis @ self.relative[:3])
 
     def elongation(self, position: Array) -> float:
-        """Return the elongation of a curve [m] at a position (m,) of the row."""
-        if self.in_space:
-            return float(stretch(self.ends @ position, self.axis, self.span))
-        return float(self.along @ position)
+        """Return the elongation of a curve [m] at a position (m,) of the row, turns to first order."""
+        moved = self.relative[:3] @ position
+        return float(stretch(moved, self.axis, self.span if self.in_space else 0.0))
 
 
 def stretch(moved: Array, axis: Array, span: float) -> Array:
@@ -109,23 +108,18 @@ def joints_of(row: FloatingRow, centres: Array, draught: float) -> tuple[Joint, 
             far = other.to_row(np.array([connector.x, -half, height]))
             place = 0.5 * (near + far)
             frame = one.rotation.T
-            relative, ends = np.zeros((6, 6 * row.count)), np.zeros((3, 6 * row.count))
-            for unit, sign, end in ((first, -1.0, near), (second, 1.0, far)):
+            relative = np.zeros((6, 6 * row.count))
+            for unit, sign in ((first, -1.0), (second, 1.0)):
                 columns = slice(6 * unit, 6 * unit + 6)
-                relative[:3, columns] = sign * _motion_at(place - centres[unit], frame)
+                arm = cross_matrix(place - centres[unit])
+                relative[:3, columns] = sign * np.concatenate([frame, -frame @ arm], axis=1)
                 relative[3:, columns.start + 3 : columns.stop] = sign * frame
-                ends[:, columns] = sign * _motion_at(end - centres[unit], frame)
             name = connector.name if len(connector.pairs) == 1 else f"{connector.name} {first + 1}-{second + 1}"
             apart = frame @ (far - near)
             span = float(np.linalg.norm(apart))
             axis = apart / span if span > 0.0 else apart
-            joints.append(Joint(name, connector, (first, second), place, relative, _held(connector), span, ends, axis))
+            joints.append(Joint(name, connector, (first, second), place, relative, _held(connector), span, frame, axis))
     return tuple(joints)
-
-
-def _motion_at(arm: Array, frame: Array) -> Array:
-    """Return the motion (3, 6) of a point at an arm from the centre of its unit, in the axes of ``frame``."""
-    return np.concatenate([frame, -frame @ cross_matrix(arm)], axis=1)
 
 
 def _held(connector: Connector) -> Array:

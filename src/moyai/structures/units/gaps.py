@@ -14,6 +14,7 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.mooring.rotations import cross_matrix
 from moyai.structures.units.assembly import RowAtLevel
+from moyai.structures.units.links import displacement, hold_together
 
 #: Units that are turned against each other by more [rad], or lie further aside [lengths of a unit], do not face.
 _FACING = 1e-6
@@ -27,34 +28,71 @@ class Gap:
     ----------
     name : str
         With the numbers of the units, counted from 1.
+    pair : tuple of (int, int)
+        Units, counted from 0.
     width : float
         At rest [m].
-    closing : ndarray (corners, m)
-        Closing at every corner of the hulls by all motions of all units.
+    along : ndarray (3,)
+        From the first unit to the second, row axes.
+    arms : ndarray (2, corners, 3)
+        Corners of both ends from the centres of their units [m], row axes.
+    bend : float
+        1 where turns count to second order, 0 where the units are held together at a point.
     """
 
     name: str
+    pair: tuple[int, int]
     width: float
-    closing: Array
+    along: Array
+    arms: Array
+    bend: float
+
+    def rows(self, size: int) -> Array:
+        """Return the closing (corners, m) by small motions of all units."""
+        out = np.zeros((self.arms.shape[1], size))
+        for unit, sign, arms in zip(self.pair, (1.0, -1.0), self.arms, strict=True):
+            columns = slice(6 * unit, 6 * unit + 6)
+            out[:, columns] = sign * np.array(
+                [np.concatenate([self.along, -self.along @ cross_matrix(arm)]) for arm in arms]
+            )
+        return out
+
+    def largest(self, position: Array) -> float:
+        """Return the largest closing of any corner [m] over positions (n, m) of the row."""
+        most = np.full(len(position), -np.inf)
+        for near, far in zip(*self.arms, strict=True):
+            one, other = (
+                displacement(position[:, 6 * unit : 6 * unit + 6], arm, self.bend)
+                for unit, arm in zip(self.pair, (near, far), strict=True)
+            )
+            most = np.maximum(most, (one - other) @ self.along)
+        return float(most.max())
 
 
 def gaps_of(at: RowAtLevel) -> tuple[Gap, ...]:
     """Return the gaps between neighbours, narrower than a unit is long."""
     out = []
     places, length = at.row.placements, at.row.length
+    outline = np.concatenate([item.edges.polyline() for item in at.row.hull.outlines])
     for first, one in enumerate(places):
         for second, other in enumerate(places):
             apart = one.rotation.T @ np.array([other.x - one.x, other.y - one.y, 0.0])
             turned = abs(np.angle(np.exp(1j * (other.heading - one.heading))))
             faces = turned <= _FACING and abs(apart[0]) <= _FACING * length
-            if first != second and faces and length < apart[1] < 2.0 * length:
-                name = f"gap {first + 1}-{second + 1}"
-                out.append(Gap(name, float(apart[1]) - length, _closing(at, first, second)))
+            if first == second or not faces or not length < apart[1] < 2.0 * length:
+                continue
+            arms = []
+            for unit, end in ((first, 0.5 * length), (second, -0.5 * length)):
+                corners = np.column_stack([outline[:, 0], np.full(len(outline), end), outline[:, 1] - at.draught])
+                arms.append(places[unit].to_row(corners) - at.centres[unit])
+            bend = 0.0 if hold_together(at.joints, (first, second)) else 1.0
+            name = f"gap {first + 1}-{second + 1}"
+            out.append(Gap(name, (first, second), float(apart[1]) - length, one.rotation[:, 1], np.array(arms), bend))
     return tuple(out)
 
 
 def largest_closing(at: RowAtLevel, position: Array, reach: Callable[[Array], Array]) -> Array:
-    """Return how far every gap closes at most (gaps,) [m] from its width at rest.
+    """Return how far every gap closes at most (gaps,) [m] from its width at rest, turns to first order.
 
     Parameters
     ----------
@@ -64,20 +102,8 @@ def largest_closing(at: RowAtLevel, position: Array, reach: Callable[[Array], Ar
     reach : callable
         The largest motion (corners,) about it by the rows (corners, m) of the corners of a gap.
     """
-    return np.array([np.max(gap.closing @ position + reach(gap.closing)) for gap in gaps_of(at)])
-
-
-def _closing(at: RowAtLevel, first: int, second: int) -> Array:
-    outline = np.concatenate([item.edges.polyline() for item in at.row.hull.outlines])
-    along = at.row.placements[first].rotation[:, 1]
-    out = np.zeros((len(outline), at.size))
-    for unit, sign in ((first, 1.0), (second, -1.0)):
-        place = np.full(len(outline), 0.5 * sign * at.row.length)
-        corners = np.column_stack([outline[:, 0], place, outline[:, 1] - at.draught])
-        arms = at.row.placements[unit].to_row(corners) - at.centres[unit]
-        columns = slice(6 * unit, 6 * unit + 6)
-        out[:, columns] = sign * np.array([np.concatenate([along, -along @ cross_matrix(arm)]) for arm in arms])
-    return out
+    rows = [gap.rows(at.size) for gap in gaps_of(at)]
+    return np.array([np.max(row @ position + reach(row)) for row in rows])
 
 
 __all__ = ["Gap", "gaps_of", "largest_closing"]

@@ -2,7 +2,7 @@
 
 A chain is drawn between its two ends wherever the units carry them [eq:units-in-space]. So is rubber where it pulls;
 pressed it is a block between two faces, as a fender, and acts along its direction at rest. A ``direction`` of the case
-is that of a guide, which chain and rubber then follow.
+is that of a guide, which chain and rubber then follow. Turns of the units draw their ends in to second order.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from moyai.core.arrays import Array
+from moyai.mooring.rotations import cross_matrix
 from moyai.structures.units.connectors import Joint, stretch
 from moyai.structures.units.model import Curve
 
@@ -19,9 +20,27 @@ from moyai.structures.units.model import Curve
 PULLS, PUSHES, BOTH = 1.0, -1.0, 0.0
 
 
+def displacement(motion: Array, arm: Array, bend: float = 1.0) -> Array:
+    """Return how far a point at an arm (..., 3) from the centre of its unit moves by motions (..., 6), row axes [m].
+
+    Turns count to second order: a unit that pitches draws its ends in [eq:units-turned]; ``bend`` of 0 leaves it out.
+    """
+    turn = motion[..., 3:]
+    first = np.cross(turn, arm)
+    return np.asarray(motion[..., :3] + first + 0.5 * bend * np.cross(turn, first))
+
+
+def hold_together(joints: tuple[Joint, ...], pair: tuple[int, int]) -> bool:
+    """Whether a connector holds two units together at a point.
+
+    Constraints are of first order: the point draws in neither unit, and what lies next to it must not either.
+    """
+    return any(set(joint.pair) == set(pair) and joint.held[:, :3].any() for joint in joints)
+
+
 @dataclass(frozen=True, eq=False)
 class Link:
-    """One curve between two ends; lengths in axes of the unit before it.
+    """One curve between two ends, in row axes.
 
     Parameters
     ----------
@@ -32,62 +51,120 @@ class Link:
         ``PULLS``, ``PUSHES`` or ``BOTH``.
     damping : float
         Of its dashpot [N s/m].
-    ends : ndarray (3, m)
-        Motion of the far end less that of the near end, by all motions of all units.
+    pair : tuple of (int, int)
+        Units that it joins, counted from 0.
+    arms : ndarray (2, 3)
+        Its ends from the centres of both units [m].
     axis : ndarray (3,)
         Direction at rest, from the near end to the far end.
     span : float
         Distance of the ends at rest [m]; zero of a curve that keeps its direction.
+    frame : ndarray (3, 3)
+        From row axes to those of the unit before it.
+    bend : float
+        1 where turns count to second order, 0 where units are held together at a point.
     """
 
     joint: int
     curve: Curve
     side: float
     damping: float
-    ends: Array
+    pair: tuple[int, int]
+    arms: Array
     axis: Array
     span: float
+    frame: Array
+    bend: float
+
+    def _ends(self, position: Array) -> tuple[tuple[float, Array, Array], ...]:
+        """Return sign, arm and motions (..., 6) of both ends."""
+        return tuple(
+            (sign, arm, np.asarray(position)[..., 6 * unit : 6 * unit + 6])
+            for sign, unit, arm in zip((-1.0, 1.0), self.pair, self.arms, strict=True)
+        )
+
+    def _moved(self, position: Array) -> Array:
+        near, far = (displacement(motion, arm, self.bend) for _, arm, motion in self._ends(position))
+        return np.asarray(far - near)
 
     def elongation(self, position: Array) -> Array:
         """Return the elongation (...,) [m] at positions (..., m) of the row."""
-        return stretch(np.asarray(position) @ self.ends.T, self.axis, self.span)
+        return stretch(self._moved(position), self.axis, self.span)
 
-    def direction(self, position: Array) -> Array:
-        """Return the unit vector (..., 3) that it pulls the near end along."""
-        moved = np.asarray(position) @ self.ends.T
+    def _direction(self, position: Array) -> Array:
+        moved = self._moved(position)
         if self.span == 0.0:
             return np.broadcast_to(self.axis, moved.shape)
         apart = self.span * self.axis + moved
         return np.asarray(apart / np.linalg.norm(apart, axis=-1, keepdims=True))
 
+    def direction(self, position: Array) -> Array:
+        """Return the unit vector (..., 3) that it pulls the near end along, axes of the unit before it."""
+        return np.asarray(self._direction(position) @ self.frame.T)
+
     def along(self, position: Array) -> Array:
         """Return the derivative (..., m) of the elongation by all motions."""
-        return np.asarray(self.direction(position) @ self.ends)
+        direction, out = self._direction(position), np.zeros(np.shape(position))
+        for (sign, arm, motion), unit in zip(self._ends(position), self.pair, strict=True):
+            turn = motion[..., 3:]
+            part = slice(6 * unit, 6 * unit + 3)
+            out[..., part] = sign * direction
+            drawn = 0.5 * (turn @ arm)[..., None] * direction
+            drawn += 0.5 * np.sum(turn * direction, axis=-1, keepdims=True) * arm - (direction @ arm)[..., None] * turn
+            out[..., part.stop : part.stop + 3] = sign * (np.cross(arm, direction) + self.bend * drawn)
+        return out
+
+    def rows(self, position: Array) -> Array:
+        """Return the derivative (3, m) of the vector from end to end at a position (m,)."""
+        out = np.zeros((3, len(position)))
+        for (sign, arm, motion), unit in zip(self._ends(position), self.pair, strict=True):
+            turn = motion[3:]
+            second = 0.5 * ((turn @ arm) * np.eye(3) + np.outer(turn, arm)) - np.outer(arm, turn)
+            out[:, 6 * unit : 6 * unit + 3] = sign * np.eye(3)
+            out[:, 6 * unit + 3 : 6 * unit + 6] = sign * (self.bend * second - cross_matrix(arm))
+        return out
 
     def stiffness(self, position: Array, width: float) -> Array:
         """Return the tangent stiffness (m, m) at a position (m,), corners rounded over ``width`` [m]."""
         force, slope = self.curve.rounded(float(self.elongation(position)), width)
-        direction = self.direction(position)
+        direction, rows = self._direction(position), self.rows(position)
         inner = slope * np.outer(direction, direction)
         if self.span > 0.0:
             length = self.span + float(self.elongation(position))
             inner += force / length * (np.eye(3) - np.outer(direction, direction))
-        return np.asarray(self.ends.T @ inner @ self.ends)
+        out = rows.T @ inner @ rows
+        for (sign, arm, _), unit in zip(self._ends(position), self.pair, strict=True):
+            part = slice(6 * unit + 3, 6 * unit + 6)
+            bent = 0.5 * (np.outer(direction, arm) + np.outer(arm, direction)) - (direction @ arm) * np.eye(3)
+            out[part, part] += sign * self.bend * force * bent
+        return np.asarray(out)
 
 
-def links_of(joints: tuple[Joint, ...]) -> tuple[Link, ...]:
-    """Return the curves of all connectors, in their order."""
+def links_of(joints: tuple[Joint, ...], centres: Array) -> tuple[Link, ...]:
+    """Return the curves of all connectors, in their order.
+
+    Parameters
+    ----------
+    joints : tuple of Joint
+    centres : ndarray (u, 3)
+        Centres of gravity of the units [m], row axes.
+    """
     out: list[Link] = []
     for number, joint in enumerate(joints):
         connector = joint.connector
         if connector.curve is None:
             continue
         side = {"chain": PULLS, "fender": PUSHES}.get(connector.kind, BOTH)
-        fixed = Link(number, connector.curve, side, connector.linear_damping, joint.relative[:3], joint.axis, 0.0)
+        middle = joint.place - centres[list(joint.pair)]
+        fixed = Link(
+            number, connector.curve, side, connector.linear_damping, joint.pair, middle, joint.frame.T @ joint.axis,
+            0.0, joint.frame, 0.0 if hold_together(joints, joint.pair) else 1.0,
+        )  # fmt: skip
         if not joint.in_space:
             out.append(fixed)
             continue
-        drawn = replace(fixed, ends=joint.ends, span=joint.span)
+        half = 0.5 * joint.span * fixed.axis
+        drawn = replace(fixed, arms=middle + np.array([-half, half]), span=joint.span)
         if side == PULLS:
             out.append(drawn)
         else:
@@ -119,4 +196,4 @@ def _beyond(inner: tuple[float, float], end: tuple[float, float]) -> list[tuple[
     return [(zero, 0.0), (2.0 * zero - end[0], -end[1])]
 
 
-__all__ = ["BOTH", "PULLS", "PUSHES", "Link", "links_of", "part_of"]
+__all__ = ["BOTH", "PULLS", "PUSHES", "Link", "displacement", "hold_together", "links_of", "part_of"]

@@ -101,7 +101,7 @@ def run_numbers(given: TimeRun) -> dict[str, tuple[tuple[str, ...], Array]]:
         "gap_motion_largest": (_CONNECTOR, moved[:, 1]),
         "gap_closing_largest": (
             ("gap",),
-            np.array([np.max(motions @ gap.closing.T) for gap in gaps_of(at)]),
+            np.array([gap.largest(motions) for gap in gaps_of(at)]),
         ),
         "line_tension_mean": (("line",), tension.mean(axis=0)),
         "line_tension_maximum": (("line",), tension.max(axis=0)),

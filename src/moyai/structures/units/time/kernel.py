@@ -16,8 +16,8 @@ from moyai.mooring.space_kernel import space_line_force
 RUNNING, DIVERGED, UNSETTLED = 0, 1, 2
 _PASSES, _TURNS, _SWEEPS, _HALVINGS = 40, 60, 400, 80
 _SETTLED = 1e-8
-#: Share of its length that a line in space may miss, change of its direction within a pass of the step
-_STRAIGHT, _DIRECTION = 1e-8, 1e-6
+#: Share of the largest motion that an elongation may miss, change of its derivative within a pass of the step
+_STRAIGHT, _DIRECTION = 1e-10, 1e-5
 
 
 @njit(cache=True, error_model="numpy")
@@ -44,26 +44,58 @@ def joint_force(elongation: float, rate: float, x: Any, f: Any, dashpot: float, 
 
 
 @njit(cache=True, error_model="numpy")
-def _draw(y: Any, apart_by: Any, axes: Any, spans: Any, drawn: Any, along: Any) -> None:
-    """Write elongation (j,) and its derivative by y (j, r) of every curve at y [eq:units-in-space]."""
+def _draw(
+    y: Any, basis: Any, pairs: Any, arms: Any, bends: Any, axes: Any, spans: Any, drawn: Any, along: Any
+) -> None:  # fmt: skip
+    """Write elongation (j,) and its derivative by y (j, r) of every curve at y [eq:units-turned]."""
+    moved, turn, direction, part = np.empty(3), np.empty((2, 3)), np.empty(3), np.empty(3)
     for i in range(spans.size):
-        change, square, moved = 0.0, 0.0, np.zeros(3)
+        moved[:] = 0.0
+        for end in range(2):
+            sign, first = 2.0 * end - 1.0, 6 * pairs[i, end]
+            arm, w = arms[i, end], turn[end]
+            for c in range(3):
+                shift, w[c] = 0.0, 0.0
+                for n in range(y.size):
+                    shift += basis[first + c, n] * y[n]
+                    w[c] += basis[first + 3 + c, n] * y[n]
+                moved[c] += sign * shift
+            inner, size = 0.0, 0.0
+            for c in range(3):
+                inner += w[c] * arm[c]
+                size += w[c] * w[c]
+            for c in range(3):
+                second, third = (c + 1) % 3, (c + 2) % 3
+                turned = w[second] * arm[third] - w[third] * arm[second]
+                moved[c] += sign * (turned + 0.5 * bends[i] * (inner * w[c] - size * arm[c]))
+        change, square = 0.0, 0.0
         for c in range(3):
-            for n in range(y.size):
-                moved[c] += apart_by[i, c, n] * y[n]
             change += moved[c] * axes[i, c]
             square += moved[c] * moved[c]
+            direction[c] = axes[i, c]
         drawn[i] = change
-        along[i, :] = 0.0
-        length = 0.0
         if spans[i] > 0.0:
             change = 2.0 * spans[i] * change + square
             length = np.sqrt(spans[i] * spans[i] + change)
             drawn[i] = change / (length + spans[i])
-        for c in range(3):
-            direction = axes[i, c] if length == 0.0 else (spans[i] * axes[i, c] + moved[c]) / length
-            for n in range(y.size):
-                along[i, n] += direction * apart_by[i, c, n]
+            for c in range(3):
+                direction[c] = (spans[i] * axes[i, c] + moved[c]) / length
+        along[i, :] = 0.0
+        for end in range(2):
+            sign, first = 2.0 * end - 1.0, 6 * pairs[i, end]
+            arm, w = arms[i, end], turn[end]
+            inner, across, over = 0.0, 0.0, 0.0
+            for c in range(3):
+                inner += w[c] * arm[c]
+                across += w[c] * direction[c]
+                over += direction[c] * arm[c]
+            for c in range(3):
+                second, third = (c + 1) % 3, (c + 2) % 3
+                part[c] = arm[second] * direction[third] - arm[third] * direction[second]
+                part[c] += bends[i] * (0.5 * (inner * direction[c] + across * arm[c]) - over * w[c])
+            for c in range(3):
+                for n in range(y.size):
+                    along[i, n] += sign * (direction[c] * basis[first + c, n] + part[c] * basis[first + 3 + c, n])
 
 
 @njit(cache=True, error_model="numpy")
@@ -162,8 +194,9 @@ def march(
     lines : tuple
         Body of every line, parameters, index, nodes, last tensions.
     joints : tuple
-        Of every curve: motion of its far end from its near end by y (j, 3, r), direction (j, 3) and length (j,) at rest
-        (zero: it keeps its direction); then points of all curves, where each begins, dashpots, sides.
+        Of every curve: its units (j, 2), arms of its ends (j, 2, 3), 1 where turns count to second order (j,),
+        direction (j, 3) and length (j,) at rest (zero: it keeps its direction); then points of all curves, where each
+        begins, dashpots, sides.
     drag : tuple
         Rows (k, r) of the measures of the edges, coefficients (k,), motion of the waves in them (n, k).
     saved : tuple
@@ -173,7 +206,7 @@ def march(
     decay, before, after, residues = memory
     holder, parameters, index, nodes, last = lines
     edges, rough, water = drag
-    apart_by, axes, spans, xs, fs, ends, dashpots, sides = joints
+    pairs, arms, bends, axes, spans, xs, fs, ends, dashpots, sides = joints
     r, k, m, j = y.size, decay.size, basis.shape[0], spans.size
     c = held.shape[1]
     history, right, free, new = np.empty(r), np.empty(r), np.empty(r), np.empty(r)
@@ -182,11 +215,9 @@ def march(
     alpha, start, force = np.zeros(j), np.empty(j), np.zeros(j)
     reach, speed, drawn, drawn_next = np.empty(j), np.empty(j), np.empty(j), np.empty(j)
     along, along_next = np.empty((j, r)), np.empty((j, r))
-    _draw(y, apart_by, axes, spans, drawn, along)
-    answer = inverse @ np.ascontiguousarray(along.T)
-    compliance = along @ answer
+    answer, compliance = np.empty((r, j)), np.empty((j, j))
     curves = (xs, fs, ends, dashpots, sides)
-    has_lines, in_space = parameters.shape[0] > 0, np.any(spans > 0.0)
+    has_lines = parameters.shape[0] > 0
     for step in range(steps):
         number = first + step + 1
         for i in range(r):
@@ -216,10 +247,10 @@ def march(
                 right[n] -= edges[e, n] * pulled
         for i in range(r):
             ahead[i] = y_p[i] + 0.25 * h * h * a[i]
-        _draw(ahead, apart_by, axes, spans, drawn_next, along_next)
-        settled, straight = False, not in_space
+        _draw(ahead, basis, pairs, arms, bends, axes, spans, drawn_next, along_next)
+        settled, straight = False, True
         for _ in range(_PASSES):
-            if in_space:
+            if j > 0:
                 drawn[:], along[:] = drawn_next, along_next
                 answer = inverse @ np.ascontiguousarray(along.T)
                 compliance = along @ answer
@@ -231,10 +262,10 @@ def march(
                 new[i] = total
             if j > 0:
                 for i in range(j):
-                    # a line in space is taken as straight about where it was last looked at
-                    length, rate, total = (drawn[i] if spans[i] > 0.0 else 0.0), 0.0, 0.0
+                    # elongations are taken as straight about where they were last looked at
+                    length, rate, total = drawn[i], 0.0, 0.0
                     for n in range(r):
-                        length += along[i, n] * (y_p[n] - (ahead[n] if spans[i] > 0.0 else 0.0))
+                        length += along[i, n] * (y_p[n] - ahead[n])
                         rate += along[i, n] * v_p[n]
                         total += along[i, n] * free[n]
                     reach[i], speed[i], start[i] = length, rate, total
@@ -245,13 +276,13 @@ def march(
                         new[i] -= answer[i, n] * force[n]
             for i in range(r):
                 ahead[i] = y_p[i] + 0.25 * h * h * new[i]
-            if in_space:
-                _draw(ahead, apart_by, axes, spans, drawn_next, along_next)
+            if j > 0:
+                _draw(ahead, basis, pairs, arms, bends, axes, spans, drawn_next, along_next)
                 straight = True
                 for i in range(j):
                     # the straight line serves unless it misses the length or, where it bears, the direction
                     missed = abs(drawn_next[i] - reach[i] - 0.25 * h * h * alpha[i])
-                    straight = straight and (spans[i] == 0.0 or missed <= _STRAIGHT * spans[i])
+                    straight = straight and missed <= _STRAIGHT * limit
                     for n in range(r if force[i] != 0.0 else 0):
                         straight = straight and abs(along_next[i, n] - along[i, n]) <= _DIRECTION
             if not has_lines and straight:

@@ -87,7 +87,7 @@ class RowInTime:
         free, fastest = self.at.free, 0.0
         mass = np.linalg.inv(free.T @ self.mass @ free)
         for link in self.at.links:
-            ends = link.ends @ free
+            ends = link.rows(np.zeros(self.at.size)) @ free
             mobility = ends @ mass @ ends.T
             # a line in space is pulled whichever way the units move apart
             light = link.axis @ mobility @ link.axis if link.span == 0.0 else np.linalg.eigvalsh(mobility)[-1]
@@ -103,11 +103,13 @@ class RowInTime:
         return holder, packed.parameters, packed.index, packed.nodes, np.zeros(len(every))
 
     def _joints(self) -> tuple[Any, ...]:
-        links, free = self.at.links, self.at.free
+        links = self.at.links
         xs = [np.zeros(0), *(np.array(link.curve.elongation, dtype=float) for link in links)]
         fs = [np.zeros(0), *(np.array(link.curve.force, dtype=float) for link in links)]
         return (
-            np.array([link.ends @ free for link in links]).reshape(len(links), 3, free.shape[1]),
+            np.array([link.pair for link in links], dtype=np.int64).reshape(len(links), 2),
+            np.array([link.arms for link in links], dtype=float).reshape(len(links), 2, 3),
+            np.array([link.bend for link in links], dtype=float),
             np.array([link.axis for link in links], dtype=float).reshape(len(links), 3),
             np.array([link.span for link in links], dtype=float), np.concatenate(xs), np.concatenate(fs),
             np.cumsum([len(x) for x in xs]), np.array([link.damping for link in links], dtype=float),
