@@ -371,7 +371,6 @@ def test_mean_drift_of_a_spread_sea_is_the_sum_over_its_waves(pontoon_problem):
         force = tree[f"SWL/frequency/h{index}"].to_dataset().mean_drift_force.values[order] / 0.001**2
         directional = spreading.density(angle - sea.heading, omega[order])
         total += float(np.trapezoid(2.0 * density * directional * force, omega[order])) * (angles[1] - angles[0])
-    print("DRIFT", float(spread.mean_drift_force), total)
     assert float(spread.mean_drift_force) == pytest.approx(total, rel=0.03)
 
 
