@@ -1,7 +1,7 @@
 """Make the pictures of the tutorial of the app: ``python docs/tutorial/app_pictures.py FOLDER [--all]``.
 
 Starts the app on templates in a temporary folder and photographs it in headless Chromium; with ``--all`` every
-structure, wide and narrow, light and dark, to be looked at; with ``--language ja`` those in Japanese.
+structure, wide and narrow, light and dark, to be looked at; with ``--language ja`` all in Japanese.
 """
 
 from __future__ import annotations
@@ -17,6 +17,9 @@ from pathlib import Path
 from typing import Any
 
 from moyai.case.templates import template
+from moyai.language import said, speak
+from moyai.language.catalogue import page_catalogue
+from moyai.language.comments import with_comments
 
 KINDS = ("breakwater", "curtain", "cage", "rigid_cage", "network", "member", "units")
 DRAWN = (
@@ -56,8 +59,9 @@ def until(page: Any, expression: str, seconds: float = 180.0) -> None:
         time.sleep(0.1)
 
 
-def press(page: Any, words: str) -> None:
-    """Press the button with these words."""
+def press(page: Any, words: str, language: str) -> None:
+    """Press the button with these words, in English."""
+    words = page_catalogue(language).get(words, words)
     page.evaluate(f"[...document.querySelectorAll('button')].find((one) => one.textContent === {words!r}).click()")
 
 
@@ -87,10 +91,11 @@ def main() -> None:
     options.add_argument("--language", default="en")
     given = options.parse_args()
     given.folder.mkdir(parents=True, exist_ok=True)
+    speak(given.language)
     driver = chromium()
     with tempfile.TemporaryDirectory() as held:
         for kind in KINDS:
-            text = template(kind)
+            text = with_comments(template(kind))
             if kind == "units":  # at rest: the waves around a row take minutes
                 text = re.sub("^analyses:.*$", "analyses: [statics]", text, flags=re.MULTILINE)
             Path(held, f"{kind}.yaml").write_text(text, encoding="utf-8")
@@ -107,7 +112,7 @@ def main() -> None:
                 if given.all:
                     everything(page, found[0], given)
                 else:
-                    tutorial(page, found[0], given.folder)
+                    tutorial(page, found[0], given.folder, given.language)
                 if page.errors:
                     raise RuntimeError("\n".join(page.errors))
         finally:
@@ -115,14 +120,14 @@ def main() -> None:
             process.wait(20)
 
 
-def tutorial(page: Any, address: str, folder: Path) -> None:
+def tutorial(page: Any, address: str, folder: Path, language: str) -> None:
     """Photograph what the tutorial shows."""
     # The folder of these pictures has no name that says anything
-    page.evaluate("document.querySelector('.subtitle').textContent = 'cases'")
+    page.evaluate("document.querySelector('.subtitle').textContent = " + repr(said("cases")))
     page.screenshot(folder / "app_cases.png", whole=False)
     open_case(page, address, "breakwater.yaml")
     for steps in (8, 8):
-        press(page, "Pin")
+        press(page, "Pin", language)
         page.evaluate(f"""(() => {{ const range = document.querySelectorAll('.slider input[type=range]')[1];
           range.value = Number(range.value) + {steps} * Number(range.step);
           for (const name of ['input', 'change']) range.dispatchEvent(new Event(name, {{ bubbles: true }})); }})()""")
@@ -133,17 +138,18 @@ def tutorial(page: Any, address: str, folder: Path) -> None:
     time.sleep(4.0)
     page.screenshot(folder / "app_case.png", whole=False)
     page.evaluate("scrollTo(0, 0)")
-    press(page, "Form")
+    press(page, "Form", language)
     until(page, "document.querySelector('.form .field')")
     time.sleep(0.5)
     page.screenshot(folder / "app_form.png", whole=False)
-    study(page, folder / "app_study.png")
+    study(page, folder / "app_study.png", said("study"))
 
 
-def study(page: Any, path: Path) -> None:
+def study(page: Any, path: Path, word: str) -> None:
     """Start the study and photograph its page when it has ended."""
     page.evaluate("location.hash = '#/'")
-    card = "[...document.querySelectorAll('.card')].find((one) => one.textContent.endsWith('study: study.yaml'))"
+    ends = f"{word}: study.yaml"
+    card = f"[...document.querySelectorAll('.card')].find((one) => one.textContent.endsWith({ends!r}))"
     until(page, card)
     page.evaluate(f"{card}.click()")
     until(page, "document.querySelectorAll('.study tbody tr').length === 6 && !document.querySelector('iframe').hidden")

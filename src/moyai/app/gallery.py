@@ -12,6 +12,8 @@ from moyai.language import said
 
 _SHOWN = {"nakamura": "breakwater", "tabata": "curtain", "arai": "member", "sawaragi": "curtain", "matsubara": "cage"}
 """Structure that is drawn on the card of a paper."""
+_NAMES = {"units": "Row of units"}
+"""Names of templates that say more than their key."""
 
 
 @cache
@@ -20,7 +22,12 @@ def _templates() -> list[dict[str, str]]:
 
     words = dict(kinds_of_files())
     return [
-        {"template": name, "kind": kind, "title": words[name], "name": name.replace("_", " ").capitalize()}
+        {
+            "template": name,
+            "kind": kind,
+            "title": words[name],
+            "name": _NAMES.get(name, name.replace("_", " ").capitalize()),
+        }
         for kind in structure_kinds()
         for name, _ in structure_kind(kind).templates
         if name in words

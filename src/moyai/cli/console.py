@@ -9,6 +9,7 @@ import sys
 import threading
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
+from contextvars import copy_context
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any, NoReturn
 
@@ -16,7 +17,7 @@ import typer
 
 from moyai.core.errors import CaseError, ConvergenceError, Fault, InputError
 from moyai.core.progress import Pace, Progress, duration_words, silent
-from moyai.language import language_of_the_locale, require_language, said, spoken_in
+from moyai.language import language_of_the_locale, require_language, said, spoken_in, spoken_language
 from moyai.language.faults import fault_text
 
 if TYPE_CHECKING:
@@ -79,7 +80,12 @@ def put(text: str) -> None:
 
 def tell(text: str) -> None:
     """Print a line on standard error, in the language in force."""
-    sys.stderr.write(said(text) + "\n")
+    inform(said(text))
+
+
+def inform(text: str) -> None:
+    """Print a line on standard error as it is."""
+    sys.stderr.write(text + "\n")
     sys.stderr.flush()
 
 
@@ -189,14 +195,15 @@ def _bars() -> Iterator[Progress]:
     from rich.progress import Progress as Bars
     from rich.text import Text
 
-    pace = Pace()
+    pace, language = Pace(), spoken_language()
 
     class Left(ProgressColumn):
         """Time left by the rate since the stage began."""
 
         def render(self, task: Task) -> Text:
             left = pace.left(str(task.fields["stage"]))
-            return Text(said(f"{duration_words(left)} left") if math.isfinite(left) else "")
+            with spoken_in(language):  # bars are drawn by a thread of their own
+                return Text(said(f"{duration_words(left)} left") if math.isfinite(left) else "")
 
     columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:>3.0f} %"), Left())
     with Bars(*columns, console=rich_console(to_error=True), transient=True) as bars:
@@ -227,7 +234,8 @@ def _lines(every: float) -> Iterator[Progress]:
             if line:
                 tell(line)
 
-    printer = threading.Thread(target=print_lines, name="progress", daemon=True)
+    # a thread begins without the language in force
+    printer = threading.Thread(target=copy_context().run, args=(print_lines,), name="progress", daemon=True)
     printer.start()
     try:
         yield listen

@@ -96,7 +96,8 @@ def convert(
             "--to",
             metavar="wamit|nemoh|bemio|orcaflex|gltf",
             help="Write coefficients of a result as files of this program; "
-            "orcaflex: unit and lines of a result, lines of a case or deck; gltf: structures in space, moving.",
+            "orcaflex: unit and lines of a breakwater's result, lines, buoys and bodies of a network's case or a deck; "
+            "gltf: structures in space, moving.",
         ),
     ] = None,
     sea: Annotated[
@@ -216,6 +217,7 @@ def _write_vessel(file: Path, target: Path, water_level: str | None, *, force: b
     from moyai.interop.write_orcaflex_vessel import orcaflex_vessel
 
     result = read_result(file)
+    _require_orcaflex(str(result.tree.attrs.get("structure", "")), "breakwater")
     moorings = None
     if result.tree.attrs.get("structure") == "breakwater":
         from moyai.structures.breakwater.case.moorings import moorings_of_result
@@ -242,11 +244,30 @@ def _write_lines(
         from moyai.structures.network.case.line_deck import deck_and_boxes
 
         try:
-            deck, boxes = deck_and_boxes(load_case(file), water_level)
+            case = load_case(file)
+            _require_orcaflex(case.kind, "network")
+            deck, boxes = deck_and_boxes(case, water_level, floating=True)
         except CaseError as error:
             raise CaseError([_for_orcaflex(fault) for fault in error.faults]) from None
         written = orcaflex_network(deck, boxes) if boxes else orcaflex_text(deck)
     _write_model(target, *written, force=force, as_json=as_json)
+
+
+def _require_orcaflex(kind: str, wanted: str) -> None:
+    """Refuse what has no file of OrcaFlex: sheets, nets and members, and a network or breakwater in the wrong form."""
+    if kind in (wanted, "units"):
+        return
+    form = {"network": "the case file of a network", "breakwater": "the results of a breakwater"}
+    if kind in form:
+        message, remedy = f"a file of OrcaFlex is written from {form[kind]}", f"name {form[kind]} to 'moyai convert'"
+    else:
+        message, remedy = (
+            f"a structure of kind '{kind}' is not written for OrcaFlex: sheets and nets have no place there",
+            "",
+        )
+    raise InputError(
+        message, path="--to", allowed="results of a breakwater, cases of a network, decks of MoorDyn", remedy=remedy
+    )
 
 
 def _model_file(file: Path, output: Path | None) -> Path:

@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from moyai.cli.console import BAD_INPUT, FAILED, OK, guard, print_json, progress_bars, put, say, tell
+from moyai.cli.console import BAD_INPUT, FAILED, OK, guard, inform, print_json, progress_bars, put, say, tell
 from moyai.core.errors import InputError
 from moyai.core.wording import counted
+from moyai.language import said
 
 if TYPE_CHECKING:
     from moyai.core.progress import Progress
@@ -64,8 +65,9 @@ def study(
 
         count = workers if workers is not None else max(1, min(os.cpu_count() or 1, len(plan.cases)))
         if not quiet and not as_json:
-            points = " x ".join(f"{len(axis.points)} {axis.name}" for axis in plan.axes)
-            tell(f"{plan.title}: {counted(len(plan.cases), 'case')}" + (f" ({points})" if points else ""))
+            points = ", ".join(f"{axis.name.replace('_', ' ')}: {len(axis.points)}" for axis in plan.axes)
+            count_of_cases = said(f"{counted(len(plan.cases), 'case')}" + (f" ({points})" if points else ""))
+            inform(f"{plan.title}: {count_of_cases}")
         for word in _refused(plan) if not quiet and not as_json else ():
             tell(word)
         teller = _Teller(plan, quiet or as_json, each)

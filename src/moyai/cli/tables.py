@@ -184,7 +184,7 @@ def print_criteria(console: Console, criteria: Sequence[Criterion]) -> None:
 def outcome_line(outcome: Outcome) -> str:
     """Return a case of ``moyai validate`` as one line: verdict, numbers, kind of the reference and its source.
 
-    In the language in force; the name of the case and its source stay as they are.
+    In the language in force; ``moyai validate --json`` has the names as the pages look for them.
     """
     case = outcome.case
     numbers = said(
@@ -193,7 +193,7 @@ def outcome_line(outcome: Outcome) -> str:
     )
     failure = f" ({said(outcome.failure)})" if outcome.failure else ""
     verdict = said("ok" if outcome.passed else "FAILED")
-    return f"{verdict:6}  {case.name}: {numbers}{failure}  |  {said(case.kind)}  |  {case.source}"
+    return f"{verdict:6}  {said(case.name)}: {numbers}{failure}  |  {said(case.kind)}  |  {said(case.source)}"
 
 
 def print_outcome_count(outcomes: Sequence[Outcome]) -> None:

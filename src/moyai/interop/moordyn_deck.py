@@ -98,6 +98,8 @@ class DeckPoint:
     line: int = field(default=0, compare=False)
     #: The body that carries it, 0 for none.
     body: int = 0
+    #: Vertical extent over which it comes out of the water [m]; 0: always wet, as MoorDyn takes all points.
+    height: float = 0.0
 
 
 @dataclass(frozen=True)

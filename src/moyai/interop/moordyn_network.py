@@ -217,7 +217,7 @@ def add_lines(
         )  # fmt: skip
 
 
-def to_deck(network: Network, *, title: str = "") -> MoorDynDeck:
+def to_deck(network: Network, *, title: str = "", floating: bool = False) -> MoorDynDeck:
     """Return a network as a deck: every run of equal bars between named points, branches or loads is a line.
 
     Parameters
@@ -226,6 +226,8 @@ def to_deck(network: Network, *, title: str = "") -> MoorDynDeck:
         The network.
     title : str
         Line that describes it.
+    floating : bool
+        Keep points that come out of the water with their height, for programs that know it; MoorDyn does not.
 
     Raises
     ------
@@ -235,7 +237,7 @@ def to_deck(network: Network, *, title: str = "") -> MoorDynDeck:
         ratios to the volume.
     """
     equivalent = [math.sqrt(4.0 * kind.volume_per_length / math.pi) for kind in network.bars.types]
-    faults = _inexpressible(network, equivalent)
+    faults = _inexpressible(network, equivalent, floating)
     if faults:
         raise CaseError(faults)
     water, bed = network.water, network.bed
@@ -280,7 +282,7 @@ def safe_step(network: Network) -> float:
     return float(f"{math.floor(step / digits) * digits:.2g}")
 
 
-def _inexpressible(network: Network, equivalent: list[float]) -> list[Fault]:
+def _inexpressible(network: Network, equivalent: list[float], floating: bool) -> list[Fault]:
     """Return all that a deck cannot say; ``equivalent`` holds the diameter of the volume of every type."""
     faults: list[Fault] = []
     nodes, bars, water = network.nodes, network.bars, network.water
@@ -292,7 +294,7 @@ def _inexpressible(network: Network, equivalent: list[float]) -> list[Fault]:
     free = (nodes.kind != FIXED) & (nodes.kind != DRIVEN)
     for node in range(len(nodes)):
         label = names.get(node, f"node {node}")
-        if nodes.height[node] > 0.0:
+        if nodes.height[node] > 0.0 and not floating:
             refuse("partial immersion", label)
         if free[node] and nodes.held[node].any():
             refuse("a component that is held", label)
@@ -367,7 +369,7 @@ def _point(network: Network, node: int, number: int) -> DeckPoint:
     added = float(nodes.added_mass[node]) / (network.water.density * volume) if volume > 0.0 else 0.0
     return DeckPoint(
         number, kinds.get(int(nodes.kind[node]), "free"), (x, y, z), float(nodes.mass[node]), volume,
-        float(nodes.drag_area[node]), added,
+        float(nodes.drag_area[node]), added, height=float(nodes.height[node]),
     )  # fmt: skip
 
 

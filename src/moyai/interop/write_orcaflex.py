@@ -1,5 +1,7 @@
 """Text data files of OrcaFlex (YAML): lines of a deck with their water.
 
+Points with mass, volume or drag become 3D buoys, whose height lets them come out of the water.
+
 Written for a peer check by those who have OrcaFlex; no OrcaFlex has read these files, and their first lines say so.
 Names of objects and data are those of public text data files. Units are OrcaFlex's SI: te, kN, m, s, degrees; z is up
 from still water.
@@ -8,7 +10,8 @@ from still water.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections import Counter
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -29,6 +32,8 @@ _SECTIONS = "LineType, Length, TargetSegmentLength"
 _CURRENT = "CurrentDepth, CurrentFactor, CurrentRotation"
 #: How far a current may lie beside its straight lines, over its largest speed.
 _STRAIGHT = 1e-3
+#: Height of a buoy that is always wet [m].
+_SMALL = 0.01
 #: kg, N over te, kN.
 THOUSAND = 1e3
 #: First of the notes on every file.
@@ -38,8 +43,8 @@ UNREAD = "no OrcaFlex has read this file: look at units, phases and ends before 
 def orcaflex_text(deck: MoorDynDeck) -> tuple[str, tuple[str, ...]]:
     """Return the text data file of a deck's lines with their water, and what it leaves out.
 
-    Points without mass, volume and drag between two lines become borders of sections. Ends that something else moves
-    are fixed where they are.
+    Free points without mass, volume and drag between two lines become borders of sections, others 3D buoys. Ends that
+    something else moves are fixed where they are.
 
     Parameters
     ----------
@@ -48,7 +53,7 @@ def orcaflex_text(deck: MoorDynDeck) -> tuple[str, tuple[str, ...]]:
     Raises
     ------
     InputError
-        For bodies and rods, free points that are more than a border, stretch by a table, or a deck without a depth.
+        For bodies and rods, stretch by a table, or a deck without a depth.
     """
     model, notes = orcaflex_model(deck, {})
     return text_of(model), notes
@@ -75,12 +80,15 @@ def orcaflex_model(
         raise InputError("a text data file of OrcaFlex needs a water depth", path="WtrDpth", remedy="give --depth")
     if deck.bodies or deck.rods:
         raise InputError("bodies and rods are not written for OrcaFlex", path="bodies", allowed="lines and points")
-    strands = _strands(deck)
+    buoys = _buoys(deck)
+    held = {**held, **{number: (str(buoy["Name"]), (0.0, 0.0, 0.0)) for number, buoy in buoys.items()}}
+    strands = _strands(deck, set(buoys))
     used = {line.line_type for strand in strands for line in strand}
     model: dict[str, Any] = {
         "General": {"UnitsSystem": "SI"},
         "Environment": {"WaterDepth": depth, "Density": (deck.number("WtrDnsty") or 1025.0) / THOUSAND},
         "LineTypes": [line_type_data(kind) for kind in deck.line_types if kind.name in used],
+        **({"3DBuoys": list(buoys.values())} if buoys else {}),
         "Lines": [_line(deck, strand, held) for strand in strands],
     }
     notes = [
@@ -92,6 +100,8 @@ def orcaflex_model(
     )
     if deck.seafloor is not None and deck.seafloor_depth is None:
         notes.append("the bed that varies is left out: it is flat at the depth of the deck")
+    if any(point.height > 0.0 for point in deck.points):
+        notes.append("the wet share of a buoy grows evenly over its height, that of a sphere too")
     if moved:
         notes.append(f"points {', '.join(moved)} are fixed where they are: connect them to your vessel")
     return model, tuple(notes)
@@ -142,21 +152,34 @@ def line_type_data(kind: DeckLineType) -> dict[str, Any]:
     }
 
 
-def _strands(deck: MoorDynDeck) -> list[list[DeckLine]]:
+def _buoys(deck: MoorDynDeck) -> dict[int, dict[str, Any]]:
+    """Return the free points that are more than a border between two lines as 3D buoys, by their numbers."""
+    meeting = Counter(end for line in deck.lines for end in (line.start, line.end))
+    found = {}
+    for point in deck.points:
+        border = meeting[point.number] == 2 and not (point.mass or point.volume or point.drag_area)
+        if point.kind == "free" and meeting[point.number] and not border:
+            found[point.number] = {
+                "Name": f"Buoy{point.number}",
+                "Connection": "Free",
+                "InitialPosition": list(point.position),
+                "Mass": point.mass / THOUSAND,
+                "Volume": point.volume,
+                "Height": point.height or _SMALL,
+                "DragArea": [point.drag_area] * 3,
+                "Cd": [1.0] * 3,
+                "Ca": [point.added_mass_coefficient] * 3,
+            }
+    return found
+
+
+def _strands(deck: MoorDynDeck, buoys: Collection[int]) -> list[list[DeckLine]]:
     """Return the lines joined over free points that are borders alone, each from one held end to the other."""
     at: dict[int | str, list[DeckLine]] = {}
     for line in deck.lines:
         for end in (line.start, line.end):
             at.setdefault(end, []).append(line)
-    free = {point.number for point in deck.points if point.kind == "free" and point.number in at}
-    for point in deck.points:
-        plain = not (point.mass or point.volume or point.drag_area)
-        if point.number in free and not (plain and len(at[point.number]) == 2):
-            raise InputError(
-                f"free point {point.number} carries mass, volume or drag, or does not join two lines",
-                path="points", allowed="free points that join two lines",
-                remedy="add it in OrcaFlex as a 3D buoy, or give its weight to the lines",
-            )  # fmt: skip
+    free = {point.number for point in deck.points if point.kind == "free" and point.number in at} - set(buoys)
     found, done = [], set()
     for line in deck.lines:
         start = next((end for end in (line.start, line.end) if end not in free), None)

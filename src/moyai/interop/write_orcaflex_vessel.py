@@ -178,11 +178,13 @@ def orcaflex_network(deck: MoorDynDeck, boxes: Sequence[FloatingBox]) -> tuple[s
             held.update(dict.fromkeys(near, (box.name, point)))
     model, notes = orcaflex_model(deck, held)
     kinds = [_box_type(box) for box in boxes]
-    model["VesselTypes"] = [kind for kind, _ in kinds]
-    model["Vessels"] = [
+    vessels = [
         _vessel(box.name, str(kind["Name"]), draught, box.position, wave_loads=False)
         for box, (kind, draught) in zip(boxes, kinds, strict=True)
     ]
+    # what is connected to stands before what connects to it
+    first = {name: model.pop(name) for name in ("General", "Environment")}
+    model = {**first, "VesselTypes": [kind for kind, _ in kinds], "Vessels": vessels, **model}
     left = "wave loads, drag and wave radiation of the bodies are left out: add them in OrcaFlex"
     return text_of(model), (*notes, left)
 

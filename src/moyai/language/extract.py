@@ -20,7 +20,7 @@ _SHOWN = frozenset((
     "Abscissa", "Animation", "Badge", "Choice", "Column", "Criterion", "Drawing", "Fault", "Figure", "Faces",
     "Headline", "IdentityCheck", "InputError", "KeyFigure", "Listing", "Mark", "Marker", "Notice", "Option",
     "Panel", "Paragraph", "Section", "Series", "Table", "column", "number", "said", "tell", "say", "Number",
-    "Band", "ConvergenceError", "_column",
+    "Band", "ConvergenceError", "_column", "progress",
 ))  # fmt: skip
 #: Arguments of such calls that are keys.
 _KEYS = frozenset((

@@ -21,7 +21,33 @@ _LETTERS = re.compile(r"[A-Za-z]+")
 _JAPANESE = "[\u3040-\u30ff\u3400-\u9fff]"
 _SCRIPTS = re.compile(f"{_JAPANESE}[A-Za-z0-9]|[A-Za-z0-9%°]{_JAPANESE}")
 _PARTICLE = re.compile("(?<=[\u3040-\u309f]) (?=\\{)|(?<=\\}) (?=[\u3040-\u309f])")
+_QUALIFIED = re.compile(r"(.*\S) \(([^()]+)\)( \[[^][]*\])?")  # a name, where it is taken, its unit
+_COUNTED = re.compile(r"(\S.*[A-Za-z)]) (-?\d[\d.]*(?: \S+)?)")  # a name and its value
 _FORCE = re.compile(r"(?<=\} )[kM]?N(?![A-Za-z])")  # behind a place for its number
+_COUNTER = re.compile(r"\{(\d)\} ?(?:個|本|件|回|枚|基|台|行|列)(?![所分数目])")
+_DIGIT = re.compile(r"\d")
+_NUMERALS = frozenset(
+    [
+        "a",
+        "an",
+        "one",
+        "two",
+        "three",
+        "four",
+        "five",
+        "six",
+        "seven",
+        "eight",
+        "nine",
+        "ten",
+        "no",
+        "some",
+        "several",
+        "many",
+        "few",
+        "all",
+    ]
+)
 _LONGEST = 12_000  # a text that is longer is no sentence
 _NAMELESS = frozenset(("a", "an", "the", "not", "each", "every", "all", "about", "up", "to"))
 _GLUED = 160  # characters of a phrase that is taken apart at its prepositions
@@ -40,6 +66,8 @@ class _Template:
     words: frozenset[str]
     #: Places between quotation marks: keys and names, which are copied.
     quoted: frozenset[int]
+    #: Places for a number, behind which a word of counting stands in the target.
+    counted: frozenset[int]
 
     @property
     def weight(self) -> int:
@@ -82,6 +110,8 @@ class _Template:
             return False
         if number in self.quoted:
             return "'" not in value
+        if number in self.counted and not (_DIGIT.search(value) or value.split(" ")[0] in _NUMERALS):
+            return False
         if self.is_separator:
             return True
         if self.source[0].count(" ") > 1 and self.source[0] in value:
@@ -89,6 +119,8 @@ class _Template:
         first = (
             not self.source[0] and number == self.order[0]
         )  # what stands before a colon is the place of the sentence
+        if value.endswith((";", ":")):
+            return False
         return not any(mark in value for mark in (_GLUE_ENDS if self.is_glue else _ENDS[: 3 if first else 2]))
 
     def filled(self, values: dict[int, str]) -> str:
@@ -115,6 +147,7 @@ class Translator:
         messages = {**_in_tonnes(messages), **messages}
         self._whole = {source: target for source, target in messages.items() if "{0}" not in source}
         self._by_word: dict[str, list[_Template]] = {}
+        self._templates = frozenset(source for source in messages if "{0}" in source)
         templates = [_template(source, target) for source, target in messages.items() if "{0}" in source]
         count: dict[str, int] = {}
         for template in templates:
@@ -148,8 +181,10 @@ class Translator:
         """Return the best reading of a text and how many English words it leaves."""
         if text in self._known:
             return self._known[text]
-        if (exact := self._exact(text)) is not None:
+        if (exact := self._exact(text) or self._name_in_place(text)) is not None:
             found = exact, 0
+        elif (known := self._name_with_value(text)) is not None:
+            found = known, 0
         elif left := len(latin_words(text)):
             found = self._sentence(text, left) if text.endswith(".") else self._read(text, left)
         else:
@@ -157,10 +192,38 @@ class Translator:
         self._known[text] = found
         return found
 
+    def _name_in_place(self, text: str) -> str | None:
+        """Return a name that is known as a whole, with the known words in brackets behind it."""
+        if (match := _QUALIFIED.fullmatch(text)) and (name := self._exact(match[1])):
+            where, left = self._best(match[2])
+            unit = (match[3] or "").strip()
+            return f"{name}（{where}）{unit}" if left == 0 else None
+        return None
+
+    def _name_with_value(self, text: str, *, several: bool = True) -> str | None:
+        """Return a name (of several words) that is known as a whole with its number: significant height 0.5 m."""
+        match = _COUNTED.fullmatch(text)
+        if match is None or latin_words(match[2]) or (several and " " not in match[1]):
+            return None
+        if f"{match[1]} {{0}}" in self._templates:
+            return None  # at least 2 is no name
+        name = self._exact(match[1])
+        return f"{name} {match[2]}" if name else None
+
+    def _is_name(self, value: str) -> bool:
+        """Whether a text is a name that is known as a whole, whatever marks stand in it."""
+        return value == value.strip() and (self._exact(value) or self._name_in_place(value)) is not None
+
     def _sentence(self, text: str, left: int) -> tuple[str, int]:
         """Return the best reading of a text that ends with a full stop."""
         read, cost = self._best(text[:-1])
         return (f"{read}{self._stop}", cost) if cost < left else (text, left)
+
+    def _part(self, value: str, alone: bool) -> tuple[str, int]:
+        """Return the best reading of what stands in a place; a part that stands alone may be a name with its value."""
+        found = self._best(value)
+        known = self._name_with_value(value, several=False) if found[1] and alone else None
+        return found if known is None else (known, 0)
 
     def _exact(self, text: str) -> str | None:
         for form in (text, text[:1].lower() + text[1:], text[:1].upper() + text[1:]):
@@ -176,10 +239,10 @@ class Translator:
             if template.is_glue and len(text) > _GLUED:
                 continue
             for values in template_readings(template.source, template.order, text):
-                if not all(template.holds(*item) for item in values.items()):
+                if not all(template.holds(*item) or self._is_name(item[1]) for item in values.items()):
                     continue
                 read = {
-                    number: (value, 0) if number in template.quoted else self._best(value)
+                    number: (value, 0) if number in template.quoted else self._part(value, template.is_separator)
                     for number, value in values.items()
                 }
                 rest = sum(cost for _, cost in read.values())
@@ -257,7 +320,8 @@ def _template(source: str, target: str) -> _Template:
     said, said_order = literals(_PARTICLE.sub("", target))
     words = frozenset(word.lower() for part in parts for word in _LETTERS.findall(part))
     quoted = (n for n, a, b in zip(order, parts, parts[1:], strict=False) if a.endswith("'") and b.startswith("'"))
-    return _Template(parts, order, said, said_order, words, frozenset(quoted))
+    counted = frozenset(int(number) for number in _COUNTER.findall(target))
+    return _Template(parts, order, said, said_order, words, frozenset(quoted), counted)
 
 
 @cache

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 NAME, ROWS = 31, 1_048_576
 #: Samples of a series, beyond which extremes alone are written: at most, at least where there are many
 LONGEST, SHORTEST = 2000, 400
+_COUNT = re.compile("0|[1-9][0-9]{0,8}")
 #: Numbers of figures, about, beyond which series are shortened: a workbook takes 3 us a number to write
 NUMBERS = 100_000
 #: Words with which the name of a sheet does not end
@@ -130,7 +131,7 @@ class _Book:
                 columns += _parted(column)
                 continue
             unit = column_unit(column)
-            values = [_scaled(value, unit.factor) for value in column.values]
+            values = _counted([_scaled(value, unit.factor) for value in column.values])
             columns.append((axis_label(column.label, unit.name), values))
         self._columns(sheet, columns, marks)
         if table.note:
@@ -146,7 +147,7 @@ class _Book:
     ) -> None:
         """Write headed columns; the heads stay in sight."""
         sheet.freeze_panes(1, 0)
-        # numbers that are texts here are names: of units, of modes
+        # numbers that are texts among other texts are names and versions
         sheet.ignore_errors({"number_stored_as_text": "A1:XFD1048576"})
         for number, (head, values) in enumerate(columns):
             sheet.write_string(0, number, head, self._head)
@@ -264,6 +265,13 @@ def _bounds(language: str) -> tuple[tuple[str, str], ...]:
     with spoken_in(language):
         texts = [said(f"{bound} 7") for bound in ("at least", "at most")]
     return *((before, after) for before, _, after in (text.partition("7") for text in texts)), ("", "")
+
+
+def _counted(values: list[Cell]) -> list[Cell]:
+    """Return a column that numbers its rows (modes, units, cases) as numbers, any other as it is."""
+    if values and all(isinstance(value, str) and _COUNT.fullmatch(value) for value in values):
+        return [float(str(value)) for value in values]
+    return values
 
 
 def _scaled(value: Cell, factor: float) -> Cell:

@@ -68,11 +68,21 @@ def table_of(folder: Path) -> dict[str, Any]:
         }
         for record in records[:_ROWS]
     ]
-    units = {name: item.get("units", "1") for record in records[:1] for name, item in record.values.items()}
-    heads = [{"name": name, "unit": "" if units.get(name, "1") == "1" else units[name]} for name in chosen]
+    known = {name: item for record in records[:1] for name, item in record.values.items()}
+    heads = [_head(name, known.get(name, {})) for name in chosen]
     ended, total = len(records), len(plan["cases"])
     gathered = (folder / "study.nc").is_file()
-    return {"axes": plan["axes"], "columns": heads, "rows": rows, "ended": ended, "total": total, "gathered": gathered}
+    axes = [said(axis.removesuffix("_deg").replace("_", " ")) for axis in plan["axes"]]
+    return {"axes": axes, "columns": heads, "rows": rows, "ended": ended, "total": total, "gathered": gathered}
+
+
+def _head(name: str, item: Mapping[str, Any]) -> dict[str, str]:
+    """Return the name of a response, what it is in words with the group that it is from, and its unit."""
+    group, _, last = name.rpartition("/")
+    words = str(item.get("long_name") or last.replace("_", " "))
+    place = ", ".join(part for part in group.split("/") if part)
+    unit = str(item.get("units", "1"))
+    return {"name": name, "words": said(f"{words} ({place})" if place else words), "unit": "" if unit == "1" else unit}
 
 
 def _plan(folder: Path) -> dict[str, Any]:

@@ -209,7 +209,9 @@ def split_response(text: str) -> tuple[str, str, tuple[tuple[str, str], ...]]:
     if found is None:
         raise InputError(f"'{text}' is no response", path="response", allowed="group/name or group/name[line=seaward]")
     group, _, last = found["name"].rpartition("/")
-    pairs = [part.partition("=") for part in (found["labels"] or "").split(",") if part.strip()]
+    # a label may have a comma in it: wave=H 1.5 m, T 6 s
+    parts = re.split(r",\s*(?=\w+\s*=)", found["labels"] or "")
+    pairs = [part.partition("=") for part in parts if part.strip()]
     return group, last, tuple((dim.strip(), label.strip()) for dim, _, label in pairs)
 
 

@@ -199,7 +199,7 @@ _CASES: tuple[ValidationCase, ...] = (
         newman_modes, 0.0, 0.01, False, "heave, pitch and the opening of the hinge radiate as one body there",
     ),
     ValidationCase(
-        "units: memory of two boxes, error of added mass and damping in the band", "panels",
+        "units: memory of two boxes, error of added mass and damping in the band", "coefficients on the panels",
         lambda: two_boxes_wide()[1].error, 0.0, 0.02, False, "over the largest response of the pair",
     ),
     ValidationCase(

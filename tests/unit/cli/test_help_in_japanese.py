@@ -99,10 +99,10 @@ def test_cases_of_validation_are_said_in_japanese() -> None:
     from moyai.core.validation import ValidationCase
     from moyai.language import spoken_in
 
-    case = ValidationCase("mooring: chain by hand", "MoorPy test case", lambda: 1.0, 2.0, 0.01)
+    name = "mooring: inextensible line on the bed, H [N]"
+    case = ValidationCase(name, "MoorPy test case", lambda: 1.0, 2.0, 0.01)
     with spoken_in("ja"):
         line = outcome_line(Outcome("mooring", case, 2.002))
-    # names of cases and sources are bibliography
     name, kind, source = line.split("  |  ")
-    assert name == "ok      mooring: chain by hand: 2.002（基準 2）、誤差 0.1 %（許容 1 %）"
-    assert (kind, source) == ("他のプログラム", "MoorPy test case")
+    assert name == "ok      係留：着底する伸びない索、H [N]: 2.002（基準 2）、誤差 0.1 %（許容 1 %）"
+    assert (kind, source) == ("他のプログラム", "MoorPy の試験例")

@@ -8,9 +8,12 @@ from typer.testing import CliRunner
 
 from moyai.cli import validation
 from moyai.cli.main import app
+from moyai.cli.tables import outcome_line
 from moyai.cli.validation import choose, compute, topics
 from moyai.core.errors import InputError
 from moyai.core.validation import ValidationCase
+from moyai.language import said, spoken_in
+from moyai.language.words import latin_words, numbers
 
 runner = CliRunner()
 
@@ -135,3 +138,22 @@ def test_an_unknown_topic_is_refused():
     found = runner.invoke(app, ["validate", "--only", "flotaing"])
     assert found.exit_code == 2
     assert "allowed: " in found.stderr
+
+
+def test_claims_and_sources_in_japanese():
+    """Names of programs and of authors stay as they are; every number stands in both languages."""
+    cases = [case for _, case in validation.choose(())]
+    assert len(cases) > 300
+    with spoken_in("ja"):
+        for text in {text for case in cases for text in (case.name, case.source)}:
+            shown = said(text)
+            assert not latin_words(shown), f"{text} -> {shown}"
+            assert numbers(text) == numbers(shown), f"{text} -> {shown}"
+            assert shown != text or not latin_words(text)
+
+
+def test_a_line_in_japanese():
+    case = next(case for _, case in validation.choose(["mooring"]) if "grounded length" in case.name)
+    with spoken_in("ja"):
+        line = outcome_line(validation.Outcome("mooring", case, case.reference))
+    assert "係留：着底する伸びない索、着底長さ [m]" in line and line.endswith("MoorPy の試験例")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import math
 import re
@@ -18,7 +19,9 @@ from moyai.core.validation import ValidationCase
 pytest.importorskip("sphinx")
 DOCS = Path(__file__).resolve().parents[3] / "docs"
 sys.path.insert(0, str(DOCS))
-import validation_curves  # noqa: E402 - stands beside the pages
+import held_by_tests  # noqa: E402 - stands beside the pages
+import measured_speed  # noqa: E402
+import validation_curves  # noqa: E402
 import validation_results  # noqa: E402
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -116,3 +119,82 @@ def test_the_barrier_meets_its_closed_form() -> None:
         own = [one for one in circles if one[1] != 12.0][12 * number : 12 * (number + 1)]
         for x, y in own:
             assert min(math.hypot(x - a, y - b) for a, b in line) < 2.0
+
+
+def held_rows() -> list[tuple[str, held_by_tests.Row]]:
+    """Return the rows of claims that tests hold, with their pages."""
+    found = []
+    for page in sorted((DOCS / "validation").glob("*.md")):
+        for block in re.findall(r"^```\{held-by-tests\}\n(.*?)^```$", page.read_text("utf-8"), re.M | re.S):
+            found += [(page.stem, row) for row in held_by_tests.read_rows(block.splitlines())]
+    return found
+
+
+def test_every_claim_names_tests_that_are_there() -> None:
+    rows = held_rows()
+    assert len(rows) > 800
+    wrong = [f"{page}: {row.claim}: {command}" for page, row in rows for command in row.commands
+             if not held_by_tests.chosen(command)]  # fmt: skip
+    assert not wrong, "\n".join(wrong)
+
+
+def test_every_number_of_a_claim_stands_in_its_tests() -> None:
+    """So that it cannot grow stale."""
+    wrong = [f"{page}: {row.claim}: {missing}" for page, row in held_rows()
+             if (missing := held_by_tests.numbers_that_no_test_has(row))]  # fmt: skip
+    assert not wrong, "\n".join(wrong)
+
+
+def test_no_error_is_typed_by_hand() -> None:
+    for page in sorted((DOCS / "validation").glob("*.md")):
+        lines = itertools.pairwise(page.read_text("utf-8").splitlines())
+        heads = [line for line, rule in lines if re.fullmatch(r"\|[-| :]+\|", rule)]
+        assert not [head for head in heads if re.search(r"\| *(error|command|allowed)\b", head.lower())], page.name
+
+
+SOURCE = """
+import pytest
+LIMIT = 3e-3
+def close(a, b):
+    assert abs(a - b) < 1e-7
+def test_first():
+    close(1, 1)
+    assert 1 == pytest.approx(1, rel=1e-3)
+def test_second():
+    assert 1 == pytest.approx(1, abs=2e-4)
+    assert len([]) < 5
+def test_refused():
+    with pytest.raises(ValueError): raise ValueError
+def test_ordered():
+    assert 1 < LIMIT * 1000
+def test_equal():
+    assert 1 == 1
+"""
+
+
+def test_what_tests_allow_is_read_from_them(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(held_by_tests, "ROOT", tmp_path)
+    (tmp_path / "test_it.py").write_text(SOURCE, encoding="utf-8")
+    assert held_by_tests.allowed(held_by_tests.chosen("test_it.py -k first")) == "1e-7; rel 0.001"
+    assert held_by_tests.allowed(held_by_tests.chosen('test_it.py -k "first or second"')) == (
+        "1e-7; rel 0.001; abs 0.0002"
+    )
+    assert held_by_tests.allowed(held_by_tests.chosen("test_it.py -k refused")) == "refused"
+    assert held_by_tests.allowed(held_by_tests.chosen("test_it.py -k ordered")) == "a bound in the test"
+    assert held_by_tests.allowed(held_by_tests.chosen("test_it.py -k equal")) == "exact"
+    assert len(held_by_tests.chosen('test_it.py -k "not (first or second)"')) == 3
+    assert held_by_tests.chosen("test_it.py -k third") == ()
+    row = held_by_tests.read_rows(["within 77 of 0.003 | none | test_it.py -k first"])[0]
+    assert held_by_tests.numbers_that_no_test_has(row) == ["77"]
+
+
+def test_speed_is_drawn_from_its_records() -> None:
+    rows = measured_speed.records()
+    assert {row["state"] for row in rows} == {"first", "warm"} and len(rows) > 8
+    assert all(row["exit"] == 0 and row["seconds"] > 0.0 for row in rows)
+    drawn = ElementTree.fromstring(measured_speed.bars(rows))
+    widths = [float(one.get("width", "0")) for one in drawn.findall(f"{SVG}rect")[3:]]
+    ratios = [row["ratio"] for row in rows]
+    assert len(widths) == len(rows)
+    assert widths.index(max(widths)) == ratios.index(max(ratios))
+    assert measured_speed.table(rows).count("<tr>") == len(rows) + 1

@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import json
+import math
 from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
 import yaml
 from typer.testing import CliRunner
 
 import moyai
+from moyai.case.templates import template
 from moyai.cli.main import app
+from moyai.core.results import Result
 from moyai.interop.whole_body import coefficients_of_result
 from moyai.interop.write_orcaflex import _without_needless, text_of
 from moyai.tables.lines import line_type
@@ -155,13 +159,81 @@ def test_a_body_of_a_network_holds_its_lines(tmp_path: Path) -> None:
     np.testing.assert_allclose(np.diag(added)[:3], 1.025 * 72.0 * np.array([0.5, 0.3, 1.2]), rtol=1e-9)
 
 
-def test_what_it_cannot_hold_is_said_of_orcaflex() -> None:
-    example = Path(__file__).resolve().parents[3] / "examples" / "network" / "buoy.yaml"
-    ran = CliRunner().invoke(app, ["convert", str(example), "--to", "orcaflex", "--json"])
+def test_what_it_cannot_hold_is_said_of_orcaflex(tmp_path: Path) -> None:
+    case = BUOY.replace("water_depth: 12 m", "water_depth: infinite").replace("[0, 0, bed]", "[0, 0, -12 m]")
+    (tmp_path / "case.yaml").write_text(case, encoding="utf-8")
+    ran = CliRunner().invoke(app, ["convert", str(tmp_path / "case.yaml"), "--to", "orcaflex", "--json"])
     messages = [fault["message"] for fault in json.loads(ran.stdout)["faults"]]
     assert ran.exit_code == 2 and messages
     assert not any("MoorDyn" in message for message in messages)
-    assert any("partial immersion cannot be written into a file of OrcaFlex" in message for message in messages)
+    assert any("infinite depth cannot be written into a file of OrcaFlex" in message for message in messages)
+
+
+@pytest.mark.parametrize("kind", ["curtain", "cage", "rigid_cage", "member"])
+def test_sheets_and_nets_are_refused_in_one_sentence(kind: str, tmp_path: Path) -> None:
+    (tmp_path / "case.yaml").write_text(template(kind), encoding="utf-8")
+    ran = CliRunner().invoke(app, ["convert", str(tmp_path / "case.yaml"), "--to", "orcaflex", "--json"])
+    (fault,) = json.loads(ran.stdout)["faults"]
+    assert ran.exit_code == 2
+    assert "is not written for OrcaFlex: sheets and nets have no place there" in fault["message"]
+    assert "cases of a network" in fault["allowed"]
+
+
+def test_results_of_a_network_point_to_its_case(tmp_path: Path) -> None:
+    Result(xr.DataTree.from_dict({"/": xr.Dataset(attrs={"structure": "network"})})).write(tmp_path / "results.nc")
+    ran = CliRunner().invoke(app, ["convert", str(tmp_path / "results.nc"), "--to", "orcaflex", "--json"])
+    (fault,) = json.loads(ran.stdout)["faults"]
+    assert "is written from the case file of a network" in fault["message"]
+
+
+BUOY = """\
+moyai: 1
+title: Buoy on a light rope
+site: {water_depth: 12 m, density: 1025 kg/m3, gravity: 9.81 m/s2}
+structure:
+  kind: network
+  line_types:
+    rope: {diameter: 1 mm, mass: 0.8 g/m, axial_stiffness: 10 kN, drag_normal: 1.2, drag_tangential: 0.05,
+           added_mass_normal: 1, viscosity: 10 N s}
+  points:
+    anchor: {kind: fixed, position: [0, 0, bed]}
+    buoy: {kind: cylinder, position: [2 m, 0, -0.1 m], diameter: 1.2 m, height: 0.9 m, mass: 400 kg,
+           drag_coefficient: 0.6, added_mass_coefficient: 0.4}
+  lines:
+    rope: {start: anchor, end: buoy, type: rope, length: 14 m, segments: 14}
+analyses: [statics]
+"""
+
+
+def test_a_buoy_that_is_partly_immersed(tmp_path: Path) -> None:
+    """OrcaFlex wets a 3D buoy by 1/2 - z/Height: what is written has to float where the case rests."""
+    (tmp_path / "case.yaml").write_text(BUOY, encoding="utf-8")
+    ran = CliRunner().invoke(app, ["convert", str(tmp_path / "case.yaml"), "--to", "orcaflex"])
+    assert ran.exit_code == 0, ran.output
+    model = yaml.safe_load((tmp_path / "case.yml").read_text(encoding="utf-8"))
+    (buoy,) = model["3DBuoys"]
+    volume = math.pi / 4.0 * 1.2**2 * 0.9
+    assert (buoy["Mass"], buoy["Volume"], buoy["Height"]) == pytest.approx((0.4, volume, 0.9))
+    assert np.multiply(buoy["DragArea"], buoy["Cd"])[0] == pytest.approx(0.6 * 1.2 * 0.9, rel=1e-9)
+    assert buoy["Ca"] == pytest.approx([0.4] * 3)
+    names = list(model)
+    assert names.index("3DBuoys") < names.index("Lines"), "what is connected to stands first"
+    (line,) = model["Lines"]
+    ends = next(value for key, value in line.items() if key.startswith("Connection,"))
+    assert [ends[0][0], ends[1][:4]] == ["Fixed", [buoy["Name"], 0.0, 0.0, 0.0]]
+    share = buoy["Mass"] / (model["Environment"]["Density"] * buoy["Volume"])
+    rest = moyai.run(moyai.load_case(BUOY)).tree["/SWL/statics"]["point_position"]
+    z = float(rest.sel(point="buoy").isel(condition=0)[-1])
+    assert z == pytest.approx(buoy["Height"] * (0.5 - share), abs=2e-4)  # the rope weighs some grams
+
+
+def test_the_template_of_a_network_gives_a_file(tmp_path: Path) -> None:
+    (tmp_path / "case.yaml").write_text(template("network"), encoding="utf-8")
+    ran = CliRunner().invoke(app, ["convert", str(tmp_path / "case.yaml"), "--to", "orcaflex", "--json"])
+    assert ran.exit_code == 0, ran.output
+    assert any("wet share of a buoy" in note for note in json.loads(ran.stdout)["notes"])
+    (buoy,) = yaml.safe_load((tmp_path / "case.yml").read_text(encoding="utf-8"))["3DBuoys"]
+    assert buoy["Height"] == 1.4 and buoy["Volume"] == pytest.approx(math.pi / 6.0 * 1.4**3)
 
 
 def test_numbers_have_no_tail_and_a_current_no_needless_rows() -> None:

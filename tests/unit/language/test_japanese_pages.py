@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import re
+import sys
 from pathlib import Path
 
 import pytest
 
 DOCS = Path(__file__).resolve().parents[3] / "docs"
+sys.path.insert(0, str(DOCS))
+import japanese_lines  # noqa: E402 - stands beside the pages
+
 JAPANESE = re.compile("[\u3040-\u30ff\u4e00-\u9fff]")
 TUTORIALS = (
     "first_breakwater.md", "first_curtain.md", "flexible_cage.md", "rigid_cage.md", "submerged_member.md", "network.md",
@@ -38,14 +42,16 @@ def test_programs_and_commands_are_those_of_the_english_page(name: str) -> None:
     "name", [path.name for path in sorted((DOCS / "tutorial").glob("*.md")) if path.stem != "index"]
 )
 def test_every_tutorial_stands_in_japanese_with_its_pictures(name: str) -> None:
-    """Pictures of reports are drawn in the language of the page; photographs are those of the English page."""
+    """Pictures of reports and photographs are in the language of the page."""
     english, japanese = ((DOCS / folder / name).read_text(encoding="utf-8") for folder in ("tutorial", "ja"))
     assert name in TUTORIALS
     asked = re.findall(r"^:(?:of|show): (\S+)$", english, re.MULTILINE)
     assert asked == re.findall(r"^:(?:of|show): (\S+)$", japanese, re.MULTILINE)
-    photographs = [f"../tutorial/{file}" for file in re.findall(r"^!\[[^]]*\]\((\S+)\)$", english, re.MULTILINE)]
+    photographs = re.findall(r"^!\[[^]]*\]\((\S+)\)$", english, re.MULTILINE)
     assert photographs == re.findall(r"^!\[[^]]*\]\((\S+)\)$", japanese, re.MULTILINE)
     assert asked or photographs
+    for file in photographs:
+        assert (DOCS / "tutorial" / file).is_file() and (DOCS / "ja" / file).is_file()
 
 
 def test_the_page_of_the_papers_tells_the_same_numbers() -> None:
@@ -66,3 +72,26 @@ def test_every_page_is_japanese_and_in_the_contents() -> None:
     for path in pages:
         assert f"\n{path.stem}\n" in contents
         assert len(JAPANESE.findall(path.read_text(encoding="utf-8"))) > 200
+
+
+@pytest.mark.parametrize("name", [path.name for path in sorted((DOCS / "ja").glob("*.md"))])
+def test_no_blank_stands_where_lines_of_japanese_break(name: str) -> None:
+    """A browser shows the end of a line of the source as a blank."""
+    text = (DOCS / "ja" / name).read_text(encoding="utf-8")
+    wide = "[\u3040-\u30ff\u4e00-\u9fff、。]"
+    broken = re.compile(rf"^(?![ ]*(?:[-*#|>`!(:]|\\d+\\.)).*{wide}\n[ ]*{wide}", re.MULTILINE)
+    outside = re.sub(r"^```.*?^```$", "```", japanese_lines.joined(text), flags=re.DOTALL | re.MULTILINE)
+    assert broken.findall(outside) == []
+    assert blocks_of(japanese_lines.joined(text)) == blocks_of(text), "code stays"
+
+
+def blocks_of(text: str) -> list[str]:
+    """Return the blocks of code of a text."""
+    return re.findall(r"^```[^\n]*\n.*?^```$", text, re.DOTALL | re.MULTILINE)
+
+
+def test_lines_of_japanese_are_joined() -> None:
+    text = "質量を与えない\nので、\n- 一つ\n  二つ\n- 三\n\n|表|\n|の|\n\n```\n行\n行\n```\nThe end\nof it\n`a`\nは b\n"
+    assert japanese_lines.joined(text) == (
+        "質量を与えないので、\n- 一つ二つ\n- 三\n\n|表|\n|の|\n\n```\n行\n行\n```\nThe end\nof it\n`a`\nは b\n"
+    )

@@ -77,3 +77,25 @@ def test_the_language_in_force_ends_with_its_block() -> None:
         with spoken_in("ja"):
             assert said("warning") == "警告"
     assert said("warning") == "warning"
+
+
+def test_a_word_of_counting_stands_behind_numbers_alone() -> None:
+    """A sea of the name 'components' behind a body is no number of components."""
+    found = Translator({"{0} components": "成分 {0} 個", "{0}, {1}": "{0}、{1}", "components": "成分波"})
+    assert found.text("3 components") == "成分 3 個"
+    assert found.text("two components") == "成分 two 個"
+    assert found.text("column, components") == "column、成分波"
+
+
+def test_a_name_known_as_a_whole_stands_in_any_place() -> None:
+    """With the place and the unit behind it, or with its value; a word of a comparison is no name."""
+    found = Translator({
+        "share above: by the fit; all": "割合", "{0}, worst of all other axes": "{0}、最も厳しい値", "LWL": "LWL",
+        "water depth": "水深", "at least": "以上", "at least {0}": "{0} 以上", "{0}, {1}": "{0}、{1}",
+    })  # fmt: skip
+    assert (
+        found.text("share above: by the fit; all (LWL) [kN], worst of all other axes")
+        == "割合（LWL）[kN]、最も厳しい値"
+    )
+    assert found.text("water depth 15 m") == "水深 15 m"
+    assert found.text("at least 15 m") == "15 m 以上"

@@ -8,6 +8,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
+import pytest
 
 from moyai.report.document import Document, Section
 from moyai.report.scene_3d import Body3D, Faces, Scene3D, animation_3d
@@ -69,6 +70,23 @@ def test_the_collection_names_every_moment(tmp_path: Path) -> None:
     assert len(list(ElementTree.fromstring(files["rest.pvd"]).iter("DataSet"))) == 1
     parts = list(csv.reader(io.StringIO(files["a-run/parts.csv"].decode())))
     assert parts == [["part", "name"], ["0", "rope"], ["1", "chain <a>"], ["2", "sheet"], ["3", "box"]]
+
+
+def test_the_library_of_vtk_reads_a_moment(tmp_path: Path) -> None:
+    """The reader that ParaView uses, where it is installed."""
+    reading = pytest.importorskip("vtkmodules.vtkIOXML")
+    numpy_support = pytest.importorskip("vtkmodules.util.numpy_support")
+    given = scene()
+    (tmp_path / "0001.vtp").write_bytes(frame_vtp(given, 1))
+    reader = reading.vtkXMLPolyDataReader()
+    reader.SetFileName(str(tmp_path / "0001.vtp"))
+    reader.Update()
+    found = reader.GetOutput()
+    assert (found.GetNumberOfPoints(), found.GetNumberOfLines(), found.GetNumberOfPolys()) == (5 + 8, 3, 1 + 6)
+    points = numpy_support.vtk_to_numpy(found.GetPoints().GetData())
+    np.testing.assert_allclose(points[:5], given.position[1], rtol=1e-8)
+    tension = numpy_support.vtk_to_numpy(found.GetCellData().GetArray("tension"))
+    np.testing.assert_allclose(tension[:3], [11.0, 21.0, 31.0])
 
 
 def test_a_report_without_structures_in_space_is_written_all_the_same(tmp_path: Path) -> None:

@@ -349,3 +349,14 @@ def test_the_report_is_written_again_from_the_results(tmp_path):
     tables = list((tmp_path / "again" / "report_tables").glob("*.csv"))
     assert len(book.sheetnames) > len(tables) and (tmp_path / "again" / "report.docx").exists()
     assert runner.invoke(app, ["report", str(tmp_path / "none.nc")]).exit_code == 2
+
+
+def test_numbers_of_rows_are_numbers_and_names_are_not() -> None:
+    """Of modes, units and cases; a column with one word in it, or with zeros in front, holds names."""
+    table = Table("modes", "Modes", (Column("Mode", ["1", "2", "10"]), Column("Unit", ["1", "2", "all"]),
+                                     Column("Deck", ["01", "02", "03"])))  # fmt: skip
+    sheet = _read(Document("t", "", "converged", "", (Section("one", "One", (table,)),)))["Modes"]
+    rows = [[cell.value for cell in row] for row in sheet.iter_rows(min_row=2, max_row=4)]
+    assert [row[0] for row in rows] == [1, 2, 10]
+    assert [row[1] for row in rows] == ["1", "2", "all"]
+    assert [row[2] for row in rows] == ["01", "02", "03"]

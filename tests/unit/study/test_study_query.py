@@ -274,3 +274,15 @@ def test_one_case_is_one_case(tmp_path):
     assert result.message.startswith("1 of 1 case run")
     result.write(tmp_path / "out" / "study.nc")
     assert ": 1 case (1 converged)" in CliRunner().invoke(app, ["query", str(tmp_path / "out")]).output
+
+
+def test_a_label_may_have_a_comma_in_it():
+    from moyai.study.responses import split_response
+
+    assert split_response("SWL/waves/force[wave=H 1.5 m, T 6 s]") == (
+        "SWL/waves",
+        "force",
+        (("wave", "H 1.5 m, T 6 s"),),
+    )
+    assert split_response("a/b[wave=H 1 m, T 6 s, dof=roll]")[2] == (("wave", "H 1 m, T 6 s"), ("dof", "roll"))
+    assert split_response("a/b[line=seaward,dof=roll]")[2] == (("line", "seaward"), ("dof", "roll"))

@@ -11,7 +11,7 @@ from scipy.integrate import solve_ivp
 from moyai.sea.environment import Environment
 from moyai.structures.units.assembly import RowAtLevel, assemble, steady_position
 from moyai.structures.units.connectors import stretch
-from moyai.structures.units.links import PULLS, PUSHES, displacement, part_of
+from moyai.structures.units.links import PULLS, PUSHES, Work, displacement, part_of
 from moyai.structures.units.model import Connector, Curve, Placement, UnitLine
 from moyai.structures.units.time.memory import RowMemory
 from moyai.structures.units.time.model import RowInTime
@@ -110,7 +110,7 @@ def test_its_stiffness_is_the_derivative_of_its_force() -> None:
     at = at_rest(CHAIN)
     position = np.zeros(12)
     position[[6, 7, 8, 10]] = 0.8, 0.2, 0.3, 0.05
-    step, width = 1e-6, 1e-4
+    step, width = 1e-6, Work(1e-4)
     found = at.links[0].stiffness(position, width)
     for n in range(12):
         moved = step * np.eye(12)[n]
@@ -233,4 +233,40 @@ def test_rubber_is_drawn_in_space_and_pressed_along_the_row() -> None:
     closed = np.zeros(12)
     closed[[6, 7]] = 0.1, -0.1
     assert float(drawn.curve.at(drawn.elongation(closed))) == 0.0
-    assert np.allclose(at.curve_force(closed, 1e-9)[[0, 1]], [0.0, -1.5e5], atol=1.0)
+    assert np.allclose(at.curve_force(closed, Work(1e-9))[[0, 1]], [0.0, -1.5e5], atol=1.0)
+
+
+@pytest.mark.parametrize("regular", [True, False])
+def test_the_mean_force_of_a_worked_curve_is_that_of_its_law(regular: bool) -> None:
+    """By quadrature over a period, or over the Gaussian law; a chain at its corner pulls sigma K over root 2 pi."""
+    curve = Curve((-0.4, -0.1, 0.05, 0.3), (-2e5, -1e4, 0.0, 5e5))
+    angle = (np.arange(20000) + 0.5) * np.pi / 20000
+    z = np.linspace(-8.0, 8.0, 40001)
+    weight = np.exp(-0.5 * z**2)
+    for mean, size in ((0.0, 0.11), (0.21, 0.3), (-0.5, 0.02), (0.04, 1.0)):
+        moved = mean + size * (np.cos(angle) if regular else z)
+        law = np.full(angle.size, 1.0 / angle.size) if regular else weight / weight.sum()
+        force, slope = curve.worked(mean, size, regular)
+        assert force == pytest.approx(float(law @ curve.at(moved)), rel=1e-5, abs=1.0)
+        step = 1e-5
+        above, below = (curve.worked(mean + change, size, regular)[0] for change in (step, -step))
+        assert slope == pytest.approx((above - below) / (2.0 * step), rel=1e-5)
+    chain = Curve((SLACK - 1.0, SLACK, SLACK + 1.0), (0.0, 0.0, STIFFNESS))
+    assert chain.worked(SLACK, 0.01, False)[0] == pytest.approx(0.01 * STIFFNESS / np.sqrt(2.0 * np.pi), rel=1e-12)
+
+
+def test_a_chain_that_is_worked_rests_in_its_slack() -> None:
+    """The mean force of the worked chain is the load, so that its mean elongation falls as the motion grows."""
+    at = at_rest(CHAIN, springs=2e5)
+    load = np.zeros(12)
+    load[7], load[1] = 2e5, -2e5
+    found = []
+    for size in (0.0, 0.05, 0.2):
+        work = Work(at.rounding, np.array([size]))
+        rest = steady_position(at, load, work)
+        (link,) = at.links
+        found.append(float(link.elongation(rest.position)))
+        pull = link.bears(rest.position, work)[0] * link.along(rest.position)
+        lines = at.line_force(rest.position) - at.line_force(np.zeros(12))
+        assert np.abs((load - pull + lines - at.hydrostatic @ rest.position)[[1, 7]]).max() < 200.0
+    assert found[0] > found[1] > found[2] and found[0] > SLACK

@@ -103,7 +103,7 @@ export function showJob(content, key) {
 // The cases of a study that have ended: labels, status, what differs most; a click opens the case.
 function showStudy(place, key, found) {
   const open = async (index) => { const opened = await post(`/api/jobs/${key}/cases`, { case: index }); location.hash = `#/case/${opened.id}`; };
-  const head = [say("Case"), ...found.axes, say("Status"), ...found.columns.map((one) => `${one.name.split("/").slice(-2).join(" ").replaceAll("_", " ")}${one.unit ? ` [${one.unit}]` : ""}`)];
+  const head = [say("Case"), ...found.axes, say("Status"), ...found.columns.map((one) => `${one.words}${one.unit ? ` [${one.unit}]` : ""}`)];
   const rows = found.rows.map((row) => element("tr", {},
     element("td", {}, element("button", { type: "button", title: say("Open this case"), onclick: () => open(row.case) }, `${row.case}`)),
     ...found.axes.map((_, at) => element("td", {}, row.labels[at] ?? "")), element("td", { title: row.message }, row.status),

@@ -28,9 +28,13 @@ from moyai.records.forces.notices import (
     periodicity_notices,
     unknown_notices,
 )
-from moyai.records.forces.record import ForceRecord, acceleration_of, period_of
+from moyai.records.forces.record import ForceRecord, acceleration_of, noise_cut, period_of, without_noise
 
 _SPEED_FACTOR = 8.0 / (3.0 * math.pi)
+
+
+#: Share of noise in the variance of a derivative from which it is cut off, and that may be left
+NOISE_TOLD, NOISE_LEFT = 0.005, 0.02
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,7 +121,11 @@ def identify(record: ForceRecord, setup: Setup) -> Identification:
     orders = int(min(6, max(1, (per_period - 1) // 2)))
     notices: list[Notice] = periodicity_notices(used, period, orders) if setup.regular else []
     if rate is None:
-        rate = acceleration_of(used.velocity, used.step, omega if setup.regular else None, orders)
+        velocity = used.velocity
+        if not setup.regular:
+            velocity, told = _clean(used, period)
+            notices += told
+        rate = acceleration_of(velocity, used.step, omega if setup.regular else None, orders)
     blocks = _blocks(used, period, setup.regular)
     rng = np.random.default_rng(setup.seed)
     fits: list[Fit] = []
@@ -147,6 +155,28 @@ def identify(record: ForceRecord, setup: Setup) -> Identification:
         )
     unique = {notice.message: notice for notice in notices}
     return Identification(used, setup, period, rate, speeds, numbers, tuple(fits), len(blocks), tuple(unique.values()))
+
+
+def _clean(record: ForceRecord, period: float) -> tuple[Array, list[Notice]]:
+    """Return the velocity of irregular waves to be differentiated, its noise cut off, and what there is to say."""
+    velocity, notices = record.velocity.copy(), []
+    for component in range(record.components):
+        cut = noise_cut(velocity[:, component], record.step, period)
+        if cut is None or cut.share < NOISE_TOLD:
+            continue
+        velocity[:, component] = without_noise(velocity[:, component], record.step, cut.frequency)
+        grave = cut.share_left > NOISE_LEFT
+        notices.append(
+            Notice(
+                "velocity-noise",
+                f"velocity {component + 1}: above {cut.frequency:.3g} Hz there is noise alone, "
+                f"{100.0 * cut.share:.2g} % of the variance of its derivative; it is cut off there, "
+                f"{100.0 * cut.share_left:.2g} % are left",
+                value=cut.share_left, limit=NOISE_LEFT, severity="warning" if grave else "information",
+                remedy="C_M comes out lower by that share; give a measured 'acceleration', or a quieter gauge",
+            )
+        )  # fmt: skip
+    return velocity, notices
 
 
 def velocity_amplitudes(record: ForceRecord, period: float, orders: int | None) -> Array:

@@ -187,6 +187,55 @@ def acceleration_of(velocity: Array, step: float, omega: float | None, harmonics
     return np.asarray(make_interp_spline(time, velocity, k=5).derivative()(time))
 
 
+@dataclass(frozen=True)
+class NoiseCut:
+    """Where white noise of a gauge takes over in the spectrum of a velocity."""
+
+    #: Frequency above which there is noise alone [Hz].
+    frequency: float
+    #: Share of the variance of the derivative that noise makes: as recorded, and below the cut.
+    share: float
+    #: Share of the variance of the derivative that noise makes: as recorded, and below the cut.
+    share_left: float
+
+
+def noise_cut(velocity: Array, step: float, period: float) -> NoiseCut | None:
+    """Return where noise takes over in the spectrum of a velocity (samples,) [eq:identification-noise].
+
+    Noise is taken to be white, at the level of the upper half of the spectrum; waves end where the spectrum first falls
+    to four times that beyond its peak. ``None`` where the record is too short or too coarse to tell.
+    """
+    count = 2 ** int(math.log2(max(8.0 * period / step, 2.0)))
+    if len(velocity) < 4 * count or period / step < 4.0 * _LEAST_SAMPLES:
+        return None
+    from scipy.signal import welch
+
+    frequency, density = welch(velocity, 1.0 / step, nperseg=count, detrend="constant")
+    upper = frequency >= 0.5 * frequency[-1]
+    floor = float(np.median(density[upper]))
+    peak = int(np.argmax(density[1:])) + 1
+    below = np.flatnonzero(density[peak:] <= 4.0 * floor)
+    if not below.size or floor <= 0.0:
+        return None
+    end = float(frequency[peak + below[0]])
+    whole = float(np.trapezoid((2.0 * math.pi * frequency) ** 2 * density, frequency))
+
+    def noise(upto: float) -> float:
+        return floor * (2.0 * math.pi) ** 2 * upto**3 / 3.0
+
+    clean = max(whole - noise(float(frequency[-1])), 1e-300)
+    return NoiseCut(end, noise(float(frequency[-1])) / whole, noise(end) / (clean + noise(end)))
+
+
+def without_noise(velocity: Array, step: float, frequency: float) -> Array:
+    """Return a velocity without what lies above a frequency [Hz], without shifting what lies below."""
+    from scipy.signal import butter, sosfiltfilt
+
+    # twice through, so that what ends at the cut keeps its size
+    cut = min(1.5 * frequency, 0.49 / step)
+    return np.asarray(sosfiltfilt(butter(6, cut, fs=1.0 / step, output="sos"), velocity))
+
+
 def period_of(time: Array, records: Array) -> float:
     """Return the period of regular records [s]: the one that mean and first harmonic fit best.
 

@@ -385,7 +385,7 @@ LABELS: dict[str, str] = {
     "assumption": "what the model assumes",
     "dynamic_model": "model of the impact",
     "event": "sea, period of regular waves, or snap",
-    "span_component": "component of the whole span; the skirt in N/m",
+    "span_component": "component of the whole span (the skirt in N/m)",
     "sample_event": "event of the run",
     "sample_cells": "cells along the span by cells over the skirt",
     "impact_model": "model of the impact",

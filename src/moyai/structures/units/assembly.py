@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -20,7 +20,7 @@ from moyai.potential.sections import Section
 from moyai.sea.environment import Environment
 from moyai.sea.water import Water
 from moyai.structures.units.connectors import Joint, constraints, joints_of, null_space, spring_matrices
-from moyai.structures.units.links import Link, links_of
+from moyai.structures.units.links import Link, Work, links_of
 from moyai.structures.units.model import FloatingRow, Placement, UnitLine
 
 IMBALANCE_LIMIT = 1.0  # per cent of the displacement of a unit
@@ -160,11 +160,11 @@ class RowAtLevel:
                 out[part] = system.forces(position[part])
         return out
 
-    def curve_force(self, position: Array, width: float) -> Array:
-        """Return the force (m,) of connectors with a curve, its corners rounded over ``width`` [m]."""
+    def curve_force(self, position: Array, work: Work) -> Array:
+        """Return the mean force (m,) of connectors with a curve about a position (m,)."""
         out = np.zeros(self.size)
         for link in self.links:
-            out -= link.curve.rounded(float(link.elongation(position)), width)[0] * link.along(position)
+            out -= link.bears(position, work)[0] * link.along(position)
         return out
 
     @property
@@ -355,8 +355,15 @@ class RowPosition:
     held_load: Array
 
 
-def steady_position(at: RowAtLevel, load: Array) -> RowPosition:
+def steady_position(at: RowAtLevel, load: Array, work: Work | None = None) -> RowPosition:
     """Find where lines, buoyancy, connectors and a steady load balance [eq:units-steady].
+
+    Parameters
+    ----------
+    at : RowAtLevel
+    load : ndarray (m,)
+    work : Work or None
+        How waves work the curves of connectors about that position; a slack chain pulls in the mean.
 
     Raises
     ------
@@ -368,12 +375,15 @@ def steady_position(at: RowAtLevel, load: Array) -> RowPosition:
     balanced[2::6] = rest[2::6]
     linear = at.hydrostatic + at.springs[0]
 
+    def worked(width: float) -> Work:
+        return Work(width) if work is None else replace(work, width=width)
+
     def imbalance(position: Array, width: float, share: float = 1.0) -> Array:
-        curves = at.curve_force(position, width)
+        curves = at.curve_force(position, worked(width))
         return at.line_force(position) - balanced + curves + share * load - linear @ position
 
     def tangent(position: Array, width: float) -> Array:
-        curves = sum((link.stiffness(position, width) for link in at.links), np.zeros((at.size, at.size)))
+        curves = sum((link.stiffness(position, worked(width)) for link in at.links), np.zeros((at.size, at.size)))
         return -(at.line_stiffness(position) + linear + curves)
 
     free = at.free

@@ -145,7 +145,7 @@ def _mean_loads(at: RowAtLevel, answer: SeaAnswer) -> Array:
         if connector.stiffness is not None:
             out[number] += connector.stiffness @ (joint.relative @ position)
     for link in at.links:
-        force = link.curve.rounded(float(link.elongation(position)), at.rounding)[0]
+        force = link.bears(position, answer.work)[0]
         out[link.joint, :3] += force * link.direction(position)
     return out
 

@@ -7,7 +7,7 @@ is that of a guide, which chain and rubber then follow. Turns of the units draw 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -39,6 +39,28 @@ def hold_together(joints: tuple[Joint, ...], pair: tuple[int, int]) -> bool:
 
 
 @dataclass(frozen=True, eq=False)
+class Work:
+    """How curves are worked about the mean position.
+
+    Parameters
+    ----------
+    width : float
+        Half width [m] that their corners are rounded over at least.
+    sizes : ndarray (links,)
+        Amplitude in regular waves, standard deviation in a sea [m]; empty at rest.
+    regular : bool
+    """
+
+    width: float
+    sizes: Array = field(default_factory=lambda: np.zeros(0))
+    regular: bool = False
+
+    def size_of(self, number: int) -> float:
+        """Return how far a link is worked; zero at rest."""
+        return float(self.sizes[number]) if self.sizes.size else 0.0
+
+
+@dataclass(frozen=True, eq=False)
 class Link:
     """One curve between two ends, in row axes.
 
@@ -46,6 +68,8 @@ class Link:
     ----------
     joint : int
         Number of its connector.
+    number : int
+        Its own.
     curve : Curve
     side : float
         ``PULLS``, ``PUSHES`` or ``BOTH``.
@@ -66,6 +90,7 @@ class Link:
     """
 
     joint: int
+    number: int
     curve: Curve
     side: float
     damping: float
@@ -124,9 +149,16 @@ class Link:
             out[:, 6 * unit + 3 : 6 * unit + 6] = sign * (self.bend * second - cross_matrix(arm))
         return out
 
-    def stiffness(self, position: Array, width: float) -> Array:
-        """Return the tangent stiffness (m, m) at a position (m,), corners rounded over ``width`` [m]."""
-        force, slope = self.curve.rounded(float(self.elongation(position)), width)
+    def bears(self, position: Array, work: Work) -> tuple[float, float]:
+        """Return mean force [N] and slope [N/m] at a mean position (m,)."""
+        elongation, size = float(self.elongation(position)), work.size_of(self.number)
+        if size > work.width:
+            return self.curve.worked(elongation, size, work.regular)
+        return self.curve.rounded(elongation, work.width)
+
+    def stiffness(self, position: Array, work: Work) -> Array:
+        """Return the tangent stiffness (m, m) at a mean position (m,)."""
+        force, slope = self.bears(position, work)
         direction, rows = self._direction(position), self.rows(position)
         inner = slope * np.outer(direction, direction)
         if self.span > 0.0:
@@ -157,8 +189,8 @@ def links_of(joints: tuple[Joint, ...], centres: Array) -> tuple[Link, ...]:
         side = {"chain": PULLS, "fender": PUSHES}.get(connector.kind, BOTH)
         middle = joint.place - centres[list(joint.pair)]
         fixed = Link(
-            number, connector.curve, side, connector.linear_damping, joint.pair, middle, joint.frame.T @ joint.axis,
-            0.0, joint.frame, 0.0 if hold_together(joints, joint.pair) else 1.0,
+            number, len(out), connector.curve, side, connector.linear_damping, joint.pair, middle,
+            joint.frame.T @ joint.axis, 0.0, joint.frame, 0.0 if hold_together(joints, joint.pair) else 1.0,
         )  # fmt: skip
         if not joint.in_space:
             out.append(fixed)
@@ -170,7 +202,9 @@ def links_of(joints: tuple[Joint, ...], centres: Array) -> tuple[Link, ...]:
         else:
             parts = (replace(drawn, side=PULLS), replace(fixed, side=PUSHES))
             halves = (replace(part, curve=part_of(part.curve, part.side)) for part in parts)
-            out.extend(half for half in halves if any(half.curve.force))
+            for one in halves:
+                if any(one.curve.force):
+                    out.append(replace(one, number=len(out)))
     return tuple(out)
 
 
@@ -196,4 +230,4 @@ def _beyond(inner: tuple[float, float], end: tuple[float, float]) -> list[tuple[
     return [(zero, 0.0), (2.0 * zero - end[0], -end[1])]
 
 
-__all__ = ["BOTH", "PULLS", "PUSHES", "Link", "displacement", "hold_together", "links_of", "part_of"]
+__all__ = ["BOTH", "PULLS", "PUSHES", "Link", "Work", "displacement", "hold_together", "links_of", "part_of"]

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
+from scipy.special import ndtr
 
 from moyai.core.arrays import Array
 from moyai.core.headline import Criterion
@@ -80,6 +81,25 @@ class Curve:
         e = np.concatenate([[low], nodes[(nodes > low) & (nodes < high)], [high]])
         force = self.at(e)
         return float(np.trapezoid(force, e)) / (2.0 * width), float(force[-1] - force[0]) / (2.0 * width)
+
+    def worked(self, elongation: float, size: float, regular: bool) -> tuple[float, float]:
+        """Return mean force [N] and its slope [N/m] where the elongation moves about its mean [eq:units-mean-force].
+
+        ``size`` [m] is the amplitude of a harmonic, or the standard deviation of a Gaussian motion; above zero.
+        """
+        x, f = np.array(self.elongation), np.array(self.force)
+        slopes = np.diff(f) / np.diff(x)
+        u = (elongation - x[1:-1]) / size
+        if regular:
+            angle = np.arccos(np.clip(-u, -1.0, 1.0))
+            share = angle / math.pi
+            ramp = size * (u * share + np.sin(angle) / math.pi)
+        else:
+            share = ndtr(u)
+            ramp = size * (u * share + np.exp(-0.5 * u**2) / math.sqrt(2.0 * math.pi))
+        bends = np.diff(slopes)
+        force = f[0] + slopes[0] * (elongation - x[0]) + float(bends @ ramp)
+        return float(force), float(slopes[0] + bends @ share)
 
 
 @checks_words

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from moyai.core.arrays import Array
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
 from moyai.floating.irregular import response_statistics
 from moyai.sea.environment import Environment
@@ -15,6 +15,7 @@ from moyai.sea.states import IrregularSea, RegularSea, SeaState
 from moyai.structures.units.assembly import RowAtLevel, RowPosition, steady_position
 from moyai.structures.units.drift import near_drift, reconciled
 from moyai.structures.units.hydrodynamics import RowHydrodynamics
+from moyai.structures.units.links import Work
 from moyai.structures.units.model import Settings
 from moyai.structures.units.response import (
     FarWaves,
@@ -128,6 +129,8 @@ class SeaAnswer:
         Of the sea [rad].
     curve_stiffness : ndarray (joints,)
         That stands for the curves of connectors [N/m].
+    work : Work
+        How curves are worked about ``rest``.
     converged : bool
     """
 
@@ -141,6 +144,7 @@ class SeaAnswer:
     density: Array
     headings: Array
     curve_stiffness: Array
+    work: Work
     converged: bool
 
 
@@ -155,8 +159,8 @@ def regular_answer(
         omega = np.array([2.0 * math.pi / period])
         row = int(np.argmin(np.abs(hydro.omega - omega[0])))
         drift, pushed = np.zeros(3), np.zeros(at.size)
-        rest = steady_position(at, steady)
-        curves, converged, mixed = np.zeros(len(at.joints)), False, _Mixed()
+        rest, work = steady_position(at, steady), Work(at.rounding, np.zeros(len(at.links)), True)
+        converged, mixed = False, _Mixed()
         amplitude = 0.5 * sea.height
         linear = None if eddies is None else LinearEddies(eddies, np.zeros(len(eddies.points)), True)
         if linear is not None:
@@ -166,21 +170,13 @@ def regular_answer(
             )
             linear = replace(linear, size=amplitude * np.abs(still[0, 0]))
         for _ in range(_TURNS):
-            model = RowModel(at, hydro, rest.position)
+            model, curves = RowModel(at, hydro, rest.position), _curve_stiffness(at, rest, work)
             found = respond(model, hydro.omega[[row]], curves, linear)
+            drawn = amplitude * np.abs(_drawn(at, rest, found.motion[0, column])[0])
             speeds = np.zeros(0)
             if linear is not None:
                 measured = linear.measured(at, hydro.omega[[row]], hydro.headings[column], found.motion[:, column])
                 speeds = amplitude * np.abs(measured[0, 0])
-            new = np.array(
-                [
-                    0.0 if joint.connector.curve is None else harmonic_stiffness(
-                        joint.connector.curve, joint.elongation(rest.position),
-                        amplitude * float(np.abs(found.motion[0, column[0]] @ joint.along)),
-                    )
-                    for joint in at.joints
-                ]
-            )  # fmt: skip
             moved = pushed
             if settings.drift:
                 coarse = respond(model, hydro.omega, curves, linear)
@@ -189,19 +185,19 @@ def regular_answer(
                 near = near_drift(model, coarse, np.array([row]), column)
                 moved = amplitude**2 * reconciled(at, near, whole[[row]][:, column])[0, 0]
             last = _sizes(linear)
-            if _near(new, curves) and _near(speeds, last) and _near(moved, pushed):
-                curves, pushed, converged = new, moved, True
+            if _near(drawn, work.sizes) and _near(speeds, last) and _near(moved, pushed):
+                pushed, converged = moved, True
                 break
-            curves, last, pushed = mixed.towards((curves, last, pushed), (new, speeds, moved))
-            linear = linear and replace(linear, size=last)
-            rest = steady_position(at, steady + pushed)
-        model = RowModel(at, hydro, rest.position)
+            worked, last, pushed = mixed.towards((work.sizes, last, pushed), (drawn, speeds, moved))
+            linear, work = linear and replace(linear, size=last), replace(work, sizes=worked)
+            rest = steady_position(at, steady + pushed, work)
+        model, curves = RowModel(at, hydro, rest.position), _curve_stiffness(at, rest, work)
         coarse = respond(model, hydro.omega, curves, linear)
         far = far_waves(model, coarse)
         answers.append(
             SeaAnswer(
                 rest, drift, pushed, np.zeros((0, 0, at.size)), coarse, far, _picked(coarse, row, column),
-                np.zeros((0, 0)), hydro.headings[column], curves, converged,
+                np.zeros((0, 0)), hydro.headings[column], curves, work, converged,
             )
         )  # fmt: skip
     return answers
@@ -216,9 +212,9 @@ def _picked(response: RowResponse, row: int, columns: Array) -> RowResponse:
 
 
 class _Mixed:
-    """Fixed-point iteration of stiffnesses, speeds at edges and drift together, mixed after Anderson.
+    """Fixed-point iteration of elongations, speeds at edges and drift together, mixed after Anderson.
 
-    Each is measured by its largest; stiffnesses and speeds never fall below zero.
+    Each is measured by its largest; elongations and speeds never fall below zero.
     """
 
     def __init__(self, depth: int = 5) -> None:
@@ -231,22 +227,42 @@ class _Mixed:
         self._steps: list[Array] = []
 
     def towards(self, old: tuple[Array, Array, Array], new: tuple[Array, Array, Array]) -> tuple[Array, Array, Array]:
-        """Return the next stiffnesses, speeds and drift from the last and what they lead to."""
+        """Return the next elongations, speeds and drift from the last and what they lead to."""
         parts = [np.full(len(part), max(float(np.max(np.abs(part), initial=0.0)), 1e-12)) for part in new]
         scale, point = np.concatenate(parts), np.concatenate(old)
         step = np.concatenate(new) - point
         self._points = [*self._points, point][-self._depth :]
         self._steps = [*self._steps, step][-self._depth :]
         first, second = len(old[0]), len(old[0]) + len(old[1])
-        # half a step alone, where there is nothing to mix: a curve that comes tight turns back
-        found = point + np.where(np.arange(len(step)) < first, 0.5, 1.0) * step
-        if len(self._steps) > 1:
-            changes = np.diff(self._steps, axis=0).T / scale[:, None]
-            moves = np.diff(self._points, axis=0).T
-            share = np.linalg.lstsq(changes, step / scale, rcond=1e-6)[0]
-            found = point + step - (moves + changes * scale[:, None]) @ share
-        found[:second] = np.maximum(found[:second], 0.0)
+        # half a step of elongations alone, where there is nothing to mix: a curve that comes tight turns back
+        plain = point + np.where(np.arange(len(step)) < first, 0.5, 1.0) * step
+        if len(self._steps) < 2:
+            return plain[:first], plain[first:second], plain[second:]
+        changes = np.diff(self._steps, axis=0).T / scale[:, None]
+        moves = np.diff(self._points, axis=0).T
+        share = np.linalg.lstsq(changes, step / scale, rcond=1e-6)[0]
+        found = point + step - (moves + changes * scale[:, None]) @ share
+        # a mixture that leaves what it is mixed from far behind is none: nothing may halve or double beyond both ends
+        low, high = 0.5 * np.minimum(point, point + step)[:second], 2.0 * np.maximum(point, point + step)[:second]
+        if np.any(found[:second] < low) or np.any(found[:second] > high):
+            self.forget()
+            found = plain
         return found[:first], found[first:second], found[second:]
+
+
+def _drawn(at: RowAtLevel, rest: RowPosition, motion: ComplexArray) -> ComplexArray:
+    """Return the elongation (..., links) of every curve by small motions (..., m) about rest."""
+    along = np.array([link.along(rest.position) for link in at.links]).reshape(len(at.links), at.size)
+    return np.asarray(motion @ along.T)
+
+
+def _curve_stiffness(at: RowAtLevel, rest: RowPosition, work: Work) -> Array:
+    """Return the linear stiffness (joints,) that stands for the curves of every connector."""
+    out = np.zeros(len(at.joints))
+    law = harmonic_stiffness if work.regular else gaussian_stiffness
+    for link in at.links:
+        out[link.joint] += law(link.curve, float(link.elongation(rest.position)), work.size_of(link.number))
+    return out
 
 
 def _sizes(linear: LinearEddies | None) -> Array:
@@ -280,9 +296,8 @@ def irregular_answer(
     one = _of_headings(hydro, columns)
     drift, pushed = np.zeros(3), np.zeros(at.size)
     unit_drift = np.zeros((len(hydro.omega), len(headings), at.size))
-    curves, converged = np.zeros(len(at.joints)), False
-    mixed = _Mixed()
-    rest = steady_position(at, steady)
+    converged, mixed = False, _Mixed()
+    rest, work = steady_position(at, steady), Work(at.rounding, np.zeros(len(at.links)))
     near, fresh = None, False
     eddies = eddies_of(at)
     linear = None if eddies is None else LinearEddies(eddies, np.zeros(len(eddies.points)), False)
@@ -290,21 +305,13 @@ def irregular_answer(
         still = linear.measured(at, omega, one.headings, np.zeros((len(omega), len(headings), at.size), dtype=complex))
         linear = replace(linear, size=response_statistics(omega, still, density).standard_deviation)
     for turn in range(_TURNS):
-        model = RowModel(at, one, rest.position)
+        model, curves = RowModel(at, one, rest.position), _curve_stiffness(at, rest, work)
         fine = respond(model, omega, curves, linear)
+        drawn = response_statistics(omega, _drawn(at, rest, fine.motion), density).standard_deviation
         speeds = np.zeros(0)
         if linear is not None:
             measured = linear.measured(at, omega, one.headings, fine.motion)
             speeds = response_statistics(omega, measured, density).standard_deviation
-        new = np.array(
-            [
-                0.0 if joint.connector.curve is None else gaussian_stiffness(
-                    joint.connector.curve, joint.elongation(rest.position),
-                    float(response_statistics(omega, fine.motion @ joint.along, density).standard_deviation),
-                )
-                for joint in at.joints
-            ]
-        )  # fmt: skip
         moved = pushed
         if settings.drift:
             coarse = respond(model, hydro.omega, curves, linear)
@@ -316,21 +323,21 @@ def irregular_answer(
             drift = np.einsum("f,fh,fhc->c", 2.0 * weights, coarse_density, whole)
             moved = np.einsum("f,fh,fhm->m", 2.0 * weights, coarse_density, unit_drift)
         last = _sizes(linear)
-        settled = _near(new, curves) and _near(speeds, last) and _near(moved, pushed)
+        settled = _near(drawn, work.sizes) and _near(speeds, last) and _near(moved, pushed)
         if settled and (fresh or near is None):
-            curves, pushed, converged = new, moved, True
+            pushed, converged = moved, True
             break
         if fresh:
             mixed.forget()
-        curves, last, pushed = mixed.towards((curves, last, pushed), (new, speeds, moved))
-        linear = linear and replace(linear, size=last)
+        worked, last, pushed = mixed.towards((work.sizes, last, pushed), (drawn, speeds, moved))
+        linear, work = linear and replace(linear, size=last), replace(work, sizes=worked)
         near, fresh = (None if settled else near), False
-        rest = steady_position(at, steady + pushed)
-    model = RowModel(at, one, rest.position)
+        rest = steady_position(at, steady + pushed, work)
+    model, curves = RowModel(at, one, rest.position), _curve_stiffness(at, rest, work)
     coarse = respond(model, hydro.omega, curves, linear)
     return SeaAnswer(
         rest, drift, pushed, unit_drift, coarse, far_waves(model, coarse), respond(model, omega, curves, linear),
-        density, headings, curves, converged,
+        density, headings, curves, work, converged,
     )  # fmt: skip
 
 

@@ -77,13 +77,13 @@ def heat_map(pages: StudyPages, name: str, columns: AxisLabels, rows: AxisLabels
         parts.append(_text(x, height - 38.0, columns.labels[column], "middle"))
     for row, words in enumerate(rows.labels):
         parts.append(_text(left - 8.0, top + (len(rows.labels) - 0.5 - row) * cell + 4.0, words, "end"))
-    parts.append(_text(left + (_WIDTH - left) / 2, height - 12.0, columns.name.replace("_", " "), "middle", bold=True))
-    parts.append(_text(8.0, 12.0, rows.name.replace("_", " "), "start", bold=True))
-    svg = _svg(height, parts, f"{label} over {columns.name} and {rows.name}")
-    worst_of = ", ".join(pages.axes[place].name.replace("_", " ") for place in others)
+    parts.append(_text(left + (_WIDTH - left) / 2, height - 12.0, columns.head, "middle", bold=True))
+    parts.append(_text(8.0, 12.0, rows.head, "start", bold=True))
+    svg = _svg(height, parts, f"{label} over {columns.words} and {rows.words}")
+    worst_of = ", ".join(pages.axes[place].words for place in others)
     caption = f"{label}{f' [{shown.name}]' if shown.name else ''}" + (f"; worst over {worst_of}" if others else "")
     key = f"map-{name}-{columns.name}-{rows.name}".replace("/", "-").replace(" ", "-")
-    title = f"{label}: over {columns.name.replace('_', ' ')} and {rows.name.replace('_', ' ')}"
+    title = f"{label}: over {columns.words} and {rows.words}"
     return Drawing(key, title, svg, with_colours(svg), caption + ". Grey: no result.")
 
 
@@ -99,9 +99,9 @@ def parallel_coordinates(pages: StudyPages, names: tuple[str, ...]) -> Drawing |
     for number, axis in enumerate(pages.axes):
         size = max(len(axis.labels) - 1, 1)
         ends = [axis.labels[0], axis.labels[-1]]
-        columns.append((axis.name.replace("_", " "), places[number] / size, ends))
+        columns.append((axis.head, places[number] / size, ends))
     last: Array = np.zeros(len(chosen))
-    for name, (flat, unit, _) in found:
+    for _, (flat, unit, label) in found:
         values = flat[chosen]
         shown = display_unit(unit, values)
         known = values[np.isfinite(values)] * shown.factor
@@ -109,10 +109,8 @@ def parallel_coordinates(pages: StudyPages, names: tuple[str, ...]) -> Drawing |
         last = _share(values)
         suffix = f" {shown.name}" if shown.name else ""
         ends = [format_number(low, 3) + suffix, format_number(high, 3) + suffix]
-        group, _, word = name.rpartition("/")
-        level = group.partition("/")[0]
-        columns.append((word.replace("_", " ") + (f", {level}" if level else ""), last, ends))
-    top, bottom, height = 46.0, 34.0, 380.0
+        columns.append((label, last, ends))
+    top, bottom, height = 36.0 + 14.0 * len(found), 34.0, 380.0
     step = (_WIDTH - 200.0) / (len(columns) - 1)
     xs = [100.0 + step * number for number in range(len(columns))]
     order = np.argsort(np.where(np.isfinite(last), last, -1.0))
@@ -128,7 +126,11 @@ def parallel_coordinates(pages: StudyPages, names: tuple[str, ...]) -> Drawing |
         parts.append(f'<polyline points="{path}" fill="none" stroke="{stroke}" stroke-width="1.1" opacity="0.75"/>')
     for number, (x, (label, _, ends)) in enumerate(zip(xs, columns)):
         parts.append(f'<line class="dimension" x1="{x:.1f}" y1="{top}" x2="{x:.1f}" y2="{height - bottom}"/>')
-        parts.append(_text(x, 16.0 if number % 2 == 0 else 30.0, label, "middle", bold=True))
+        if number < len(pages.axes):
+            parts.append(_text(x, 16.0, label, "middle", bold=True))
+        else:  # long words, each in a row of its own, on the side that has room
+            row = 30.0 + 14.0 * (number - len(pages.axes))
+            parts.append(_text(x, row, label, "start" if x <= _WIDTH / 2 else "end", bold=True))
         parts.append(_text(x, top - 4.0, ends[1], "middle"))
         parts.append(_text(x, height - bottom + 16.0, ends[0], "middle"))
     svg = _svg(height, parts, "All cases over all axes")
@@ -175,7 +177,7 @@ def rose(pages: StudyPages, name: str, axis: AxisLabels) -> Drawing | None:
     svg = _svg(420.0, parts, f"{label} by heading")
     caption = f"{label}{f' [{shown.name}]' if shown.name else ''}, worst of all other axes; headings from +x to +y."
     key = f"rose-{name}".replace("/", "-").replace(" ", "-")
-    return Drawing(key, f"{label} by {axis.name.replace('_', ' ')}", svg, with_colours(svg), caption)
+    return Drawing(key, f"{label} by {axis.words}", svg, with_colours(svg), caption)
 
 
 def _round(degrees: Array) -> tuple[NDArray[np.intp], bool]:

@@ -40,6 +40,7 @@ _FITTED = {
     "acer": "Average conditional exceedance of the peaks, tail fitted by least squares",
 }
 _MOST_ROWS, _MOST_CARDS = 500, 5
+_ROUNDING = 1e-12  # of the largest value with the same unit
 _WORDS = {
     "converged": "run",
     "outside_validity": "run with doubts",
@@ -72,7 +73,7 @@ def compose(result: Result) -> Document:
         Section("matrix", "Load-case matrix", _matrix(pages, names)),
         Section("input", "Base case", (case_listing(root_of(result)),)),
     ]
-    axes = " x ".join(f"{len(axis.labels)} {axis.name.replace('_', ' ')}" for axis in pages.axes)
+    axes = " x ".join(f"{len(axis.labels)} {axis.words}" for axis in pages.axes)
     return page_of(result, f"Study of {len(pages.status)} cases: {axes}", sections)
 
 
@@ -81,6 +82,8 @@ def interesting(pages: StudyPages, most: int = 6) -> tuple[str, ...]:
     tree = pages.result.tree
     dims = {axis.name for axis in pages.axes}
     found: list[tuple[int, str, float, float, str]] = []
+    units: dict[str, str] = {}
+    sizes: dict[str, float] = {}  # of each unit: a moment of 1e-11 N m next to those of 1e4 is rounding
     wanted = ("utilisation", "maximum", "transmission", "significant", "limit", "objective")
     for node in tree.subtree:
         for name, variable in node.data_vars.items():
@@ -94,8 +97,12 @@ def interesting(pages: StudyPages, most: int = 6) -> tuple[str, ...]:
                 continue
             spread = float(np.ptp(known) / (np.abs(known).max() or 1.0))
             rank = next((number for number, word in enumerate(wanted) if word in str(name)), len(wanted))
+            unit = str(variable.attrs.get("units", ""))
+            sizes[unit] = max(sizes.get(unit, 0.0), float(np.abs(known).max()))
             if spread > 1e-9 or rank < 1:
                 found.append((rank, str(name), spread, float(known.max()), full))
+                units[full] = unit
+    found = [one for one in found if abs(one[3]) >= _ROUNDING * sizes[units[one[4]]]]
     varies = {name: max(one[2] for one in found if one[1] == name) for _, name, *_ in found}
     # of like responses of several levels and seas that of the largest value comes first
     found.sort(key=lambda one: (one[0] - 0.5 * min(varies[one[1]], 1.0), one[1], -one[3], one[4]))
@@ -109,7 +116,7 @@ def _summary(pages: StudyPages) -> tuple[Block, ...]:
     run = counts["run"] + counts["run with doubts"]
     detail = ", ".join(f"{count} {word}" for word, count in counts.items() if count and word != "run")
     judgement: Any = "good" if run == len(pages.status) and not counts["run with doubts"] else "caution"
-    items = [KeyFigure("Cases", f"{run} of {len(pages.status)}", detail or "all ran", judgement=judgement)]
+    items = [KeyFigure("Cases", f"{run} of {len(pages.status)} cases", detail or "all ran", judgement=judgement)]
     items += [_found_card(pages, one) for one in found_by_search(pages.result)[:_MOST_CARDS]]
     utilised = pages.result.tree.attrs.get("governing_kind", "") == "utilisation"
     # of a search its answers stand in their place
@@ -123,7 +130,8 @@ def _summary(pages: StudyPages) -> tuple[Block, ...]:
             found = pages.response(one.component)
             unit = found[1] if found is not None else "1"
             label = found[2] if found is not None else one.component
-            title = label if label.startswith(("largest", "most", "least")) else f"largest {label}"
+            said_so = label.startswith(("largest", "highest", "most probable largest"))
+            title = label if said_so else f"{label}: largest of all cases"
             title = title[:1].upper() + title[1:]
             items.append(KeyFigure(title, format_quantity(one.value, unit), words))
     for group in _groups(pages, "long term"):
@@ -162,7 +170,7 @@ def _found(pages: StudyPages) -> tuple[Block, ...]:
         return ()
     columns = [Column("Case", [str(one.index) for one in found])]
     columns += [
-        Column(axis.name.replace("_", " "), [pages.labels(one.index)[n] for one in found], quantities=True)
+        Column(axis.head, [pages.labels(one.index)[n] for one in found], quantities=True)
         for n, axis in enumerate(pages.axes)
     ]
     if found[0].objective is not None:
@@ -190,12 +198,13 @@ def _governing(pages: StudyPages) -> tuple[Block, ...]:
         utilised = pages.result.tree.attrs.get("governing_kind", "") == "utilisation"
         columns = [
             Column("Component", [one.component for one in pages.governing]),
-            Column("Utilisation" if utilised else "Value", [one.value for one in pages.governing], fixed=True),
-            *([] if utilised else [Column("Unit", _units(pages))]),
+            Column("Utilisation", [one.value for one in pages.governing], fixed=True)
+            if utilised
+            else Column("Value", _governing_values(pages), quantities=True),
             Column("Case", [str(one.index) for one in pages.governing]),
             *(
                 Column(
-                    axis.name.replace("_", " "),
+                    axis.head,
                     [pages.labels(one.index)[n] for one in pages.governing],
                     quantities=True,
                 )
@@ -241,9 +250,11 @@ def _governing(pages: StudyPages) -> tuple[Block, ...]:
     return tuple(blocks)
 
 
-def _units(pages: StudyPages) -> list[str]:
+def _governing_values(pages: StudyPages) -> list[str]:
+    """Return the governing values with their units, which differ from row to row."""
     found = [pages.response(one.component) for one in pages.governing]
-    return [one[1] if one is not None else "" for one in found]
+    units = [one[1] if one is not None else "1" for one in found]
+    return [format_quantity(one.value, unit) for one, unit in zip(pages.governing, units, strict=True)]
 
 
 def _verdict(utilisation: float) -> str:
@@ -290,7 +301,7 @@ def _along(pages: StudyPages, name: str) -> Figure | None:
     flat, unit, label = found
     axis = next(axis for axis in pages.axes if len(axis.labels) > 1)
     shown = display_unit(unit, flat)
-    short = _short(name, label)
+    short = _short(label)
     key = f"along-{name}".replace("/", "-").replace(" ", "-")
     if axis.values is None or len(set(axis.values)) < len(axis.values):
         series = Series(label, {}, flat * shown.factor, style="bar")
@@ -299,13 +310,13 @@ def _along(pages: StudyPages, name: str) -> Figure | None:
         return Figure(key, label, (), (Panel(short, shown.name, from_zero=True),), (series,), categories=axis.labels)
     order = np.argsort(axis.values)
     series = Series(label, {"axis": axis.values[order]}, flat[order] * shown.factor, style="line+points")
-    abscissa = Abscissa("axis", axis.name.replace("_", " "), "" if axis.unit == "1" else axis.unit)
+    abscissa = Abscissa("axis", axis.words, axis.sign or ("" if axis.unit == "1" else axis.unit))
     return Figure(key, label, (abscissa,), (Panel(short, shown.name),), (series,))
 
 
-def _short(name: str, label: str) -> str:
-    """Return words that fit next to an axis."""
-    return label if len(label) <= 40 else name.rpartition("/")[2].replace("_", " ")
+def _short(label: str) -> str:
+    """Return words that fit next to an axis, below a title that says the whole."""
+    return label if len(label) <= 40 else "value"
 
 
 def _exceedance(pages: StudyPages, name: str) -> Figure | None:
@@ -330,7 +341,7 @@ def _exceedance(pages: StudyPages, name: str) -> Figure | None:
         key,
         f"Exceedance: {label}",
         (Abscissa("share", what, "", True),),
-        (Panel(_short(name, label), shown.name),),
+        (Panel(_short(label), shown.name),),
         (series,),
     )
 
@@ -408,9 +419,7 @@ def _matrix(pages: StudyPages, names: tuple[str, ...]) -> tuple[Block, ...]:
         blocks.append(Paragraph(f"{len(chosen)} of {count} cases: failures and the largest. All are in study.csv."))
     columns = [Column("Case", [str(index) for index in chosen])]
     for n, axis in enumerate(pages.axes):
-        columns.append(
-            Column(axis.name.replace("_", " "), [pages.labels(int(index))[n] for index in chosen], quantities=True)
-        )
+        columns.append(Column(axis.head, [pages.labels(int(index))[n] for index in chosen], quantities=True))
     columns.append(
         Column("Status", [_WORDS.get(str(pages.status[index]), str(pages.status[index])) for index in chosen])
     )

@@ -26,6 +26,21 @@ class AxisLabels:
     values: Array | None
     unit: str
 
+    @property
+    def sign(self) -> str:
+        """Sign of the unit that the name of a key has in it, degrees; else empty."""
+        return "°" if self.name.endswith("_deg") else ""
+
+    @property
+    def words(self) -> str:
+        """The name as words."""
+        return self.name.removesuffix("_deg").replace("_", " ")
+
+    @property
+    def head(self) -> str:
+        """The name as words, with its unit where the points do not have it."""
+        return f"{self.words} [{self.sign}]" if self.sign else self.words
+
 
 @dataclass(frozen=True)
 class GoverningCase:
@@ -65,7 +80,7 @@ class StudyPages:
 
     def case_words(self, index: int) -> str:
         """Return the place of a case in words."""
-        return ", ".join(f"{axis.name.replace('_', ' ')} {label}" for axis, label in zip(self.axes, self.labels(index)))
+        return ", ".join(f"{axis.words} {label}{axis.sign}" for axis, label in zip(self.axes, self.labels(index)))
 
     def response(self, name: str) -> tuple[Array, str, str] | None:
         """Return a response by case (the largest entry of an array), its unit, and its words with its group.

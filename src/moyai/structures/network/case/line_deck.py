@@ -43,8 +43,12 @@ def deck_of_case(case: Case, water_level: str | None = None) -> MoorDynDeck:
     return deck
 
 
-def deck_and_boxes(case: Case, water_level: str | None = None) -> tuple[MoorDynDeck, tuple[FloatingBox, ...]]:
+def deck_and_boxes(
+    case: Case, water_level: str | None = None, *, floating: bool = False
+) -> tuple[MoorDynDeck, tuple[FloatingBox, ...]]:
     """Return the deck of a network case, in which points of bodies are coupled, and its bodies.
+
+    ``floating`` is that of :func:`moyai.interop.moordyn_network.to_deck`.
 
     Raises
     ------
@@ -63,7 +67,7 @@ def deck_and_boxes(case: Case, water_level: str | None = None) -> tuple[MoorDynD
     name = water_level or next(iter(levels))
     if name not in levels:
         raise InputError(f"there is no water level '{name}'", path="--water-level", allowed=", ".join(levels))
-    deck = to_deck(assemble(problem, levels[name]).network, title=case.title)
+    deck = to_deck(assemble(problem, levels[name]).network, title=case.title, floating=floating)
     water = problem.environment.water_at(levels[name])
     return _with_sea(deck, problem, water), tuple(_box(plan, water) for plan in problem.bodies)
 
