@@ -29,6 +29,7 @@ logging.getLogger("fontTools").setLevel(
 )  # else a line for each table that a subset of a font leaves out
 
 extensions = [
+    "computed_ahead",
     "gallery",
     "moving_picture",
     "report_pictures",

@@ -16,7 +16,9 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
+from computed_ahead import ahead
 from docutils import nodes
+from kept_runs import kept_run
 from report_pictures import SPAR, measured, spar_at_work, spar_installed
 from sphinx.application import Sphinx
 from sphinx.util import logging
@@ -59,6 +61,11 @@ def command_of(path: Path) -> str:
     if SPAR in path.parents:
         return "moyai new spar -o spar.yaml; moyai run spar.yaml"
     return f"moyai study {name}" if is_study(path) else f"moyai run {name}"
+
+
+def folder_of(path: Path, root: Path) -> Path:
+    """Return where the card and the report of an example stand below the folder of the pages."""
+    return root / "gallery" / path.relative_to(ROOT / "examples").with_suffix("").as_posix().replace("/", "-")
 
 
 def is_study(path: Path) -> bool:
@@ -113,7 +120,7 @@ def make_card(path: Path, folder: Path, *, quick: bool) -> None:
     else:
         case = moyai.load_case(path)
         title = case.title
-        result = at_rest(case) if quick else moyai.run(case)
+        result = at_rest(case) if quick else kept_run(case)
     if whole and not is_study(path):
         moyai.write_report(result, folder)
     heading, picture, found = first_things(result)
@@ -130,9 +137,7 @@ def make_card(path: Path, folder: Path, *, quick: bool) -> None:
 
 def at_rest(case: Any) -> Any:
     """Return the equilibrium of a case, or its whole run where it has none."""
-    import moyai
-
-    return moyai.run(case if case.kind in WITHOUT_STATICS else case.replace("analyses", ["statics"]))
+    return kept_run(case if case.kind in WITHOUT_STATICS else case.replace("analyses", ["statics"]))
 
 
 def first_things(result: Any) -> tuple[str, str, list[tuple[str, str]]]:
@@ -163,16 +168,16 @@ class Gallery(SphinxDirective):
     def run(self) -> list[nodes.Node]:
         """Return the cards as HTML."""
         quick = os.environ.get("MOYAI_DOCS_QUICK") == "1"
-        root = Path(self.env.app.outdir) / "gallery"
+        root = Path(self.env.app.outdir)
         cards = []
         for path in examples():
-            name = path.relative_to(ROOT / "examples").with_suffix("").as_posix().replace("/", "-")
-            shown = card(path, root / name, quick=quick)
+            folder = folder_of(path, root)
+            shown = ahead(card, path, folder, quick=quick)
             coded = base64.b64encode(shown["picture"].encode()).decode()
             title = escape(shown["title"])
             picture = f'<img alt="{title}" src="data:image/svg+xml;base64,{coded}">' if coded else ""
             if shown["report"]:
-                picture = f'<a href="gallery/{name}/{shown["report"]}">{picture or "report"}</a>'
+                picture = f'<a href="gallery/{folder.name}/{shown["report"]}">{picture or "report"}</a>'
             numbers = "".join(f"<dt>{escape(label)}</dt><dd>{escape(value)}</dd>" for label, value in shown["numbers"])
             command = command_of(path)
             cards.append(

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from computed_ahead import ahead
 from docutils import nodes
 from sphinx.application import Sphinx
 from sphinx.util import logging
@@ -110,6 +111,19 @@ def moving_svg(found: dict[str, Any], period: float) -> str:
     )
 
 
+def kept_picture(folder: Path) -> str:
+    """Return the picture as SVG; it stands in the folder then."""
+    import moyai
+
+    kept = folder / "pontoon_in_waves.json"
+    newest = max(one.stat().st_mtime for one in (CASE, Path(__file__), *Path(moyai.__file__).parent.rglob("*.py")))
+    if not kept.exists() or kept.stat().st_mtime <= newest:
+        logging.getLogger(__name__).info("drawing the pontoon in waves")
+        folder.mkdir(parents=True, exist_ok=True)
+        kept.write_text(json.dumps(moving_svg(scene(), PERIOD)), encoding="utf-8")
+    return str(json.loads(kept.read_text(encoding="utf-8")))
+
+
 class MovingPicture(SphinxDirective):
     """The picture with the words of the directive as its caption."""
 
@@ -117,15 +131,7 @@ class MovingPicture(SphinxDirective):
 
     def run(self) -> list[nodes.Node]:
         """Return the picture as HTML."""
-        import moyai
-
-        kept = Path(self.env.app.outdir) / "_images" / "pontoon_in_waves.json"
-        newest = max(one.stat().st_mtime for one in (CASE, Path(__file__), *Path(moyai.__file__).parent.rglob("*.py")))
-        if not kept.exists() or kept.stat().st_mtime <= newest:
-            logging.getLogger(__name__).info("drawing the pontoon in waves")
-            kept.parent.mkdir(parents=True, exist_ok=True)
-            kept.write_text(json.dumps(moving_svg(scene(), PERIOD)), encoding="utf-8")
-        coded = base64.b64encode(json.loads(kept.read_text(encoding="utf-8")).encode()).decode()
+        coded = base64.b64encode(ahead(kept_picture, Path(self.env.app.outdir) / "_images").encode()).decode()
         words = escape(" ".join(self.content))
         html = (
             f'<figure style="margin:0 0 1rem"><img style="width:100%" alt="{words}" '

@@ -22,8 +22,10 @@ from pathlib import Path
 from typing import Any, ClassVar
 from unittest import mock
 
+from computed_ahead import ahead
 from docutils import nodes
 from docutils.parsers.rst import directives
+from kept_runs import kept_run
 from sphinx.application import Sphinx
 from sphinx.util import logging
 from sphinx.util.docutils import SphinxDirective
@@ -66,11 +68,9 @@ def standing_at(name: str, **changes: Any) -> Callable[[], Any]:
 
 
 def _changed(case: Any, changes: dict[str, Any]) -> Any:
-    import moyai
-
     for path, value in changes.items():
         case = case.replace(path, value)
-    return moyai.run(case)
+    return kept_run(case)
 
 
 def measured(kind: str, folder: str, file: str) -> Callable[[], Any]:
@@ -250,7 +250,7 @@ class ReportPicture(SphinxDirective):
             raise self.error(f"no run {name}: {', '.join(RUNS)}")
         language = "ja" if self.env.docname.startswith("ja/") else "en"
         outdir = Path(self.env.app.outdir)
-        pictures = kept_pictures(name, outdir / "pictures")[language]
+        pictures = ahead(kept_pictures, name, outdir / "pictures")[language]
         if key not in pictures:
             raise self.error(f"no picture {key} of {name}: {', '.join(pictures)}")
         title, svg = pictures[key]

@@ -10,8 +10,10 @@ import os
 from pathlib import Path
 from typing import Any
 
+from computed_ahead import ahead
 from docutils import nodes
 from docutils.statemachine import StringList
+from kept_runs import kept_paper
 from sphinx.application import Sphinx
 from sphinx.util import logging
 from sphinx.util.docutils import SphinxDirective
@@ -37,12 +39,12 @@ def compute(name: str, root: Path) -> dict[str, Any]:
     if counts.exists() and counts.stat().st_mtime > newest:
         return dict(json.loads(counts.read_text(encoding="utf-8")))
     from moyai.language import said, spoken_in
-    from moyai.reproduce import as_result, reproduce
+    from moyai.reproduce import as_result
     from moyai.reproduce.page import write
 
     logging.getLogger(__name__).info(f"computing the page of {name}")
     folder.mkdir(parents=True, exist_ok=True)
-    found = reproduce(name, quick=os.environ.get("MOYAI_DOCS_QUICK") == "1")
+    found = kept_paper(name, quick=os.environ.get("MOYAI_DOCS_QUICK") == "1")
     result = as_result(found)
     write(found, result, folder)
     japanese = root / "ja" / "papers" / name
@@ -77,7 +79,7 @@ class ReproducedPapers(SphinxDirective):
         lines = [".. list-table::", "   :header-rows: 1", ""]
         lines += [f"   {' ' if number else '*'} - {head}" for number, head in enumerate(HEADS[language])]
         for paper in papers():
-            values = compute(paper.key, root)
+            values = ahead(compute, paper.key, root)
             authors = values["authors"] if language == "ja" else paper.authors
             link = f':raw-html:`<a href="papers/{paper.key}/report.html">{authors} ({paper.year})</a>`'
             lines += [f"   * - {link}", *(f"     - {values[head]}" for head in COUNTS)]

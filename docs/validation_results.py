@@ -15,6 +15,7 @@ from html import escape
 from pathlib import Path
 from typing import Any, ClassVar
 
+from computed_ahead import ahead
 from docutils import nodes
 from docutils.parsers.rst import directives
 from sphinx.application import Sphinx
@@ -178,7 +179,7 @@ class _FromResults(SphinxDirective):
     def records(self) -> list[dict[str, Any]]:
         """Return the records; a case that fails is a warning of the build."""
         quick = os.environ.get("MOYAI_DOCS_QUICK") == "1"
-        return computed(Path(self.env.app.outdir) / "validation", quick=quick)
+        return list(ahead(computed, Path(self.env.app.outdir) / "validation", quick=quick))
 
 
 class Validation(_FromResults):

@@ -2,8 +2,11 @@
 
 import gc
 import os
+import shutil
 import sys
+import tempfile
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -21,6 +24,33 @@ collect_rarely()
 os.environ.setdefault("MOYAI_COMPILE_PROCESSES", "0")
 # Messages are held against English, whatever the locale
 os.environ["MOYAI_LANGUAGE"] = "en"
+# Results of examples that several tests read are kept for all workers; a name from outside is kept for longer
+_OWN = None if "MOYAI_KEPT_RUNS" in os.environ else os.environ.setdefault("MOYAI_KEPT_RUNS", tempfile.mkdtemp())
+
+
+def pytest_configure() -> None:
+    """Let one worker compile a kernel and the others take it from the cache."""
+    try:
+        import fcntl
+    except ImportError:
+        return
+    from moyai.core import compiled
+
+    locks, whole = Path(os.environ["MOYAI_KEPT_RUNS"]), compiled._Kernel.compile
+    locks.mkdir(parents=True, exist_ok=True)
+
+    def compile_alone(kernel: Any, signature: Any) -> Any:
+        with (locks / f"{kernel.py_func.__module__}.{kernel.py_func.__name__}.lock").open("w") as stream:
+            fcntl.flock(stream, fcntl.LOCK_EX)
+            return whole(kernel, signature)
+
+    compiled._Kernel.compile = compile_alone
+
+
+def pytest_unconfigure() -> None:
+    """Remove what this process keeps."""
+    if _OWN is not None:
+        shutil.rmtree(_OWN, ignore_errors=True)
 
 
 def pytest_collection_finish() -> None:

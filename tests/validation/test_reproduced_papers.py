@@ -4,9 +4,10 @@ from functools import cache
 
 import numpy as np
 import pytest
+from kept_runs import kept_paper
 
 from moyai.report.document import Figure
-from moyai.reproduce import as_result, compose, papers, reproduce
+from moyai.reproduce import as_result, compose, papers
 
 #: Statements that differ from the paper or stay open; all others agree.
 EXCEPTIONS = {
@@ -51,7 +52,7 @@ EXCEPTIONS = {
 
 @cache
 def found(key):
-    return reproduce(key, quick=True)
+    return kept_paper(key, quick=True)
 
 
 @pytest.mark.slow

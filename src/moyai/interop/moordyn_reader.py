@@ -10,6 +10,7 @@ from __future__ import annotations
 import difflib
 import math
 import re
+import string
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, Literal
@@ -37,7 +38,8 @@ from moyai.interop.moordyn_syrope import read_syrope, with_history
 from moyai.interop.moordyn_waves import read_waves
 from moyai.interop.textfiles import parse_number, read_lines
 
-_RULE = re.compile(r"^\s*-{3,}\s*(.*?)\s*-*\s*$")
+_RULE = re.compile(r"^\s*-{3,}(.*)$")
+_ROUND_A_TITLE = "-" + string.whitespace
 
 
 def _suggest(word: str, known: Iterable[str]) -> str:
@@ -60,7 +62,7 @@ def _split(lines: list[str], faults: Faults) -> dict[str, tuple[int, list[tuple[
             if body is not None and text.strip():
                 body.append((number, text))
             continue
-        title = " ".join(rule[1].strip("- ").upper().split())
+        title = " ".join(rule[1].strip(_ROUND_A_TITLE).upper().split())
         title = _section_of(title)
         name = keys.SECTIONS.get(title)
         if title in keys.REFUSED_SECTIONS:

@@ -47,21 +47,25 @@ def integrate_shape(function: Density, edges: Array) -> float:
     return float(np.sum(half * (values @ _WEIGHTS)))
 
 
-def cumulative_shape(density: Density, edges: Array, omega: Array) -> Array:
-    """Return the integral of ``density`` from the lowest frequency of the panels up to each ``omega``."""
+def cumulative_shape(density: Density, edges: Array) -> Density:
+    """Return the integral of ``density`` from the lowest frequency of the panels, as a function of its upper end."""
     half = 0.5 * np.diff(edges)
     v = (0.5 * (edges[1:] + edges[:-1]))[:, None] + half[:, None] * _NODES
     panels = half * ((density(1.0 / v) / (v * v)) @ _WEIGHTS)
     # energy from each edge (in v) down the panel list to the largest v, which is the lowest frequency
     from_edge = np.concatenate([np.cumsum(panels[::-1])[::-1], [0.0]])
-    with np.errstate(divide="ignore"):
-        wanted = np.clip(np.where(omega > 0.0, 1.0 / np.maximum(omega, 1e-300), np.inf), edges[0], edges[-1])
-    panel = np.clip(np.searchsorted(edges, wanted, side="right") - 1, 0, edges.size - 2)
-    right = edges[panel + 1]
-    part = 0.5 * (right - wanted)
-    v = (0.5 * (right + wanted))[:, None] + part[:, None] * _NODES
-    inside = part * ((density(1.0 / v) / (v * v)) @ _WEIGHTS)
-    return np.asarray(from_edge[panel + 1] + inside)
+
+    def cumulative(omega: Array) -> Array:
+        with np.errstate(divide="ignore"):
+            wanted = np.clip(np.where(omega > 0.0, 1.0 / np.maximum(omega, 1e-300), np.inf), edges[0], edges[-1])
+        panel = np.clip(np.searchsorted(edges, wanted, side="right") - 1, 0, edges.size - 2)
+        right = edges[panel + 1]
+        part = 0.5 * (right - wanted)
+        v = (0.5 * (right + wanted))[:, None] + part[:, None] * _NODES
+        inside = part * ((density(1.0 / v) / (v * v)) @ _WEIGHTS)
+        return np.asarray(from_edge[panel + 1] + inside)
+
+    return cumulative
 
 
 def integrate_table(omega: Array, density: Array, weight: Density, power: int, lower: float, upper: float) -> float:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import partial
 from types import MappingProxyType
 from typing import Any
 
@@ -166,13 +167,17 @@ class Spectrum:
     def energy_below(self, omega: ArrayLike) -> Array:
         """Return the variance [m2] of the frequencies below ``omega`` [rad/s]."""
         frequency = np.asarray(omega, dtype=np.float64)
-        flat = np.clip(np.ravel(frequency), self.lower, self.upper)
+        return self._energy_below()(np.ravel(frequency)).reshape(frequency.shape)
+
+    def _energy_below(self) -> integrals.Density:
+        """Return the variance below frequencies, shape (n,), as a function of these: what it integrates stands."""
         if self.shapes:
-            value = integrals.cumulative_shape(self.density_at, self._edges(0.0, math.inf), flat)
+            cumulative: integrals.Density = integrals.cumulative_shape(self.density_at, self._edges(0.0, math.inf))
+            nothing = 0.0
         else:
-            value = integrals.cumulative_table(self.omega, self.density, flat)
-            value = value - integrals.cumulative_table(self.omega, self.density, np.array([self.lower]))
-        return np.asarray(value).reshape(frequency.shape)
+            cumulative = partial(integrals.cumulative_table, self.omega, self.density)
+            nothing = float(cumulative(np.array([self.lower]))[0])
+        return lambda omega: cumulative(np.clip(omega, self.lower, self.upper)) - nothing
 
     def quantile(self, fraction: ArrayLike) -> Array:
         """Return the frequency [rad/s] below which ``fraction`` (between 0 and 1) of the variance lies."""
@@ -185,8 +190,9 @@ class Spectrum:
             high = min(self.upper, 2e4 * max(shape.peak_omega for shape in self.shapes))
         else:
             low, high = max(self.lower, float(self.omega[0])), min(self.upper, float(self.omega[-1]))
-        target = np.ravel(wanted) * float(self.energy_below(high))
-        return integrals.invert_cumulative(self.energy_below, self.density_at, target, low, high).reshape(wanted.shape)
+        below = self._energy_below()
+        target = np.ravel(wanted) * float(below(np.array([high]))[0])
+        return integrals.invert_cumulative(below, self.density_at, target, low, high).reshape(wanted.shape)
 
     @property
     def variance(self) -> float:

@@ -308,6 +308,11 @@ def _ww3_netcdf(file: Path) -> SpectrumArchive:
         return SpectrumArchive("ww3", times, places, frequency, spread @ widths, mean)
 
 
+#: Numbers in front of frequencies in brackets; a number starts where none goes on, else a long one is read again from
+#: each of its digits.
+_BEFORE_BRACKETS = re.compile(r"(?<![\d.])([\d.]+)\s+\(")
+
+
 def _ndbc(text: str, file: Path) -> SpectrumArchive:
     rows = [line for line in text.splitlines() if line.strip()]
     if re.search(r"\b(WDIR|WSPD|WVHT|WTMP|PRES|BAR)\b", rows[0], re.IGNORECASE):
@@ -322,7 +327,7 @@ def _ndbc(text: str, file: Path) -> SpectrumArchive:
     if paired:
         frequency = np.array([float(item) for item in re.findall(r"\(([\d.]+)\)", rows[1])])
         for number, row in enumerate(rows[1:], start=2):
-            values = [float(item) for item in re.findall(r"([\d.]+)\s+\(", row)]
+            values = [float(item) for item in _BEFORE_BRACKETS.findall(row)]
             if len(values) != frequency.size:
                 raise InputError(
                     f"{file.name}, line {number}: {len(values)} values, not {frequency.size}", parameter="file"
@@ -364,7 +369,7 @@ def _ndbc_direction(file: Path, count: int, order: NDArray[np.intp]) -> Array:
 
     def table(path: Path) -> Array:
         rows = [line for line in path.read_text(encoding="latin-1").splitlines()[1:] if line.strip()]
-        return np.array([[float(item) for item in re.findall(r"([\d.]+)\s+\(", row)] for row in rows])
+        return np.array([[float(item) for item in _BEFORE_BRACKETS.findall(row)] for row in rows])
 
     density, angle, first = table(file), table(beside[0]), table(beside[1])
     if not density.shape == angle.shape == first.shape:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import sys
+from concurrent.futures import Future
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -15,7 +16,8 @@ from moyai.core.kinds import structure_kinds
 pytest.importorskip("sphinx")
 ROOT = Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "docs"))
-import gallery  # noqa: E402 - stands with the pages
+import computed_ahead  # noqa: E402 - stands with the pages
+import gallery  # noqa: E402
 import report_pictures  # noqa: E402
 
 JAPANESE = re.compile("[\u3040-\u30ff\u4e00-\u9fff]")
@@ -66,3 +68,27 @@ def test_the_spar_hangs_on_its_chain() -> None:
     assert end == pytest.approx(keel, abs=2e-3)
     assert start[1] == pytest.approx(bed, abs=2e-3)
     assert "spar" not in structure_kinds()
+
+
+def test_what_pages_ask_for_is_computed_ahead(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """The jobs of all pages are what the directives ask for, each once, and a job that was started is waited for."""
+    pages = (page for page in (ROOT / "docs").rglob("*.md") if "adr" not in page.parts)
+    text = "\n".join(page.read_text(encoding="utf-8") for page in pages)
+    found = list(computed_ahead.jobs(tmp_path, text, quick=True))
+    asked = [(function.__name__, *arguments[:1]) for function, arguments, _ in found]
+    assert len(asked) == len(set(asked))
+    assert asked[0] == ("computed", tmp_path / "validation")
+    assert {place for name, place in asked if name == "card"} == set(gallery.examples())
+    assert sum(name == "compute" for name, _ in asked) == 5 and ("kept_picture", tmp_path / "_images") in asked
+    pictures = {run for name, run in asked if name == "kept_pictures"}
+    assert pictures == {*report_pictures.RUNS, "add_a_structure"}
+    assert list(computed_ahead.jobs(tmp_path, "# A page of words", quick=True)) == []
+
+    def card(path: Path, folder: Path, *, quick: bool) -> str:
+        return f"{path} {quick}"
+
+    started: Future[str] = Future()
+    started.set_result("from the other process")
+    monkeypatch.setitem(computed_ahead._started, computed_ahead._key(card, (ROOT, tmp_path), {"quick": True}), started)
+    assert computed_ahead.ahead(card, ROOT, tmp_path, quick=True) == "from the other process"
+    assert computed_ahead.ahead(card, ROOT, tmp_path, quick=False) == f"{ROOT} False"

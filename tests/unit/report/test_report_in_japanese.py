@@ -20,7 +20,6 @@ import moyai
 from moyai.cli.main import app
 from moyai.core.errors import InputError
 from moyai.core.results import Result
-from moyai.language.words import latin_words
 from moyai.report import fonts
 from moyai.report.document import Figure
 from moyai.report.html import render_html
@@ -75,7 +74,7 @@ def test_figures_have_all_their_letters(result: Result) -> None:
 @pytest.mark.parametrize("result", ["curtain", pytest.param("breakwater", marks=pytest.mark.slow)], indirect=True)
 def test_pdf_word_and_workbook_are_written(result: Result) -> None:
     document = compose_document(result, language="ja")
-    # two sections with their drawings; whole examples below
+    # two sections with their drawings; whole examples are held in test_every_kind_in_japanese
     first = replace(document, sections=document.sections[:2])
     assert any(isinstance(block, Figure) for block in first.blocks())
     assert render_pdf(first).startswith(b"%PDF")
@@ -135,28 +134,3 @@ def test_a_new_file_has_comments_in_japanese_and_the_same_content(tmp_path: Path
     bare = [re.sub(r"\s*#.*", "", text) for text in (english, japanese)]
     assert bare[0] == bare[1]
     assert moyai.load_case(japanese).case_hash == moyai.load_case(english).case_hash
-
-
-EXAMPLES = Path(__file__).resolve().parents[3] / "examples"
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    "example",
-    [
-        "breakwater/dynamic_lines", "curtain/tidal_channel", "curtain/dynamic", "member/inclined_brace",
-        "network/mooring_line", "network/snap", "network/flume_box", "network/buoy", "cage/flume_cage",
-        "units/two_pontoons",
-    ],
-)  # fmt: skip
-def test_the_report_of_an_example_is_all_japanese(example: str, tmp_path: Path) -> None:
-    if example.startswith("units"):
-        pytest.importorskip("capytaine")
-    found = moyai.run(moyai.load_case(EXAMPLES / f"{example}.yaml"))
-    left, count = compared(found)
-    assert count > 150
-    assert not left, "\n".join(left)
-    assert drawn_without_boxes(found, most=2) > 0
-    document = compose_document(found, language="ja")
-    assert render_pdf(document).startswith(b"%PDF")
-    assert not latin_words(document.language)

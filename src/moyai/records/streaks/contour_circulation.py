@@ -231,10 +231,16 @@ def measure_circulation(
         outlier = outlier | np.isnan(orbits.drift(points, 0.0)[0]).any(axis=1)
     points, vectors, error = points[~outlier], vectors[~outlier], error[~outlier]
     contours = [contour_points(shape, item) for item in ratio]
+    targets = np.vstack(contours)
     smoothing = remainder_smoothing(points, vectors, error, length) if method == "spline" else None
 
-    def evaluate(place: Array, value: Array, spread: Array, robust: Array) -> Array:
-        return _along(contours, place, value, spread, robust, length, smoothing)
+    def evaluate(place: Array, value: Array, spread: Array, robust: Array, matrix: Array | None = None) -> Array:
+        if matrix is None:
+            matrix = interpolation_matrix(place, targets, spread, smoothing)
+        if smoothing is None:
+            return _along(contours, matrix @ value)
+        base, at_targets = trend(place, value, robust, length, targets)
+        return _along(contours, at_targets + matrix @ (value - base))
 
     inside = _covered(points, contours)
     robust = robust_deviation(points, vectors, error, length)
@@ -255,11 +261,14 @@ def measure_circulation(
 
         bias, exact = orbital_bias(orbits, points, extrapolate_stokes(ratio, value, least=least_ratio)[0], limit_of)
     generator = np.random.default_rng(seed)
+    known = np.isfinite(exact).all(axis=1)
+    # drawn misfits leave the places where they are
+    matrix = interpolation_matrix(points[known], targets, error[known], smoothing) if known.any() else None
     samples = np.full((resamples, ratio.size), np.nan)
     for index in range(resamples):
         progress("circulation", index, resamples)
         drawn = _resampled(points, vectors, error, exact, generator)
-        samples[index] = np.where(inside, evaluate(*drawn, robust_deviation(*drawn, length)), np.nan)
+        samples[index] = np.where(inside, evaluate(*drawn, robust_deviation(*drawn, length), matrix), np.nan)
     if resamples:
         progress("circulation", resamples, resamples)
     summary = _summary(ratio, value, samples, least_ratio, confidence, inside, outlier)
@@ -287,25 +296,13 @@ def _resampled(
     return points[chosen], vectors[chosen], error[chosen] / np.sqrt(weight[chosen])
 
 
-def _along(
-    contours: list[Array],
-    place: Array,
-    value: Array,
-    spread: Array,
-    robust: Array,
-    length: float,
-    smoothing: float | None,
-) -> Array:
-    """Return the circulation along contours; ``smoothing`` is ``None`` for triangles."""
-    targets = np.vstack(contours)
-    if smoothing is None:
-        field_values = interpolation_matrix(place, targets, spread, None) @ value
-    else:
-        base, at_points = trend(place, value, robust, length, targets)
-        field_values = at_points + interpolation_matrix(place, targets, spread, smoothing) @ (value - base)
+def _along(contours: list[Array], velocity: Array) -> Array:
+    """Return the circulation along contours from the velocity at their points, one contour after the other."""
     limits = np.cumsum([0, *(len(item) for item in contours)])
-    pieces = [slice(limits[i], limits[i + 1]) for i in range(len(contours))]
-    return np.array([line_integral(targets[piece], field_values[piece]) for piece in pieces])
+    return np.array([
+        line_integral(item, velocity[begin:end])
+        for item, begin, end in zip(contours, limits[:-1], limits[1:], strict=True)
+    ])  # fmt: skip
 
 
 def _summary(

@@ -35,11 +35,16 @@ def trend(points: Array, vectors: Array, deviation: Array, length: float, target
         Trend at the points and at the targets [m/s].
     """
     basis = _trend_basis(points, length)
-    scale = np.tile(1.0 / deviation, 2)
-    solution = np.linalg.lstsq(basis * scale[:, None], vectors.T.ravel() * scale, rcond=None)[0]
+    solution = _fitted(basis, vectors, deviation)
     at_points = (basis @ solution).reshape(2, -1).T
     at_targets = (_trend_basis(targets, length) @ solution).reshape(2, -1).T
     return at_points, at_targets
+
+
+def _fitted(basis: Array, vectors: Array, deviation: Array) -> Array:
+    """Return the factors of the columns of a basis that fit the vectors best, weighted by their standard errors."""
+    scale = np.tile(1.0 / deviation, 2)
+    return np.asarray(np.linalg.lstsq(basis * scale[:, None], vectors.T.ravel() * scale, rcond=None)[0])
 
 
 def robust_deviation(points: Array, vectors: Array, deviation: Array, length: float) -> Array:
@@ -50,9 +55,10 @@ def robust_deviation(points: Array, vectors: Array, deviation: Array, length: fl
     points, vectors, deviation, length
         As in :func:`trend`.
     """
-    robust = deviation
+    robust, basis = deviation, _trend_basis(points, length)
     for _ in range(7):
-        misfit = (vectors - trend(points, vectors, robust, length, points[:1])[0]) / deviation[:, None]
+        fitted = (basis @ _fitted(basis, vectors, robust)).reshape(2, -1).T
+        misfit = (vectors - fitted) / deviation[:, None]
         size = np.hypot(misfit[:, 0], misfit[:, 1])
         median = float(np.median(size))
         if median == 0.0:

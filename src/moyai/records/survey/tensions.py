@@ -137,7 +137,7 @@ def wave_maxima(
         # where samples lack, the largest may be among them
         if part.size < 0.9 * (last[i] - first[i]) / usual - 2.0:
             continue
-        place = int(np.argmax(part))
+        place = int(part.argmax())
         maximum[i], when[i] = part[place], t[low[i] + place]
         top[i] = _top(values, low[i] + place)
         double[i] = _second_peak(part, place)
@@ -162,9 +162,11 @@ def _second_peak(part: Array, place: int) -> bool:
     if top <= 0.0:
         return False
     for side in (part[:place][::-1], part[place + 1 :]):
-        below = np.flatnonzero(side < 0.5 * top)
-        if below.size and float(side[below[0] :].max()) > _DOUBLE * top:
-            return True
+        if side.size:
+            below = side < 0.5 * top
+            first = int(below.argmax())
+            if below[first] and side[first:].max() > _DOUBLE * top:
+                return True
     return False
 
 
