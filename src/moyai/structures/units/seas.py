@@ -34,7 +34,7 @@ ENERGY_LEFT_OUT = 0.02
 FINE = 161
 #: Headings of a spread sea
 HEADINGS = 13
-_TURNS = 100
+_TURNS, _PATIENCE, _SLOW = 400, 60, 0.1
 _SETTLED = 1e-3
 
 
@@ -218,7 +218,7 @@ class _Mixed:
     """
 
     def __init__(self, depth: int = 5) -> None:
-        self._depth = depth
+        self._depth, self._turn = depth, 0
         self.forget()
 
     def forget(self) -> None:
@@ -227,7 +227,17 @@ class _Mixed:
         self._steps: list[Array] = []
 
     def towards(self, old: tuple[Array, Array, Array], new: tuple[Array, Array, Array]) -> tuple[Array, Array, Array]:
-        """Return the next elongations, speeds and drift from the last and what they lead to."""
+        """Return the next elongations, speeds and drift from the last and what they lead to.
+
+        Where mixing has not settled by :data:`_PATIENCE` turns it starts again from rest in small plain steps, which
+        follow the branch of small motions where curves that come tight make several.
+        """
+        self._turn += 1
+        if self._turn == _PATIENCE:
+            return np.zeros_like(old[0]), new[1], np.zeros_like(old[2])
+        if self._turn > _PATIENCE:
+            slow = [last + _SLOW * (ahead - last) for last, ahead in zip(old, new, strict=True)]
+            return slow[0], slow[1], slow[2]
         parts = [np.full(len(part), max(float(np.max(np.abs(part), initial=0.0)), 1e-12)) for part in new]
         scale, point = np.concatenate(parts), np.concatenate(old)
         step = np.concatenate(new) - point
