@@ -12,11 +12,15 @@ from moyai.structures.units.model import Connector, Placement
 from moyai.validation.units import at_rest, row
 
 PIN = Connector("pin", "hinge", ((0, 1),), 0.0, 3.0, (1.0, 0.0, 0.0))
+GUIDE, SPRING = (
+    Connector("s", "spring", ((0, 1),), 0.0, 3.0, stiffness=np.diag([1e6, along, 1e6, 0.0, 0.0, 0.0]))
+    for along in (0.0, 5e6)
+)
 #: Of the deck above the centre of gravity, half of a unit [m]
 DECK, HALF = 4.5 - 2.29, 10.0
 
 
-@pytest.mark.parametrize(("connectors", "drawn"), [((), 1.0), ((PIN,), 0.0)])
+@pytest.mark.parametrize(("connectors", "drawn"), [((), 1.0), ((GUIDE,), 1.0), ((PIN,), 0.0), ((SPRING,), 0.0)])
 def test_two_decks_that_lean_on_each_other(connectors: tuple[Connector, ...], drawn: float) -> None:
     """Each deck comes nearer by its height times the turn; a free unit is drawn in by t^2 / 2 of its half length."""
     at = at_rest(row(connectors))

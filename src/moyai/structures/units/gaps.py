@@ -37,7 +37,7 @@ class Gap:
     arms : ndarray (2, corners, 3)
         Corners of both ends from the centres of their units [m], row axes.
     bend : float
-        1 where turns count to second order, 0 where the units are held together at a point.
+        1 where turns count to second order, 0 where the units are held together along their gap.
     """
 
     name: str

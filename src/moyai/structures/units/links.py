@@ -31,11 +31,16 @@ def displacement(motion: Array, arm: Array, bend: float = 1.0) -> Array:
 
 
 def hold_together(joints: tuple[Joint, ...], pair: tuple[int, int]) -> bool:
-    """Whether a connector holds two units together at a point.
+    """Whether a constraint or a spring holds two units together along their gap.
 
-    Constraints are of first order: the point draws in neither unit, and what lies next to it must not either.
+    Both are of first order: they draw in neither unit, and what lies next to them must not either.
     """
-    return any(set(joint.pair) == set(pair) and joint.held[:, :3].any() for joint in joints)
+    return any(set(joint.pair) == set(pair) and _holds(joint) for joint in joints)
+
+
+def _holds(joint: Joint) -> bool:
+    spring, axis = joint.connector.stiffness, joint.from_end_to_end
+    return bool(joint.held[:, :3].any()) or (spring is not None and float(axis @ spring[:3, :3] @ axis) > 0.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,7 +91,7 @@ class Link:
     frame : ndarray (3, 3)
         From row axes to those of the unit before it.
     bend : float
-        1 where turns count to second order, 0 where units are held together at a point.
+        1 where turns count to second order, 0 where units are held together along their gap.
     """
 
     joint: int
