@@ -19,6 +19,8 @@ Density = Callable[[Array], Array]
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
 #: Below this fraction of the peak frequency exp(-1.25 s^-4) is less than 1e-300.
 LOWEST = 0.21
+#: Frequencies between which an integral is inverted.
+_BRACKETS = 200
 
 
 def shape_edges(peaks: tuple[float, ...], lower: float, upper: float) -> Array:
@@ -93,8 +95,10 @@ def cumulative_table(omega: Array, density: Array, wanted: Array) -> Array:
 
 def invert_cumulative(cumulative: Density, density: Density, target: Array, lower: float, upper: float) -> Array:
     """Solve cumulative(omega) = target by Newton's method guarded by bisection, all targets at once."""
-    low, high = np.full(target.shape, lower), np.full(target.shape, upper)
-    omega = np.sqrt(low * high) if lower > 0.0 else 0.5 * (low + high)
+    grid = np.geomspace(lower, upper, _BRACKETS) if lower > 0.0 else np.linspace(lower, upper, _BRACKETS)
+    above = np.clip(np.searchsorted(cumulative(grid), target, side="right"), 1, _BRACKETS - 1)
+    low, high = grid[above - 1], grid[above]
+    omega = 0.5 * (low + high)
     for _ in range(200):
         excess = cumulative(omega) - target
         high = np.where(excess > 0.0, omega, high)

@@ -43,11 +43,9 @@ def force_spectrum(omega: Array, directional: Array, drift: Array, difference: A
     step = grid[1] - grid[0]
     moments = np.array([np.sum(directional * drift**order, axis=1) for order in (0, 1, 2)])
     zero, one, two = (np.interp(grid, omega, row) for row in moments)
-    out = np.zeros(len(difference))
-    for index, mu in enumerate(difference):
-        other = [np.interp(grid + mu, omega, row, left=0.0, right=0.0) for row in moments]
-        out[index] = 2.0 * step * float(np.sum(two * other[0] + 2.0 * one * other[1] + zero * other[2]))
-    return out
+    beyond = grid + np.asarray(difference)[:, None]
+    other = [np.interp(beyond, omega, row, left=0.0, right=0.0) for row in moments]
+    return np.asarray(2.0 * step * (other[0] @ two + 2.0 * other[1] @ one + other[2] @ zero))
 
 
 @dataclass(frozen=True)
@@ -124,8 +122,8 @@ def slow_drift(
     weights = integration_weights(difference)
 
     mu = difference[:, None, None]
-    restoring = stiffness - mu**2 * (model.inertia + np.array([added(one) for one in difference]))
-    losses = np.array([radiation(one) for one in difference]) + extra
+    restoring = stiffness - mu**2 * (model.inertia + added(difference))
+    losses = radiation(difference) + extra
 
     def transfer(factor: float) -> ComplexArray:
         matrix = restoring - 1j * mu * factor * losses
