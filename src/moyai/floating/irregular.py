@@ -150,9 +150,9 @@ class _Linearised:
         frequency = 2.0 * math.pi / period if period > 0.0 else _LEAST
         return np.concatenate([[frequency], _above_zero(moving.standard_deviation[: self.size]), deviation])
 
-    def equivalents(self, state: Array | None) -> tuple[Array, ComplexArray | float]:
+    def equivalents(self, state: Array | None) -> tuple[Array, ComplexArray]:
         """Return damping (m, m) and drag of moving water (n, h, m) at a state; nothing at none."""
-        damping, drag = np.zeros((self.size, self.size)), 0.0
+        damping, drag = np.zeros((self.size, self.size)), np.zeros((*self.wave.shape, self.size), dtype=np.complex128)
         if state is None:
             return damping, drag
         if self.quadratic is not None:
@@ -163,6 +163,14 @@ class _Linearised:
         if self.line_damping is not None:
             damping = damping + self.line_damping(math.sqrt(2.0) * state[1 : 1 + self.size], float(state[0]))
         return damping, drag
+
+
+def _solved(matrix: ComplexArray, push: ComplexArray) -> ComplexArray:
+    """Return the displacements (n, h, m), NaN where the body is at an undamped resonance."""
+    try:
+        return np.asarray(np.swapaxes(np.linalg.solve(matrix, np.swapaxes(push, 1, 2)), 1, 2), dtype=np.complex128)
+    except np.linalg.LinAlgError:
+        return solve_scaled(np.broadcast_to(matrix[:, None], (*push.shape, push.shape[-1])), push)[0]
 
 
 def _above_zero(deviation: Array) -> Array:
@@ -263,7 +271,7 @@ def linearised_in_sea(
         equivalent, drag = sea.equivalents(state)
         displacement = np.concatenate(
             [
-                solve_scaled(np.broadcast_to((fixed - turn * equivalent)[:, None], (*push.shape, size)), push)[0]
+                _solved(fixed - turn * equivalent, push)
                 for fixed, push in zip(known, np.split(excitation + drag, ends[:-1], axis=1), strict=True)
             ],
             axis=1,

@@ -99,6 +99,7 @@ def invert_cumulative(cumulative: Density, density: Density, target: Array, lowe
     above = np.clip(np.searchsorted(cumulative(grid), target, side="right"), 1, _BRACKETS - 1)
     low, high = grid[above - 1], grid[above]
     omega = 0.5 * (low + high)
+    rounding = 4.0 * np.finfo(float).eps * np.max(np.abs(target), initial=0.0)
     for _ in range(200):
         excess = cumulative(omega) - target
         high = np.where(excess > 0.0, omega, high)
@@ -107,7 +108,7 @@ def invert_cumulative(cumulative: Density, density: Density, target: Array, lowe
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             newton = omega - excess / slope
         inside = np.isfinite(newton) & (newton > low) & (newton < high)
-        following = np.where(inside, newton, 0.5 * (low + high))
+        following = np.where(np.abs(excess) <= rounding, omega, np.where(inside, newton, 0.5 * (low + high)))
         done = np.abs(following - omega) <= 1e-13 * omega
         omega = following
         if done.all():

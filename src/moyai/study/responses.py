@@ -66,7 +66,9 @@ def kept(tree: xr.DataTree | Groups, wanted: Sequence[Wanted] = ()) -> dict[str,
     InputError
         When a wanted variable or dimension is not in the result.
     """
-    groups = {node.path: _labelled_group(node) for node in tree.subtree} if isinstance(tree, Groups) else groups_of(tree)
+    groups = (
+        {node.path: _labelled_group(node) for node in tree.subtree} if isinstance(tree, Groups) else groups_of(tree)
+    )
     found: dict[str, Any] = {}
     for path, held in groups.items():
         tensions = largest_tensions(held) if LINE_TENSION_MAXIMUM.name in held.variables else {}

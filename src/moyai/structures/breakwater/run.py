@@ -14,7 +14,7 @@ from moyai.core.progress import Progress, silent
 from moyai.core.remembered import Remembered, key_of_objects
 from moyai.core.results import Result
 from moyai.core.store import DatasetStore
-from moyai.core.validity import Notice
+from moyai.core.validity import IdentityCheck, Notice
 from moyai.floating.checks import roll_notices
 from moyai.structures.breakwater.assembly import FloatingUnit, assemble
 from moyai.structures.breakwater.checks import check_problem, check_unit, drift_check
@@ -47,6 +47,7 @@ if TYPE_CHECKING:
 _HYDRODYNAMICS: Remembered[UnitHydrodynamics] = Remembered(4)
 _STATICS: Remembered[tuple[xr.Dataset, tuple[Notice, ...]]] = Remembered(4)
 _MODELS: Remembered[FrequencyModel] = Remembered(4)
+_DRIFT_CHECKS: Remembered[tuple[IdentityCheck, ...]] = Remembered(8)
 _REGULAR: Remembered[FrequencyResult] = Remembered(32)
 
 
@@ -173,7 +174,8 @@ def _frequency_steps(
         collected.checks.extend(found.checks)
         collected.notices.extend((*found.notices, *check_screening(unit.water.depth, unit.draught)))
     if not problem.nominal:
-        collected.checks.extend(drift_check(model, main, seas))
+        key = None if shared is None else key_of_objects(shared, main)
+        collected.checks.extend(_DRIFT_CHECKS.of(key, lambda: drift_check(model, main)))
     collected.notices.extend(viscous_notices(unit))
     yield
     for sea in seas:

@@ -222,7 +222,10 @@ def _settle(
     weights = integration_weights(hydros[0].omega)
     drifting = model.with_drift and hydros[0].has_far_field
     moving = water_motion(model, hydros[0].omega, headings)
-    force, place, near = (0.0, None, None) if start is None else (start.force, start.offset, start.linearised)
+    near: SeaMotions | None = None
+    force, place = 0.0, np.zeros(3)
+    if start is not None:
+        force, place, near = start.force, start.offset, start.linearised
     status: str = "not_converged"
     for _ in range(MOST_TURNS):
         pushed = model.steady + np.array([force, 0.0, 0.0])
@@ -246,6 +249,7 @@ def _settle(
         if abs(force - before) <= 1e-6 * max(abs(force), 1e-12):
             status = str(mean.status)
             break
+    assert near is not None
     damping = LinearDamping(model.damping.matrix + near.equivalent_damping, model.damping.critical_fraction)
     motions = replace(near.motions, heading=headings)
     return _Settled(motions, force, offset, status, motions.notices, damping, stiffness, near)
