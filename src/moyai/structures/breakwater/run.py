@@ -27,7 +27,7 @@ from moyai.structures.breakwater.hydrodynamics import (
     UnitHydrodynamics,
     headings_of,
     operator_frequencies,
-    sea_frequencies,
+    section_frequencies,
     solve_unit,
     spectrum_band,
 )
@@ -43,12 +43,13 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
+MOST_SHARED = 48  # heading and range of frequencies of a scatter diagram make so many
 # What the cases of a study share that differ in their irregular seas alone
-_HYDRODYNAMICS: Remembered[UnitHydrodynamics] = Remembered(4)
-_STATICS: Remembered[tuple[xr.Dataset, tuple[Notice, ...]]] = Remembered(4)
-_MODELS: Remembered[FrequencyModel] = Remembered(4)
-_DRIFT_CHECKS: Remembered[tuple[IdentityCheck, ...]] = Remembered(8)
-_REGULAR: Remembered[FrequencyResult] = Remembered(32)
+_HYDRODYNAMICS: Remembered[UnitHydrodynamics] = Remembered(MOST_SHARED)
+_STATICS: Remembered[tuple[xr.Dataset, tuple[Notice, ...]]] = Remembered(MOST_SHARED)
+_MODELS: Remembered[FrequencyModel] = Remembered(MOST_SHARED)
+_DRIFT_CHECKS: Remembered[tuple[IdentityCheck, ...]] = Remembered(MOST_SHARED)
+_REGULAR: Remembered[FrequencyResult] = Remembered(MOST_SHARED)
 
 
 @dataclass(frozen=True)
@@ -209,7 +210,8 @@ def _key_without_irregular_seas(problem: BreakwaterProblem, unit: FloatingUnit) 
     regular = tuple(replace(sea, height=1.0) for sea in problem.environment.sea_states if isinstance(sea, RegularSea))
     environment = replace(problem.environment, sea_states=())
     rest = (problem.breakwater, environment, problem.settings, problem.nominal)
-    return key_of_objects(rest, unit.name, unit.level, regular, sea_frequencies(problem), headings_of(problem))
+    solved = (section_frequencies(unit, problem), headings_of(problem))
+    return key_of_objects(rest, unit.name, unit.level, regular, *solved)
 
 
 def _time_steps(
