@@ -212,6 +212,16 @@ def test_eddies_in_regular_waves_are_those_of_equal_work_in_the_frequency_domain
     assert abs(0.5 * height * without.fine.motion[0, 0, 4]) > 1.1 * abs(expected[4])
 
 
+def test_units_that_nothing_joins_have_their_numbers(hydro, memory):
+    """One pontoon, or several on lines alone: a table of connectors without rows."""
+    at, sea = at_rest(), RegularSea("w", 1.0, (6.0,), 0.0)
+    settings = Settings(2.0, drift=False, time=TimeSettings(duration=60.0))
+    (answer,) = regular_answer(at, hydro, sea, np.zeros(12), settings)
+    found = run_numbers(regular_run(Water3D(at, hydro, memory, np.zeros(12), settings), sea, 6.0, answer))
+    assert found["relative_motion_largest"][1].shape == (0, 3) and found["connector_resultant_largest"][1].shape == (0,)
+    assert (found["maximum_motion"][1][:, 2] > 0.1).all()
+
+
 def _with(item, memory):
     added, damping = memory.coefficients(np.array([item.omega]))
     return replace(item, added_mass=added[0], damping=damping[0])
