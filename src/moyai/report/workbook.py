@@ -36,6 +36,7 @@ NUMBERS = 100_000
 #: Words with which the name of a sheet does not end
 _HANGING = frozenset(("a", "an", "and", "at", "by", "for", "from", "in", "of", "on", "or", "over", "the", "to", "with"))
 _WIDEST, _NUMBER = 60, 10  # characters of a column at most, of a number
+_A4 = 9  # paper of XLSX
 _DETAIL = 4  # column of the longest texts of the summary
 
 
@@ -102,7 +103,11 @@ class _Book:
         self._used.add(name.lower())
         if listed:
             self._sheets.append((name, listed))
-        return self._book.add_worksheet(name)
+        sheet = self._book.add_worksheet(name)
+        sheet.set_landscape()
+        sheet.set_paper(_A4)
+        sheet.fit_to_pages(1, 0)  # as wide as a page, as long as it is
+        return sheet
 
     def _block(self, block: Block, place: str) -> None:
         match block:
@@ -147,6 +152,7 @@ class _Book:
     ) -> None:
         """Write headed columns; the heads stay in sight."""
         sheet.freeze_panes(1, 0)
+        sheet.repeat_rows(0)
         # numbers that are texts among other texts are names and versions
         sheet.ignore_errors({"number_stored_as_text": "A1:XFD1048576"})
         for number, (head, values) in enumerate(columns):
