@@ -15,10 +15,10 @@ import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
-from unicodedata import east_asian_width
 
 from moyai.core.errors import InputError
 from moyai.language import said
+from moyai.language.words import breadth
 from moyai.report.document import (
     Animation,
     Block,
@@ -271,8 +271,8 @@ def column_shares(columns: Sequence[Sequence[str]]) -> list[float]:
     columns : sequence of sequences of str
         Texts of each column, its head included; a letter of Japanese counts as two and may break anywhere.
     """
-    words = [max((_letters(word) for text in column for word in _WORD.findall(text)), default=1) for column in columns]
-    texts = [min(max(map(_letters, column), default=1), _LONG_LINE) for column in columns]
+    words = [max((breadth(word) for text in column for word in _WORD.findall(text)), default=1) for column in columns]
+    texts = [min(max(map(breadth, column), default=1), _LONG_LINE) for column in columns]
     least = [min(max(word, _SHORT_LINE), text) + 2 for word, text in zip(words, texts, strict=True)]
     wanted = [max(text + 2, low) for text, low in zip(texts, least, strict=True)]
     room = max(_LONG_LINE + 20.0, float(sum(least)))
@@ -280,11 +280,6 @@ def column_shares(columns: Sequence[Sequence[str]]) -> list[float]:
     taken = [low + (want - low) * (min(spare / asked, 1.0) if asked else 0.0) for low, want in zip(least, wanted)]
     total = max(sum(taken), sum(least))
     return [width / total for width in taken]
-
-
-def _letters(text: str) -> int:
-    """Return the breadth of a text in Latin letters."""
-    return sum(2 if east_asian_width(letter) in "WF" else 1 for letter in text)
 
 
 def _set_page(paper: Any) -> None:

@@ -14,12 +14,13 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.language import said, spoken_in, spoken_language
+from moyai.language.words import breadth
 from moyai.report.decimate import envelope_indices
 from moyai.report.document import Block, Cell, Choice, Column, Document, Figure, KeyFigures, Listing, NoticeBlock, Table
 from moyai.report.encoding import column_unit, figure_columns, scaled_cell
 from moyai.report.formatting import axis_label, read_quantity
 from moyai.report.html import badges_of, foot_text, notice_items
-from moyai.report.language import for_its_reader
+from moyai.report.language import for_its_reader, with_label
 from moyai.report.systems import UNITS_NOTES
 
 if TYPE_CHECKING:
@@ -35,9 +36,11 @@ _COUNT = re.compile("0|[1-9][0-9]{0,8}")
 NUMBERS = 100_000
 #: Words with which the name of a sheet does not end
 _HANGING = frozenset(("a", "an", "and", "at", "by", "for", "from", "in", "of", "on", "or", "over", "the", "to", "with"))
-_WIDEST, _NUMBER = 60, 10  # characters of a column at most, of a number
+_WIDEST, _NUMBER = 60, 12  # characters of a column at most, of a number
 _A4 = 9  # paper of XLSX
-_DETAIL = 4  # column of the longest texts of the summary
+_WIDTHS = (42, 24, 10, 10, 90)  # of the columns of the summary, in characters
+_DETAIL = 4  # its column of the longest texts
+_LINE = 15.0  # height of a line [pt]
 
 
 @for_its_reader
@@ -116,7 +119,7 @@ class _Book:
             case Figure():
                 self._figure(block, place)
             case Listing():
-                sheet = self._sheet(block.title, f"{place}: {block.title}")
+                sheet = self._sheet(block.title, with_label(place, block.title))
                 sheet.set_column(0, 0, 120)
                 for number, line in enumerate(block.text.splitlines()[:ROWS]):
                     sheet.write_string(number, 0, line)
@@ -127,7 +130,7 @@ class _Book:
                         self._block(item, f"{place}, {option.label}" if several else place)
 
     def _table(self, table: Table, place: str) -> None:
-        sheet = self._sheet(table.title, f"{place}: {table.title}")
+        sheet = self._sheet(table.title, with_label(place, table.title))
         marks = dict.fromkeys(table.emphasised, self._row["emphasised"])
         marks |= dict.fromkeys(table.failed, self._row["failed"])
         columns: list[tuple[str, Sequence[Cell] | Array]] = []
@@ -144,7 +147,7 @@ class _Book:
 
     def _figure(self, figure: Figure, place: str) -> None:
         thinned, words = _thinned(figure, self._longest)
-        sheet = self._sheet(figure.title, f"{place}: {said('data of the figure')} '{figure.title}'{words}")
+        sheet = self._sheet(figure.title, with_label(place, f"{said('data of the figure')} '{figure.title}'{words}"))
         self._columns(sheet, figure_columns(thinned), {})
 
     def _columns(
@@ -157,7 +160,7 @@ class _Book:
         sheet.ignore_errors({"number_stored_as_text": "A1:XFD1048576"})
         for number, (head, values) in enumerate(columns):
             sheet.write_string(0, number, head, self._head)
-            widest = len(head) // 2
+            widest = breadth(head) // 2
             if isinstance(values, np.ndarray) and values.dtype.kind == "f" and not marks:
                 widest = max(widest, _write_numbers(sheet, number, values[: ROWS - 1]))
             else:
@@ -167,10 +170,8 @@ class _Book:
 
     def _summary(self, sheet: Worksheet) -> None:
         document = self._document
-        sheet.set_column(0, 0, 42)
-        sheet.set_column(1, 1, 24)
-        sheet.set_column(2, 3, 10)
-        sheet.set_column(_DETAIL, _DETAIL, 90)
+        for number, width in enumerate(_WIDTHS):
+            sheet.set_column(number, number, width)
         sheet.write_string(0, 0, document.title, self._title)
         sheet.write_string(1, 0, document.subtitle)
         sheet.write_string(2, 0, said(UNITS_NOTES.get(document.units, "")), self._quiet)
@@ -179,6 +180,7 @@ class _Book:
             sheet.write_string(row, 0, badge.label or said("Status"), self._top)
             sheet.write_string(row, 1, badge.word, self._bold)
             sheet.write_string(row, _DETAIL, badge.message, self._wrapped)
+            _heighten(sheet, row, ("", "", "", "", badge.message))
             row += 1
         row += 1
         for block in document.blocks():
@@ -193,13 +195,16 @@ class _Book:
                     _write(sheet, row, 1, value, self._wrapped)
                     for column, text in ((2, unit), (3, bound), (_DETAIL, item.detail)):
                         _write(sheet, row, column, text, self._wrapped)
+                    _heighten(sheet, row, (item.label, str(value), unit, bound, item.detail))
                     row += 1
         row += 1
         for block in document.blocks():
             if isinstance(block, NoticeBlock):
                 for severity, first, second in notice_items(block):
                     sheet.write_string(row, 0, said(severity.capitalize()), self._top)
-                    sheet.write_string(row, _DETAIL, f"{first}\n{second}" if second else first, self._wrapped)
+                    text = f"{first}\n{second}" if second else first
+                    sheet.write_string(row, _DETAIL, text, self._wrapped)
+                    _heighten(sheet, row, ("", "", "", "", text))
                     row += 1
         row += 1
         for name, listed in self._sheets:
@@ -208,6 +213,16 @@ class _Book:
             sheet.write_string(row, _DETAIL, listed)
             row += 1
         sheet.write_string(row + 1, 0, foot_text(document), self._quiet)
+
+
+def _heighten(sheet: Worksheet, row: int, texts: Sequence[str]) -> None:
+    """Make a row of the summary as high as its longest text; not every program does so when it opens the file."""
+    lines = [
+        sum(max(math.ceil(breadth(line) / (0.95 * width)), 1) for line in text.split("\n"))
+        for text, width in zip(texts, _WIDTHS, strict=True)
+    ]
+    if max(lines) > 1:
+        sheet.set_row(row, _LINE * max(lines))
 
 
 def _shortened(text: str, length: int) -> str:
@@ -249,8 +264,8 @@ def _parted(column: Column) -> list[tuple[str, Sequence[Cell]]]:
     values, units, bounds = zip(*map(_quantity, map(str, column.values)), strict=True)
     found = [
         (column.label, values),
-        (f"{column.label}: {said('unit')}", units),
-        (f"{column.label}: {said('bound')}", bounds),
+        (with_label(column.label, said("unit")), units),
+        (with_label(column.label, said("bound")), bounds),
     ]
     return [found[0], *(item for item in found[1:] if any(item[1]))]
 
@@ -302,7 +317,7 @@ def _write(sheet: Worksheet, row: int, column: int, value: Cell, style: Format |
     if isinstance(value, str):
         if value:
             sheet.write_string(row, column, value, style)
-        return len(value)
+        return breadth(value)
     if value is None or math.isnan(value):
         return 0
     if math.isinf(value):

@@ -394,6 +394,16 @@ def test_sheets_print_on_one_page_across_with_their_heads():
     assert book.worksheets[1].print_title_rows == "$1:$1"
 
 
+@pytest.mark.parametrize(("detail", "lines"), [("short", 1), ("a word " * 40, 4), ("長い説明" * 30, 3)])
+def test_rows_of_the_summary_are_as_high_as_their_text(detail, lines):
+    """LibreOffice keeps the height of one line where the file names none, and texts lay over each other."""
+    blocks = (KeyFigures((KeyFigure("largest tension", "12.3 kN", detail.strip()),)),)
+    document = Document("t", "s", "converged", "", (Section("all", "All", blocks),), {})
+    sheet = _read(document).worksheets[0]
+    row = next(cell.row for cell in sheet["A"] if cell.value == "Largest tension")
+    assert (sheet.row_dimensions[row].height or 15.0) == 15.0 * lines
+
+
 def test_the_report_is_written_again_from_the_results(tmp_path):
     runner = CliRunner()
     case = tmp_path / "member.yaml"
