@@ -72,7 +72,7 @@ class _Book:
 
     def __init__(self, book: Any, document: Document) -> None:
         self._book, self._document = book, document
-        self._bold = book.add_format({"bold": True})
+        self._bold = book.add_format({"bold": True, "valign": "top"})
         self._title = book.add_format({"bold": True, "font_size": 14})
         self._head = book.add_format({"bold": True, "bottom": 1, "text_wrap": True, "valign": "top"})
         self._wrapped = book.add_format({"text_wrap": True, "valign": "top"})
