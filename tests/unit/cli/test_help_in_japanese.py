@@ -9,8 +9,8 @@ import typer
 from typer.testing import CliRunner
 
 from moyai.cli.help_pages import wrapped
-from moyai.language.words import breadth
 from moyai.cli.main import app
+from moyai.language.words import breadth
 
 #: Words that no name of an option, a kind or a file has.
 ENGLISH = ("the", "of", "and", "is", "for", "in", "with", "when", "default", "required", "or")
