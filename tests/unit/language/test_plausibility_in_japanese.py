@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import sys
+
 import pytest
 
+from moyai.case.schema import json_schema
+from moyai.core.quantities import Kind
 from moyai.language.catalogue import catalogue
 from moyai.language.translator import translator
 from moyai.language.words import latin_words
-from moyai.tables.plausible_ranges import all_ranges, range_sources
+from moyai.tables.plausible_ranges import all_ranges, kind_bounds, range_sources
 
 LABELS = sorted({row.what for row in all_ranges() if row.structure != "kind"})
 NAMES = {"TEOS", "WGS", "Munk", "ITTC", "DNV-RP-C205", "DNV", "RP", "lines", "csv", "data", "Miche", "GPa", "NS", "SDR"}
@@ -34,3 +38,14 @@ def test_the_sources_are_said_in_japanese() -> None:
     for source in range_sources().values():
         said = text(f"1 to 5, usually 2 to 3 (source: {source})")
         assert set(latin_words(said)) <= NAMES, said
+
+
+def test_every_kind_of_quantity_is_said_in_japanese() -> None:
+    """What is said of a value that is no quantity of its kind, or one that nothing in water has."""
+    json_schema()  # loads what the kinds of structures bring along
+    packages = [module for name, module in sys.modules.items() if name.startswith("moyai.")]
+    kinds = [found for package in packages for found in vars(package).values() if isinstance(found, Kind)]
+    assert {"a length", "a damping of the bed"} <= {kind.name for kind in kinds}
+    texts = [kind.expectation() for kind in kinds]
+    texts += [f"9 is no {name.split(' ', 1)[1]} that a structure in water can have" for name in kind_bounds()]
+    assert {text for text in texts if translator("ja").left(text)} == set()
