@@ -27,7 +27,7 @@ from moyai.structures.breakwater.run import run
 from moyai.structures.breakwater.screening import transmission_macagno, transmission_wiegel
 
 PAPER = "Nakamura, Ohmori and Ide, recomputed by a second program (independent prototype)"
-CLOSED_FORM = "closed form evaluated independently, domain notes section C"
+CLOSED_FORM = "closed form, evaluated independently of the code"
 
 
 def tank_model(periods: tuple[float, ...], *analyses: str, height: float = 0.04) -> BreakwaterProblem:
