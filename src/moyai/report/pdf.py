@@ -30,6 +30,7 @@ from moyai.report.html import (
     badges_of,
     column_texts,
     foot_text,
+    is_sentence,
     is_text_column,
     notice_items,
 )
@@ -137,6 +138,7 @@ class _Writer:
                     {
                         "label": item.label,
                         "text": item.text,
+                        "sentence": is_sentence(item),
                         "detail": item.detail,
                         "judgement": item.judgement,
                         "filled": None

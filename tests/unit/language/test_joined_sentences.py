@@ -32,3 +32,11 @@ def test_the_parts_of_a_fault_are_parted_by_marks_of_the_language() -> None:
         assert fault_text(fault) == "風速が 900 m/s で、あり得ない値である；許容：115 m/s 以下；確認する"
     with spoken_in("en"):
         assert fault_text(fault) == str(fault)
+
+
+def test_a_key_with_its_value_stays_as_it_is_typed() -> None:
+    """A full-width colon is none in a case file; and what may prove a limit stands behind the judgement."""
+    proof = "the mean of 5 realisations keeps it: settings.time.realisations: 6 may prove it"
+    said = translator("ja").text(f"factor of safety of connectors 1.98 is below 2 ({proof})")
+    assert "settings.time.realisations: 6 " in said
+    assert said.startswith("連結部の安全率 1.98 は 2 を下回る（")
