@@ -130,7 +130,7 @@ def fit_memory(
     low, high = model.knots[1], model.knots[-1]
     # the knots crowd where the damping turns sharply, which an even grid would step over
     even = np.concatenate([np.linspace(0.0, low, 9)[1:-1], np.geomspace(low, 6.0 * high, 140)])
-    omega = np.unique(np.concatenate([even, model.knots[2:]]))
+    omega = np.unique(np.concatenate([even, model.knots[2:-1]]))
     return fit_state_space(
         omega,
         model.response(omega),

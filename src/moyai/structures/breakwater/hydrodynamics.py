@@ -45,6 +45,7 @@ MOST_SOLVED = 8  # solutions of the normal heading that are kept in memory
 MOST_OBLIQUE = 64  # sets of oblique headings that are kept in memory
 MOST_MODES = 15  # of the water in a gap, whose frequencies are looked at
 AROUND_MODE, END_OVER_EVEN = np.array([0.97, 0.99, 1.0, 1.01, 1.03]), 0.25
+UP_TO_END = np.array([0.95, 0.96, 0.97, 0.98, 0.99, 1.0])
 MOST_FREQUENCIES = 1500
 REFINEMENT_TOLERANCE = 1e-3  # error of interpolated damping over its largest value at which frequencies are added
 OBLIQUE_FREQUENCIES = 64
@@ -374,7 +375,7 @@ def sloshing_frequencies(unit: FloatingUnit, top: float) -> Array:
         found.append(np.asarray(angular_frequency(modes, water.depth, water.gravity))[:, None] * AROUND_MODE)
         if most <= MOST_MODES:
             end = 2 * math.ceil(0.5 * most) + END_OVER_EVEN
-            found.append(np.atleast_1d(angular_frequency(end * half, water.depth, water.gravity)))
+            found.append(np.atleast_1d(angular_frequency(end * half, water.depth, water.gravity)) * UP_TO_END)
     return np.concatenate([np.ravel(part) for part in found])
 
 
