@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+import math
 import time
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import asdict, dataclass, field, replace
+from collections.abc import Callable, Iterator
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from moyai.app.folder import refuse_foreign_files
-from moyai.app.pins import Pin, Pinned, Run
-from moyai.app.sliders import sliders_of
+from moyai.app.messages import Wish
+from moyai.app.pins import Pinned, Run
 from moyai.app.stages import stages_of
 from moyai.case.builder import build
 from moyai.case.reader import case_of, like_checked
+from moyai.case.sliders import sliders_of
 from moyai.case.text_numbers import with_number
 from moyai.case.yaml_reader import Document, parse_yaml
 from moyai.core.errors import CaseError, Fault, MoyaiError
@@ -25,36 +27,12 @@ from moyai.language.faults import spoken_fault
 if TYPE_CHECKING:
     from moyai.case.reader import Case
 
-VERSION = 1
-"""Version of the messages between server and page (docs/tutorial/app.md)."""
 NOMINAL = (
     "nominal numbers only, at one water level, without drift, ranges, bands, other laws or speeds: "
     "the whole answer may judge otherwise"
 )
 ONE_LEVEL = "one water level only: the whole answer may judge otherwise"
 _TEXT_LIMIT = 2_000_000
-
-
-@dataclass(frozen=True)
-class Wish:
-    """What is asked of the worker."""
-
-    #: The case.
-    text: str
-    #: Where the case stands, or would stand.
-    file: Path
-    #: Folder out of which no file is read.
-    root: Path
-    #: Numbers to put at paths, in the unit as written.
-    edits: Mapping[str, str] = field(default_factory=dict)
-    #: States that are drawn faint under this one.
-    pins: tuple[Pin, ...] = ()
-    #: Other analyses than the cheap ones.
-    analyses: tuple[str, ...] = ()
-    #: Sections and figures of the report that are on the screen: the first draft has them.
-    shown: tuple[str, ...] = ()
-    #: Water level that is chosen there.
-    level: str = ""
 
 
 class Drafts:
@@ -95,7 +73,7 @@ class Drafts:
             self._last, text = document, document.text
             refuse_foreign_files(wish.root, wish.file.parent, document.data)
             case = case_of(document, wish.file)
-            drafts = stages_of(document, case.kind, wish.analyses)
+            drafts = stages_of(document, case.kind)
             sliders = sliders_of(document, case.kind, drafts[-1].data)
             yield _checked(text, (), case.warnings, sliders=sliders, kind=case.kind, title=case.title)
             checked = True
@@ -162,7 +140,7 @@ class Drafts:
             "nominal": bool(stage.words),
             "left_out": document.data.get("waves") != whole.data.get("waves"),
             "status": result.status,
-            "headlines": [headline.as_dict() for headline in result.headlines],
+            "headlines": [_finite(headline.as_dict()) for headline in result.headlines],
             "html": html,
             "data": data,
         }
@@ -215,3 +193,12 @@ def _checked(text: str, faults: Any, warnings: Any, **more: Any) -> dict[str, An
         "warnings": [asdict(spoken_fault(fault)) for fault in warnings],
         **more,
     }
+
+
+def _finite(value: Any) -> Any:
+    """Return a value with None where a number is not finite."""
+    if isinstance(value, dict):
+        return {key: _finite(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_finite(item) for item in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -43,14 +44,15 @@ class Folder:
         """Return the case, study and fit files of the folder: name, kind and title, the newest first."""
         found: list[tuple[float, dict[str, str]]] = []
         for path in self._candidates():
-            text = path.read_text(encoding="utf-8", errors="replace")[:20_000]
-            kind = _KIND.search(text) or _JOB.search(text)
-            if kind is None:
-                continue
-            title = (_TITLE if kind.re is _KIND else _JOB_TITLE).search(text)
-            name = path.relative_to(self.root).as_posix()
-            record = {"file": name, "kind": kind[1], "title": title[1].strip("'\"") if title else name}
-            found.append((path.stat().st_mtime, record))
+            with contextlib.suppress(OSError):  # gone meanwhile, or not for us to read
+                text = path.read_text(encoding="utf-8", errors="replace")[:20_000]
+                kind = _KIND.search(text) or _JOB.search(text)
+                if kind is None:
+                    continue
+                title = (_TITLE if kind.re is _KIND else _JOB_TITLE).search(text)
+                name = path.relative_to(self.root).as_posix()
+                record = {"file": name, "kind": kind[1], "title": title[1].strip("'\"") if title else name}
+                found.append((path.stat().st_mtime, record))
         return [record for _, record in sorted(found, key=lambda item: -item[0])]
 
     def _candidates(self) -> list[Path]:
@@ -58,17 +60,14 @@ class Folder:
         waiting = [(self.root, 0)]
         while waiting and len(found) < _MOST_FILES:
             folder, depth = waiting.pop(0)
-            try:
-                entries = sorted(folder.iterdir())
-            except OSError:
-                continue
-            for entry in entries:
-                if entry.is_symlink() or entry.name.startswith(".") or entry == self.output:
-                    continue
-                if entry.is_dir() and depth < _DEEPEST:
-                    waiting.append((entry, depth + 1))
-                elif entry.suffix in CASE_ENDINGS and entry.is_file() and entry.stat().st_size < 1_000_000:
-                    found.append(entry)
+            with contextlib.suppress(OSError):
+                for entry in sorted(folder.iterdir()):
+                    if entry.is_symlink() or entry.name.startswith(".") or entry == self.output:
+                        continue
+                    if entry.is_dir() and depth < _DEEPEST:
+                        waiting.append((entry, depth + 1))
+                    elif entry.suffix in CASE_ENDINGS and entry.is_file() and entry.stat().st_size < 1_000_000:
+                        found.append(entry)
         return found[:_MOST_FILES]
 
 

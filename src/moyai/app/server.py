@@ -26,7 +26,7 @@ from moyai.language import require_language
 from moyai.report.encoding import page_json
 
 _SCRIPTS = (
-    "page", "case", "gallery", "editor", "plain_text", "code_text", "codemirror",
+    "page", "case", "drafts", "gallery", "editor", "plain_text", "code_text", "codemirror",
     "form", "sliders", "pins", "tabs", "live", "renew", "jobs", "server",
 )  # fmt: skip
 _OWN = ("app.css", *(f"{name}.js" for name in _SCRIPTS))

@@ -85,6 +85,10 @@ class StructureKind(Kind):
     #: Path in the case file and name of the numbers that a design is tried with, the most wanted first; those of site,
     #: current and sea follow of themselves
     numbers: tuple[tuple[str, str], ...] = ()
+    #: Analyses of a draft, those of a case among them: the first that give what is on the screen, then the last
+    drafts: tuple[tuple[str, ...], ...] = ()
+    #: Whether drafts leave irregular seas out where there are regular ones
+    drafts_of_regular_seas = False
 
     @abstractmethod
     def schema(self) -> Any:

@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 from moyai.app.folder import Folder, refuse_foreign_files
-from moyai.app.sliders import slider, sliders_of
 from moyai.app.stages import stages_of
 from moyai.case.reader import case_of
+from moyai.case.sliders import slider, sliders_of
 from moyai.case.templates import template
 from moyai.case.text_numbers import number_at, with_number
 from moyai.case.yaml_reader import parse_yaml
