@@ -27,7 +27,7 @@ from moyai.report.encoding import page_json
 
 _SCRIPTS = (
     "page", "case", "drafts", "gallery", "editor", "plain_text", "code_text", "codemirror",
-    "form", "sliders", "pins", "tabs", "live", "renew", "jobs", "server",
+    "form", "sliders", "pins", "tabs", "live", "sections", "renew", "jobs", "server",
 )  # fmt: skip
 _OWN = ("app.css", *(f"{name}.js" for name in _SCRIPTS))
 _TYPES = {"css": "text/css", "js": "text/javascript", "html": "text/html"}

@@ -147,6 +147,25 @@ def test_a_slider_redraws_the_figures(address: str) -> None:
         sound(page, address)
 
 
+@pytest.mark.slow
+def test_a_narrow_figure_keeps_its_plot_under_a_long_legend(tmp_path: Path) -> None:
+    """Bars of four kinds and those of a pinned state: eight entries on 390 pixels; the list names what is looked at."""
+    (tmp_path / "curtain.yaml").write_text(_only("curtain", "statics, impact"))
+    with app_at(tmp_path / "curtain.yaml") as address, pipe.Chromium(str(pipe.find_chromium()), 390, 844) as page:
+        page.send("Page.navigate", url=address)
+        until(page, f"{WHOLE} && {IDLE}", 120.0)
+        page.evaluate(f"{PRESS}('Pin')")
+        until(page, f"{PINS}.length === 1")
+        page.evaluate(f"{MOVE_ONE}('structure.skirt.length', 6.5)")
+        until(page, f"{WHOLE} && {IDLE} && {TEXT}.includes('6.5 m')", 120.0)
+        page.evaluate("document.querySelector('.figure').scrollIntoView({ behavior: 'instant' })")
+        until(page, "document.querySelector('.figure').querySelectorAll('.legend .traces').length === 8", 20.0)
+        assert page.evaluate("document.querySelector('.figure .nsewdrag').getBoundingClientRect().height") > 130
+        listed = "document.querySelector('.top select').value"
+        assert page.evaluate(f"document.getElementById({listed}).contains(document.querySelector('.figure'))")
+        sound(page, address)
+
+
 def test_two_tabs_share_one_case(address: str) -> None:
     """What one tab moves is in the other, at the next look or the next move; both at once keep both numbers."""
     executable = str(pipe.find_chromium())

@@ -6,6 +6,7 @@ import { watchJobs } from "/assets/jobs.js";
 import { Live } from "/assets/live.js";
 import { Pins } from "/assets/pins.js";
 import { element, get, post, say, tell } from "/assets/server.js";
+import { Sections } from "/assets/sections.js";
 import { Sliders } from "/assets/sliders.js";
 import { tabs } from "/assets/tabs.js";
 
@@ -35,13 +36,13 @@ export class CaseView {
       button(say("Take the file"), () => this.settle(true)), button(say("Keep this text"), () => this.settle(false)));
     this.state = element("p", { class: "quiet state", role: "status" }, say("drawing …"));
     this.report = element("div", { class: "report" });
-    this.jump = element("select", { "aria-label": say("Go to a section"), onchange: () => { document.getElementById(this.jump.value)?.scrollIntoView({ behavior: "instant" }); } });
+    this.sections = new Sections(this.report);
     this.content.replaceChildren(
       element("div", { class: "controls" }, this.title,
         element("div", { class: "toolbar" }, button(say("Run"), () => this.run(), say("Full run as a job, with the report")), this.undoButton, pin,
           this.saveButton, element("a", { href: `${this.address}/case.yaml`, download: true }, say("Take the case"))),
         this.notice, this.pins.element, tabs((name) => this.showTab(name)), this.sliders.element, this.form.element, this.editor.element),
-      element("div", { class: "look" }, element("div", { class: "top" }, this.state, this.jump), this.report));
+      element("div", { class: "look" }, element("div", { class: "top" }, this.state, this.sections.element), this.report));
     this.report.addEventListener("click", (event) => {
       const link = event.target.closest("a[href^='#']");
       if (link) { event.preventDefault(); document.getElementById(link.hash.slice(1))?.scrollIntoView(); }
@@ -109,7 +110,7 @@ export class CaseView {
     clearInterval(this.look);
     document.removeEventListener("visibilitychange", this.seen);
     document.removeEventListener("keydown", this.keys);
-    if (this.live) this.live.close();
+    if (this.live) { this.live.close(); this.sections.close(); }
     clearTimeout(this.timer);
   }
   take(record) {
@@ -181,20 +182,13 @@ export class CaseView {
   hearDrawn(said) {
     this.report.headlines = said.headlines;
     this.live.draw(said.html, said.data, said.last);
-    this.listSections();
+    this.sections.list();
     const parts = [say("Draft of {0}", said.analyses.join(", ")), said.left_out ? say("without irregular seas") : "",
       said.nominal ? say("nominal numbers only (no band, range or comparison)") : "", say("in {0} s", said.seconds.toFixed(2))];
     this.say(`${parts.filter(Boolean).join(say(", "))}${say(". ")}${said.last ? say("Run computes the rest.") : say("More follows.")}`);
     this.report.dataset.sequence = said.sequence;
     this.report.dataset.whole = said.last ? "1" : "";
     if (this.moved) { this.report.dataset.latency = Math.round(performance.now() - this.moved); this.moved = 0; }
-  }
-  listSections() {
-    const sections = [...this.report.querySelectorAll("section[id]")].map((one) => [one.id, one.querySelector("h2").textContent]);
-    const state = JSON.stringify(sections);
-    if (state === this.sections) return;
-    this.sections = state;
-    this.jump.replaceChildren(...sections.map(([id, words]) => element("option", { value: id }, words)));
   }
   say(words, old = false) {
     this.state.textContent = words;
