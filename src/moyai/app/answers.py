@@ -63,8 +63,13 @@ async def body_of(request: Request) -> dict[str, Any]:
     return content
 
 
-def text_in(content: dict[str, Any], key: str) -> str:
-    value = content.get(key, "")
-    if not isinstance(value, str):
-        raise ValueError(f"{key!r} is text")
+def value_in(content: dict[str, Any], key: str, default: Any) -> Any:
+    """Return a value of a request, of the type that it has by default."""
+    value = content.get(key, default)
+    if type(value) is not type(default):
+        raise ValueError(f"{key!r} is of another type")
     return value
+
+
+def text_in(content: dict[str, Any], key: str) -> str:
+    return str(value_in(content, key, ""))

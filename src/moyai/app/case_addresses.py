@@ -11,7 +11,7 @@ from urllib.parse import quote
 from starlette.requests import Request
 from starlette.responses import Response, StreamingResponse
 
-from moyai.app.answers import Endpoint, body_of, json_answer, text_in
+from moyai.app.answers import Endpoint, body_of, json_answer, text_in, value_in
 from moyai.app.documents import OpenCase, stem_of
 from moyai.app.gallery import gallery
 from moyai.app.messages import STALE, Wish
@@ -20,7 +20,7 @@ from moyai.case.form import form_of
 from moyai.case.text_changes import with_key, with_scalar, without_key
 from moyai.case.yaml_reader import Document, parse_yaml
 from moyai.core.errors import InputError
-from moyai.core.kinds import structure_kinds
+from moyai.core.kinds import kind_named
 
 if TYPE_CHECKING:
     from moyai.app.server import App
@@ -49,14 +49,10 @@ async def _show(app: App, request: Request) -> Response:
 async def _draft(app: App, request: Request) -> Response:
     """Take a text, or numbers to put into the text of now; answer with the check, then with the draft."""
     document, content = _case(app, request), await body_of(request)
-    gesture, sequence, edits = text_in(content, "gesture"), content.get("sequence", 0), content.get("edits", {})
-    if not isinstance(edits, dict) or not all(isinstance(item, str) for pair in edits.items() for item in pair):
-        raise ValueError("'edits' are numbers by path, both as text")
-    if not isinstance(sequence, int):
-        raise ValueError("'sequence' is a whole number")
-    shown = content.get("shown", [])
-    if not isinstance(shown, list) or not all(isinstance(item, str) for item in shown):
-        raise ValueError("'shown' is a list of sections")
+    gesture, sequence = text_in(content, "gesture"), value_in(content, "sequence", 0)
+    edits, shown = value_in(content, "edits", {}), value_in(content, "shown", [])
+    if not all(isinstance(item, str) for item in (*edits.values(), *shown)):
+        raise ValueError("'edits' and 'shown' hold texts")
     level, asking = text_in(content, "level"), f"{document.key} {text_in(content, 'tab')}"
     if "text" in content:
         document.change(text_in(content, "text"), "typing" if edits else gesture)
@@ -89,13 +85,9 @@ async def _form(app: App, request: Request) -> Response:
 
 def _form_of(text: str, name: str) -> dict[str, Any]:
     data = parse_yaml(text, name).data
-    structure = data.get("structure") if isinstance(data, dict) else None
-    kind = structure.get("kind") if isinstance(structure, dict) else None
-    if kind not in structure_kinds():
-        raise InputError(
-            "the form needs the kind of the structure", path="structure.kind", remedy="write it in the text"
-        )
-    return form_of(data, kind)
+    if kind := kind_named(data):
+        return form_of(data, kind)
+    raise InputError("the form needs the kind of the structure", path="structure.kind", remedy="write it in the text")
 
 
 async def _change(app: App, request: Request) -> Response:

@@ -19,7 +19,7 @@ from moyai.case.sliders import sliders_of
 from moyai.case.text_numbers import with_number
 from moyai.case.yaml_reader import Document, parse_yaml
 from moyai.core.errors import CaseError, Fault, MoyaiError
-from moyai.core.kinds import structure_kind
+from moyai.core.kinds import kind_named, structure_kind
 from moyai.core.progress import Progress
 from moyai.core.validity import Notice
 from moyai.language.faults import spoken_fault
@@ -86,8 +86,9 @@ class Drafts:
             faults = error.faults if isinstance(error, CaseError) else (error.fault,)
             if not checked:
                 # The sliders stay, so that a number that went too far can be moved back
-                sliders = [] if document is None else _sliders_by_keys(document)
-                yield _checked(text, faults, (), **({} if document is None else {"sliders": sliders}))
+                kind = "" if document is None else kind_named(document.data)
+                more = {"sliders": sliders_of(document, kind)} if document is not None and kind else {}
+                yield _checked(text, faults, (), **more)
             else:
                 yield {"message": "not drawn", "faults": [asdict(spoken_fault(fault)) for fault in faults]}
 
@@ -176,13 +177,6 @@ class _Stage:
 
 def _key_of(document: Document) -> str:
     return f"{document.data['structure']['kind']} {document.data['analyses']}"
-
-
-def _sliders_by_keys(document: Document) -> list[dict[str, Any]]:
-    """Return the sliders of a case that has errors, by the kind that it names."""
-    structure = document.data.get("structure") if isinstance(document.data, dict) else None
-    kind = structure.get("kind") if isinstance(structure, dict) else None
-    return sliders_of(document, kind) if isinstance(kind, str) else []
 
 
 def _checked(text: str, faults: Any, warnings: Any, **more: Any) -> dict[str, Any]:

@@ -71,21 +71,3 @@ def run_fit_job(file: Path, folder: Path, run: Run, listen: Any) -> tuple[str, s
     write_whole(folder / "case.yaml", fitted_text(plan, found).encode("utf-8"))
     write_report(result, folder)
     return result.status, result.message, ""
-
-
-def so_far(folder: Path) -> str:
-    """Return the report of a study that runs, of what was gathered until now.
-
-    Raises
-    ------
-    KeyError
-        Where nothing was gathered yet.
-    """
-    from moyai.core.results import read_result
-    from moyai.report.html import render_html
-    from moyai.report.writer import compose_document
-
-    path = folder / "study.nc"
-    if not path.is_file():
-        raise KeyError("study.nc")
-    return str(render_html(compose_document(read_result(path))))

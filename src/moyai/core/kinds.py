@@ -210,6 +210,13 @@ def structure_kinds() -> tuple[str, ...]:
     return (*_STRUCTURES, *sorted(set(_foreign()) - set(_STRUCTURES)))
 
 
+def kind_named(data: Any) -> str:
+    """Return the kind of structure that the content of a case names, empty where it names none that is known."""
+    structure = data.get("structure") if isinstance(data, dict) else None
+    kind = structure.get("kind") if isinstance(structure, dict) else None
+    return kind if isinstance(kind, str) and kind in structure_kinds() else ""
+
+
 @cache
 def structure_kind(name: str) -> StructureKind:
     """Return a kind of structure.

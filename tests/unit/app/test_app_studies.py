@@ -16,11 +16,11 @@ from app_runs import MEMBER, run_slowly
 from moyai.app.folder import Folder
 from moyai.app.job_process import Order
 from moyai.app.jobs import Job, Jobs
-from moyai.app.study_jobs import refuse_foreign_base, so_far
+from moyai.app.study_jobs import refuse_foreign_base
 from moyai.case.yaml_reader import parse_yaml
 from moyai.cli.runner import run
 from moyai.core.errors import CaseError, InputError
-from moyai.report.on_demand import made, makeable
+from moyai.report.on_demand import made, makeable, so_far
 from moyai.study.cases_so_far import case_text, table_of
 
 STUDY = """\
