@@ -72,4 +72,6 @@ def value_in(content: dict[str, Any], key: str, default: Any) -> Any:
 
 
 def text_in(content: dict[str, Any], key: str) -> str:
-    return str(value_in(content, key, ""))
+    value = str(value_in(content, key, ""))
+    value.encode()  # half a character is refused
+    return value

@@ -240,7 +240,17 @@ def test_a_case_is_taken_away_under_its_name(page: Page) -> None:
 
 @pytest.mark.parametrize(
     "body",
-    [[], "text", {"text": 1}, {"edits": []}, {"edits": {"a": 1}}, {"sequence": "1}"}, {"text": "a", "edits": None}],
+    [
+        [],
+        "text",
+        {"text": 1},
+        {"edits": []},
+        {"edits": {"a": 1}},
+        {"sequence": "1}"},
+        {"text": "a", "edits": None},
+        {"text": "\ud800"},
+        {"tab": 1},
+    ],
 )
 def test_odd_requests_are_refused(page: Page, body: Any) -> None:
     key = page.post("/api/cases", {"template": "member"})["id"]
