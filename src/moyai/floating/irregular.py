@@ -11,10 +11,14 @@ from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
+from moyai.core.mixing import Mixing
 from moyai.floating.arrays import square_matrix
 from moyai.floating.coefficients import Hydrodynamics
 from moyai.floating.damping import EquivalentDamping, LinearDamping, QuadraticDamping
 from moyai.floating.frequency import Motions, dynamic_stiffness, solve_motions, solve_scaled
+
+#: Of a logarithm's step: exact where motion goes with the root of damping. Deviation of what does not move.
+_PART, _LEAST = 2.0 / 3.0, 1e-100
 
 
 def integration_weights(omega: ArrayLike) -> Array:
@@ -114,6 +118,74 @@ class SeaMotions:
     measure_deviation: Array
     iterations: int
     converged: bool
+    #: What the linearisation was found at; a sea or stiffness nearby goes on from it.
+    state: Array
+
+
+@dataclass(frozen=True)
+class _Linearised:
+    """Quadratic terms of one sea, linear at a state: deviations of what they depend on, all above zero."""
+
+    omega: Array
+    #: Spectrum of each heading; shape (n, h).
+    wave: Array
+    size: int
+    quadratic: QuadraticDamping | None
+    line_damping: EquivalentDamping | None
+    water_motion: ComplexArray | None
+
+    def state_of(self, velocity: ComplexArray) -> Array:
+        """Return the state of velocities (n, h, m): of lines frequency and velocities, then measures of drag."""
+        measure = velocity[..., :0]
+        if self.quadratic is not None:
+            measure = velocity @ self.quadratic.directions.T
+            measure = measure if self.water_motion is None else measure - self.water_motion
+        weights = integration_weights(self.omega)
+        deviation = _above_zero(np.sqrt(weights @ np.einsum("nhk,nh->nk", np.abs(measure) ** 2, self.wave)))
+        if self.line_damping is None:
+            return deviation
+        moving = response_statistics(self.omega, np.concatenate([velocity, measure], axis=2), self.wave)
+        crossing = moving.mean_zero_crossing_period
+        period = float(np.max(np.where(np.isfinite(crossing), crossing, 0.0)))
+        frequency = 2.0 * math.pi / period if period > 0.0 else _LEAST
+        return np.concatenate([[frequency], _above_zero(moving.standard_deviation[: self.size]), deviation])
+
+    def equivalents(self, state: Array | None) -> tuple[Array, ComplexArray]:
+        """Return damping (m, m) and drag of moving water (n, h, m) at a state; nothing at none."""
+        damping, drag = np.zeros((self.size, self.size)), np.zeros((*self.wave.shape, self.size), dtype=np.complex128)
+        if state is None:
+            return damping, drag
+        if self.quadratic is not None:
+            deviation = state[len(state) - self.quadratic.count :]
+            damping = damping + self.quadratic.equivalent_irregular(deviation)
+            if self.water_motion is not None:
+                drag = self.quadratic.carried_irregular(deviation, self.water_motion)
+        if self.line_damping is not None:
+            damping = damping + self.line_damping(math.sqrt(2.0) * state[1 : 1 + self.size], float(state[0]))
+        return damping, drag
+
+
+def _solved(matrix: ComplexArray, push: ComplexArray) -> ComplexArray:
+    """Return the displacements (n, h, m), NaN where the body is at an undamped resonance."""
+    try:
+        return np.asarray(np.swapaxes(np.linalg.solve(matrix, np.swapaxes(push, 1, 2)), 1, 2), dtype=np.complex128)
+    except np.linalg.LinAlgError:
+        return solve_scaled(np.broadcast_to(matrix[:, None], (*push.shape, push.shape[-1])), push)[0]
+
+
+def _above_zero(deviation: Array) -> Array:
+    return np.asarray(np.maximum(deviation, max(1e-12 * float(np.max(deviation, initial=0.0)), _LEAST)))
+
+
+def _mixed(mixing: Mixing, state: Array, found: Array) -> Array:
+    """Return the next state between or near two: logarithms are mixed, deviations being near powers of the damping."""
+    here, asked = np.log(state), np.log(found / state)
+    step = mixing.step(here, asked, _PART)
+    if np.any(step < np.minimum(asked, 0.0) - math.log(2.0)) or np.any(step > np.maximum(asked, 0.0) + math.log(2.0)):
+        # a mixture far from what it is mixed from is none
+        mixing.forget()
+        step = _PART * asked
+    return np.asarray(np.exp(here + step))
 
 
 def _joined(parts: list[Motions]) -> Motions:
@@ -126,6 +198,7 @@ def _joined(parts: list[Motions]) -> Motions:
         displacement=np.concatenate([part.displacement for part in parts], axis=1),
         damping=np.concatenate([part.damping for part in parts], axis=1),
         wave_amplitude=np.concatenate([part.wave_amplitude for part in parts], axis=1),
+        notices=tuple(notice for part in parts for notice in part.notices),
     )
 
 
@@ -187,50 +260,28 @@ def linearised_in_sea(
             f"the spectrum has {wave.shape[1]} headings, the coefficients {ends[-1]}",
             parameter="density",
         )
-    rows = np.eye(size) if quadratic is None else np.vstack([np.eye(size), quadratic.directions])
-    equivalent, previous = np.zeros((size, size)), np.zeros(len(rows))
-    drag = np.zeros((len(omega), ends[-1], size), dtype=np.complex128)
-    moving = np.zeros((1, 1, len(rows)), dtype=np.complex128)
-    if water_motion is not None and quadratic is not None:
-        moving = np.concatenate([np.zeros((*water_motion.shape[:2], size)), water_motion], axis=2)
-    goes_on = start is not None
-    if start is not None:
-        equivalent = start.equivalent_damping
-        drag = drag if start.motions.drag_excitation is None else start.motions.drag_excitation
     known = [_fixed_part(part, inertia, stiffness, linear) for part in parts]
     excitation = np.concatenate([part.excitation for part in parts], axis=1)
-    weights = integration_weights(omega)
-    frequency = omega[:, None, None]
-    change, used = math.inf, 0
-    while True:
+    sea = _Linearised(omega, wave, size, quadratic, line_damping, water_motion if quadratic is not None else None)
+    state = sea.state_of(np.zeros_like(excitation)) if sea.water_motion is not None else None
+    state, mixing, turn = state if start is None else start.state, Mixing(), 1j * omega[:, None, None]
+    used = 0
+    while used < maximum_iterations:
         used += 1
-        turning = 1j * frequency * equivalent
+        equivalent, drag = sea.equivalents(state)
         displacement = np.concatenate(
             [
-                solve_scaled(np.broadcast_to((fixed - turning)[:, None], (*push.shape, size)), push)[0]
+                _solved(fixed - turn * equivalent, push)
                 for fixed, push in zip(known, np.split(excitation + drag, ends[:-1], axis=1), strict=True)
             ],
             axis=1,
         )
-        measure: ComplexArray = np.nan_to_num(-1j * frequency * displacement) @ rows.T - moving
-        deviation = np.sqrt(weights @ np.einsum("nhk,nh->nk", np.abs(measure) ** 2, wave))
-        largest = np.where(np.maximum(deviation, previous) > 0.0, np.maximum(deviation, previous), 1.0)
-        change = float(np.max(np.abs(deviation - previous) / largest))
-        previous = deviation
-        if change <= tolerance or used >= maximum_iterations:
+        found = sea.state_of(np.nan_to_num(-turn * displacement))
+        change = math.inf if state is None else float(np.max(np.abs(found - state) / found, initial=0.0))
+        if not found.size or change <= tolerance:
+            change = 0.0
             break
-        target = np.zeros((size, size))
-        if quadratic is not None:
-            target += quadratic.equivalent_irregular(deviation[size:])
-            if water_motion is not None:
-                carried = quadratic.carried_irregular(deviation[size:], water_motion)
-                drag = 0.5 * (drag + carried) if goes_on else carried
-        if line_damping is not None:
-            crossing = response_statistics(omega, measure, wave).mean_zero_crossing_period
-            period = float(np.max(np.where(np.isfinite(crossing), crossing, 0.0)))
-            target += line_damping(math.sqrt(2.0) * deviation[:size], 2.0 * math.pi / period if period > 0.0 else 0.0)
-        equivalent = 0.5 * (equivalent + target) if goes_on else target
-        goes_on = True
+        state = found if state is None else _mixed(mixing, state, found)
     total = LinearDamping(linear.matrix + equivalent, linear.critical_fraction)
     motions = _joined(
         [
@@ -239,4 +290,5 @@ def linearised_in_sea(
         ]
     )
     motions = replace(motions, drag_excitation=drag if water_motion is not None else None)
-    return SeaMotions(motions, equivalent, deviation[size:], used, change <= tolerance)
+    measured = 0 if quadratic is None else quadratic.count
+    return SeaMotions(motions, equivalent, found[len(found) - measured :], used, change <= tolerance, found)

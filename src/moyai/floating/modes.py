@@ -133,28 +133,29 @@ def _natural_modes(hydrodynamics: Hydrodynamics, inertia: Array, stiffness: Arra
     return NaturalModes(hydrodynamics.modes, period, omega, shapes, ratio, notices)
 
 
-def _held(hydrodynamics: Hydrodynamics, values: Array, above: Array | None) -> Callable[[float], Array]:
+def _held(hydrodynamics: Hydrodynamics, values: Array, above: Array | None) -> Callable[[float | Array], Array]:
     """Return ``values`` as a function of frequency, ends held; ``above`` approached like 1/omega^2 beyond the last."""
     low, high = float(hydrodynamics.omega[0]), float(hydrodynamics.omega[-1])
     several = len(hydrodynamics.omega) > 1
     spline = scipy.interpolate.CubicSpline(hydrodynamics.omega, values, axis=0) if several else None
 
-    def function(omega: float) -> Array:
-        inside = min(max(omega, low), high)
-        value = values[0] if spline is None else spline(inside)
-        if above is not None and omega > high:
-            value = above + (value - above) * (high / omega) ** 2
-        return np.asarray(value, dtype=float)
+    def function(omega: float | Array) -> Array:
+        inside = np.minimum(np.maximum(omega, low), high)
+        value = np.broadcast_to(values[0], (*inside.shape, *values[0].shape)) if spline is None else spline(inside)
+        if above is None:
+            return value
+        share = np.minimum(high / np.maximum(omega, high), 1.0) ** 2
+        return np.asarray(above + (value - above) * np.asarray(share)[..., None, None], dtype=float)
 
     return function
 
 
-def added_mass_function(hydrodynamics: Hydrodynamics) -> Callable[[float], Array]:
+def added_mass_function(hydrodynamics: Hydrodynamics) -> Callable[[float | Array], Array]:
     """Return A(omega) as a function, ends held (above: towards the infinite-frequency value where known)."""
     return _held(hydrodynamics, hydrodynamics.added_mass, hydrodynamics.infinite_frequency_added_mass)
 
 
-def damping_function(hydrodynamics: Hydrodynamics) -> Callable[[float], Array]:
+def damping_function(hydrodynamics: Hydrodynamics) -> Callable[[float | Array], Array]:
     """Return B(omega) as a function, ends held (above: towards zero)."""
     return _held(hydrodynamics, hydrodynamics.radiation_damping, np.zeros((hydrodynamics.size,) * 2))
 

@@ -19,6 +19,8 @@ Density = Callable[[Array], Array]
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
 #: Below this fraction of the peak frequency exp(-1.25 s^-4) is less than 1e-300.
 LOWEST = 0.21
+#: Frequencies between which an integral is inverted.
+_BRACKETS = 200
 
 
 def shape_edges(peaks: tuple[float, ...], lower: float, upper: float) -> Array:
@@ -93,8 +95,11 @@ def cumulative_table(omega: Array, density: Array, wanted: Array) -> Array:
 
 def invert_cumulative(cumulative: Density, density: Density, target: Array, lower: float, upper: float) -> Array:
     """Solve cumulative(omega) = target by Newton's method guarded by bisection, all targets at once."""
-    low, high = np.full(target.shape, lower), np.full(target.shape, upper)
-    omega = np.sqrt(low * high) if lower > 0.0 else 0.5 * (low + high)
+    grid = np.geomspace(lower, upper, _BRACKETS) if lower > 0.0 else np.linspace(lower, upper, _BRACKETS)
+    above = np.clip(np.searchsorted(cumulative(grid), target, side="right"), 1, _BRACKETS - 1)
+    low, high = grid[above - 1], grid[above]
+    omega = 0.5 * (low + high)
+    rounding = 4.0 * np.finfo(float).eps * np.max(np.abs(target), initial=0.0)
     for _ in range(200):
         excess = cumulative(omega) - target
         high = np.where(excess > 0.0, omega, high)
@@ -103,7 +108,7 @@ def invert_cumulative(cumulative: Density, density: Density, target: Array, lowe
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             newton = omega - excess / slope
         inside = np.isfinite(newton) & (newton > low) & (newton < high)
-        following = np.where(inside, newton, 0.5 * (low + high))
+        following = np.where(np.abs(excess) <= rounding, omega, np.where(inside, newton, 0.5 * (low + high)))
         done = np.abs(following - omega) <= 1e-13 * omega
         omega = following
         if done.all():

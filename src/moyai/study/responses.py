@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from moyai.core.errors import InputError
+from moyai.core.groups import Groups
 from moyai.core.kinds import groups_of
 from moyai.core.vocabulary import LINE_TENSION_MAXIMUM, LINE_TENSION_MEAN, former
 
@@ -41,7 +42,7 @@ class Wanted:
         return f"{self.variable}_{self.reduce}" + (f"_{self.exponent:g}" if self.reduce == "rainflow" else "")
 
 
-def kept(tree: xr.DataTree, wanted: Sequence[Wanted] = ()) -> dict[str, Any]:
+def kept(tree: xr.DataTree | Groups, wanted: Sequence[Wanted] = ()) -> dict[str, Any]:
     """Return the values of a result that a study keeps.
 
     Real and complex scalars, and arrays over labelled dimensions (lines, degrees of freedom, components), are kept by
@@ -51,8 +52,8 @@ def kept(tree: xr.DataTree, wanted: Sequence[Wanted] = ()) -> dict[str, Any]:
 
     Parameters
     ----------
-    tree : xarray.DataTree
-        Groups of the result.
+    tree : xarray.DataTree or Groups
+        Of the result.
     wanted : sequence of Wanted
 
     Returns
@@ -65,15 +66,27 @@ def kept(tree: xr.DataTree, wanted: Sequence[Wanted] = ()) -> dict[str, Any]:
     InputError
         When a wanted variable or dimension is not in the result.
     """
+    groups = (
+        {node.path: _labelled_group(node) for node in tree.subtree} if isinstance(tree, Groups) else groups_of(tree)
+    )
     found: dict[str, Any] = {}
-    groups = groups_of(tree)
     for path, held in groups.items():
-        for name, variable in held.assign(largest_tensions(held)).data_vars.items():
-            if variable.dtype.kind in "fiubc" and variable.size <= _LARGEST and _labelled(variable):
-                found[_key(path, str(name))] = _record(variable)
+        tensions = largest_tensions(held) if LINE_TENSION_MAXIMUM.name in held.variables else {}
+        for name in [*held.data_vars.keys(), *(name for name in tensions if name not in held.variables)]:
+            variable = tensions[name].variable if name in tensions else held.variables[name]
+            if variable.dtype.kind in "fiubc" and variable.size <= _LARGEST:
+                labels = {dim: held.variables[dim] for dim in variable.dims if _labels(held.variables.get(dim))}
+                if len(labels) == len(variable.dims):
+                    found[_key(path, str(name))] = _record(variable, labels)
     for item in wanted:
         found[item.name] = _reduced(groups, item)
     return found
+
+
+def _labelled_group(node: Groups) -> xr.Dataset:
+    """Return the dataset of a group with the labels that it has from the groups above."""
+    above = {name: one for name, one in node.variables.items() if name not in node.dataset.variables}
+    return node.dataset.assign_coords(above) if above else node.dataset
 
 
 def largest_tensions(held: xr.Dataset, keep: Collection[str] | None = None) -> dict[str, xr.DataArray]:
@@ -277,26 +290,25 @@ def _has_labels(variable: xr.DataArray, dim: Hashable) -> bool:
     return dim in variable.coords and variable.coords[dim].dtype.kind in "OU"
 
 
-def _labelled(variable: xr.DataArray) -> bool:
-    return all(_has_labels(variable, dim) for dim in variable.dims)
+def _labels(coordinate: xr.Variable | None) -> bool:
+    return coordinate is not None and coordinate.dtype.kind in "OU"
 
 
-def _record(variable: xr.DataArray) -> dict[str, Any]:
+def _record(variable: xr.Variable, coordinates: Mapping[Hashable, xr.Variable]) -> dict[str, Any]:
     values = np.asarray(variable.values)
     if np.iscomplexobj(values):
         values = np.abs(values)
-    labels = {
-        str(dim): [item.item() if hasattr(item, "item") else item for item in variable.coords[dim].values]
-        for dim in variable.dims
-        if dim in variable.coords
-    }
     return {
         "dims": [str(dim) for dim in variable.dims],
-        "labels": labels,
+        "labels": {str(dim): coordinates[dim].values.tolist() for dim in variable.dims if dim in coordinates},
         "values": np.asarray(values, dtype=float).tolist(),
         "units": str(variable.attrs.get("units", "")),
-        "long_name": str(variable.attrs.get("long_name", variable.name)),
+        "long_name": str(variable.attrs.get("long_name", "")),
     }
+
+
+def _record_of(variable: xr.DataArray) -> dict[str, Any]:
+    return _record(variable.variable, {dim: one.variable for dim, one in variable.coords.items()})
 
 
 def _reduced(groups: Mapping[str, xr.Dataset], item: Wanted) -> dict[str, Any]:
@@ -305,15 +317,15 @@ def _reduced(groups: Mapping[str, xr.Dataset], item: Wanted) -> dict[str, Any]:
     if np.iscomplexobj(variable.values):
         variable = abs(variable).assign_attrs(variable.attrs)
     if item.reduce == "all":
-        return _record(variable)
+        return _record_of(variable)
     if item.reduce == "rainflow":
-        return _record(_counted(variable, item))
+        return _record_of(_counted(variable, item))
     if item.reduce in ("peaks", "snap_peaks", "other_peaks"):
-        return _record(_peaked(variable, item))
+        return _record_of(_peaked(variable, item))
     if item.reduce == "mean_in_time":
         if "time" not in variable.dims:
             raise InputError(f"'{item.variable}' is no series along 'time'", path="responses")
-        return _record(variable.mean("time").assign_attrs(variable.attrs))
+        return _record_of(variable.mean("time").assign_attrs(variable.attrs))
     over = item.over or tuple(
         str(dim) for dim in variable.dims if variable.coords.get(dim, variable).dtype.kind not in "OU"
     )
@@ -322,10 +334,10 @@ def _reduced(groups: Mapping[str, xr.Dataset], item: Wanted) -> dict[str, Any]:
             known = ", ".join(map(str, variable.dims)) or "none"
             raise InputError(f"'{item.variable}' has no dimension '{dim}'", path="responses", allowed=known)
     if not over:
-        return _record(variable)
+        return _record_of(variable)
     if item.reduce == "last":
         out = variable.isel(dict.fromkeys(over, -1))
     else:
         out = getattr(variable, {"maximum": "max", "minimum": "min", "mean": "mean"}[item.reduce])(list(over))
     out = out.drop_vars([name for name in out.coords if name not in out.dims]).assign_attrs(variable.attrs)
-    return _record(out)
+    return _record_of(out)

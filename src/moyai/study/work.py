@@ -70,7 +70,7 @@ def run_case(
             return None
         if task.results_folder is not None:
             result.write(task.results_folder / f"{combination.index:06d}" / "results.nc")
-        values = kept(result.tree, task.wanted)
+        values = kept(result.held, task.wanted)
         status, message = result.status, result.message
         verdict = result.verdict.outcome if result.verdict.message else ""
         failed = [check.name for check in result.checks if not check.passed]

@@ -47,6 +47,7 @@ def damping_of(text):
         ("  damping: {viscous: computed}", True, 0.0),
         ("  damping: {viscous: none}", False, 0.0),
         ("  damping: {fraction_of_critical: 0.15, modes: [roll]}", False, 0.15),
+        ("  damping: {fraction_of_critical: 0.15, modes: [sway, heave]}", True, 0.15),
         ("  damping: {viscous: computed, fraction_of_critical: 0.02, modes: [roll]}", True, 0.02),
         ("  roll_damping: {quadratic: 1e6 N m s2}", False, 0.0),
         ("  roll_damping: {quadratic: 1e6 N m s2}\n  damping: {viscous: computed}", True, 0.0),

@@ -118,3 +118,19 @@ def test_check_tells_panels_and_cost():
 def test_automatic_panels_resolve_the_shortest_wave():
     names = {n.label: n.value for n in derived_numbers(case(("panel_size: 2 m", "panel_size: auto")))}
     assert names["panels a shortest wave"] >= 8.0 * 0.99
+
+
+@pytest.mark.parametrize(
+    ("damping", "factor"),
+    [
+        ("", 1.0),
+        ("damping: {viscous_factor: 2}", 2.0),
+        ("damping: {fraction_of_critical: 0.1, modes: [sway, surge, yaw]}", 1.0),
+        ("damping: {fraction_of_critical: 0.1, modes: [heave, roll]}", 0.0),
+        ("damping: {viscous: computed, fraction_of_critical: 0.1, modes: [roll]}", 1.0),
+        ("damping: {viscous: none}", 0.0),
+    ],
+)
+def test_a_fraction_stands_for_eddies_where_it_holds_for_roll(damping, factor):
+    line = next(line for line in BASE.splitlines() if line.startswith("  damping:"))
+    assert build(case((line, f"  {damping}"))).row.viscous_factor == factor

@@ -22,6 +22,7 @@ from moyai.structures.units.mesh import row_mesh
 from moyai.structures.units.model import Connector, Curve, Settings, TimeSettings, UnitLine
 from moyai.structures.units.response import RowModel, respond
 from moyai.structures.units.seas import regular_answer
+from moyai.structures.units.time.datasets import run_numbers
 from moyai.structures.units.time.kernel import joint_force
 from moyai.structures.units.time.lines import Carried, events_of, moving_line, rerun, rerun_events
 from moyai.structures.units.time.memory import _Basis, _passive, _residues, fit_row_memory
@@ -192,7 +193,10 @@ def test_eddies_in_regular_waves_are_those_of_equal_work_in_the_frequency_domain
     (answer,) = regular_answer(at, own, sea, np.zeros(12), Settings(2.0, drift=False))
     assert answer.converged
     settings = Settings(2.0, drift=False, time=TimeSettings(duration=300.0))
-    run = regular_run(Water3D(at, own, memory, np.zeros(12), settings), sea, sea.periods[0], answer).run
+    kept = regular_run(Water3D(at, own, memory, np.zeros(12), settings), sea, sea.periods[0], answer)
+    run = kept.run
+    # units without connectors have numbers as well
+    assert {values.shape[0] for dims, values in run_numbers(kept).values() if dims[0] == "connector"} == {0}
     last = run.time > 200.0 - 1e-9
     count = int(last.sum() // round(sea.periods[0] / run.time_step)) * round(sea.periods[0] / run.time_step)
     position, time = run.position[-count:], run.time[-count:]

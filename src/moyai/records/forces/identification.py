@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -34,7 +34,7 @@ _SPEED_FACTOR = 8.0 / (3.0 * math.pi)
 
 
 #: Share of noise in the variance of a derivative from which it is cut off, and that may be left
-NOISE_TOLD, NOISE_LEFT = 0.005, 0.02
+NOISE_TOLD, NOISE_LEFT = 0.01, 0.02
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,6 +110,7 @@ def identify(record: ForceRecord, setup: Setup) -> Identification:
         )
     if setup.form == "vector" and record.components < 2:
         raise InputError("the vector form needs two components", parameter="form", allowed="component")
+    record, notices = (record, []) if setup.regular else _clean(record)
     if setup.period is not None:
         period = setup.period
     else:
@@ -119,13 +120,9 @@ def identify(record: ForceRecord, setup: Setup) -> Identification:
     per_period = period / used.step
     rate = used.acceleration
     orders = int(min(6, max(1, (per_period - 1) // 2)))
-    notices: list[Notice] = periodicity_notices(used, period, orders) if setup.regular else []
+    notices += periodicity_notices(used, period, orders) if setup.regular else []
     if rate is None:
-        velocity = used.velocity
-        if not setup.regular:
-            velocity, told = _clean(used, period)
-            notices += told
-        rate = acceleration_of(velocity, used.step, omega if setup.regular else None, orders)
+        rate = acceleration_of(used.velocity, used.step, omega if setup.regular else None, orders)
     blocks = _blocks(used, period, setup.regular)
     rng = np.random.default_rng(setup.seed)
     fits: list[Fit] = []
@@ -157,26 +154,38 @@ def identify(record: ForceRecord, setup: Setup) -> Identification:
     return Identification(used, setup, period, rate, speeds, numbers, tuple(fits), len(blocks), tuple(unique.values()))
 
 
-def _clean(record: ForceRecord, period: float) -> tuple[Array, list[Notice]]:
-    """Return the velocity of irregular waves to be differentiated, its noise cut off, and what there is to say."""
-    velocity, notices = record.velocity.copy(), []
+def _clean(record: ForceRecord) -> tuple[ForceRecord, list[Notice]]:
+    """Return a record of irregular waves with the noise of its velocity cut off, and what there is to say."""
+    velocity = record.velocity.copy()
+    notices: list[Notice] = []
     for component in range(record.components):
-        cut = noise_cut(velocity[:, component], record.step, period)
-        if cut is None or cut.share < NOISE_TOLD:
-            continue
-        velocity[:, component] = without_noise(velocity[:, component], record.step, cut.frequency)
-        grave = cut.share_left > NOISE_LEFT
-        notices.append(
-            Notice(
-                "velocity-noise",
-                f"velocity {component + 1}: above {cut.frequency:.3g} Hz there is noise alone, "
-                f"{100.0 * cut.share:.2g} % of the variance of its derivative; it is cut off there, "
-                f"{100.0 * cut.share_left:.2g} % are left",
-                value=cut.share_left, limit=NOISE_LEFT, severity="warning" if grave else "information",
-                remedy="C_M comes out lower by that share; give a measured 'acceleration', or a quieter gauge",
+        cut = noise_cut(velocity[:, component], record.force[:, component], record.step)
+        if cut is None:
+            notices.append(
+                Notice(
+                    "velocity-noise",
+                    f"velocity {component + 1}: the record is too short to tell waves from noise, which would lower "
+                    "C_M by its share of the derivative",
+                    severity="information",
+                    remedy="use a record of 50 waves and more",
+                )
             )
-        )  # fmt: skip
-    return velocity, notices
+        elif cut.share >= NOISE_TOLD:
+            velocity[:, component] = without_noise(velocity[:, component], record.step, cut.frequency)
+            if record.acceleration is not None:
+                continue
+            grave = cut.share_left > NOISE_LEFT
+            notices.append(
+                Notice(
+                    "velocity-noise",
+                    f"velocity {component + 1}: above {cut.frequency:.3g} Hz it has nothing in common with the force; "
+                    f"{100.0 * cut.share:.2g} % of the variance of its derivative is noise, which is cut off there, "
+                    f"{100.0 * cut.share_left:.2g} % are left",
+                    value=cut.share_left, limit=NOISE_LEFT, severity="warning" if grave else "information",
+                    remedy="C_M comes out lower by that share; give a measured 'acceleration', or a quieter gauge",
+                )
+            )  # fmt: skip
+    return replace(record, velocity=velocity), notices
 
 
 def velocity_amplitudes(record: ForceRecord, period: float, orders: int | None) -> Array:

@@ -14,6 +14,8 @@ from moyai.core.errors import InputError
 _STEP_TOLERANCE = 0.02
 #: Samples that a period needs so that u|u| is resolved
 _LEAST_SAMPLES = 12
+#: Segments of a spectrum, waves that each must hold, and how often chance alone may pass for coherence
+_SEGMENTS, _LEAST_WAVES, _CHANCE = 12, 3.0, 1e-3
 #: Equal samples at an extreme from which on a gauge may be called clipped
 _LEAST_PLATEAU = 4
 
@@ -189,9 +191,9 @@ def acceleration_of(velocity: Array, step: float, omega: float | None, harmonics
 
 @dataclass(frozen=True)
 class NoiseCut:
-    """Where white noise of a gauge takes over in the spectrum of a velocity."""
+    """Where noise of a gauge takes over in the derivative of a velocity."""
 
-    #: Frequency above which there is noise alone [Hz].
+    #: Frequency above which force and velocity have nothing in common [Hz].
     frequency: float
     #: Share of the variance of the derivative that noise makes: as recorded, and below the cut.
     share: float
@@ -199,41 +201,42 @@ class NoiseCut:
     share_left: float
 
 
-def noise_cut(velocity: Array, step: float, period: float) -> NoiseCut | None:
-    """Return where noise takes over in the spectrum of a velocity (samples,) [eq:identification-noise].
+def noise_cut(velocity: Array, force: Array, step: float) -> NoiseCut | None:
+    """Return where noise takes over in the derivative of a velocity (samples,) [eq:identification-noise].
 
-    Noise is taken to be white, at the level of the upper half of the spectrum; waves end where the spectrum first falls
-    to four times that beyond its peak. ``None`` where the record is too short or too coarse to tell.
+    The force knows of the waves and not of the noise of the current meter: the derivative is cut where the part that is
+    coherent with the force ends. ``None`` where the record is too short to tell.
     """
-    count = 2 ** int(math.log2(max(8.0 * period / step, 2.0)))
-    if len(velocity) < 4 * count or period / step < 4.0 * _LEAST_SAMPLES:
+    from scipy.signal import csd, welch
+
+    count = 2 ** int(math.log2(max(len(velocity) / _SEGMENTS, 2.0)))
+    given = {"fs": 1.0 / step, "nperseg": count, "detrend": "constant"}
+    frequency, density = welch(velocity, **given)
+    peak = float(frequency[int(np.argmax(density))])
+    if not peak * count * step >= _LEAST_WAVES:
         return None
-    from scipy.signal import welch
-
-    frequency, density = welch(velocity, 1.0 / step, nperseg=count, detrend="constant")
-    upper = frequency >= 0.5 * frequency[-1]
-    floor = float(np.median(density[upper]))
-    peak = int(np.argmax(density[1:])) + 1
-    below = np.flatnonzero(density[peak:] <= 4.0 * floor)
-    if not below.size or floor <= 0.0:
+    crossed = np.abs(csd(velocity, force, **given)[1]) ** 2 / np.maximum(density * welch(force, **given)[1], 1e-300)
+    # overlapping segments count as so many independent ones; what chance alone would show is none
+    independent = 0.6 * (2.0 * len(velocity) / count - 1.0)
+    known = np.where(crossed > 1.0 - _CHANCE ** (1.0 / (independent - 1.0)), crossed, 0.0)
+    known = np.maximum((known * independent - 1.0) / (independent - 1.0), 0.0)
+    rate = (2.0 * math.pi * frequency) ** 2
+    common = np.cumsum(rate * density * known)
+    if not common[-1] > 0.0:
         return None
-    end = float(frequency[peak + below[0]])
-    whole = float(np.trapezoid((2.0 * math.pi * frequency) ** 2 * density, frequency))
-
-    def noise(upto: float) -> float:
-        return floor * (2.0 * math.pi) ** 2 * upto**3 / 3.0
-
-    clean = max(whole - noise(float(frequency[-1])), 1e-300)
-    return NoiseCut(end, noise(float(frequency[-1])) / whole, noise(end) / (clean + noise(end)))
+    end = min(1.25 * float(frequency[np.searchsorted(common, 0.995 * common[-1])]), 0.98 * float(frequency[-1]))
+    below = frequency <= end
+    beyond = density[(frequency > end) & (frequency <= 2.0 * end)]
+    noise = float(np.median(beyond)) * float(rate[below].sum()) if beyond.size else 0.0
+    whole, kept = float(rate @ density), float(rate[below] @ density[below])
+    return NoiseCut(end, (whole - kept + noise) / whole, noise / kept)
 
 
 def without_noise(velocity: Array, step: float, frequency: float) -> Array:
     """Return a velocity without what lies above a frequency [Hz], without shifting what lies below."""
     from scipy.signal import butter, sosfiltfilt
 
-    # twice through, so that what ends at the cut keeps its size
-    cut = min(1.5 * frequency, 0.49 / step)
-    return np.asarray(sosfiltfilt(butter(6, cut, fs=1.0 / step, output="sos"), velocity))
+    return np.asarray(sosfiltfilt(butter(6, frequency, fs=1.0 / step, output="sos"), velocity))
 
 
 def period_of(time: Array, records: Array) -> float:

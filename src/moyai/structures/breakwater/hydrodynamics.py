@@ -41,11 +41,13 @@ OPERATOR_FREQUENCIES = 60
 SECTOR = math.radians(75.0)  # headings to either side of the normal that meet the side of the unit
 MOST_REFINEMENTS = 6
 MOST_SOLVED = 8  # solutions of the normal heading that are kept in memory
+MOST_OBLIQUE = 64  # sets of oblique headings that are kept in memory
 MOST_FREQUENCIES = 1500
 REFINEMENT_TOLERANCE = 1e-3  # error of interpolated damping over its largest value at which frequencies are added
 OBLIQUE_FREQUENCIES = 64
 HEADING_TOLERANCE = math.radians(0.5)  # within which a heading of a 3-D program counts as that of the case
 DRAFT_STEPS = 0.01, math.radians(1.0)  # of draught over height and of heel, to which a draft takes coefficients
+WAVE_NUMBER_STEP, END_STEP = 0.25, 1.25  # of wave number times half beam; ratio of frequencies
 ENERGY_LEFT_OUT = 1e-3  # share of a spectrum beyond the highest frequency of its analysis
 
 
@@ -96,15 +98,32 @@ def operator_frequencies(unit: FloatingUnit, problem: BreakwaterProblem) -> Arra
     return np.linspace(float(low), float(high), OPERATOR_FREQUENCIES)
 
 
-def sea_frequencies(problem: BreakwaterProblem) -> Array:
-    """Return the frequencies of the sea states: regular waves exactly, spectra over their energy."""
-    parts = [np.zeros(0)]
+def section_frequencies(unit: FloatingUnit, problem: BreakwaterProblem) -> Array:
+    """Return the frequencies [rad/s] at which the section is solved in normal incidence.
+
+    Those of operators, memory and regular waves (a draft interpolates these too), and steps of
+    :data:`WAVE_NUMBER_STEP` up to the shortest wave of the seas, for splines to follow the phase of short waves along
+    the section. Seas move the two ends alone, by steps of :data:`END_STEP`: states of one study share coefficients.
+    """
+    regular, irregular = [], []
     for sea in problem.environment.sea_states:
         if isinstance(sea, RegularSea):
-            parts.append(2.0 * math.pi / np.asarray(sea.periods))
+            regular.append(2.0 * math.pi / np.asarray(sea.periods))
         else:
-            parts.append(spectrum_band(sea))
-    return np.unique(np.concatenate(parts))
+            irregular.append(spectrum_band(sea)[[0, -1]])
+    known = np.concatenate([operator_frequencies(unit, problem), band(unit).omega])
+    if problem.nominal:
+        irregular, regular = [*irregular, *regular], []
+    if not irregular:
+        return distinct(np.concatenate([known, *regular]))
+    reached = np.concatenate(irregular)
+    low = END_STEP ** math.floor(math.log(float(reached.min()), END_STEP))
+    high = END_STEP ** math.ceil(math.log(float(reached.max()), END_STEP))
+    water, step = unit.water, 2.0 * WAVE_NUMBER_STEP / unit.breakwater.hull.beam
+    count = math.ceil(float(wave_number(high, water.depth, water.gravity)) / step)
+    along = angular_frequency(step * np.arange(1, count + 1), water.depth, water.gravity)
+    ends = [low] if low < known.min() else []
+    return distinct(np.concatenate([known, *regular, along, ends]))
 
 
 _BANDS: Remembered[Array] = Remembered(16)
@@ -186,13 +205,11 @@ def solve_unit(
     """
     if coefficients is not None:
         return _given(coefficients(unit), unit, problem)
-    wanted = np.concatenate([operator_frequencies(unit, problem), sea_frequencies(problem)])
-    if problem.nominal:
-        unit = _of_draft(unit)
-        wanted = _wanted_of_draft(unit, problem)
+    unit = _of_draft(unit) if problem.nominal else unit
+    wanted = section_frequencies(unit, problem)
     length = unit.breakwater.length
     # One solve of the normal heading serves operators, seas, natural periods and memory: a frequency costs little
-    normal, apart = _solve_band(unit, np.concatenate([wanted, band(unit).omega]), progress)
+    normal, apart = _solve_band(unit, wanted, progress)
     headings = headings_of(problem)
     oblique = headings[headings != 0.0]
     by_heading = [item.scaled_to(length) for item in apart]
@@ -225,15 +242,6 @@ def _of_draft(unit: FloatingUnit) -> FloatingUnit:
     return replace(unit, draught=draught, heel=heel, section=section, centre=centre)
 
 
-def _wanted_of_draft(unit: FloatingUnit, problem: BreakwaterProblem) -> Array:
-    """Return frequencies [rad/s] that do not follow the seas, which are interpolated; their ends where they reach."""
-    wanted, seas = operator_frequencies(unit, problem), sea_frequencies(problem)
-    known = np.concatenate([wanted, band(unit).omega])
-    ends = [1.1 ** math.floor(math.log(low, 1.1)) for low in seas[:1] if low < known.min()]
-    ends += [1.1 ** math.ceil(math.log(high, 1.1)) for high in seas[-1:] if high > known.max()]
-    return np.concatenate([wanted, ends])
-
-
 def coefficients_in_calm(unit: FloatingUnit, problem: BreakwaterProblem) -> Hydrodynamics:
     """Return the coefficients of the normal heading of :func:`solve_unit`, whatever seas the case has."""
     omega = np.concatenate([operator_frequencies(unit, problem), band(unit).omega])
@@ -246,14 +254,19 @@ def _oblique(
     """Solve oblique headings, or take them from the store: they cost a hundred times the normal one."""
     modes, lid = rigid_modes(unit.centre), unit.breakwater.gap_damping_lid or None
     key = _key(unit, omega, headings)
-    data = None if store is None else store.get(key)
-    if data is None:
+
+    def solved() -> xr.Dataset:
+        held = None if store is None else store.get(key)
+        if held is not None:
+            return held
         found = solve(unit.section, unit.water, omega, modes=modes, heading=headings, lid=lid, progress=progress)
         if found.status == "interrupted":
             raise KeyboardInterrupt
-        data = found.dataset
         if store is not None:
-            store.put(key, data)
+            store.put(key, found.dataset)
+        return found.dataset
+
+    data = _OBLIQUE.of(key, solved)
     checks = tuple(
         IdentityCheck(
             item["name"],
@@ -331,6 +344,7 @@ def damping_start(unit: FloatingUnit) -> Start:
 Solved = tuple[RadiationDiffraction, tuple[Hydrodynamics, ...]]
 """A solution and its coefficients, heading by heading."""
 _SOLVED: Remembered[Solved] = Remembered(MOST_SOLVED)
+_OBLIQUE: Remembered[xr.Dataset] = Remembered(MOST_OBLIQUE)
 
 
 def _solve_band(unit: FloatingUnit, omega: Array, progress: Progress) -> Solved:

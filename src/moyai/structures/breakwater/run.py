@@ -14,7 +14,7 @@ from moyai.core.progress import Progress, silent
 from moyai.core.remembered import Remembered, key_of_objects
 from moyai.core.results import Result
 from moyai.core.store import DatasetStore
-from moyai.core.validity import Notice
+from moyai.core.validity import IdentityCheck, Notice
 from moyai.floating.checks import roll_notices
 from moyai.structures.breakwater.assembly import FloatingUnit, assemble
 from moyai.structures.breakwater.checks import check_problem, check_unit, drift_check
@@ -27,7 +27,7 @@ from moyai.structures.breakwater.hydrodynamics import (
     UnitHydrodynamics,
     headings_of,
     operator_frequencies,
-    sea_frequencies,
+    section_frequencies,
     solve_unit,
     spectrum_band,
 )
@@ -43,11 +43,13 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
+MOST_SHARED = 48  # heading and range of frequencies of a scatter diagram make so many
 # What the cases of a study share that differ in their irregular seas alone
-_HYDRODYNAMICS: Remembered[UnitHydrodynamics] = Remembered(4)
-_STATICS: Remembered[tuple[xr.Dataset, tuple[Notice, ...]]] = Remembered(4)
-_MODELS: Remembered[FrequencyModel] = Remembered(4)
-_REGULAR: Remembered[FrequencyResult] = Remembered(32)
+_HYDRODYNAMICS: Remembered[UnitHydrodynamics] = Remembered(MOST_SHARED)
+_STATICS: Remembered[tuple[xr.Dataset, tuple[Notice, ...]]] = Remembered(MOST_SHARED)
+_MODELS: Remembered[FrequencyModel] = Remembered(MOST_SHARED)
+_DRIFT_CHECKS: Remembered[tuple[IdentityCheck, ...]] = Remembered(MOST_SHARED)
+_REGULAR: Remembered[FrequencyResult] = Remembered(MOST_SHARED)
 
 
 @dataclass(frozen=True)
@@ -173,7 +175,8 @@ def _frequency_steps(
         collected.checks.extend(found.checks)
         collected.notices.extend((*found.notices, *check_screening(unit.water.depth, unit.draught)))
     if not problem.nominal:
-        collected.checks.extend(drift_check(model, main, seas))
+        key = None if shared is None else key_of_objects(shared, main)
+        collected.checks.extend(_DRIFT_CHECKS.of(key, lambda: drift_check(model, main)))
     collected.notices.extend(viscous_notices(unit))
     yield
     for sea in seas:
@@ -207,7 +210,8 @@ def _key_without_irregular_seas(problem: BreakwaterProblem, unit: FloatingUnit) 
     regular = tuple(replace(sea, height=1.0) for sea in problem.environment.sea_states if isinstance(sea, RegularSea))
     environment = replace(problem.environment, sea_states=())
     rest = (problem.breakwater, environment, problem.settings, problem.nominal)
-    return key_of_objects(rest, unit.name, unit.level, regular, sea_frequencies(problem), headings_of(problem))
+    solved = (section_frequencies(unit, problem), headings_of(problem))
+    return key_of_objects(rest, unit.name, unit.level, regular, *solved)
 
 
 def _time_steps(

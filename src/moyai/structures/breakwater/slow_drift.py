@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 from moyai.core.arrays import Array, ComplexArray
 from moyai.floating.damping import LinearDamping
@@ -43,11 +44,11 @@ def force_spectrum(omega: Array, directional: Array, drift: Array, difference: A
     step = grid[1] - grid[0]
     moments = np.array([np.sum(directional * drift**order, axis=1) for order in (0, 1, 2)])
     zero, one, two = (np.interp(grid, omega, row) for row in moments)
-    out = np.zeros(len(difference))
-    for index, mu in enumerate(difference):
-        other = [np.interp(grid + mu, omega, row, left=0.0, right=0.0) for row in moments]
-        out[index] = 2.0 * step * float(np.sum(two * other[0] + 2.0 * one * other[1] + zero * other[2]))
-    return out
+    pairs = [np.correlate(later, first, "full") for later, first in ((zero, two), (2.0 * one, one), (two, zero))]
+    at_steps = 2.0 * step * np.sum(pairs, axis=0)[WAVE_POINTS - 1 :]
+    within = np.asarray(difference) <= step * (WAVE_POINTS - 1)
+    # as smooth over the difference as the spectrum is over frequency: splines between steps cost no accuracy
+    return np.where(within, CubicSpline(step * np.arange(WAVE_POINTS), at_steps)(difference), 0.0)
 
 
 @dataclass(frozen=True)
@@ -124,8 +125,8 @@ def slow_drift(
     weights = integration_weights(difference)
 
     mu = difference[:, None, None]
-    restoring = stiffness - mu**2 * (model.inertia + np.array([added(one) for one in difference]))
-    losses = np.array([radiation(one) for one in difference]) + extra
+    restoring = stiffness - mu**2 * (model.inertia + added(difference))
+    losses = radiation(difference) + extra
 
     def transfer(factor: float) -> ComplexArray:
         matrix = restoring - 1j * mu * factor * losses

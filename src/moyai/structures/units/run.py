@@ -373,12 +373,13 @@ def _notices(problem: UnitsProblem, at: RowAtLevel) -> list[Notice]:
                 remedy="give structure.damping a fraction of critical in surge, or structure.additional_damping",
             )
         )
-    if not row.damping_fraction.any() and not row.linear_damping.any() and not row.viscous_factor:
+    roll = DOFS.index("roll")
+    if not row.damping_fraction[roll] and not row.linear_damping[roll] and not row.viscous_factor:
         out.append(
             Notice(
                 "no-damping",
-                "the units have no damping but that of the waves they make: roll at resonance is too large",
-                remedy="give 'structure.damping'",
+                "the units have no damping of roll but that of the waves they make: roll at resonance is too large",
+                remedy="leave out 'structure.damping.viscous: none', or give a fraction of critical in roll",
             )
         )
     if any(isinstance(sea, IrregularSea) for sea in problem.environment.sea_states):

@@ -9,6 +9,7 @@ import numpy as np
 
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
+from moyai.core.mixing import Mixing
 from moyai.floating.irregular import response_statistics
 from moyai.sea.environment import Environment
 from moyai.sea.states import IrregularSea, RegularSea, SeaState
@@ -217,14 +218,12 @@ class _Mixed:
     Each is measured by its largest; elongations and speeds never fall below zero.
     """
 
-    def __init__(self, depth: int = 5) -> None:
-        self._depth, self._turn = depth, 0
-        self.forget()
+    def __init__(self) -> None:
+        self._mixing, self._turn = Mixing(), 0
 
     def forget(self) -> None:
         """Start anew, where the map itself has changed."""
-        self._points: list[Array] = []
-        self._steps: list[Array] = []
+        self._mixing.forget()
 
     def towards(self, old: tuple[Array, Array, Array], new: tuple[Array, Array, Array]) -> tuple[Array, Array, Array]:
         """Return the next elongations, speeds and drift from the last and what they lead to.
@@ -241,17 +240,13 @@ class _Mixed:
         parts = [np.full(len(part), max(float(np.max(np.abs(part), initial=0.0)), 1e-12)) for part in new]
         scale, point = np.concatenate(parts), np.concatenate(old)
         step = np.concatenate(new) - point
-        self._points = [*self._points, point][-self._depth :]
-        self._steps = [*self._steps, step][-self._depth :]
         first, second = len(old[0]), len(old[0]) + len(old[1])
         # half a step of elongations alone, where there is nothing to mix: a curve that comes tight turns back
         plain = point + np.where(np.arange(len(step)) < first, 0.5, 1.0) * step
-        if len(self._steps) < 2:
+        mixed = self._mixing.step(point, step, scale=scale)
+        if self._mixing.knows < 2:
             return plain[:first], plain[first:second], plain[second:]
-        changes = np.diff(self._steps, axis=0).T / scale[:, None]
-        moves = np.diff(self._points, axis=0).T
-        share = np.linalg.lstsq(changes, step / scale, rcond=1e-6)[0]
-        found = point + step - (moves + changes * scale[:, None]) @ share
+        found = point + mixed
         # a mixture that leaves what it is mixed from far behind is none: nothing may halve or double beyond both ends
         low, high = 0.5 * np.minimum(point, point + step)[:second], 2.0 * np.maximum(point, point + step)[:second]
         if np.any(found[:second] < low) or np.any(found[:second] > high):

@@ -12,7 +12,7 @@ from moyai.case.reader import read_block
 from moyai.case.yaml_reader import Document, read_yaml
 from moyai.core.errors import CaseError, InputError
 from moyai.records.forces.case.schema import ForceRecordFile, WaveGauge
-from moyai.records.forces.identification import ForceRecord, Setup
+from moyai.records.forces.identification import METHODS, ForceRecord, Setup
 from moyai.records.forces.record import period_of
 from moyai.records.forces.waves import orbital_motion
 from moyai.structures.member.case.build import member_section
@@ -54,7 +54,7 @@ def setup_of(model: ForceRecordFile, document: Document) -> Setup:
             period=model.period,
             regular=model.regular,
             form=model.drag_form,
-            methods=model.methods,
+            methods=model.methods or tuple(word for word in METHODS if model.regular or word != "fourier"),
             harmonics=model.harmonics,
             phase_error=math.radians(model.phase_error_deg),
             confidence=model.confidence,

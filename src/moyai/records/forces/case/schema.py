@@ -73,14 +73,14 @@ class ForceRecordFile(Block):
     regular: Truth = Field(default=True, description="Whether the waves are regular. Default: true.")
     period: AutoDuration = Field(default=None, description="Period of regular waves; auto finds it. Default: auto.")
     drag_form: Literal["component", "vector"] = Field(default="component", description="Drag u|u|, or u|U|.")
-    methods: Annotated[
-        tuple[Literal["fourier", "least_squares", "force_weighted", "robust"], ...],
-        Field(min_length=1),
-        AfterValidator(once_each),
-    ] = Field(
-        default=("fourier", "least_squares", "force_weighted", "robust"),
-        description="Methods. Default: all four (irregular records: give those without fourier).",
-    )
+    methods: (
+        Annotated[
+            tuple[Literal["fourier", "least_squares", "force_weighted", "robust"], ...],
+            Field(min_length=1),
+            AfterValidator(once_each),
+        ]
+        | None
+    ) = Field(default=None, description="Methods. Default: all four, of irregular records all but fourier.")
     harmonics: Annotated[tuple[Harmonic, ...], AfterValidator(once_each)] = Field(
         default=(), description="Harmonics of the force fitted together with Morison's equation, such as [2, 3]."
     )

@@ -107,17 +107,14 @@ def _damping(unit: schema.BreakwaterStructure) -> Damping:
     linear = (extra.sway, extra.heave, extra.roll + roll.linear)
     numbers = edge_damping_numbers()
     terms = unit.damping or schema.DampingTerms()
-    computed = terms.viscous == "computed"
-    if terms.viscous is None:
-        # A measured roll damping or a fraction that stands for all of it holds the eddies already
-        computed = terms.fraction_of_critical is None and unit.roll_damping is None
+    factor = terms.computed_factor(roll_is_given=unit.roll_damping is not None)
     band = terms.band or (numbers.band_low, numbers.band_high)
     return Damping(
         terms.fraction_of_critical or 0.0,
         terms.modes or MODES,
         linear,
         roll.quadratic,
-        computed,
+        factor > 0.0,
         terms.viscous_factor,
         (min(band), max(band)),
     )

@@ -9,6 +9,7 @@ from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 from moyai.case.schema_app import APP, App
 from moyai.case.schema_coefficients import OfCapytaine, OfNemoh, OfWamit
 from moyai.case.schema_criteria import CRITERIA
+from moyai.case.schema_damping import DampingBeyondWaves
 from moyai.case.schema_display import DISPLAY, Display
 from moyai.case.schema_environment import Current, SeaState, Site, Wind, refuse_no_seas
 from moyai.case.schema_lines import LineEntry
@@ -20,7 +21,6 @@ from moyai.case.schema_types import (
     Block,
     Damping,
     FileName,
-    Fraction,
     Inertia,
     KeyGroups,
     Length,
@@ -38,20 +38,9 @@ from moyai.structures.breakwater.case.criteria import BreakwaterCriteria, Breakw
 from moyai.structures.breakwater.settings import Analysis, Mode, Settings
 
 
-class DampingTerms(Block):
+class DampingTerms(DampingBeyondWaves):
     """Damping beyond wave radiation: computed from the section, a fraction of critical, or both."""
 
-    viscous: Literal["computed", "none"] | None = Field(
-        default=None,
-        description="'computed': by eddies at the edges of the section. Default: computed, unless fraction_of_critical "
-        "or roll_damping is given.",
-    )
-    viscous_factor: PositiveNumber = Field(
-        default=1.0, description="What the computed viscous damping is multiplied with. Default: 1."
-    )
-    fraction_of_critical: Fraction | None = Field(
-        default=None, description="zeta in C = 2 zeta sqrt((M + added mass)(stiffness)); needs modes."
-    )
     modes: Annotated[tuple[Mode, ...], Field(min_length=1), AfterValidator(once_each)] | None = Field(
         default=None,
         description="Motions that the fraction is applied to.",
@@ -61,16 +50,6 @@ class DampingTerms(Block):
         default=None,
         description="Factors on this damping for the band of transmission and motion. Default: [0.5, 2].",
     )
-
-    @classmethod
-    def _between_keys(cls, data: dict[str, Any]) -> list[tuple[str, str, str]]:
-        faults = super()._between_keys(data)
-        if data.get("fraction_of_critical") is not None and data.get("modes") is None:
-            remedy = "give it: Motions that it is applied to, for instance [sway, heave, roll]"
-            faults.append(("", "the key 'modes' is missing", remedy))
-        if data.get("modes") is not None and data.get("fraction_of_critical") is None:
-            faults.append(("modes", "'modes' needs 'fraction_of_critical'", "give it, or leave 'modes' out"))
-        return faults
 
 
 class RollDampingTerms(Block):

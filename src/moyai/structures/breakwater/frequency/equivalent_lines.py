@@ -8,6 +8,7 @@ import numpy as np
 
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import ConvergenceError
+from moyai.core.mixing import Mixing
 from moyai.core.progress import Progress
 from moyai.core.validity import Notice
 from moyai.floating.coefficients import Hydrodynamics
@@ -103,8 +104,7 @@ def _balanced(wave: _Wave, offset: Array, motion: ComplexArray, scale: Array) ->
 
     Steps learn from earlier ones (Anderson 1965), since a hardening line may ask for more than the whole motion.
     """
-    places: list[Array] = []
-    steps: list[Array] = []
+    mixing = Mixing(REMEMBERED + 1)
 
     def joined(real: Array, harmonic: ComplexArray) -> Array:
         return np.concatenate([scale * real, scale * harmonic.real, scale * harmonic.imag])
@@ -121,15 +121,9 @@ def _balanced(wave: _Wave, offset: Array, motion: ComplexArray, scale: Array) ->
         if float(np.max(np.abs(asked))) <= TOLERANCE * size:
             # the motion under the forces found: the balance of energy is then exact
             return replace(answer, motion=motion + step)
-        places = [joined(offset, motion), *places][: REMEMBERED + 1]
-        steps = [asked, *steps][: REMEMBERED + 1]
-        taken = PART * asked
-        if len(steps) > 1:
-            turned, moved = -np.diff(steps, axis=0).T, -np.diff(places, axis=0).T
-            share = np.linalg.lstsq(turned, asked, rcond=1e-6)[0]
-            taken = taken - (moved + PART * turned) @ share
-        taken = taken * min(1.0, LONGEST * size / max(float(np.max(np.abs(taken))), 1e-300))
-        there = places[0] + taken
+        here = joined(offset, motion)
+        taken = mixing.step(here, asked, PART)
+        there = here + taken * min(1.0, LONGEST * size / max(float(np.max(np.abs(taken))), 1e-300))
         offset = there[:3] / scale
         motion = np.asarray((there[3:6] + 1j * there[6:]) / scale, dtype=np.complex128)
     return None

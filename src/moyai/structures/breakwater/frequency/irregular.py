@@ -40,7 +40,6 @@ from moyai.structures.breakwater.variables import VOCABULARY
 from moyai.structures.breakwater.viscous_damping import (
     band_factors,
     band_words,
-    driven_motions,
     equivalent_variables,
     natural_added_mass,
     scaled_damping,
@@ -203,32 +202,57 @@ class _Settled:
     notices: tuple[Notice, ...]
     damping: LinearDamping
     stiffness: Array
+    linearised: SeaMotions
 
 
-def _settle(model: FrequencyModel, hydros: list[Hydrodynamics], headings: Array, directional: Array) -> _Settled:
+def _settle(
+    model: FrequencyModel,
+    hydros: list[Hydrodynamics],
+    headings: Array,
+    directional: Array,
+    start: _Settled | None = None,
+) -> _Settled:
     """Find the mean drift of the whole sea, every heading with its own, and the offset and stiffness that go with it.
 
     The loop of P3 for a sea: drift moves the unit, the moved lines are stiffer, the stiffer unit drifts differently.
     The drift is the sum over frequencies and headings of twice the spectrum times the drift per amplitude squared.
+    ``start`` is the answer with a damping nearby, from which the loop goes on.
     """
-    unit, force = model.unit, 0.0
+    unit = model.unit
     weights = integration_weights(hydros[0].omega)
     drifting = model.with_drift and hydros[0].has_far_field
-    status: str = "not_converged"
+    moving = water_motion(model, hydros[0].omega, headings)
     near: SeaMotions | None = None
+    force, place = 0.0, np.zeros(3)
+    if start is not None:
+        force, place, near = start.force, start.offset, start.linearised
+    status: str = "not_converged"
     for _ in range(MOST_TURNS):
-        mean = mean_offset(unit.mooring, unit.statics.stiffness, model.steady + np.array([force, 0.0, 0.0]))
+        pushed = model.steady + np.array([force, 0.0, 0.0])
+        mean = mean_offset(unit.mooring, unit.statics.stiffness, pushed, start=place)
         offset = mean.position if mean.status == "converged" else np.zeros(3)
-        stiffness = unit.statics.stiffness + unit.mooring.stiffness(offset)
-        motions, notices, damping, near = _sea_motions(model, hydros, headings, stiffness, directional, near)
+        place, stiffness = offset, unit.statics.stiffness + unit.mooring.stiffness(offset)
+        near = linearised_in_sea(
+            hydros,
+            model.inertia,
+            stiffness,
+            directional,
+            quadratic=model.quadratic,
+            damping=model.damping,
+            water_motion=moving,
+            start=near,
+        )
         if not drifting:
             status = str(mean.status)
             break
-        before, force = force, _drift(unit, hydros, motions, directional, weights)
+        before, force = force, _drift(unit, hydros, near.motions, directional, weights)
         if abs(force - before) <= 1e-6 * max(abs(force), 1e-12):
             status = str(mean.status)
             break
-    return _Settled(motions, force, offset, status, notices, damping, stiffness)
+    assert near is not None
+    damping = LinearDamping(model.damping.matrix + near.equivalent_damping, model.damping.critical_fraction)
+    motions = replace(near.motions, heading=headings)
+    return _Settled(motions, force, offset, status, motions.notices, damping, stiffness, near)
 
 
 def _band(
@@ -237,7 +261,8 @@ def _band(
     """Return transmission and motion with the damping of the unit at both ends of its band, nominal included."""
     omega = hydros[0].omega
     answers = [settled]
-    answers += [_settle(scaled_damping(model, factor), hydros, headings, directional) for factor in band_factors(model)]
+    for factor in band_factors(model):
+        answers.append(_settle(scaled_damping(model, factor), hydros, headings, directional, settled))
     motion = np.array(
         [response_statistics(omega, item.motions.displacement, directional).significant for item in answers]
     )
@@ -273,35 +298,3 @@ def _drift_of(unit: FloatingUnit, hydro: Hydrodynamics, motions: Motions, column
     """Return the mean drift over amplitude squared of one heading [N/m2]."""
     far = far_field(hydro, motions.displacement[:, [column]])
     return drift_force_per_amplitude_squared(far, hydro.omega, hydro.heading, unit.water, hydro.length)[:, 0]
-
-
-def _sea_motions(
-    model: FrequencyModel,
-    hydros: list[Hydrodynamics],
-    headings: Array,
-    stiffness: Array,
-    directional: Array,
-    near: SeaMotions | None = None,
-) -> tuple[Motions, tuple[Notice, ...], LinearDamping, SeaMotions | None]:
-    """Return motions in all headings of a sea, quadratic damping linearised for the whole of it, and that damping.
-
-    The linearisation goes on from that of a stiffness nearby, and is given for the next.
-    """
-    damping, deviation, found = model.damping, np.zeros(0), None
-    if model.quadratic is not None:
-        found = linearised_in_sea(
-            hydros,
-            model.inertia,
-            stiffness,
-            directional,
-            quadratic=model.quadratic,
-            damping=model.damping,
-            water_motion=water_motion(model, hydros[0].omega, headings),
-            start=near,
-        )
-        deviation = found.measure_deviation
-        damping = LinearDamping(damping.matrix + found.equivalent_damping, damping.critical_fraction)
-    each = [driven_motions(model, item, stiffness, damping, deviation) for item in hydros]
-    displacement = np.concatenate([item.displacement for item in each], axis=1)
-    notices = tuple(notice for item in each for notice in item.notices)
-    return replace(each[0], heading=headings, displacement=displacement), notices, damping, found

@@ -121,7 +121,7 @@ def row_of(model: schema.UnitsCase, water: Water) -> FloatingRow:
         lines=tuple(line_of(entry, index, water, len(placements)) for index, entry in enumerate(model.lines)),
         damping_fraction=fraction,
         linear_damping=linear,
-        viscous_factor=unit.damping.computed_factor,
+        viscous_factor=unit.damping.computed_factor(),
         gap_damping_lid=unit.gap_damping_lid,
         wind_drag_coefficient=unit.wind_drag_coefficient,
         current_drag_coefficient=unit.current_drag_coefficient,

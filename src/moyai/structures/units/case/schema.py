@@ -9,6 +9,7 @@ from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 from moyai.case.schema_app import APP, App
 from moyai.case.schema_coefficients import word_of
 from moyai.case.schema_criteria import CRITERIA
+from moyai.case.schema_damping import DampingBeyondWaves
 from moyai.case.schema_display import DISPLAY, Display
 from moyai.case.schema_environment import Current, SeaState, Site, Wind, refuse_no_seas
 from moyai.case.schema_lines import CatenaryLine, SpringLine
@@ -22,7 +23,6 @@ from moyai.case.schema_types import (
     Block,
     Damping,
     FileName,
-    Fraction,
     Heading,
     KeyGroups,
     Length,
@@ -31,7 +31,6 @@ from moyai.case.schema_types import (
     NonNegativeNumber,
     OneOrMany,
     PositiveLength,
-    PositiveNumber,
     QuantityOf,
     Range,
     RollDamping,
@@ -70,39 +69,12 @@ class Units(Block):
     )
 
 
-class UnitDamping(Block):
+class UnitDamping(DampingBeyondWaves):
     """Damping beyond wave radiation: computed from the section, a fraction of critical, or both."""
 
-    viscous: Literal["computed", "none"] | None = Field(
-        default=None,
-        description="'computed': by eddies at the edges of the section along every unit. Default: computed, unless "
-        "fraction_of_critical is given.",
-    )
-    viscous_factor: PositiveNumber = Field(
-        default=1.0, description="What the computed viscous damping is multiplied with. Default: 1."
-    )
-    fraction_of_critical: Fraction | None = Field(
-        default=None, description="zeta in C = 2 zeta sqrt((M + added mass)(stiffness)), of every unit by itself."
-    )
     modes: Annotated[tuple[Mode, ...], Field(min_length=1), AfterValidator(once_each)] | None = Field(
         default=None, description="Motions that the fraction is applied to.", examples=[["sway", "heave", "roll"]]
     )
-
-    @classmethod
-    def _between_keys(cls, data: dict[str, Any]) -> list[tuple[str, str, str]]:
-        faults = super()._between_keys(data)
-        if data.get("fraction_of_critical") is not None and data.get("modes") is None:
-            remedy = "give it: Motions that it is applied to, for instance [sway, heave, roll]"
-            faults.append(("", "the key 'modes' is missing", remedy))
-        if data.get("modes") is not None and data.get("fraction_of_critical") is None:
-            faults.append(("modes", "'modes' needs 'fraction_of_critical'", "give it, or leave 'modes' out"))
-        return faults
-
-    @property
-    def computed_factor(self) -> float:
-        """What the computed damping is multiplied with; 0 where it is not computed."""
-        computed = self.fraction_of_critical is None if self.viscous is None else self.viscous == "computed"
-        return self.viscous_factor if computed else 0.0
 
 
 class AdditionalUnitDamping(Block):

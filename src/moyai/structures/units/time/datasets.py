@@ -71,7 +71,7 @@ def run_numbers(given: TimeRun) -> dict[str, tuple[tuple[str, ...], Array]]:
     motion = at.in_unit_axes(motions)
     mean = motion.mean(axis=0)
     loads = run.joint_loads[part]
-    relative = np.array([run.relative(joint)[part] for joint in at.joints]).reshape(len(at.joints), -1, 6)
+    relative = np.array([run.relative(joint)[part] for joint in at.joints]).reshape(len(at.joints), len(motions), 6)
     relative = relative.swapaxes(0, 1)
     moved = np.abs(relative - relative.mean(axis=0)).max(axis=0)
     low, high = np.full(len(at.joints), np.nan), np.full(len(at.joints), np.nan)
