@@ -18,8 +18,8 @@ from pathlib import Path
 from bench_app import CASES, text_of
 
 from moyai.app.draft import Drafts
-from moyai.case.sliders import sliders_of
 from moyai.app.messages import Wish, message
+from moyai.case.sliders import sliders_of
 from moyai.case.yaml_reader import parse_yaml
 from moyai.cli.runner import run
 from moyai.core.progress import silent

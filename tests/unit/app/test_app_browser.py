@@ -354,6 +354,19 @@ def tab_to(page: Any, wanted: str, back: bool = False, most: int = 80) -> None:
     raise AssertionError(f"no Tab reaches {wanted}; the focus is on {page.evaluate(f'{FOCUS}.outerHTML')[:200]}")
 
 
+@pytest.mark.parametrize("leave", ["location.hash = '#/jobs'", "location.reload()"])
+def test_what_is_typed_last_is_kept_when_the_page_is_left(address: str, leave: str) -> None:
+    typed = MEMBER.replace("Quick", "Typed")
+    with pipe.Chromium(str(pipe.find_chromium()), 1280, 900) as page:
+        page.send("Page.navigate", url=address)
+        until(page, f"{DRAWN} > 0 && {IDLE}")
+        case = page.evaluate("location.hash")
+        page.evaluate(f"window.old = true; {TEXT.removesuffix('.text')}.type({typed!r}); {leave}")
+        until(page, "!window.old || document.querySelector('.jobs')")
+        page.evaluate(f"location.hash = {case!r}")
+        until(page, f"document.querySelector('.text-pane') && {TEXT} === {typed!r}", 15.0)
+
+
 def test_a_file_is_opened_by_its_name(address: str, tmp_path: Path) -> None:
     deep = tmp_path / "a" / "b" / "c" / "d" / "e"
     deep.mkdir(parents=True)

@@ -43,14 +43,10 @@ export class CaseView {
           this.saveButton, element("a", { href: `${this.address}/case.yaml`, download: true }, say("Take the case"))),
         this.notice, this.pins.element, tabs((name) => this.showTab(name)), this.sliders.element, this.form.element, this.editor.element),
       element("div", { class: "look" }, element("div", { class: "top" }, this.state, this.sections.element), this.report));
-    this.report.addEventListener("click", (event) => {
-      const link = event.target.closest("a[href^='#']");
-      if (link) { event.preventDefault(); document.getElementById(link.hash.slice(1))?.scrollIntoView(); }
-    });
     this.live = new Live(this.report);
     this.keys = (event) => { if (event.altKey && event.key.toLowerCase() === "z") { event.preventDefault(); this.undo(); } };
     document.addEventListener("keydown", this.keys);
-    this.look = setInterval(this.seen = () => this.refresh(), LOOK);
+    this.look = setInterval(this.seen = () => (document.hidden ? this.known() : this.refresh()), LOOK);
     document.addEventListener("visibilitychange", this.seen);
     this.take(record);
     this.drafts.send("opened");
@@ -59,7 +55,7 @@ export class CaseView {
     this.content.dataset.tab = this.tab = name;
     if (name === "form") this.form.renew();
   }
-  // What was moved and typed here is known to the server first.
+  // What was moved and typed here is known to the server first, also when the page is left.
   async known() {
     this.drafts.catchUp();
     clearTimeout(this.timer);
@@ -105,6 +101,7 @@ export class CaseView {
     location.hash = "#/jobs";
   }
   close() {
+    if (this.live) this.known();
     this.closed = true;
     this.drafts.close();
     clearInterval(this.look);

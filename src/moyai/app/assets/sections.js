@@ -5,6 +5,10 @@ export class Sections {
   constructor(report) {
     this.report = report;
     this.element = element("select", { "aria-label": say("Go to a section"), onchange: () => { document.getElementById(this.element.value)?.scrollIntoView({ behavior: "instant" }); } });
+    report.addEventListener("click", (event) => {
+      const link = event.target.closest("a[href^='#']");
+      if (link) { event.preventDefault(); document.getElementById(link.hash.slice(1))?.scrollIntoView(); }
+    });
     document.addEventListener("scroll", this.follow = () => this.name(), { passive: true });
   }
   close() { document.removeEventListener("scroll", this.follow); }
