@@ -71,7 +71,7 @@ class Drafts:
             for path, number in wish.edits.items():
                 document = with_number(document, path, number)
             self._last, text = document, document.text
-            refuse_foreign_files(wish.root, wish.file.parent, document.data)
+            refuse_foreign_files(wish.root, wish.file.parent, document)
             case = case_of(document, wish.file)
             drafts = stages_of(document, case.kind)
             sliders = sliders_of(document, case.kind, drafts[-1].data)

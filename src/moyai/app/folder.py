@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import contextlib
 import re
-from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from moyai.case.reader import named_files
-from moyai.core.errors import InputError
+from moyai.case.yaml_reader import Document, KeyPath
+from moyai.core.errors import CaseError, InputError
 
 CASE_ENDINGS = (".yaml", ".yml")
+_FILE_KEYS = (("file",), ("path",))
 _MOST_FILES = 200
 _DEEPEST = 4
 _KIND = re.compile(r"^structure:(?:.|\n)*?\bkind:\s*(\w+)", re.MULTILINE)
@@ -93,7 +94,7 @@ def within(root: Path, path: Path, shown: str) -> Path:
     return target
 
 
-def refuse_foreign_files(root: Path, folder: Path, content: Any) -> None:
+def refuse_foreign_files(root: Path, folder: Path, document: Document) -> None:
     """Refuse a case that names files outside the chosen folder.
 
     Parameters
@@ -102,14 +103,30 @@ def refuse_foreign_files(root: Path, folder: Path, content: Any) -> None:
         The chosen folder, links resolved.
     folder : Path
         Folder of the case.
-    content : object
-        Keys of the case.
+    document : Document
+        The case.
 
     Raises
     ------
-    InputError
+    CaseError
+        With the line of the first name.
     """
-    for name in sorted(named_files(content)) if isinstance(content, Mapping) else ():
-        target = within(root, folder / name, name)
-        for member in target.rglob("*") if target.is_dir() else ():
-            within(root, member, f"{name}/{member.name}")
+    for name in sorted(named_files(document.data)):
+        try:
+            target = within(root, folder / name, name)
+            for member in target.rglob("*") if target.is_dir() else ():
+                within(root, member, f"{name}/{member.name}")
+        except InputError as error:
+            named = (path for path in document.values if path[-1:] in _FILE_KEYS and _at(document, path) == name)
+            fault = error.fault
+            raise CaseError(
+                [document.fault(next(named, ()), fault.message, allowed=fault.allowed, remedy=fault.remedy)]
+            ) from None
+
+
+def _at(document: Document, path: KeyPath) -> Any:
+    found = document.data
+    with contextlib.suppress(KeyError, IndexError, TypeError):
+        for step in path:
+            found = found[step]
+    return found

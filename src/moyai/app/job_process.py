@@ -116,7 +116,7 @@ def _run(order: Order, run: Run, listen: Any) -> tuple[str, str, str]:
     from moyai.report.writer import compose_document, write_report
 
     document = parse_yaml(order.text, order.file.name)
-    refuse_foreign_files(order.root, order.file.parent, document.data)
+    refuse_foreign_files(order.root, order.file.parent, document)
     case = case_of(document, order.file)
     with compiling_ahead(case.kind), alone_in(order.folder), staged_outputs(order.folder) as staged:
         write_whole(order.folder / "case.yaml", order.text.encode("utf-8"))

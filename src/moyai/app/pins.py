@@ -110,7 +110,7 @@ class Pinned:
 
         try:
             document = parse_yaml(pin.text, wish.file.name)
-            refuse_foreign_files(wish.root, wish.file.parent, document.data)
+            refuse_foreign_files(wish.root, wish.file.parent, document)
             kind = case_of(document, wish.file).kind
             data: dict[str, Any] = stages_of(document, kind)[-1].data
             data = {**data, "analyses": shown.data["analyses"]}

@@ -31,12 +31,12 @@ def refuse_foreign_base(folder: Folder, path: Path) -> str:
     kind = file_kind(document.data)
     if not kind:
         raise InputError(f"{path.name!r} is no study and no fit", path="file")
-    refuse_foreign_files(folder.root, path.parent, document.data)
+    refuse_foreign_files(folder.root, path.parent, document)
     base = document.data[kind].get("base")
     if isinstance(base, str):
         target = within(folder.root, path.parent / base, base)
         if target.is_file():
-            refuse_foreign_files(folder.root, target.parent, read_yaml(target).data)
+            refuse_foreign_files(folder.root, target.parent, read_yaml(target))
     return kind
 
 

@@ -156,7 +156,7 @@ def test_study_files_are_listed_and_kept_inside(root: Path) -> None:
     for text, error in (
         (STUDY.replace("pile.yaml", "../pile.yaml"), InputError),
         (STUDY.replace("pile.yaml", "/etc/passwd"), InputError),
-        (STUDY + "  assess: {file: ../x.csv}\n", InputError),
+        (STUDY + "  assess: {file: ../x.csv}\n", CaseError),
         ("a: 1\n", InputError),
         ("a: [", CaseError),
     ):
