@@ -153,9 +153,9 @@ export class CaseView {
     this.drafts.send(`slider ${path}`);
   }
   wish() {
+    this.live.remember();
     const wish = { ...(this.dirty ? { text: this.editor.text } : {}), edits: Object.fromEntries(this.edits), shown: this.live.shown(), level: this.live.chosen.get("water-level") || "", typed: this.typed };
     this.dirty = false;
-    this.live.remember();
     return wish;
   }
   work(working) { this.state.classList.toggle("working", working); }
