@@ -52,9 +52,12 @@ def app_at(start: Path, *options: str) -> Iterator[str]:
     assert process.stdout is not None
     found = re.search(r"http://127\.0\.0\.1:\d+/\?token=\S+", process.stdout.readline())
     assert found is not None
-    yield found[0]
-    process.send_signal(2)
-    out, errors = process.communicate(timeout=15)
+    try:
+        yield found[0]
+        process.send_signal(2)
+        out, errors = process.communicate(timeout=15)
+    finally:
+        process.kill()  # where the test has failed
     assert process.returncode == 0
     assert ("終了した" if options else "has ended") in out and errors == ""
 

@@ -96,7 +96,8 @@ def test_a_killed_process_is_told_and_can_be_started_again(queue: Any, tmp_path:
 def test_the_command_line_names_the_file_to_a_shell(tmp_path: Path, name: str) -> None:
     command = Job("job1", order(tmp_path, name)).record(tmp_path)["command"]
     assert shlex.split(command) == ["moyai", "run", name, "--output", name]
-    said = subprocess.run(["sh", "-c", f"printf '%s|' {command.partition(' ')[2]}"], capture_output=True, text=True)
+    shell = ["sh", "-c", f"printf '%s|' {command.partition(' ')[2]}"]
+    said = subprocess.run(shell, capture_output=True, text=True, cwd=tmp_path)
     assert said.stdout == f"run|{name}|--output|{name}|"
 
 
