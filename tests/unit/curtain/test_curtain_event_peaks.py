@@ -162,10 +162,23 @@ def test_limits_are_not_below_the_state_in_which_the_whole_span_holds():
     current, height = found["limit_current"], found["limit_wave_height"]
     assert (current.value, current.bound, current.model) == (0.5, "at least", SPAN) and "0.236" in current.detail
     assert (height.value, height.bound) == (0.8, "at least")
-    # where the span does not hold, or is only a bound from below, the plate's bound is all there is
-    for capacity, bound in ((100e3, ""), (200e3, "at least")):
-        found = {item.name: item for item in curtain_headlines(groups_of(storm(), capacity, bound), ["SWL"])}
+    # where the span does not hold, or is only a bound from below without an end, the plate's bound is all there is
+    endless = groups_of(storm(), 200e3, "at least")
+    endless["/SWL/dynamic"] = endless["/SWL/dynamic"].drop_vars("event_peak_ceiling")
+    for groups in (groups_of(storm(), 100e3, ""), endless):
+        found = {item.name: item for item in curtain_headlines(groups, ["SWL"])}
         assert found["limit_current"].value == 0.236 and found["limit_wave_height"].text == "not known"
+
+
+@pytest.mark.parametrize(("capacity", "height"), [(400e3, 0.8), (200e3, None)])
+def test_a_bound_from_below_that_holds_at_its_end_tells_the_wave_height(capacity: float, height: float | None) -> None:
+    """The limit holds where the criteria do: at the end to which the change from mesh to mesh goes on."""
+    numbers = curtain_headlines(groups_of(storm((40e3, 42e3, 44e3)), capacity, "at least"), ["SWL"])
+    criterion = Criterion("cables", "cable_utilisation", 1.0 / 3.0, "at most", "case file", as_factor=True)
+    (judged,) = judge(numbers, [criterion], computed=True).judgements
+    found = next(item for item in numbers if item.name == "limit_wave_height")
+    assert (judged.outcome == "holds") is (height is not None)
+    assert found.text == "not known" if height is None else (found.value == height and found.bound == "at least")
 
 
 @pytest.mark.parametrize(("capacity", "height"), [(200e3, 0.8), (100e3, None)])

@@ -5,7 +5,7 @@ import pytest
 import xarray as xr
 
 from moyai.core.headline import Criterion, judge
-from moyai.structures.units.headlines import _each, _waves, _with_damping, _with_tilt, governing_seas
+from moyai.structures.units.headlines import _each, _gaps, _lines, _waves, _with_damping, _with_tilt, governing_seas
 
 DOFS = ["sway", "heave", "roll"]
 
@@ -72,3 +72,48 @@ def test_a_named_regular_sea_is_judged_in_every_period():
     assert judge(items, [limit], computed=True).outcome == "does not hold"
     named = [item for item in _waves([("/SWL/map/daily", data)]) if item.sea == "daily"]
     assert [item.value for item in named] == [0.5, 0.4] and max(item.band.high for item in named) == 0.7
+
+
+def lines_of(tension: float, mean: float = 10.0e3) -> xr.Dataset:
+    """One line of a regular sea of one period, one connector that is not stretched across."""
+    coords = {"period": [4.0], "line": ["s"], "connector": ["c"], "gap": ["g"]}
+    data = {
+        "line_tension_maximum": (("period", "line"), [[tension]]),
+        "line_tension_mean": (("period", "line"), [[mean]]),
+        "connector_resultant_largest": (("period", "connector"), [[5.0e3]]),
+        "gap_closing_largest": (("period", "gap"), [[0.2]]),
+    }
+    return xr.Dataset(data, coords=coords, attrs={"status": "converged"})
+
+
+REST = xr.Dataset({"breaking_load": ("line", [1.0e6]), "gap_width": ("gap", [0.5])}, coords={"gap": ["g"]})
+
+
+@pytest.mark.parametrize(("tension", "known"), [(49.0e3, True), (51.0e3, False)])
+def test_lines_beyond_their_range_make_the_frequency_domain_unknown(tension, known):
+    """The motions that pull a line tight are not held back by it: neither the tension nor what gaps leave is proved."""
+    groups, seas = {"/SWL/statics": REST}, [("/SWL/frequency/daily", lines_of(tension))]
+    share = next(item for item in _lines(groups, seas) if item.name == "line_utilisation")
+    safety = Criterion("line_safety", "line_utilisation", 0.5, "at most", "case file")
+    assert judge([share], [safety], computed=True).outcome == ("holds" if known else "not judged")
+    assert np.isnan(share.value) != known
+    closing = next(item for item in _gaps(groups, seas) if item.name == "gap_closing")
+    assert (closing.value, closing.bound) == (0.4, "" if known else "at least")
+    # in time lines at rest still tell the least that there is
+    timed = [("/SWL/time/daily", lines_of(tension))]
+    assert next(iter(_lines(groups, timed))).bound == ("" if known else "at least")
+    assert next(iter(_gaps(groups, timed))).bound == ""
+
+
+def test_the_parts_of_a_motion_that_does_not_repeat_are_a_band():
+    parts = np.array([40.0, 42.0, 41.0, 45.0, 43.0]) * 1e3
+    named = {"line_tension_maximum_of_realisation": (("member", "period", "line"), parts[:, None, None])}
+    data = lines_of(float(parts.mean())).assign(named)
+    (found,) = _each([("/SWL/time/daily", data)], "line_tension_maximum")
+    assert (found.band.low, found.band.high) == (40e3, 45e3) and "5 parts of a record" in found.band.of
+    assert found.band.judged[1] > found.value and found.band.more == "settings.time.duration"
+    # those of periods that do repeat are blank
+    (still,) = _each(
+        [("/SWL/time/daily", data.assign({k: v * np.nan for k, v in data[list(named)].items()}))], found.name
+    )
+    assert still.band is None and still.bound == ""

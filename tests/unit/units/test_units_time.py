@@ -1,6 +1,7 @@
 """The row in time: memory, steps, connectors that come tight, lines, against programs and sums of their own."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -27,7 +28,7 @@ from moyai.structures.units.time.kernel import joint_force
 from moyai.structures.units.time.lines import Carried, events_of, moving_line, rerun, rerun_events
 from moyai.structures.units.time.memory import _Basis, _passive, _residues, fit_row_memory
 from moyai.structures.units.time.model import RowInTime, step_weights
-from moyai.structures.units.time.seas import Water3D, regular_run
+from moyai.structures.units.time.seas import TimeRun, Water3D, _change, regular_run
 from moyai.validation.units import WATER, row
 
 HINGE = Connector("h", "hinge", ((0, 1),), 0.0, 3.0, (1.0, 0.0, 0.0))
@@ -211,6 +212,16 @@ def test_eddies_in_regular_waves_are_those_of_equal_work_in_the_frequency_domain
     assert abs(0.5 * height * without.fine.motion[0, 0, 4]) > 1.1 * abs(expected[4])
 
 
+def test_units_that_nothing_joins_have_their_numbers(hydro, memory):
+    """One pontoon, or several on lines alone: a table of connectors without rows."""
+    at, sea = at_rest(), RegularSea("w", 1.0, (6.0,), 0.0)
+    settings = Settings(2.0, drift=False, time=TimeSettings(duration=60.0))
+    (answer,) = regular_answer(at, hydro, sea, np.zeros(12), settings)
+    found = run_numbers(regular_run(Water3D(at, hydro, memory, np.zeros(12), settings), sea, 6.0, answer))
+    assert found["relative_motion_largest"][1].shape == (0, 3) and found["connector_resultant_largest"][1].shape == (0,)
+    assert (found["maximum_motion"][1][:, 2] > 0.1).all()
+
+
 def _with(item, memory):
     added, damping = memory.coefficients(np.array([item.omega]))
     return replace(item, added_mass=added[0], damping=damping[0])
@@ -382,3 +393,27 @@ def test_events_of_a_snapping_line_are_rerun_and_the_largest_is_kept():
     assert 0.5 * largest[first] < found.tension[0, first] < 3.0 * largest[first]
     assert found.bound[0, first] >= found.tension[0, first]
     assert rerun_events(at, [swaying(at, 40.0, 0.1)], lambda *_: None, "") is None
+
+
+def test_a_motion_that_grows_does_not_repeat():
+    """The share by which a growing oscillation changes in a period is known; turns count by themselves."""
+    per_period, growth = 50, 0.02
+    turns = np.arange(40 * per_period) / per_period
+    wave = np.sin(2.0 * np.pi * turns)
+    position = np.zeros((len(turns), 12))
+    position[:, 0], position[:, 9] = 3.0 * wave + 100.0, 0.01 * wave
+    assert _change(position, per_period, 10) < 1e-12
+    position[:, 9] *= np.exp(growth * turns)
+    assert _change(position, per_period, 10) == pytest.approx(1.0 - np.exp(-growth), rel=0.01)
+    assert _change(position[: 10 * per_period], per_period, 10) == 0.0
+
+
+def test_parts_of_a_record_are_whole_periods_at_its_end():
+    period, step = 4.0, 0.1
+    time = step * np.arange(round(300 * period / step) + 1)
+    run = TimeRun(SimpleNamespace(time=time), None, time, 40.0, 1160.0, 2.0 * np.pi / period, change=0.3)
+    ends = np.array([(part.begin, part.end) for part in run.parts])
+    assert np.allclose(ends[1:, 0], ends[:-1, 1]) and ends[-1, 1] == pytest.approx(time[-1])
+    assert np.allclose(np.diff(ends, axis=1), 40 * period)
+    assert all(part.kept.stop - part.kept.start == round(40 * period / step) + 1 for part in run.parts)
+    assert len(replace(run, change=0.01).parts) == 1

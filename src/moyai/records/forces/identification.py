@@ -166,8 +166,7 @@ def _clean(record: ForceRecord) -> tuple[ForceRecord, list[Notice]]:
                     "velocity-noise",
                     f"velocity {component + 1}: the record is too short to tell waves from noise, which would lower "
                     "C_M by its share of the derivative",
-                    severity="information",
-                    remedy="use a record of 50 waves and more",
+                    remedy="use a record of 20 waves and more",
                 )
             )
         elif cut.share >= NOISE_TOLD:

@@ -14,8 +14,8 @@ from moyai.core.errors import InputError
 _STEP_TOLERANCE = 0.02
 #: Samples that a period needs so that u|u| is resolved
 _LEAST_SAMPLES = 12
-#: Segments of a spectrum, waves that each must hold, and how often chance alone may pass for coherence
-_SEGMENTS, _LEAST_WAVES, _CHANCE = 12, 3.0, 1e-3
+#: Waves in a segment of a spectrum, segments at least and at most, and how often chance alone may pass for coherence
+_WAVES_OF_SEGMENT, _LEAST_SEGMENTS, _MOST_SEGMENTS, _CHANCE = 4.0, 5, 12, 1e-3
 #: Equal samples at an extreme from which on a gauge may be called clipped
 _LEAST_PLATEAU = 4
 
@@ -209,12 +209,13 @@ def noise_cut(velocity: Array, force: Array, step: float) -> NoiseCut | None:
     """
     from scipy.signal import csd, welch
 
-    count = 2 ** int(math.log2(max(len(velocity) / _SEGMENTS, 2.0)))
+    power = np.abs(np.fft.rfft(velocity - velocity.mean()))
+    segments = min(int(np.argmax(power) / _WAVES_OF_SEGMENT), _MOST_SEGMENTS)
+    if segments < _LEAST_SEGMENTS:
+        return None
+    count = len(velocity) // segments
     given = {"fs": 1.0 / step, "nperseg": count, "detrend": "constant"}
     frequency, density = welch(velocity, **given)
-    peak = float(frequency[int(np.argmax(density))])
-    if not peak * count * step >= _LEAST_WAVES:
-        return None
     crossed = np.abs(csd(velocity, force, **given)[1]) ** 2 / np.maximum(density * welch(force, **given)[1], 1e-300)
     # overlapping segments count as so many independent ones; what chance alone would show is none
     independent = 0.6 * (2.0 * len(velocity) / count - 1.0)

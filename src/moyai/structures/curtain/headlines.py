@@ -89,7 +89,9 @@ class _Load:
         high = self.value
         if self.band is not None:
             high = max(high, self.band.high) if self.band.decides else max(high, *(self.band.judged or ()))
-        return self.bound != "at least" and high * self.number("safety_factor") <= self.number("capacity")
+        # a bound from below proves strength only where its band goes on beyond it, as criteria are judged
+        known = self.bound != "at least" or (self.band is not None and self.band.beyond_bound)
+        return known and high * self.number("safety_factor") <= self.number("capacity")
 
     @property
     def bound(self) -> Bound:

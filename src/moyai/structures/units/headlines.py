@@ -165,15 +165,28 @@ class _Largest:
 
     @property
     def scatter(self) -> Array:
-        """The value of each realisation, none where the number is of no random sea in time."""
-        scatter = self.data.get(f"{self.name}_of_realisation")
+        """The value of each realisation, none where the number is of no random sea in time and repeats."""
+        return self.members(self.name)
+
+    def members(self, name: str) -> Array:
+        """Return a number of each realisation, or of each part of a regular motion that does not repeat."""
+        scatter = self.data.get(f"{name}_of_realisation")
         rows = () if scatter is None else np.asarray(scatter.values, dtype=float)
-        return np.array([row[self.index] for row in rows]) / self.scale
+        found = np.array([row[self.index] for row in rows]) / self.scale
+        return found[np.isfinite(found)]
 
     @property
     def band(self) -> Band | None:
         """What the realisations and the damping of the units are worth."""
-        return self.spread(seeds(self.scatter))
+        return self.spread(self.chance())
+
+    def chance(self, bound: Array | None = None) -> Band | None:
+        """Return the band of realisations, or of parts of a regular motion that does not repeat."""
+        found = seeds(self.scatter, bound)
+        if found is None or "period" not in self.data.dims:
+            return found
+        of = f"{found.realisations} parts of a record that does not repeat; judged at the 95 % end of their mean"
+        return replace(found, of=of, more="settings.time.duration")
 
     def spread(self, chance: Band | None) -> Band | None:
         """Return a band of realisations widened by what the damping of the units is worth."""
@@ -239,7 +252,7 @@ def _gaps(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Headline]:
         [
             Headline(
                 "gap_closing", "Largest share of a gap that closes at a corner of the hulls", closing.value, "1",
-                closing.where, _model(closing), band=closing.band, bound=closing.bound,
+                closing.where, _model(closing), band=closing.band, bound=_of_motion(closing),
                 detail=f"{closing.value * closing.scale:.3g} m of {closing.scale:.3g} m; at 1 the hulls touch",
             )
             for closing in _each(seas, "gap_closing_largest", over=width)
@@ -260,7 +273,7 @@ def _connectors(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Headli
             [
                 Headline(
                     "connector_utilisation", "Largest force over breaking load of a connector", share.value, "1",
-                    share.where, _model(share), band=share.band, bound="at least" if _stretched(share) else share.bound,
+                    share.where, _model(share), band=share.band, bound=_of_motion(share),
                     judged_on="the force without the moment" * bent,
                 )
                 for share in _each(seas, "connector_resultant_largest", over=load)
@@ -275,7 +288,7 @@ def _connectors(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Headli
         [
             Headline(
                 "gap_motion", "Largest opening and closing of a gap at a connector, about its mean", opening.value, "m",
-                opening.where, _model(opening), band=opening.band, bound=opening.bound,
+                opening.where, _model(opening), band=opening.band, bound=_of_motion(opening),
             )
             for opening in _each(opened, "opened")
             if opening.value > 1e-9
@@ -297,6 +310,14 @@ def _connectors(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Headli
 def _stretched(found: _Largest) -> float:
     """Return what motion across would stretch any of the connectors of a sea [m]."""
     return float(np.max(found.data["stretch_across"].values, initial=0.0)) if "stretch_across" in found.data else 0.0
+
+
+def _of_motion(found: _Largest) -> Bound:
+    """Return ``at least`` where the units move against each other beyond what their linear motion knows."""
+    strained = not found.timed and bool(
+        (found.data["line_tension_maximum"] > SNAP_RATIO * found.data["line_tension_mean"]).any()
+    )
+    return "at least" if strained or _stretched(found) else found.bound
 
 
 def _with_opening(data: xr.Dataset) -> xr.Dataset:
@@ -326,7 +347,7 @@ def _connector_force(found: _Largest) -> Headline:
     details = (words, ALONE if found.bound else "", across if _stretched(found) else "")
     return Headline(
         "connector_force", "Largest force in a connector", found.value, "N", found.where, _model(found),
-        band=found.band, bound="at least" if _stretched(found) else found.bound,
+        band=found.band, bound=_of_motion(found),
         detail="; ".join(filter(None, details)),
     )  # fmt: skip
 
@@ -339,20 +360,50 @@ def _lines(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Headline]:
     each = _each(seas, "line_tension_maximum")
     if not each:
         return
-    yield from _all_judged([_line_tension(found) for found in each])
+    yield from _with_unknown(each, [_line_tension(found) for found in each])
     load = np.asarray(groups[f"/{each[0].path.split('/')[1]}/statics"]["breaking_load"].values, dtype=float)
     if not np.isfinite(load).any():
         return
     shares = _each(seas, "line_tension_maximum", over=load)
-    yield from _all_judged([_utilisation(share, True) for share in shares])
+    yield from _with_unknown(shares, [_utilisation(share, True) for share in shares])
     if any(_moved(share) for share in shares):
         # codes ask another factor of lines at rest: the highest of them is judged too
         still = [(path, _at_rest(data)) for path, data in seas]
         yield from (_utilisation(share, False) for share in _each(still, "line_tension_maximum", over=load))
 
 
+def _with_unknown(each: list[_Largest], items: list[Headline]) -> list[Headline]:
+    """Return what governs, with the highest number that is not known: it stands first where none is higher."""
+    unknown = [(found.value, item) for found, item in zip(each, items, strict=True) if math.isnan(item.value)]
+    known = [item for item in items if not math.isnan(item.value)]
+    rest = _all_judged(known) if known else []
+    if not unknown:
+        return rest
+    value, worst = max(unknown, key=lambda pair: pair[0])
+    if any(item.value >= value for item in known):
+        return [*rest, replace(worst, shown=False, sea="")]
+    return [worst, *(replace(item, shown=False, sea="") for item in rest)]
+
+
+def _unknown_line(found: _Largest, mean: float) -> str:
+    """Return why a line of the frequency domain is not known: motions there do not feel how tight it comes."""
+    tension = found.value * found.scale
+    if found.timed or tension <= SNAP_RATIO * mean:
+        return ""
+    ratio = tension / mean if mean > 0.0 else math.inf
+    return (
+        f"lines at rest give {spoken(tension, 'N', 3)}, {ratio:.1f} times the mean, beyond their range of "
+        f"{SNAP_RATIO:g}; run the time domain with lines in motion"
+    )
+
+
 def _line_tension(found: _Largest) -> Headline:
     mean = float(found.data["line_tension_mean"].values[found.index])
+    if why := _unknown_line(found, mean):
+        return Headline(
+            "line_tension", "Largest tension of a line", math.nan, "N", found.where, AT_REST, detail=why,
+            text="not known", analysis="quasi_static",
+        )  # fmt: skip
     bound, words = _of_line(found, mean)
     return Headline(
         "line_tension", "Largest tension of a line", found.value, "N", found.where, _line_model(found), mean=mean,
@@ -362,6 +413,11 @@ def _line_tension(found: _Largest) -> Headline:
 
 def _utilisation(share: _Largest, shown: bool) -> Headline:
     own = float(share.data["line_tension_mean"].values[share.index])
+    if why := _unknown_line(share, own):
+        return Headline(
+            "line_utilisation", "Tension over breaking load of a line", math.nan, "1", share.where, AT_REST, detail=why,
+            text="not known", analysis="quasi_static", shown=shown,
+        )  # fmt: skip
     return Headline(
         "line_utilisation", "Tension over breaking load of a line", share.value, "1", share.where, _line_model(share),
         mean=own / share.scale, bound=_of_line(share, own)[0], band=_line_band(share), analysis=_analysis(share),
@@ -375,22 +431,18 @@ def _at_rest(data: xr.Dataset) -> xr.Dataset:
         return data
     tension, mean = data["line_tension_maximum"].values, data["line_tension_mean"].values
     kept = (data["lines_in_motion"].values == 0) & (tension <= SNAP_RATIO * mean)
-    return data.assign(line_tension_maximum=("line", np.where(kept, tension, np.nan)))
+    return data.assign(line_tension_maximum=(data["line_tension_maximum"].dims, np.where(kept, tension, np.nan)))
 
 
 def _moved(found: _Largest) -> bool:
-    return "lines_in_motion" in found.data and bool(found.data["lines_in_motion"].values[found.index[-1]])
+    return "lines_in_motion" in found.data and bool(found.data["lines_in_motion"].values[found.index])
 
 
 def _line_band(found: _Largest) -> Band | None:
     """Return the band of realisations, judged at what events that were not rerun leave open."""
     if not _moved(found):
         return found.band
-    line = found.index[-1]
-    scatter, bound = (
-        found.data[f"line_tension_{name}_of_realisation"].values[:, line] / found.scale for name in ("maximum", "bound")
-    )
-    return found.spread(seeds(scatter, bound))
+    return found.spread(found.chance(found.members("line_tension_bound")))
 
 
 def _line_model(found: _Largest) -> str:
@@ -408,7 +460,7 @@ def _of_line(found: _Largest, mean: float) -> tuple[Bound, str]:
     if found.bound:
         return found.bound, f"; {ALONE}"
     if _moved(found):
-        still = float(found.data["line_tension_maximum_lines_at_rest"].values[found.index[-1]])
+        still = float(found.data["line_tension_maximum_lines_at_rest"].values[found.index])
         return "", f"; {spoken(still, 'N', 3)} with lines at rest at every instant"
     snapped = found.value * found.scale > SNAP_RATIO * mean
     return ("at least", _SNAPS) if snapped else ("", "")
@@ -442,11 +494,17 @@ def _motions(seas: Seas) -> Iterator[Headline]:
 
 def _with_tilt(data: xr.Dataset, dof: str) -> xr.Dataset:
     """Return a sea with the largest double amplitude of a turn, its ends over the damping and its realisations."""
-    spread = "significant_motion" if "significant_motion" in data else "motion_amplitude"
-    largest = next(
-        name for name in ("most_probable_maximum_motion", "maximum_motion", spread)
-        if name in data and (spread == "significant_motion" or name == spread)
-    )  # fmt: skip
+    regular = "significant_motion" not in data
+    spread = "motion_amplitude" if regular else "significant_motion"
+    several = "maximum_motion_of_realisation" in data  # of regular waves: a motion that does not repeat
+    wanted = (
+        ("maximum_motion",)
+        if regular and several
+        else ()
+        if regular
+        else ("most_probable_maximum_motion", "maximum_motion")
+    )
+    largest = next((name for name in wanted if name in data), spread)
     tilt = 2.0 * data[largest].sel(dof=dof)
     found = {"tilt": tilt}
     if f"{largest}_of_realisation" in data:

@@ -27,9 +27,9 @@ from moyai.structures.units.time.datasets import (
     shown_run,
     status_of,
 )
-from moyai.structures.units.time.lines import Carried, rerun_events
+from moyai.structures.units.time.lines import LEAD, Carried, Reruns, rerun_events
 from moyai.structures.units.time.memory import FIT, RowMemory, fit_row_memory
-from moyai.structures.units.time.seas import TimeRun, Water3D, irregular_run, regular_run
+from moyai.structures.units.time.seas import REPEATING, TimeRun, Water3D, irregular_run, repeating_run
 from moyai.structures.units.variables import labelled
 
 if TYPE_CHECKING:
@@ -111,23 +111,25 @@ def sea_in_time(
 ) -> SeaInTime:
     """Run all periods or all realisations of a sea."""
     runs: list[Kept] = []
-    carried: list[Carried] = []
+    carried: list[list[Carried]] = []
     for run in _runs(water, sea, answers, progress):
         runs.append(Kept.of(run))
         if not run.complete:
             break
-        if run.seed >= 0 and water.at.line_names:
-            carried.append(_carried(run))
+        carried.append([_carried(part) for part in run.parts])
     good = [item for item in runs if item.status == "converged"] or runs[:1]
     regular = isinstance(sea, RegularSea)
     notices: list[Notice] = []
     if isinstance(sea, RegularSea):
         data = regular_time_dataset(water.at, sea, good)
+        if len(carried) == len(runs):
+            data, told = _periods_in_motion(water, sea, data, carried, progress)
+            notices += told
         groups = {f"T{period:g}": item.series for period, item in zip(sea.periods, good)}
     else:
         data = irregular_time_dataset(water.at, sea, good)
         if len(carried) == len(runs):
-            data, told = _in_motion(water, sea, data, carried, progress)
+            data, told = _in_motion(water, sea, data, [member for (member,) in carried], progress)
             notices += told
         groups = {"realisation": good[shown_run(good)].series}
     data.attrs["status"] = status_of(runs)
@@ -145,7 +147,7 @@ def _runs(
 ) -> Iterator[TimeRun]:
     if isinstance(sea, RegularSea):
         for period, answer in zip(sea.periods, answers):
-            yield regular_run(water, sea, period, answer, progress)
+            yield repeating_run(water, sea, period, answer, progress)
         return
     for number in range(water.time.realisations):
         progress(f"realisations, {water.at.name}, {sea.name}", number, water.time.realisations)
@@ -153,10 +155,13 @@ def _runs(
 
 
 def _carried(run: TimeRun) -> Carried:
+    """Return what reruns of lines need of the analysed part of a run."""
     found = run.run
+    first = int(np.searchsorted(found.time, run.begin - LEAD * run.period))
+    part = slice(max(first, 0), run.kept.stop)
     return Carried(
-        found.time, found.position, found.velocity @ found.model.at.free.T, found.tension, run.waves, run.begin,
-        2.0 * np.pi / run.omega,
+        found.time[part], found.position[part], found.velocity[part] @ found.model.at.free.T, found.tension[part],
+        run.waves, run.begin, run.period,
     )  # fmt: skip
 
 
@@ -164,16 +169,11 @@ def _in_motion(
     water: Water3D, sea: IrregularSea, data: xr.Dataset, carried: list[Carried], progress: Progress
 ) -> tuple[xr.Dataset, list[Notice]]:
     """Put the tensions of lines in motion in the place of those at rest where these do not serve."""
-    at, where = water.at, f"{water.at.name}, {sea.name}"
-    try:
-        found = rerun_events(at, carried, progress, f", {where}")
-    except (InputError, ConvergenceError) as error:
-        message = f"{where}: {error.fault.message}; lines stay at rest at every instant"
-        return data, [Notice("lines-stay-at-rest", message, remedy=error.fault.remedy)]
-    if found is None:
-        return data, []
-    moved = np.asarray(np.isfinite(found.tension).all(axis=0))
     still = data["line_tension_maximum_of_realisation"].values
+    found, notices = _rerun(water, f"{water.at.name}, {sea.name}", carried, progress)
+    if found is None:
+        return data, notices
+    moved = found.moved
     each = np.where(moved, found.tension, still)
     data = data.assign(
         line_tension_maximum_of_realisation=(("member", "line"), each),
@@ -182,12 +182,63 @@ def _in_motion(
         line_tension_maximum_lines_at_rest=("line", still.mean(axis=0)),
         lines_in_motion=("line", moved.astype(np.int8)),
     )
-    names = ", ".join(name for name, there in zip(at.line_names, moved.tolist()) if there)
+    return labelled(data), notices
+
+
+def _periods_in_motion(
+    water: Water3D, sea: RegularSea, data: xr.Dataset, carried: list[list[Carried]], progress: Progress
+) -> tuple[xr.Dataset, list[Notice]]:
+    """Do the same period by period; parts of a motion that does not repeat are taken as realisations are."""
+    still = data["line_tension_maximum"].values
+    tension, moved = still.copy(), np.zeros(still.shape, dtype=bool)
+    named = "line_tension_maximum_of_realisation"
+    each = data[named].values.copy() if named in data else None
+    bound = None if each is None else each.copy()
+    notices: list[Notice] = []
+    for row, members in enumerate(carried):
+        where = f"{water.at.name}, {sea.name}, T = {float(sea.periods[row]):g} s"
+        found, told = _rerun(water, where, members, progress)
+        notices += told
+        if found is None:
+            continue
+        there = found.moved
+        moved[row] = there
+        tension[row] = np.where(there, found.tension.mean(axis=0), still[row])
+        if each is not None and bound is not None and len(members) > 1:
+            each[:, row] = np.where(there, found.tension, each[:, row])
+            bound[:, row] = np.where(there, found.bound, each[:, row])
+    if not moved.any():
+        return data, notices
+    data = data.assign(
+        line_tension_maximum=(("period", "line"), tension),
+        line_tension_maximum_lines_at_rest=(("period", "line"), still),
+        lines_in_motion=(("period", "line"), moved.astype(np.int8)),
+    )
+    if each is not None and bound is not None:
+        dims = ("member", "period", "line")
+        data = data.assign({named: (dims, each), "line_tension_bound_of_realisation": (dims, bound)})
+    return labelled(data), notices
+
+
+def _rerun(
+    water: Water3D, where: str, carried: list[Carried], progress: Progress
+) -> tuple[Reruns | None, list[Notice]]:
+    """Rerun the events of lines that lines at rest do not serve; nothing where they all do, or none can be moved."""
+    if not water.at.line_names:
+        return None, []
+    try:
+        found = rerun_events(water.at, carried, progress, f", {where}")
+    except (InputError, ConvergenceError) as error:
+        message = f"{where}: {error.fault.message}; lines stay at rest at every instant"
+        return None, [Notice("lines-stay-at-rest", message, remedy=error.fault.remedy)]
+    if found is None:
+        return None, []
+    names = ", ".join(name for name, moved in zip(water.at.line_names, found.moved.tolist(), strict=True) if moved)
     words = (
         f"{where}: {found.count} events were run with one line in motion ({names}), its fairlead as with lines at "
         "rest, until no further one could pass the largest"
     )
-    return labelled(data), [Notice("lines-set-in-motion", words, severity="information")]
+    return found, [Notice("lines-set-in-motion", words, severity="information")]
 
 
 def _notices(water: Water3D, sea: RegularSea | IrregularSea, data: xr.Dataset, runs: list[Kept]) -> list[Notice]:
@@ -209,7 +260,7 @@ def _notices(water: Water3D, sea: RegularSea | IrregularSea, data: xr.Dataset, r
             ratio = np.nan_to_num(largest / mean)
         if "lines_in_motion" in data:
             # the others were found to stay under the largest in motion
-            ratio = np.zeros_like(ratio)
+            ratio = np.where(data["lines_in_motion"].values.any(axis=-1, keepdims=True), 0.0, ratio)
         if float(ratio.max()) > SNAP_RATIO:
             line = str(data["line"].values[int(np.unravel_index(ratio.argmax(), ratio.shape)[-1])])
             out.append(
@@ -218,10 +269,24 @@ def _notices(water: Water3D, sea: RegularSea | IrregularSea, data: xr.Dataset, r
                     f"{where}: line '{line}' is pulled to {float(ratio.max()):.3g} times its mean tension, beyond the "
                     "range of lines at rest at every instant: its largest tension is higher than what is shown",
                     value=float(ratio.max()), limit=SNAP_RATIO,
-                    remedy="use longer or softer lines; in irregular seas lines are set in motion where their segments "
-                    "tell mass, diameter, drag_normal, drag_tangential and added_mass_normal",
+                    remedy="use longer or softer lines; lines are set in motion where their segments tell mass, diameter, "
+                    "drag_normal, drag_tangential and added_mass_normal",
                 )
             )  # fmt: skip
+    if isinstance(sea, RegularSea):
+        for period, run in zip(sea.periods, runs):
+            if run.change > REPEATING:
+                ends = f"means over {len(run.parts)} parts of its end" if run.parts else "those of its end alone"
+                out.append(
+                    Notice(
+                        "not-repeating",
+                        f"{where}, T = {float(period):g} s: the motion changes by {100.0 * run.change:.0f} % from one "
+                        f"period to the next: it does not repeat, and its largest values are {ends}",
+                        value=run.change, limit=REPEATING,
+                        remedy="slack connectors and lines may never settle to one period; a longer "
+                        "settings.time.duration narrows the band",
+                    )
+                )  # fmt: skip
     if isinstance(sea, IrregularSea):
         waves = sea.duration * float(sea.spectrum.peak_omega) / (2.0 * np.pi)
         if waves < LEAST_WAVES:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -17,7 +18,7 @@ from moyai.structures.units.assembly import RowAtLevel
 from moyai.structures.units.datasets import coords_of
 from moyai.structures.units.gaps import gaps_of
 from moyai.structures.units.time.memory import RowMemory
-from moyai.structures.units.time.seas import TimeRun
+from moyai.structures.units.time.seas import PARTS, TimeRun
 from moyai.structures.units.variables import labelled
 
 if TYPE_CHECKING:
@@ -32,6 +33,7 @@ _SCATTER = (
 )  # fmt: skip
 _LOWEST = ("elongation_lowest",)
 _HIGHEST = ("elongation_highest", "stretch_across")
+Numbers = dict[str, tuple[tuple[str, ...], Array]]
 _CONNECTOR, _COMPONENT = ("connector",), ("connector", "component")
 
 
@@ -63,7 +65,7 @@ def _dofs(at: RowAtLevel) -> list[str]:
     return list(coords_of(at)["dof"])
 
 
-def run_numbers(given: TimeRun) -> dict[str, tuple[tuple[str, ...], Array]]:
+def run_numbers(given: TimeRun) -> Numbers:
     """Return the numbers of one run after its ramp, by their names."""
     run, part = given.run, given.kept
     at = run.model.at
@@ -82,7 +84,7 @@ def run_numbers(given: TimeRun) -> dict[str, tuple[tuple[str, ...], Array]]:
     stretch = stretch_across(at.joints, moved[:, :3], high, in_time=True)
     tension = run.tension[part]
     most = np.abs(loads).max(axis=0)
-    out: dict[str, tuple[tuple[str, ...], Array]] = {
+    out: Numbers = {
         "mean_offset": (("unit", "dof"), mean),
         "largest_offset": (("unit",), np.linalg.norm(motion[..., :2], axis=-1).max(axis=0)),
         "maximum_motion": (("unit", "dof"), np.abs(motion - mean).max(axis=0)),
@@ -141,29 +143,45 @@ class Kept:
     Parameters
     ----------
     numbers : dict
-        As :func:`run_numbers` gives them.
+        As :func:`run_numbers` gives them, means over the parts of a motion that does not repeat.
     series : Dataset
     seed : int
     status, message : str
     contacts : bool
         As of :class:`moyai.structures.units.time.seas.TimeRun`.
+    change : float
+        As of the same.
+    parts : tuple of dict
+        Numbers of each part of a motion that does not repeat; none of others.
     """
 
-    numbers: dict[str, tuple[tuple[str, ...], Array]]
+    numbers: Numbers
     series: xr.Dataset
     seed: int
     status: str
     message: str
     contacts: bool
+    change: float
+    parts: tuple[Numbers, ...]
 
     @classmethod
     def of(cls, given: TimeRun) -> Kept:
         """Take the numbers and the record of a run."""
-        run = given.run
+        run, parts = given.run, tuple(run_numbers(part) for part in given.parts)
         return cls(
-            run_numbers(given), series_dataset(run.model.at, given), given.seed, run.status, run.message,
-            given.contacts,
+            _together(parts), series_dataset(run.model.at, given), given.seed, run.status, run.message,
+            given.contacts, given.change, parts if len(parts) > 1 else (),
         )  # fmt: skip
+
+
+def _together(members: Sequence[Numbers]) -> Numbers:
+    """Return the mean of every number over runs, or the end of those that are bounds."""
+    out = {}
+    for name, (dims, _) in members[0].items():
+        values = np.array([item[name][1] for item in members])
+        over = values.min if name in _LOWEST else values.max if name in _HIGHEST else values.mean
+        out[name] = (dims, np.asarray(over(axis=0)))
+    return out
 
 
 def regular_time_dataset(at: RowAtLevel, sea: RegularSea, runs: list[Kept]) -> xr.Dataset:
@@ -174,6 +192,12 @@ def regular_time_dataset(at: RowAtLevel, sea: RegularSea, runs: list[Kept]) -> x
         name: (("period", *dims), np.array([item.numbers[name][1] for item in runs]))
         for name, (dims, _) in runs[0].numbers.items()
     }
+    if any(item.parts for item in runs):
+        for name in (name for name in _SCATTER if name in runs[0].numbers):
+            blank = [runs[0].numbers[name][1] * np.nan] * PARTS
+            values = [[part[name][1] for part in item.parts] if item.parts else blank for item in runs]
+            dims = ("member", "period", *runs[0].numbers[name][0])
+            out[f"{name}_of_realisation"] = (dims, np.swapaxes(np.array(values, dtype=float), 0, 1))
     coords = coords_of(at) | {"period": np.array(sea.periods[: len(runs)])}
     data = labelled(xr.Dataset(out, coords=coords))
     data.attrs |= {"kind": "regular", "heading": sea.heading, "status": status_of(runs)}
@@ -184,13 +208,10 @@ def irregular_time_dataset(at: RowAtLevel, sea: IrregularSea, runs: list[Kept]) 
     """Return means over the realisations with what each gave."""
     import xarray as xr
 
-    out: dict[str, Any] = {}
-    for name, (dims, _) in runs[0].numbers.items():
+    out: dict[str, Any] = dict(_together([item.numbers for item in runs]))
+    for name in (name for name in _SCATTER if name in out):
         values = np.array([item.numbers[name][1] for item in runs])
-        over = values.min if name in _LOWEST else values.max if name in _HIGHEST else values.mean
-        out[name] = (dims, over(axis=0))
-        if name in _SCATTER:
-            out[f"{name}_of_realisation"] = (("member", *dims), values)
+        out[f"{name}_of_realisation"] = (("member", *out[name][0]), values)
     out["seed_of_realisation"] = ("member", np.array([item.seed for item in runs], dtype=np.int64))
     data = labelled(xr.Dataset(out, coords=coords_of(at)))
     data.attrs |= {

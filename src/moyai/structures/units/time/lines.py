@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
@@ -32,8 +33,8 @@ from moyai.structures.units.model import SNAP_RATIO, UnitLine
 
 #: Peak periods from the start of a rerun to its event, around it that count, and of the ramp into the motion
 LEAD, AROUND, RAMP = 8.0, 2.0, 2.0
-#: Events of one realisation that are rerun for one line
-MOST_EVENTS = 4
+#: Events of one realisation that are rerun for one line; those of equal waves differ by less than this factor
+MOST_EVENTS, _SAME = 4, 1.001
 #: Bars of a line at first and at most, internal damping of a bar, tension at rest against the exact line
 BARS, MOST_BARS, DAMPING, AT_REST = 30, 120, 0.1, 0.02
 
@@ -79,6 +80,11 @@ class Reruns:
     tension: Array
     bound: Array
     count: int
+
+    @property
+    def moved(self) -> NDArray[np.bool_]:
+        """Which lines were set in motion in every member."""
+        return np.array([bool(np.isfinite(column).all()) for column in self.tension.T], dtype=bool)
 
 
 def movable(at: RowAtLevel) -> list[UnitLine | None]:
@@ -219,7 +225,7 @@ def rerun_events(at: RowAtLevel, members: Sequence[Carried], progress: Progress,
         for turn in range(MOST_EVENTS):
             for number, item in enumerate(members):
                 top = max(found[number], default=0.0)
-                if turn >= len(events[number]) or (turn > 0 and events[number][turn][1] * ratio <= top):
+                if turn >= len(events[number]) or (turn > 0 and events[number][turn][1] * ratio <= _SAME * top):
                     continue
                 progress(f"lines in motion{name}", number + turn * len(members), MOST_EVENTS * len(members))
                 tension = rerun(at, moving, item, events[number][turn][0])

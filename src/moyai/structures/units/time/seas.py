@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import dataclass, replace
 from typing import Literal
@@ -23,8 +24,12 @@ from moyai.structures.units.seas import SeaAnswer, columns_of
 from moyai.structures.units.time.memory import RowMemory
 from moyai.structures.units.time.model import STEPS_OF_WAVE, RowInTime, RowRun
 
-#: Periods of the ramp, of the whole run in regular waves
-RAMP, PERIODS = 10.0, 50.0
+#: Periods of the ramp, of the whole run in regular waves, and of one whose motion does not repeat by then
+RAMP, PERIODS, MOST_PERIODS = 10.0, 50.0, 300.0
+#: Change of the motion from one period to the next, over its size, up to which it repeats
+REPEATING = 0.05
+#: Parts of the last two thirds of a motion that never repeats, whose largest values are averaged; least periods of each
+PARTS, LEAST_OF_PART = 5, 4
 #: Share of the step of the waves that a contact may ask for
 _LEAST_STEP = 0.1
 #: Share of the energy of a sea in waves that the step resolves
@@ -79,6 +84,10 @@ class TimeRun:
         Of an irregular sea; -1 of regular waves.
     contacts : bool
         Whether the step resolves the contacts of stiff connectors.
+    end : float
+        Of the analysis [s].
+    change : float
+        Of a regular motion from one period to the next, over its size.
     """
 
     run: RowRun
@@ -89,11 +98,29 @@ class TimeRun:
     omega: float
     seed: int = -1
     contacts: bool = True
+    end: float = math.inf
+    change: float = 0.0
 
     @property
     def kept(self) -> slice:
         """Rows that are analysed."""
-        return slice(int(np.searchsorted(self.run.time, self.begin - 1e-9)), len(self.run.time))
+        ends = np.searchsorted(self.run.time, (self.begin - 1e-9, self.end + 1e-9))
+        return slice(int(ends[0]), int(ends[1]))
+
+    @property
+    def period(self) -> float:
+        """Of the waves, or of their peak [s]."""
+        return 2.0 * math.pi / self.omega
+
+    @property
+    def parts(self) -> tuple[TimeRun, ...]:
+        """Stretches of whole periods of a regular motion that does not repeat, else the run alone."""
+        last = float(self.run.time[-1])
+        periods = math.floor((last - max(self.ramp, last / 3.0)) / self.period / PARTS)
+        if self.change <= REPEATING or periods < LEAST_OF_PART:
+            return (self,)
+        edges = last - periods * self.period * np.arange(PARTS, -1, -1)
+        return tuple(replace(self, begin=float(low), end=float(high)) for low, high in itertools.pairwise(edges))
 
     @property
     def complete(self) -> bool:
@@ -110,10 +137,31 @@ def time_step(wanted: float | None, shortest: float, model: RowInTime) -> tuple[
     return step, step <= 2.0 * contact
 
 
-def regular_run(
+def repeating_run(
     water: Water3D, sea: RegularSea, period: float, answer: SeaAnswer, progress: Progress = silent
 ) -> TimeRun:
-    """Run the row in regular waves, from its mean position of the frequency domain [eq:units-cummins]."""
+    """Run the row in regular waves until its motion repeats, or long enough for the statistics of one that never does.
+
+    A given duration is kept.
+    """
+    first = regular_run(water, sea, period, answer, PERIODS, progress)
+    if water.time.duration is not None or not first.complete or first.change <= REPEATING:
+        return first
+    return regular_run(water, sea, period, answer, MOST_PERIODS, progress)
+
+
+def regular_run(
+    water: Water3D,
+    sea: RegularSea,
+    period: float,
+    answer: SeaAnswer,
+    least: float = PERIODS,
+    progress: Progress = silent,
+) -> TimeRun:
+    """Run the row in regular waves, from its mean position of the frequency domain [eq:units-cummins].
+
+    ``least`` is how many periods are run where no duration is given.
+    """
     settings, at = water.time, water.at
     omega = 2.0 * math.pi / period
     model = RowInTime(at, water.memory, answer.rest.position, omega)
@@ -122,7 +170,7 @@ def regular_run(
     step = period / per_period
     ramp = RAMP * period if settings.ramp is None else settings.ramp
     analysed = settings.analysed_periods * period
-    duration = settings.duration or max(PERIODS * period, ramp + 20.0 * period + analysed)
+    duration = settings.duration or max(least * period, ramp + 20.0 * period + analysed)
     periods = max(math.ceil(duration / period - 1e-9), settings.analysed_periods + 1)
     count = periods * per_period + 1
     k = np.array([float(wave_number(omega, at.water.depth, at.water.gravity))])
@@ -141,7 +189,23 @@ def regular_run(
         np.array([omega]), np.array([0.5 * sea.height]), np.zeros(1), np.array([sea.heading]), k, at.water
     )
     begin = float(time[-1] - analysed)
-    return TimeRun(run, one, wave.real[: len(run.time)], ramp, begin, omega, contacts=resolved)
+    change = _change(run.position, per_period, settings.analysed_periods)
+    return TimeRun(run, one, wave.real[: len(run.time)], ramp, begin, omega, contacts=resolved, change=change)
+
+
+def _change(position: Array, per_period: int, periods: int) -> float:
+    """Return how motions (n, m) of the last periods differ from those one period before, over their size.
+
+    Translations and turns by themselves; 0 of a run that is too short.
+    """
+    rows = periods * per_period
+    if len(position) <= rows + per_period:
+        return 0.0
+    last, before = position[-rows:], position[-rows - per_period : -per_period]
+    units = (rows, -1, 2, 3)
+    moved = np.linalg.norm((last - before).reshape(units).std(axis=0), axis=(0, 2))
+    size = np.linalg.norm(last.reshape(units).std(axis=0), axis=(0, 2))
+    return float(np.max(moved / np.maximum(size, 1e-12)))
 
 
 def irregular_run(
