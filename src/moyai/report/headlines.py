@@ -95,7 +95,9 @@ def _figure(headline: Headline, judged: list[Judgement], scale: Mapping[str, flo
 
 
 def _asked(headline: Headline, item: Judgement, like: float) -> str:
-    """Return limit and judged value; with the value shown next to it where that is another one."""
+    """Return limit and judged value, with the value shown next to it where that is another one; empty where unknown."""
+    if not math.isfinite(item.value):
+        return ""
     limit, found = limit_and_found(item, like)
     _, own = limit_and_found(replace(item, value=headline.value), like)
     plain = own == found or not math.isfinite(headline.value) or item.criterion.mean_weight != 1.0
@@ -111,9 +113,9 @@ def _severity(item: Judgement) -> int:
 
 
 def _use(item: Judgement) -> float:
-    """Return how far a value goes towards its limit or beyond, from either side."""
+    """Return how far a value goes towards its limit or beyond, from either side; what is not known goes farthest."""
     if not math.isfinite(item.value):
-        return -math.inf
+        return math.inf
     return item.value if item.criterion.sense == "at most" else -item.value
 
 
