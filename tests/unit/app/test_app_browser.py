@@ -146,7 +146,7 @@ def test_a_slider_redraws_the_figures(address: str) -> None:
 
         for width in (390, 1280):
             page.resize(width, 900)
-            assert page.evaluate("document.documentElement.scrollWidth <= innerWidth + 1"), width
+            until(page, f"innerWidth === {width} && document.documentElement.scrollWidth <= innerWidth + 1", 10.0)
         sound(page, address)
 
 
