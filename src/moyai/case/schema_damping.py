@@ -44,7 +44,7 @@ class DampingBeyondWaves(Block):
         A measured roll damping, or a fraction that holds for roll, holds the eddies already; a fraction of other
         motions stands for other things.
         """
-        given = roll_is_given or (self.fraction_of_critical is not None and "roll" in self.modes)
+        given = roll_is_given or (self.fraction_of_critical is not None and "roll" in (self.modes or ()))
         computed = not given if self.viscous is None else self.viscous == "computed"
         return self.viscous_factor if computed else 0.0
 

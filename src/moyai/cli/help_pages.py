@@ -9,7 +9,6 @@ from __future__ import annotations
 import inspect
 import re
 import sys
-import unicodedata
 from collections.abc import Sequence
 from typing import Any
 
@@ -18,6 +17,7 @@ from typer.core import TyperGroup
 from moyai.core.errors import InputError
 from moyai.language import language_of_the_locale, said, spoken_in, spoken_language
 from moyai.language.catalogue import LANGUAGES
+from moyai.language.words import breadth
 
 _Context: Any = TyperGroup.context_class
 _Formatter: Any = _Context.formatter_class
@@ -39,16 +39,6 @@ _WHOLE = (
 _EXTRA = re.compile(r"^(.*?)(\s\s\[[^\[\]]*\])$", re.DOTALL)
 
 
-def width(text: str) -> int:
-    """Return the columns that a text takes on the screen.
-
-    Parameters
-    ----------
-    text : str
-    """
-    return sum(2 if unicodedata.east_asian_width(letter) in "WF" else 1 for letter in text)
-
-
 def wrapped(text: str, columns: int) -> list[str]:
     """Break a text of Japanese and Latin words into lines.
 
@@ -61,8 +51,8 @@ def wrapped(text: str, columns: int) -> list[str]:
     lines = [""]
     for piece in _PIECES.findall(" ".join(text.split())):
         last = lines[-1]
-        over = width(last) + width(piece.rstrip()) - columns
-        if over > 0 and last and not (piece in _HANGING and over <= width(piece) and last[-1] not in _NOT_FIRST):
+        over = breadth(last) + breadth(piece.rstrip()) - columns
+        if over > 0 and last and not (piece in _HANGING and over <= breadth(piece) and last[-1] not in _NOT_FIRST):
             moved = last[-1] if last[-1] in _NOT_LAST or piece[0] in _NOT_FIRST else ""
             lines[-1] = last[: len(last) - len(moved)].rstrip()
             lines.append(moved)
@@ -99,16 +89,16 @@ class SpokenFormatter(_Formatter):  # type: ignore[misc]
         if spoken_language() == "en":
             super().write_dl(rows, col_max, col_spacing)
             return
-        first = min(max(width(name) for name, _ in rows), col_max) + col_spacing
+        first = min(max(breadth(name) for name, _ in rows), col_max) + col_spacing
         indent = " " * self.current_indent
         for name, text in rows:
             lines = wrapped(_spoken_help(text), max(self.width - first - 2, 10))
             head = f"{indent}{name}"
-            if width(name) > first - col_spacing:
+            if breadth(name) > first - col_spacing:
                 self.write(f"{head}\n")
                 head = ""
             pad = " " * (first + len(indent))
-            self.write(f"{head}{pad[width(head) :]}{lines[0]}\n")
+            self.write(f"{head}{pad[breadth(head) :]}{lines[0]}\n")
             self.write("".join(f"{pad}{line}\n" for line in lines[1:]))
 
 

@@ -39,7 +39,9 @@ class ReportCommand(TyperCommand):
 
 
 def _with_unit(word: str, following: str) -> tuple[str, ...]:
-    bare = word == "--dxf" and (following.startswith("-") or Path(following).exists() or following.endswith(".nc"))
+    if word != "--dxf" or following in ("m", "mm"):  # a unit, whatever lies in the folder by that name
+        return (word,)
+    bare = following.startswith("-") or Path(following).exists() or following.endswith(".nc")
     return (word, "m") if bare else (word,)
 
 

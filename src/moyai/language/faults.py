@@ -30,5 +30,8 @@ def fault_text(fault: Fault) -> str:
     ----------
     fault : Fault
     """
-    text = str(spoken_fault(fault))
-    return text if spoken_language() == "en" else text.replace("; allowed: ", f"; {said('allowed')}: ")
+    spoken = spoken_fault(fault)
+    if spoken_language() == "en":
+        return str(spoken)
+    allowed = f"{said('allowed')}：{spoken.allowed}" if spoken.allowed else ""
+    return "；".join(filter(None, (str(replace(spoken, allowed="", remedy="")), allowed, spoken.remedy)))

@@ -229,6 +229,8 @@ class Translator:
         for form in (text, text[:1].lower() + text[1:], text[:1].upper() + text[1:]):
             if form in self._whole:
                 return self._whole[form]
+        if text.startswith("the ") and " " in text[4:]:  # a name of several words with its article
+            return self._exact(text[4:])
         return None
 
     def _read(self, text: str, left: int) -> tuple[str, int]:

@@ -6,6 +6,7 @@ import re
 from collections import Counter
 from functools import cache
 from importlib import resources
+from unicodedata import east_asian_width
 
 _TOKEN = re.compile(r"[^\s\[\](){}（）「」、。；：,;:=<>≤≥×·・|\"“”]+")
 _WORD = re.compile(r"(?<![A-Za-z])[A-Za-zÀ-ɏ]+(?:['-][A-Za-z]+)*(?![A-Za-z])")
@@ -46,3 +47,13 @@ def latin_words(text: str) -> list[str]:
 def numbers(text: str) -> Counter[str]:
     """Return the numbers of a text, digit by digit as they stand there, with how often each stands there."""
     return Counter(re.findall(r"\d+(?:[.,]\d+)*", text))
+
+
+def breadth(text: str) -> int:
+    """Return the room that a text takes on a line, in Latin letters: a letter of Japanese counts as two.
+
+    Parameters
+    ----------
+    text : str
+    """
+    return sum(2 if east_asian_width(letter) in "WF" else 1 for letter in text)

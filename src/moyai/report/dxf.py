@@ -120,9 +120,20 @@ def shapes_dxf(shapes: tuple[Shape, ...], unit: str) -> bytes:
             named.setdefault(_allowed(shape.name), []).append(made)
     for name, parts in named.items():
         drawing.groups.new(name).extend(parts)
+    _frame(space)
     stream = io.StringIO()
     drawing.write(stream)
     return stream.getvalue().encode("utf-8")
+
+
+def _frame(space: Any) -> None:
+    """State the extent of a drawing and open it there; a program that scales by it shows an empty sheet without."""
+    from ezdxf import bbox, zoom
+
+    box = bbox.extents(space, fast=True)
+    if box.has_data:
+        space.reset_extents(box.extmin, box.extmax)
+        zoom.extents(space)
 
 
 def _layer(shape: Shape) -> tuple[str, int]:

@@ -12,6 +12,7 @@ from typing import Any
 
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.language import said
+from moyai.language.words import breadth
 from moyai.report.document import (
     Animation,
     Badge,
@@ -437,13 +438,18 @@ _LONG_TEXT = 24
 """Letters from which a key figure is a sentence."""
 
 
+def is_sentence(item: KeyFigure) -> bool:
+    """Whether a governing number is words, which are shown smaller: what is not judged."""
+    return breadth(item.text) >= _LONG_TEXT
+
+
 def _key_figure(item: KeyFigure) -> str:
     bar = ""
     if item.utilisation == item.utilisation:
         filled = min(max(item.utilisation, 0.0), 1.0)
         over = " over" if item.utilisation > 1.0 else ""
         bar = f'<div class="meter{over}" aria-hidden="true"><i style="width:{100 * filled:.1f}%"></i></div>'
-    kind = "number" if len(item.text) < _LONG_TEXT else "number sentence"
+    kind = "number sentence" if is_sentence(item) else "number"
     return (
         f'<div class="key-figure {item.judgement}"><div class="label">{words(item.label)}</div>'
         f'<div class="{kind}">{words(item.text)}</div>{bar}<div class="detail">{words(item.detail)}</div></div>'

@@ -64,6 +64,17 @@ _SCENE_TEXTS = ("name", "names", "label", "title", "words")
 _SVG_TEXT = re.compile(r"(<(?:text|title|tspan)\b[^>]*>)([^<]+)(?=<)")
 
 
+def with_label(label: str, text: str) -> str:
+    """Return ``label: text``, both in the language in force, with the colon of that language."""
+    mark = "：" if spoken_language() == "ja" else ": "
+    return f"{label}{mark}{text}" if label else text
+
+
+def stop() -> str:
+    """Return the full stop between two sentences in the language in force."""
+    return "。" if spoken_language() == "ja" else ". "
+
+
 def for_its_reader(render: Callable[..., _R]) -> Callable[..., _R]:
     """Return a function of a document that shows it in the units and in the language that the document names."""
 

@@ -30,10 +30,11 @@ from moyai.report.html import (
     badges_of,
     column_texts,
     foot_text,
+    is_sentence,
     is_text_column,
     notice_items,
 )
-from moyai.report.language import for_its_reader
+from moyai.report.language import for_its_reader, with_label
 
 TEXT_FONTS = ("Noto Sans", "Segoe UI", "Helvetica Neue", "Arial", "Liberation Sans", "Noto Sans CJK JP", "DejaVu Sans")
 MONO_FONTS = ("DejaVu Sans Mono", "Consolas", "Menlo")
@@ -73,7 +74,7 @@ def render_pdf(document: Document) -> bytes:
         data = {
             "title": document.title,
             "subtitle": document.subtitle,
-            "status": " · ".join(f"{badge.label}: {badge.word}".removeprefix(": ") for badge in badges_of(document)),
+            "status": " · ".join(with_label(badge.label, badge.word) for badge in badges_of(document)),
             "badges": [
                 {"label": badge.label, "word": badge.word, "tone": badge.tone, "message": badge.message}
                 for badge in badges_of(document)
@@ -125,7 +126,9 @@ class _Writer:
                     return []
                 return [
                     self._picture(
-                        f"{block.title}: {said('the governing moment')}", block.caption, block.still.encode("utf-8")
+                        with_label(block.title, said("the governing moment")),
+                        block.caption,
+                        block.still.encode("utf-8"),
                     )
                 ]
             case Table():
@@ -135,6 +138,7 @@ class _Writer:
                     {
                         "label": item.label,
                         "text": item.text,
+                        "sentence": is_sentence(item),
                         "detail": item.detail,
                         "judgement": item.judgement,
                         "filled": None
@@ -159,7 +163,7 @@ class _Writer:
         options = choice.options if choice.print_all else (choice.options[choice.default],)
         items: list[dict[str, Any]] = []
         for option in options:
-            items.append({"type": "heading", "text": f"{choice.label}: {option.label}"})
+            items.append({"type": "heading", "text": with_label(choice.label, option.label)})
             items += [item for block in option.blocks for item in self.block(block)]
         if not choice.print_all:
             others = ", ".join(option.label for option in choice.options if option is not options[0])

@@ -12,11 +12,13 @@ from __future__ import annotations
 import io
 import re
 import tempfile
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from moyai.core.errors import InputError
 from moyai.language import said
+from moyai.language.words import breadth
 from moyai.report.document import (
     Animation,
     Block,
@@ -35,13 +37,16 @@ from moyai.report.figures_static import draw_figure
 from moyai.report.fonts import font_folders
 from moyai.report.formatting import pretty_unit
 from moyai.report.html import badges_of, column_texts, foot_text, is_text_column, notice_items
-from moyai.report.language import for_its_reader
+from moyai.report.language import for_its_reader, stop, with_label
 
 #: What captions count, in the order in which a section names them.
 KINDS = ("Table", "Figure")
-WIDTH = 16.0  # of images and tables [cm], on a page that is no wider than A4
+PAGE, MARGIN = (21.0, 29.7), 2.5  # A4 and its margins [cm], where no template gives a page
+WIDTH = PAGE[0] - 2 * MARGIN  # of images and tables [cm], where the page of the template is no narrower
+_SHORT_LINE, _LONG_LINE = 10, 60  # letters of a cell that are not broken, that count for the width of its column
 _JAPANESE_FACE = "Yu Gothic"
 _DOTS = 160  # per inch
+_WORD = re.compile("[^\\s\u3000-\u30ff\u4e00-\u9fff\uff00-\uffef]+")  # what does not break over lines
 
 
 @for_its_reader
@@ -77,6 +82,8 @@ def render_docx(document: Document, template: Path | None = None) -> bytes:
     except Exception as error:
         # python-docx raises what its zip and XML readers raise
         raise InputError(f"{template} cannot be read as DOCX: {error}", path="--template") from None
+    if template is None:
+        _set_page(paper)
     _Writer(paper).write(document)
     stream = io.BytesIO()
     paper.save(stream)
@@ -87,10 +94,14 @@ class _Writer:
     """Writes blocks one below the other; counts figures and tables, from those of the template on."""
 
     def __init__(self, paper: Any) -> None:
+        from docx.shared import Cm
+
         self._paper = paper
         self._known = {style.name for style in paper.styles}
         codes = paper.element.xpath("//w:instrText/text() | //w:fldSimple/@w:instr")
         self._count = {kind: sum(f"SEQ {kind} " in f"{code} " for code in codes) for kind in KINDS}
+        page = paper.sections[-1]
+        self._width = min(WIDTH, (page.page_width - page.left_margin - page.right_margin) / Cm(1))
         self._marks = max((int(mark) for mark in paper.element.xpath("//w:bookmarkStart/@w:id")), default=0)
 
     def write(self, document: Document) -> None:
@@ -104,8 +115,8 @@ class _Writer:
             self._text(document.subtitle, "Subtitle")
         for badge in badges_of(document):
             line = paper.add_paragraph()
-            line.add_run(f"{badge.label}: {badge.word}".removeprefix(": ")).bold = True
-            line.add_run(f". {badge.message}" if badge.message else "")
+            line.add_run(with_label(badge.label, badge.word)).bold = True
+            line.add_run(f"{stop()}{badge.message}" if badge.message else "")
         _field(paper.add_paragraph(), r'TOC \o "1-2" \h', said("Contents: press F9 to fill in"))
         for section in document.sections:
             self._heading(section.title, 1)
@@ -134,16 +145,13 @@ class _Writer:
             case Animation():
                 if block.still:
                     self._picture(
-                        f"{block.title}: {said('the governing moment')}", block.caption, _rasterised(block.still)
+                        with_label(block.title, said("the governing moment")), block.caption, _rasterised(block.still)
                     )
             case Table():
                 self._table(block)
             case KeyFigures():
                 rows = [(item.label[:1].upper() + item.label[1:], item.text, item.detail) for item in block.items]
-                self._grid(
-                    (tuple(map(said, ("Governing number", "Value", "Where, model and band"))), *rows),
-                    widths=(0.3, 0.2, 0.5),
-                )
+                self._grid((tuple(map(said, ("Governing number", "Value", "Where, model and band"))), *rows))
             case Paragraph():
                 self._text(block.text)
             case Listing():
@@ -152,8 +160,8 @@ class _Writer:
             case NoticeBlock():
                 for severity, first, second in notice_items(block):
                     line = self._paper.add_paragraph()
-                    line.add_run(f"{said(severity.capitalize())}: ").bold = True
-                    line.add_run(f"{first}. {second}".strip().removesuffix(" "))
+                    line.add_run(with_label(said(severity.capitalize()), "")).bold = True
+                    line.add_run(f"{first}{stop()}{second}".strip())
             case Choice():
                 self._choice(block, level)
 
@@ -162,7 +170,7 @@ class _Writer:
         options = choice.options if choice.print_all or not several else (choice.options[choice.default],)
         for option in options:
             if several:
-                self._heading(f"{choice.label}: {option.label}", min(level, 4))
+                self._heading(with_label(choice.label, option.label), min(level, 4))
             for block in option.blocks:
                 self._block(block, level + several)
         if len(options) < len(choice.options):
@@ -195,6 +203,7 @@ class _Writer:
             return
         marks = [_mark(kind, number) for kind, first, last in named for number in dict.fromkeys((first, last))]
         sentence = said(f"In this section: {', '.join(_counted(*item) for item in named)}.")
+        line.paragraph_format.keep_with_next = True
         for part in re.split(r"(\d+)", sentence):
             if part.isdecimal():
                 _field(line, f"REF {marks.pop(0)} \\h", part)
@@ -204,9 +213,9 @@ class _Writer:
     def _picture(self, title: str, caption: str, image: bytes) -> None:
         from docx.shared import Cm
 
-        self._paper.add_picture(io.BytesIO(image), width=Cm(WIDTH))
+        self._paper.add_picture(io.BytesIO(image), width=Cm(self._width))
         self._paper.paragraphs[-1].paragraph_format.keep_with_next = True
-        self._caption("Figure", f"{title}. {caption}" if caption else title)
+        self._caption("Figure", f"{title}{stop()}{caption}" if caption else title)
 
     def _table(self, table: Table) -> None:
         self._caption("Table", table.title, keep=True)
@@ -218,8 +227,8 @@ class _Writer:
         if table.note:
             self._text(table.note)
 
-    def _grid(self, rows: Any, *, right: Any = (), bold: tuple[int, ...] = (), widths: tuple[float, ...] = ()) -> None:
-        """Write rows of texts, the first as heads that stand on every page."""
+    def _grid(self, rows: Any, *, right: Any = (), bold: tuple[int, ...] = ()) -> None:
+        """Write rows of texts, the first as heads that stand on every page; no row breaks over a page."""
         from docx.enum.text import WD_ALIGN_PARAGRAPH
         from docx.oxml import OxmlElement
         from docx.shared import Cm, Pt
@@ -228,10 +237,14 @@ class _Writer:
         grid = self._paper.add_table(rows=len(rows), cols=len(rows[0]))
         if "Table Grid" in self._known:
             grid.style = "Table Grid"
+        # Word fits columns to what they hold; other programs take the widths of the file
+        widths = [Cm(self._width * share) for share in column_shares(list(zip(*rows, strict=True)))]
+        for column, width in zip(grid.columns, widths, strict=True):
+            column.width = width
         for number, (texts, row) in enumerate(zip(rows, grid.rows)):
+            row._tr.get_or_add_trPr().append(OxmlElement("w:cantSplit"))
             for column, (text, cell) in enumerate(zip(texts, row.cells)):
-                if widths:
-                    cell.width = Cm(WIDTH * widths[column])
+                cell.width = widths[column]
                 line = cell.paragraphs[0]
                 line.paragraph_format.space_after = Pt(0)
                 run = line.add_run(text)
@@ -248,6 +261,34 @@ class _Writer:
         line = self._paper.add_paragraph()
         run = line.add_run(text)
         run.font.name, run.font.size = "Consolas", Pt(7.5)
+
+
+def column_shares(columns: Sequence[Sequence[str]]) -> list[float]:
+    """Return the share of the width that each column takes: its longest word at least, the rest by its longest text.
+
+    Parameters
+    ----------
+    columns : sequence of sequences of str
+        Texts of each column, its head included; a letter of Japanese counts as two and may break anywhere.
+    """
+    words = [max((breadth(word) for text in column for word in _WORD.findall(text)), default=1) for column in columns]
+    texts = [min(max(map(breadth, column), default=1), _LONG_LINE) for column in columns]
+    least = [min(max(word, _SHORT_LINE), text) + 2 for word, text in zip(words, texts, strict=True)]
+    wanted = [max(text + 2, low) for text, low in zip(texts, least, strict=True)]
+    room = max(_LONG_LINE + 20.0, float(sum(least)))
+    spare, asked = room - sum(least), sum(wanted) - sum(least)
+    taken = [low + (want - low) * (min(spare / asked, 1.0) if asked else 0.0) for low, want in zip(least, wanted)]
+    total = max(sum(taken), sum(least))
+    return [width / total for width in taken]
+
+
+def _set_page(paper: Any) -> None:
+    """Give a document of python-docx, which is on US Letter, a page of A4."""
+    from docx.shared import Cm
+
+    for section in paper.sections:
+        section.page_width, section.page_height = map(Cm, PAGE)
+        section.left_margin = section.right_margin = section.top_margin = section.bottom_margin = Cm(MARGIN)
 
 
 def _mark(kind: str, number: int) -> str:

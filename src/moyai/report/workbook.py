@@ -14,12 +14,13 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.language import said, spoken_in, spoken_language
+from moyai.language.words import breadth
 from moyai.report.decimate import envelope_indices
 from moyai.report.document import Block, Cell, Choice, Column, Document, Figure, KeyFigures, Listing, NoticeBlock, Table
 from moyai.report.encoding import column_unit, figure_columns, scaled_cell
 from moyai.report.formatting import axis_label, read_quantity
 from moyai.report.html import badges_of, foot_text, notice_items
-from moyai.report.language import for_its_reader
+from moyai.report.language import for_its_reader, with_label
 from moyai.report.systems import UNITS_NOTES
 
 if TYPE_CHECKING:
@@ -35,8 +36,11 @@ _COUNT = re.compile("0|[1-9][0-9]{0,8}")
 NUMBERS = 100_000
 #: Words with which the name of a sheet does not end
 _HANGING = frozenset(("a", "an", "and", "at", "by", "for", "from", "in", "of", "on", "or", "over", "the", "to", "with"))
-_WIDEST, _NUMBER = 60, 10  # characters of a column at most, of a number
-_DETAIL = 4  # column of the longest texts of the summary
+_WIDEST, _NUMBER = 60, 12  # characters of a column at most, of a number
+_A4 = 9  # paper of XLSX
+_WIDTHS = (42, 24, 10, 10, 90)  # of the columns of the summary, in characters
+_DETAIL = 4  # its column of the longest texts
+_LINE = 15.0  # height of a line [pt]
 
 
 @for_its_reader
@@ -68,7 +72,7 @@ class _Book:
 
     def __init__(self, book: Any, document: Document) -> None:
         self._book, self._document = book, document
-        self._bold = book.add_format({"bold": True})
+        self._bold = book.add_format({"bold": True, "valign": "top"})
         self._title = book.add_format({"bold": True, "font_size": 14})
         self._head = book.add_format({"bold": True, "bottom": 1, "text_wrap": True, "valign": "top"})
         self._wrapped = book.add_format({"text_wrap": True, "valign": "top"})
@@ -102,7 +106,11 @@ class _Book:
         self._used.add(name.lower())
         if listed:
             self._sheets.append((name, listed))
-        return self._book.add_worksheet(name)
+        sheet = self._book.add_worksheet(name)
+        sheet.set_landscape()
+        sheet.set_paper(_A4)
+        sheet.fit_to_pages(1, 0)  # as wide as a page, as long as it is
+        return sheet
 
     def _block(self, block: Block, place: str) -> None:
         match block:
@@ -111,7 +119,7 @@ class _Book:
             case Figure():
                 self._figure(block, place)
             case Listing():
-                sheet = self._sheet(block.title, f"{place}: {block.title}")
+                sheet = self._sheet(block.title, with_label(place, block.title))
                 sheet.set_column(0, 0, 120)
                 for number, line in enumerate(block.text.splitlines()[:ROWS]):
                     sheet.write_string(number, 0, line)
@@ -122,7 +130,7 @@ class _Book:
                         self._block(item, f"{place}, {option.label}" if several else place)
 
     def _table(self, table: Table, place: str) -> None:
-        sheet = self._sheet(table.title, f"{place}: {table.title}")
+        sheet = self._sheet(table.title, with_label(place, table.title))
         marks = dict.fromkeys(table.emphasised, self._row["emphasised"])
         marks |= dict.fromkeys(table.failed, self._row["failed"])
         columns: list[tuple[str, Sequence[Cell] | Array]] = []
@@ -139,7 +147,7 @@ class _Book:
 
     def _figure(self, figure: Figure, place: str) -> None:
         thinned, words = _thinned(figure, self._longest)
-        sheet = self._sheet(figure.title, f"{place}: {said('data of the figure')} '{figure.title}'{words}")
+        sheet = self._sheet(figure.title, with_label(place, f"{said('data of the figure')} '{figure.title}'{words}"))
         self._columns(sheet, figure_columns(thinned), {})
 
     def _columns(
@@ -147,11 +155,12 @@ class _Book:
     ) -> None:
         """Write headed columns; the heads stay in sight."""
         sheet.freeze_panes(1, 0)
+        sheet.repeat_rows(0)
         # numbers that are texts among other texts are names and versions
         sheet.ignore_errors({"number_stored_as_text": "A1:XFD1048576"})
         for number, (head, values) in enumerate(columns):
             sheet.write_string(0, number, head, self._head)
-            widest = len(head) // 2
+            widest = breadth(head) // 2
             if isinstance(values, np.ndarray) and values.dtype.kind == "f" and not marks:
                 widest = max(widest, _write_numbers(sheet, number, values[: ROWS - 1]))
             else:
@@ -161,10 +170,8 @@ class _Book:
 
     def _summary(self, sheet: Worksheet) -> None:
         document = self._document
-        sheet.set_column(0, 0, 42)
-        sheet.set_column(1, 1, 24)
-        sheet.set_column(2, 3, 10)
-        sheet.set_column(_DETAIL, _DETAIL, 90)
+        for number, width in enumerate(_WIDTHS):
+            sheet.set_column(number, number, width)
         sheet.write_string(0, 0, document.title, self._title)
         sheet.write_string(1, 0, document.subtitle)
         sheet.write_string(2, 0, said(UNITS_NOTES.get(document.units, "")), self._quiet)
@@ -173,6 +180,7 @@ class _Book:
             sheet.write_string(row, 0, badge.label or said("Status"), self._top)
             sheet.write_string(row, 1, badge.word, self._bold)
             sheet.write_string(row, _DETAIL, badge.message, self._wrapped)
+            _heighten(sheet, row, ("", "", "", "", badge.message))
             row += 1
         row += 1
         for block in document.blocks():
@@ -187,13 +195,16 @@ class _Book:
                     _write(sheet, row, 1, value, self._wrapped)
                     for column, text in ((2, unit), (3, bound), (_DETAIL, item.detail)):
                         _write(sheet, row, column, text, self._wrapped)
+                    _heighten(sheet, row, (item.label, str(value), unit, bound, item.detail))
                     row += 1
         row += 1
         for block in document.blocks():
             if isinstance(block, NoticeBlock):
                 for severity, first, second in notice_items(block):
                     sheet.write_string(row, 0, said(severity.capitalize()), self._top)
-                    sheet.write_string(row, _DETAIL, f"{first}\n{second}" if second else first, self._wrapped)
+                    text = f"{first}\n{second}" if second else first
+                    sheet.write_string(row, _DETAIL, text, self._wrapped)
+                    _heighten(sheet, row, ("", "", "", "", text))
                     row += 1
         row += 1
         for name, listed in self._sheets:
@@ -202,6 +213,16 @@ class _Book:
             sheet.write_string(row, _DETAIL, listed)
             row += 1
         sheet.write_string(row + 1, 0, foot_text(document), self._quiet)
+
+
+def _heighten(sheet: Worksheet, row: int, texts: Sequence[str]) -> None:
+    """Make a row of the summary as high as its longest text; not every program does so when it opens the file."""
+    lines = [
+        sum(max(math.ceil(breadth(line) / (0.95 * width)), 1) for line in text.split("\n"))
+        for text, width in zip(texts, _WIDTHS, strict=True)
+    ]
+    if max(lines) > 1:
+        sheet.set_row(row, _LINE * max(lines))
 
 
 def _shortened(text: str, length: int) -> str:
@@ -243,8 +264,8 @@ def _parted(column: Column) -> list[tuple[str, Sequence[Cell]]]:
     values, units, bounds = zip(*map(_quantity, map(str, column.values)), strict=True)
     found = [
         (column.label, values),
-        (f"{column.label}: {said('unit')}", units),
-        (f"{column.label}: {said('bound')}", bounds),
+        (with_label(column.label, said("unit")), units),
+        (with_label(column.label, said("bound")), bounds),
     ]
     return [found[0], *(item for item in found[1:] if any(item[1]))]
 
@@ -296,7 +317,7 @@ def _write(sheet: Worksheet, row: int, column: int, value: Cell, style: Format |
     if isinstance(value, str):
         if value:
             sheet.write_string(row, column, value, style)
-        return len(value)
+        return breadth(value)
     if value is None or math.isnan(value):
         return 0
     if math.isinf(value):

@@ -26,8 +26,8 @@ from moyai.structures.breakwater.model import (
 from moyai.structures.breakwater.run import run
 from moyai.structures.breakwater.screening import transmission_macagno, transmission_wiegel
 
-PAPER = "Nakamura, Ohmori and Ide; number of the specification B.4 (independent prototype)"
-CLOSED_FORM = "closed form evaluated independently, domain notes section C"
+PAPER = "Nakamura, Ohmori and Ide, recomputed by a second program (independent prototype)"
+CLOSED_FORM = "closed form, evaluated independently of the code"
 
 
 def tank_model(periods: tuple[float, ...], *analyses: str, height: float = 0.04) -> BreakwaterProblem:

@@ -52,6 +52,15 @@ def test_what_the_reruns_leave_open_is_judged():
     assert judge([found], (FACTOR,), computed=True).outcome == "does not hold"
 
 
+def test_what_is_beyond_its_range_in_one_realisation_alone_says_so():
+    """A mean of 3 times the mean tension is no reason; the realisation that passes five times is."""
+    peaks = np.array([60e3, 70e3, 80e3, 90e3, 150e3])
+    one = replace(OTHER, tension=90e3, mean=30e3, scatter=peaks, bound=peaks)
+    detail = headline(line_headlines([one]), "line_tension").detail
+    assert "3.0 times the mean, in one realisation 5.0 times, beyond their range of 5" in detail
+    assert "in one realisation" not in headline(line_headlines([OTHER]), "line_tension").detail
+
+
 def test_a_level_within_the_scatter_is_not_told_apart():
     lower = replace(GOVERNS, level="LWL", tension=380e3, scatter=SCATTER - 20e3)
     assert "not distinguished from LWL (380 kN)" in headline(line_headlines([GOVERNS, lower]), "line_tension").detail

@@ -8,8 +8,9 @@ import pytest
 import typer
 from typer.testing import CliRunner
 
-from moyai.cli.help_pages import width, wrapped
+from moyai.cli.help_pages import wrapped
 from moyai.cli.main import app
+from moyai.language.words import breadth
 
 #: Words that no name of an option, a kind or a file has.
 ENGLISH = ("the", "of", "and", "is", "for", "in", "with", "when", "default", "required", "or")
@@ -43,7 +44,7 @@ def test_the_page_of_a_command(path: tuple[str, ...]) -> None:
     assert options.findall(english) == options.findall(japanese)
     assert not [word for word in ENGLISH if re.search(rf"\b{word}\b", japanese)]
     # the runner lays out 80 columns, a screen two less; a comma may hang over
-    assert max(width(line) for line in japanese.splitlines()) <= 82
+    assert max(breadth(line) for line in japanese.splitlines()) <= 82
 
 
 def test_the_locale_gives_the_language_of_help(monkeypatch: pytest.MonkeyPatch) -> None:

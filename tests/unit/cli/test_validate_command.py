@@ -96,7 +96,7 @@ def test_values_that_are_not_numbers_are_null_in_json(cases):
             "MoorDyn-C 2.7.2, RK2 and RK4, converged over mesh and step; an independent prototype agrees",
             "other program",
         ),
-        ("Nakamura, Ohmori and Ide; number of the specification B.4 (independent prototype)", "own second"),
+        ("Nakamura, Ohmori and Ide, recomputed by a second program (independent prototype)", "own second"),
         ("Tabata et al., equations (1) to (5), computed independently", "own second"),
     ],
 )

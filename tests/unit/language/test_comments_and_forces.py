@@ -39,3 +39,13 @@ def test_what_stands_behind_a_colon_is_read_by_itself() -> None:
     assert said == f"LWL：{text('blockage d/h = 0.472 is not in the drag coefficient')}"
     holds = "the criterion holds, a default of moyai"
     assert text(f"holds: {holds}") == f"満足する：{text(holds)}"
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_remarks_behind_keys_that_are_commented_out_are_translated(kind: str) -> None:
+    """What stands behind such keys after a gap is a remark too, and needs a # of its own to be seen as one."""
+    gap = re.compile(r"^\s*#\s+\S*[\[{].*[\]}]\s{3,}(?!#)\S")
+    assert [line for line in template(kind).splitlines() if gap.match(line)] == []
+    remarks = [line.rpartition("  # ")[2] for line in template(kind).splitlines() if line.lstrip().startswith("#")]
+    left = {remark: translator("ja").left(remark) for remark in remarks if not re.search("[#{:=]", remark)}
+    assert {remark for remark, words in left.items() if words} == set()

@@ -100,6 +100,18 @@ def _document(*scenes: Scene3D, language: str = "en") -> Document:
     return Document("t", "", "converged", "", (Section("a", "A", views),), language=language)
 
 
+@pytest.mark.parametrize(("unit", "factor"), [("m", 1.0), ("mm", 1000.0)])
+def test_the_file_states_its_extent_and_opens_on_it(unit: str, factor: float) -> None:
+    """LibreOffice scales by the extent of the head: without it words lay on one point and lines off the sheet."""
+    drawing = ezdxf.read(io.StringIO(shapes_dxf(_sketch().drawing("all", "All").shapes, unit).decode()))
+    low, high = np.array(drawing.header["$EXTMIN"]), np.array(drawing.header["$EXTMAX"])
+    assert (low[:2] <= factor * np.array([-40.0, -12.0])).all() and (high[:2] >= factor * np.array([40.0, 1.2])).all()
+    assert (high - low)[:2].max() < 100.0 * factor  # of a drawing of 80 m
+    (view,) = drawing.viewports.get("*Active")
+    assert np.allclose(np.array(view.dxf.center)[:2], 0.5 * (low + high)[:2], atol=1e-6 * factor)
+    assert view.dxf.height >= (high - low)[1]
+
+
 def test_a_structure_in_space_is_drawn_in_space_in_plan_and_in_elevation(tmp_path: Path) -> None:
     files = dict(document_dxf(_document(_cage()), "mm"))
     assert list(files) == ["view-1", "view-1-plan", "view-1-section"]

@@ -21,8 +21,8 @@ from moyai.cli.main import app
 from moyai.core.errors import InputError
 from moyai.core.results import Result
 from moyai.report import fonts
-from moyai.report.document import Figure
-from moyai.report.html import render_html
+from moyai.report.document import Figure, KeyFigure
+from moyai.report.html import is_sentence, render_html
 from moyai.report.pdf import render_pdf
 from moyai.report.word import render_docx
 from moyai.report.workbook import render_workbook
@@ -134,3 +134,12 @@ def test_a_new_file_has_comments_in_japanese_and_the_same_content(tmp_path: Path
     bare = [re.sub(r"\s*#.*", "", text) for text in (english, japanese)]
     assert bare[0] == bare[1]
     assert moyai.load_case(japanese).case_hash == moyai.load_case(english).case_hash
+
+
+def test_words_in_place_of_a_number_are_shown_smaller_in_both_languages() -> None:
+    """A letter of Japanese counts as two: three lines of large print stood where a number stands."""
+    assert is_sentence(KeyFigure("not judged", "疲労、索一本の喪失、他の向き", ""))
+    assert is_sentence(KeyFigure("not judged", "fatigue, a lost line, other headings", ""))
+    assert not is_sentence(KeyFigure("current", "0.508 m/s 以上", "")) and not is_sentence(
+        KeyFigure("x", "12.1 tf", "")
+    )

@@ -6,11 +6,13 @@ import io
 import math
 import re
 import warnings
+from dataclasses import replace
 
 import docx
 import numpy as np
 import openpyxl
 import pytest
+from docx.shared import Cm
 from typer.testing import CliRunner
 
 from moyai.cli.main import app
@@ -36,7 +38,7 @@ from moyai.report.document import (
     Table,
 )
 from moyai.report.formatting import DASH, MINUS, display_unit, format_quantity, read_quantity
-from moyai.report.word import render_docx
+from moyai.report.word import column_shares, render_docx
 from moyai.report.workbook import LONGEST, NAME, NUMBERS, _shortened, render_workbook
 
 SVG = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 40 20"><rect width="40" height="20"/></svg>'
@@ -324,6 +326,82 @@ def test_word_takes_the_styles_of_a_template(tmp_path):
     (tmp_path / "bad.docx").write_text("no zip", encoding="utf-8")
     with pytest.raises(InputError, match="cannot be read as DOCX"):
         render_docx(_document(), tmp_path / "bad.docx")
+
+
+def test_word_stands_on_a4_and_nothing_is_wider_than_the_text():
+    """Programs other than Word take the widths of the file: columns of one breadth broke numbers and wasted pages."""
+    paper = docx.Document(io.BytesIO(render_docx(_document())))
+    page = paper.sections[-1]
+    room = page.page_width - page.left_margin - page.right_margin
+    assert (round(page.page_width.cm, 1), round(page.page_height.cm, 1)) == (21.0, 29.7)
+    assert all(shape.width <= room for shape in paper.inline_shapes)
+    for grid in paper.tables:
+        widths = [column.width for column in grid.columns]
+        assert sum(widths) <= room + len(widths)  # each is rounded
+        assert [cell.width for cell in grid.rows[-1].cells] == widths
+        assert all(row._tr.xpath("w:trPr/w:cantSplit") for row in grid.rows)
+
+
+def test_word_keeps_to_the_page_of_a_template(tmp_path):
+    office = docx.Document()
+    page = office.sections[0]
+    page.page_width, page.left_margin, page.right_margin = Cm(14.8), Cm(2.0), Cm(2.0)  # A5
+    office.save(tmp_path / "office.docx")
+    paper = docx.Document(io.BytesIO(render_docx(_document(), tmp_path / "office.docx")))
+    assert paper.sections[-1].page_width.cm == pytest.approx(14.8, abs=0.01)
+    assert max(shape.width.cm for shape in paper.inline_shapes) == pytest.approx(10.8, abs=0.01)
+    assert all(sum(column.width.cm for column in grid.columns) < 10.9 for grid in paper.tables)
+
+
+@pytest.mark.parametrize(
+    ("columns", "wide"),
+    [
+        ((("a",), ("0.000123",), ("a long text in which many words stand side by side",)), 2),
+        ((("索",), ("0.000123",), ("多くの語からなる長い文章は幅の大部分を占める",)), 2),
+        ((("unbreakable_name_of_a_key_of_the_file",), ("two words",)), 0),
+    ],
+)
+def test_columns_take_the_width_of_what_they_hold(columns, wide):
+    shares = column_shares(columns)
+    assert sum(shares) == pytest.approx(1.0)
+    assert max(shares) == shares[wide]
+    letters = 100.0 * np.array(shares)  # of small print on a line of 16 cm
+    needed = [min(len(text) for text in column) if len(column[0].split()) == 1 else 1 for column in columns]
+    assert all(letters >= needed)
+
+
+def test_short_japanese_columns_do_not_stand_on_end():
+    """Japanese breaks anywhere, so that no word keeps a column broad: one letter a line was left."""
+    shares = column_shares([["支配要因", "衝撃"], *([["単位", "0.000"]] * 12)])
+    assert shares[0] >= 8 / 13 / 12
+
+
+def test_marks_between_label_and_text_are_those_of_the_language():
+    document = _document()
+    for language, colon, stop in (("en", "Warning: ", "Design: Holds. all"), ("ja", "警告：", "設計：満足する。")):
+        paper = docx.Document(io.BytesIO(render_docx(replace(document, language=language))))
+        texts = [line.text for line in paper.paragraphs]
+        assert any(text.startswith(colon) for text in texts)
+        assert any(text.startswith(stop) for text in texts), texts
+
+
+def test_sheets_print_on_one_page_across_with_their_heads():
+    book = _read(_document())
+    for sheet in book.worksheets:
+        assert sheet.page_setup.orientation == "landscape" and str(sheet.page_setup.paperSize) == "9"
+        assert sheet.sheet_properties.pageSetUpPr.fitToPage
+        assert int(sheet.page_setup.fitToHeight) == 0
+    assert book.worksheets[1].print_title_rows == "$1:$1"
+
+
+@pytest.mark.parametrize(("detail", "lines"), [("short", 1), ("a word " * 40, 4), ("長い説明" * 30, 3)])
+def test_rows_of_the_summary_are_as_high_as_their_text(detail, lines):
+    """LibreOffice keeps the height of one line where the file names none, and texts lay over each other."""
+    blocks = (KeyFigures((KeyFigure("largest tension", "12.3 kN", detail.strip()),)),)
+    document = Document("t", "s", "converged", "", (Section("all", "All", blocks),), {})
+    sheet = _read(document).worksheets[0]
+    row = next(cell.row for cell in sheet["A"] if cell.value == "Largest tension")
+    assert (sheet.row_dimensions[row].height or 15.0) == 15.0 * lines
 
 
 def test_the_report_is_written_again_from_the_results(tmp_path):

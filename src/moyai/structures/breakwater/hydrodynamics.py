@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import math
 from collections.abc import Callable
@@ -42,12 +43,14 @@ SECTOR = math.radians(75.0)  # headings to either side of the normal that meet t
 MOST_REFINEMENTS = 6
 MOST_SOLVED = 8  # solutions of the normal heading that are kept in memory
 MOST_OBLIQUE = 64  # sets of oblique headings that are kept in memory
+MOST_MODES = 15  # of the water in a gap, whose frequencies are looked at
+AROUND_MODE, END_OVER_EVEN = np.array([0.97, 0.99, 1.0, 1.01, 1.03]), 0.25
 MOST_FREQUENCIES = 1500
 REFINEMENT_TOLERANCE = 1e-3  # error of interpolated damping over its largest value at which frequencies are added
 OBLIQUE_FREQUENCIES = 64
 HEADING_TOLERANCE = math.radians(0.5)  # within which a heading of a 3-D program counts as that of the case
 DRAFT_STEPS = 0.01, math.radians(1.0)  # of draught over height and of heel, to which a draft takes coefficients
-WAVE_NUMBER_STEP, END_STEP = 0.25, 1.25  # of wave number times half beam; ratio of frequencies
+WAVE_NUMBER_STEP, END_STEP = 0.25, 1.1  # of wave number times half beam; ratio of frequencies
 ENERGY_LEFT_OUT = 1e-3  # share of a spectrum beyond the highest frequency of its analysis
 
 
@@ -98,32 +101,46 @@ def operator_frequencies(unit: FloatingUnit, problem: BreakwaterProblem) -> Arra
     return np.linspace(float(low), float(high), OPERATOR_FREQUENCIES)
 
 
+def sea_ends(problem: BreakwaterProblem) -> Array:
+    """Return the ends [rad/s] of what the seas need, in steps of :data:`END_STEP`; empty without seas to interpolate.
+
+    Regular waves are solved exactly but in a draft.
+    """
+    parts = []
+    for sea in problem.environment.sea_states:
+        if isinstance(sea, IrregularSea):
+            parts.append(spectrum_band(sea)[[0, -1]])
+        elif problem.nominal:
+            parts.append(2.0 * math.pi / np.asarray(sea.periods))
+    if not parts:
+        return np.zeros(0)
+    reached = np.log(np.concatenate(parts)) / math.log(END_STEP)
+    return np.asarray(END_STEP ** np.array([math.floor(reached.min()), math.ceil(reached.max())]))
+
+
+def _regular(problem: BreakwaterProblem) -> Array:
+    """Return the frequencies [rad/s] of regular waves; none in a draft."""
+    seas = () if problem.nominal else problem.environment.sea_states
+    parts = [2.0 * math.pi / np.asarray(sea.periods) for sea in seas if isinstance(sea, RegularSea)]
+    return np.concatenate([np.zeros(0), *parts])
+
+
 def section_frequencies(unit: FloatingUnit, problem: BreakwaterProblem) -> Array:
     """Return the frequencies [rad/s] at which the section is solved in normal incidence.
 
-    Those of operators, memory and regular waves (a draft interpolates these too), and steps of
-    :data:`WAVE_NUMBER_STEP` up to the shortest wave of the seas, for splines to follow the phase of short waves along
-    the section. Seas move the two ends alone, by steps of :data:`END_STEP`: states of one study share coefficients.
+    Those of operators, memory and regular waves, and steps of :data:`WAVE_NUMBER_STEP` up to the shortest wave of the
+    seas, for splines to follow the phase of short waves along the section. Seas move the two ends alone: states of one
+    study share coefficients.
     """
-    regular, irregular = [], []
-    for sea in problem.environment.sea_states:
-        if isinstance(sea, RegularSea):
-            regular.append(2.0 * math.pi / np.asarray(sea.periods))
-        else:
-            irregular.append(spectrum_band(sea)[[0, -1]])
-    known = np.concatenate([operator_frequencies(unit, problem), band(unit).omega])
-    if problem.nominal:
-        irregular, regular = [*irregular, *regular], []
-    if not irregular:
-        return distinct(np.concatenate([known, *regular]))
-    reached = np.concatenate(irregular)
-    low = END_STEP ** math.floor(math.log(float(reached.min()), END_STEP))
-    high = END_STEP ** math.ceil(math.log(float(reached.max()), END_STEP))
-    water, step = unit.water, 2.0 * WAVE_NUMBER_STEP / unit.breakwater.hull.beam
-    count = math.ceil(float(wave_number(high, water.depth, water.gravity)) / step)
+    known = np.concatenate([operator_frequencies(unit, problem), wide_band(unit)])
+    ends, water = sea_ends(problem), unit.water
+    if not ends.size:
+        return distinct(np.concatenate([known, _regular(problem)]))
+    step = 2.0 * WAVE_NUMBER_STEP / unit.breakwater.hull.beam
+    count = math.ceil(float(wave_number(ends[1], water.depth, water.gravity)) / step)
     along = angular_frequency(step * np.arange(1, count + 1), water.depth, water.gravity)
-    ends = [low] if low < known.min() else []
-    return distinct(np.concatenate([known, *regular, along, ends]))
+    gaps = sloshing_frequencies(unit, float(along[-1]))
+    return distinct(np.concatenate([known, _regular(problem), along, gaps, ends[ends < known.min()]]))
 
 
 _BANDS: Remembered[Array] = Remembered(16)
@@ -216,7 +233,7 @@ def solve_unit(
     checks, notices, turned = list(normal.checks), list(normal.notices), None
     if len(oblique):
         # An oblique heading has matrices of its own at every frequency: only what the case asks for
-        chosen = oblique_frequencies(problem, wanted)
+        chosen = oblique_frequencies(unit, problem)
         turned, found_checks = _oblique(unit, chosen, oblique, store, progress)
         by_heading.extend(item.scaled_to(length) for item in Hydrodynamics.of_headings(turned))
         checks.extend(replace(check, name=f"oblique waves: {check.name}") for check in found_checks)
@@ -244,7 +261,7 @@ def _of_draft(unit: FloatingUnit) -> FloatingUnit:
 
 def coefficients_in_calm(unit: FloatingUnit, problem: BreakwaterProblem) -> Hydrodynamics:
     """Return the coefficients of the normal heading of :func:`solve_unit`, whatever seas the case has."""
-    omega = np.concatenate([operator_frequencies(unit, problem), band(unit).omega])
+    omega = np.concatenate([operator_frequencies(unit, problem), wide_band(unit)])
     return Hydrodynamics.from_section(_solve_band(unit, omega, silent)[0]).scaled_to(unit.breakwater.length)
 
 
@@ -288,13 +305,11 @@ def _key(unit: FloatingUnit, omega: Array, headings: Array) -> str:
     return key_of(__version__, *outlines, position, water, omega, headings)
 
 
-def oblique_frequencies(problem: BreakwaterProblem, wanted: Array) -> Array:
-    """Return frequencies [rad/s] of oblique headings: regular waves exactly, the rest of the band for splines."""
-    regular = [
-        2.0 * math.pi / np.asarray(sea.periods) for sea in problem.environment.sea_states if isinstance(sea, RegularSea)
-    ]
-    even = np.linspace(float(wanted.min()), float(wanted.max()), OBLIQUE_FREQUENCIES)
-    return distinct(np.concatenate([*regular, even]))
+def oblique_frequencies(unit: FloatingUnit, problem: BreakwaterProblem) -> Array:
+    """Return frequencies [rad/s] of oblique headings: regular waves exactly, others for splines."""
+    regular = _regular(problem)
+    wanted = np.concatenate([operator_frequencies(unit, problem), sea_ends(problem), regular])
+    return distinct(np.concatenate([regular, np.linspace(wanted.min(), wanted.max(), OBLIQUE_FREQUENCIES)]))
 
 
 def _given(data: xr.Dataset, unit: FloatingUnit, problem: BreakwaterProblem) -> UnitHydrodynamics:
@@ -334,6 +349,33 @@ def band(unit: FloatingUnit) -> FrequencyPlan:
     if not unit.section.surface_piercing:
         height = max(-unit.section.bounds[3], 0.05 * unit.breakwater.hull.beam)
     return recommend_frequencies(unit.water, breadth=unit.breakwater.hull.beam, wall_height=height)
+
+
+def wide_band(unit: FloatingUnit) -> Array:
+    """Return the frequencies [rad/s] of the memory, those round the resonances of water between hulls with them."""
+    omega = band(unit).omega
+    return np.concatenate([omega, sloshing_frequencies(unit, float(omega[-1]))])
+
+
+def sloshing_frequencies(unit: FloatingUnit, top: float) -> Array:
+    """Return frequencies [rad/s] round every mode of the water between hulls up to ``top``, and an end of the band.
+
+    Waves of n half lengths in the gap: their peaks are too narrow to be found by chance, and one of sway (n odd) that
+    is cut in two at the end of the band spoils the tail of the memory, which ends behind an even one.
+    """
+    sides = unit.section.waterlines
+    found = [np.zeros(0)]
+    for (_, left), (right, _) in itertools.pairwise(sides):
+        if not right > left:
+            continue
+        half, water = math.pi / (right - left), unit.water
+        most = math.floor(float(wave_number(top, water.depth, water.gravity)) / half)
+        modes = half * np.arange(1, min(most, MOST_MODES) + 1)
+        found.append(np.asarray(angular_frequency(modes, water.depth, water.gravity))[:, None] * AROUND_MODE)
+        if most <= MOST_MODES:
+            end = 2 * math.ceil(0.5 * most) + END_OVER_EVEN
+            found.append(np.atleast_1d(angular_frequency(end * half, water.depth, water.gravity)))
+    return np.concatenate([np.ravel(part) for part in found])
 
 
 def damping_start(unit: FloatingUnit) -> Start:

@@ -19,7 +19,7 @@ from moyai.potential.damping_tail import TailTheory, wall_sided_tails
 from moyai.potential.memory import MemoryFunctions, memory_functions, steady_damping
 from moyai.potential.memory_plan import MemoryPlan, recommend_memory
 from moyai.potential.sections import Section
-from moyai.potential.state_space import fit_memory
+from moyai.potential.state_space import StateSpace, fit_memory
 from moyai.structures.breakwater.assembly import FloatingUnit
 from moyai.structures.breakwater.frequency.model import FrequencyModel
 from moyai.structures.breakwater.hydrodynamics import damping_start
@@ -33,7 +33,8 @@ if TYPE_CHECKING:
 MOST_POLES = 32
 CAUSAL = ("Kramers-Kronig", "Ogilvie", "lambda is the integral of K", "frequencies resolve the damping")
 LEAST_STEPS, MOST_STEPS = 400, 4000  # of the time grid on which the kernels are stored
-STATE_TOLERANCE = 1e-3
+STATE_TOLERANCES = (1e-3, 4e-3, 0.02)  # of the fit by states: the first that it keeps; sharp resonances ask for more
+COARSE = 0.01  # error of that fit that is warned of
 
 
 @dataclass(frozen=True)
@@ -99,24 +100,43 @@ def unit_memory(model: FrequencyModel, *, convolution: bool = False) -> UnitMemo
     memory: Memory | None = None
     message = plan.reason
     if not convolution:
-        try:
-            fit = fit_memory(functions, tolerance=STATE_TOLERANCE, highest_order=MOST_POLES)
+        fit, fault = _states(functions)
+        if fit is not None:
             memory = StateSpaceMemory.of(fit)
             checks.extend(fit.checks)
             message = (
                 f"{2 * len(fit.poles)} states or fewer carry the memory of the water, its frequency response within "
                 f"{fit.error:.1e}; {plan.reason}"
             )
-        except ConvergenceError as error:
-            notices.append(
-                Notice("memory-states", f"{unit.name}: {error.fault.message}; the convolution is used instead")
-            )
+            if fit.error > COARSE:
+                words = (
+                    f"{unit.name}: the memory of the water in time is off by up to {100.0 * fit.error:.2g} % of its "
+                )
+                words += "largest value: water between hulls resonates too sharply for its states"
+                notices.append(Notice("memory-coarse", words, value=fit.error, limit=COARSE))
+        else:
+            notices.append(Notice("memory-states", f"{unit.name}: {fault}; the convolution is used instead"))
     if memory is None:
         kernel = ConvolutionMemory(functions.time, functions.velocity_kernel, np.zeros((3, 3)))
         memory = kernel.truncated(float(functions.time[-1]), functions.steady_dashpot)
     notices.append(Notice("memory", f"{unit.name}: {message}", severity="information"))
     named = tuple(replace(check, name=where + check.name) for check in checks)
     return UnitMemory(model.hydro.unit, functions, memory, named, tuple(notices))
+
+
+def _states(functions: MemoryFunctions) -> tuple[StateSpace | None, str]:
+    """Return the fit by states within the first tolerance that it keeps; ``None`` and why where it keeps none."""
+    fault = ""
+    for tolerance in STATE_TOLERANCES:
+        try:
+            fit = fit_memory(functions, tolerance=tolerance, highest_order=MOST_POLES)
+        except ConvergenceError as error:
+            fault = error.fault.message
+            continue
+        if all(check.passed for check in fit.checks):
+            return fit, ""
+        fault = f"the memory is fitted to {fit.error:.1e} of its largest response"
+    return None, fault
 
 
 def _causality(unit: FloatingUnit, checks: tuple[IdentityCheck, ...]) -> tuple[list[IdentityCheck], list[Notice]]:

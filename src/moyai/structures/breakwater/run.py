@@ -26,6 +26,7 @@ from moyai.structures.breakwater.hydrodynamics import (
     CoefficientsOf,
     UnitHydrodynamics,
     headings_of,
+    oblique_frequencies,
     operator_frequencies,
     section_frequencies,
     solve_unit,
@@ -210,7 +211,7 @@ def _key_without_irregular_seas(problem: BreakwaterProblem, unit: FloatingUnit) 
     regular = tuple(replace(sea, height=1.0) for sea in problem.environment.sea_states if isinstance(sea, RegularSea))
     environment = replace(problem.environment, sea_states=())
     rest = (problem.breakwater, environment, problem.settings, problem.nominal)
-    solved = (section_frequencies(unit, problem), headings_of(problem))
+    solved = (section_frequencies(unit, problem), oblique_frequencies(unit, problem), headings_of(problem))
     return key_of_objects(rest, unit.name, unit.level, regular, *solved)
 
 
