@@ -17,9 +17,9 @@ from pathlib import Path
 
 from bench_app import CASES, text_of
 
-from moyai.app.draft import Drafts, Wish
-from moyai.app.sliders import sliders_of
-from moyai.app.worker import message
+from moyai.app.draft import Drafts
+from moyai.app.messages import Wish, message
+from moyai.case.sliders import sliders_of
 from moyai.case.yaml_reader import parse_yaml
 from moyai.cli.runner import run
 from moyai.core.progress import silent

@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any
 from starlette.requests import Request
 from starlette.responses import Response
 
+from moyai.app.messages import message
 from moyai.app.security import BodyTooLarge
-from moyai.app.worker import message
-from moyai.core.errors import CaseError, Fault, MoyaiError
+from moyai.core.errors import CaseError, Fault, MoyaiError, system_words
 from moyai.language import spoken_in
 from moyai.language.faults import spoken_fault
 
@@ -48,7 +48,9 @@ def answering(function: Endpoint) -> Any:
                 return refused(422, error.fault)
             except KeyError:
                 return refused(404, Fault("there is no such case, job or file"))
-            except (ValueError, OSError, RecursionError) as error:
+            except OSError as error:
+                return refused(422, Fault(system_words(error)))
+            except (ValueError, RecursionError) as error:
                 return refused(400, Fault(f"the request cannot be answered: {error}"))
 
     return answered
@@ -61,8 +63,15 @@ async def body_of(request: Request) -> dict[str, Any]:
     return content
 
 
+def value_in(content: dict[str, Any], key: str, default: Any) -> Any:
+    """Return a value of a request, of the type that it has by default."""
+    value = content.get(key, default)
+    if type(value) is not type(default):
+        raise ValueError(f"{key!r} is of another type")
+    return value
+
+
 def text_in(content: dict[str, Any], key: str) -> str:
-    value = content.get(key, "")
-    if not isinstance(value, str):
-        raise ValueError(f"{key!r} is text")
+    value = str(value_in(content, key, ""))
+    value.encode()  # half a character is refused
     return value

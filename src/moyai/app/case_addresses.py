@@ -6,19 +6,21 @@ import asyncio
 import json
 from collections.abc import AsyncIterator
 from typing import TYPE_CHECKING, Any
+from urllib.parse import quote
 
 from starlette.requests import Request
 from starlette.responses import Response, StreamingResponse
 
-from moyai.app.answers import Endpoint, body_of, json_answer, text_in
+from moyai.app.answers import Endpoint, body_of, json_answer, text_in, value_in
 from moyai.app.documents import OpenCase, stem_of
 from moyai.app.gallery import gallery
+from moyai.app.messages import STALE, Wish
 from moyai.app.pins import renamed, with_pin
 from moyai.case.form import form_of
 from moyai.case.text_changes import with_key, with_scalar, without_key
 from moyai.case.yaml_reader import Document, parse_yaml
 from moyai.core.errors import InputError
-from moyai.core.kinds import structure_kinds
+from moyai.core.kinds import kind_named
 
 if TYPE_CHECKING:
     from moyai.app.server import App
@@ -41,33 +43,36 @@ def _case(app: App, request: Request) -> OpenCase:
 
 
 async def _show(app: App, request: Request) -> Response:
-    return json_answer(_case(app, request).record())
+    return json_answer(app.documents.look(_case(app, request)).record())
 
 
 async def _draft(app: App, request: Request) -> Response:
-    """Take a text with changed numbers; answer with the check, then with the draft."""
+    """Take a text, or numbers to put into the text of now; answer with the check, then with the draft."""
     document, content = _case(app, request), await body_of(request)
-    text, gesture, sequence = text_in(content, "text"), text_in(content, "gesture"), content.get("sequence", 0)
-    edits = content.get("edits", {})
-    if not isinstance(edits, dict) or not all(isinstance(item, str) for pair in edits.items() for item in pair):
-        raise ValueError("'edits' are numbers by path, both as text")
-    if not isinstance(sequence, int):
-        raise ValueError("'sequence' is a whole number")
-    shown = content.get("shown", [])
-    if not isinstance(shown, list) or not all(isinstance(item, str) for item in shown):
-        raise ValueError("'shown' is a list of sections")
-    if not edits:
-        document.change(text, gesture)
-    wish = document.wish(app.folder, text, edits, tuple(shown), text_in(content, "level"))
-    head = f'{{"sequence":{sequence},'.encode()
+    gesture, sequence = text_in(content, "gesture"), value_in(content, "sequence", 0)
+    edits, shown = value_in(content, "edits", {}), value_in(content, "shown", [])
+    if not all(isinstance(item, str) for item in (*edits.values(), *shown)):
+        raise ValueError("'edits' and 'shown' hold texts")
+    level, asking = text_in(content, "level"), f"{document.key} {text_in(content, 'tab')}"
+    if "text" in content:
+        document.change(text_in(content, "text"), "typing" if edits else gesture)
+    turn = document.turn
+
+    def wish() -> Wish:
+        nonlocal turn
+        turn = document.turn
+        file = app.folder.root / document.name
+        return Wish(document.text, file, app.folder.root, edits, document.pins, tuple(shown), level)
 
     async def lines() -> AsyncIterator[bytes]:
-        async for line in app.worker.ask(document.key, wish):
+        async for line in app.worker.ask(asking, wish, patient=content.get("patient") is True):
             if edits and b'"message":"checked"' in line[:60]:
-                checked = json.loads(line)
-                if not checked["faults"] or checked["text"] != text:
-                    document.change(checked["text"], gesture)
-            yield head + line[1:]
+                if document.turn == turn:
+                    document.change(json.loads(line)["text"], gesture)
+                else:
+                    line = STALE  # the text was changed meanwhile: these numbers are asked for again
+            state = {"sequence": sequence, "unsaved": document.unsaved, "can_undo": bool(document.earlier)}
+            yield json.dumps(state).encode()[:-1] + b"," + line[1:]
 
     return StreamingResponse(lines(), media_type="application/x-ndjson")
 
@@ -80,21 +85,20 @@ async def _form(app: App, request: Request) -> Response:
 
 def _form_of(text: str, name: str) -> dict[str, Any]:
     data = parse_yaml(text, name).data
-    structure = data.get("structure") if isinstance(data, dict) else None
-    kind = structure.get("kind") if isinstance(structure, dict) else None
-    if kind not in structure_kinds():
-        raise InputError(
-            "the form needs the kind of the structure", path="structure.kind", remedy="write it in the text"
-        )
-    return form_of(data, kind)
+    if kind := kind_named(data):
+        return form_of(data, kind)
+    raise InputError("the form needs the kind of the structure", path="structure.kind", remedy="write it in the text")
 
 
 async def _change(app: App, request: Request) -> Response:
     """Change one value or key of a text; the record of the case holds the new text."""
     document, content = _case(app, request), await body_of(request)
-    text = text_in(content, "text")
-    after = await asyncio.to_thread(lambda: _changed(parse_yaml(text, document.name), content).text)
-    document.change(text, "typing")
+    if "text" in content:
+        document.change(text_in(content, "text"), "typing")
+    turn = document.turn
+    after = await asyncio.to_thread(lambda: _changed(parse_yaml(document.text, document.name), content).text)
+    if document.turn != turn:
+        raise InputError("the text was changed meanwhile", path="text", remedy="do it again")
     document.change(after, f"form {content['path']}")
     return json_answer(document.record())
 
@@ -157,11 +161,16 @@ async def _save(app: App, request: Request) -> Response:
     return json_answer(document.record())
 
 
+async def _settle(app: App, request: Request) -> Response:
+    """Take what another program has written to the file, or keep the text of the page."""
+    document, content = _case(app, request), await body_of(request)
+    app.documents.settle(document, content.get("take") is True)
+    return json_answer(document.record())
+
+
 async def _take_case(app: App, request: Request) -> Response:
     document = _case(app, request)
-    name = f"{stem_of(document.name)}.yaml".replace('"', "")
-    safe = name if name.isascii() and name.isprintable() else "case.yaml"
-    headers = {"content-disposition": f'attachment; filename="{safe}"'}
+    headers = {"content-disposition": f"attachment; filename*=utf-8''{quote(stem_of(document.name))}.yaml"}
     return Response(document.text, media_type="text/yaml", headers=headers)
 
 
@@ -176,5 +185,6 @@ ADDRESSES: list[tuple[str, Endpoint, list[str]]] = [
     ("/api/cases/{key}/undo", _undo, _POST),
     ("/api/cases/{key}/pin", _pin, _POST),
     ("/api/cases/{key}/save", _save, _POST),
+    ("/api/cases/{key}/file", _settle, _POST),
     ("/api/cases/{key}/case.yaml", _take_case, _GET),
 ]

@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
+import contextlib
 import secrets
 import time
 from pathlib import Path
 from typing import Any
 
-from moyai.app.draft import Wish
 from moyai.app.folder import CASE_ENDINGS, Folder
 from moyai.app.pins import Pin
 from moyai.case.templates import template
-from moyai.core.errors import InputError
+from moyai.case.yaml_text import decode, encode_like
+from moyai.core.errors import InputError, MoyaiError
 from moyai.core.files import write_whole
 from moyai.language.comments import with_comments
 
 _STEPS = 200
+_LARGEST = 2_000_000
 _PAUSE = 2.0
 """Seconds after which a further change of the same kind is a step of its own."""
 
@@ -29,22 +31,30 @@ class OpenCase:
         Part of its address.
     name : str
         File relative to the chosen folder; where it would be saved if it was never.
-    text, saved : str
-        As it is now, and as the file has it; empty where there is no file.
+    text : str
+        As it is now.
+    saved : str, optional
+        As the file has it; None where there is no file.
 
     Attributes
     ----------
+    turn : int
+        How often the text was changed.
+    standing : {"same", "gone", "changed"}
+        How the file stands to ``saved`` since another program was at work.
     pins : tuple of Pin
         States that are drawn faint under this one.
     earlier : list of str
         What undo goes back to.
     """
 
-    def __init__(self, key: str, name: str, text: str, saved: str = "") -> None:
+    def __init__(self, key: str, name: str, text: str, saved: str | None = None) -> None:
         self.key = key
         self.name = name
         self.text = text
         self.saved = saved
+        self.standing = "same"
+        self.turn = 0
         self.pins: tuple[Pin, ...] = ()
         self.earlier: list[str] = []
         self.changed: tuple[str, float] = ("", 0.0)
@@ -66,16 +76,19 @@ class OpenCase:
             self.earlier = [*self.earlier[-_STEPS:], self.text]
         self.changed = (gesture, now)
         self.text = text
+        self.turn += 1
 
     def undo(self) -> None:
         """Go back one step, if there is one."""
         if self.earlier:
             self.text = self.earlier.pop()
+            self.turn += 1
         self.changed = ("", 0.0)
 
-    def wish(self, folder: Folder, text: str, edits: dict[str, str], shown: tuple[str, ...], level: str) -> Wish:
-        """Return what the worker is asked for."""
-        return Wish(text, folder.root / self.name, folder.root, edits, self.pins, shown=shown, level=level)
+    @property
+    def unsaved(self) -> bool:
+        """Whether the file does not hold this text."""
+        return self.text != self.saved or self.standing != "same"
 
     def record(self) -> dict[str, Any]:
         """Return what the page needs to show it."""
@@ -83,7 +96,8 @@ class OpenCase:
             "id": self.key,
             "name": self.name,
             "text": self.text,
-            "unsaved": self.text != self.saved,
+            "unsaved": self.unsaved,
+            "file": self.standing,
             "pins": [{"id": pin.key, "name": pin.name} for pin in self.pins],
             "can_undo": bool(self.earlier),
         }
@@ -130,37 +144,60 @@ class Documents:
         CaseError
             When it is no text.
         """
-        from moyai.case.yaml_text import decode
-
         path = self._folder.inside(name)
         name = path.relative_to(self._folder.root).as_posix()
         known = next((one for one in self._open.values() if one.name == name), None)
         if known is not None:
             return self._added(self._open.pop(known.key))
-        if path.suffix not in CASE_ENDINGS or not path.is_file() or path.stat().st_size > 2_000_000:
+        if path.suffix not in CASE_ENDINGS or not path.is_file() or path.stat().st_size > _LARGEST:
             raise InputError(f"{name!r} is no case file", path="file", allowed="files .yaml and .yml up to 2 MB")
         text = decode(path.read_bytes(), name)
         return self._added(OpenCase(_key(), name, text, saved=text))
 
+    def look(self, document: OpenCase) -> OpenCase:
+        """Take what another program has written to the file of a case that has no changes of its own."""
+        if document.saved is None:
+            return document
+        written = self._written(document.name)
+        if written is not None and document.text == document.saved:
+            document.change(written, "file")
+            document.saved = written
+        document.standing = "gone" if written is None else "same" if written == document.saved else "changed"
+        return document
+
+    def settle(self, document: OpenCase, take: bool) -> None:
+        """Take the text that another program has written, or keep that of the page, which Save then writes over it."""
+        written = self._written(document.name)
+        if take and written is not None:
+            document.change(written, "file")
+        document.saved, document.standing = written, "same"
+
     def save(self, document: OpenCase, name: str = "") -> None:
-        """Write a case to its file, or to another of the folder that does not exist yet.
+        """Write a case to its file as that was written, or to another of the folder that does not exist yet.
 
         Raises
         ------
         InputError
             When the name is outside the folder, no case file, or another's.
         """
-        path = self._folder.inside(name or document.name)
+        path, own = self._folder.inside(name or document.name), self._folder.inside(document.name)
         file = path.relative_to(self._folder.root).as_posix()
         if path.suffix not in CASE_ENDINGS:
             raise InputError(f"{file!r} is no name of a case file", path="file", remedy="let it end with .yaml")
-        if path.exists() and not (document.saved and file == document.name):
+        if path.exists() and (document.saved is None or path != own):
             raise InputError(f"{file!r} exists", path="file", remedy="choose another name")
-        if path.exists() and path.read_text(encoding="utf-8", errors="replace") not in (document.saved, document.text):
+        if path.exists() and self._written(file) not in (document.saved, document.text):
             raise InputError(f"{file!r} was changed by another program", path="file", remedy="choose another name")
-        path.parent.mkdir(parents=True, exist_ok=True)
-        write_whole(path, document.text.encode("utf-8"))
-        document.name, document.saved = file, document.text
+        write_whole(path, encode_like(document.text, own.read_bytes() if own.is_file() else b""))
+        document.name, document.saved, document.standing = file, document.text, "same"
+
+    def _written(self, name: str) -> str | None:
+        """Return the text of a file as it stands there, None where it cannot be read."""
+        with contextlib.suppress(OSError, MoyaiError):
+            path = self._folder.inside(name)
+            if path.is_file() and path.stat().st_size <= _LARGEST:
+                return decode(path.read_bytes(), name)
+        return None
 
     def _added(self, document: OpenCase) -> OpenCase:
         self._open[document.key] = document

@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
+import math
 import time
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import asdict, dataclass, field, replace
+from collections.abc import Callable, Iterator
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from moyai.app.folder import refuse_foreign_files
-from moyai.app.pins import Pin, Pinned, Run
-from moyai.app.sliders import sliders_of
+from moyai.app.messages import Wish
+from moyai.app.pins import Pinned, Run
 from moyai.app.stages import stages_of
 from moyai.case.builder import build
 from moyai.case.reader import case_of, like_checked
+from moyai.case.sliders import sliders_of
 from moyai.case.text_numbers import with_number
 from moyai.case.yaml_reader import Document, parse_yaml
 from moyai.core.errors import CaseError, Fault, MoyaiError
-from moyai.core.kinds import structure_kind
+from moyai.core.kinds import kind_named, structure_kind
 from moyai.core.progress import Progress
 from moyai.core.validity import Notice
 from moyai.language.faults import spoken_fault
@@ -25,36 +27,12 @@ from moyai.language.faults import spoken_fault
 if TYPE_CHECKING:
     from moyai.case.reader import Case
 
-VERSION = 1
-"""Version of the messages between server and page (docs/tutorial/app.md)."""
 NOMINAL = (
     "nominal numbers only, at one water level, without drift, ranges, bands, other laws or speeds: "
     "the whole answer may judge otherwise"
 )
 ONE_LEVEL = "one water level only: the whole answer may judge otherwise"
 _TEXT_LIMIT = 2_000_000
-
-
-@dataclass(frozen=True)
-class Wish:
-    """What is asked of the worker."""
-
-    #: The case.
-    text: str
-    #: Where the case stands, or would stand.
-    file: Path
-    #: Folder out of which no file is read.
-    root: Path
-    #: Numbers to put at paths, in the unit as written.
-    edits: Mapping[str, str] = field(default_factory=dict)
-    #: States that are drawn faint under this one.
-    pins: tuple[Pin, ...] = ()
-    #: Other analyses than the cheap ones.
-    analyses: tuple[str, ...] = ()
-    #: Sections and figures of the report that are on the screen: the first draft has them.
-    shown: tuple[str, ...] = ()
-    #: Water level that is chosen there.
-    level: str = ""
 
 
 class Drafts:
@@ -93,9 +71,9 @@ class Drafts:
             for path, number in wish.edits.items():
                 document = with_number(document, path, number)
             self._last, text = document, document.text
-            refuse_foreign_files(wish.root, wish.file.parent, document.data)
+            refuse_foreign_files(wish.root, wish.file.parent, document)
             case = case_of(document, wish.file)
-            drafts = stages_of(document, case.kind, wish.analyses)
+            drafts = stages_of(document, case.kind)
             sliders = sliders_of(document, case.kind, drafts[-1].data)
             yield _checked(text, (), case.warnings, sliders=sliders, kind=case.kind, title=case.title)
             checked = True
@@ -108,8 +86,9 @@ class Drafts:
             faults = error.faults if isinstance(error, CaseError) else (error.fault,)
             if not checked:
                 # The sliders stay, so that a number that went too far can be moved back
-                sliders = [] if document is None else _sliders_by_keys(document)
-                yield _checked(text, faults, (), **({} if document is None else {"sliders": sliders}))
+                kind = "" if document is None else kind_named(document.data)
+                more = {"sliders": sliders_of(document, kind)} if document is not None and kind else {}
+                yield _checked(text, faults, (), **more)
             else:
                 yield {"message": "not drawn", "faults": [asdict(spoken_fault(fault)) for fault in faults]}
 
@@ -162,7 +141,7 @@ class Drafts:
             "nominal": bool(stage.words),
             "left_out": document.data.get("waves") != whole.data.get("waves"),
             "status": result.status,
-            "headlines": [headline.as_dict() for headline in result.headlines],
+            "headlines": [_finite(headline.as_dict()) for headline in result.headlines],
             "html": html,
             "data": data,
         }
@@ -200,13 +179,6 @@ def _key_of(document: Document) -> str:
     return f"{document.data['structure']['kind']} {document.data['analyses']}"
 
 
-def _sliders_by_keys(document: Document) -> list[dict[str, Any]]:
-    """Return the sliders of a case that has errors, by the kind that it names."""
-    structure = document.data.get("structure") if isinstance(document.data, dict) else None
-    kind = structure.get("kind") if isinstance(structure, dict) else None
-    return sliders_of(document, kind) if isinstance(kind, str) else []
-
-
 def _checked(text: str, faults: Any, warnings: Any, **more: Any) -> dict[str, Any]:
     return {
         "message": "checked",
@@ -215,3 +187,12 @@ def _checked(text: str, faults: Any, warnings: Any, **more: Any) -> dict[str, An
         "warnings": [asdict(spoken_fault(fault)) for fault in warnings],
         **more,
     }
+
+
+def _finite(value: Any) -> Any:
+    """Return a value with None where a number is not finite."""
+    if isinstance(value, dict):
+        return {key: _finite(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_finite(item) for item in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
-from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from moyai.case.reader import named_files
-from moyai.core.errors import InputError
+from moyai.case.yaml_reader import Document, KeyPath
+from moyai.core.errors import CaseError, InputError
 
 CASE_ENDINGS = (".yaml", ".yml")
+_FILE_KEYS = (("file",), ("path",))
 _MOST_FILES = 200
 _DEEPEST = 4
 _KIND = re.compile(r"^structure:(?:.|\n)*?\bkind:\s*(\w+)", re.MULTILINE)
@@ -43,14 +45,15 @@ class Folder:
         """Return the case, study and fit files of the folder: name, kind and title, the newest first."""
         found: list[tuple[float, dict[str, str]]] = []
         for path in self._candidates():
-            text = path.read_text(encoding="utf-8", errors="replace")[:20_000]
-            kind = _KIND.search(text) or _JOB.search(text)
-            if kind is None:
-                continue
-            title = (_TITLE if kind.re is _KIND else _JOB_TITLE).search(text)
-            name = path.relative_to(self.root).as_posix()
-            record = {"file": name, "kind": kind[1], "title": title[1].strip("'\"") if title else name}
-            found.append((path.stat().st_mtime, record))
+            with contextlib.suppress(OSError):  # gone meanwhile, or not for us to read
+                text = path.read_text(encoding="utf-8", errors="replace")[:20_000]
+                kind = _KIND.search(text) or _JOB.search(text)
+                if kind is None:
+                    continue
+                title = (_TITLE if kind.re is _KIND else _JOB_TITLE).search(text)
+                name = path.relative_to(self.root).as_posix()
+                record = {"file": name, "kind": kind[1], "title": title[1].strip("'\"") if title else name}
+                found.append((path.stat().st_mtime, record))
         return [record for _, record in sorted(found, key=lambda item: -item[0])]
 
     def _candidates(self) -> list[Path]:
@@ -58,17 +61,14 @@ class Folder:
         waiting = [(self.root, 0)]
         while waiting and len(found) < _MOST_FILES:
             folder, depth = waiting.pop(0)
-            try:
-                entries = sorted(folder.iterdir())
-            except OSError:
-                continue
-            for entry in entries:
-                if entry.is_symlink() or entry.name.startswith(".") or entry == self.output:
-                    continue
-                if entry.is_dir() and depth < _DEEPEST:
-                    waiting.append((entry, depth + 1))
-                elif entry.suffix in CASE_ENDINGS and entry.is_file() and entry.stat().st_size < 1_000_000:
-                    found.append(entry)
+            with contextlib.suppress(OSError):
+                for entry in sorted(folder.iterdir()):
+                    if entry.is_symlink() or entry.name.startswith(".") or entry == self.output:
+                        continue
+                    if entry.is_dir() and depth < _DEEPEST:
+                        waiting.append((entry, depth + 1))
+                    elif entry.suffix in CASE_ENDINGS and entry.is_file() and entry.stat().st_size < 1_000_000:
+                        found.append(entry)
         return found[:_MOST_FILES]
 
 
@@ -94,7 +94,7 @@ def within(root: Path, path: Path, shown: str) -> Path:
     return target
 
 
-def refuse_foreign_files(root: Path, folder: Path, content: Any) -> None:
+def refuse_foreign_files(root: Path, folder: Path, document: Document) -> None:
     """Refuse a case that names files outside the chosen folder.
 
     Parameters
@@ -103,14 +103,30 @@ def refuse_foreign_files(root: Path, folder: Path, content: Any) -> None:
         The chosen folder, links resolved.
     folder : Path
         Folder of the case.
-    content : object
-        Keys of the case.
+    document : Document
+        The case.
 
     Raises
     ------
-    InputError
+    CaseError
+        With the line of the first name.
     """
-    for name in sorted(named_files(content)) if isinstance(content, Mapping) else ():
-        target = within(root, folder / name, name)
-        for member in target.rglob("*") if target.is_dir() else ():
-            within(root, member, f"{name}/{member.name}")
+    for name in sorted(named_files(document.data)):
+        try:
+            target = within(root, folder / name, name)
+            for member in target.rglob("*") if target.is_dir() else ():
+                within(root, member, f"{name}/{member.name}")
+        except InputError as error:
+            named = (path for path in document.values if path[-1:] in _FILE_KEYS and _at(document, path) == name)
+            fault = error.fault
+            raise CaseError(
+                [document.fault(next(named, ()), fault.message, allowed=fault.allowed, remedy=fault.remedy)]
+            ) from None
+
+
+def _at(document: Document, path: KeyPath) -> Any:
+    found = document.data
+    with contextlib.suppress(KeyError, IndexError, TypeError):
+        for step in path:
+            found = found[step]
+    return found

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import os
+import shlex
+import subprocess
 import time
 from pathlib import Path
 from typing import Any
 
-from moyai.app.downloads import makeable
 from moyai.app.job_process import Order
 from moyai.app.job_records import ENDED, Kept, keep
 from moyai.language import said
+from moyai.report.on_demand import makeable
 
 FILES = ("report.html", "results.nc", "study.nc", "fit.nc", "study.csv", "report.xlsx", "case.yaml")
 
@@ -82,4 +85,4 @@ class Job:
 
 
 def _quoted(text: str) -> str:
-    return text if text.replace("/", "").replace(".", "").replace("_", "").replace("-", "").isalnum() else f'"{text}"'
+    return subprocess.list2cmdline([text]) if os.name == "nt" else shlex.quote(text)

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 from starlette.requests import Request
 from starlette.responses import FileResponse, Response
 
-from moyai.app.answers import Endpoint, body_of, json_answer, text_in
+from moyai.app.answers import Endpoint, body_of, json_answer, text_in, value_in
 from moyai.app.documents import stem_of
-from moyai.app.downloads import MADE, made
 from moyai.app.folder import within
 from moyai.app.job import FILES
 from moyai.app.job_process import Order
 from moyai.app.security import REPORT_POLICY
-from moyai.app.study_jobs import refuse_foreign_base, so_far
+from moyai.app.study_jobs import refuse_foreign_base
+from moyai.report.on_demand import MADE, made, so_far
 from moyai.study.cases_so_far import case_text, table_of
 
 if TYPE_CHECKING:
@@ -45,7 +45,7 @@ async def _start(app: App, request: Request) -> Response:
     else:
         document = app.documents[text_in(content, "case")]
         folder = app.jobs.folder_for(output, stem_of(document.name))
-        file, saved = root / document.name, document.text == document.saved
+        file, saved = root / document.name, not document.unsaved
         order = Order("run", document.name, folder, root, file, document.text, saved, app.language)
     return json_answer(app.jobs.add(order).record(root))
 
@@ -66,9 +66,7 @@ async def _study(app: App, request: Request) -> Response:
 async def _study_case(app: App, request: Request) -> Response:
     """Open a case of a study beside its base case."""
     content, root = await body_of(request), app.folder.root
-    index = content.get("case")
-    if not isinstance(index, int) or isinstance(index, bool):
-        raise ValueError("'case' is the number of a case")
+    index = value_in(content, "case", -1)
     folder = app.jobs[request.path_params["key"]].order.folder
     text, base = await asyncio.to_thread(case_text, folder, root, index)
     stem = base.relative_to(root).with_suffix("").as_posix()

@@ -13,9 +13,10 @@ from pathlib import Path
 from typing import Any
 
 from moyai.app.pins import Run
-from moyai.core.errors import CaseError, MoyaiError
+from moyai.core.errors import CaseError, MoyaiError, system_words
 from moyai.core.processes import collect_rarely, die_with_parent
 from moyai.core.progress import Pace, duration_words
+from moyai.core.run_folder import prepare_output
 from moyai.language import speak
 from moyai.language.faults import fault_text
 
@@ -72,7 +73,7 @@ def work(pipe: Any, stop: Any, order: Order, run: Run) -> None:
             )
 
     try:
-        order.folder.mkdir(parents=True, exist_ok=True)
+        prepare_output(order.folder)
         pipe.send(("done", *_done(order, run, listen, stop)))
     except KeyboardInterrupt:
         pipe.send(("failed", "cancelled before there was a result"))
@@ -80,6 +81,8 @@ def work(pipe: Any, stop: Any, order: Order, run: Run) -> None:
         pipe.send(("failed", "\n".join(map(fault_text, error.faults))))
     except MoyaiError as error:
         pipe.send(("failed", fault_text(error.fault)))
+    except OSError as error:
+        pipe.send(("failed", system_words(error)))
     except Exception as error:
         pipe.send(("failed", f"internal error, {type(error).__name__}: {error}"))
 
@@ -113,7 +116,7 @@ def _run(order: Order, run: Run, listen: Any) -> tuple[str, str, str]:
     from moyai.report.writer import compose_document, write_report
 
     document = parse_yaml(order.text, order.file.name)
-    refuse_foreign_files(order.root, order.file.parent, document.data)
+    refuse_foreign_files(order.root, order.file.parent, document)
     case = case_of(document, order.file)
     with compiling_ahead(case.kind), alone_in(order.folder), staged_outputs(order.folder) as staged:
         write_whole(order.folder / "case.yaml", order.text.encode("utf-8"))

@@ -94,7 +94,8 @@ class Jobs:
                 job.keep()
             elif job.state == "running":
                 job.state, job.asked = "cancelling", time.monotonic()
-                job.stop.set()
+                if job.stop is not None:
+                    job.stop.set()
         return job
 
     def close(self) -> None:
@@ -115,7 +116,6 @@ class Jobs:
                 for job in self._jobs.values():
                     if job.state == "waiting":
                         job.state, job.started = "running", time.monotonic()
-                        job.stop = self._context.Event()
                         job.keep()
                         return job
                 self._changed.wait()
@@ -132,6 +132,10 @@ class Jobs:
                 job.keep()
 
     def _follow(self, job: Job) -> None:
+        with self._changed:
+            job.stop = self._context.Event()
+            if job.asked:
+                job.stop.set()
         pipe, far = self._context.Pipe()
         job.process = self._context.Process(target=self._target, args=(far, job.stop, job.order, self._run))
         job.process.start()

@@ -17,7 +17,7 @@ from moyai.core.errors import InputError, MoyaiError
 from moyai.core.progress import Progress
 
 if TYPE_CHECKING:
-    from moyai.app.draft import Wish
+    from moyai.app.messages import Wish
     from moyai.core.results import Result
     from moyai.report.differences import Other
 
@@ -110,9 +110,9 @@ class Pinned:
 
         try:
             document = parse_yaml(pin.text, wish.file.name)
-            refuse_foreign_files(wish.root, wish.file.parent, document.data)
+            refuse_foreign_files(wish.root, wish.file.parent, document)
             kind = case_of(document, wish.file).kind
-            data: dict[str, Any] = stages_of(document, kind, wish.analyses)[-1].data
+            data: dict[str, Any] = stages_of(document, kind)[-1].data
             data = {**data, "analyses": shown.data["analyses"]}
             result = self._run(case_of(replace(document, data=data), wish.file), progress, keep=self._keep)
         except MoyaiError:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import signal
 import socket
 import threading
 from collections.abc import Callable
@@ -123,10 +125,13 @@ def serve(folder: Folder, first: str, run: Run, *, port: int, browser: bool, say
         import webbrowser
 
         threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()
+    if hasattr(signal, "SIGHUP"):  # a terminal that is closed ends it as Ctrl-C does
+        signal.signal(signal.SIGHUP, lambda *_: signal.raise_signal(signal.SIGINT))
     try:
         uvicorn.Server(settings).run(sockets=[listener])
     except KeyboardInterrupt:
         pass
     finally:
         listener.close()
-    say("moyai app has ended")
+    with contextlib.suppress(OSError):  # the terminal may be gone
+        say("moyai app has ended")

@@ -26,8 +26,8 @@ from moyai.language import require_language
 from moyai.report.encoding import page_json
 
 _SCRIPTS = (
-    "page", "case", "gallery", "editor", "plain_text", "code_text", "codemirror",
-    "form", "sliders", "pins", "tabs", "live", "renew", "jobs", "server",
+    "page", "case", "drafts", "gallery", "editor", "plain_text", "code_text", "codemirror",
+    "form", "sliders", "pins", "tabs", "live", "sections", "renew", "jobs", "server",
 )  # fmt: skip
 _OWN = ("app.css", *(f"{name}.js" for name in _SCRIPTS))
 _TYPES = {"css": "text/css", "js": "text/javascript", "html": "text/html"}

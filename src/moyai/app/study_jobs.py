@@ -31,12 +31,12 @@ def refuse_foreign_base(folder: Folder, path: Path) -> str:
     kind = file_kind(document.data)
     if not kind:
         raise InputError(f"{path.name!r} is no study and no fit", path="file")
-    refuse_foreign_files(folder.root, path.parent, document.data)
+    refuse_foreign_files(folder.root, path.parent, document)
     base = document.data[kind].get("base")
     if isinstance(base, str):
         target = within(folder.root, path.parent / base, base)
         if target.is_file():
-            refuse_foreign_files(folder.root, target.parent, read_yaml(target).data)
+            refuse_foreign_files(folder.root, target.parent, read_yaml(target))
     return kind
 
 
@@ -71,21 +71,3 @@ def run_fit_job(file: Path, folder: Path, run: Run, listen: Any) -> tuple[str, s
     write_whole(folder / "case.yaml", fitted_text(plan, found).encode("utf-8"))
     write_report(result, folder)
     return result.status, result.message, ""
-
-
-def so_far(folder: Path) -> str:
-    """Return the report of a study that runs, of what was gathered until now.
-
-    Raises
-    ------
-    KeyError
-        Where nothing was gathered yet.
-    """
-    from moyai.core.results import read_result
-    from moyai.report.html import render_html
-    from moyai.report.writer import compose_document
-
-    path = folder / "study.nc"
-    if not path.is_file():
-        raise KeyError("study.nc")
-    return str(render_html(compose_document(read_result(path))))

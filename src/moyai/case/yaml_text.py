@@ -10,6 +10,8 @@ from moyai.core.errors import CaseError, Fault
 # What YAML 1.2 does not print, and the separators that YAML 1.1 took for line ends, which would shift every line number
 _ODD = re.compile("[^\t\n\r\x20-\x7e\xa0-\u2027\u202a-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]|\ufeff")
 
+_MARKS = {b"\xef\xbb\xbf": "utf-8", b"\xff\xfe": "utf-16-le", b"\xfe\xff": "utf-16-be"}
+
 _PLAIN: tuple[tuple[str, str, str], ...] = (
     (
         "mapping values are not allowed",
@@ -81,6 +83,14 @@ def decode(raw: bytes, file: str) -> str:
             ]
         ) from None
     return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def encode_like(text: str, raw: bytes) -> bytes:
+    """Return a text with the mark, the encoding and the line ends of a file that :func:`decode` reads."""
+    mark = next((mark for mark in _MARKS if raw.startswith(mark)), b"")
+    coding = _MARKS.get(mark, "utf-8")
+    ends = "\r\n" if "\r\n" in raw.decode(coding, "replace") else "\n"
+    return mark + text.replace("\r\n", "\n").replace("\n", ends).encode(coding)
 
 
 def _likely_encoding(raw: bytes) -> str:

@@ -54,8 +54,8 @@ def compare(
             _refuse([name for name, value in options.items() if value])
             _two_results(result, record, output, as_json=as_json, pdf=pdf, report=report or pdf)
             raise typer.Exit(OK)
-        from moyai.cli.runner import prepare_output
         from moyai.core.results import read_result
+        from moyai.core.run_folder import prepare_output
         from moyai.records.comparison.run import compare_result, pairing_of
         from moyai.report.writer import write_report
 
@@ -100,8 +100,8 @@ def _refuse(options: list[str]) -> None:
 
 def _two_results(here: Path, there: Path, output: Path | None, *, as_json: bool, pdf: bool, report: bool) -> None:
     """Print the table of differences of two results; with ``report`` write the page of the first with both in it."""
-    from moyai.cli.runner import prepare_output
     from moyai.core.results import read_result
+    from moyai.core.run_folder import prepare_output
     from moyai.report.differences import DIFFERENCES, read_others, with_others
     from moyai.report.document import Table
     from moyai.report.writer import compose_document, write_report

@@ -22,8 +22,8 @@ def fit(
     """Fit values of a case to observations through the model; writes the case that was found."""
     with guard(as_json):
         from moyai.cli.files import write_text
-        from moyai.cli.runner import prepare_output
         from moyai.cli.runner import run as run_case
+        from moyai.core.run_folder import prepare_output
         from moyai.study.fitting import fitted_text, load_fit, run_fit
 
         started = time.perf_counter()

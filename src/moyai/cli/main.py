@@ -253,9 +253,8 @@ def run(
     """
     with guard(as_json, language):
         from moyai.case.reader import load_case
-        from moyai.cli.runner import prepare_output
         from moyai.cli.runner import run as run_case
-        from moyai.core.run_folder import alone_in, put_in_place, staged_outputs
+        from moyai.core.run_folder import alone_in, prepare_output, put_in_place, staged_outputs
         from moyai.report.systems import require_system
 
         started = time.perf_counter()

@@ -28,7 +28,7 @@ def forces(
 ) -> None:
     """Find C_M and C_D from a record of force and velocity, with intervals, and say what cannot be known."""
     with guard(as_json):
-        from moyai.cli.runner import prepare_output
+        from moyai.core.run_folder import prepare_output
         from moyai.records.forces.case.build import load_force_record, record_of, setup_of
         from moyai.records.forces.identification import identify
         from moyai.records.forces.result import identification_result

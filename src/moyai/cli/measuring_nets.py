@@ -30,7 +30,7 @@ def nets(
     with guard(as_json):
         from dataclasses import replace
 
-        from moyai.cli.runner import prepare_output
+        from moyai.core.run_folder import prepare_output
         from moyai.records.nets.campaign import measure_nets
         from moyai.records.nets.case.build import load_nets
         from moyai.records.nets.result import nets_result

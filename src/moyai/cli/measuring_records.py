@@ -24,7 +24,7 @@ def records(
 ) -> None:
     """Read records, control their quality, and work out waves, spectra, currents, tensions and reflection."""
     with guard(as_json):
-        from moyai.cli.runner import prepare_output
+        from moyai.core.run_folder import prepare_output
         from moyai.records.survey.case.build import load_survey
         from moyai.records.survey.run import run_survey
 

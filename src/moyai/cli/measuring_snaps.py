@@ -26,7 +26,7 @@ def snaps(
 ) -> None:
     """Find impact tensions of released curtains, C_T over Fr, B/l, d/h and C_E, and the models over them."""
     with guard(as_json):
-        from moyai.cli.runner import prepare_output
+        from moyai.core.run_folder import prepare_output
         from moyai.records.snaps.case.build import load_snaps
         from moyai.records.snaps.result import snap_runs_result
         from moyai.records.snaps.run import measure_snaps

@@ -27,7 +27,7 @@ def streaks(
     Every recording that is done is kept in the folder of the results, so that an interrupted batch goes on.
     """
     with guard(as_json):
-        from moyai.cli.runner import prepare_output
+        from moyai.core.run_folder import prepare_output
         from moyai.core.store import DatasetStore
         from moyai.records.streaks.campaign import measure_campaign
         from moyai.records.streaks.case.build import load_streaks

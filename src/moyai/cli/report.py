@@ -86,8 +86,8 @@ def report(
             from moyai.report.dxf import require_drawing_unit
 
             require_drawing_unit(dxf)
-        from moyai.cli.runner import prepare_output
         from moyai.cli.tables import figure_records, key_figures, print_summary
+        from moyai.core.run_folder import prepare_output
         from moyai.report.views import read_result
         from moyai.report.writer import compose_document, write_report
 

@@ -28,7 +28,7 @@ def reproduce(
 ) -> None:
     """Compute a published paper again: equations, figures and every statement of its text on one page."""
     with guard(as_json):
-        from moyai.cli.runner import prepare_output
+        from moyai.core.run_folder import prepare_output
         from moyai.reproduce import as_result, papers
         from moyai.reproduce import paper as described
         from moyai.reproduce import reproduce as run_paper

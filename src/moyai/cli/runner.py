@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -90,26 +89,3 @@ def _wording(message: str) -> str:
     the check has nothing to add.
     """
     return re.sub(r"[-+]?\d[\d.]*(?:e[-+]?\d+)?", "#", message)
-
-
-def prepare_output(directory: Path) -> Path:
-    """Make the folder of a run and prove that it can be written, before any work starts.
-
-    Raises
-    ------
-    InputError
-        When it cannot be made or written, or a file stands in its place.
-    """
-    if directory.exists() and not directory.is_dir():
-        raise InputError(f"{directory} is a file", path="output", remedy="name a folder with --output")
-    try:
-        directory.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=directory) as probe:
-            probe.write(b"moyai")
-    except OSError as error:
-        raise InputError(
-            f"cannot write to {directory}: {error.strerror or error}",
-            path="output",
-            remedy="choose a folder that can be written with --output",
-        ) from None
-    return directory

@@ -86,3 +86,8 @@ class CaseError(MoyaiError):
         count = len(self.faults)
         super().__init__(f"{count} fault{'s' if count != 1 else ''}")
         self.args = ("\n".join(str(fault) for fault in self.faults),)
+
+
+def system_words(error: OSError) -> str:
+    """Return what the system refused, without its number."""
+    return f"{error.filename}: {error.strerror}" if error.filename else str(error.strerror or error)

@@ -85,6 +85,10 @@ class StructureKind(Kind):
     #: Path in the case file and name of the numbers that a design is tried with, the most wanted first; those of site,
     #: current and sea follow of themselves
     numbers: tuple[tuple[str, str], ...] = ()
+    #: Analyses of a draft, those of a case among them: the first that give what is on the screen, then the last
+    drafts: tuple[tuple[str, ...], ...] = ()
+    #: Whether drafts leave irregular seas out where there are regular ones
+    drafts_of_regular_seas = False
 
     @abstractmethod
     def schema(self) -> Any:
@@ -204,6 +208,13 @@ def _foreign() -> dict[str, Any]:
 def structure_kinds() -> tuple[str, ...]:
     """Return the names of all kinds of structure."""
     return (*_STRUCTURES, *sorted(set(_foreign()) - set(_STRUCTURES)))
+
+
+def kind_named(data: Any) -> str:
+    """Return the kind of structure that the content of a case names, empty where it names none that is known."""
+    structure = data.get("structure") if isinstance(data, dict) else None
+    kind = structure.get("kind") if isinstance(structure, dict) else None
+    return kind if isinstance(kind, str) and kind in structure_kinds() else ""
 
 
 @cache

@@ -10,6 +10,7 @@ import os
 import re
 import shutil
 import sys
+import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -20,6 +21,29 @@ STAGED = ".run.partial"
 _LEFT_BEHIND = re.compile(r".+\.[a-z0-9_]{8}\.partial")
 _OUTPUTS = ("report.html", "report.pdf", "report.xlsx", "report_tables", "results.nc")
 """What a run writes, in the order in which an earlier one's is removed; it is put in place the other way round."""
+
+
+def prepare_output(directory: Path) -> Path:
+    """Make the folder of a run and prove that it can be written, before any work starts.
+
+    Raises
+    ------
+    InputError
+        When it cannot be made or written, or a file stands in its place.
+    """
+    if directory.exists() and not directory.is_dir():
+        raise InputError(f"{directory} is a file", path="output", remedy="name a folder with --output")
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=directory) as probe:
+            probe.write(b"moyai")
+    except OSError as error:
+        raise InputError(
+            f"cannot write to {directory}: {error.strerror or error}",
+            path="output",
+            remedy="choose a folder that can be written with --output",
+        ) from None
+    return directory
 
 
 @contextmanager

@@ -52,9 +52,12 @@ def app_at(start: Path, *options: str) -> Iterator[str]:
     assert process.stdout is not None
     found = re.search(r"http://127\.0\.0\.1:\d+/\?token=\S+", process.stdout.readline())
     assert found is not None
-    yield found[0]
-    process.send_signal(2)
-    out, errors = process.communicate(timeout=15)
+    try:
+        yield found[0]
+        process.send_signal(2)
+        out, errors = process.communicate(timeout=15)
+    finally:
+        process.kill()  # where the test has failed
     assert process.returncode == 0
     assert ("終了した" if options else "has ended") in out and errors == ""
 
@@ -92,6 +95,9 @@ def sound(page: Any, address: str) -> None:
 DRAWN = "Number(document.querySelector('.report')?.dataset.sequence || 0)"
 IDLE = "document.querySelector('.state') && !document.querySelector('.state.working')"
 TEXT = "document.querySelector('.text-pane').editor.text"
+STATE = "document.querySelector('.state').textContent"
+TO_DO = """['Undo', 'Save'].map((words) =>
+  [...document.querySelectorAll('.toolbar button')].find((one) => one.textContent === words).disabled)"""
 ON_SCREEN = "[...MOYAI.figures.values()].filter((one) => MOYAI.isVisible(one.plot)).every((one) => one.drawn)"
 FIRST_ERROR = "document.querySelector('.faults .error button')?.textContent"
 MOVE = """((value) => {
@@ -117,12 +123,16 @@ def test_a_slider_redraws_the_figures(address: str) -> None:
         until(page, f"{DRAWN} > 0")
         assert page.evaluate("location.href.includes('token')") is False
         assert "httponly" not in page.evaluate("document.cookie").lower() and page.evaluate("document.cookie") == ""
-        until(page, ON_SCREEN)
+        until(page, f"{ON_SCREEN} && {IDLE}")
+        assert page.evaluate(TO_DO) == [True, True], "nothing to undo or to save yet"
         before, number = page.evaluate(FORCES), page.evaluate(DRAWN)
         page.evaluate(f"{MOVE}(80)")
         until(page, f"{DRAWN} > {number}")
-        until(page, f"{FORCES} !== {before!r}")
+        until(page, f"{FORCES} !== {before!r} && {IDLE}")
         assert page.evaluate(TEXT) == MEMBER.replace("100 cm", "80 cm")
+        time.sleep(0.5)
+        assert page.evaluate(STATE).startswith("Draft of forces"), "what is shown is told, also when it came at once"
+        assert page.evaluate(TO_DO) == [False, False]
 
         page.evaluate(f"{PRESS}('Undo')")
         until(page, f"{FORCES} === {before!r}")
@@ -136,7 +146,76 @@ def test_a_slider_redraws_the_figures(address: str) -> None:
 
         for width in (390, 1280):
             page.resize(width, 900)
-            assert page.evaluate("document.documentElement.scrollWidth <= innerWidth + 1"), width
+            until(page, f"innerWidth === {width} && document.documentElement.scrollWidth <= innerWidth + 1", 10.0)
+        sound(page, address)
+
+
+@pytest.mark.slow
+def test_a_narrow_figure_keeps_its_plot_under_a_long_legend(tmp_path: Path) -> None:
+    """Bars of four kinds and those of a pinned state: eight entries on 390 pixels; the list names what is looked at."""
+    (tmp_path / "curtain.yaml").write_text(_only("curtain", "statics, impact"))
+    with app_at(tmp_path / "curtain.yaml") as address, pipe.Chromium(str(pipe.find_chromium()), 390, 844) as page:
+        page.send("Page.navigate", url=address)
+        until(page, f"{WHOLE} && {IDLE}", 120.0)
+        page.evaluate(f"{PRESS}('Pin')")
+        until(page, f"{PINS}.length === 1")
+        page.evaluate(f"{MOVE_ONE}('structure.skirt.length', 6.5)")
+        until(page, f"{WHOLE} && {IDLE} && {TEXT}.includes('6.5 m')", 120.0)
+        page.evaluate("document.querySelector('.figure').scrollIntoView({ behavior: 'instant' })")
+        until(page, "document.querySelector('.figure').querySelectorAll('.legend .traces').length === 8", 20.0)
+        assert page.evaluate("document.querySelector('.figure .nsewdrag').getBoundingClientRect().height") > 130
+        listed = "document.querySelector('.top select').value"
+        assert page.evaluate(f"document.getElementById({listed}).contains(document.querySelector('.figure'))")
+        sound(page, address)
+
+
+def test_two_tabs_share_one_case(address: str) -> None:
+    """What one tab moves is in the other, at the next look or the next move; both at once keep both numbers."""
+    executable = str(pipe.find_chromium())
+    with pipe.Chromium(executable, 1280, 900) as page, pipe.Chromium(executable, 1280, 900) as other:
+        for one in (page, other):
+            one.send("Page.navigate", url=address)
+            until(one, f"{DRAWN} > 0 && {IDLE}")
+        other.evaluate(f"{MOVE_ONE}('site.water_depth', 22)")
+        until(other, f"{TEXT}.includes('depth: 22 m') && {IDLE}")
+        page.evaluate(f"{MOVE}(90)")
+        until(page, f"{TEXT}.includes('90 cm') && {TEXT}.includes('depth: 22 m') && {IDLE}", 20.0)
+        until(other, f"{TEXT}.includes('90 cm') && {IDLE}", 20.0)
+        for number in (1, 2, 3):
+            page.evaluate(f"{MOVE}({90 + number})")
+            other.evaluate(f"{MOVE_ONE}('site.water_depth', {22 + number})")
+            both = f"{TEXT}.includes('{90 + number} cm') && {TEXT}.includes('depth: {22 + number} m')"
+            for one in (page, other):
+                until(one, f"{both} && {IDLE} && {WHOLE} && {STATE}.startsWith('Draft of')", 20.0)
+            force = "document.querySelector('.report').headlines[0].value"
+            assert page.evaluate(force) == other.evaluate(force)
+        for one in (page, other):
+            sound(one, address)
+
+
+def test_a_file_that_another_program_changes(address: str, tmp_path: Path) -> None:
+    """Its text is taken where the page has no changes of its own; else the page asks, and nothing is lost."""
+    file = tmp_path / "pile.yaml"
+    with pipe.Chromium(str(pipe.find_chromium()), 1280, 900) as page:
+        page.send("Page.navigate", url=address)
+        until(page, f"{DRAWN} > 0 && {IDLE}")
+        number = page.evaluate(DRAWN)
+        file.write_text(MEMBER.replace("100 cm", "70 cm"))
+        until(page, f"{TEXT}.includes('70 cm') && {DRAWN} > {number} && {IDLE}", 20.0)
+        page.evaluate(f"{MOVE}(80)")
+        until(page, f"{TEXT}.includes('80 cm') && {IDLE}")
+        asked = "!document.querySelector('.file-notice').hidden"
+        for words, found in (("Keep this text", "80 cm"), ("Take the file", "60 cm")):
+            file.write_text(MEMBER.replace("100 cm", "60 cm") + f"# {words}\n")
+            until(page, asked, 20.0)
+            page.evaluate(f"{PRESS}({words!r})")
+            until(page, f"!({asked}) && {TEXT}.includes('{found}') && {IDLE}")
+        page.evaluate(f"{PRESS}('Undo')")
+        until(page, f"{TEXT}.includes('80 cm') && {IDLE}")
+        # typed and saved within the pause after typing
+        page.evaluate(f"{TEXT.removesuffix('.text')}.type({MEMBER.replace('Quick', 'Typed')!r}); {PRESS}('Save')")
+        until(page, "document.getElementById('told').textContent.includes('is saved')")
+        assert file.read_text() == MEMBER.replace("Quick", "Typed") == page.evaluate(TEXT)
         sound(page, address)
 
 
@@ -276,6 +355,37 @@ def tab_to(page: Any, wanted: str, back: bool = False, most: int = 80) -> None:
         if page.evaluate(f"((one) => Boolean({wanted}))({FOCUS})"):
             return
     raise AssertionError(f"no Tab reaches {wanted}; the focus is on {page.evaluate(f'{FOCUS}.outerHTML')[:200]}")
+
+
+@pytest.mark.parametrize("leave", ["location.hash = '#/jobs'", "location.reload()"])
+def test_what_is_typed_last_is_kept_when_the_page_is_left(address: str, leave: str) -> None:
+    typed = MEMBER.replace("Quick", "Typed")
+    with pipe.Chromium(str(pipe.find_chromium()), 1280, 900) as page:
+        page.send("Page.navigate", url=address)
+        until(page, f"{DRAWN} > 0 && {IDLE}")
+        case = page.evaluate("location.hash")
+        page.evaluate(f"window.old = true; {TEXT.removesuffix('.text')}.type({typed!r}); {leave}")
+        until(page, "!window.old || document.querySelector('.jobs')")
+        page.evaluate(f"location.hash = {case!r}")
+        until(page, f"document.querySelector('.text-pane') && {TEXT} === {typed!r}", 15.0)
+
+
+def test_a_file_is_opened_by_its_name(address: str, tmp_path: Path) -> None:
+    deep = tmp_path / "a" / "b" / "c" / "d" / "e"
+    deep.mkdir(parents=True)
+    (deep / "deep.yaml").write_text(MEMBER.replace("Quick", "Deep"))
+    with pipe.Chromium(str(pipe.find_chromium()), 390, 844) as page:
+        page.send("Page.navigate", url=address)
+        until(page, f"{DRAWN} > 0 && {IDLE}")
+        page.evaluate("location.hash = '#/'")
+        until(page, "document.querySelector('.open-file')")
+        assert "deep.yaml" not in page.evaluate("document.querySelector('.cards').textContent")
+        page.evaluate("document.querySelector('.open-file input').focus()")
+        page.send("Input.insertText", text="a/b/c/d/e/deep.yaml")
+        press(page, "Enter")
+        until(page, f"location.hash.startsWith('#/case') && {DRAWN} > 0 && {TEXT}.includes('Deep member')")
+        assert page.evaluate("document.documentElement.scrollWidth <= innerWidth + 1")
+        sound(page, address)
 
 
 def test_a_session_by_keyboard_alone(address: str) -> None:

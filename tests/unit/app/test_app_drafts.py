@@ -16,13 +16,14 @@ import numpy as np
 import pytest
 from app_runs import MEMBER, run_slowly
 
-from moyai.app.draft import Drafts, Wish
+from moyai.app.draft import Drafts
+from moyai.app.messages import Wish
 from moyai.app.pins import MOST, Pin, renamed, with_pin
-from moyai.app.sliders import sliders_of
 from moyai.app.stages import stages_of
 from moyai.app.worker import DraftWorker
 from moyai.case.builder import build
 from moyai.case.reader import case_of
+from moyai.case.sliders import sliders_of
 from moyai.case.templates import template
 from moyai.case.yaml_reader import parse_yaml
 from moyai.cli.runner import run
@@ -196,7 +197,7 @@ def test_hostile_texts_are_refused_quickly(tmp_path: Path, text: str, words: str
 
 
 async def answers(worker: DraftWorker, name: str, asked: Wish) -> list[dict[str, Any]]:
-    return [json.loads(line) async for line in worker.ask(name, asked)]
+    return [json.loads(line) async for line in worker.ask(name, lambda: asked)]
 
 
 def kinds(said: list[dict[str, Any]]) -> list[str]:
@@ -229,6 +230,35 @@ def test_stale_drafts_are_given_up_and_a_killed_process_is_told(tmp_path: Path) 
             os.kill(worker.process_id or 0, signal.SIGTERM)
             assert kinds(await running)[-1] == "lost"
             assert kinds(await answers(worker, "two", wish(tmp_path, MEMBER))) == ["checked", "drawn"]
+        finally:
+            worker.close()
+
+    asyncio.run(scenario())
+
+
+def test_two_pages_take_turns_and_no_answer_is_lost(tmp_path: Path) -> None:
+    """A page in haste goes before another one's draft; a patient page waits, and neither is given the other's."""
+    slow = MEMBER.replace("Quick", "slow")
+
+    async def scenario() -> None:
+        worker = DraftWorker(run_slowly)
+
+        async def ask(name: str, text: str, patient: bool = False) -> list[dict[str, Any]]:
+            given = wish(tmp_path, text)
+            return [json.loads(line) async for line in worker.ask(name, lambda: given, patient=patient)]
+
+        try:
+            await ask("one", MEMBER)
+            started = time.monotonic()
+            long = asyncio.create_task(ask("one", slow))
+            await asyncio.sleep(0.3)
+            waiting = asyncio.create_task(ask("three", MEMBER, patient=True))
+            await asyncio.sleep(0.1)
+            assert kinds(await ask("two", MEMBER)) == ["checked", "drawn"]
+            assert time.monotonic() - started < 4.0
+            assert kinds(await long) == ["checked", "stale"]
+            assert kinds(await waiting) == ["stale"], "a page in haste was before it"
+            assert kinds(await ask("three", MEMBER, patient=True)) == ["checked", "drawn"]
         finally:
             worker.close()
 

@@ -8,13 +8,13 @@ from pathlib import Path
 import pytest
 
 from moyai.app.folder import Folder, refuse_foreign_files
-from moyai.app.sliders import slider, sliders_of
 from moyai.app.stages import stages_of
 from moyai.case.reader import case_of
+from moyai.case.sliders import slider, sliders_of
 from moyai.case.templates import template
 from moyai.case.text_numbers import number_at, with_number
 from moyai.case.yaml_reader import parse_yaml
-from moyai.core.errors import InputError
+from moyai.core.errors import CaseError, InputError
 
 TEMPLATES = ("breakwater", "curtain", "cage", "rigid_cage", "network", "member", "units")
 
@@ -138,10 +138,17 @@ def test_cases_read_no_files_from_outside(tmp_path: Path) -> None:
     root = tmp_path / "root"
     (root / "data").mkdir(parents=True)
     (root / "data" / "link.csv").symlink_to("/etc/passwd")
-    refuse_foreign_files(root, root, {"measured": {"file": "data/points.csv"}})
+    refuse_foreign_files(root, root, parse_yaml("measured: {file: data/points.csv}"))
     for name in ("../points.csv", "/etc/passwd", "data/link.csv", "data"):
-        with pytest.raises(InputError, match="outside"):
-            refuse_foreign_files(root, root, {"measured": {"file": name}})
+        with pytest.raises(CaseError, match="outside") as refused:
+            refuse_foreign_files(
+                root, root, parse_yaml(f"a: {{file: ok.csv}}\nmeasured:\n  - 1\n  - {{file: {name}}}\n")
+            )
+        (fault,) = refused.value.faults
+        assert (fault.path, fault.line) == ("measured[1].file", 4)
+    shared = "x: &x {file: /etc/passwd}\ny: {<<: *x}\n"
+    with pytest.raises(CaseError, match="outside"):
+        refuse_foreign_files(root, root, parse_yaml(shared))
 
 
 def test_the_folder_lists_its_cases(tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import http.client
 import json
 import os
@@ -11,6 +12,7 @@ import signal
 import socket
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
@@ -21,10 +23,11 @@ from typing import Any
 import pytest
 from app_runs import MEMBER
 
-from moyai.app.draft import Drafts, Wish
-from moyai.app.sliders import sliders_of
+from moyai.app.draft import Drafts
+from moyai.app.messages import Wish
 from moyai.app.stages import stages_of
 from moyai.case.reader import case_of
+from moyai.case.sliders import sliders_of
 from moyai.case.templates import template
 from moyai.case.yaml_reader import parse_yaml
 from moyai.cli.runner import run
@@ -234,6 +237,32 @@ def test_jobs_after_the_app_was_ended(tmp_path: Path, how: str) -> None:
     finally:
         process.send_signal(signal.SIGINT)
         assert process.wait(20) == 0
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGHUP"), reason="no SIGHUP here")
+@pytest.mark.parametrize("how", ["SIGINT", "SIGTERM", "SIGHUP"])
+def test_nothing_is_left_when_the_terminal_ends_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, how: str) -> None:
+    """In the middle of a draft: the processes end, and so does the folder of coefficients."""
+    cases, kept = tmp_path / "cases", tmp_path / "kept"
+    for folder in (cases, kept):
+        folder.mkdir()
+    (cases / "breakwater.yaml").write_text(template("breakwater"))
+    monkeypatch.setenv("TMPDIR", str(kept))
+    process, server = start(cases)
+    key = json.loads(server.ask("POST", "/api/cases", {"file": "breakwater.yaml"})[1])["id"]
+
+    def draft() -> None:
+        with contextlib.suppress(OSError, http.client.HTTPException):
+            server.ask("POST", f"/api/cases/{key}/draft", {"sequence": 1})
+
+    asking = threading.Thread(target=draft)
+    asking.start()
+    time.sleep(2.0)
+    assert len(list(kept.iterdir())) == 1
+    process.send_signal(getattr(signal, how))
+    assert process.wait(20) == 0
+    asking.join(20)
+    assert list(kept.iterdir()) == []
 
 
 def test_two_apps_side_by_side(tmp_path: Path) -> None:

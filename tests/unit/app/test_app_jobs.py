@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 import os
+import shlex
 import signal
+import subprocess
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -14,7 +16,7 @@ import pytest
 from app_runs import deaf_work, quick_work
 
 from moyai.app.folder import Folder
-from moyai.app.job_process import Order
+from moyai.app.job_process import Order, work
 from moyai.app.job_records import NAME, kept_jobs
 from moyai.app.jobs import GRACE, Job, Jobs
 from moyai.core.run_folder import alone_in
@@ -87,6 +89,39 @@ def test_a_killed_process_is_told_and_can_be_started_again(queue: Any, tmp_path:
     again = jobs.again(job.key)
     until(again, "running")
     assert again.key == job.key and again.order == job.order
+
+
+@pytest.mark.skipif(os.name == "nt", reason="quoted for cmd.exe there")
+@pytest.mark.parametrize("name", ["a.yaml", "a b.yaml", "$(touch x) `y`.yaml", 'it\'s "z".yaml', "浮 & 沈.yaml"])
+def test_the_command_line_names_the_file_to_a_shell(tmp_path: Path, name: str) -> None:
+    command = Job("job1", order(tmp_path, name)).record(tmp_path)["command"]
+    assert shlex.split(command) == ["moyai", "run", name, "--output", name]
+    shell = ["sh", "-c", f"printf '%s|' {command.partition(' ')[2]}"]
+    said = subprocess.run(shell, capture_output=True, text=True, cwd=tmp_path)
+    assert said.stdout == f"run|{name}|--output|{name}|"
+
+
+def test_results_that_cannot_be_written_are_told_in_plain_words(queue: Any, tmp_path: Path) -> None:
+    (tmp_path / "out").write_text("a file stands here")
+    job = queue(work).add(Order("run", "a.yaml", tmp_path / "out" / "a", tmp_path, tmp_path / "a.yaml"))
+    until(job, "failed")
+    assert "cannot write to" in job.words and "internal error" not in job.words and "Errno" not in job.words
+
+
+def test_a_job_that_cannot_begin_holds_up_no_other(queue: Any, tmp_path: Path, monkeypatch: Any) -> None:
+    jobs = queue(quick_work)
+    make, refused = jobs._context.Event, []
+
+    def event() -> Any:
+        if not refused:
+            refused.append(True)
+            raise OSError(28, "No space left on device")
+        return make()
+
+    monkeypatch.setattr(jobs._context, "Event", event)
+    first, second = jobs.add(order(tmp_path, "a.yaml")), jobs.add(order(tmp_path, "b.yaml"))
+    until(second, "done")
+    assert first.state == "failed" and "No space left" in first.words
 
 
 def test_results_never_go_where_something_is(queue: Any, tmp_path: Path) -> None:

@@ -26,7 +26,7 @@ from starlette.testclient import TestClient
 from moyai.app.folder import Folder
 from moyai.app.security import Secrets
 from moyai.app.server import App, create
-from moyai.app.sliders import COMMON
+from moyai.case.sliders import COMMON
 
 PORT = 8766
 _TEXT = re.compile(r"""(?<!say\()(?<!=== )(["`])((?:(?!\1)[^\\\n]|\\.)*)\1""")

@@ -156,8 +156,101 @@ def test_a_case_does_not_replace_another_file(page: Page) -> None:
 
 
 @pytest.mark.parametrize(
+    ("mark", "coding", "ends"),
+    [
+        (b"", "utf-8", "\n"), (b"", "utf-8", "\r\n"), (b"\xef\xbb\xbf", "utf-8", "\r\n"),
+        (b"\xff\xfe", "utf-16-le", "\r\n"), (b"\xfe\xff", "utf-16-be", "\n"),
+    ],
+)  # fmt: skip
+def test_a_file_keeps_its_encoding_and_line_ends(page: Page, mark: bytes, coding: str, ends: str) -> None:
+    def written(diameter: str) -> bytes:
+        return mark + MEMBER.replace("100 cm", diameter).replace("\n", ends).replace("Quick", "柱").encode(coding)
+
+    file = page.folder / f"{coding}{len(mark)}{len(ends)}.yaml"
+    file.write_bytes(written("100 cm"))
+    key = page.post("/api/cases", {"file": file.name})["id"]
+    page.draft(key, sequence=1, edits={"structure.section.diameter": "90"})
+    assert page.post(f"/api/cases/{key}/save")["unsaved"] is False
+    assert file.read_bytes() == written("90 cm")
+
+
+def test_numbers_go_into_the_text_of_now(page: Page) -> None:
+    """A page that sends no text of its own cannot take back what another page has changed."""
+    (page.folder / "two.yaml").write_text(MEMBER)
+    key = page.post("/api/cases", {"file": "two.yaml"})["id"]
+    page.draft(key, tab="a", gesture="slider a", edits={"structure.section.diameter": "90"})
+    checked, _ = page.draft(key, tab="b", gesture="slider b", edits={"site.water_depth": "22"})
+    assert checked["text"] == MEMBER.replace("100 cm", "90 cm").replace("20 m", "22 m")
+    assert checked["unsaved"] and checked["can_undo"]
+    assert page.post(f"/api/cases/{key}/undo")["text"] == MEMBER.replace("100 cm", "90 cm")
+
+
+def test_a_file_that_another_program_writes_is_followed(page: Page) -> None:
+    file = page.folder / "followed.yaml"
+    file.write_text("")
+    key = page.post("/api/cases", {"file": file.name})["id"]
+    page.draft(key, text=MEMBER, gesture="typing")
+    assert page.post(f"/api/cases/{key}/save")["unsaved"] is False, "a file that was empty is its own"
+    file.write_text(MEMBER.replace("20 m", "30 m"))
+    record = page.get(f"/api/cases/{key}").json()
+    assert (record["text"], record["unsaved"]) == (MEMBER.replace("20 m", "30 m"), False)
+
+    page.draft(key, text=MEMBER.replace("20 m", "40 m"), gesture="typing")
+    file.write_text(MEMBER.replace("20 m", "50 m"))
+    record = page.get(f"/api/cases/{key}").json()
+    assert (record["file"], record["text"]) == ("changed", MEMBER.replace("20 m", "40 m"))
+    page.post(f"/api/cases/{key}/save", status=422)
+    record = page.post(f"/api/cases/{key}/file", {"take": True})
+    assert (record["text"], record["file"]) == (MEMBER.replace("20 m", "50 m"), "same")
+    assert "40 m" in page.post(f"/api/cases/{key}/undo")["text"]
+
+    file.write_bytes(b"\xff\xff no text")
+    assert page.get(f"/api/cases/{key}").json()["file"] == "gone"
+    page.post(f"/api/cases/{key}/save", status=422)
+    assert file.read_bytes() == b"\xff\xff no text"
+    file.unlink()
+    assert page.get(f"/api/cases/{key}").json()["unsaved"]
+    page.post(f"/api/cases/{key}/save")
+    assert "40 m" in file.read_text()
+
+
+def test_a_file_that_cannot_be_read_hides_no_other(page: Page, monkeypatch: pytest.MonkeyPatch) -> None:
+    (page.folder / "locked.yaml").write_text(MEMBER)
+    read, read_bytes = Path.read_text, Path.read_bytes
+
+    def refuse(path: Path, given: Any, *arguments: Any, **options: Any) -> Any:
+        if path.name == "locked.yaml":
+            raise PermissionError(13, "Permission denied", str(path))
+        return given(path, *arguments, **options)
+
+    monkeypatch.setattr(Path, "read_text", lambda path, *more, **options: refuse(path, read, *more, **options))
+    monkeypatch.setattr(Path, "read_bytes", lambda path: refuse(path, read_bytes))
+    files = [one["file"] for one in page.get("/api/gallery").json()["files"]]
+    assert "pile.yaml" in files and "locked.yaml" not in files
+    (fault,) = page.post("/api/cases", {"file": "locked.yaml"}, status=422)["faults"]
+    assert fault["message"].endswith("locked.yaml: Permission denied")
+
+
+def test_a_case_is_taken_away_under_its_name(page: Page) -> None:
+    (page.folder / "浮 'a'.yaml").write_text(MEMBER)
+    key = page.post("/api/cases", {"file": "浮 'a'.yaml"})["id"]
+    said = page.get(f"/api/cases/{key}/case.yaml").headers["content-disposition"]
+    assert said == "attachment; filename*=utf-8''%E6%B5%AE%20%27a%27.yaml"
+
+
+@pytest.mark.parametrize(
     "body",
-    [[], "text", {"text": 1}, {"edits": []}, {"edits": {"a": 1}}, {"sequence": "1}"}, {"text": "a", "edits": None}],
+    [
+        [],
+        "text",
+        {"text": 1},
+        {"edits": []},
+        {"edits": {"a": 1}},
+        {"sequence": "1}"},
+        {"text": "a", "edits": None},
+        {"text": "\ud800"},
+        {"tab": 1},
+    ],
 )
 def test_odd_requests_are_refused(page: Page, body: Any) -> None:
     key = page.post("/api/cases", {"template": "member"})["id"]

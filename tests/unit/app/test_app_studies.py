@@ -13,14 +13,14 @@ from typing import Any
 import pytest
 from app_runs import MEMBER, run_slowly
 
-from moyai.app.downloads import made, makeable
 from moyai.app.folder import Folder
 from moyai.app.job_process import Order
 from moyai.app.jobs import Job, Jobs
-from moyai.app.study_jobs import refuse_foreign_base, so_far
+from moyai.app.study_jobs import refuse_foreign_base
 from moyai.case.yaml_reader import parse_yaml
 from moyai.cli.runner import run
 from moyai.core.errors import CaseError, InputError
+from moyai.report.on_demand import made, makeable, so_far
 from moyai.study.cases_so_far import case_text, table_of
 
 STUDY = """\
@@ -156,7 +156,7 @@ def test_study_files_are_listed_and_kept_inside(root: Path) -> None:
     for text, error in (
         (STUDY.replace("pile.yaml", "../pile.yaml"), InputError),
         (STUDY.replace("pile.yaml", "/etc/passwd"), InputError),
-        (STUDY + "  assess: {file: ../x.csv}\n", InputError),
+        (STUDY + "  assess: {file: ../x.csv}\n", CaseError),
         ("a: 1\n", InputError),
         ("a: [", CaseError),
     ):

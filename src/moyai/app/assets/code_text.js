@@ -33,14 +33,11 @@ export class CodeText {
     this.element = document.createElement("div");
     this.element.className = "editor code";
     this.element.append(this.view.dom);
-    this.lines = "\n";
   }
-  // The editor knows one kind of line end: that of the file is put back
-  get text() { return this.view.state.doc.toString().replaceAll("\n", this.lines); }
+  get text() { return this.view.state.doc.toString(); }
   set text(text) {
-    this.lines = text.includes("\r\n") ? "\r\n" : "\n";
     this.quiet = true;
-    this.put(text.replaceAll("\r\n", "\n"));
+    this.put(text);
     this.quiet = false;
   }
   type(text) { this.put(text); }

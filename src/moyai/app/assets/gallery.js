@@ -50,11 +50,19 @@ function group(title, cards, empty = "") {
   return element("section", {}, element("h2", {}, title), cards.length ? element("ul", { class: "cards" }, ...cards) : element("p", { class: "quiet" }, empty));
 }
 
+// A file by its name: one that lies deeper than the list goes.
+function opening(files) {
+  const name = element("input", { type: "text", list: "files-known", required: true, spellcheck: "false", "aria-label": say("Case file of this folder"), placeholder: "case.yaml" });
+  const act = (event) => { event.preventDefault(); open({ file: name.value.trim() }); };
+  return element("form", { class: "open-file", onsubmit: act }, name, element("datalist", { id: "files-known" }, ...files.map((one) => element("option", { value: one.file }))), element("button", {}, say("Open")));
+}
+
 export async function showGallery(content) {
   const found = await get("/api/gallery");
   const parts = [
     element("h1", {}, say("Cases")),
     element("p", { class: "subtitle" }, found.folder),
+    opening(found.files.filter((one) => !JOBS.includes(one.kind))),
     group(say("Open now"), found.recent.map((one) => card("", one.file, say("as you left it"), () => { location.hash = `#/case/${one.id}`; }))),
     group(say("In this folder"), found.files.filter((one) => !JOBS.includes(one.kind)).map((one) => card(one.kind, one.title, one.file, () => open({ file: one.file }))), say("no case files in this folder yet")),
     group(say("Studies and fits, run as jobs"), found.files.filter((one) => JOBS.includes(one.kind)).map((one) => card("", one.title, `${one.kind === "fit" ? say("fit") : say("study")}: ${one.file}`, () => startFile(one.file)))),

@@ -19,8 +19,8 @@ export const faultWords = (fault) =>
     .filter(Boolean).join("; ");
 
 async function request(address, body) {
-  const how = body === undefined ? {} : {
-    method: "POST", body: JSON.stringify(body), headers: { "Content-Type": "application/json", "X-Moyai-Token": token },
+  const text = JSON.stringify(body), how = body === undefined ? {} : {
+    method: "POST", body: text, keepalive: document.hidden && text.length < 60000, headers: { "Content-Type": "application/json", "X-Moyai-Token": token },
   };
   let answer;
   try {

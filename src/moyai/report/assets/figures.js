@@ -114,16 +114,22 @@ class Figure {
   draw() {
     const theme = MOYAI.theme(MOYAI.printing);
     if (this.range === undefined && this.abscissa === this.spec.abscissae[0]) this.range = this.spec.window || null;
-    const layout = this.layout(theme);
+    const layout = this.layout(theme), traces = this.traces(theme);
     layout.width = MOYAI.printing ? 672 : undefined;
-    layout.height = MOYAI.printing ? Math.round(0.86 * this.spec.height) : this.tall || this.spec.height;
+    layout.height = MOYAI.printing ? Math.round(0.86 * this.spec.height) : this.tall || this.spec.height + this.legendHeight(traces);
     this.plot.style.height = `${layout.height}px`;
     layout.autosize = !MOYAI.printing;
-    Plotly.react(this.plot, this.traces(theme), layout, { displayModeBar: false, responsive: true, doubleClick: "reset+autosize" });
+    Plotly.react(this.plot, traces, layout, { displayModeBar: false, responsive: true, doubleClick: "reset+autosize" });
     if (!this.drawn) this.plot.on("plotly_relayout", (change) => this.relayouted(change));
     this.drawn = true;
     this.plot.classList.remove("waiting");
     if (this.overview) this.overview.paint();
+  }
+  // What a legend of more than two rows needs is added, so that a narrow figure keeps its plot.
+  legendHeight(traces) {
+    const words = traces.filter((trace) => trace.showlegend).map((trace) => trace.name.replace(/<[^>]*>|&\w+;/g, "").length);
+    const columns = Math.max(1, Math.floor((this.plot.clientWidth - 78) / (46 + 6.6 * Math.max(0, ...words))));
+    return 19 * Math.max(0, Math.ceil(words.length / columns) - 2);
   }
   relayouted(change) {
     if ("xaxis.range[0]" in change) this.range = [change["xaxis.range[0]"], change["xaxis.range[1]"]];

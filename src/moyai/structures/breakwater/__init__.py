@@ -18,6 +18,7 @@ class BreakwaterKind(FolderKind):
     name = "breakwater"
     package = __name__
     templates = (("breakwater", "template.yaml"),)
+    drafts = (("statics", "mooring"), ("statics", "frequency"), ("statics", "mooring", "frequency"))
     numbers = (
         ("structure.section.beam", "Beam"),
         ("structure.draught", "Draught"),

@@ -20,6 +20,7 @@ class CageKind(FolderKind):
         ("cage", "template.yaml"),
         ("rigid_cage", "template_rigid.yaml"),
     )
+    drafts = (("statics",),)
     numbers = (
         ("structure.size", "Diameter or side"),
         ("structure.net.wall_depth", "Depth of the net wall"),

@@ -15,6 +15,7 @@ class CurtainKind(FolderKind):
     name = "curtain"
     package = __name__
     templates = (("curtain", "template.yaml"),)
+    drafts = (("statics",), ("impact",), ("statics", "impact"))
     numbers = (
         ("structure.skirt.length", "Depth of the skirt"),
         ("structure.span", "Span"),

@@ -11,6 +11,8 @@ class MemberKind(FolderKind):
     name = "member"
     package = __name__
     templates = (("member", "template.yaml"),)
+    drafts = (("forces",), ("sweep", "forces", "surface"))
+    drafts_of_regular_seas = True
     numbers = (
         ("structure.section.diameter", "Diameter"),
         ("structure.section.side", "Side"),

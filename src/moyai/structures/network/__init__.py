@@ -16,6 +16,7 @@ class NetworkKind(FolderKind):
     name = "network"
     package = __name__
     templates = (("network", "template.yaml"),)
+    drafts = (("statics",),)
     numbers = (
         ("structure.points.buoy.diameter", "Diameter of the buoy"),
         ("structure.points.buoy.mass", "Mass of the buoy"),

@@ -18,6 +18,7 @@ class UnitsKind(FolderKind):
     name = "units"
     package = __name__
     templates = (("units", "template.yaml"),)
+    drafts = (("statics",), ("statics", "frequency"))
     numbers = (
         ("structure.centre_of_gravity_above_keel", "Centre of gravity above keel"),
         ("structure.roll_gyradius", "Gyradius of roll"),

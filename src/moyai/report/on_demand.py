@@ -57,3 +57,21 @@ def made(folder: Path, name: str) -> Path:
     from moyai.report.word import render_docx
 
     return write_whole(path, render_docx(document))
+
+
+def so_far(folder: Path) -> str:
+    """Return the report of a study that runs, of what was gathered until now.
+
+    Raises
+    ------
+    KeyError
+        Where nothing was gathered yet.
+    """
+    from moyai.core.results import read_result
+    from moyai.report.html import render_html
+    from moyai.report.writer import compose_document
+
+    path = folder / "study.nc"
+    if not path.is_file():
+        raise KeyError("study.nc")
+    return str(render_html(compose_document(read_result(path))))
