@@ -129,8 +129,9 @@ def fit_memory(
     model = memory.model if isinstance(memory, MemoryFunctions) else memory
     low, high = model.knots[1], model.knots[-1]
     # the knots crowd where the damping turns sharply, which an even grid would step over
+    inner = model.knots[2:-1]
     even = np.concatenate([np.linspace(0.0, low, 9)[1:-1], np.geomspace(low, 6.0 * high, 140)])
-    omega = np.unique(np.concatenate([even, model.knots[2:-1]]))
+    omega = np.unique(np.concatenate([even, inner, 0.5 * (inner[1:] + inner[:-1])]))
     return fit_state_space(
         omega,
         model.response(omega),

@@ -372,11 +372,13 @@ def sloshing_frequencies(unit: FloatingUnit, top: float) -> Array:
         half, water = math.pi / (right - left), unit.water
         most = math.floor(float(wave_number(top, water.depth, water.gravity)) / half)
         modes = half * np.arange(1, min(most, MOST_MODES) + 1)
-        found.append(np.asarray(angular_frequency(modes, water.depth, water.gravity))[:, None] * AROUND_MODE)
+        around = np.ravel(np.asarray(angular_frequency(modes, water.depth, water.gravity))[:, None] * AROUND_MODE)
         if most <= MOST_MODES:
-            end = 2 * math.ceil(0.5 * most) + END_OVER_EVEN
-            found.append(np.atleast_1d(angular_frequency(end * half, water.depth, water.gravity)) * UP_TO_END)
-    return np.concatenate([np.ravel(part) for part in found])
+            order = 2 * math.ceil(0.5 * most) + END_OVER_EVEN
+            end = float(angular_frequency(order * half, water.depth, water.gravity))
+            around = np.concatenate([around[around < end], end * UP_TO_END])
+        found.append(around)
+    return np.concatenate(found)
 
 
 def damping_start(unit: FloatingUnit) -> Start:
