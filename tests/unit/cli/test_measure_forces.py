@@ -109,7 +109,7 @@ def test_json_holds_no_digit_that_is_not_known(record):
         (("diameter: 4.5 cm", "diameter: -4.5 cm"), "out of range"),
         (("period: 1.0526316 s", "period: 20 s"), "shorter than one period"),
         (("bootstrap: 60", "methods: [fourrier]"), "fourrier"),
-        (("bootstrap: 60", "regular: false"), "'fourier' needs a periodic record"),
+        (("bootstrap: 60", "regular: false\nmethods: [fourier]"), "'fourier' needs a periodic record"),
         (("bootstrap: 60", "axes: [first]"), "1 axes for 2 force columns"),
     ],
 )

@@ -102,10 +102,11 @@ def operator_frequencies(unit: FloatingUnit, problem: BreakwaterProblem) -> Arra
     return np.linspace(float(low), float(high), OPERATOR_FREQUENCIES)
 
 
-def sea_ends(problem: BreakwaterProblem) -> Array:
-    """Return the ends [rad/s] of what the seas need, in steps of :data:`END_STEP`; empty without seas to interpolate.
+def sea_ends(unit: FloatingUnit, problem: BreakwaterProblem) -> Array:
+    """Return the ends [rad/s] of what the seas need; empty without seas to interpolate.
 
-    Regular waves are solved exactly but in a draft.
+    In steps of :data:`END_STEP` of the frequency sqrt(g / beam), so that a model has those of its prototype. Regular
+    waves are solved exactly but in a draft.
     """
     parts = []
     for sea in problem.environment.sea_states:
@@ -115,8 +116,9 @@ def sea_ends(problem: BreakwaterProblem) -> Array:
             parts.append(2.0 * math.pi / np.asarray(sea.periods))
     if not parts:
         return np.zeros(0)
-    reached = np.log(np.concatenate(parts)) / math.log(END_STEP)
-    return np.asarray(END_STEP ** np.array([math.floor(reached.min()), math.ceil(reached.max())]))
+    own = math.sqrt(unit.water.gravity / unit.breakwater.hull.beam)
+    reached = np.log(np.concatenate(parts) / own) / math.log(END_STEP)
+    return np.asarray(own * END_STEP ** np.array([math.floor(reached.min()), math.ceil(reached.max())]))
 
 
 def _regular(problem: BreakwaterProblem) -> Array:
@@ -134,7 +136,7 @@ def section_frequencies(unit: FloatingUnit, problem: BreakwaterProblem) -> Array
     study share coefficients.
     """
     known = np.concatenate([operator_frequencies(unit, problem), wide_band(unit)])
-    ends, water = sea_ends(problem), unit.water
+    ends, water = sea_ends(unit, problem), unit.water
     if not ends.size:
         return distinct(np.concatenate([known, _regular(problem)]))
     step = 2.0 * WAVE_NUMBER_STEP / unit.breakwater.hull.beam
@@ -309,7 +311,7 @@ def _key(unit: FloatingUnit, omega: Array, headings: Array) -> str:
 def oblique_frequencies(unit: FloatingUnit, problem: BreakwaterProblem) -> Array:
     """Return frequencies [rad/s] of oblique headings: regular waves exactly, others for splines."""
     regular = _regular(problem)
-    wanted = np.concatenate([operator_frequencies(unit, problem), sea_ends(problem), regular])
+    wanted = np.concatenate([operator_frequencies(unit, problem), sea_ends(unit, problem), regular])
     return distinct(np.concatenate([regular, np.linspace(wanted.min(), wanted.max(), OBLIQUE_FREQUENCIES)]))
 
 
