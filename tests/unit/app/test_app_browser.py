@@ -169,6 +169,7 @@ def test_a_narrow_figure_keeps_its_plot_under_a_long_legend(tmp_path: Path) -> N
         sound(page, address)
 
 
+@pytest.mark.slow
 def test_two_tabs_share_one_case(address: str) -> None:
     """What one tab moves is in the other, at the next look or the next move; both at once keep both numbers."""
     executable = str(pipe.find_chromium())
@@ -193,6 +194,7 @@ def test_two_tabs_share_one_case(address: str) -> None:
             sound(one, address)
 
 
+@pytest.mark.slow
 def test_a_file_that_another_program_changes(address: str, tmp_path: Path) -> None:
     """Its text is taken where the page has no changes of its own; else the page asks, and nothing is lost."""
     file = tmp_path / "pile.yaml"
@@ -245,6 +247,7 @@ def test_form_and_text_are_one_document(address: str) -> None:
         sound(page, address)
 
 
+@pytest.mark.slow
 def test_without_the_script_of_the_editor_there_is_a_text_area(address: str) -> None:
     with pipe.Chromium(str(pipe.find_chromium()), 1280, 900) as page:
         page.send("Network.setBlockedURLs", urls=["*codemirror.js*"])
@@ -296,6 +299,7 @@ PINS = "[...document.querySelectorAll('.pins input')].map((one) => one.value)"
 FULL = "document.querySelector('.figure .full').click()"
 
 
+@pytest.mark.slow
 def test_pins_are_named_drawn_and_taken_away(address: str) -> None:
     def has(name: str) -> str:
         return f"{LABELS}.some((one) => one.endswith('({name})'))".replace("endswith", "endsWith")
@@ -358,6 +362,7 @@ def tab_to(page: Any, wanted: str, back: bool = False, most: int = 80) -> None:
 
 
 @pytest.mark.parametrize("leave", ["location.hash = '#/jobs'", "location.reload()"])
+@pytest.mark.slow
 def test_what_is_typed_last_is_kept_when_the_page_is_left(address: str, leave: str) -> None:
     typed = MEMBER.replace("Quick", "Typed")
     with pipe.Chromium(str(pipe.find_chromium()), 1280, 900) as page:
@@ -370,6 +375,7 @@ def test_what_is_typed_last_is_kept_when_the_page_is_left(address: str, leave: s
         until(page, f"document.querySelector('.text-pane') && {TEXT} === {typed!r}", 15.0)
 
 
+@pytest.mark.slow
 def test_a_file_is_opened_by_its_name(address: str, tmp_path: Path) -> None:
     deep = tmp_path / "a" / "b" / "c" / "d" / "e"
     deep.mkdir(parents=True)
@@ -388,6 +394,7 @@ def test_a_file_is_opened_by_its_name(address: str, tmp_path: Path) -> None:
         sound(page, address)
 
 
+@pytest.mark.slow
 def test_a_session_by_keyboard_alone(address: str) -> None:
     """From a card to a run with no pointer: slider, form, text, undo, pin, full screen, jobs and back."""
     with pipe.Chromium(str(pipe.find_chromium()), 1280, 900) as page:
@@ -446,6 +453,7 @@ def test_a_session_by_keyboard_alone(address: str) -> None:
         sound(page, address)
 
 
+@pytest.mark.slow
 def test_figures_are_taken_away(address: str) -> None:
     """CSV, SVG and PNG of a figure are of what is drawn now, after a move as well."""
     take = "((what) => document.querySelector(`.figure [data-do=${what}]`).click())"

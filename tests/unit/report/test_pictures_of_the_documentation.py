@@ -47,6 +47,7 @@ def test_every_picture_that_a_page_asks_for_is_known() -> None:
     assert set(asked) == {*report_pictures.RUNS, "add_a_structure"}
 
 
+@pytest.mark.slow
 def test_pictures_are_those_of_the_report_in_both_languages() -> None:
     result = build()
     english, japanese = (report_pictures.pictures_of(result, language) for language in ("en", "ja"))

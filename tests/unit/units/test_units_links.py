@@ -149,6 +149,7 @@ def memory_of(size: int) -> RowMemory:
     return RowMemory(np.array(poles), np.array(residues), added, 0.0, 0.0, 0.0)
 
 
+@pytest.mark.slow
 def test_two_units_on_a_chain_against_an_integrator_of_its_own() -> None:
     """Surge, sway, heave and turns, slack and taut; the chain from its ends, the steps by Runge and Kutta."""
     at = at_rest(CHAIN)

@@ -106,6 +106,7 @@ def test_a_unit_that_goes_with_the_water_sheds_nothing() -> None:
     assert np.abs(moving).max() < 0.02 * np.abs(still).max()
 
 
+@pytest.mark.slow
 def test_free_decay_against_an_integrator_of_its_own() -> None:
     """Roll, heave and sway let go with quadratic drag and nothing else."""
     at = at_rest()
