@@ -364,9 +364,10 @@ def sloshing_frequencies(unit: FloatingUnit, top: float) -> Array:
     """Return frequencies [rad/s] round every mode of the water between hulls up to ``top``, and an end of the band.
 
     Waves of n half lengths in the gap: their peaks are too narrow to be found by chance, and one of sway (n odd) that
-    is cut in two at the end of the band spoils the tail of the memory, which ends behind an even one.
+    is cut in two at the end of the band spoils the tail of the memory, which ends behind an even one. Without a lid
+    they have hardly any width, and nothing is looked for.
     """
-    sides = unit.section.waterlines
+    sides = unit.section.waterlines if unit.breakwater.gap_damping_lid else ()
     found = [np.zeros(0)]
     for (_, left), (right, _) in itertools.pairwise(sides):
         if not right > left:
