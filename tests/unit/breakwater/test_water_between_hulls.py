@@ -9,16 +9,18 @@ import pytest
 from moyai.core.progress import silent
 from moyai.potential import shapes
 from moyai.potential.memory import pair_measure
+from moyai.sea.spectra import jonswap
 from moyai.structures.breakwater.assembly import assemble
 from moyai.structures.breakwater.hydrodynamics import (
     _solve_band,
     band,
     section_frequencies,
     sloshing_frequencies,
+    spectrum_band,
     wide_band,
 )
 from moyai.structures.breakwater.memory_model import _functions, _states
-from moyai.structures.breakwater.model import BreakwaterProblem
+from moyai.structures.breakwater.model import BreakwaterProblem, IrregularSea
 
 GAP = 0.3
 
@@ -60,3 +62,24 @@ def test_the_memory_carries_the_resonance_between_the_points_of_its_fit(twin):
     exact = functions.model.response(omega)
     error = np.abs(states.response(omega) - exact) / pair_measure(np.abs(exact))
     assert float(error.max()) < 3.0 * max(states.error, 1e-3)
+
+
+def test_seas_of_near_periods_share_their_frequencies_unless_the_hull_is_very_wide(pontoon_problem):
+    """Few states of a scatter diagram move the ends; splines could not follow the phase along a very wide hull."""
+
+    def frequencies(period, beam):
+        hull = shapes.rectangle(beam, 0.4)
+        unit = replace(pontoon_problem.breakwater, hull=hull, mass=None, draught=0.15, lines=())
+        sea = IrregularSea("storm", jonswap(0.02, period, 3.3))
+        problem = replace(
+            pontoon_problem,
+            breakwater=unit,
+            environment=replace(pontoon_problem.environment, sea_states=(sea,)),
+        )
+        name, level = problem.environment.water_levels[0]
+        return section_frequencies(assemble(problem, name, level), problem), spectrum_band(sea)
+
+    periods = np.linspace(1.0, 1.5, 21)
+    assert len({frequencies(period, 0.5)[0].tobytes() for period in periods}) <= 7
+    solved, band_of_sea = frequencies(1.0, 20.0)
+    assert np.isin(np.round(band_of_sea, 9), np.round(solved, 9)).mean() > 0.99 and len(solved) < 500

@@ -51,6 +51,7 @@ REFINEMENT_TOLERANCE = 1e-3  # error of interpolated damping over its largest va
 OBLIQUE_FREQUENCIES = 64
 HEADING_TOLERANCE = math.radians(0.5)  # within which a heading of a 3-D program counts as that of the case
 DRAFT_STEPS = 0.01, math.radians(1.0)  # of draught over height and of heel, to which a draft takes coefficients
+MOST_ALONG = 400
 WAVE_NUMBER_STEP, END_STEP = 0.25, 1.1  # of wave number times half beam; ratio of frequencies
 ENERGY_LEFT_OUT = 1e-3  # share of a spectrum beyond the highest frequency of its analysis
 
@@ -102,23 +103,29 @@ def operator_frequencies(unit: FloatingUnit, problem: BreakwaterProblem) -> Arra
     return np.linspace(float(low), float(high), OPERATOR_FREQUENCIES)
 
 
+def sea_frequencies(problem: BreakwaterProblem) -> Array:
+    """Return the frequencies [rad/s] of irregular seas over their energy; of regular ones too in a draft."""
+    parts = [np.zeros(0)]
+    for sea in problem.environment.sea_states:
+        if isinstance(sea, IrregularSea):
+            parts.append(spectrum_band(sea))
+        elif problem.nominal:
+            parts.append(2.0 * math.pi / np.asarray(sea.periods))
+    return np.unique(np.concatenate(parts))
+
+
 def sea_ends(unit: FloatingUnit, problem: BreakwaterProblem) -> Array:
     """Return the ends [rad/s] of what the seas need; empty without seas to interpolate.
 
     In steps of :data:`END_STEP` of the frequency sqrt(g / beam), so that a model has those of its prototype. Regular
     waves are solved exactly but in a draft.
     """
-    parts = []
-    for sea in problem.environment.sea_states:
-        if isinstance(sea, IrregularSea):
-            parts.append(spectrum_band(sea)[[0, -1]])
-        elif problem.nominal:
-            parts.append(2.0 * math.pi / np.asarray(sea.periods))
-    if not parts:
-        return np.zeros(0)
+    reached = sea_frequencies(problem)
+    if not reached.size:
+        return reached
     own = math.sqrt(unit.water.gravity / unit.breakwater.hull.beam)
-    reached = np.log(np.concatenate(parts) / own) / math.log(END_STEP)
-    return np.asarray(own * END_STEP ** np.array([math.floor(reached.min()), math.ceil(reached.max())]))
+    steps = np.log(reached[[0, -1]] / own) / math.log(END_STEP)
+    return np.asarray(own * END_STEP ** np.array([math.floor(steps[0]), math.ceil(steps[1])]))
 
 
 def _regular(problem: BreakwaterProblem) -> Array:
@@ -133,7 +140,8 @@ def section_frequencies(unit: FloatingUnit, problem: BreakwaterProblem) -> Array
 
     Those of operators, memory and regular waves, and steps of :data:`WAVE_NUMBER_STEP` up to the shortest wave of the
     seas, for splines to follow the phase of short waves along the section. Seas move the two ends alone: states of one
-    study share coefficients.
+    study share coefficients. A section so wide that this takes more than :data:`MOST_ALONG` is solved at the
+    frequencies of the seas themselves.
     """
     known = np.concatenate([operator_frequencies(unit, problem), wide_band(unit)])
     ends, water = sea_ends(unit, problem), unit.water
@@ -141,6 +149,8 @@ def section_frequencies(unit: FloatingUnit, problem: BreakwaterProblem) -> Array
         return distinct(np.concatenate([known, _regular(problem)]))
     step = 2.0 * WAVE_NUMBER_STEP / unit.breakwater.hull.beam
     count = math.ceil(float(wave_number(ends[1], water.depth, water.gravity)) / step)
+    if count > MOST_ALONG:
+        return distinct(np.concatenate([known, _regular(problem), sea_frequencies(problem)]))
     along = angular_frequency(step * np.arange(1, count + 1), water.depth, water.gravity)
     gaps = sloshing_frequencies(unit, float(along[-1]))
     return distinct(np.concatenate([known, _regular(problem), along, gaps, ends[ends < known.min()]]))
