@@ -90,7 +90,7 @@ class RopeCurve:
 
 @dataclass(frozen=True)
 class SlowStretch:
-    """How a rope gives way slowly: spring parallel to dashpot, in series with the fast spring [eq:flexible-slow-stretch].
+    """A rope that gives way slowly: spring parallel to dashpot, in series with the fast one [eq:flexible-slow-stretch].
 
     Raises
     ------
