@@ -24,7 +24,10 @@ from moyai.coupled.simulate import simulate_coupled
 from moyai.flexible.flow import Flow
 from moyai.flexible.statics import solve_equilibrium
 from moyai.interop.read import read_coefficients
+from moyai.sea.water import Water
+from moyai.structures.curtain.impact.cable import Impact, peak_by_energy
 from moyai.structures.curtain.impact.compare import compare_models
+from moyai.structures.curtain.impact.memory import impact_with_memory
 from moyai.structures.curtain.impact.skirt import Skirt
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
@@ -272,12 +275,27 @@ def new_cage():
         yield [scale * value for value in (found.value, found.band.low, found.band.high)]
 
 
+def memory_of_waves():
+    """The middle columns are the balances of energy in closed form."""
+    water = Water(12.0, 1025.0, 9.81)
+    for draught, stiffness, speed in ((6.0, 4.2e6, 0.157), (6.0, 4.2e6, 0.25), (5.0, 3.4e6, 0.5)):
+        impact = Impact(20.0, 22.5, draught, 0.5 * stiffness, 0.5 * stiffness, speed, water)
+        alone = peak_by_energy(impact)
+        at_once, lid = (
+            speed * math.sqrt(factor * water.density * draught**2 * stiffness * 20.0 / 22.5)
+            for factor in (2.0 / math.pi, math.pi / 2.0)
+        )
+        tensions = (alone.tension, at_once, impact_with_memory(impact).peak.tension, lid)
+        yield [speed, *(1e-3 * tension for tension in tensions), alone.time / math.sqrt(draught / water.gravity)]
+
+
 MEASURED = pytest.mark.shared_data
 #: Page from the folder of validation, heading, the column from which numbers are held, what computes them.
 TABLES = (
     ("../answer/breakwater_damping.md", "How the answer is made: damping of a breakwater 2", 1, pontoon, ()),
     ("../answer/cage.md", "Example", 1, new_cage, ()),
     ("../answer/curtain_steady_load.md", "An example", 1, flaring_curtain, ()),
+    ("../theory/curtain_impact.md", "Memory of the waves", 1, memory_of_waves, ()),
     ("coupled.md", "The moored box of Wu et al.", 1, moored_box, ()),
     ("coupled.md", "The moored box of Wu et al. 2", 1, periods_of_the_box, ()),
     ("flexible_curtain.md", "The snap on finer meshes", 1, snap_on_meshes, ()),
