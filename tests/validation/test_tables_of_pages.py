@@ -8,6 +8,7 @@ import math
 import re
 import sys
 import tempfile
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -18,6 +19,7 @@ from kept_runs import kept_run
 from written_tables import DOCS, differences, tables_of
 
 import moyai
+from moyai.case.builder import build
 from moyai.case.templates import template
 from moyai.coupled.rest import find_rest, moved_network, point_pulls
 from moyai.coupled.simulate import simulate_coupled
@@ -25,6 +27,12 @@ from moyai.flexible.flow import Flow
 from moyai.flexible.statics import solve_equilibrium
 from moyai.interop.read import read_coefficients
 from moyai.sea.water import Water
+from moyai.structures.cage.rigid.literal import literal_pack
+from moyai.structures.cage.rigid.pack import pack
+from moyai.structures.cage.rigid.setup import resolve
+from moyai.structures.cage.rigid.statics import rest_with_lines
+from moyai.structures.cage.rigid.time import march
+from moyai.structures.cage.rigid.waves import wave_of
 from moyai.structures.curtain.impact.cable import Impact, peak_by_energy
 from moyai.structures.curtain.impact.compare import compare_models
 from moyai.structures.curtain.impact.memory import impact_with_memory
@@ -289,12 +297,73 @@ def memory_of_waves():
         yield [speed, *(1e-3 * tension for tension in tensions), alone.time / math.sqrt(draught / water.gravity)]
 
 
+def exposed_harbour():
+    """Lines in motion around the events, at rest at every instant, and slow drift off; all from one case."""
+
+    def of(result, name):
+        found = next(item for item in result.headlines if item.name == name)
+        return [found.value, found.band.low, found.band.high]
+
+    case = case_on("answer/breakwater.md")
+    still = {"lines": {"mode": "quasi_static"}}
+    moving = moyai.run(case)
+    at_rest, steady = (
+        moyai.run(case.replace("settings", {"time": time})) for time in (still, {"drift": "ramped", **still})
+    )
+    yield [1e-3 * value for value in of(moving, "line_tension")]
+    time = at_rest.tree["SWL/time/storm"].to_dataset()
+    assert float((time.line_tension_maximum / time.line_tension_mean).max()) == pytest.approx(11.0, abs=0.5)
+    yield [1e-3 * float(time.line_tension_maximum.max())]
+    yield [1e-3 * value for value in of(steady, "line_tension")]
+    yield of(moving, "offset")
+    sea = moving.tree["SWL/frequency/storm"].to_dataset()
+    damped = (float(sea[f"slow_sway_deviation_{part}_damping"]) for part in ("double", "half"))
+    yield [float(sea.slow_motion_deviation[0]), *damped]
+    yield [1e-3 * float(sea.line_tension_maximum.max())]
+
+
+def printed_equations():
+    """Those errors alone that leave the motion regular."""
+    case = moyai.load_case(Path(moyai.__file__).parent / "reproduce/cases/matsubara/taut.yaml")
+    given = build(case)
+    cage, water, viscosity = given.cage, given.environment.water, given.kinematic_viscosity
+    plans = [
+        replace(plan, attachment=(0.1 * side, 0.1), anchor_x=-0.3 * side, stiffness=2e3, value=0.011)
+        for plan in given.plans
+        for side in (math.copysign(1.0, plan.attachment[0]),)
+    ]
+    lines = resolve(cage, tuple(plans), water, viscosity)
+    wave = wave_of("linear", 0.03, 1.1, 0.0, water, 0.0, 20)
+    sound = pack(cage, lines, water, viscosity, waves=wave.components, ramp=5.5)
+    start = np.concatenate([rest_with_lines(cage, lines, water, viscosity).place, np.zeros(3)])
+
+    def of(*errors):
+        packed = literal_pack(sound, cage, water, errors)
+        run = march(packed, start, duration=22.0, spacing=0.011, size=0.2, period=1.1, tolerance=1e-5)
+        late = run.time >= 11.0
+        sway, heave, turn = np.ptp(run.state[late, :3], axis=0)
+        peak = run.tension_peak[late].max() / 9.81e-3
+        return {"sway": sway / 0.03, "heave": heave / 0.03, "turn": math.degrees(0.5 * turn), "peak": peak}
+
+    yield list(of().values())
+    alone = of("submerged_mass")
+    yield [alone["turn"], alone["peak"]]
+    yield []
+    alone = of("relative_acceleration")
+    yield [alone["sway"], alone["heave"], alone["peak"]]
+    yield from ([], [], [], [])
+    yield [of("single_force")["turn"]]
+    yield []
+
+
 MEASURED = pytest.mark.shared_data
 #: Page from the folder of validation, heading, the column from which numbers are held, what computes them.
 TABLES = (
+    ("../answer/breakwater.md", "An example", 1, exposed_harbour, ()),
     ("../answer/breakwater_damping.md", "How the answer is made: damping of a breakwater 2", 1, pontoon, ()),
     ("../answer/cage.md", "Example", 1, new_cage, ()),
     ("../answer/curtain_steady_load.md", "An example", 1, flaring_curtain, ()),
+    ("../theory/cage.md", "The equations in print", 3, printed_equations, ()),
     ("../theory/curtain_impact.md", "Memory of the waves", 1, memory_of_waves, ()),
     ("coupled.md", "The moored box of Wu et al.", 1, moored_box, ()),
     ("coupled.md", "The moored box of Wu et al. 2", 1, periods_of_the_box, ()),
