@@ -26,6 +26,8 @@ from moyai.coupled.simulate import simulate_coupled
 from moyai.flexible.flow import Flow
 from moyai.flexible.statics import solve_equilibrium
 from moyai.interop.read import read_coefficients
+from moyai.reproduce.inputs import problem_of
+from moyai.reproduce.sawaragi.runs import Runs, span_of
 from moyai.sea.water import Water
 from moyai.structures.cage.rigid.literal import literal_pack
 from moyai.structures.cage.rigid.pack import pack
@@ -333,6 +335,13 @@ def strong_current():
     yield [float(result.tree["SWL/statics"].drowning_speed)]
 
 
+def released_skirt():
+    case = problem_of("sawaragi", "flume")
+    for cells in ((12, 4), (24, 8)):
+        record = Runs(span_of(case), case, 21, cells).whole_line
+        yield [record.spike, record.spike_time, record.plateau]
+
+
 def printed_equations():
     """Those errors alone that leave the motion regular."""
     case = moyai.load_case(Path(moyai.__file__).parent / "reproduce/cases/matsubara/taut.yaml")
@@ -377,6 +386,7 @@ TABLES = (
     ("../answer/curtain_steady_load.md", "An example", 1, flaring_curtain, ()),
     ("../theory/cage.md", "The equations in print", 3, printed_equations, ()),
     ("../theory/curtain_impact.md", "Memory of the waves", 1, memory_of_waves, ()),
+    ("../theory/flexible_sheets.md", "A span of a curtain", 1, released_skirt, ()),
     ("coupled.md", "The moored box of Wu et al.", 1, moored_box, ()),
     ("coupled.md", "The moored box of Wu et al. 2", 1, periods_of_the_box, ()),
     ("flexible_curtain.md", "The snap on finer meshes", 1, snap_on_meshes, ()),
