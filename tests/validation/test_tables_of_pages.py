@@ -412,6 +412,13 @@ def test_every_table_is_computed_here():
     assert written == {one[:2] for one in TABLES if not one[0].startswith("..")}
 
 
+def test_every_page_names_the_test_of_its_tables():
+    for page, _, _, computed, _ in TABLES:
+        text = (DOCS / "validation" / page).read_text(encoding="utf-8")
+        named = " or ".join(re.findall(r'test_tables_of_pages\.py -k "?([\w ]+)', text)).split(" or ")
+        assert any(word and word in computed.__name__ for word in named), (page, computed.__name__, named)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("page", "heading", "first", "computed"),
