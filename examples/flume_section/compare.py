@@ -1,4 +1,4 @@
-"""Put the measured section of the flume beside the computed one, run by run.
+"""Hold the measured section of the flume against the computed one, run by run.
 
     python compare.py                              the runs of the records' folder that are known here
     python compare.py --records FOLDER 2082 3071_1 named runs, period by their two middle digits
