@@ -90,7 +90,7 @@ class RopeCurve:
 
 @dataclass(frozen=True)
 class SlowStretch:
-    """How a rope gives way slowly: a spring beside a dashpot, in series with the fast one [eq:flexible-slow-stretch].
+    """A rope that gives way slowly: spring parallel to dashpot, in series with the fast one [eq:flexible-slow-stretch].
 
     Raises
     ------
@@ -100,7 +100,7 @@ class SlowStretch:
 
     #: EA of the whole rope under a load that stays [N], below its axial stiffness.
     static_stiffness: float
-    #: Of the dashpot beside the slow spring [N s].
+    #: Of the dashpot parallel to the slow spring [N s].
     viscosity: float
     #: Axial stiffness per mean tension that it grows with [-].
     growth: float = 0.0

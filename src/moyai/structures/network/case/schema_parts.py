@@ -112,10 +112,10 @@ class CatalogueType(_Internal):
 
 
 class SlowStretch(Block):
-    """A spring beside a dashpot, in series with the quick stiffness."""
+    """A spring parallel to a dashpot, in series with the quick stiffness."""
 
     static_stiffness: PositiveForce = Field(description="EA of the whole rope under a load that stays.")
-    viscosity: Viscosity = Field(description="Of the dashpot beside the slow spring: force per rate of strain.")
+    viscosity: Viscosity = Field(description="Of the dashpot parallel to the slow spring: force per rate of strain.")
     growth: NonNegativeNumber = Field(
         default=0.0, description="Quick stiffness per tension at rest that it grows with. Default: 0."
     )
