@@ -12,6 +12,7 @@ import math
 import re
 import string
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, Literal
 
@@ -218,7 +219,8 @@ def _table(
 def _line_types(names: list[str], rows: list[Row], folder: Path, faults: Faults) -> tuple[DeckLineType, ...]:
     found: list[DeckLineType] = []
     for row in rows:
-        if any(parse_number(row.cells.get(key, "0")) != 0.0 for key in ("lift", "lift_range", "lift_frequency")):
+        # without lift, range and centre of its frequencies have no meaning
+        if parse_number(row.cells.get("lift", "0")) != 0.0:
             faults.add(
                 row.line, "vortex-induced vibration (Cl, dF, cF) is not read", "0 or no such column", path="lift"
             )
@@ -253,6 +255,27 @@ def _line_types(names: list[str], rows: list[Row], folder: Path, faults: Faults)
                 law,
             )
         )
+    return tuple(found)
+
+
+def _with_slow_damping(
+    kinds: tuple[DeckLineType, ...], lines: tuple[DeckLine, ...], notes: list[str]
+) -> tuple[DeckLineType, ...]:
+    """Return the line types with BA_s in N s where it is minus a part of the critical damping of a segment."""
+    found = []
+    for kind in kinds:
+        slow = kind.slow
+        if slow is not None and slow.damping < 0.0:
+            longest = max(
+                (line.length / max(line.segments, 1) for line in lines if line.line_type == kind.name), default=0.0
+            )
+            damping = -slow.damping * longest * math.sqrt(slow.stiffness * kind.mass_per_length)
+            notes.append(
+                f"line {kind.line}: BA_s is {-slow.damping:g} of critical: {damping:.4g} N s with EA_s and the longest "
+                "segment of the type"
+            )
+            kind = replace(kind, slow=replace(slow, damping=damping))
+        found.append(kind)
     return tuple(found)
 
 
@@ -499,9 +522,10 @@ def read_deck(path: str | Path) -> MoorDynDeck:
         )
     rod_types = read_rod_types(_table("rod types", sections, ROD_TYPE_COLUMNS, faults, notes)[1], faults)
     bodies = read_bodies(_table("bodies", sections, BODY_COLUMNS, faults, notes)[1], faults)
-    rods = read_rods(_table("rods", sections, ROD_COLUMNS, faults, notes)[1], rod_types, bodies, faults)
+    rods = read_rods(_table("rods", sections, ROD_COLUMNS, faults, notes)[1], rod_types, bodies, faults, notes)
     points = _points(_table("points", sections, keys.POINT_COLUMNS, faults, notes)[1], bodies, faults)
     rows = _lines(_table("lines", sections, keys.LINE_COLUMNS, faults, notes)[1], kinds, points, rods, faults)
+    kinds = _with_slow_damping(kinds, rows, notes)
     histories = _table("syrope ic", sections, keys.SYROPE_COLUMNS, faults, notes)[1]
     kinds, rows = with_history(kinds, rows, histories, faults)
     used = {line.line_type for line in rows}

@@ -78,11 +78,14 @@ def _viscoelastic(row: Row, text: str, faults: Faults) -> tuple[float, DeckSlowS
     """Return the dynamic stiffness and the rest of EA_s|EA_d or EA_s|EA_Dc|EA_D_Lm with BA_s|BA_d."""
     stiffness = [parse_number(part) for part in text.split("|")]
     damping = [parse_number(part) for part in row.cells.get("damping", "").split("|")]
-    numbers = [value for value in (*stiffness, *damping) if value is not None and value > 0.0]
+    known = [value for value in (*stiffness, *damping) if value is not None]
+    # the first of the dashpots may be minus a part of the critical damping of a segment
+    numbers = [value for n, value in enumerate(known) if value > 0.0 or (n == len(stiffness) and value < 0.0)]
     if len(stiffness) not in (2, 3) or len(damping) != 2 or len(numbers) != len(stiffness) + len(damping):
         faults.add(
             row.line, f"stiffness {text!r} with damping {row.cells.get('damping', '')!r}",
-            "EA_s|EA_d or EA_s|EA_Dc|EA_D_Lm with BA_s|BA_d, all greater than 0", path="stiffness",
+            "EA_s|EA_d or EA_s|EA_Dc|EA_D_Lm with BA_s|BA_d, all greater than 0 but -zeta in place of BA_s",
+            path="stiffness",
         )  # fmt: skip
         return math.nan, None
     if numbers[1] <= numbers[0]:
