@@ -36,6 +36,7 @@ from moyai.interop.moordyn_deck import DeckLine, DeckLineType, DeckPoint, MoorDy
 from moyai.interop.moordyn_records import CURRENT_FILE, DeckCurrentField, DeckFailure, DeckOption
 from moyai.interop.moordyn_rows import Faults, Row, file_of, read_current, read_seafloor, read_stiffness
 from moyai.interop.moordyn_syrope import read_syrope, with_history
+from moyai.interop.moordyn_waterkin import read_waterkin
 from moyai.interop.moordyn_waves import read_waves
 from moyai.interop.textfiles import parse_number, read_lines
 
@@ -416,7 +417,7 @@ def _options(body: list[tuple[int, str]], folder: Path, faults: Faults, notes: l
             key = "SeafloorFile"
         if words[1].lower() in keys.OPTIONS_WITHOUT_MEANING:
             unused.append(key)
-        elif key != "SeafloorFile" and (value is None or not math.isfinite(value)):
+        elif key not in ("SeafloorFile", "WaterKin") and (value is None or not math.isfinite(value)):
             faults.add(number, f"{key} is {words[0]!r}, which is no number", path=key)
             continue
         found.append(DeckOption(key, words[0] if value is None else value, number))
@@ -549,6 +550,8 @@ def read_deck(path: str | Path) -> MoorDynDeck:
             current = read_current(option, place.parent, faults)
         if option.key == "Currents" and option.value in (2.0, 5.0):
             field = _current_field(option, place.parent, faults)
+        if option.key == "WaterKin":
+            current, waves = read_waterkin(option, place.parent, faults, notes)
         if option.key == "SeafloorFile":
             seafloor = read_seafloor(option, place.parent, faults)
     outputs = [word for _, text in sections.get("outputs", (0, []))[1] for word in text.replace(",", " ").split()]

@@ -125,6 +125,8 @@ class DeckCurrent:
     z: tuple[float, ...]
     #: Horizontal components at them [m/s].
     velocity: tuple[tuple[float, float], ...]
+    #: Where the file stands, empty for a table within another file.
+    file: str = field(default="", compare=False)
 
 
 @checks_words

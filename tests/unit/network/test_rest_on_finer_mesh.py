@@ -1,4 +1,4 @@
-"""A run from rest whose mesh is halved starts from the rest of the finer mesh: no jolt that would count as its error."""
+"""A run from rest whose mesh is halved starts from the rest of the finer mesh, without a jolt."""
 
 import pytest
 
