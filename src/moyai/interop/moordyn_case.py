@@ -387,7 +387,9 @@ def _current(deck: MoorDynDeck, dynamic: bool) -> list[str]:
         raise InputError(
             "the current of the deck turns over the height; at rest a case file has one direction",
             path="Currents",
-            remedy="run it through time (--duration)",
+            remedy="run it through time (--duration)"
+            if current.file
+            else "give it by Currents 1 and current_profile.txt",
         )
     bed = -water_of(deck).depth
     deep = [(z, speed) for z, speed, _ in rows if z < bed]

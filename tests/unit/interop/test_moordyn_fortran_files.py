@@ -49,8 +49,8 @@ MoorDyn Waves and Currents input file
  z-depth     x-current      y-current
  (m)           (m/s)         (m/s)
  0.0             0.9          0.0
- 20              0.5          0.1
- 100             0.25         0.2
+ 20              0.5          0.0
+ 100             0.25         0.0
 --------------------- need this line ------------------
 """
 
@@ -75,7 +75,7 @@ def test_waves_and_current_of_waterkin(tmp_path):
     deck = deck_of(tmp_path, '"Mooring/water.dat" WaterKin')
     assert deck.current is not None
     assert deck.current.z == (-100.0, -20.0, 0.0)
-    assert deck.current.velocity == ((0.25, 0.2), (0.5, 0.1), (0.9, 0.0))
+    assert deck.current.velocity == ((0.25, 0.0), (0.5, 0.0), (0.9, 0.0))
     assert deck.waves is not None
     assert set(deck.waves.direction) == {math.radians(30.0)}
     size = np.hypot(deck.waves.real, deck.waves.imaginary)
