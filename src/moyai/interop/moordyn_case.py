@@ -17,6 +17,7 @@ from moyai.interop.moordyn_deck import DeckLineType, DeckPoint, MoorDynDeck
 from moyai.interop.moordyn_keys import SECTIONS
 from moyai.interop.moordyn_network import line_name, point_name, water_of
 from moyai.interop.moordyn_records import DeckFailure, StiffnessTable
+from moyai.interop.moordyn_syrope import law_of
 from moyai.interop.moordyn_system import BodyOfDeck, bodies_of, end_name, rod_knots
 from moyai.interop.moordyn_waves import amplitude_and_phase
 from moyai.interop.textfiles import read_lines
@@ -124,12 +125,6 @@ def case_text(
     as_built = any(body.moves for body in bodies) and deck.number("TmaxIC") == 0.0
     analyses = [*([] if as_built and dynamic else ["statics"]), *(["modes"] if deck.lines and not bodies else [])]
     lines += ["", f"analyses: [{', '.join([*analyses, *(['dynamic'] if dynamic else [])])}]"]
-    worn = sorted({line.line_type for line in deck.lines if deck.line_type(line.line_type).syrope is not None})
-    if dynamic and worn:
-        raise InputError(
-            f"line type {worn[0]!r} is a Syrope rope, which is run at rest only: its quick changes are stiffer",
-            path="line types", remedy="run the deck without motions, waves and --duration, or give EA",
-        )  # fmt: skip
     if dynamic:
         steady = any(line.startswith("current:") for line in current)
         start = "as_built" if as_built else "rest_in_current" if steady else "rest"
@@ -293,11 +288,19 @@ def _word(text: str) -> str:
 
 def _line_type(kind: DeckLineType) -> list[str]:
     parts = [f"diameter: {_number(kind.diameter)}", f"mass: {_number(kind.mass_per_length)}"]
-    if isinstance(kind.stiffness, StiffnessTable):
-        rows = zip(kind.stiffness.strain, kind.stiffness.tension, strict=True)
+    law = None if kind.syrope is None or kind.syrope.original is None else law_of(kind.syrope.original, kind.syrope)
+    curve = kind.stiffness if kind.syrope is None else kind.syrope.original
+    if isinstance(curve, StiffnessTable):
+        rows = zip(curve.strain, curve.tension, strict=True)
         parts.append(f"curve: {{table: [{', '.join(f'[{_number(e)}, {_number(t)}]' for e, t in rows)}]}}")
-    else:
+    elif isinstance(kind.stiffness, float):
         parts.append(f"axial_stiffness: {_number(kind.stiffness)}")
+    if law is not None:
+        parts.append(
+            f"worn_rope: {{form: {law.form}, k1: {_number(law.k1)}, k2: {_number(law.k2)}, "
+            f"quick_stiffness: {_number(law.stiffness)}, growth: {_number(law.growth)}, "
+            f"viscosity: {_number(law.viscosity)}, highest_mean_tension: {_number(law.highest)}}}"
+        )
     if kind.slow is not None:
         parts.append(
             f"slow_stretch: {{static_stiffness: {_number(kind.slow.stiffness)}, "

@@ -531,7 +531,7 @@ def read_deck(path: str | Path) -> MoorDynDeck:
     kinds, rows = with_history(kinds, rows, histories, faults)
     used = {line.line_type for line in rows}
     notes += [
-        f"line type {kind.name}: the curve at rest after {kind.syrope.highest:g} N is run; quick changes are stiffer"
+        f"line type {kind.name}: runs begin at rest after {kind.syrope.highest:g} N, whatever Tmean0 is"
         for kind in kinds
         if kind.syrope is not None and kind.name in used
     ]

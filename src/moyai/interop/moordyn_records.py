@@ -58,6 +58,8 @@ class DeckSyrope:
     highest: float = 0.0
     #: Mean tension at the start [N].
     mean: float = 0.0
+    #: Curve of the new rope.
+    original: StiffnessTable | None = None
 
 
 @dataclass(frozen=True)
