@@ -53,21 +53,23 @@ class WornRope:
         end = float(self.new_tension[-1])
         if not 0.0 <= self.highest <= end:
             raise InputError(
-                f"a highest mean tension of {self.highest:g} N", path="highest", allowed=f"0 to {end:g} N, the curve"
+                f"a highest mean tension of {self.highest:g} N",
+                parameter="highest",
+                allowed=f"0 to {end:g} N, the curve",
             )
         if self.form == "quadratic" and self.k2 != 1.0:
-            raise InputError(f"{self.form} with k2 = {self.k2:g}", path="k2", allowed="1: the parabola")
+            raise InputError(f"{self.form} with k2 = {self.k2:g}", parameter="k2", allowed="1: the parabola")
         tops = np.array([self.highest or 0.5 * end, end])
         left, top = self._ends(tops)
         ok = np.all(left >= 0.0) and np.all(left < top) and (self.form == "linear" or self.k1 < 1.0)
         if not ok or (self.form == "exponential" and not 1e-6 <= self.k2 <= 700.0):
             words = f"{self.form} with k1 = {self.k1:g} and k2 = {self.k2:g}"
-            raise InputError(words, path="k1", allowed="0 to 1 of the strain")
+            raise InputError(words, parameter="k1", allowed="0 to 1 of the strain")
         for name in ("stiffness", "viscosity"):
             if not (math.isfinite(value := getattr(self, name)) and value > 0.0):
-                raise InputError(f"{name} of a worn rope is {value:g}", path=name, allowed="greater than 0")
+                raise InputError(f"{name} of a worn rope is {value:g}", parameter=name, allowed="greater than 0")
         if not (math.isfinite(self.growth) and self.growth >= 0.0):
-            raise InputError(f"growth is {self.growth:g}", path="growth", allowed="0 or more")
+            raise InputError(f"growth is {self.growth:g}", parameter="growth", allowed="0 or more")
 
     @property
     def least(self) -> float:
