@@ -85,8 +85,8 @@ def test_waves_and_current_of_waterkin(tmp_path):
     assert np.delete(size, top).sum() < 1e-6
     flow = flow_of(deck)
     assert flow.waves is not None
-    case = case_is_sound(tmp_path, deck)
-    assert case.model.waves.heading_deg == pytest.approx(math.radians(30.0))
+    (sea,) = case_is_sound(tmp_path, deck).model.waves
+    assert sea.heading_deg == pytest.approx(math.radians(30.0))
 
 
 @pytest.mark.parametrize("option", ['"" WaterKin', '"water.dat" WaterKin'])
