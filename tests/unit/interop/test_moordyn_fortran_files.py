@@ -86,7 +86,7 @@ def test_waves_and_current_of_waterkin(tmp_path):
     flow = flow_of(deck)
     assert flow.waves is not None
     (sea,) = case_is_sound(tmp_path, deck).model.waves
-    assert sea.heading_deg == pytest.approx(math.radians(30.0))
+    assert sea.heading_deg == pytest.approx(30.0)
 
 
 @pytest.mark.parametrize("option", ['"" WaterKin', '"water.dat" WaterKin'])
