@@ -23,9 +23,9 @@ from moyai.flexible.packing import pack
 from moyai.flexible.panels import PanelArrays
 from moyai.flexible.result import State
 from moyai.flexible.rings import RingArrays
-from moyai.flexible.slow_stretch import SlowBars
 from moyai.flexible.stability import step_limit
 from moyai.flexible.watch import watch_of
+from moyai.flexible.worn_rope import slow_parts
 
 #: Part of the stable step that is used unless another is given.
 SAFETY = 0.95
@@ -86,7 +86,7 @@ class ExplicitRun:
     ) -> None:
         self.network, self.flow, self.load_steps = network, flow, load_steps
         self.arrays, self.bed = kernel_arrays(network), kernel_bed(network)
-        self.slow = SlowBars.of(network, start.position, self.arrays)
+        self.slow = slow_parts(network, start.position, self.arrays)
         #: Lines that part in the course of the run.
         self.failing: Failing | None = None
         self.packed = pack(self.arrays)
@@ -271,10 +271,11 @@ class ExplicitRun:
     def advance(self, rows: int, first: int, row_interval: float, wanted: float | None, saved: Any) -> int:
         """March ``rows`` rows of the result; return how many were good."""
         good = self._advance(rows, first, row_interval, wanted, saved)
-        if self.slow is not None:
-            lengths = self.slow.advance(self.place, self.speed, rows * row_interval)
-            self.packed.memory[LENGTH + self.packed.place[self.slow.bars]] = lengths
-            saved[3][first : first + rows, 1] += self.slow.energy
+        for slow in self.slow:
+            place = self.packed.place[slow.bars]
+            self.packed.memory[LENGTH + place] = slow.advance(self.place, self.speed, rows * row_interval)
+            self.packed.memory[SPRING + place] = self.arrays.bar("spring")[slow.bars] = slow.spring
+            saved[3][first : first + rows, 1] += slow.energy
         self.part()
         return good
 

@@ -201,7 +201,9 @@ def _worth(
         event = (governing, plan.skip, plan.period, options, reported, why)
         checked = check_event(assembly, history, motions, *event) if LANDING in why else None
         if checked is None and affordable(history, bool(why)):
-            checked = check_peak(assembly, history, motions, governing, starts[0], plan.skip, options, reported)
+            checked = check_peak(
+                assembly, history, motions, governing, starts[0], plan.skip, options, reported, plan.rest_flow
+            )
         elif checked is None and LANDING not in why:
             checked = check_event(assembly, history, motions, *event)
         return checked, [unchecked(why)] if checked is None and why else [], history
@@ -241,12 +243,13 @@ def _sensitivity(
     if coupled is not None:
         peak = float(np.nanmax(history.peak_at(bar)[history.time >= after]))
         return coupled_sensitivity(
-            problem, assembly.network, hung, bar, after, peak, (history.step, coupled.step), progress, motions=motions,
-            **_of_bodies(options),
+            problem, assembly.network, hung, bar, after, peak, (history.step, coupled.step), progress, plan.rest_flow,
+            motions=motions, **_of_bodies(options),
         )  # fmt: skip
     # built anew, the finer network may drop what its materials gathered: the plain call refines the network itself
     return peak_sensitivity(
-        assembly.network, motions, bar=bar, after=after, start=begin, progress=progress, **options
+        assembly.network, motions, bar=bar, after=after, start=begin, rest_flow=plan.rest_flow, progress=progress,
+        **options,
     )  # fmt: skip
 
 

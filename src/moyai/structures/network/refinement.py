@@ -16,11 +16,12 @@ from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.progress import Progress
 from moyai.core.validity import Notice
 from moyai.core.wording import spoken
+from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import Network
 from moyai.flexible.refine import refined
 from moyai.flexible.result import History, State
-from moyai.flexible.sensitivity import PeakSensitivity
+from moyai.flexible.sensitivity import PeakSensitivity, refined_start
 from moyai.flexible.simulation import simulate
 from moyai.series.snaps import SnapRecord
 from moyai.structures.network.assembly import Assembly
@@ -213,6 +214,7 @@ def check_peak(
     skip: float,
     options: Mapping[str, Any],
     progress: Progress,
+    rest_flow: Flow | None = None,
 ) -> PeakSensitivity | None:
     """Run again with half the step and with every bar cut in two; return the highest tension of each in a line.
 
@@ -232,6 +234,8 @@ def check_peak(
     options : mapping
         Arguments of :func:`moyai.flexible.simulation.simulate`.
     progress : Progress
+    rest_flow : Flow, optional
+        In which ``begin`` is at rest.
 
     Returns
     -------
@@ -255,7 +259,7 @@ def check_peak(
         return float(np.max(found.tension_peak[found.time >= found.time[0] + skip]))
 
     try:
-        finer, state = refined(history.network, 2, begin)
+        finer, state = refined_start(history.network, 2, begin, rest_flow)
         shorter = {} if options.get("step") is None else {"step": 0.5 * options["step"]}
         kept = np.concatenate([2 * bars, 2 * bars + 1])
         mesh = again(finer, state, kept, **shorter)
@@ -266,7 +270,7 @@ def check_peak(
             factor = 2
             while factor * bars.size < DAMPED_BARS:
                 factor *= 2
-            calm, state = refined(history.network, factor, begin)
+            calm, state = refined_start(history.network, factor, begin, rest_flow)
             kept = np.concatenate([factor * bars + part for part in range(factor)])
             shorter = {} if options.get("step") is None else {"step": options["step"] / factor}
             damped = again(damped_bars(calm), state, kept, **shorter)
