@@ -1,11 +1,11 @@
 """Ten units in a row, hinged, on forty chains: coefficients, a sea state in frequency, and ten minutes in time.
 
-    python benchmarks/bench_units.py                      # all forty frequencies, some ten minutes
-    python benchmarks/bench_units.py --frequencies 8      # the coefficients of forty follow from these
-    python benchmarks/bench_units.py --store folder       # coefficients are kept there, and taken from there
+    OMP_NUM_THREADS=2 python benchmarks/bench_units.py --store folder    # all forty frequencies, some ten minutes
+    OMP_NUM_THREADS=1 python benchmarks/bench_units.py --store folder    # again, with the coefficients at hand
+    python benchmarks/bench_units.py --frequencies 8                     # coefficients of forty follow from eight
 
-Prints JSON lines: what was measured, its limit, and the ratio of the two. Times are those of the processor, whatever
-else the machine does, but for the coefficients, which take all cores that OMP_NUM_THREADS leaves them.
+Prints JSON lines: what was measured, its limit, and the ratio of the two. Coefficients are timed by the clock, on all
+cores that OMP_NUM_THREADS leaves them; the rest by the processor, where two threads count twice.
 """
 
 from __future__ import annotations
@@ -65,7 +65,9 @@ def main() -> None:
     parser.add_argument("--frequencies", type=int, default=WHOLE)
     parser.add_argument("--store", type=Path)
     given = parser.parse_args()
-    store = DatasetStore(given.store or Path(tempfile.mkdtemp()))
+    folder = given.store or Path(tempfile.mkdtemp())
+    at_hand = folder.is_dir() and any(folder.iterdir())
+    store = DatasetStore(folder)
     problem = case(given.frequencies)
     row, environment, settings = problem.row, problem.environment, problem.settings
     sea = next(item for item in environment.sea_states if item.name == "storm")
@@ -75,7 +77,8 @@ def main() -> None:
     begin = time.perf_counter()
     hydro = solve_row(panels, at.water, at.centres, omega, headings, store=store)
     took = (time.perf_counter() - begin) * WHOLE / len(omega)
-    told("coefficients of 40 frequencies [s]", took, COEFFICIENTS, panels=panels.mesh.count, solved=len(omega))
+    if not at_hand:
+        told("coefficients of 40 frequencies [s]", took, COEFFICIENTS, panels=panels.mesh.count, solved=len(omega))
     wind, current = steady_load(at, environment)
     steady = wind + current
     each, answer = [], None
