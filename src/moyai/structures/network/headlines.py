@@ -22,6 +22,7 @@ from moyai.structures.network.model import NetworkProblem
 from moyai.structures.network.refinement import LANDING, band_of
 from moyai.structures.network.single_anchor import single_anchors
 from moyai.structures.network.start_up import ASKED, WAVES
+from moyai.structures.network.summary import LOADS_AGAIN
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -201,6 +202,14 @@ def _start_up(groups: Mapping[str, xr.Dataset], peak: _Peak) -> list[Headline]:
     ]  # fmt: skip
 
 
+def _mesh_and_step(value: float, finer: list[float]) -> Band:
+    """Return the band of a peak: ``finer`` as in :class:`PeakSensitivity`, without step."""
+    of, half, mesh, damped, finest = finer
+    low, high = band_of(PeakSensitivity(of, half, mesh, math.nan, math.nan, math.nan, damped, finest))
+    words = "mesh and step: half the step, twice the segments, undamped and damped, and their change continued"
+    return Band(min(low, value), max(high, value), words)
+
+
 def _numerical_band(summary: xr.Dataset, peak: _Peak) -> tuple[Band | None, list[str]]:
     if "sensitivity_peak" in summary and math.isfinite(float(summary["sensitivity_peak"])):
         finer = ("half_step", "double_mesh", "half_viscosity", "double_viscosity", "damped", "finest")
@@ -208,9 +217,7 @@ def _numerical_band(summary: xr.Dataset, peak: _Peak) -> tuple[Band | None, list
         values = [float(summary[key]) for key in keys]
         if summary.attrs.get(f"governing {peak.run}") == peak.line:
             peak_of, half, mesh, less, more, damped, finest = values
-            low, high = band_of(PeakSensitivity(peak_of, half, mesh, less, more, math.nan, damped, finest))
-            words = "mesh and step: half the step, twice the segments, undamped and damped, and their change continued"
-            band = Band(min(low, peak.value), max(high, peak.value), words)
+            band = _mesh_and_step(peak.value, [peak_of, half, mesh, damped, finest])
             viscous = [value for value in values[3:5] if math.isfinite(value)]
             said = f"half and twice the viscosity: {min(viscous):.4g} to {max(viscous):.4g} N" if viscous else ""
             return band, [said]
@@ -280,10 +287,14 @@ def _band(groups: Mapping[str, xr.Dataset], peak: _Peak) -> tuple[Band | None, l
     if found is None:
         alone = _irregular(groups, peak.level, peak.run)
         return band, [*details, *([_ONE_SEED] if alone else [])], "at least" if alone else most
-    low, high, of = (peak.value, peak.value, "") if band is None else (band.low, band.high, band.of)
-    of = "; ".join(filter(None, (of, _of_seeds(found))))
+    return _with_chance(peak.value, band, found), details, most
+
+
+def _with_chance(value: float, band: Band | None, found: Maximum) -> Band:
+    """Return the band of mesh and step, where there is one, and of the chance of one seed."""
+    low, high, of = (value, value, "") if band is None else (band.low, band.high, band.of)
     least, highest = found.range
-    return Band(max(min(low, least), 0.0), max(high, highest), of), details, most
+    return Band(max(min(low, least), 0.0), max(high, highest), "; ".join(filter(None, (of, _of_seeds(found)))))
 
 
 def _irregular(groups: Mapping[str, xr.Dataset], level: str, run: str) -> bool:
@@ -302,7 +313,7 @@ def mesh_checked(groups: Mapping[str, xr.Dataset]) -> bool:
 
 
 def _anchor(groups: Mapping[str, xr.Dataset], peaks: list[_Peak]) -> list[Headline]:
-    """Return the largest pull on a fixed point with its parts; its band is that of the highest tension of its run."""
+    """Return the largest pull on a fixed point with its parts and its own band."""
     found = []
     for level, summary in _levels(groups, "dynamic"):
         network = groups[f"/{level}/network"]
@@ -312,7 +323,6 @@ def _anchor(groups: Mapping[str, xr.Dataset], peaks: list[_Peak]) -> list[Headli
         for run in (str(name) for name in summary["run"].values):
             mine = [peak for peak in peaks if (peak.level, peak.run) == (level, run)]
             most = max(mine, key=lambda peak: peak.value, default=None)
-            band, _, bound = (None, [], "") if most is None else _band(groups, most)
             for point in fixed:
                 row = summary.sel(run=run, point=point)
                 value = float(row["load_peak"])
@@ -320,10 +330,7 @@ def _anchor(groups: Mapping[str, xr.Dataset], peaks: list[_Peak]) -> list[Headli
                     continue
                 parts = (float(row["load_horizontal"]) / 1e3, float(row["load_upwards"]) / 1e3)
                 said = f"horizontal {parts[0]:.3g} kN, upwards {parts[1]:.3g} kN, each at its own largest"
-                own = None
-                if band is not None and most is not None and most.value > 0.0:
-                    low, high = (value * end / most.value for end in (band.low, band.high))
-                    own = Band(low, high, f"in proportion to the tension of {most.line}")
+                own, bound = _band_of_pull(groups, (level, run, point), value, most)
                 found.append(
                     Headline(
                         "anchor_load", "largest pull on a fixed point", value, "N", _place(groups, level, point, run),
@@ -331,6 +338,35 @@ def _anchor(groups: Mapping[str, xr.Dataset], peaks: list[_Peak]) -> list[Headli
                     )
                 )  # fmt: skip
     return governing(found)
+
+
+def _band_of_pull(
+    groups: Mapping[str, xr.Dataset], at: tuple[str, str, str], value: float, most: _Peak | None
+) -> tuple[Band | None, Bound]:
+    """Return what mesh, step and chance do to the pull on a fixed point: ``at`` level, run and name.
+
+    Where the runs that check the mesh did not find it, the mesh moves it as it moves the highest tension.
+    """
+    level, run, point = at
+    summary = groups[f"/{level}/dynamic"].sel(run=run)
+    band, bound = (None, "") if most is None else _band(groups, most)[::2]
+    mesh = None if most is None else _numerical_band(summary, most)[0]
+    finer = [value, *(float(summary[key].sel(point=point)) if key in summary else math.nan for key in LOADS_AGAIN)]
+    own: Band | None = None
+    if all(map(math.isfinite, finer[1:3])):
+        own = _mesh_and_step(value, finer)
+    elif mesh is not None and most is not None and most.value > 0.0:
+        low, high = (value * end / most.value for end in (mesh.low, mesh.high))
+        own = Band(low, high, f"mesh and step: in proportion to the tension of {most.line}")
+    series = groups.get(f"/{level}/time/{run}")
+    if series is None or not _irregular(groups, level, run):
+        return own, bound
+    late = series.isel(time=series["time"].values >= series["time"].values[0] + series.attrs["skip"])
+    load = late["highest_load"].sel(point=point, measure="size").values
+    chance = maximum_of(late["time"].values, load, float(series.attrs["period"]))
+    if chance is None:
+        return own, "at least"
+    return _with_chance(value, own, chance), "at most" if own is None and bound == "at most" else ""
 
 
 def _offsets(groups: Mapping[str, xr.Dataset], anchors: Mapping[str, str]) -> list[Headline]:
