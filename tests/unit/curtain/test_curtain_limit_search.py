@@ -194,6 +194,23 @@ def test_the_period_beside_a_limit_height_is_that_of_the_height_printed() -> Non
     groups = {"/LW": xr.Dataset(), "/LW/limits": drawn}
     (found,) = [item for item in limit_headlines(groups, ["LW"], lambda _: False) if item.name == "limit_wave_height"]
     assert found.value == pytest.approx(0.36)
+    assert "other seeds" not in found.detail
+
+
+def test_a_height_proved_by_few_seeds_says_what_others_may_give() -> None:
+    table = xr.Dataset(
+        {"design_limit_height": 0.64, "design_limit_low": 0.48, "design_limit_scatter": 0.045},
+        attrs={"design_limit_governing": "anchor", "with_snaps": 1, "sea_duration": 1800.0, "realisations": 5},
+    )
+
+    def detail(found: xr.Dataset) -> str:
+        shown = limit_headlines({"/LW": xr.Dataset(), "/LW/limits": found}, ["LW"], lambda _: False)
+        return next(item.detail for item in shown if item.name == "limit_wave_height")
+
+    assert "other seeds may give 0.045 m less or more (one standard deviation with 5 realisations)" in detail(table)
+    # less than its two digits show, or set by the depth and not by snaps
+    assert "other seeds" not in detail(table.assign(design_limit_scatter=0.004))
+    assert "other seeds" not in detail(table.assign(design_limit_scatter=0.0))
 
 
 @pytest.mark.parametrize(

@@ -115,6 +115,7 @@ def limit_headlines(groups: Groups, levels: Sequence[str], span_holds: Callable[
         if waves and table.attrs.get("with_snaps"):
             # realisations of a sea do not tell a third digit
             limit = _two_digits(limit)
+            details += _of_other_seeds(table, limit)
         period = float(table.attrs.get("design_limit_period", math.nan))
         if key != "speed_limit" and math.isfinite(period) and limit > 0.0:
             # the period of the height that is printed, not of the one at the values themselves
@@ -129,6 +130,17 @@ def limit_headlines(groups: Groups, levels: Sequence[str], span_holds: Callable[
             detail="; ".join(details),
             text="" if limit > 0.0 else "none",
         )  # fmt: skip
+
+
+def _of_other_seeds(table: xr.Dataset, limit: float) -> list[str]:
+    """Say how far a height hangs on the seeds of the seas that prove it, where that is more than its two digits."""
+    scatter, count = _number(table, "design_limit_scatter"), int(table.attrs.get("realisations", 0))
+    if not (limit > 0.0 and scatter > 0.01 * limit and count):
+        return []
+    return [
+        f"other seeds may give {scatter:.2g} m less or more (one standard deviation with {count} realisations): "
+        "more by settings.waves.realisations"
+    ]
 
 
 def _proven(groups: Groups, key: str, span_holds: Callable[[str], bool], level: str) -> float:
