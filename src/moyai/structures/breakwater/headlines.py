@@ -322,8 +322,8 @@ def _roll(domain: str, data: xr.Dataset, level: str, sea: str, frequency: xr.Dat
             given = band or Band(value, value, "")
             of = "; ".join(filter(None, (given.of, of)))
             band = replace(given.scaled(low, high), of=of, decides=given.judged is None)
-    said = ("amplitude", _motion_words(data, _ROLL), f"significant double amplitude {math.degrees(significant):.3g}\u00b0")
-    detail = "; ".join(filter(None, said))
+    double = f"significant double amplitude {math.degrees(significant):.3g}\u00b0"
+    detail = "; ".join(filter(None, ("amplitude", _motion_words(data, _ROLL), double)))
     model = _motion_model(domain, data)
     return [
         Headline("roll", "Largest roll", value, "rad", place(level, sea), model, band, alone(scatter), detail=detail)

@@ -116,12 +116,12 @@ def highest_of_run(history: History, points: Mapping[str, int], after: float) ->
     if not nodes.size or not counted.any():
         return {}
     found = highest_pulls(network, nodes, place, at_row, highest)[..., 0]
-    whole = np.isfinite(found).all(axis=0)
+    whole = np.isfinite(found.sum(axis=0))
     return {name: float(found[:, k].max()) for k, name in enumerate(points) if whole[k]}
 
 
 def around(network: Network, points: Mapping[str, int]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return the nodes and bars that a run has to keep for the pull on some nodes: these, their bars, and their ends."""
+    """Return the nodes and bars that a run has to keep for the pull on some nodes."""
     bars, nodes = network.bars, np.array(list(points.values()), dtype=np.int64)
     own = np.flatnonzero(np.isin(bars.start, nodes) | np.isin(bars.end, nodes))
     return np.unique(np.concatenate([nodes, bars.start[own], bars.end[own]])), own

@@ -216,8 +216,7 @@ def _numerical_band(summary: xr.Dataset, peak: _Peak) -> tuple[Band | None, list
         keys = ("sensitivity_peak", *finer)
         values = [float(summary[key]) for key in keys]
         if summary.attrs.get(f"governing {peak.run}") == peak.line:
-            peak_of, half, mesh, less, more, damped, finest = values
-            band = _mesh_and_step(peak.value, [peak_of, half, mesh, damped, finest])
+            band = _mesh_and_step(peak.value, [*values[:3], *values[5:]])
             viscous = [value for value in values[3:5] if math.isfinite(value)]
             said = f"half and twice the viscosity: {min(viscous):.4g} to {max(viscous):.4g} N" if viscous else ""
             return band, [said]
@@ -349,7 +348,7 @@ def _band_of_pull(
     """
     level, run, point = at
     summary = groups[f"/{level}/dynamic"].sel(run=run)
-    band, bound = (None, "") if most is None else _band(groups, most)[::2]
+    bound: Bound = "" if most is None else _band(groups, most)[2]
     mesh = None if most is None else _numerical_band(summary, most)[0]
     finer = [value, *(float(summary[key].sel(point=point)) if key in summary else math.nan for key in LOADS_AGAIN)]
     own: Band | None = None

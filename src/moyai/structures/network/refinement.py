@@ -195,9 +195,7 @@ def _kept(assembly: Assembly, network: Network, bars: np.ndarray) -> dict[str, n
     return {"keep_nodes": nodes if nodes.size else np.zeros(1, dtype=np.int64), "keep_bars": np.union1d(bars, own)}
 
 
-def _peaks_of(
-    assembly: Assembly, history: History, bars: np.ndarray, after: float
-) -> tuple[float, dict[str, float]]:
+def _peaks_of(assembly: Assembly, history: History, bars: np.ndarray, after: float) -> tuple[float, dict[str, float]]:
     """Return the highest tension of some bars in a run, and the highest pull on each fixed point."""
     columns = np.flatnonzero(np.isin(history.bars, bars))
     peaks = history.tension_peak[history.time >= history.time[0] + after][:, columns]

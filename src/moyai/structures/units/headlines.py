@@ -16,6 +16,7 @@ from moyai.core.arrays import Array
 from moyai.core.headline import Band, Bound, Headline, governing
 from moyai.core.wording import spoken
 from moyai.series.realisations import ALONE, alone, seeds
+from moyai.structures.units.datasets import BANDED
 from moyai.structures.units.model import DAMPING_BAND, SNAP_RATIO
 
 if TYPE_CHECKING:
@@ -26,10 +27,6 @@ AT_REST = "linear, lines at rest at every instant"
 TIME = "time domain, three dimensions"
 TIME_AT_REST = "time domain, lines at rest at every instant"
 IN_MOTION = "time domain, lines in motion around events"
-#: Numbers of the time domain that take the band of damping of the frequency domain.
-_SPREAD = (
-    "significant_motion", "motion_amplitude", "largest_offset", "line_tension_maximum", "connector_resultant_largest",
-)  # fmt: skip
 Seas = list[tuple[str, "xr.Dataset"]]
 
 
@@ -69,10 +66,18 @@ def governing_seas(groups: Mapping[str, xr.Dataset]) -> Seas:
 
 
 def _with_damping(time: xr.Dataset, frequency: xr.Dataset) -> xr.Dataset:
-    """Return a sea in time with the ends over the damping of the units, by their change in the frequency domain."""
+    """Return a sea in time with the ends over the damping of the units, by their change in the frequency domain.
+
+    Ends that were run in time stay.
+    """
     found = {}
-    for name in _SPREAD:
-        if name not in time or f"{name}_low" not in frequency or time[name].dims != frequency[name].dims:
+    for name in BANDED:
+        if (
+            name not in time
+            or f"{name}_low" in time
+            or f"{name}_low" not in frequency
+            or time[name].dims != frequency[name].dims
+        ):
             continue
         own = frequency[name].values
         for end in ("low", "high"):
@@ -202,6 +207,16 @@ class _Largest:
         return alone(self.scatter)
 
     @property
+    def digits(self) -> int:
+        """Digits that are known: two where rounding decides when a connector or a line comes taut, so that no run
+        repeats."""
+        if not self.timed:
+            return 3
+        tight = self.data["line_tension_maximum"] > SNAP_RATIO * self.data["line_tension_mean"]
+        curved = "elongation_highest" in self.data and bool(np.isfinite(self.data["elongation_highest"]).any())
+        return 2 if self.scatter.size and (curved or bool(tight.any())) else 3
+
+    @property
     def without_drift(self) -> bool:
         """Whether it is of an irregular sea without slow drift."""
         return not self.timed and "significant_motion" in self.data
@@ -266,23 +281,27 @@ def _connectors(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Headli
         return
     yield from _all_judged([_connector_force(found) for found in each])
     load = np.asarray(groups[f"/{each[0].path.split('/')[1]}/statics"]["connector_breaking_load"].values, dtype=float)
-    moment = _largest(seas, "connector_moment_largest")
+    moments = [found for found in _each(seas, "connector_moment_largest") if found.value > 0.0]
     if np.isfinite(load).any():
-        bent = moment is not None and moment.value > 0.0
         yield from _all_judged(
             [
                 Headline(
                     "connector_utilisation", "Largest force over breaking load of a connector", share.value, "1",
                     share.where, _model(share), band=share.band, bound=_of_motion(share),
-                    judged_on="the force without the moment" * bent,
+                    judged_on="the force without the moment" * bool(moments), digits=share.digits,
                 )
                 for share in _each(seas, "connector_resultant_largest", over=load)
             ]
         )  # fmt: skip
-    if moment is not None and moment.value > 0.0:
-        yield Headline(
-            "connector_moment", "Largest moment in a connector", moment.value, "N m", moment.where, _model(moment)
-        )
+    yield from _all_judged(
+        [
+            Headline(
+                "connector_moment", "Largest moment in a connector", found.value, "N m", found.where, _model(found),
+                band=found.band, bound=_of_motion(found),
+            )
+            for found in moments
+        ]
+    )  # fmt: skip
     opened = [(path, _with_opening(data)) for path, data in seas]
     yield from _all_judged(
         [
@@ -347,8 +366,7 @@ def _connector_force(found: _Largest) -> Headline:
     details = (words, ALONE if found.bound else "", across if _stretched(found) else "")
     return Headline(
         "connector_force", "Largest force in a connector", found.value, "N", found.where, _model(found),
-        band=found.band, bound=_of_motion(found),
-        detail="; ".join(filter(None, details)),
+        band=found.band, bound=_of_motion(found), detail="; ".join(filter(None, details)), digits=found.digits,
     )  # fmt: skip
 
 
@@ -408,6 +426,7 @@ def _line_tension(found: _Largest) -> Headline:
     return Headline(
         "line_tension", "Largest tension of a line", found.value, "N", found.where, _line_model(found), mean=mean,
         bound=bound, band=_line_band(found), detail=f"mean {spoken(mean, 'N', 3)}{words}", analysis=_analysis(found),
+        digits=found.digits,
     )  # fmt: skip
 
 
@@ -421,7 +440,7 @@ def _utilisation(share: _Largest, shown: bool) -> Headline:
     return Headline(
         "line_utilisation", "Tension over breaking load of a line", share.value, "1", share.where, _line_model(share),
         mean=own / share.scale, bound=_of_line(share, own)[0], band=_line_band(share), analysis=_analysis(share),
-        shown=shown,
+        shown=shown, digits=share.digits,
     )  # fmt: skip
 
 

@@ -27,7 +27,13 @@ class SnapTable:
     _known: dict[tuple[float, int], tuple[float, float, float]] = field(default_factory=dict)
 
     def tension(
-        self, speed: float, significant_height: float, *, judged: bool = False, known: bool = False, other_seeds: bool = False
+        self,
+        speed: float,
+        significant_height: float,
+        *,
+        judged: bool = False,
+        known: bool = False,
+        other_seeds: bool = False,
     ) -> float:
         """Return the mean of the realisations [N] in a surface speed [m/s], or the end of its interval.
 

@@ -112,7 +112,7 @@ def sea_in_time(
     """Run all periods or all realisations of a sea."""
     runs: list[Kept] = []
     carried: list[list[Carried]] = []
-    for run in _runs(water, sea, answers, progress):
+    for run in runs_of(water, sea, answers, progress):
         runs.append(Kept.of(run))
         if not run.complete:
             break
@@ -120,14 +120,13 @@ def sea_in_time(
     good = [item for item in runs if item.status == "converged"] or runs[:1]
     regular = isinstance(sea, RegularSea)
     notices: list[Notice] = []
+    data = numbers_of(water.at, sea, good)
     if isinstance(sea, RegularSea):
-        data = regular_time_dataset(water.at, sea, good)
         if len(carried) == len(runs):
             data, told = _periods_in_motion(water, sea, data, carried, progress)
             notices += told
         groups = {f"T{period:g}": item.series for period, item in zip(sea.periods, good)}
     else:
-        data = irregular_time_dataset(water.at, sea, good)
         if len(carried) == len(runs):
             data, told = _in_motion(water, sea, data, [member for (member,) in carried], progress)
             notices += told
@@ -142,9 +141,17 @@ def sea_in_time(
     )  # fmt: skip
 
 
-def _runs(
+def numbers_of(at: RowAtLevel, sea: RegularSea | IrregularSea, runs: list[Kept]) -> xr.Dataset:
+    """Return the numbers of a sea."""
+    if isinstance(sea, RegularSea):
+        return regular_time_dataset(at, sea, runs)
+    return irregular_time_dataset(at, sea, runs)
+
+
+def runs_of(
     water: Water3D, sea: RegularSea | IrregularSea, answers: list[SeaAnswer], progress: Progress
 ) -> Iterator[TimeRun]:
+    """Yield the run of every period or realisation of a sea."""
     if isinstance(sea, RegularSea):
         for period, answer in zip(sea.periods, answers):
             yield repeating_run(water, sea, period, answer, progress)

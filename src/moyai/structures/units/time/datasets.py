@@ -28,8 +28,9 @@ if TYPE_CHECKING:
 MOST_ROWS = 20_000
 #: Of a mean that is taken over realisations: also kept one by one
 _SCATTER = (
-    "connector_resultant_largest", "connector_moment_resultant_largest", "line_tension_maximum", "largest_offset",
-    "gap_motion_largest", "gap_closing_largest", "connector_damage_rate", "maximum_motion",
+    "connector_resultant_largest", "connector_moment_largest", "connector_moment_resultant_largest",
+    "line_tension_maximum", "largest_offset", "gap_motion_largest", "gap_closing_largest", "connector_damage_rate",
+    "maximum_motion",
 )  # fmt: skip
 _LOWEST = ("elongation_lowest",)
 _HIGHEST = ("elongation_highest", "stretch_across")
