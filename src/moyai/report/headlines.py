@@ -73,9 +73,9 @@ def _quantity(value: float, unit: str, like: float, digits: int) -> str:
     shown = display_unit("" if unit == RATIO else unit, [value, like])
     number = value * shown.factor
     if math.isfinite(number) and digits < _DIGITS:
-        # numbers of a page keep the digits before the point
+        # else digits before the point are kept
         number = float(f"{number:.{digits - 1}e}")
-    text = format_number(number)
+    text = format_number(number, digits)
     if text == DASH or not shown.name:
         return text
     return f"{text}{shown.pretty}" if shown.name == "deg" else f"{text} {shown.pretty}"

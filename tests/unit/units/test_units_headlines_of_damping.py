@@ -148,8 +148,10 @@ def test_the_moment_of_a_connector_has_the_band_of_its_realisations():
             "connector_moment_largest": (dims, moments.mean(axis=0)),
             "connector_moment_largest_of_realisation": (("member", *dims), moments),
             "relative_motion_largest": (dims, np.zeros((1, 3))),
+            "line_tension_maximum": ("line", [1.0]),
+            "line_tension_mean": ("line", [1.0]),
         },
-        coords={"connector": ["h"], "component": list("xyz")},
+        coords={"connector": ["h"], "line": ["s"], "component": list("xyz")},
         attrs={"status": "converged"},
     )
     rest = xr.Dataset({"connector_breaking_load": ("connector", [np.inf])})

@@ -27,6 +27,7 @@ from moyai.structures.units.model import Connector, Curve, Settings, TimeSetting
 from moyai.structures.units.response import RowModel, respond
 from moyai.structures.units.seas import regular_answer
 from moyai.structures.units.time import damping as damping_in_time
+from moyai.structures.units.time import seas as seas_in_time
 from moyai.structures.units.time.analysis import SeaInTime, sea_in_time
 from moyai.structures.units.time.damping import curves_bear, with_ends_in_time
 from moyai.structures.units.time.datasets import run_numbers
@@ -34,7 +35,7 @@ from moyai.structures.units.time.kernel import joint_force
 from moyai.structures.units.time.lines import Carried, events_of, moving_line, rerun, rerun_events
 from moyai.structures.units.time.memory import _Basis, _passive, _residues, fit_row_memory
 from moyai.structures.units.time.model import RowInTime, step_weights
-from moyai.structures.units.time.seas import TimeRun, Water3D, _change, regular_run
+from moyai.structures.units.time.seas import REPEATING, TimeRun, Water3D, _change, _growth, regular_run, repeating_run
 from moyai.validation.units import WATER, row
 
 HINGE = Connector("h", "hinge", ((0, 1),), 0.0, 3.0, (1.0, 0.0, 0.0))
@@ -482,6 +483,53 @@ def test_a_motion_that_grows_does_not_repeat():
     position[:, 9] *= np.exp(growth * turns)
     assert _change(position, per_period, 10) == pytest.approx(1.0 - np.exp(-growth), rel=0.01)
     assert _change(position[: 10 * per_period], per_period, 10) == 0.0
+
+
+def test_a_resonance_that_grows_from_little_does_not_repeat_yet():
+    """One of another period under the motion of the waves: its change is small, its growth is known."""
+    per_period, turns = 50, np.arange(40 * 50) / 50
+    position = np.zeros((len(turns), 12))
+    for rate, expected in ((0.03, 0.03), (-0.03, 0.0)):
+        position[:, 0] = np.sin(2.0 * np.pi * turns) + 1e-4 * np.exp(rate * turns) * np.sin(np.pi * turns)
+        change = _change(position, per_period, 10)
+        assert change < 2e-3
+        assert _growth(position, per_period, 10) == pytest.approx(expected, abs=1e-3)
+    # a motion that never repeats, whose change goes up and down
+    generator, long = np.random.default_rng(2), np.arange(300 * 50) / 50
+    tops = np.repeat(generator.uniform(0.8, 1.2, 300), 50)
+    wild = np.zeros((len(long), 12))
+    wild[:, 0] = tops * np.sin(2.0 * np.pi * long)
+    assert _change(wild, per_period, 10) > REPEATING and _growth(wild, per_period, 10) == 0.0
+    # what rounding leaves
+    position[:, 0] = np.sin(2.0 * np.pi * turns) + 1e-9 * np.exp(0.03 * turns) * np.sin(np.pi * turns)
+    assert _growth(position, per_period, 10) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("runs", "count"),
+    [
+        ([(0.01, 0.0)], 1),
+        ([(0.01, 0.02), (0.01, 0.0)], 2),
+        ([(0.2, 0.0), (0.2, 0.0)], 2),
+        ([(0.2, 0.01), (0.3, 0.01), (0.9, 0.0)], 3),
+        ([(0.01, 0.01), (0.02, 0.01), (0.03, 0.01)], 3),
+    ],
+)
+def test_a_row_is_run_until_it_repeats_and_grows_no_more(monkeypatch, runs, count):
+    asked = []
+
+    def run(water, sea, period, answer, least, progress):
+        asked.append(least)
+        change, growth = runs[len(asked) - 1]
+        return SimpleNamespace(change=change, growth=growth, complete=True)
+
+    monkeypatch.setattr(seas_in_time, "regular_run", run)
+    water = SimpleNamespace(time=TimeSettings())
+    repeating_run(water, None, 4.0, None)
+    assert len(asked) == count and asked == [50.0, 300.0, 1000.0][:count]
+    asked.clear()
+    repeating_run(SimpleNamespace(time=TimeSettings(duration=60.0)), None, 4.0, None)
+    assert len(asked) == 1
 
 
 def test_parts_of_a_record_are_whole_periods_at_its_end():

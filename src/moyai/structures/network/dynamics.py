@@ -12,6 +12,7 @@ from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.coupled.rest import CoupledRest
+from moyai.flexible.flow import Flow
 from moyai.flexible.result import History, State
 from moyai.flexible.sensitivity import PeakSensitivity, peak_sensitivity
 from moyai.flexible.simulation import simulate
@@ -204,7 +205,9 @@ def _worth(
         event = (governing, plan.skip, plan.period, options, reported, why)
         checked = check_event(assembly, history, motions, *event) if LANDING in why else None
         if checked is None and affordable(history, bool(why)):
-            checked = check_peak(assembly, history, motions, governing, starts[0], plan.skip, options, reported)
+            checked = check_peak(
+                assembly, history, motions, governing, starts[0], plan.skip, options, reported, _rest_of(problem, plan)
+            )
         elif checked is None and LANDING not in why:
             checked = check_event(assembly, history, motions, *event)
         return checked, [unchecked(why)] if checked is None and why else [], history
@@ -213,6 +216,12 @@ def _worth(
     except KeyboardInterrupt:
         message = "interrupted while the accuracy of its peak was found; the run itself is complete"
         return None, [], replace(history, status="interrupted", message=message)
+
+
+def _rest_of(problem: NetworkProblem, plan: RunPlan) -> Flow | None:
+    """Return the flow in which a run begins at rest, ``None`` where it begins as built."""
+    start = problem.settings.start
+    return None if start == "as_built" else plan.flow if start == "rest_in_current" else Flow()
 
 
 def sound_rows(history: History) -> History:

@@ -101,12 +101,15 @@ def highest_pulls(network: Network, nodes: NDArray[np.int64], position: Array, t
     return out
 
 
-def highest_of_run(history: History, points: Mapping[str, int], after: float) -> dict[str, float]:
-    """Return the highest pull [N] of a run on some nodes, by their names, ``after`` so many seconds since its start.
+def highest_of_run(
+    history: History, points: Mapping[str, int], after: float, before: float = math.inf
+) -> dict[str, float]:
+    """Return the highest pull [N] of a run on some nodes, by their names, between two times since its start [s].
 
     Nodes whose neighbours or bars were not kept are left out.
     """
-    network, counted = history.network, history.time >= history.time[0] + after
+    network, since = history.network, history.time - history.time[0]
+    counted = (since >= after) & (since < before)
     place = np.full((int(counted.sum()), len(network.nodes), 3), np.nan)
     place[:, history.nodes] = history.position[counted]
     at_row, highest = (np.full((place.shape[0], len(network.bars)), np.nan) for _ in range(2))

@@ -5,6 +5,7 @@ Theory: docs/answer/network.md and [eq:flexible-landing].
 
 from __future__ import annotations
 
+import contextlib
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -16,12 +17,14 @@ from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.progress import Progress
 from moyai.core.validity import Notice
 from moyai.core.wording import spoken
+from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import FIXED, Network
 from moyai.flexible.refine import refined
 from moyai.flexible.result import History, State
 from moyai.flexible.sensitivity import PeakSensitivity
 from moyai.flexible.simulation import simulate
+from moyai.flexible.statics import solve_equilibrium
 from moyai.series.snaps import SnapRecord
 from moyai.structures.network.assembly import Assembly
 from moyai.structures.network.equilibrium import around, highest_of_run, named_points
@@ -33,6 +36,8 @@ WORK, DOUBTFUL_WORK, IMPLICIT = 3e8, 1e9, 30.0
 DAMPING, DAMPED_BARS = 0.3, 32
 #: Periods before and after the highest tension that an event by itself takes, and how well it gives the peak again.
 LEAD, AFTER, SAME_EVENT = 3.0, 0.25, 0.02
+#: Highest pull on a point before a run counts, over that of the run itself, up to which another mesh begins like it.
+JERK = 1.1
 #: Bars of a line up to which its peak is doubtful whatever the run shows.
 FEW_BARS = 5
 #: Doubt of a peak that finer segments only lower: lumps that stop on the bed pull harder than a smooth line.
@@ -202,6 +207,11 @@ def _peaks_of(assembly: Assembly, history: History, bars: np.ndarray, after: flo
     return float(np.nanmax(peaks)), highest_of_run(history, _fixed(assembly, history.network), after)
 
 
+def _early(assembly: Assembly, history: History, skip: float) -> dict[str, float]:
+    """Return the highest pull on each fixed point before what counts of a run."""
+    return highest_of_run(history, _fixed(assembly, history.network), 0.0, skip)
+
+
 def _down_to_links(
     found: PeakSensitivity, assembly: Assembly, event: History, motions: Mapping[str, Motion], bars: np.ndarray,
     window: Window, options: Mapping[str, Any], progress: Progress,
@@ -243,6 +253,7 @@ def check_peak(
     skip: float,
     options: Mapping[str, Any],
     progress: Progress,
+    rest: Flow | None = None,
 ) -> PeakSensitivity | None:
     """Run again with half the step and with every bar cut in two; return the highest tension of each in a line.
 
@@ -262,6 +273,9 @@ def check_peak(
     options : mapping
         Arguments of :func:`moyai.flexible.simulation.simulate`.
     progress : Progress
+    rest : Flow, optional
+        In which the network begins at rest: finer meshes then begin at their own rest. Friction on the bed would keep
+        what is left of the other mesh.
 
     Returns
     -------
@@ -273,6 +287,8 @@ def check_peak(
         return None
     peak, pulls = _peaks_of(assembly, history, bars, skip)
 
+    early = _early(assembly, history, skip)
+
     def again(network: Network, start: State, kept: np.ndarray, **more: Any) -> tuple[float, dict[str, float]]:
         chosen = {**options, **more, **_kept(assembly, network, kept)}
         found = simulate(network, motions, start=start, progress=progress, **chosen)
@@ -280,10 +296,15 @@ def check_peak(
             raise KeyboardInterrupt
         if found.status != "converged":
             raise ConvergenceError(found.message, parameter="sensitivity")
-        return _peaks_of(assembly, found, kept, skip)
+        top, of_points = _peaks_of(assembly, found, kept, skip)
+        if rest is None:
+            # what another mesh makes of a place between its nodes jerks at the start, and friction on the bed keeps it
+            begun = _early(assembly, found, skip)
+            of_points = {n: pull for n, pull in of_points.items() if begun.get(n, 0.0) <= JERK * early.get(n, 0.0)}
+        return top, of_points
 
     try:
-        finer, state = refined(history.network, 2, begin)
+        finer, state = _begun(history.network, 2, begin, rest)
         shorter = {} if options.get("step") is None else {"step": 0.5 * options["step"]}
         kept = np.concatenate([2 * bars, 2 * bars + 1])
         mesh, on_mesh = again(finer, state, kept, **shorter)
@@ -294,7 +315,7 @@ def check_peak(
             factor = 2
             while factor * bars.size < DAMPED_BARS:
                 factor *= 2
-            calm, state = refined(history.network, factor, begin)
+            calm, state = _begun(history.network, factor, begin, rest)
             kept = np.concatenate([factor * bars + part for part in range(factor)])
             shorter = {} if options.get("step") is None else {"step": options["step"] / factor}
             damped, calmed = again(damped_bars(calm), state, kept, **shorter)
@@ -307,6 +328,16 @@ def check_peak(
         for name in pulls.keys() & by_step.keys() & on_mesh.keys()
     }  # fmt: skip
     return PeakSensitivity(peak, step, mesh, math.nan, math.nan, history.step, damped, pulls=own)
+
+
+def _begun(network: Network, factor: int, begin: State, rest: Flow | None) -> tuple[Network, State]:
+    """Return a network on a finer mesh and where it begins, at its own rest where it has one."""
+    finer, state = refined(network, factor, begin)
+    if rest is None:
+        return finer, state
+    with contextlib.suppress(ConvergenceError):
+        state = solve_equilibrium(finer, flow=rest, start=state).state
+    return finer, state
 
 
 def change_of(found: PeakSensitivity) -> float:

@@ -39,6 +39,8 @@ if TYPE_CHECKING:
 LEAST_WAVES = 10.0
 #: Error of the memory that is told, of the largest response
 _TOLD = 0.02
+#: Change of a growing motion from one period to the next that is told.
+_SEEN = 1e-3
 #: Turns in which frequencies are added where the memory misses what was interpolated, and most of them a turn.
 _MOST_TURNS, _MOST_GAPS = 2, 8
 
@@ -282,13 +284,24 @@ def _notices(water: Water3D, sea: RegularSea | IrregularSea, data: xr.Dataset, r
             )  # fmt: skip
     if isinstance(sea, RegularSea):
         for period, run in zip(sea.periods, runs):
-            if run.change > REPEATING:
+            there = f"{where}, T = {float(period):g} s"
+            if run.growth and run.change > _SEEN:
+                out.append(
+                    Notice(
+                        "still-growing",
+                        f"{there}: the motion changes by {100.0 * run.change:.2g} % from one period to the next, "
+                        f"{100.0 * run.growth:.2g} % more each period: it grows slowly to another motion, whose loads "
+                        "are higher",
+                        value=run.change, limit=_SEEN, remedy="a longer settings.time.duration, or more damping",
+                    )
+                )  # fmt: skip
+            elif run.change > REPEATING:
                 ends = f"means over {len(run.parts)} parts of its end" if run.parts else "those of its end alone"
                 out.append(
                     Notice(
                         "not-repeating",
-                        f"{where}, T = {float(period):g} s: the motion changes by {100.0 * run.change:.0f} % from one "
-                        f"period to the next: it does not repeat, and its largest values are {ends}",
+                        f"{there}: the motion changes by {100.0 * run.change:.0f} % from one period to the next: it "
+                        f"does not repeat, and its largest values are {ends}",
                         value=run.change, limit=REPEATING,
                         remedy="slack connectors and lines may never settle to one period; a longer "
                         "settings.time.duration narrows the band",
