@@ -5,10 +5,12 @@ import os
 import shutil
 import sys
 import tempfile
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 import pytest
+import typer.testing
 
 from moyai.core.processes import collect_rarely
 from moyai.core.vocabulary import Strictness
@@ -29,7 +31,8 @@ _OWN = None if "MOYAI_KEPT_RUNS" in os.environ else os.environ.setdefault("MOYAI
 
 
 def pytest_configure() -> None:
-    """Let one worker compile a kernel and the others take it from the cache."""
+    """Build the command line once; let one worker compile a kernel and the others take it from the cache."""
+    typer.testing._get_command = cache(typer.testing._get_command)  # type: ignore[attr-defined]
     try:
         import fcntl
     except ImportError:

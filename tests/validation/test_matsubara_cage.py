@@ -131,6 +131,7 @@ def test_motions_of_the_prototype(row):
         assert low * (1.0 - slip) <= value <= high * (1.0 + slip)
 
 
+@pytest.mark.slow
 def test_statements_of_the_paper():
     """Taut: about a quarter of H both ways, +-6 degrees, shore line varies more; slack: about H, +-2 degrees."""
     taut = numbers("crossed", 1.1, 0.03)

@@ -10,6 +10,7 @@ import inspect
 import re
 import sys
 from collections.abc import Sequence
+from copy import copy
 from typing import Any
 
 from typer.core import TyperGroup
@@ -141,6 +142,7 @@ class SpokenGroup(TyperGroup):
         """Return a command, its page and its line in the list of commands in the language in force."""
         command = super().get_command(ctx, cmd_name)
         if command is not None:
+            command = copy(command)
             command.context_class = SpokenContext
             if spoken_language() != "en" and command.help:
                 first = re.split(r"\n\s*\n", inspect.cleandoc(command.help))[0]

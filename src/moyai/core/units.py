@@ -63,6 +63,11 @@ class Unit:
     def __pow__(self, exponent: int) -> Unit:
         return Unit(self.symbol, self.factor**exponent, self.pi_power * exponent, self.dimension**exponent)
 
+    @property
+    def is_si(self) -> bool:
+        """Whether a number of this unit is the same number in SI."""
+        return self.factor == 1 and self.pi_power == 0
+
     def to_si(self, number: Fraction) -> float:
         """Return ``number`` of this unit in SI, rounded once (twice where pi enters); infinite beyond a double."""
         try:

@@ -54,7 +54,7 @@ def sum_in_window(number: NDArray[np.int64], rows: ComplexArray, count: int, per
     chirp, back, ahead = _window(first, width, count, period)
     place = number - first
     spread = np.zeros((rows.shape[0], back.size), dtype=np.complex128)
-    if np.unique(place).size == place.size:
+    if np.bincount(place).max() == 1:
         spread[:, place] = rows * chirp[place]
     else:
         for row, amplitudes in zip(spread, rows * chirp[place], strict=True):

@@ -117,6 +117,7 @@ SET = """((path, value) => {
 })"""
 
 
+@pytest.mark.slow
 def test_a_slider_redraws_the_figures(address: str) -> None:
     with pipe.Chromium(str(pipe.find_chromium()), 1280, 900) as page:
         page.send("Page.navigate", url=address)
@@ -221,6 +222,7 @@ def test_a_file_that_another_program_changes(address: str, tmp_path: Path) -> No
         sound(page, address)
 
 
+@pytest.mark.slow
 def test_form_and_text_are_one_document(address: str) -> None:
     with pipe.Chromium(str(pipe.find_chromium()), 1280, 900) as page:
         page.send("Page.navigate", url=address)

@@ -94,6 +94,7 @@ def test_the_first_draft_has_the_water_level_on_the_screen(tmp_path: Path, chose
     assert alike and all(item["value"] == places[item["name"], item["where"]] for item in alike)
 
 
+@pytest.mark.slow
 def test_the_first_draft_has_what_is_on_the_screen(tmp_path: Path) -> None:
     """Statics at the top of the page, waves at once where they are looked at, and no other section."""
     text = only("breakwater", "statics, mooring, frequency")
@@ -204,6 +205,7 @@ def kinds(said: list[dict[str, Any]]) -> list[str]:
     return [one["message"] for one in said]
 
 
+@pytest.mark.slow
 def test_stale_drafts_are_given_up_and_a_killed_process_is_told(tmp_path: Path) -> None:
     slow = MEMBER.replace("Quick", "slow")
 
@@ -236,6 +238,7 @@ def test_stale_drafts_are_given_up_and_a_killed_process_is_told(tmp_path: Path) 
     asyncio.run(scenario())
 
 
+@pytest.mark.slow
 def test_two_pages_take_turns_and_no_answer_is_lost(tmp_path: Path) -> None:
     """A page in haste goes before another one's draft; a patient page waits, and neither is given the other's."""
     slow = MEMBER.replace("Quick", "slow")

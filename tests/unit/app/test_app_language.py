@@ -118,6 +118,7 @@ def test_the_server_speaks_japanese(page: Any) -> None:
     assert page.get("/api/cases/none").json()["faults"][0]["message"] == "そのようなケース、ジョブ、ファイルはない"
 
 
+@pytest.mark.slow
 def test_a_draft_is_in_the_language_of_the_app_unless_the_case_names_one(page: Any) -> None:
     key = page.post("/api/cases", content="{}").json()["id"]
     for text, japanese in ((MEMBER, True), (MEMBER + "\ndisplay: {language: en}\n", False)):

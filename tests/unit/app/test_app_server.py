@@ -260,6 +260,7 @@ def test_odd_requests_are_refused(page: Page, body: Any) -> None:
     page.post("/api/jobs/job99/cancel", status=404)
 
 
+@pytest.mark.slow
 def test_a_full_run_with_its_files(page: Page) -> None:
     key = page.post("/api/cases", {"file": "pile.yaml"})["id"]
     page.draft(key, sequence=9, text=MEMBER)

@@ -81,6 +81,7 @@ def until(job: Job, *states: str, seconds: float = 120.0) -> None:
         time.sleep(0.02)
 
 
+@pytest.mark.slow
 def test_a_study_runs_and_its_cases_are_opened(queue: Any, root: Path) -> None:
     jobs = queue(run)
     job = jobs.add(order(root))

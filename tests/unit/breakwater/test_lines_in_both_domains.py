@@ -155,6 +155,7 @@ def test_the_lines_alone_make_the_difference():
     assert motion[2] < 0.92 * float(frequency.motion_amplitude.values[0, 2])
 
 
+@pytest.mark.slow
 def test_led_lines_give_the_motion_in_time_where_the_tangent_does_not():
     """No run in time stands behind the frequency domain: fairleads are led, and the body balances mean and harmonic."""
     result = run(tank_model(0.04, (0.6, 1.4), restoring="equivalent"))

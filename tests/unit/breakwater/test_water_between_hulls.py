@@ -51,6 +51,7 @@ def test_modes_of_the_water_between_hulls_are_looked_at(twin):
         twin.breakwater, hull=shapes.rectangle(0.8, 0.4), gap_damping_lid=0.0)), name, level), 10.0).size  # fmt: skip
 
 
+@pytest.mark.slow
 def test_the_memory_carries_the_resonance_between_the_points_of_its_fit(twin):
     name, level = twin.environment.water_levels[0]
     unit = assemble(twin, name, level)

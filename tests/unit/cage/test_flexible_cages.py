@@ -329,6 +329,7 @@ def test_waves_move_the_cage_and_energy_does_not_appear() -> None:
     assert isinstance(flow, Flow)
 
 
+@pytest.mark.slow
 def test_pictures_of_a_long_run_play_what_was_computed_about_the_governing_moment() -> None:
     model, rest = at_sea(0.3)
     wave = replace(wave_of("linear", 1.2, 5.0, 0.0, SEA, 0.3, 12), regular=False)

@@ -189,6 +189,7 @@ def test_a_case_runs_to_its_report(tmp_path):
     assert re.search("Remaining volume against current", text)
 
 
+@pytest.mark.slow
 def test_sensitivity_tells_what_peaks_are_worth():
     found = run(build(case(("analyses: [statics, time]", "analyses: [sensitivity]"), ("periods: 2", "periods: 1"))))
     table = found.tree["SWL/sensitivity/regular"].ds

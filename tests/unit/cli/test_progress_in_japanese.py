@@ -41,6 +41,7 @@ def test_bars_on_a_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
     assert "left" not in text and "water" not in text
 
 
+@pytest.mark.slow
 def test_every_stage_has_a_japanese_name() -> None:
     stages = [text for text in all_texts() if "progress(" in source_line(text.place)]
     assert len(stages) > 40

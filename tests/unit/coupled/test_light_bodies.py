@@ -49,6 +49,7 @@ ID LineType AttachA AttachB UnstrLen NumSegs LineOutputs
 """
 
 
+@pytest.mark.slow
 def test_three_heavy_lines_on_a_light_clamp(tmp_path):
     (tmp_path / "deck.txt").write_text(DECK)
     system = to_system(read_deck(tmp_path / "deck.txt"))

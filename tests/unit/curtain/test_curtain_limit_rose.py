@@ -147,6 +147,7 @@ def test_directions_fold_to_a_right_angle() -> None:
     )
 
 
+@pytest.mark.slow
 def test_rose_stands_in_result_and_report_only_where_it_is_asked_for(stream) -> None:
     problem, _, rose = stream
     coarse = replace(problem.settings, limits=replace(problem.settings.limits, rose_step=math.radians(45.0)))

@@ -30,6 +30,7 @@ def run(name, pictures, tmp_path, monkeypatch, capsys, *further):
     return printed
 
 
+@pytest.mark.slow
 def test_tension_coefficient_example(tmp_path, monkeypatch, capsys) -> None:
     points = tmp_path / "observed.csv"
     header = "froude_number,depth_ratio,span_ratio,cauchy_number,tension_coefficient"

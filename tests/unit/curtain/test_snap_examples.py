@@ -18,6 +18,7 @@ def load(name):
     return module
 
 
+@pytest.mark.slow
 def test_flume_record_example(tmp_path, monkeypatch, capsys):
     example = load("flume_record")
     monkeypatch.setattr("sys.argv", ["flume_record.py", str(tmp_path)])
@@ -41,6 +42,7 @@ def test_flume_record_example(tmp_path, monkeypatch, capsys):
     assert "impact" in capsys.readouterr().out
 
 
+@pytest.mark.slow
 def test_wave_snaps_example(tmp_path, monkeypatch, capsys):
     example = load("wave_snaps")
     monkeypatch.setattr(example, "HOURS", 1.0)
@@ -52,6 +54,7 @@ def test_wave_snaps_example(tmp_path, monkeypatch, capsys):
     assert "most probable in 24 h" in out
 
 
+@pytest.mark.slow
 def test_campaign_example(tmp_path, capsys):
     example = load("campaign")
     data = example.campaign(3, 12)

@@ -102,6 +102,7 @@ analyses:""",
 ENDS = "Connection, ConnectionX, ConnectionY, ConnectionZ"
 
 
+@pytest.mark.slow
 def test_the_unit_stands_on_its_lines(tmp_path: Path) -> None:
     (tmp_path / "case.yaml").write_text(MOORED, encoding="utf-8")
     moyai.run(tmp_path / "case.yaml").write(tmp_path / "results.nc")

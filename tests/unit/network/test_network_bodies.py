@@ -135,6 +135,7 @@ def test_a_body_that_turns_over_is_told(tmp_path):
     assert reported and "from upright" in reported[0].message and reported[0].value > 1.05
 
 
+@pytest.mark.slow
 def test_what_a_peak_is_worth_is_told_with_bodies(tmp_path):
     text = CASE.format(
         analyses="[dynamic]", more=", sensitivity: true, skip: 0.5 s, peak_goal: 0.3, ramp: 0.2 s", bars=4

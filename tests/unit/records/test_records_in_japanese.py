@@ -43,10 +43,12 @@ def assert_japanese(result: Result, least: int) -> None:
         assert found == {"page": set(), "PDF": set(), "Word": set()}
 
 
+@pytest.mark.slow
 def test_a_survey_of_waves(tmp_path: Path) -> None:
     assert_japanese(survey(tmp_path, 15.0), least=200)
 
 
+@pytest.mark.slow
 def test_impacts_of_curtains(tmp_path: Path) -> None:
     assert_japanese(measured("snaps", write_set(tmp_path)), least=150)
 

@@ -121,6 +121,7 @@ def batch(folder, tmp_path_factory):
     return stopped, files, finished, seen, store
 
 
+@pytest.mark.slow
 def test_an_interrupted_batch_keeps_what_is_done_and_goes_on(batch):
     stopped, files, finished, seen, _ = batch
     assert stopped.status == "interrupted"

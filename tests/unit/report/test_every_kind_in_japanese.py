@@ -71,6 +71,7 @@ def assert_letters(document: Document) -> None:
     assert without_boxes(document) == {"page": set(), "PDF": set(), "Word": set()}
 
 
+@pytest.mark.slow
 def test_a_network_that_snaps() -> None:
     assert_japanese(load_case(EXAMPLES / "network" / "snap.yaml"), least=300)
 

@@ -85,6 +85,7 @@ def test_every_visible_figure_is_drawn(page: Chromium) -> None:
     assert any(not entry[1] and not entry[2] for entry in state), "hidden figures wait until they are chosen"
 
 
+@pytest.mark.slow
 def test_pictures_are_not_blank(page: Chromium, tmp_path: Path) -> None:
     image = pytest.importorskip("PIL.Image")
     folder = Path(os.environ.get("MOYAI_REPORT_PICTURES", tmp_path))
@@ -265,6 +266,7 @@ def test_print_is_light_and_whole(page: Chromium, tmp_path: Path) -> None:
     assert page.evaluate("[...document.querySelectorAll('details')].some((d) => d.open)") is False
 
 
+@pytest.mark.slow
 def test_hostile_title_runs_nothing(tmp_path: Path) -> None:
     bad = '<img src=x onerror="window.hit=1"></script><script>window.hit=1</script>'
     levels = (("<img src=x onerror=alert(1)>'&", 0.0),)

@@ -69,6 +69,7 @@ def test_what_is_no_result_is_said_in_its_words(tmp_path: Path, name: str, messa
         assert message in f"{fault['message']}; {fault['remedy']}"
 
 
+@pytest.mark.slow
 def test_all_switches_together_write_what_can_be_written(
     folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

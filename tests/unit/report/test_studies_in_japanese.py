@@ -85,6 +85,7 @@ def test_every_variable_of_a_structure_has_a_japanese_name(kind: str) -> None:
     assert [one for one in variables(kind) if latin_words(known[one.long_name.lower()])] == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", STRUCTURES)
 def test_a_study_of_each_structure(kind: str) -> None:
     texts = 0

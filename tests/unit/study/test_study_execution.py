@@ -53,6 +53,7 @@ def test_failures_become_labelled_rows_and_the_rest_goes_on(tmp_path):
     assert retried.status == "converged"
 
 
+@pytest.mark.slow
 def test_a_case_that_kills_its_worker_is_a_failed_row(tmp_path):
     study = load_study(study_cases.write_study(tmp_path, heights=1, seeds=3))
     here = run_study(study, tmp_path / "here", study_cases.fast_case, workers=1)

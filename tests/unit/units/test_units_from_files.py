@@ -113,7 +113,7 @@ def compare(found, wanted, without, tolerance):
         )
 
 
-@pytest.mark.parametrize("program", ["wamit", "bemio"])
+@pytest.mark.parametrize("program", [pytest.param("wamit", marks=pytest.mark.slow), "bemio"])
 def test_motions_drift_and_headlines_are_those_of_the_computation(program, folder, computed, dataset):
     found = run(build(case(folder, *from_file(f"program: {program}, {ENTRIES[program]}"))))
     level, own = computed.tree["SWL"], found.tree["SWL"]
@@ -141,6 +141,7 @@ def test_without_drift_in_the_file_the_row_moves_as_without_drift(folder, datase
     assert told.severity == "warning"
 
 
+@pytest.mark.slow
 def test_in_time_the_band_of_the_file_carries_the_memory(folder, kept):
     time = (
         ("analyses: [statics, frequency]", "analyses: [statics, frequency, time]"),
@@ -224,6 +225,7 @@ def test_each_slip_gives_one_clear_message(slip, folder, dataset):
     assert len(found) == 1 or slip in ("map", "conjugated"), found
 
 
+@pytest.mark.slow
 def test_headings_between_those_of_the_file(folder):
     """Splines over headings 10 degrees apart meet what the solver says there."""
     problem = build(case(folder))

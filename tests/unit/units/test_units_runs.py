@@ -94,6 +94,7 @@ def test_the_report_has_map_connectors_and_lines(result, tmp_path):
     moyai.write_report(result, tmp_path / "report")
 
 
+@pytest.mark.slow
 def test_a_stopped_run_keeps_its_frequencies_and_goes_on(result, folder):
     kept = {path.name: path.stat().st_mtime_ns for path in folder.glob("*.nc")}
     frequencies = 5 + 2

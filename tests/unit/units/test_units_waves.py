@@ -106,6 +106,7 @@ def test_haskind_holds_with_a_damped_gap():
     assert np.abs(free.added_mass - same.added_mass).max() < 1e-9 * np.abs(same.added_mass).max()
 
 
+@pytest.mark.slow
 def test_yaw_moment_of_drift_of_a_row_moved_aside(box):
     at, _ = box
     headings = np.radians([20.0, 70.0])
