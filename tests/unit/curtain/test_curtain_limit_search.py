@@ -24,6 +24,7 @@ from moyai.structures.curtain.limits.utilisation import (
     joint_spacing,
     speed_limit,
 )
+from moyai.structures.curtain.snaps.snap_table import SnapTable
 from moyai.structures.curtain.statics.drag import constant_drag
 from moyai.structures.curtain.statics.hanging import FloatLine, HangingCurtain
 from moyai.structures.curtain.statics.section import Skirt
@@ -225,3 +226,15 @@ def test_breaking_above_a_plate_that_is_a_bound_proves_no_height(monkeypatch, ro
     monkeypatch.setattr(CountedLimits, "_judged", lambda self, *_: (Limit(height, "breaking"), ""))
     counted = CountedLimits(None, None, loads)
     assert counted.height(0.3)[1] == bound
+
+
+def test_heights_at_which_seas_are_run_are_those_of_any_size():
+    """A curtain of a flume has as many heights below breaking as the harbour's; the height searched up to is no size."""
+    tables = [
+        SnapTable(lambda speed, height: np.array([height, height]), lambda height, most=most: height <= most, 3.0)
+        for most in (2.3, 2.3 / 9.0, 5.0)
+    ]
+    large, small, whole = (table._heights for table in tables)
+    assert small == pytest.approx(large / 9.0, rel=1e-6) and large.size == 11 and large[-1] == pytest.approx(2.3)
+    assert whole[-1] == 3.0
+    assert tables[1].tension(0.2, 0.1) == pytest.approx(0.1)

@@ -11,7 +11,7 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.series.intervals import reach_of_mean, scatter_of_end
 
-_HEIGHTS = 10
+_HEIGHTS, _HALVINGS = 10, 40
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,8 +59,19 @@ class SnapTable:
 
     @cached_property
     def _heights(self) -> Array:
-        even = self.highest * np.linspace(0.0, 1.0, _HEIGHTS + 1) ** 1.5
+        even = self._top * np.linspace(0.0, 1.0, _HEIGHTS + 1) ** 1.5
         return np.array([0.0, *(height for height in even[1:] if self.stands(float(height)))])
+
+    @property
+    def _top(self) -> float:
+        """Return the highest of all heights [m]: that wanted, or the highest that stands, as in any other size."""
+        stands, breaks = 0.0, self.highest
+        if self.stands(breaks):
+            return breaks
+        for _ in range(_HALVINGS):
+            middle = 0.5 * (stands + breaks)
+            stands, breaks = (middle, breaks) if self.stands(middle) else (stands, middle)
+        return stands
 
     def _at(self, speed: float, number: int) -> tuple[float, float, float]:
         """Return mean, judged end and the judged end of other seeds at a height of the table."""
