@@ -229,7 +229,7 @@ def test_breaking_above_a_plate_that_is_a_bound_proves_no_height(monkeypatch, ro
 
 
 def test_heights_at_which_seas_are_run_are_those_of_any_size():
-    """A curtain of a flume has as many heights below breaking as the harbour's; the height searched up to is no size."""
+    """A curtain of a flume has as many heights below breaking as the one of a harbour."""
     tables = [
         SnapTable(lambda speed, height: np.array([height, height]), lambda height, most=most: height <= most, 3.0)
         for most in (2.3, 2.3 / 9.0, 5.0)
