@@ -148,6 +148,7 @@ def _greatest(
 #: Groups of waves move a row on chains slowly and far about its mean place; a single unit with it has several times the
 #: tension. Without it tensions and offsets of an irregular sea prove no strength.
 _WITHOUT_DRIFT = "; slow drift about the mean is not computed and adds to it, on chains several times over"
+_DRIFTS_APART = "; nothing joins the units, and their slow drift against each other is not computed and adds to it"
 _DAMPING = f"damping of the units beyond waves times {DAMPING_BAND[0]:g} to {DAMPING_BAND[1]:g}"
 _SNAPS = f"; pulled beyond {SNAP_RATIO:g} times its mean, where a line at rest at every instant says too little"
 
@@ -263,16 +264,24 @@ def _gaps(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Headline]:
     if "gap_width" not in statics or not statics.sizes["gap"]:
         return
     width = np.asarray(statics["gap_width"].values, dtype=float)
-    yield from _all_judged(
-        [
-            Headline(
-                "gap_closing", "Largest share of a gap that closes at a corner of the hulls", closing.value, "1",
-                closing.where, _model(closing), band=closing.band, bound=_of_motion(closing),
-                detail=f"{closing.value * closing.scale:.3g} m of {closing.scale:.3g} m; at 1 the hulls touch",
-            )
-            for closing in _each(seas, "gap_closing_largest", over=width)
-        ]
+    yield from _all_judged([_closing(found) for found in _each(seas, "gap_closing_largest", over=width)])
+
+
+def _closing(found: _Largest) -> Headline:
+    """Return how far a gap closes; units that nothing joins drift against each other as well."""
+    apart = found.without_drift and not _joined(found)
+    detail = f"{found.value * found.scale:.3g} m of {found.scale:.3g} m; at 1 the hulls touch"
+    return Headline(
+        "gap_closing", "Largest share of a gap that closes at a corner of the hulls", found.value, "1",
+        found.where, _model(found), band=found.band, bound="at least" if apart else _of_motion(found),
+        detail=detail + _DRIFTS_APART * apart,
     )  # fmt: skip
+
+
+def _joined(found: _Largest) -> bool:
+    """Whether a connector joins the units of a gap; names of both end with the numbers of the units."""
+    gap = str(found.data["gap"].values[found.index[-1]]).split()[-1]
+    return any(str(name).split()[-1] == gap for name in found.data["connector"].values)
 
 
 def _connectors(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Headline]:
