@@ -11,7 +11,7 @@ from moyai.structures.units.bem import Panels, panels_of, solve_frequency
 from moyai.structures.units.drift import near_drift, reconciled
 from moyai.structures.units.hydrodynamics import RowHydrodynamics, solve_row
 from moyai.structures.units.mesh import row_mesh
-from moyai.structures.units.model import Placement
+from moyai.structures.units.model import Connector, Placement
 from moyai.structures.units.near_field import NearField
 from moyai.structures.units.response import RowModel, far_waves, respond
 from moyai.validation.units import LENGTH, WATER, at_rest, row
@@ -45,7 +45,7 @@ def test_a_hull_in_still_water_is_pushed_nowhere() -> None:
     # without the incident wave, whose potential has no bound in so slow a wave
     with pytest.MonkeyPatch.context() as patch:
         nothing = np.zeros((panels.mesh.count, 1), dtype=complex)
-        patch.setattr("moyai.structures.units.near_field.incident_on", lambda *_: (nothing, nothing))
+        patch.setattr("moyai.structures.units.near_field.incident_potential", lambda *_: nothing)
         force = lifted.drift(still, np.zeros(1), motion)[0, 0]
     size = 0.25 * WATER.density * WATER.gravity * LENGTH * 0.5**2
     assert np.abs(force[:2]).max() < 1e-6 * size
@@ -71,7 +71,7 @@ def test_two_units_abeam_bear_the_same_and_push_each_other() -> None:
     model = RowModel(field.at, hydro, np.zeros(field.at.size))
     found = respond(model, OMEGA, np.zeros(len(field.at.joints)))
     whole = far_waves(model, found).drift
-    loads = reconciled(field.at, near_drift(model, found), whole)[0, 0].reshape(2, 6)
+    loads = reconciled(field.at, near_drift(model, found.motion), whole)[0, 0].reshape(2, 6)
     assert loads[0, 0] == pytest.approx(loads[1, 0], rel=1e-9) and loads[0, 0] > 0.0
     assert loads[0, 1] == pytest.approx(-loads[1, 1], rel=1e-9) and abs(loads[0, 1]) > 1e-3 * loads[0, 0]
     assert loads[0, 5] == pytest.approx(-loads[1, 5], rel=1e-9)
@@ -82,7 +82,7 @@ def test_the_seaward_unit_shelters_the_next_and_the_sum_is_kept() -> None:
     model = RowModel(field.at, hydro, np.zeros(field.at.size))
     found = respond(model, OMEGA, np.zeros(len(field.at.joints)))
     whole = far_waves(model, found).drift
-    loads = reconciled(field.at, near_drift(model, found), whole)[0, 0].reshape(2, 6)
+    loads = reconciled(field.at, near_drift(model, found.motion), whole)[0, 0].reshape(2, 6)
     plan = field.at.centres
     assert loads[:, :2].sum(axis=0) == pytest.approx(whole[0, 0, :2], rel=1e-9)
     moment = loads[:, 5] + plan[:, 0] * loads[:, 1] - plan[:, 1] * loads[:, 0]
@@ -109,3 +109,20 @@ def test_shares_of_what_is_left_do_not_depend_on_the_axes_of_the_row() -> None:
     found = reconciled(at_rest(straight), near, whole).reshape(-1, 3)
     turned = reconciled(at_rest(replace(straight, placements=placements)), near @ turn.T, whole @ turn.T)
     assert np.allclose(turned.reshape(-1, 3), found @ turn.T, atol=1e-12)
+
+
+def test_the_drift_from_all_pairs_of_motions_is_that_of_the_panels(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Held in a wave, let go, and moved in any way: products of the motions are summed once for them all."""
+    _, hydro = _solved(2.5, 0.6)
+    hinged = at_rest(row((Connector("h", "hinge", ((0, 1),), 0.0, 3.0, (1.0, 0.0, 0.0)),)))
+    assert hydro.panels is not None
+    rng = np.random.default_rng(5)
+    moved = rng.normal(size=(4, hinged.free.shape[1])) + 1j * rng.normal(size=(4, hinged.free.shape[1]))
+    moved[0] = 0.0
+    found = {}
+    for often in (np.inf, 0.0):
+        monkeypatch.setattr("moyai.structures.units.near_field.OFTEN", often)
+        field = NearField(hinged, hydro.panels)
+        found[often] = [field.drift(hydro.solutions[0], hydro.headings, one[None] @ hinged.free.T) for one in moved]
+        assert bool(field._pairs) == (often == 0.0)
+    np.testing.assert_allclose(found[0.0], found[np.inf], rtol=0.0, atol=1e-11 * np.abs(found[np.inf]).max())

@@ -22,6 +22,7 @@ from moyai.sea.water import Water
 from moyai.structures.units.connectors import Joint, constraints, joints_of, null_space, spring_matrices
 from moyai.structures.units.links import Link, Work, links_of
 from moyai.structures.units.model import FloatingRow, Placement, UnitLine
+from moyai.structures.units.row_lines import RowLines
 
 IMBALANCE_LIMIT = 1.0  # per cent of the displacement of a unit
 #: Half width that corners of curves are rounded over at rest, over the length of a unit; wider ones lead the way there
@@ -129,36 +130,34 @@ class RowAtLevel:
 
     def _joined(self, blocks: list[Array]) -> Array:
         """Return blocks (6, 6) in axes of their units as one matrix in row axes."""
+        whole = np.kron(np.eye(len(blocks)), np.ones((6, 6))) * np.tile(np.hstack(blocks), (len(blocks), 1))
+        return np.asarray(self.unit_axes.T @ whole @ self.unit_axes)
+
+    @cached_property
+    def unit_axes(self) -> Array:
+        """Turns motions in row axes to those of their units (m, m)."""
         out = np.zeros((self.size, self.size))
-        for number, (block, place) in enumerate(zip(blocks, self.row.placements)):
-            turn = np.kron(np.eye(2), place.rotation)
+        for number, place in enumerate(self.row.placements):
             part = slice(6 * number, 6 * number + 6)
-            out[part, part] = turn @ block @ turn.T
+            out[part, part] = np.kron(np.eye(2), place.rotation.T)
         return out
 
     def in_unit_axes(self, motion: Any) -> Any:
         """Return motions (..., m) in row axes as (..., u, 6) in axes of each unit."""
-        shaped = np.asarray(motion).reshape(*np.shape(motion)[:-1], self.row.count, 6)
-        turns = np.array([np.kron(np.eye(2), place.rotation.T) for place in self.row.placements])
-        return np.asarray(np.einsum("uij,...uj->...ui", turns, shaped))
+        return (np.asarray(motion) @ self.unit_axes.T).reshape(*np.shape(motion)[:-1], self.row.count, 6)
+
+    @cached_property
+    def row_lines(self) -> RowLines:
+        """All lines of the row."""
+        return RowLines(self.lines, self.water.depth + float(self.centres[0, 2]))
 
     def line_stiffness(self, position: Array) -> Array:
         """Return the tangent stiffness (m, m) of all lines at a position (m,) from rest."""
-        out = np.zeros((self.size, self.size))
-        for number, system in enumerate(self.systems):
-            if system.lines:
-                part = slice(6 * number, 6 * number + 6)
-                out[part, part] = system.stiffness(position[part])
-        return out
+        return self.row_lines.at(position).stiffness
 
     def line_force(self, position: Array) -> Array:
         """Return the force (m,) of all lines at a position (m,) from rest."""
-        out = np.zeros(self.size)
-        for number, system in enumerate(self.systems):
-            if system.lines:
-                part = slice(6 * number, 6 * number + 6)
-                out[part] = system.forces(position[part])
-        return out
+        return self.row_lines.at(position).force
 
     def curve_force(self, position: Array, work: Work) -> Array:
         """Return the mean force (m,) of connectors with a curve about a position (m,)."""
@@ -184,27 +183,11 @@ class RowAtLevel:
 
     def tensions(self, position: Array) -> Array:
         """Return the tensions at the fairleads (lines,) [N] at a position (m,)."""
-        parts = [
-            system.tensions(position[6 * number : 6 * number + 6])
-            for number, system in enumerate(self.systems)
-            if system.lines
-        ]
-        return np.concatenate(parts) if parts else np.zeros(0)
+        return self.row_lines.at(position).tension
 
     def tension_gradient(self, position: Array) -> Array:
-        """Return the derivative of the tensions (lines, m) by the motions, by central differences."""
-        out = np.zeros((len(self.line_names), self.size))
-        first = 0
-        for number, system in enumerate(self.systems):
-            own = position[6 * number : 6 * number + 6]
-            last = first + len(self.lines[number])
-            for dof in range(6) if last > first else ():
-                step = np.zeros(6)
-                step[dof] = 1e-4 * (1.0 if dof < 3 else 1.0 / self.row.length)
-                change = system.tensions(own + step) - system.tensions(own - step)
-                out[first:last, 6 * number + dof] = change / (2.0 * step[dof])
-            first = last
-        return out
+        """Return the derivative of the tensions (lines, m) by the motions."""
+        return self.row_lines.at(position).tension_gradient
 
 
 def assemble(row: FloatingRow, environment: Environment, name: str, level: float) -> RowAtLevel:

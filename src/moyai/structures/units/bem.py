@@ -268,18 +268,24 @@ def _depth_profile(z: Array, k: float, depth: float) -> Array:
     return np.asarray((np.exp(k * z) + np.exp(-k * (z + 2.0 * depth))) / (1.0 + math.exp(-2.0 * k * depth)))
 
 
+def incident_potential(point: Array, water: Water, omega: float, k: float, headings: Array) -> ComplexArray:
+    """Return the potential of incident waves of unit amplitude at points (n, 3), shape (n, h)."""
+    phase = np.exp(1j * k * (point[:, [0]] * np.cos(headings) + point[:, [1]] * np.sin(headings)))
+    return np.asarray(-1j * water.gravity / omega * _depth_profile(point[:, 2], k, water.depth)[:, None] * phase)
+
+
 def incident_on(
     mesh: PanelMesh, water: Water, omega: float, k: float, headings: Array
 ) -> tuple[ComplexArray, ComplexArray]:
     """Return the potential of incident waves of unit amplitude and its normal derivative at the panels (n, h)."""
     point, normal = mesh.centre, mesh.normal
     cosine, sine = np.cos(headings), np.sin(headings)
-    phase = np.exp(1j * k * (point[:, [0]] * cosine + point[:, [1]] * sine))
-    profile = _depth_profile(point[:, 2], k, water.depth)[:, None]
-    rate = _sinh_profile(point[:, 2], k, water.depth)[:, None]
-    amplitude = -1j * water.gravity / omega
-    across = normal[:, [0]] * cosine + normal[:, [1]] * sine
-    return amplitude * profile * phase, amplitude * k * phase * (1j * across * profile + normal[:, [2]] * rate)
+    slope = -1j * water.gravity / omega * k * np.exp(1j * k * (point[:, [0]] * cosine + point[:, [1]] * sine))
+    across = (
+        1j * (normal[:, [0]] * cosine + normal[:, [1]] * sine) * _depth_profile(point[:, 2], k, water.depth)[:, None]
+    )
+    upward = normal[:, [2]] * _sinh_profile(point[:, 2], k, water.depth)[:, None]
+    return incident_potential(point, water, omega, k, headings), slope * (across + upward)
 
 
 def _sinh_profile(z: Array, k: float, depth: float) -> Array:

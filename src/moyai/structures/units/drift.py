@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from moyai.core.arrays import Array, IntArray
+from moyai.core.arrays import Array, ComplexArray, IntArray
 from moyai.structures.units.assembly import RowAtLevel
 from moyai.structures.units.near_field import NearField
-from moyai.structures.units.response import RowModel, RowResponse
+from moyai.structures.units.response import RowModel
 
 
 def share_drift(at: RowAtLevel, drift: Array) -> Array:
@@ -32,15 +32,15 @@ def share_drift(at: RowAtLevel, drift: Array) -> Array:
 
 
 def near_drift(
-    model: RowModel, response: RowResponse, rows: IntArray | None = None, columns: Array | None = None
+    model: RowModel, motion: ComplexArray, rows: IntArray | None = None, columns: IntArray | None = None
 ) -> Array | None:
     """Return what pressures on the hulls give every unit (r, c, u, 3) per amplitude squared.
 
     Parameters
     ----------
     model : RowModel
-    response : RowResponse
-        At the frequencies of the coefficients.
+    motion : ndarray (f, h, m)
+        At the frequencies and headings of the coefficients.
     rows, columns : ndarray of int, optional
         Frequencies and headings asked for; all when left out.
 
@@ -53,11 +53,11 @@ def near_drift(
     if hydro.panels is None or at.row.count == 1:
         return None
     chosen: IntArray = np.arange(len(hydro.omega)) if rows is None else rows
-    headings: IntArray = np.arange(len(hydro.headings)) if columns is None else columns.astype(np.int64)
-    field = NearField(at, hydro.panels)
+    headings: IntArray = np.arange(len(hydro.headings)) if columns is None else columns
+    field = NearField.of(at, hydro.panels)
     return np.array(
         [
-            field.drift(hydro.solutions[row].among(headings), hydro.headings[headings], response.motion[row, headings])
+            field.drift(hydro.solutions[row].among(headings), hydro.headings[headings], motion[row, headings])
             for row in chosen
         ]
     )

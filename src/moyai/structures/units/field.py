@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from moyai.core.arrays import Array, ComplexArray
+from moyai.core.arrays import Array, ComplexArray, IntArray
 from moyai.core.progress import Progress, silent
 from moyai.core.store import DatasetStore, key_of
 from moyai.structures.units.assembly import RowAtLevel
@@ -138,7 +138,7 @@ def _spread(values: ComplexArray, wet: NDArray[np.bool_]) -> ComplexArray:
     return out
 
 
-def height_ratio(field: WaveField, index: int, motion: ComplexArray, columns: Array) -> Array:
+def height_ratio(field: WaveField, index: int, motion: ComplexArray, columns: IntArray) -> Array:
     """Return K at all points for one frequency and headings (p, h): |elevation| over the incident amplitude.
 
     Parameters
@@ -154,7 +154,7 @@ def height_ratio(field: WaveField, index: int, motion: ComplexArray, columns: Ar
     return np.asarray(np.abs(field.diffracted[index][:, columns] + field.radiated[index] @ motion.T))
 
 
-def sea_height_ratio(field: WaveField, motion: ComplexArray, columns: Array, energy: Array) -> Array:
+def sea_height_ratio(field: WaveField, motion: ComplexArray, columns: IntArray, energy: Array) -> Array:
     """Return K (p,) of a sea: root of the energy at a point over that of the incident sea.
 
     Parameters

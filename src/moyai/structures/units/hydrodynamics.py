@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 
 from moyai import __version__
-from moyai.core.arrays import Array, ComplexArray
+from moyai.core.arrays import Array, ComplexArray, IntArray
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.store import DatasetStore, key_of
@@ -71,32 +72,40 @@ class RowHydrodynamics:
     band: RowHydrodynamics | None = None
     source: str = ""
 
-    @property
+    @cached_property
     def omega(self) -> Array:
         """Frequencies [rad/s]."""
         return np.array([item.omega for item in self.solutions])
 
-    @property
+    @cached_property
     def wave_number(self) -> Array:
         """Wave numbers [1/m]."""
         return np.array([item.wave_number for item in self.solutions])
 
-    @property
+    @cached_property
     def added_mass(self) -> Array:
         """(f, m, m), the symmetric part."""
         values = np.array([item.added_mass for item in self.solutions])
         return np.asarray(0.5 * (values + values.transpose(0, 2, 1)))
 
-    @property
+    @cached_property
     def damping(self) -> Array:
         """(f, m, m), the symmetric part."""
         values = np.array([item.damping for item in self.solutions])
         return np.asarray(0.5 * (values + values.transpose(0, 2, 1)))
 
-    @property
+    @cached_property
     def excitation(self) -> ComplexArray:
         """(f, h, m)."""
         return np.array([item.excitation for item in self.solutions])
+
+    @cached_property
+    def far(self) -> tuple[ComplexArray, ComplexArray]:
+        """Far waves of the row held (f, h, directions) and of its motions (f, m, directions)."""
+        return (
+            np.array([item.scattered for item in self.solutions]),
+            np.array([item.radiated for item in self.solutions]),
+        )
 
     def phase(self, k: Array) -> ComplexArray:
         """Return the phase of the incident waves at the centres (f, h, m) for wave numbers (f,) [1/m]."""
@@ -113,8 +122,8 @@ class RowHydrodynamics:
 
     def _travel(self, k: Array) -> ComplexArray:
         """Return the phase of a wave from unit to unit (f, m, m)."""
-        apart = np.kron(self.reach, np.ones((6, 6)))
-        return np.asarray(np.exp(1j * k[:, None, None] * apart))
+        turn = np.exp(1j * k[:, None, None] * self.reach)
+        return np.repeat(np.repeat(turn, 6, axis=1), 6, axis=2)
 
     def at(self, omega: Array, k: Array) -> tuple[Array, Array, ComplexArray]:
         """Return added mass, damping (f, m, m) and excitation (f, h, m) at other frequencies, by splines.
@@ -137,11 +146,28 @@ class RowHydrodynamics:
         if len(own) == 1:
             shape = (len(omega), 1, 1)
             return np.tile(self.added_mass, shape), np.tile(self.damping, shape), np.tile(self.excitation, shape)
-        steady = self.excitation / self.phase(self.wave_number)
-        excitation = CubicSpline(own, steady)(omega) * self.phase(k)
+        if np.array_equal(own, omega):
+            return self.added_mass, self.damping, self.excitation
+        steady, answer = self._splines
+        answers = answer(omega) * self._travel(k)
+        return np.asarray(answers.real), np.asarray(answers.imag * omega[:, None, None]), steady(omega) * self.phase(k)
+
+    @cached_property
+    def _splines(self) -> tuple[CubicSpline, CubicSpline]:
+        """Splines of excitation and of added mass with damping, without what turns fast."""
+        own = self.omega
         answer = (self.added_mass + 1j * self.damping / own[:, None, None]) / self._travel(self.wave_number)
-        answer = CubicSpline(own, answer)(omega) * self._travel(k)
-        return np.asarray(answer.real), np.asarray(answer.imag * omega[:, None, None]), excitation
+        return CubicSpline(own, self.excitation / self.phase(self.wave_number)), CubicSpline(own, answer)
+
+    def among(self, columns: IntArray) -> RowHydrodynamics:
+        """Return the coefficients of some of the headings; the seas of one set of headings share them."""
+        kept: dict[tuple[int, ...], RowHydrodynamics] = self.__dict__.setdefault("_among", {})
+        key = tuple(int(column) for column in columns)
+        if key not in kept:
+            drift = None if self.drift is None else self.drift[:, columns]
+            solutions = tuple(item.among(columns) for item in self.solutions)
+            kept[key] = replace(self, headings=self.headings[columns], solutions=solutions, drift=drift)
+        return kept[key]
 
 
 def solve_row(

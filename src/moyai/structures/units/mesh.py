@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
@@ -55,23 +56,23 @@ class PanelMesh:
         """Number of panels."""
         return len(self.unit)
 
-    @property
+    @cached_property
     def area_vector(self) -> Array:
         """Normal times area (n, 3) [m2], half the cross product of the diagonals."""
         first, second = self.corners[:, 2] - self.corners[:, 0], self.corners[:, 3] - self.corners[:, 1]
         return 0.5 * np.cross(first, second)
 
-    @property
+    @cached_property
     def area(self) -> Array:
         """Areas (n,) [m2]."""
         return np.asarray(np.linalg.norm(self.area_vector, axis=1))
 
-    @property
+    @cached_property
     def normal(self) -> Array:
         """Unit normals (n, 3), into the water; of lids downward."""
         return self.area_vector / self.area[:, None]
 
-    @property
+    @cached_property
     def centre(self) -> Array:
         """Centroids (n, 3) [m]: of the two triangles of a panel, by their areas."""
         a, b, c, d = (self.corners[:, index] for index in range(4))

@@ -18,7 +18,7 @@ from moyai.structures.units.assembly import RowAtLevel, held_load
 from moyai.structures.units.bem import directions
 from moyai.structures.units.hydrodynamics import RowHydrodynamics
 from moyai.structures.units.model import Curve
-from moyai.structures.units.viscous import LinearEddies
+from moyai.structures.units.viscous import Eddies, LinearEddies
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,6 +49,52 @@ class RowModel:
 
 
 @dataclass(frozen=True, eq=False)
+class RowWaves:
+    """What waves of given frequencies do to the row, wherever it comes to rest: the turns of a sea share it.
+
+    Parameters
+    ----------
+    at : RowAtLevel
+    omega : ndarray (n,)
+        [rad/s].
+    added_mass, damping : ndarray (n, m, m)
+        Of the waves that the units make.
+    excitation : ndarray (n, h, m)
+        Per metre of amplitude.
+    water : ndarray (n, h, k)
+        Undisturbed wave in the measures of eddies; empty without them.
+    """
+
+    at: RowAtLevel
+    omega: Array
+    added_mass: Array
+    damping: Array
+    excitation: ComplexArray
+    water: ComplexArray
+
+    @classmethod
+    def of(cls, at: RowAtLevel, hydro: RowHydrodynamics, omega: Array, eddies: Eddies | None = None) -> RowWaves:
+        """Return what waves of frequencies within the band of the coefficients do."""
+        k = np.asarray(wave_number(omega, at.water.depth, at.water.gravity), dtype=float)
+        added, damping, excitation = hydro.at(omega, k)
+        water: ComplexArray = np.zeros((*excitation.shape[:2], 0), dtype=complex)
+        if eddies is not None:
+            water = eddies.water_motion(omega[:, None], hydro.headings, at.water.depth, at.water.gravity)
+        return cls(at, omega, added, damping, excitation, water)
+
+    @cached_property
+    def unit_masses(self) -> Array:
+        """Mass and added mass (n, m) of every motion along the axes of its unit."""
+        return masses_along_units(self.at, self.added_mass)
+
+    @cached_property
+    def left(self) -> tuple[Array, Array]:
+        """Mass with added mass, and damping (n, r, r), of the motions that connectors leave."""
+        free = self.at.free
+        return free.T @ (self.at.inertia + self.added_mass) @ free, free.T @ self.damping @ free
+
+
+@dataclass(frozen=True, eq=False)
 class RowResponse:
     """Transfer functions at frequencies (n,) and headings (h,).
 
@@ -75,7 +121,40 @@ class RowResponse:
     dissipated: Array
 
 
-def respond(model: RowModel, omega: Array, curve_stiffness: Array, eddies: LinearEddies | None = None) -> RowResponse:
+def moved(model: RowModel, waves: RowWaves, curve_stiffness: Array, eddies: LinearEddies | None = None) -> ComplexArray:
+    """Return the motions (n, h, m) of the connected row in waves of unit amplitude; see :func:`respond`."""
+    at, free = model.at, model.at.free
+    restoring, stiffness, damping, carried = _holds(model, waves, curve_stiffness, eddies)
+    along = at.unit_axes @ free
+    critical = critical_damping(at, waves.unit_masses, restoring)
+    mass, radiation = waves.left
+    own = (along.T * critical[:, None, :]) @ along + free.T @ damping @ free
+    w = waves.omega[:, None, None]
+    matrix = -(w**2) * mass - 1j * w * (radiation + own) + free.T @ stiffness @ free
+    force = (waves.excitation + carried) @ free
+    return np.asarray(np.linalg.solve(matrix, force.swapaxes(1, 2)).swapaxes(1, 2) @ free.T)
+
+
+def _holds(
+    model: RowModel, waves: RowWaves, curve_stiffness: Array, eddies: LinearEddies | None
+) -> tuple[Array, Array, Array, ComplexArray | float]:
+    """Return restoring without connectors and all stiffness, damping beyond waves and units, force on edges."""
+    at = model.at
+    along = np.array([joint.along for joint in at.joints]).reshape(len(at.joints), at.size)
+    restoring = at.hydrostatic + model.line_stiffness
+    stiffness = restoring + at.springs[0] + (along.T * np.asarray(curve_stiffness, dtype=float)) @ along
+    if eddies is None:
+        return restoring, stiffness, at.springs[1], 0.0
+    return restoring, stiffness, at.springs[1] + eddies.damping, eddies.carried(waves.water)
+
+
+def respond(
+    model: RowModel,
+    omega: Array,
+    curve_stiffness: Array,
+    eddies: LinearEddies | None = None,
+    waves: RowWaves | None = None,
+) -> RowResponse:
     """Solve the connected row in waves of unit amplitude.
 
     Parameters
@@ -83,60 +162,48 @@ def respond(model: RowModel, omega: Array, curve_stiffness: Array, eddies: Linea
     model : RowModel
     omega : ndarray (n,)
         [rad/s], within the band of the coefficients.
-    curve_stiffness : ndarray (joints,) or (n, h, joints)
+    curve_stiffness : ndarray (joints,)
         Linear stiffness [N/m] that stands for the curve of every connector; zero where it has none.
     eddies : LinearEddies or None
         Drag of the edges in the sea that is answered.
+    waves : RowWaves, optional
+        Of these frequencies, where they are at hand.
     """
     at = model.at
-    k = np.array([float(wave_number(w, at.water.depth, at.water.gravity)) for w in omega])
-    added, radiation, excitation = model.hydro.at(omega, k)
-    joints, free = at.joints, at.free
-    along = np.array([joint.along for joint in joints]).reshape(len(joints), at.size)
-    restoring = at.hydrostatic + model.line_stiffness
-    stiffness = restoring + at.springs[0]
-    own = own_damping(at, added, restoring) + at.springs[1]
-    carried: ComplexArray | float = 0.0
-    if eddies is not None:
-        own = own + eddies.damping
-        carried = eddies.force(at, omega, model.hydro.headings)
-        excitation = excitation + carried
-    headings = excitation.shape[1]
-    given = np.broadcast_to(np.asarray(curve_stiffness, dtype=float), (len(omega), headings, len(joints)))
+    if waves is None:
+        waves = RowWaves.of(at, model.hydro, omega, None if eddies is None else eddies.eddies)
+    motion = moved(model, waves, curve_stiffness, eddies)
+    restoring, stiffness, damping, carried = _holds(model, waves, curve_stiffness, eddies)
+    critical, axes = critical_damping(at, waves.unit_masses, restoring)[:, None, :], at.unit_axes
     w = omega[:, None, None]
-    base = -(w**2) * (at.inertia + added) - 1j * w * (radiation + own) + stiffness
-    motion = np.empty(excitation.shape, dtype=complex)
-    loads = np.zeros((len(omega), headings, len(at.constraint)), dtype=complex)
-    # headings that curves meet alike share one factorisation
-    alike = bool(np.all(given == given[:, :1]))
-    for which in [slice(None)] if alike else [slice(h, h + 1) for h in range(headings)]:
-        curves = np.einsum("jm,nj,jk->nmk", along, given[:, which][:, 0], along)
-        matrix = base + curves
-        force = excitation[:, which].swapaxes(1, 2)
-        motion[:, which] = (free @ np.linalg.solve(free.T @ matrix @ free, free.T @ force)).swapaxes(1, 2)
-        left = force - matrix @ motion[:, which].swapaxes(1, 2)
-        loads[:, which] = held_load(at, left.swapaxes(1, 2))
-    relative = _relative(at, motion)
-    load = _joint_loads(at, omega, motion, relative, loads, given)
-    tension = motion @ model.tension_gradient.T
     velocity = -1j * w * motion
-    power = 0.5 * np.real(np.sum(velocity.conj() * (velocity @ own - carried), axis=2))
+    damped = (velocity @ axes.T * critical) @ axes + velocity @ damping.T
+    # added mass and damping are symmetric: motions stand in rows
+    inert = (w**2) * (motion @ (at.inertia + waves.added_mass))
+    held = waves.excitation + carried + inert - velocity @ waves.damping - damped - motion @ stiffness.T
+    relative = _relative(at, motion)
+    load = _joint_loads(at, omega, motion, relative, held_load(at, held), np.asarray(curve_stiffness, dtype=float))
+    tension = motion @ model.tension_gradient.T
+    power = 0.5 * np.real(np.sum(velocity.conj() * (damped - carried), axis=2))
     return RowResponse(omega, motion, relative, load, np.asarray(tension), np.asarray(power, dtype=float))
 
 
-def own_damping(at: RowAtLevel, added: Array, stiffness: Array) -> Array:
-    """Return the damping (n, m, m) beyond waves and connectors [eq:units-critical]."""
-    row = at.row
-    turn = np.zeros((at.size, at.size))
-    for number, place in enumerate(row.placements):
-        part = slice(6 * number, 6 * number + 6)
-        turn[part, part] = np.kron(np.eye(2), place.rotation.T)
-    mass = np.sum((turn @ (at.inertia + added)) * turn, axis=2)
+def masses_along_units(at: RowAtLevel, added_mass: Array) -> Array:
+    """Return mass and added mass (n, m) of every motion along the axes of its unit, of added masses (n, m, m)."""
+    count, every = at.row.count, np.arange(at.row.count)
+    blocks = (at.inertia + added_mass).reshape(-1, count, 6, count, 6)[:, every, :, every]
+    turns = at.unit_axes.reshape(count, 6, count, 6)[every, :, every]
+    along = np.einsum("uab,unbc,uac->nua", turns, blocks, turns, optimize=True)
+    return np.asarray(along.reshape(len(added_mass), at.size))
+
+
+def critical_damping(at: RowAtLevel, masses: Array, stiffness: Array) -> Array:
+    """Return the damping (n, m) along the axes of the units, from their masses (n, m) there [eq:units-critical]."""
+    row, turn = at.row, at.unit_axes
     spring = np.sum((turn @ stiffness) * turn, axis=1)
     fraction = np.tile(row.damping_fraction, row.count)
-    critical = 2.0 * np.sqrt(np.maximum(mass, 0.0) * np.maximum(spring, 0.0))
-    diagonal = fraction * critical + np.tile(row.linear_damping, row.count)
-    return np.asarray((turn.T * diagonal[:, None, :]) @ turn)
+    critical = 2.0 * np.sqrt(np.maximum(masses, 0.0) * np.maximum(spring, 0.0))
+    return np.asarray(fraction * critical + np.tile(row.linear_damping, row.count))
 
 
 def _relative(at: RowAtLevel, motion: ComplexArray) -> ComplexArray:
@@ -163,7 +230,7 @@ def _joint_loads(
             out[..., number, :] += (rate * relative[..., number, :]) @ connector.damping.T
         if connector.curve is not None:
             elongation = motion @ joint.along
-            force = (curve[..., number] - 1j * omega[:, None] * connector.linear_damping) * elongation
+            force = (curve[number] - 1j * omega[:, None] * connector.linear_damping) * elongation
             out[..., number, :3] += force[..., None] * joint.axis
     return out
 
@@ -218,9 +285,31 @@ def far_waves(model: RowModel, response: RowResponse) -> FarWaves:
     hydro, at = model.hydro, model.at
     if hydro.panels is None:
         return _far_waves_of_file(hydro)
-    scattered = np.array([item.scattered for item in hydro.solutions])
-    radiated = np.array([item.radiated for item in hydro.solutions])
-    total = scattered + np.einsum("fhm,fmd->fhd", response.motion, radiated)
+    total, forward, drift = _far_field(model, response.motion)
+    energy, speed = 0.5 * at.water.density * at.water.gravity, _group_speed(model)
+    power = np.mean(np.abs(total) ** 2, axis=2)
+    lost = -(4.0 / hydro.wave_number[:, None]) * (forward.real + power) * energy * speed
+    balance = (lost - response.dissipated) / (energy * speed * at.row.count * at.row.length)
+    return FarWaves(total, forward, drift, balance)
+
+
+def far_drift(model: RowModel, motion: ComplexArray) -> Array:
+    """Return the mean drift alone (f, h, 3) of motions (f, h, m); see :class:`FarWaves`."""
+    if model.hydro.panels is None:
+        return _far_waves_of_file(model.hydro).drift
+    return _far_field(model, motion)[2]
+
+
+def _group_speed(model: RowModel) -> Array:
+    water = model.at.water
+    return np.asarray(group_velocity(model.hydro.omega, water.depth, water.gravity), dtype=float)[:, None]
+
+
+def _far_field(model: RowModel, motion: ComplexArray) -> tuple[ComplexArray, ComplexArray, Array]:
+    """Return far waves in all directions (f, h, d), in that of the incident wave (f, h), and drift (f, h, 3)."""
+    hydro, water = model.hydro, model.at.water
+    scattered, radiated = hydro.far
+    total = scattered + motion @ radiated
     angle = directions()
     order = np.fft.fftfreq(len(angle), 1.0 / len(angle))
     series = np.fft.fft(total, axis=2) / len(angle)
@@ -229,26 +318,19 @@ def far_waves(model: RowModel, response: RowResponse) -> FarWaves:
     forward = np.einsum("fhd,hd->fh", series, at_heading)
     forward_slope = np.einsum("fhd,hd->fh", 1j * order * series, at_heading)
     k = hydro.wave_number[:, None]
-    speed = np.array([float(group_velocity(w, at.water.depth, at.water.gravity)) for w in hydro.omega])[:, None]
-    ratio = speed * k / hydro.omega[:, None]
-    energy = 0.5 * at.water.density * at.water.gravity
-    power = np.mean(np.abs(total) ** 2, axis=2)
-    lost = -(4.0 / k) * (forward.real + power) * energy * speed
-    mean_x = np.mean(np.abs(total) ** 2 * np.cos(angle), axis=2)
-    mean_y = np.mean(np.abs(total) ** 2 * np.sin(angle), axis=2)
+    ratio = _group_speed(model) * k / hydro.omega[:, None]
+    square = np.abs(total) ** 2
     turn = np.mean(np.imag(total.conj() * slope), axis=2)
-    scale = -4.0 * energy * ratio / k
+    scale = -2.0 * water.density * water.gravity * ratio / k
     drift = np.stack(
         [
-            scale * (forward.real * np.cos(hydro.headings) + mean_x),
-            scale * (forward.real * np.sin(hydro.headings) + mean_y),
+            scale * (forward.real * np.cos(hydro.headings) + np.mean(square * np.cos(angle), axis=2)),
+            scale * (forward.real * np.sin(hydro.headings) + np.mean(square * np.sin(angle), axis=2)),
             scale / k * (forward_slope.imag + turn),
         ],
         axis=2,
     )
-    width = at.row.count * at.row.length
-    balance = (lost - response.dissipated) / (energy * speed * width)
-    return FarWaves(total, forward, drift, balance)
+    return total, forward, drift
 
 
 def _far_waves_of_file(hydro: RowHydrodynamics) -> FarWaves:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from moyai.core.arrays import Array, ComplexArray
+from moyai.core.arrays import Array, ComplexArray, IntArray
 from moyai.core.errors import InputError
 from moyai.core.mixing import Mixing
 from moyai.floating.irregular import response_statistics
@@ -22,9 +22,12 @@ from moyai.structures.units.response import (
     FarWaves,
     RowModel,
     RowResponse,
+    RowWaves,
+    far_drift,
     far_waves,
     gaussian_stiffness,
     harmonic_stiffness,
+    moved,
     respond,
 )
 from moyai.structures.units.viscous import LinearEddies, eddies_of
@@ -98,7 +101,7 @@ def spread_of(sea: SeaState, omega: Array) -> tuple[Array, Array]:
     return np.asarray(np.round(np.arctan2(np.sin(middle), np.cos(middle)), 12), dtype=float), share
 
 
-def columns_of(hydro: RowHydrodynamics, headings: Array) -> Array:
+def columns_of(hydro: RowHydrodynamics, headings: Array) -> IntArray:
     """Return where headings stand among those that were solved."""
     return np.array([int(np.argmin(np.abs(hydro.headings - heading))) for heading in headings])
 
@@ -157,43 +160,38 @@ def regular_answer(
     column = columns_of(hydro, np.array([sea.heading]))
     eddies = eddies_of(at)
     for period in sea.periods:
-        omega = np.array([2.0 * math.pi / period])
-        row = int(np.argmin(np.abs(hydro.omega - omega[0])))
+        row = int(np.argmin(np.abs(hydro.omega - 2.0 * math.pi / period)))
         drift, pushed = np.zeros(3), np.zeros(at.size)
         rest, work = steady_position(at, steady), Work(at.rounding, np.zeros(len(at.links)), True)
         converged, mixed = False, _Mixed()
         amplitude = 0.5 * sea.height
         linear = None if eddies is None else LinearEddies(eddies, np.zeros(len(eddies.points)), True)
+        every = RowWaves.of(at, hydro, hydro.omega, eddies)
         if linear is not None:
             # as of units that lie still
-            still = linear.measured(
-                at, omega, hydro.headings[column], np.zeros((1, len(column), at.size), dtype=complex)
-            )
-            linear = replace(linear, size=amplitude * np.abs(still[0, 0]))
+            linear = replace(linear, size=amplitude * np.abs(every.water[row, column[0]]))
         for _ in range(_TURNS):
             model, curves = RowModel(at, hydro, rest.position), _curve_stiffness(at, rest, work)
-            found = respond(model, hydro.omega[[row]], curves, linear)
-            drawn = amplitude * np.abs(_drawn(at, rest, found.motion[0, column])[0])
+            motion = moved(model, every, curves, linear)
+            drawn = amplitude * np.abs(_drawn(at, rest, motion[row, column])[0])
             speeds = np.zeros(0)
             if linear is not None:
-                measured = linear.measured(at, hydro.omega[[row]], hydro.headings[column], found.motion[:, column])
-                speeds = amplitude * np.abs(measured[0, 0])
-            moved = pushed
+                speeds = amplitude * np.abs(linear.measured(every.omega, every.water, motion)[row, column[0]])
+            pushes = pushed
             if settings.drift:
-                coarse = respond(model, hydro.omega, curves, linear)
-                whole = far_waves(model, coarse).drift
+                whole = far_drift(model, motion)
                 drift = amplitude**2 * whole[row, column[0]]
-                near = near_drift(model, coarse, np.array([row]), column)
-                moved = amplitude**2 * reconciled(at, near, whole[[row]][:, column])[0, 0]
+                near = near_drift(model, motion, np.array([row]), column)
+                pushes = amplitude**2 * reconciled(at, near, whole[[row]][:, column])[0, 0]
             last = _sizes(linear)
-            if _near(drawn, work.sizes) and _near(speeds, last) and _near(moved, pushed):
-                pushed, converged = moved, True
+            if _near(drawn, work.sizes) and _near(speeds, last) and _near(pushes, pushed):
+                pushed, converged = pushes, True
                 break
-            worked, last, pushed = mixed.towards((work.sizes, last, pushed), (drawn, speeds, moved))
+            worked, last, pushed = mixed.towards((work.sizes, last, pushed), (drawn, speeds, pushes))
             linear, work = linear and replace(linear, size=last), replace(work, sizes=worked)
             rest = steady_position(at, steady + pushed, work)
         model, curves = RowModel(at, hydro, rest.position), _curve_stiffness(at, rest, work)
-        coarse = respond(model, hydro.omega, curves, linear)
+        coarse = respond(model, hydro.omega, curves, linear, every)
         far = far_waves(model, coarse)
         answers.append(
             SeaAnswer(
@@ -204,7 +202,7 @@ def regular_answer(
     return answers
 
 
-def _picked(response: RowResponse, row: int, columns: Array) -> RowResponse:
+def _picked(response: RowResponse, row: int, columns: IntArray) -> RowResponse:
     where = np.ix_(np.array([row]), columns)
     return RowResponse(
         response.omega[[row]], response.motion[where], response.relative[where], response.load[where],
@@ -298,7 +296,7 @@ def irregular_answer(
     coarse_share = spread_of(sea, hydro.omega)[1]
     coarse_density = np.asarray(sea.spectrum.density_at(hydro.omega), dtype=float)[:, None] * coarse_share
     weights = cell_weights(hydro.omega, low, high)
-    one = _of_headings(hydro, columns)
+    one = hydro.among(columns)
     drift, pushed = np.zeros(3), np.zeros(at.size)
     unit_drift = np.zeros((len(hydro.omega), len(headings), at.size))
     converged, mixed = False, _Mixed()
@@ -306,43 +304,44 @@ def irregular_answer(
     near, fresh = None, False
     eddies = eddies_of(at)
     linear = None if eddies is None else LinearEddies(eddies, np.zeros(len(eddies.points)), False)
+    every, own = RowWaves.of(at, one, omega, eddies), RowWaves.of(at, one, one.omega, eddies)
     if linear is not None:
-        still = linear.measured(at, omega, one.headings, np.zeros((len(omega), len(headings), at.size), dtype=complex))
-        linear = replace(linear, size=response_statistics(omega, still, density).standard_deviation)
+        # as of units that lie still
+        linear = replace(linear, size=response_statistics(omega, every.water, density).standard_deviation)
     for turn in range(_TURNS):
         model, curves = RowModel(at, one, rest.position), _curve_stiffness(at, rest, work)
-        fine = respond(model, omega, curves, linear)
-        drawn = response_statistics(omega, _drawn(at, rest, fine.motion), density).standard_deviation
+        motion = moved(model, every, curves, linear)
+        drawn = response_statistics(omega, _drawn(at, rest, motion), density).standard_deviation
         speeds = np.zeros(0)
         if linear is not None:
-            measured = linear.measured(at, omega, one.headings, fine.motion)
+            measured = linear.measured(omega, every.water, motion)
             speeds = response_statistics(omega, measured, density).standard_deviation
-        moved = pushed
+        pushes = pushed
         if settings.drift:
-            coarse = respond(model, hydro.omega, curves, linear)
-            whole = far_waves(model, coarse).drift
+            motion = moved(model, own, curves, linear)
+            whole = far_drift(model, motion)
             # pressures cost most: those of the first turn serve until the rest settles
             if not (turn and near is not None):
-                near, fresh = near_drift(model, coarse), True
+                near, fresh = near_drift(model, motion), True
             unit_drift = reconciled(at, near, whole)
             drift = np.einsum("f,fh,fhc->c", 2.0 * weights, coarse_density, whole)
-            moved = np.einsum("f,fh,fhm->m", 2.0 * weights, coarse_density, unit_drift)
+            pushes = np.einsum("f,fh,fhm->m", 2.0 * weights, coarse_density, unit_drift)
         last = _sizes(linear)
-        settled = _near(drawn, work.sizes) and _near(speeds, last) and _near(moved, pushed)
+        settled = _near(drawn, work.sizes) and _near(speeds, last) and _near(pushes, pushed)
         if settled and (fresh or near is None):
-            pushed, converged = moved, True
+            pushed, converged = pushes, True
             break
         if fresh:
             mixed.forget()
-        worked, last, pushed = mixed.towards((work.sizes, last, pushed), (drawn, speeds, moved))
+        worked, last, pushed = mixed.towards((work.sizes, last, pushed), (drawn, speeds, pushes))
         linear, work = linear and replace(linear, size=last), replace(work, sizes=worked)
         near, fresh = (None if settled else near), False
         rest = steady_position(at, steady + pushed, work)
     model, curves = RowModel(at, one, rest.position), _curve_stiffness(at, rest, work)
-    coarse = respond(model, hydro.omega, curves, linear)
+    coarse = respond(model, own.omega, curves, linear, own)
     return SeaAnswer(
-        rest, drift, pushed, unit_drift, coarse, far_waves(model, coarse), respond(model, omega, curves, linear),
-        density, headings, curves, work, converged,
+        rest, drift, pushed, unit_drift, coarse, far_waves(model, coarse),
+        respond(model, omega, curves, linear, every), density, headings, curves, work, converged,
     )  # fmt: skip
 
 
@@ -357,16 +356,3 @@ def cell_weights(omega: Array, low: float, high: float) -> Array:
     step = np.diff(grid)
     weights[inside] = 0.5 * np.concatenate([step[:1], step[1:] + step[:-1], step[-1:]])
     return weights
-
-
-def _of_headings(hydro: RowHydrodynamics, columns: Array) -> RowHydrodynamics:
-    """Return coefficients of some headings."""
-    solutions = tuple(
-        replace(
-            item, excitation=item.excitation[columns], diffraction=item.diffraction[:, columns],
-            scattered=item.scattered[columns],
-        )
-        for item in hydro.solutions
-    )  # fmt: skip
-    drift = None if hydro.drift is None else hydro.drift[:, columns]
-    return replace(hydro, headings=hydro.headings[columns], solutions=solutions, drift=drift)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from moyai.core.arrays import Array, ComplexArray
+from moyai.core.arrays import Array, ComplexArray, IntArray
 from moyai.core.progress import Progress, silent
 from moyai.floating.coefficients import Hydrodynamics
 from moyai.floating.damping import LinearDamping
@@ -44,7 +44,7 @@ class SectionAnswer:
     motion: ComplexArray
     drift: Array
 
-    def placed(self, columns: Array, count: int) -> SectionAnswer:
+    def placed(self, columns: IntArray, count: int) -> SectionAnswer:
         """Return it among ``count`` headings, at ``columns``; NaN elsewhere."""
 
         def among(values: Any) -> Any:

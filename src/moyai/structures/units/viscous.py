@@ -7,7 +7,7 @@ each strip, against the undisturbed wave there. Ends of units and surge shed not
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 
 import numpy as np
 
@@ -61,6 +61,7 @@ class Eddies:
         return out
 
 
+@lru_cache(maxsize=8)
 def eddies_of(at: RowAtLevel) -> Eddies | None:
     """Return the edges of a row that shed eddies; ``None`` where they are not computed or there are none."""
     factor = at.row.viscous_factor
@@ -115,18 +116,14 @@ class LinearEddies:
         drag = self.eddies.drag
         return drag.equivalent_regular(self.size) if self.regular else drag.equivalent_irregular(self.size)
 
-    def force(self, at: RowAtLevel, omega: Array, headings: Array) -> ComplexArray:
-        """Return the force (n, h, m) of the moving water per metre of wave amplitude."""
-        water = self.eddies.water_motion(omega[:, None], headings[None, :], at.water.depth, at.water.gravity)
+    def carried(self, water: ComplexArray) -> ComplexArray:
+        """Return the force (n, h, m) of water that moves by (n, h, k) in the measures, per metre of wave amplitude."""
         drag = self.eddies.drag
         return drag.carried_regular(self.size, water) if self.regular else drag.carried_irregular(self.size, water)
 
-    def measured(self, at: RowAtLevel, omega: Array, headings: Array, motion: ComplexArray) -> ComplexArray:
+    def measured(self, omega: Array, water: ComplexArray, motion: ComplexArray) -> ComplexArray:
         """Return the measures (n, h, k) of the velocity against the water, motions (n, h, m) of unit amplitude."""
-        own = (-1j * omega[:, None, None] * motion) @ self.eddies.drag.directions.T
-        return np.asarray(
-            own - self.eddies.water_motion(omega[:, None], headings[None, :], at.water.depth, at.water.gravity)
-        )
+        return np.asarray((-1j * omega[:, None, None] * motion) @ self.eddies.drag.directions.T - water)
 
 
 @cache

@@ -16,7 +16,7 @@ from moyai.mooring.system import LineSystem
 from moyai.mooring.table import compile_lines
 from moyai.structures.units.assembly import RowAtLevel, held_load
 from moyai.structures.units.connectors import Joint, spring_matrices
-from moyai.structures.units.response import own_damping
+from moyai.structures.units.response import critical_damping, masses_along_units
 from moyai.structures.units.time import kernel
 from moyai.structures.units.time.memory import RowMemory, check_mass
 from moyai.structures.units.viscous import Eddies, eddies_of
@@ -63,7 +63,8 @@ class RowInTime:
         added = self.memory.coefficients(np.array([self.damping_frequency]))[0]
         restoring = at.hydrostatic + at.line_stiffness(self.position)
         linear = tuple(joint for joint in at.joints if joint.connector.curve is None)
-        return np.asarray(own_damping(at, added, restoring)[0] + spring_matrices(linear, at.size)[1])
+        own = critical_damping(at, masses_along_units(at, added), restoring)[0]
+        return np.asarray((at.unit_axes.T * own) @ at.unit_axes + spring_matrices(linear, at.size)[1])
 
     @cached_property
     def eddies(self) -> Eddies | None:
