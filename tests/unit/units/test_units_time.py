@@ -297,6 +297,10 @@ def test_lines_in_motion_keep_the_change_of_lines_at_rest(monkeypatch):
     assert ranged["/T4"] is data
     both[1] = (2.0, ["diverged"])
     assert with_ends_in_time(water, None, found, both, silent) is found
+    # a user who has enough ends the run, and keeps what there is
+    both[1] = (2.0, ["interrupted"])
+    ended = with_ends_in_time(water, None, found, both, silent)
+    assert ended.status == "interrupted" and ended.groups is found.groups
 
 
 def _with(item, memory):

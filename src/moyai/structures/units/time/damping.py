@@ -61,6 +61,8 @@ def with_ends_in_time(
     ends = []
     for row, answers in others:
         runs = [Kept.of(run) for run in runs_of(replace(water, at=row), sea, answers, progress)]
+        if any(run.status == "interrupted" for run in runs):
+            return replace(found, status="interrupted")
         if any(run.status != "converged" for run in runs):
             return found
         ends.append(numbers_of(row, sea, runs))
