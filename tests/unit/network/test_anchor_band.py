@@ -10,7 +10,7 @@ import xarray as xr
 
 import moyai
 from moyai.series.block_maxima import maximum_of
-from moyai.structures.network.headlines import DYNAMIC, _band_of_pull, _Peak
+from moyai.structures.network.headlines import DYNAMIC, _band, _band_of_pull, _Peak
 
 CASE = """
 moyai: 1
@@ -52,13 +52,19 @@ def test_the_pull_of_the_finer_mesh_is_that_of_a_run_on_it(tmp_path: Path) -> No
     assert (pull.band.low, pull.band.high) == pytest.approx((min(ends), max(ends)))
 
 
-@pytest.mark.parametrize("irregular", [False, True])
-def test_the_chance_of_a_seed_is_that_of_the_pull(irregular: bool) -> None:
-    time = np.linspace(0.0, 600.0, 6001)
+@pytest.mark.parametrize("motion", ["repeats", "never repeats", "irregular"])
+def test_the_chance_of_a_record_is_that_of_the_pull(motion: str) -> None:
+    """Of a seed, and of regular waves in which a line snaps and no period is like another."""
+    time, irregular = np.linspace(0.0, 600.0, 6001), motion == "irregular"
     load = np.abs(np.random.default_rng(4).normal(5.0, 1.0, time.size))
+    if motion == "repeats":
+        load = 5.0 + 3.5 * np.sin(2.0 * np.pi * time / 4.0)
     series = xr.Dataset(
-        {"highest_load": (("time", "point", "measure"), load[:, None, None])},
-        coords={"time": time, "point": ["anchor"], "measure": ["size"]},
+        {
+            "highest_load": (("time", "point", "measure"), load[:, None, None]),
+            "line_tension_peak_since_row": (("time", "line"), 8.0 * load[:, None]),
+        },
+        coords={"time": time, "point": ["anchor"], "measure": ["size"], "line": ["rope"]},
         attrs={"skip": 0.0, "period": 4.0, "irregular": int(irregular)},
     )
     pulls = {"load_half_step": 9.0, "load_double_mesh": 8.0, "load_damped": np.nan, "load_finest": np.nan}
@@ -68,13 +74,16 @@ def test_the_chance_of_a_seed_is_that_of_the_pull(irregular: bool) -> None:
     )
     groups = {"/SWL/dynamic": summary, "/SWL/time/storm": series}
     peak = _Peak(40.0, "rope", "SWL", "storm", 12.0, DYNAMIC)
-    series["line_tension_peak_since_row"] = (("time", "line"), 8.0 * load[:, None])
-    series["line"] = ["rope"]
     band, bound = _band_of_pull(groups, ("SWL", "storm", "anchor"), 8.5, peak)
     assert band is not None and bound == ""
-    if not irregular:
+    if motion == "repeats":
         assert (band.low, band.high) == pytest.approx((7.5, 9.0))
         return
-    found = maximum_of(time, load, 4.0)
+    # blocks of four periods of a sea, of one period of regular waves
+    found = maximum_of(time, load, 4.0 if irregular else 1.0)
     assert found is not None and found.range[1] > 9.0
     assert (band.low, band.high) == pytest.approx((min(7.5, found.range[0]), found.range[1]))
+    assert ("seeds" in band.of) is irregular and ("does not repeat" in band.of) is not irregular
+    # the tension by its own record
+    (tension, _, _) = _band(groups, peak)
+    assert tension is not None and tension.high == pytest.approx(max(40.0, 8.0 * found.range[1]))

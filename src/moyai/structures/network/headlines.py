@@ -16,7 +16,7 @@ from moyai.core.arrays import Array
 from moyai.core.headline import Band, Bound, Headline, governing, unfavourable
 from moyai.core.wording import spoken
 from moyai.flexible.sensitivity import PeakSensitivity
-from moyai.series.block_maxima import Maximum, maximum_of
+from moyai.series.block_maxima import PERIODS, Maximum, maximum_of
 from moyai.structures.network.held_rows import held_headlines
 from moyai.structures.network.model import NetworkProblem
 from moyai.structures.network.refinement import LANDING, band_of
@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 
 #: Highest tension over that at the ends of its line above which both are reported.
 INSIDE = 1.2
+#: Part by which the highest values of the periods of regular waves may differ where the motion repeats.
+REPEATING = 0.05
 DYNAMIC, REST = "run through time", "at rest"
 _NOT_JUDGED = Headline(
     "not_judged", "Not judged", math.nan, "1", text="one line lost, wear and fatigue, shackles, soil of the anchors",
@@ -226,26 +228,48 @@ def _numerical_band(summary: xr.Dataset, peak: _Peak) -> tuple[Band | None, list
 
 def _chance(groups: Mapping[str, xr.Dataset], peak: _Peak) -> tuple[Maximum | None, list[str]]:
     """Return what one maximum of an irregular sea is worth, and say the height that was realised."""
-    if not _irregular(groups, peak.level, peak.run):
+    series = groups.get(f"/{peak.level}/time/{peak.run}")
+    if series is None:
         return None, []
-    series = groups[f"/{peak.level}/time/{peak.run}"]
+    if not _irregular(groups, peak.level, peak.run):
+        return _of_periods(series, *_record(series, peak.line)), []
     late = series.isel(time=series["time"].values >= series["time"].values[0] + series.attrs["skip"])
     said = []
     if "surface_elevation" in late:
         realised = 4.0 * float(late["surface_elevation"].values.std())
         said.append(f"realised Hs {realised:.2f} m of {series.attrs['wave_height']:.2f} m, seed {series.attrs['seed']}")
-    key, axis = (
-        ("line_tension_peak_since_row", "line") if peak.line in series["line"].values else ("net_tension", "net")
-    )
-    found: Maximum | None = maximum_of(
-        late["time"].values, late[key].sel({axis: peak.line}).values, float(series.attrs["period"])
-    )
+    found: Maximum | None = maximum_of(*_record(series, peak.line), float(series.attrs["period"]))
     if found is not None:
         said.append(
             f"largest of other seeds about {spoken(found.mean, 'N', 3)}, standard deviation "
             f"{spoken(found.deviation, 'N', 2, like=found.mean)}"
         )
     return found, said
+
+
+def _record(series: xr.Dataset, line: str) -> tuple[Array, Array]:
+    """Return time and highest tension since the row before of a line or net, over what counts."""
+    late = series.isel(time=series["time"].values >= series["time"].values[0] + series.attrs["skip"])
+    named = "line" in late and line in late["line"].values
+    key, axis = ("line_tension_peak_since_row", "line") if named else ("net_tension", "net")
+    if key not in late:
+        return np.zeros(0), np.zeros(0)
+    return late["time"].values, late[key].sel({axis: line}).values
+
+
+def _of_periods(series: xr.Dataset, time: Array, values: Array) -> Maximum | None:
+    """Return what the largest of a regular motion that never repeats is worth, ``None`` where it repeats.
+
+    The highest values of its periods are then taken as those of blocks of a record.
+    """
+    period = float(series.attrs.get("period", math.nan))
+    if not (math.isfinite(period) and period > 0.0 and time.size > 1 and np.isfinite(values).all()):
+        return None
+    count = int((time[-1] - time[0]) / period + 1e-9)
+    highest = [float(part.max()) for part in np.array_split(values, count)] if count else [0.0]
+    if min(highest) >= (1.0 - REPEATING) * max(highest):
+        return None
+    return maximum_of(time, values, period / PERIODS)
 
 
 def _utilisation(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peaks: list[_Peak]) -> list[Headline]:
@@ -286,14 +310,16 @@ def _band(groups: Mapping[str, xr.Dataset], peak: _Peak) -> tuple[Band | None, l
     if found is None:
         alone = _irregular(groups, peak.level, peak.run)
         return band, [*details, *([_ONE_SEED] if alone else [])], "at least" if alone else most
-    return _with_chance(peak.value, band, found), details, most
+    return _with_chance(peak.value, band, found, _irregular(groups, peak.level, peak.run)), details, most
 
 
-def _with_chance(value: float, band: Band | None, found: Maximum) -> Band:
+def _with_chance(value: float, band: Band | None, found: Maximum, irregular: bool = True) -> Band:
     """Return the band of mesh and step, where there is one, and of the chance of one seed."""
     low, high, of = (value, value, "") if band is None else (band.low, band.high, band.of)
     least, highest = found.range
-    return Band(max(min(low, least), 0.0), max(high, highest), "; ".join(filter(None, (of, _of_seeds(found)))))
+    return Band(
+        max(min(low, least), 0.0), max(high, highest), "; ".join(filter(None, (of, _of_seeds(found, irregular))))
+    )
 
 
 def _irregular(groups: Mapping[str, xr.Dataset], level: str, run: str) -> bool:
@@ -358,14 +384,18 @@ def _band_of_pull(
         low, high = (value * end / most.value for end in (mesh.low, mesh.high))
         own = Band(low, high, f"mesh and step: in proportion to the tension of {most.line}")
     series = groups.get(f"/{level}/time/{run}")
-    if series is None or not _irregular(groups, level, run):
+    if series is None:
         return own, bound
     late = series.isel(time=series["time"].values >= series["time"].values[0] + series.attrs["skip"])
     load = late["highest_load"].sel(point=point, measure="size").values
-    chance = maximum_of(late["time"].values, load, float(series.attrs["period"]))
+    irregular = _irregular(groups, level, run)
+    if irregular:
+        chance = maximum_of(late["time"].values, load, float(series.attrs["period"]))
+    else:
+        chance = _of_periods(series, late["time"].values, load)
     if chance is None:
-        return own, "at least"
-    return _with_chance(value, own, chance), "at most" if own is None and bound == "at most" else ""
+        return own, "at least" if irregular else bound
+    return _with_chance(value, own, chance, irregular), "at most" if own is None and bound == "at most" else ""
 
 
 def _offsets(groups: Mapping[str, xr.Dataset], anchors: Mapping[str, str]) -> list[Headline]:
@@ -426,7 +456,9 @@ def _swinging(
     return float(counted.max()), f"horizontal distance from its only anchor '{anchor}', round which it swings", away
 
 
-def _of_seeds(found: Maximum) -> str:
+def _of_seeds(found: Maximum, irregular: bool = True) -> str:
+    if not irregular:
+        return f"90 of 100 records as long, estimated from {found.blocks} parts of a motion that does not repeat"
     return f"90 of 100 seeds, estimated from {found.blocks} blocks of the record of one"
 
 
