@@ -1,10 +1,10 @@
 """Change formulas one at a time and see whether a fast test notices.
 
 ``python benchmarks/mutate_formulas.py`` takes the hundred changes of ``formulas.txt`` one after the other: it copies
-the package, changes a line, runs the fast tests that import the changed module, and sets the line back. It prints a
-line for every change and at the end a table by package. Results are kept in ``--results``; what stands there is not
-run again. Survivors are to be looked at: a change may be without effect (a guard, a tolerance, a start value), or a
-test is missing.
+the package, changes a line, runs the fast tests that name the changed function or import its module, and sets the
+line back. It prints a line for every change and at the end a table by package. Results are kept in ``--results``;
+what stands there is not run again. Survivors are to be looked at: a change may be without effect (a guard, a
+tolerance, a start value), or a test is missing.
 
 ``--count 60 --seed 1`` draws other changes instead: an operator, a constant or a function in a formula that names its
 equation.
@@ -74,13 +74,26 @@ class Change:
 
     def applied(self, text: str) -> str:
         """Return the text of the file with the change."""
-        lines = text.split("\n")
-        places = [number for number, line in enumerate(lines) if line.strip() == self.old]
-        if len(places) < self.which:
-            raise LookupError(f"{self.file} no longer holds {self.old!r}: write the line of {LIST.name} again")
-        place = places[self.which - 1]
+        lines, place = text.split("\n"), self.place(text)
         lines[place] = lines[place].replace(self.old, self.new)
         return "\n".join(lines)
+
+    def place(self, text: str) -> int:
+        """Return which line of the file is changed, from 0."""
+        places = [number for number, line in enumerate(text.split("\n")) if line.strip() == self.old]
+        if len(places) < self.which:
+            raise LookupError(f"{self.file} no longer holds {self.old!r}: write the line of {LIST.name} again")
+        return places[self.which - 1]
+
+    def function(self, text: str) -> str:
+        """Return the name of the innermost function that holds the line, empty outside of functions."""
+        line = self.place(text) + 1
+        around = [
+            node
+            for node in ast.walk(ast.parse(text))
+            if isinstance(node, ast.FunctionDef) and node.lineno <= line <= (node.end_lineno or 0)
+        ]
+        return max(around, key=lambda node: node.lineno).name if around else ""
 
 
 def listed(path: Path = LIST) -> list[Change]:
@@ -114,7 +127,11 @@ def changes_of(path: Path, package: Path) -> list[Change]:
     for function in ast.walk(ast.parse(text)):
         if not isinstance(function, ast.FunctionDef) or "[eq:" not in (ast.get_docstring(function) or ""):
             continue
+        # what stands in a message is no formula
+        words = {inner for node in ast.walk(function) if isinstance(node, ast.JoinedStr) for inner in ast.walk(node)}
         for node in (inner for statement in function.body[1:] for inner in ast.walk(statement)):
+            if node in words:
+                continue
             if isinstance(node, ast.BinOp) and type(node.op) in OPERATORS:
                 sign, other = OPERATORS[type(node.op)]
                 left, right = node.left, node.right
@@ -134,10 +151,10 @@ def changes_of(path: Path, package: Path) -> list[Change]:
     return list(found.values())
 
 
-def tests_of(file: str, most: int) -> list[str]:
-    """Return test files: those that import a module, those of its package, those that import what imports it.
+def tests_of(file: str, most: int, function: str = "") -> list[str]:
+    """Return test files for a changed function: named for its module, naming it, importing the module, and so on.
 
-    Short files come first within each of the three.
+    After these come those of its package and those that import what imports it; short files first within each.
     """
 
     def importers(name: str, paths: list[Path]) -> list[Path]:
@@ -149,7 +166,11 @@ def tests_of(file: str, most: int) -> list[str]:
     tests = sorted((ROOT / "tests").rglob("test_*.py"), key=lambda path: path.stat().st_size)
     sources = sorted((ROOT / "src" / "moyai").rglob("*.py"))
     package = file.split("/")[1 if file.startswith("structures/") else 0]
-    found = importers(file, tests)
+    named = re.compile(rf"\b{function}\b") if function else None
+    stem = Path(file).stem
+    found = [path for path in tests if stem in path.stem.split("test_", 1)[1]]
+    found += [path for path in tests if named and named.search(path.read_text(encoding="utf-8"))]
+    found += importers(file, tests)
     found += [path for path in tests if path.parent.name == package]
     for source in importers(file, sources):
         found += importers(source.relative_to(ROOT / "src" / "moyai").as_posix(), tests)
@@ -213,7 +234,7 @@ def main() -> None:
                 path = source / change.file
                 text = path.read_text(encoding="utf-8")
                 path.write_text(change.applied(text), encoding="utf-8")
-                words = outcome(source, tests_of(change.file, given.most), given.seconds)
+                words = outcome(source, tests_of(change.file, given.most, change.function(text)), given.seconds)
                 path.write_text(text, encoding="utf-8")
                 before[str(change)] = words
                 file.write(f"{words}\t{change}\n")

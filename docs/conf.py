@@ -36,6 +36,7 @@ extensions = [
     "reproduced_papers",
     "held_by_tests",
     "japanese_lines",
+    "links_checked",
     "measured_speed",
     "validation_results",
     "myst_parser",

@@ -24,6 +24,8 @@ ROOT = Path(__file__).resolve().parents[1]
 _NUMBER = re.compile(r"(?<![\w.^/§-])\d+(?:\.\d+)?(?:e-?\d+)?(?![\w.]*[A-Za-z_]\w*\.py)")
 _KINDS = {"rel": "rel ", "rtol": "rel ", "rel_tol": "rel ", "abs": "abs ", "atol": "abs ", "abs_tol": "abs "}
 _WIDEST = 0.3  # a bound that is no tolerance any more
+#: What functions that compare allow where nothing is said, relative; none where it differs between libraries.
+_DEFAULTS = {"approx": 1e-6, "assert_allclose": 1e-7, "allclose": 1e-5, "isclose": None}
 
 
 @dataclass(frozen=True)
@@ -114,20 +116,23 @@ def _with_helpers(node: ast.FunctionDef, functions: dict[str, ast.FunctionDef]) 
 def allowed(tests: tuple[Test, ...]) -> str:
     """Return what the assertions of tests allow: the tightest and the widest; exact where they state nothing."""
     found: dict[str, set[float]] = {"": set(), "rel ": set(), "abs ": set()}
-    raises = bounded = False
+    raises = bounded = checked = False
     for test in tests:
         for part in test.parts:
             for node in ast.walk(part):
                 for kind, value in _bounds(node):
                     found[kind].add(value)
                 raises = raises or (isinstance(node, ast.Attribute) and node.attr in ("raises", "warns"))
+                bounded = bounded or _called(node) in _DEFAULTS
+                checked = checked or (isinstance(node, ast.Attribute) and node.attr == "passed")
                 bounded = bounded or (isinstance(node, ast.Assert) and any(map(_is_order, ast.walk(node))))
     texts = []
     for kind, values in found.items():
         if values:
             least, most = min(values), max(values)
             texts.append(f"{kind}{_text(least)}" + (f" to {_text(most)}" if most > least else ""))
-    return "; ".join(texts) or ("a bound in the test" if bounded else "refused" if raises else "exact")
+    other = {"a bound in the test": bounded, "the run's own checks": checked, "refused": raises, "exact": True}
+    return "; ".join(texts) or next(words for words, holds in other.items() if holds)
 
 
 def _is_order(node: ast.AST) -> bool:
@@ -141,11 +146,17 @@ def _text(value: float) -> str:
     return re.sub(r"e([+-])0*", r"e\1", f"{value:.3g}").replace("e+", "e")
 
 
+def _called(node: ast.AST) -> str:
+    """Return the last name of the function that a node calls, empty for other nodes."""
+    function = node.func if isinstance(node, ast.Call) else None
+    return function.id if isinstance(function, ast.Name) else getattr(function, "attr", "")
+
+
 def _bounds(node: ast.AST) -> Iterator[tuple[str, float]]:
     """Give the tolerances that a node states, with their kind."""
     if isinstance(node, ast.Call):
-        name = node.func.id if isinstance(node.func, ast.Name) else getattr(node.func, "attr", "")
-        if name in ("approx", "assert_allclose", "allclose", "isclose"):
+        name = _called(node)
+        if name in _DEFAULTS:
             stated = False
             for keyword in node.keywords:
                 kind = _KINDS.get(keyword.arg or "")
@@ -154,8 +165,9 @@ def _bounds(node: ast.AST) -> Iterator[tuple[str, float]]:
                     value = _value(keyword.value)
                     if value:
                         yield kind, value
-            if not stated and name == "approx":
-                yield "rel ", 1e-6  # of pytest, where nothing is said
+            default = _DEFAULTS[name]
+            if not stated and default is not None:
+                yield "rel ", default
     elif isinstance(node, ast.Compare) and len(node.ops) == 1 and isinstance(node.ops[0], ast.Lt | ast.LtE):
         value = _value(node.comparators[0])
         measured = any(

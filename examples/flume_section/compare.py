@@ -1,4 +1,4 @@
-"""Put the measured section of the flume beside the computed one, run by run.
+"""Hold the measured section of the flume against the computed one, run by run.
 
     python compare.py                              the runs of the records' folder that are known here
     python compare.py --records FOLDER 2082 3071_1 named runs, period by their two middle digits
@@ -211,7 +211,7 @@ def natural_periods(folder: Path, name: str) -> dict[str, float]:
 VARIATIONS: dict[str, dict[str, Any]] = {
     "as in section.yaml": {},
     "roll damping doubled": {"roll_damping": {"quadratic": "0.1262 N m s2", "linear": "0.0520 N m s"}},
-    "no roll damping but wave radiation": {"roll_damping": None},
+    "no roll damping given: computed from the section, heave too": {"roll_damping": None},
     "centre of gravity as planned, 0.108 m": {"centre_of_gravity_above_keel": "0.108 m"},
     "guide friction 0.35 N in sway and heave, linearised at 0.1 m/s": {
         "additional_damping": {"sway": "13.2 N s/m", "heave": "13.2 N s/m"}

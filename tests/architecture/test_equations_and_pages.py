@@ -105,3 +105,39 @@ def test_validation_pages_say_results_and_limits_not_how_the_work_went():
         if words:
             found[path.name] = words
     assert not found, f"diary in docs/validation: {found}"
+
+
+def prose_of(page):
+    """Lines of a page with their numbers, without code; of a row that tests hold, the claim and the source."""
+    fence = ""
+    for number, line in enumerate(page.read_text(encoding="utf-8").splitlines(), 1):
+        mark = re.match(r"\s*(`{3,}|:{3,})", line)
+        if mark:
+            fence = "" if fence else line
+        elif not fence or "{held-by-tests}" in fence:
+            yield number, re.sub(r"`[^`]*`", "", re.sub(r" \| tests/.*", "", line) if fence else line)
+
+
+def words_not_used(glossary):
+    """What the glossary replaces, as an expression; words with a remark in brackets have other uses: left out."""
+    rows = glossary.read_text(encoding="utf-8").split("## Words that are not used")[1].splitlines()
+    words = [word.strip() for row in rows if row.startswith("| ") for word in row.split("|")[1].split(",")]
+    words = [word for word in words if "(" not in word and word != "not"]
+    forms = [re.sub(r"^(\w+?)(\w?)( .*)?$", r"\1\2(?:s|ed|ing|\2ed|\2ing)?\3", word) for word in words]
+    return re.compile(rf"\b(?:{'|'.join(forms)})\b", re.IGNORECASE)
+
+
+def test_pages_use_the_words_of_the_glossary():
+    glossary = DOCS / "glossary.md"
+    replaced = words_not_used(glossary)
+    assert replaced.search("two rooms") and replaced.search("worked off") and replaced.search("The bed rubbed.")
+    assert not replaced.search("a roomy housing")
+    found = [
+        f"{page.relative_to(ROOT)}:{number}: {match[0]}"
+        for page in sorted(DOCS.rglob("*.md"))
+        if page != glossary
+        for number, line in prose_of(page)
+        for match in replaced.finditer(line)
+        if match[0].lower() != "besides"
+    ]
+    assert not found, "\n".join(found)

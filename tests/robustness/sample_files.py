@@ -190,6 +190,16 @@ def _ww3_netcdf(folder: Path) -> list[Path]:
     return [folder / "a.nc"]
 
 
+def _wavespectra_netcdf(folder: Path) -> list[Path]:
+    import xarray as xr
+
+    _ww3_netcdf(folder)
+    with xr.open_dataset(folder / "a.nc", engine="h5netcdf") as data:
+        own = data.load().rename(station="site", frequency="freq", direction="dir")
+    own.to_netcdf(folder / "a.nc", engine="h5netcdf")
+    return [folder / "a.nc"]
+
+
 def _spectrum(folder: Path) -> Any:
     from moyai.sea.spectra import from_file
 
@@ -276,6 +286,30 @@ def _deck(folder: Path) -> Any:
     return read_deck(folder / "a.dat")
 
 
+def _deck_with_files(folder: Path) -> list[Path]:
+    """Write a deck of the Fortran version with its file of water, a record of waves, depths and a worn rope."""
+    files = {
+        "a.dat": DECK.replace("ˆ", "^").replace("384.243E6  -0.8 ", "SYROPE:law.dat|1.5e8|23 5e10|1e5 ").replace(
+            "100     WtrDpth depth", '"depths.txt" WtrDpth depth\n"water.dat" WaterKin'
+        ),
+        "water.dat": "water\n--- WAVES ---\n1 WaveKinMod\n\"eta.txt\" WaveKinFile\n0.5 dtWave\n30 WaveDir\n"
+        "--- CURRENT ---\n1 CurrentMod\nz-depth x y\n(m) (m/s) (m/s)\n0 0.9 0\n20 0.5 0\n---\n",
+        "eta.txt": "".join(f"{0.5 * n:.1f} {0.1 * (n % 7):.2f}\n" for n in range(40)),
+        "depths.txt": "depths\nnGridX 2\nnGridY 2\n -500 500\n-500 100 100\n500 100 100\n",
+        "law.dat": "owc.dat OWC\nQUADRATIC WCType\n0.25 k1\n1.0 k2\n",
+        "owc.dat": "Strain Tension\n(-) (N)\n0 0\n0.01 4e5\n0.03 1.2e6\n0.06 3e6\n",
+    }  # fmt: skip
+    for name, text in files.items():
+        (folder / name).write_text(text, encoding="utf-8")
+    return [folder / name for name in files]
+
+
+def _case_of_deck(folder: Path) -> Any:
+    from moyai.interop.moordyn_case import case_text
+
+    return case_text(_deck(folder), duration=1.0, folder=folder)
+
+
 def _output(folder: Path) -> Any:
     from moyai.interop.moordyn_output import read_output
 
@@ -324,6 +358,7 @@ KINDS: dict[str, Kind] = {
     "swan": Kind(_text("a.spec", _swan()), _read_archive("a.spec")),
     "ww3_text": Kind(_text("a.spec", _ww3_text()), _read_archive("a.spec")),
     "ww3_netcdf": Kind(_ww3_netcdf, _read_archive("a.nc")),
+    "wavespectra_netcdf": Kind(_wavespectra_netcdf, _read_archive("a.nc")),
     "ndbc": Kind(_text("a.txt", _ndbc()), _read_archive("a.txt")),
     "ndbc_recent": Kind(_text("a.data_spec", _ndbc_recent()), _read_archive("a.data_spec")),
     "spectrum": Kind(_text("a.csv", SPECTRUM), _spectrum),
@@ -343,6 +378,7 @@ KINDS: dict[str, Kind] = {
         ),
     ),
     "deck": Kind(_text("a.dat", DECK.replace("ˆ", "^")), _deck),
+    "deck_with_files": Kind(_deck_with_files, _case_of_deck),
     "deck_output": Kind(_text("a.out", OUTPUT), _output),
     "result": Kind(_result, _read_result),
 }  # fmt: skip

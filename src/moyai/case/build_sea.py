@@ -63,7 +63,11 @@ def sea_state_of(
     if isinstance(state, surroundings.RegularWaves):
         return RegularSea(name, state.height, state.all_periods(), heading, state.theory)
     spectrum = spectrum_of(state, water, folder, path)
-    spreading = None if state.spreading is None else _spreading(state.spreading, spectrum)
+    spreading: directional.Spreading | None = None
+    if isinstance(state.spreading, surroundings.FileSpreading):
+        spreading = _spreading_of_file(state, folder, path)
+    elif state.spreading is not None:
+        spreading = _spreading(state.spreading, spectrum)
     return IrregularSea(name, spectrum, heading, spreading, state.duration, state.seed)
 
 
@@ -93,6 +97,20 @@ def spectrum_of(state: Any, water: Water, folder: Path, path: str) -> spectra.Sp
         raise InputError(
             f"{state.file}: {fault.message}", path=f"{path}.file", allowed=fault.allowed, remedy=fault.remedy
         ) from None
+
+
+def _spreading_of_file(state: surroundings.SpectrumFile, folder: Path, path: str) -> directional.Spreading:
+    from moyai.sea.spectrum_archives import read_archive
+
+    where = f"{path}.spreading"
+    if state.record is None:
+        raise InputError(
+            "a table of two columns holds no directions", path=where, allowed="a file of spectra and its 'record'"
+        )
+    try:
+        return read_archive(folder / state.file).spreading(state.record, state.place)
+    except InputError as error:
+        raise error.at(where) from None
 
 
 def _spreading(entry: Any, spectrum: spectra.Spectrum) -> directional.Spreading:

@@ -31,7 +31,7 @@ _FILES = {
 }  # fmt: skip
 _HEAD = """# Keys of a {kind}
 
-How a case is read, its units, axes and faults: [the case file](../case_file.md). `moyai new` prints a template that
+How a case is read, its units, axes and errors: [the case file](../case_file.md). `moyai new` prints a template that
 runs.
 
 """

@@ -242,6 +242,20 @@ Column = Annotated[
 ]
 
 
+class FileSpreading(Block):
+    """Spreading of the file itself."""
+
+    kind: Literal["file"] = Field(
+        description="As the two-dimensional spectrum of the file is spread about its mean direction, which travels "
+        "along the heading; needs 'record'."
+    )
+
+
+SpreadingOfFile = Annotated[
+    CosineTwoS | MitsuyasuSpreading | CosinePower | WrappedNormal | FileSpreading, Field(discriminator="kind")
+]
+
+
 class SpectrumFile(_Irregular):
     """A measured or computed frequency spectrum."""
 
@@ -258,6 +272,9 @@ class SpectrumFile(_Irregular):
     )
     frequency_column: Column = Field(default=1, description="Column of the frequency: number from 1, or its name.")
     density_column: Column = Field(default=2, description="Column of the density: number from 1, or its name.")
+    spreading: SpreadingOfFile | None = Field(  # type: ignore[assignment]
+        default=None, description="Directional spreading; long crests when absent."
+    )
 
 
 SeaState = Annotated[

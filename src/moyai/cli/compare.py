@@ -41,7 +41,7 @@ def compare(
     output: Annotated[
         Path | None, typer.Option("--output", "-o", help="Folder of the comparison; out/compare_<record> when absent.")
     ] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, faults included.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, errors included.")] = False,
     pdf: Annotated[bool, typer.Option("--pdf", help="Write the report as PDF too.")] = False,
     report: Annotated[
         bool, typer.Option("--report", help="Of two results, write the report of the first with both in its figures.")

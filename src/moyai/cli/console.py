@@ -119,7 +119,7 @@ def stop(faults: Iterable[Fault], code: int, *, as_json: bool) -> NoReturn:
         for fault in listed:
             complain(fault)
         if code == BAD_INPUT and len(listed) > 1:
-            tell(f"{len(listed)} faults")
+            tell(f"{len(listed)} errors")
     raise typer.Exit(code)
 
 

@@ -114,7 +114,7 @@ def convert(
         str | None, typer.Option(help="Water level of the deck or the coefficients; the first when absent.")
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace a file that exists.")] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, faults included.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, errors included.")] = False,
 ) -> None:
     """Turn a deck of MoorDyn into a case file of a network, or a case file into a deck; write coefficients."""
     with guard(as_json):

@@ -16,7 +16,7 @@ def fit(
     output: Annotated[
         Path | None, typer.Option("--output", "-o", help="Folder of the results; out/<name of the file> when absent.")
     ] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, faults included.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, errors included.")] = False,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No progress bars and no summary.")] = False,
 ) -> None:
     """Fit values of a case to observations through the model; writes the case that was found."""

@@ -86,7 +86,7 @@ app.command()(reproduce)
 app.command("compile")(compile_command)
 
 CaseFile = Annotated[Path, typer.Argument(metavar="FILE", help="Case file (YAML).", show_default=False)]
-AsJson = Annotated[bool, typer.Option("--json", help="Print JSON on standard output, faults included.")]
+AsJson = Annotated[bool, typer.Option("--json", help="Print JSON on standard output, errors included.")]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No progress bars and no summary.")]
 
 
@@ -155,7 +155,7 @@ def new(
 
 @app.command()
 def check(file: CaseFile, units: Units = None, language: Language = None, as_json: AsJson = False) -> None:
-    """Report all faults of a case file at once, and the numbers that follow from it."""
+    """Report all errors of a case file at once, and the numbers that follow from it."""
     with guard(as_json, language):
         from moyai.case.criteria import criteria_of
         from moyai.case.derived import derived_numbers
@@ -188,7 +188,7 @@ def check(file: CaseFile, units: Units = None, language: Language = None, as_jso
             print_derived(rich_console(), case.title, numbers)
             print_criteria(rich_console(), criteria)
         count = len(case.warnings)
-        say(f"{file}: no faults" + (f", {counted(count, 'warning')}" if count else ""))
+        say(f"{file}: no errors" + (f", {counted(count, 'warning')}" if count else ""))
 
 
 @app.command()
@@ -249,7 +249,7 @@ def run(
     """Run a case, or a deck of MoorDyn: results.nc, report.html and tables as CSV.
 
     Exit code 0 when it was computed, whether the design holds or not; 1 when it did not converge or was interrupted;
-    2 for faults of the case; with --require-hold 3 unless the design holds.
+    2 for errors of the case; with --require-hold 3 unless the design holds.
     """
     with guard(as_json, language):
         from moyai.case.reader import load_case

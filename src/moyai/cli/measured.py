@@ -13,7 +13,7 @@ from moyai.cli.console import FAILED, OK, print_json, tell
 Output = Annotated[
     Path | None, typer.Option("--output", "-o", help="Folder of the results; out/<name of the file> when absent.")
 ]
-AsJson = Annotated[bool, typer.Option("--json", help="Print JSON on standard output, faults included.")]
+AsJson = Annotated[bool, typer.Option("--json", help="Print JSON on standard output, errors included.")]
 Report = Annotated[bool, typer.Option(help="Write the report and its tables next to results.nc.")]
 Pdf = Annotated[bool, typer.Option("--pdf", help="Write the report as PDF too.")]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No progress bars and no summary.")]

@@ -24,7 +24,7 @@ def decay(
     smallest: Annotated[float, typer.Option("--smallest", help="Smallest swing used, over the first.")] = 0.05,
     linear: Annotated[bool, typer.Option("--linear", help="Fit linear damping alone.")] = False,
     decimal: Annotated[str, typer.Option("--decimal", help="Decimal sign of the record.")] = ".",
-    as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, faults included.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, errors included.")] = False,
 ) -> None:
     """Find natural period, linear and quadratic damping of a free decay."""
     with guard(as_json):

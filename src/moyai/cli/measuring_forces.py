@@ -24,7 +24,7 @@ def forces(
         Path | None, typer.Option("--output", "-o", help="Folder; out/<name of the record> when absent.")
     ] = None,
     report: Annotated[bool, typer.Option(help="Write the report and its tables next to results.nc.")] = True,
-    as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, faults included.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, errors included.")] = False,
 ) -> None:
     """Find C_M and C_D from a record of force and velocity, with intervals, and say what cannot be known."""
     with guard(as_json):

@@ -75,7 +75,7 @@ def report(
     xlsx: Annotated[bool, typer.Option("--xlsx", help="The workbook report.xlsx, which is always written.")] = True,
     units: Units = None,
     language: Language = None,
-    as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, faults included.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, errors included.")] = False,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No progress bars and no summary.")] = False,
 ) -> None:
     """Write the report of a result again, without running: page, workbook and tables; all else on request."""

@@ -23,7 +23,7 @@ def reproduce(
         list[str] | None,
         typer.Option("--points", metavar="FIG=FILE", help="Your own points (CSV of x and y) over a figure."),
     ] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, faults included.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, errors included.")] = False,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No progress bars and no summary.")] = False,
 ) -> None:
     """Compute a published paper again: equations, figures and every statement of its text on one page."""

@@ -63,7 +63,7 @@ def scale(
     period: Annotated[str | None, typer.Option("--period", help="Wave period in the prototype.")] = None,
     digits: Annotated[int, typer.Option("--digits", help="Significant digits in the file written.")] = 7,
     force: Annotated[bool, typer.Option("--force", help="Replace a file that exists.")] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, faults included.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, errors included.")] = False,
 ) -> None:
     """Scale a case file or single figures: prototype to model and back, Froude with the Cauchy number kept."""
     with guard(as_json):

@@ -36,7 +36,7 @@ def study(
     as_zarr: Annotated[bool, typer.Option("--zarr", help="Write the results as study.zarr too.")] = False,
     report: Annotated[bool, typer.Option(help="Write the report of the study, and of its governing cases.")] = True,
     pdf: Annotated[bool, typer.Option("--pdf", help="Write the report as PDF too.")] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, faults included.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, errors included.")] = False,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No progress bars and no summary.")] = False,
 ) -> None:
     """Run every case of a study; the same command goes on where it was stopped."""
@@ -156,7 +156,7 @@ def _refused(plan: Study) -> list[str]:
 
 
 def _print_plan(file: Path, record: dict[str, Any]) -> None:
-    say(f"{file}: no faults")
+    say(f"{file}: no errors")
     for axis in record["axes"]:
         say(f"  {axis['name']}: {counted(axis['points'], 'point')}")
     runs = f", a search of up to {record['runs_per_case']} runs" if record["runs_per_case"] > 1 else ""

@@ -10,13 +10,10 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.flexible.arrays import kernel_arrays, kernel_bed
-from moyai.flexible.explicit_energy import elastic_energy, kinetic_energy
-from moyai.flexible.explicit_forces import rib_forces, spine_forces
 from moyai.flexible.explicit_kernel import march, survey
-from moyai.flexible.explicit_loads import loads
 from moyai.flexible.explicit_motion import drive, kick_and_drift
-from moyai.flexible.explicit_parts import elastic_energy_of_sheets, kick_sections, section_energy, section_loads
-from moyai.flexible.explicit_rows import LEDGER, LENGTH, PEAK, PULL, SPRING, VISCOUS, WU, U, X
+from moyai.flexible.explicit_parts import kick_sections
+from moyai.flexible.explicit_rows import LEDGER, LENGTH, SPRING, VISCOUS, WU, U, X
 from moyai.flexible.failures import Failing
 from moyai.flexible.flow import Flow
 from moyai.flexible.mass_blocks import pack_blocks
@@ -25,11 +22,10 @@ from moyai.flexible.network import DRIVEN, Network
 from moyai.flexible.packing import pack
 from moyai.flexible.panels import PanelArrays
 from moyai.flexible.result import State
-from moyai.flexible.ring_kernel import ring_forces
 from moyai.flexible.rings import RingArrays
-from moyai.flexible.slow_stretch import SlowBars
 from moyai.flexible.stability import step_limit
 from moyai.flexible.watch import watch_of
+from moyai.flexible.worn_rope import slow_parts
 
 #: Part of the stable step that is used unless another is given.
 SAFETY = 0.95
@@ -69,6 +65,10 @@ def driving_tables(network: Network, motions: Mapping[str, Motion]) -> tuple[Any
     return pairs, rest, np.ascontiguousarray(tables), float(lead.start), float(lead.step)
 
 
+#: Rows of the result where none is written, of the types of those of a run.
+_NOTHING = (np.zeros((0, 0, 3)), *np.zeros((2, 0, 0)), np.zeros((0, 3)), *np.zeros((2, 0), np.int64))
+
+
 class ExplicitRun:
     """The state of one run; :func:`moyai.flexible.simulation.simulate` makes it and asks it to advance."""
 
@@ -86,7 +86,7 @@ class ExplicitRun:
     ) -> None:
         self.network, self.flow, self.load_steps = network, flow, load_steps
         self.arrays, self.bed = kernel_arrays(network), kernel_bed(network)
-        self.slow = SlowBars.of(network, start.position, self.arrays)
+        self.slow = slow_parts(network, start.position, self.arrays)
         #: Lines that part in the course of the run.
         self.failing: Failing | None = None
         self.packed = pack(self.arrays)
@@ -114,7 +114,7 @@ class ExplicitRun:
         self.parts = self._parts()
         self.water = flow.at(self.time, self.place)
         self.packed.node_rows(WU, 7)[:] = self.water
-        self._loads()
+        self._call_march(0, _NOTHING, np.zeros_like(self.water), 0, 0.0, (0.0, 1, 1), self.near_surface(), math.inf)
         self.safety = self._usual_safety() if safety is None else safety
         #: Largest part of the step that this network bears of which use was made, by a step given by hand.
         self.overstep = 0.0
@@ -189,13 +189,19 @@ class ExplicitRun:
         """Velocities, a view of shape (3, n); half a step behind once the run goes."""
         return self.packed.node_rows(U, 3)
 
-    def _loads(self) -> None:
-        water = self.network.water
-        loads(
-            self.packed.memory, self.packed.sizes, self.packed.runs, self.arrays.attached, water.density, water.gravity,
-            self.near_surface(), not self.flow.steady, 0.0, self.parts[2],
-        )  # fmt: skip
-        section_loads(self.packed.memory, self.parts[3], not self.flow.steady)
+    def _call_march(
+        self, rows: int, saved: Any, rate: Array, first: int, before: float, choice: tuple[float, int, int],
+        surface: bool, bear: float,
+    ) -> int:  # fmt: skip
+        packed, arrays, water = self.packed, self.arrays, self.network.water
+        *kept, bars = saved
+        return int(march(
+            packed.memory, packed.sizes, packed.runs, arrays.curves, arrays.hinges, arrays.bending, arrays.attached,
+            np.array([water.density, water.gravity]),
+            (not self.flow.steady, surface, self.water, rate, self.time), self.driving, self.bed,
+            (self.time, *choice, rows, first, before), self.ledger, (*kept, packed.place[bars]), self.parts,
+            (*self.watch.system, DRAG_SHARE, bear),
+        ))  # fmt: skip
 
     def _survey(self, ahead: float = 0.0) -> tuple[float, bool, Array]:
         """Return the rate that bounds the load interval, whether the surface is near, and inverse masses for the step.
@@ -221,21 +227,7 @@ class ExplicitRun:
 
     def first_row(self, saved: Any) -> None:
         """Write the row of the start."""
-        places, pulls, peaks, energy, nodes, bars = saved
-        memory, sizes, runs = self.packed.memory, self.packed.sizes, self.packed.runs
-        spine_forces(memory, sizes[1])
-        rib_forces(memory, runs, self.arrays.curves)
-        memory[PEAK + self.packed.place] = memory[PULL + self.packed.place]
-        places[0] = self.place.T[nodes]
-        pulls[0] = peaks[0] = self.packed.bar_row(PULL)[bars]
-        energy[0, 0] = kinetic_energy(memory, sizes[0]) + section_energy(memory, self.parts[3])
-        energy[0, 1] = elastic_energy(
-            memory, sizes, runs, self.arrays.curves, self.arrays.hinges, self.arrays.bending, self.bed
-        ) + elastic_energy_of_sheets(memory, self.parts[2])
-        if self.rings.nodes.size:
-            place = np.ascontiguousarray(self.place.T)
-            energy[0, 1] += ring_forces(place, self.rings.system, np.zeros_like(place))
-        energy[0, 2] = 0.0
+        self._call_march(-1, saved, np.zeros_like(self.water), 0, 0.0, (0.0, 1, 1), False, math.inf)
 
     def limit(self) -> tuple[float, int]:
         """Return the largest stable step now and the node that sets it; what may fall dry counts without added mass."""
@@ -279,10 +271,11 @@ class ExplicitRun:
     def advance(self, rows: int, first: int, row_interval: float, wanted: float | None, saved: Any) -> int:
         """March ``rows`` rows of the result; return how many were good."""
         good = self._advance(rows, first, row_interval, wanted, saved)
-        if self.slow is not None:
-            lengths = self.slow.advance(self.place, self.speed, rows * row_interval)
-            self.packed.memory[LENGTH + self.packed.place[self.slow.bars]] = lengths
-            saved[3][first : first + rows, 1] += self.slow.energy
+        for slow in self.slow:
+            place = self.packed.place[slow.bars]
+            self.packed.memory[LENGTH + place] = slow.advance(self.place, self.speed, rows * row_interval)
+            self.packed.memory[SPRING + place] = self.arrays.bar("spring")[slow.bars] = slow.spring
+            saved[3][first : first + rows, 1] += slow.energy
         self.part()
         return good
 
@@ -322,26 +315,17 @@ class ExplicitRun:
         ``watchful``.
         """
         row_interval, before = interval
-        packed, arrays = self.packed, self.arrays
         step, per_load, per_row = self.prepare(row_interval, wanted)
         end = self.time + rows * row_interval
         rate = np.zeros_like(self.water)
         if not self.flow.steady:
             rate = (self.flow.at(end, self.place + (end - self.time) * self.speed) - self.water) / (end - self.time)
-        places, pulls, peaks, energy, nodes, bars = saved
         # what blows up for another reason must not be followed down to steps without end
         bear = DRAG_BROKEN if watchful and step >= LEAST_PART * self.stable else math.inf
-        good = march(
-            packed.memory, packed.sizes, packed.runs, arrays.curves, arrays.hinges, arrays.bending, arrays.attached,
-            np.array([self.network.water.density, self.network.water.gravity]),
-            (not self.flow.steady, self.near_surface(rows * row_interval), self.water, rate, self.time),
-            self.driving,
-            self.bed,
-            (self.time, step, per_load, per_row, rows, first, before),
-            self.ledger, (places, pulls, peaks, energy, nodes, packed.place[bars]), self.parts,
-            (*self.watch.system, DRAG_SHARE, bear),
-        )  # fmt: skip
-        taken, broken = abs(int(good)) * per_load * per_row, int(self.watch.broken[0])
+        good = self._call_march(
+            rows, saved, rate, first, before, (step, per_load, per_row), self.near_surface(rows * row_interval), bear
+        )
+        taken, broken = abs(good) * per_load * per_row, int(self.watch.broken[0])
         if broken >= 0:
             taken += broken - per_load * per_row
         if good < 0:
@@ -350,7 +334,7 @@ class ExplicitRun:
         self.time = end
         if not self.flow.steady:
             self.water = self.flow.at(end, self.place)
-        return int(good)
+        return good
 
     def state(self) -> State:
         """Return the state at the present time (the forces of the last row give the half step)."""

@@ -274,6 +274,9 @@ def march(
     drag has outrun the step, which has to be chosen anew before the march goes on: at the end of that row, or within
     it, which then does not count as good.
 
+    With no row to do it evaluates the loads of the present state and no more, with one row less than none it writes the
+    row of the start: what is called once a run is then compiled but once, as a part of the march.
+
     Load intervals shrink by themselves while drag is faster than at the start: loads that are held while nodes move to
     and fro would give them energy.
     """
@@ -286,6 +289,22 @@ def march(
     panels, rings, sheets, blocks = parts
     gauge_bars, gauges, falls, broken, most, bear = watch
     broken[0] = -1
+    if rows <= 0:
+        if rows == 0:
+            loads(A, sizes, runs, attached, fluid[0], fluid[1], surface, moving, 0.0, sheets)
+            section_loads(A, blocks, moving)
+        else:
+            rib_forces(A, runs, curves)
+            spine_forces(A, spine)
+            save_row(A, first_row, saved, spine, runs)
+            energy, pulls, peaks = saved[3], saved[1], saved[2]
+            for j in range(pulls.shape[1]):
+                peaks[first_row, j] = pulls[first_row, j]
+            energy[first_row, 0] = kinetic_energy_now(A, count, blocks)
+            elastic = elastic_energy(A, sizes, runs, curves, hinges, bending, bed)
+            energy[first_row, 1] = elastic + elastic_energy_of_sheets(A, sheets) + ring_energy(A, rings)
+            energy[first_row, 2] = 0.0
+        return 0
     push_of_pressure = first_push(A, count, sheets)
     moved, drawn, keep = np.zeros((driven.shape[0], 3)), np.zeros((driven.shape[0], 3)), np.empty((3, count))
     total = per_row * per_load

@@ -20,9 +20,9 @@ from moyai.flexible.network import Network
 from moyai.flexible.parts import kernel_parts, network_parts
 from moyai.flexible.relaxation import kernel_plan, kernel_system, mean_size, plan_of
 from moyai.flexible.result import State
-from moyai.flexible.slow_stretch import SlowBars
 from moyai.flexible.tableaus import TABLEAUS
 from moyai.flexible.watch import watch_of
+from moyai.flexible.worn_rope import slow_parts
 
 #: Error of one step that is borne: of tensions over the largest tension, of places over the length of a bar.
 TOLERANCE = 1e-3
@@ -49,7 +49,7 @@ class ImplicitRun:
                 allowed="'explicit' for this network",
             )
         self.arrays = kernel_arrays(network)
-        self.slow = SlowBars.of(network, start.position, self.arrays)
+        self.slow = slow_parts(network, start.position, self.arrays)
         #: Lines that part in the course of the run.
         self.failing: Failing | None = None
         self.system = kernel_system(self.arrays)
@@ -141,9 +141,10 @@ class ImplicitRun:
         self.time = reached if status != kernel.GOOD else end
         if not self.flow.steady:
             self.water = np.ascontiguousarray(self.flow.at(end, self._place.T))
-        if self.slow is not None:
-            self.arrays.bar("length")[self.slow.bars] = self.slow.advance(self.place, self.speed, rows * row_interval)
-            saved[3][first : first + rows, 1] += self.slow.energy
+        for slow in self.slow:
+            self.arrays.bar("length")[slow.bars] = slow.advance(self.place, self.speed, rows * row_interval)
+            self.arrays.bar("spring")[slow.bars] = slow.spring
+            saved[3][first : first + rows, 1] += slow.energy
         self.part()
         return int(good)
 

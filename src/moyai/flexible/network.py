@@ -22,6 +22,7 @@ from moyai.flexible.mass_blocks import MassBlocks
 from moyai.flexible.panels import NetPanels
 from moyai.flexible.rings import Ring
 from moyai.flexible.sheets import Sheets
+from moyai.flexible.worn_law import WornRope
 from moyai.sea.water import Water
 from moyai.tables.lines import LineProperties
 
@@ -90,7 +91,7 @@ class RopeCurve:
 
 @dataclass(frozen=True)
 class SlowStretch:
-    """How a rope gives way slowly: a spring beside a dashpot, in series with the fast one [eq:flexible-slow-stretch].
+    """A rope that gives way slowly: spring parallel to dashpot, in series with the fast one [eq:flexible-slow-stretch].
 
     Raises
     ------
@@ -100,7 +101,7 @@ class SlowStretch:
 
     #: EA of the whole rope under a load that stays [N], below its axial stiffness.
     static_stiffness: float
-    #: Of the dashpot beside the slow spring [N s].
+    #: Of the dashpot parallel to the slow spring [N s].
     viscosity: float
     #: Axial stiffness per mean tension that it grows with [-].
     growth: float = 0.0
@@ -149,7 +150,7 @@ class BarType:
     #: Nonlinear tension over strain.
     curve: RopeCurve | None = None
     #: How it gives way slowly; ``axial_stiffness`` then is that of quick changes.
-    slow: SlowStretch | None = None
+    slow: SlowStretch | WornRope | None = None
 
     def __post_init__(self) -> None:
         if self.volume_per_length == -1.0:
@@ -163,6 +164,7 @@ class BarType:
             )
         if self.slow is not None:
             _require(self.curve is None, f"{self.name!r} has a curve and slow stretch", "slow", "one of them")
+        if isinstance(self.slow, SlowStretch):
             _require(
                 self.slow.static_stiffness < self.axial_stiffness,
                 f"the static stiffness of {self.name!r} is {self.slow.static_stiffness:g} N, that of quick changes "

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -14,11 +14,13 @@ from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
 from moyai.core.wording import spoken
 from moyai.flexible.checks import whole_number
+from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import Network
 from moyai.flexible.refine import more_viscous, refined, with_viscosity
 from moyai.flexible.result import State
 from moyai.flexible.simulation import simulate
+from moyai.flexible.statics import solve_equilibrium
 
 
 @dataclass(frozen=True)
@@ -96,6 +98,31 @@ class PeakSensitivity:
         )
 
 
+def refined_start(network: Network, factor: int, start: State | None, rest_flow: Flow | None) -> tuple[Network, State]:
+    """Return a finer mesh and where a run on it starts.
+
+    A run from rest starts from the rest of the finer mesh itself: places between those of the given mesh are no rest
+    there, and the jolt would count as an effect of the mesh.
+
+    Parameters
+    ----------
+    network : Network
+    factor : int
+        Into how many every bar is cut.
+    start : State or None
+        On the given mesh.
+    rest_flow : Flow or None
+        In which ``start`` is at rest; ``None`` where it is none.
+    """
+    finer, state = refined(network, factor, start)
+    if rest_flow is None:
+        return finer, state
+    try:
+        return finer, replace(solve_equilibrium(finer, flow=rest_flow, start=state).state, time=state.time)
+    except ConvergenceError:
+        return finer, state
+
+
 def peak_sensitivity(
     network: Network,
     motions: Mapping[str, Motion] | None = None,
@@ -103,6 +130,7 @@ def peak_sensitivity(
     bar: int,
     after: float = 0.0,
     start: State | None = None,
+    rest_flow: Flow | None = None,
     progress: Progress = silent,
     **options: Any,
 ) -> PeakSensitivity:
@@ -119,6 +147,8 @@ def peak_sensitivity(
         Only peaks after this time since the start count [s].
     start : State, optional
         As built and at rest when left out.
+    rest_flow : Flow, optional
+        In which ``start`` is at rest: the finer mesh then starts from its own rest in it.
     progress : Progress
         Told the number of the run.
     **options
@@ -165,7 +195,7 @@ def peak_sensitivity(
     progress("sensitivity", 1, 5)
     half, _ = peak("half the step", network, start, bar, step=0.5 * step)
     progress("sensitivity", 2, 5)
-    finer, state = refined(network, 2, start)
+    finer, state = refined_start(network, 2, start, rest_flow)
     # a step given by hand is as long as the given mesh bears at most
     shorter = {} if options.get("step") is None else {"step": 0.5 * options["step"]}
     mesh, _ = peak("half the mesh", finer, state, 2 * bar + (1 if last else 0), **shorter)

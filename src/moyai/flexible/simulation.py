@@ -222,14 +222,14 @@ def simulate(
     look = LONGEST_LOOK if flow.steady else min(LONGEST_LOOK, flow.update_interval)
     if run.failing is not None:
         look = min(look, LOOK)
-    if run.slow is not None:
-        look = min(look, run.slow.interval)
-        saved[3][0, 1] += run.slow.energy
+    for slow in run.slow:
+        look = min(look, slow.interval)
+        saved[3][0, 1] += slow.energy
     per_chunk = max(1, min(rows // 20, int(look / interval + 1e-9)))
     # rows further apart than that are marched in parts, but for the pace of the wave: whole steps fill its rows
     parts = (
         1
-        if flow.steady and safety == 1.0 and run.slow is None and run.failing is None
+        if flow.steady and safety == 1.0 and not run.slow and run.failing is None
         else max(1, math.ceil(interval / look - 1e-9))
     )
     status: RunStatus = "converged"

@@ -1,4 +1,4 @@
-"""Ropes that give way slowly: a fast spring in series with a slow one beside a dashpot [eq:flexible-slow-stretch].
+"""Ropes that give way slowly: a fast spring in series with a slow one parallel to a dashpot [eq:flexible-slow-stretch].
 
 The slow stretch is a change of the unstretched length that a bar has at the moment; it is brought up to date between
 the calls of a run, exactly for a tension that stays. At rest the dashpot bears nothing and both springs act.
@@ -12,7 +12,8 @@ import numpy as np
 
 from moyai.core.arrays import Array, IntArray
 from moyai.flexible.arrays import BAR_ROWS, KernelArrays
-from moyai.flexible.network import Network, SlowStretch
+from moyai.flexible.network import BarType, Network, RopeCurve, SlowStretch
+from moyai.flexible.worn_law import WornRope
 
 _LENGTH, _SPRING = BAR_ROWS.index("length"), BAR_ROWS.index("spring")
 #: Updates over the shortest time in which the slow stretch fades
@@ -23,11 +24,14 @@ def at_rest(network: Network) -> Network:
     """Return the network as it is under loads that stay: the stiffness of slow ropes is their static one."""
     if not any(kind.slow is not None for kind in network.bars.types):
         return network
-    types = tuple(
-        kind if kind.slow is None else replace(kind, axial_stiffness=kind.slow.static_stiffness, slow=None)
-        for kind in network.bars.types
-    )
+    types = tuple(_at_rest(kind) for kind in network.bars.types)
     return replace(network, bars=replace(network.bars, types=types))
+
+
+def _at_rest(kind: BarType) -> BarType:
+    if isinstance(kind.slow, WornRope):
+        return replace(kind, curve=RopeCurve(*kind.slow.curve_at_rest()), slow=None)
+    return kind if kind.slow is None else replace(kind, axial_stiffness=kind.slow.static_stiffness, slow=None)
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +59,7 @@ class SlowBars:
 
         A stiffness that grows with the load is taken at the tension of the start.
         """
-        slow: list[SlowStretch | None] = [kind.slow for kind in network.bars.types]
+        slow = [kind.slow if isinstance(kind.slow, SlowStretch) else None for kind in network.bars.types]
         bars = np.flatnonzero([slow[kind] is not None for kind in network.bars.kind])
         if not bars.size:
             return None
@@ -74,6 +78,11 @@ class SlowBars:
         arrays.bars[_SPRING, bars] = fast / made.length
         arrays.bars[_LENGTH, bars] = made.present
         return made
+
+    @property
+    def spring(self) -> Array:
+        """Stiffness of quick changes [N/m]."""
+        return self.fast / self.length
 
     @property
     def present(self) -> Array:

@@ -201,7 +201,7 @@ def read_bodies(rows: list[Row], faults: Faults) -> tuple[DeckBody, ...]:
 
 
 def read_rods(
-    rows: list[Row], kinds: tuple[DeckRodType, ...], bodies: tuple[DeckBody, ...], faults: Faults
+    rows: list[Row], kinds: tuple[DeckRodType, ...], bodies: tuple[DeckBody, ...], faults: Faults, notes: list[str]
 ) -> tuple[DeckRod, ...]:
     """Return the rows of RODS."""
     found: list[DeckRod] = []
@@ -231,11 +231,15 @@ def read_rods(
         if segments is None or segments != int(segments) or segments < 0.0:
             faults.add(row.line, f"segments is {row.cells.get('segments')!r}", "a whole number, 0 or more", path="rods")
             segments = 0.0
-        if ((xa, ya, za) == (xb, yb, zb)) != (segments == 0.0):
+        if (xa, ya, za) == (xb, yb, zb) and segments:
             faults.add(
-                row.line, f"rod {number} has {segments:g} segments and "
-                + ("no length" if segments else "a length"), "0 segments for a rod of no length", path="rods",
+                row.line, f"rod {number} has {segments:g} segments and no length", "0 segments for a rod of no length",
+                path="rods",
             )  # fmt: skip
+        if (xa, ya, za) != (xb, yb, zb) and not segments:
+            # the two ends of a clamp say where it points to
+            notes.append(f"line {row.line}: rod {number} has 0 segments: it stands at its end A and has no length")
+            xb, yb, zb = xa, ya, za
         choice: RodKind = kind or "fixed"
         found.append(
             DeckRod(

@@ -17,6 +17,7 @@ from moyai.interop.moordyn_deck import DeckLineType, DeckPoint, MoorDynDeck
 from moyai.interop.moordyn_keys import SECTIONS
 from moyai.interop.moordyn_network import line_name, point_name, water_of
 from moyai.interop.moordyn_records import DeckFailure, StiffnessTable
+from moyai.interop.moordyn_syrope import law_of
 from moyai.interop.moordyn_system import BodyOfDeck, bodies_of, end_name, rod_knots
 from moyai.interop.moordyn_waves import amplitude_and_phase
 from moyai.interop.textfiles import read_lines
@@ -79,6 +80,9 @@ def case_text(
     bodies, said = bodies_of(deck)
     _check_bed(deck, bodies)
     moved = _moved(deck, bodies, motions or {})
+    dynamic = bool(moved) or duration is not None or deck.waves is not None or deck.current_field is not None
+    dynamic = dynamic or any(item.time for item in deck.failures)
+    current = _current(deck, dynamic)
     lines = [
         f"# From {deck.source or 'a deck'} of MoorDyn.",
         *(f"# {note}" for note in (*deck.notes, *said)),
@@ -89,7 +93,7 @@ def case_text(
         f"site: {{water_depth: {_number(water.depth)}, density: {_number(water.density)}, "
         f"gravity: {_number(water.gravity)}}}",
         *_waves(deck, folder),
-        *_current(deck),
+        *current,
         *_current_field(deck),
         "",
         "structure:",
@@ -117,22 +121,15 @@ def case_text(
     if deck.failures:
         lines.append("  failures:")
     lines += [f"    - {_failure(deck, item)}" for item in deck.failures]
-    dynamic = bool(moved) or duration is not None or deck.waves is not None or deck.current_field is not None
-    dynamic = dynamic or any(item.time for item in deck.failures)
     # what moves in a deck without a search for rest starts where the deck has it
     as_built = any(body.moves for body in bodies) and deck.number("TmaxIC") == 0.0
     analyses = [*([] if as_built and dynamic else ["statics"]), *(["modes"] if deck.lines and not bodies else [])]
     lines += ["", f"analyses: [{', '.join([*analyses, *(['dynamic'] if dynamic else [])])}]"]
-    worn = sorted({line.line_type for line in deck.lines if deck.line_type(line.line_type).syrope is not None})
-    if dynamic and worn:
-        raise InputError(
-            f"line type {worn[0]!r} is a Syrope rope, which is run at rest only: its quick changes are stiffer",
-            path="line types", remedy="run the deck without motions, waves and --duration, or give EA",
-        )  # fmt: skip
     if dynamic:
-        start = "as_built" if as_built else "rest_in_current" if deck.current is not None else "rest"
+        steady = any(line.startswith("current:") for line in current)
+        start = "as_built" if as_built else "rest_in_current" if steady else "rest"
         settings = [f"start: {start}"]
-        if deck.waves is not None or deck.current_field is not None:
+        if deck.waves is not None or deck.current_field is not None or (current and not steady):
             # in MoorDyn waves stand from the start, and their kinematics end at still water
             settings += ["ramp: 0", "stretching: constant"]
         if duration is not None:
@@ -291,11 +288,19 @@ def _word(text: str) -> str:
 
 def _line_type(kind: DeckLineType) -> list[str]:
     parts = [f"diameter: {_number(kind.diameter)}", f"mass: {_number(kind.mass_per_length)}"]
-    if isinstance(kind.stiffness, StiffnessTable):
-        rows = zip(kind.stiffness.strain, kind.stiffness.tension, strict=True)
+    law = None if kind.syrope is None or kind.syrope.original is None else law_of(kind.syrope.original, kind.syrope)
+    curve = kind.stiffness if kind.syrope is None else kind.syrope.original
+    if isinstance(curve, StiffnessTable):
+        rows = zip(curve.strain, curve.tension, strict=True)
         parts.append(f"curve: {{table: [{', '.join(f'[{_number(e)}, {_number(t)}]' for e, t in rows)}]}}")
-    else:
+    elif isinstance(kind.stiffness, float):
         parts.append(f"axial_stiffness: {_number(kind.stiffness)}")
+    if law is not None:
+        parts.append(
+            f"worn_rope: {{form: {law.form}, k1: {_number(law.k1)}, k2: {_number(law.k2)}, "
+            f"quick_stiffness: {_number(law.stiffness)}, growth: {_number(law.growth)}, "
+            f"viscosity: {_number(law.viscosity)}, highest_mean_tension: {_number(law.highest)}}}"
+        )
     if kind.slow is not None:
         parts.append(
             f"slow_stretch: {{static_stiffness: {_number(kind.slow.stiffness)}, "
@@ -339,7 +344,8 @@ def _waves(deck: MoorDynDeck, folder: Path | None) -> list[str]:
     if waves.file and folder is not None:
         step = "" if waves.time_step is None else f", time_step: {_number(waves.time_step)}"
         file = (folder / waves.file).resolve()
-        return [f"waves: {{kind: elevation_record, file: {_word(str(file))}{step}, heading_deg: 0}}"]
+        heading = _number(math.degrees(waves.direction[0]))
+        return [f"waves: {{kind: elevation_record, file: {_word(str(file))}{step}, heading_deg: {heading}}}"]
     amplitude, phase = amplitude_and_phase(waves)
     rows = zip(waves.omega, amplitude, np.degrees(phase), np.degrees(waves.direction), strict=True)
     return [
@@ -366,7 +372,11 @@ def _current_field(deck: MoorDynDeck) -> list[str]:
     return [f"current_field: {{file: {_word(str(Path(given.folder) / given.file))}, form: {given.form}}}"]
 
 
-def _current(deck: MoorDynDeck) -> list[str]:
+def _turns(headings: list[float]) -> bool:
+    return any(abs(math.remainder(heading - headings[0], 2.0 * math.pi)) > 1e-9 for heading in headings)
+
+
+def _current(deck: MoorDynDeck, dynamic: bool) -> list[str]:
     current = deck.current
     if current is None:
         return []
@@ -374,11 +384,15 @@ def _current(deck: MoorDynDeck) -> list[str]:
     headings = [heading for _, speed, heading in rows if speed > 0.0]
     if not headings:
         return []
-    if any(abs(math.remainder(heading - headings[0], 2.0 * math.pi)) > 1e-9 for heading in headings):
+    if _turns(headings):
+        if current.file and dynamic:
+            return [f"current_field: {{file: {_word(current.file)}, form: steady}}"]
         raise InputError(
-            "the current of the deck turns over the height; a case file has one direction",
+            "the current of the deck turns over the height; at rest a case file has one direction",
             path="Currents",
-            remedy="run the deck from Python: read_deck, to_network, flow_of",
+            remedy="run it through time (--duration)"
+            if current.file
+            else "give it by Currents 1 and current_profile.txt",
         )
     bed = -water_of(deck).depth
     deep = [(z, speed) for z, speed, _ in rows if z < bed]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 from pathlib import Path
 from typing import Literal
 
@@ -20,16 +21,17 @@ MOST = 20_000_000
 
 
 @checks_words
-def read_current_field(path: str | Path, form: Literal["profile", "grid"]) -> CurrentField:
+def read_current_field(path: str | Path, form: Literal["profile", "grid", "steady"]) -> CurrentField:
     """Read a current that changes with time.
 
     Parameters
     ----------
     path : path
-    form : {"profile", "grid"}
+    form : {"profile", "grid", "steady"}
         ``profile``: four lines that are passed over, a line of heights, a line that is passed over, then rows of time
         and velocities along x at all heights, maybe those along y, maybe those along z. ``grid``: a line of four
         numbers of points, a line for each of x, y, z and time, then rows of x, y, z, time and three velocities.
+        ``steady``: three lines that are passed over, then rows of height and three velocities, at all times.
 
     Raises
     ------
@@ -38,6 +40,8 @@ def read_current_field(path: str | Path, form: Literal["profile", "grid"]) -> Cu
     """
     place = Path(path)
     lines = read_lines(place)
+    if form == "steady":
+        return _steady(place.name, lines)
     return _profile(place.name, lines) if form == "profile" else _grid(place.name, lines)
 
 
@@ -47,6 +51,14 @@ def _numbers(name: str, number: int, text: str) -> list[float]:
     if len(found) != len(values):
         raise InputError(f"{name}:{number}: a row is not all numbers", path="Currents")
     return found
+
+
+def _steady(name: str, lines: list[str]) -> CurrentField:
+    rows = [row for number, text in enumerate(lines[3:], start=4) if (row := _numbers(name, number, text))]
+    if not rows or any(len(row) != 4 for row in rows) or any(b[0] <= a[0] for a, b in pairwise(rows)):
+        raise InputError(f"{name}: rows are not rising heights and three velocities", path="Currents")
+    table = np.array(rows)
+    return CurrentField(np.zeros(1), np.zeros(1), np.zeros(1), table[:, 0], table[None, None, None, :, 1:])
 
 
 def _profile(name: str, lines: list[str]) -> CurrentField:

@@ -149,10 +149,12 @@ OPTIONS_USED = {
     "kbot": "kBot", "kb": "kBot",
     "cbot": "cBot", "cb": "cBot",
     "frictioncoefficient": "FrictionCoefficient", "mu_kt": "FrictionCoefficient",
+    "mu_ka": "FrictionCoefficient",
     "seafloorfile": "SeafloorFile", "bathymetryfile": "SeafloorFile", "bathyfile": "SeafloorFile",
     "wavekin": "WaveKin",
     "dtwave": "dtWave",
     "currents": "Currents", "currentmod": "Currents",
+    "waterkin": "WaterKin",
 }  # fmt: skip
 
 #: Options that steer MoorDyn's own step, start or files: kept in the deck, without meaning here.

@@ -26,6 +26,7 @@ from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import DRIVEN, FIXED, BarType, Bed, Network, RopeCurve, SlowStretch
 from moyai.flexible.result import State
+from moyai.flexible.worn_law import WornRope
 from moyai.interop.moordyn_currents import read_current_field
 from moyai.interop.moordyn_deck import (
     DeckLine,
@@ -35,6 +36,7 @@ from moyai.interop.moordyn_deck import (
     PointKind,
 )
 from moyai.interop.moordyn_records import DeckOption, DeckSlowStretch, StiffnessTable
+from moyai.interop.moordyn_syrope import law_of
 from moyai.interop.moordyn_waves import wave_components
 from moyai.sea.current import table as current_table
 from moyai.sea.water import Water
@@ -117,7 +119,12 @@ def damping_of(kind: DeckLineType, segment_length: float, axial_stiffness: float
 def bar_type(kind: DeckLineType, segment_length: float) -> BarType:
     """Return the material of a line type on segments of a length [m]."""
     curve, stiffness = None, 0.0
-    if isinstance(kind.stiffness, StiffnessTable):
+    slow: SlowStretch | WornRope | None = None
+    if kind.slow is not None:
+        slow = SlowStretch(kind.slow.stiffness, kind.slow.damping, kind.slow.growth)
+    if kind.syrope is not None and kind.syrope.original is not None:
+        slow, stiffness = law_of(kind.syrope.original, kind.syrope), kind.syrope.alpha
+    elif isinstance(kind.stiffness, StiffnessTable):
         curve = RopeCurve(np.array(kind.stiffness.strain), np.array(kind.stiffness.tension))
         stiffness = float(curve.stiffness[0])
     else:
@@ -134,7 +141,7 @@ def bar_type(kind: DeckLineType, segment_length: float) -> BarType:
         added_mass_tangential=kind.added_mass_axial,
         bending_stiffness=kind.bending_stiffness,
         curve=curve,
-        slow=None if kind.slow is None else SlowStretch(kind.slow.stiffness, kind.slow.damping, kind.slow.growth),
+        slow=slow,
     )
 
 
@@ -395,6 +402,11 @@ def deck_line_types(kinds: Sequence[BarType]) -> tuple[DeckLineType, ...]:
             stiffness = StiffnessTable(
                 tuple(map(float, kind.curve.strain)), tuple(map(float, kind.curve.tension)), f"{name}_stiffness.txt"
             )
+        if isinstance(kind.slow, WornRope):
+            raise InputError(
+                f"the line type {kind.name!r} remembers its highest tension, which is not written into decks",
+                path="line types", allowed="EA, a curve, or slow stretch",
+            )  # fmt: skip
         made = DeckLineType(
             name, diameter, kind.mass_per_length, stiffness, kind.viscosity, kind.bending_stiffness, kind.drag_normal,
             kind.added_mass_normal, kind.drag_tangential / math.pi, kind.added_mass_tangential,

@@ -12,6 +12,7 @@ import math
 import re
 import string
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, Literal
 
@@ -35,6 +36,7 @@ from moyai.interop.moordyn_deck import DeckLine, DeckLineType, DeckPoint, MoorDy
 from moyai.interop.moordyn_records import CURRENT_FILE, DeckCurrentField, DeckFailure, DeckOption
 from moyai.interop.moordyn_rows import Faults, Row, file_of, read_current, read_seafloor, read_stiffness
 from moyai.interop.moordyn_syrope import read_syrope, with_history
+from moyai.interop.moordyn_waterkin import read_waterkin
 from moyai.interop.moordyn_waves import read_waves
 from moyai.interop.textfiles import parse_number, read_lines
 
@@ -218,7 +220,8 @@ def _table(
 def _line_types(names: list[str], rows: list[Row], folder: Path, faults: Faults) -> tuple[DeckLineType, ...]:
     found: list[DeckLineType] = []
     for row in rows:
-        if any(parse_number(row.cells.get(key, "0")) != 0.0 for key in ("lift", "lift_range", "lift_frequency")):
+        # without lift, range and centre of its frequencies have no meaning
+        if parse_number(row.cells.get("lift", "0")) != 0.0:
             faults.add(
                 row.line, "vortex-induced vibration (Cl, dF, cF) is not read", "0 or no such column", path="lift"
             )
@@ -253,6 +256,27 @@ def _line_types(names: list[str], rows: list[Row], folder: Path, faults: Faults)
                 law,
             )
         )
+    return tuple(found)
+
+
+def _with_slow_damping(
+    kinds: tuple[DeckLineType, ...], lines: tuple[DeckLine, ...], notes: list[str]
+) -> tuple[DeckLineType, ...]:
+    """Return the line types with BA_s in N s where it is minus a part of the critical damping of a segment."""
+    found = []
+    for kind in kinds:
+        slow = kind.slow
+        if slow is not None and slow.damping < 0.0:
+            longest = max(
+                (line.length / max(line.segments, 1) for line in lines if line.line_type == kind.name), default=0.0
+            )
+            damping = -slow.damping * longest * math.sqrt(slow.stiffness * kind.mass_per_length)
+            notes.append(
+                f"line {kind.line}: BA_s is {-slow.damping:g} of critical: {damping:.4g} N s with EA_s and the longest "
+                "segment of the type"
+            )
+            kind = replace(kind, slow=replace(slow, damping=damping))
+        found.append(kind)
     return tuple(found)
 
 
@@ -393,7 +417,7 @@ def _options(body: list[tuple[int, str]], folder: Path, faults: Faults, notes: l
             key = "SeafloorFile"
         if words[1].lower() in keys.OPTIONS_WITHOUT_MEANING:
             unused.append(key)
-        elif key != "SeafloorFile" and (value is None or not math.isfinite(value)):
+        elif key not in ("SeafloorFile", "WaterKin") and (value is None or not math.isfinite(value)):
             faults.add(number, f"{key} is {words[0]!r}, which is no number", path=key)
             continue
         found.append(DeckOption(key, words[0] if value is None else value, number))
@@ -499,14 +523,15 @@ def read_deck(path: str | Path) -> MoorDynDeck:
         )
     rod_types = read_rod_types(_table("rod types", sections, ROD_TYPE_COLUMNS, faults, notes)[1], faults)
     bodies = read_bodies(_table("bodies", sections, BODY_COLUMNS, faults, notes)[1], faults)
-    rods = read_rods(_table("rods", sections, ROD_COLUMNS, faults, notes)[1], rod_types, bodies, faults)
+    rods = read_rods(_table("rods", sections, ROD_COLUMNS, faults, notes)[1], rod_types, bodies, faults, notes)
     points = _points(_table("points", sections, keys.POINT_COLUMNS, faults, notes)[1], bodies, faults)
     rows = _lines(_table("lines", sections, keys.LINE_COLUMNS, faults, notes)[1], kinds, points, rods, faults)
+    kinds = _with_slow_damping(kinds, rows, notes)
     histories = _table("syrope ic", sections, keys.SYROPE_COLUMNS, faults, notes)[1]
     kinds, rows = with_history(kinds, rows, histories, faults)
     used = {line.line_type for line in rows}
     notes += [
-        f"line type {kind.name}: the curve at rest after {kind.syrope.highest:g} N is run; quick changes are stiffer"
+        f"line type {kind.name}: runs begin at rest after {kind.syrope.highest:g} N, whatever Tmean0 is"
         for kind in kinds
         if kind.syrope is not None and kind.name in used
     ]
@@ -525,6 +550,8 @@ def read_deck(path: str | Path) -> MoorDynDeck:
             current = read_current(option, place.parent, faults)
         if option.key == "Currents" and option.value in (2.0, 5.0):
             field = _current_field(option, place.parent, faults)
+        if option.key == "WaterKin":
+            current, waves = read_waterkin(option, place.parent, faults, notes)
         if option.key == "SeafloorFile":
             seafloor = read_seafloor(option, place.parent, faults)
     outputs = [word for _, text in sections.get("outputs", (0, []))[1] for word in text.replace(",", " ").split()]

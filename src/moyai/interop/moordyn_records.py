@@ -58,6 +58,8 @@ class DeckSyrope:
     highest: float = 0.0
     #: Mean tension at the start [N].
     mean: float = 0.0
+    #: Curve of the new rope.
+    original: StiffnessTable | None = None
 
 
 @dataclass(frozen=True)
@@ -125,6 +127,8 @@ class DeckCurrent:
     z: tuple[float, ...]
     #: Horizontal components at them [m/s].
     velocity: tuple[tuple[float, float], ...]
+    #: Where the file stands, empty for a table within another file.
+    file: str = field(default="", compare=False)
 
 
 @checks_words

@@ -78,11 +78,14 @@ def _viscoelastic(row: Row, text: str, faults: Faults) -> tuple[float, DeckSlowS
     """Return the dynamic stiffness and the rest of EA_s|EA_d or EA_s|EA_Dc|EA_D_Lm with BA_s|BA_d."""
     stiffness = [parse_number(part) for part in text.split("|")]
     damping = [parse_number(part) for part in row.cells.get("damping", "").split("|")]
-    numbers = [value for value in (*stiffness, *damping) if value is not None and value > 0.0]
+    known = [value for value in (*stiffness, *damping) if value is not None]
+    # the first of the dashpots may be minus a part of the critical damping of a segment
+    numbers = [value for n, value in enumerate(known) if value > 0.0 or (n == len(stiffness) and value < 0.0)]
     if len(stiffness) not in (2, 3) or len(damping) != 2 or len(numbers) != len(stiffness) + len(damping):
         faults.add(
             row.line, f"stiffness {text!r} with damping {row.cells.get('damping', '')!r}",
-            "EA_s|EA_d or EA_s|EA_Dc|EA_D_Lm with BA_s|BA_d, all greater than 0", path="stiffness",
+            "EA_s|EA_d or EA_s|EA_Dc|EA_D_Lm with BA_s|BA_d, all greater than 0 but -zeta in place of BA_s",
+            path="stiffness",
         )  # fmt: skip
         return math.nan, None
     if numbers[1] <= numbers[0]:
@@ -151,7 +154,7 @@ def read_current(option: DeckOption, folder: Path, faults: Faults) -> DeckCurren
     if not rows:
         faults.add(option.line, f"{CURRENT_FILE} holds no rows", path="Currents")
         return None
-    return DeckCurrent(tuple(r[0] for r in rows), tuple((r[1], r[2]) for r in rows))
+    return DeckCurrent(tuple(r[0] for r in rows), tuple((r[1], r[2]) for r in rows), str(place.resolve()))
 
 
 def file_of(name: str, folder: Path) -> Path | None:
@@ -175,8 +178,22 @@ def read_seafloor(option: DeckOption, folder: Path, faults: Faults) -> DeckSeafl
         return None
 
 
+def _depth_table(place: Path, lines: list[str]) -> list[tuple[float, float, float]]:
+    """Return x, y, z of the depths of the Fortran MoorDyn."""
+    table = [[parse_number(word) for word in text.split()] for text in lines[3:] if text.split()]
+    along, rows = table[0] if table else [], []
+    for number, row in enumerate(table[1:], start=5):
+        if len(row) != len(along) + 1 or any(value is None for value in (*along, *row)):
+            raise InputError(f"line {number} of {place.name}: a row is not y and a depth at every x", path="file")
+        rows += [(float(x or 0.0), float(row[0] or 0.0), -float(d or 0.0)) for x, d in zip(along, row[1:])]
+    return rows
+
+
 def read_seafloor_file(place: Path) -> DeckSeafloor:
-    """Return the heights of a grid file: numbers of lines, lines along x and along y, then rows x, y, z.
+    """Return the heights of a grid file.
+
+    Numbers of lines, lines along x and along y, then rows x, y, z; or, as the Fortran MoorDyn has it, a title, nGridX
+    and nGridY with their numbers, a row of x, and rows of y and the depths at every x.
 
     Raises
     ------
@@ -184,7 +201,10 @@ def read_seafloor_file(place: Path) -> DeckSeafloor:
         For a row of other than three numbers, or a crossing of the grid lines that is left out.
     """
     rows: list[tuple[float, float, float]] = []
-    for number, text in enumerate(read_lines(place)[3:], start=4):
+    lines = read_lines(place)
+    if len(lines) > 1 and lines[1].split()[:1] == ["nGridX"]:
+        rows, lines = _depth_table(place, lines), []
+    for number, text in enumerate(lines[3:], start=4):
         values = [parse_number(token) for token in text.split()]
         if not values:
             continue

@@ -1,8 +1,8 @@
 """Polyester ropes of decks whose static curve depends on the highest mean tension that they have borne (Syrope).
 
 A new rope follows its original curve. One that has borne a mean tension ``highest`` has stretched for good: up to that
-tension it follows a working curve that begins at the strain left without tension, beyond it the original one. Only the
-curves at rest are taken; quick changes, which are stiffer (alpha + beta T), are not run.
+tension it follows a working curve that begins at the strain left without tension, beyond it the original one. Quick
+changes are stiffer (alpha + beta T); the law itself is in :mod:`moyai.flexible.worn_law`.
 """
 
 from __future__ import annotations
@@ -17,21 +17,18 @@ import numpy as np
 
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
+from moyai.flexible.worn_law import Form, WornRope
 from moyai.interop.moordyn_deck import DeckLine, DeckLineType
 from moyai.interop.moordyn_records import DeckSyrope, StiffnessTable
 from moyai.interop.moordyn_rows import Faults, Row
 from moyai.interop.textfiles import parse_number, read_lines
 
-#: Pieces of a working curve.
-PIECES = 50
-#: Tension at the strain that is left without tension, over the highest one: rope curves rise everywhere.
-_TRACE = 1e-6
-Form = Literal["LINEAR", "QUADRATIC", "EXP"]
-FORMS: tuple[Form, ...] = ("LINEAR", "QUADRATIC", "EXP")
+DeckForm = Literal["LINEAR", "QUADRATIC", "EXP"]
+FORMS: tuple[DeckForm, ...] = ("LINEAR", "QUADRATIC", "EXP")
 
 
 @checks_words
-def working_curve(original: StiffnessTable, form: Form, k1: float, k2: float, highest: float) -> StiffnessTable:
+def working_curve(original: StiffnessTable, form: DeckForm, k1: float, k2: float, highest: float) -> StiffnessTable:
     """Return the curve at rest of a rope that has borne a mean tension.
 
     Parameters
@@ -60,31 +57,23 @@ def working_curve(original: StiffnessTable, form: Form, k1: float, k2: float, hi
     >>> float(np.interp(0.0125, worn.strain, worn.tension))       # half way from 0.005 to 0.02 [N]
     50000.0
     """
-    strain, tension = np.array(original.strain), np.array(original.tension)
-    if highest == 0.0:
-        return original
-    if not 0.0 < highest <= tension[-1]:
-        raise InputError(
-            f"a highest mean tension of {highest:g} N", path="Tmax0", allowed=f"0 to {tension[-1]:g} N, the curve"
-        )
-    top = float(np.interp(highest, tension, strain))
-    left = top - highest / k1 if form == "LINEAR" and k1 >= 1.0 else k1 * top
-    ok = 0.0 <= left < top and (form == "LINEAR" or k1 < 1.0)
-    if form == "QUADRATIC" and k2 != 1.0:
-        raise InputError(f"QUADRATIC with k2 = {k2:g}", path="k2", allowed="1: the parabola")
-    if not ok or (form == "EXP" and not 1e-6 <= k2 <= 700.0):
-        raise InputError(f"{form} with k1 = {k1:g} and k2 = {k2:g}", path="k1", allowed="0 to 1 of the strain")
-    part = np.linspace(0.0, 1.0, PIECES + 1)
-    shape = {
-        "LINEAR": lambda x: x, "QUADRATIC": lambda x: x**2, "EXP": lambda x: np.expm1(k2 * x) / math.expm1(k2)
-    }[form](part)  # fmt: skip
-    own = np.maximum(highest * shape, highest * _TRACE)
-    beyond = tension > highest
-    place = np.concatenate([[0.0] if left > 0.0 else [], left + (top - left) * part, strain[beyond]])
-    pull = np.concatenate([[0.0] if left > 0.0 else [], own, tension[beyond]])
-    if left == 0.0:
-        pull[0] = 0.0
-    return StiffnessTable(tuple(place.tolist()), tuple(pull.tolist()), original.file)
+    strain, tension = law_of(original, DeckSyrope(form, k1, k2, 1.0, 0.0, 1.0, highest)).curve_at_rest()
+    return StiffnessTable(tuple(strain.tolist()), tuple(tension.tolist()), original.file)
+
+
+def law_of(original: StiffnessTable, syrope: DeckSyrope) -> WornRope:
+    """Return the law of a rope of a deck.
+
+    Raises
+    ------
+    InputError
+        For what :class:`moyai.flexible.worn_law.WornRope` refuses.
+    """
+    form: Form = {"LINEAR": "linear", "QUADRATIC": "quadratic", "EXP": "exponential"}[syrope.form]  # type: ignore[assignment]
+    return WornRope(
+        np.array(original.strain), np.array(original.tension), form, syrope.k1, syrope.k2, syrope.alpha, syrope.beta,
+        syrope.damping, syrope.highest,
+    )  # fmt: skip
 
 
 def read_syrope(row: Row, folder: Path, faults: Faults) -> tuple[float | StiffnessTable, DeckSyrope | None]:
@@ -109,8 +98,8 @@ def read_syrope(row: Row, folder: Path, faults: Faults) -> tuple[float | Stiffne
         k1, k2 = (parse_number(said[key]) for key in ("K1", "K2"))
         if k1 is None or k2 is None:
             raise InputError(f"k1 and k2 of {name} are no numbers", path="k1", allowed="two numbers")
-        law = DeckSyrope(form, k1, k2, values[0], values[1], dashpots[0])
-        working_curve(original, form, k1, k2, 0.5 * original.tension[-1])
+        law = DeckSyrope(form, k1, k2, values[0], values[1], dashpots[0], original=original)
+        law_of(original, law)
     except InputError as error:
         faults.add(row.line, error.fault.message, error.fault.allowed, path="stiffness")
         return math.nan, None

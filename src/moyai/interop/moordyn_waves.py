@@ -61,6 +61,12 @@ def read_waves(
     return _of_frequencies(rows, name, option.value == 2.0, faults, notes)
 
 
+def read_elevation(place: Path, time_step: float | None, faults: Faults, notes: list[str]) -> DeckWaves | None:
+    """Return the waves of a record of the elevation at the origin: rows of time [s] and elevation [m]."""
+    rows = _rows(place, (2,), faults)
+    return None if rows is None else _of_record(rows, place.name, time_step, faults, notes)
+
+
 def _rows(file: Path, widths: tuple[int, ...], faults: Faults) -> list[list[float]] | None:
     """Return the rows of numbers of a file."""
     rows: list[list[float]] = []

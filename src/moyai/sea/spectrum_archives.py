@@ -13,17 +13,22 @@ import re
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
-from moyai.core.foreign_files import netcdf_engine, open_netcdf, reads
+from moyai.core.foreign_files import open_netcdf, reads
 from moyai.sea.direction_widths import direction_widths
+from moyai.sea.measured_spreading import MeasuredSpreading
 from moyai.sea.spectra import from_table
 from moyai.sea.spectrum import Spectrum
-from moyai.sea.spectrum_wavespectra import kind_of, read_with_wavespectra
+from moyai.sea.spectrum_wavespectra import NETCDF_KINDS, archive_of, kind_of, read_with_wavespectra
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 @dataclass(frozen=True)
@@ -43,6 +48,27 @@ class SpectrumArchive:
     #: Mean direction that the waves come from, clockwise from north [degrees]; NaN where the file tells none; shape
     #: (time, place).
     direction: Array
+    #: Where the waves of a two-dimensional spectrum come from, clockwise from north [degrees]; shape (d,).
+    directions: Array | None = None
+    #: Their energy, the width of each direction included [m2/Hz]; shape (time, place, f, d).
+    energy: Array | None = None
+
+    def spreading(self, record: int, place: int = 0) -> MeasuredSpreading:
+        """Return how one spectrum is spread about its mean direction.
+
+        Raises
+        ------
+        InputError
+            For spectra without directions, a record or place that the file does not have, or one without energy.
+        """
+        if self.directions is None or self.energy is None:
+            raise InputError(
+                f"the file ({self.format}) holds no energy by directions", parameter="spreading",
+                allowed="two-dimensional spectra", remedy="give a spreading function, or leave 'spreading' out",
+            )  # fmt: skip
+        self.spectrum(record, place)
+        mean = float(self.direction[record, place])
+        return MeasuredSpreading.of(self.frequency, self.directions, self.energy[record, place], mean)
 
     def spectrum(self, record: int, place: int = 0) -> Spectrum:
         """Return one spectrum.
@@ -166,6 +192,7 @@ def _swan(text: str, file: Path) -> SpectrumArchive:
     times: list[str] = []
     density: list[list[Array]] = []
     mean: list[list[float]] = []
+    energy: list[list[Array | None]] = []
     while lines.more():
         line = lines.next()
         word = line.split()[0].upper()
@@ -197,44 +224,54 @@ def _swan(text: str, file: Path) -> SpectrumArchive:
             times.append(f"{stamp[:4]}-{stamp[4:6]}-{stamp[6:8]}T{stamp[9:11]}:{stamp[11:13]}")
             density.append([])
             mean.append([])
+            energy.append([])
         elif word in ("FACTOR", "ZERO", "NODATA", "LOCATION"):
             if not timed and not times:
-                times, density, mean = ["stationary"], [[]], [[]]
-            values, towards = _swan_block(word, lines, frequency, directions, nautical, exception, energy_unit, columns)
+                times, density, mean, energy = ["stationary"], [[]], [[]], [[]]
+            values, from_where, whole = _swan_block(
+                word, lines, frequency, directions, nautical, exception, energy_unit, columns
+            )
             density[-1].append(values)
-            mean[-1].append(towards)
+            mean[-1].append(from_where)
+            energy[-1].append(whole)
         else:
             raise lines.fault(f"unknown key {word!r}")
     if not frequency.size or not density:
         raise lines.fault("no frequencies or no spectra")
     if any(len(row) != len(places) for row in density):
         raise lines.fault("a time holds other than one block a place")
+    turned = directions.size > 1 and columns == 1
     return SpectrumArchive(
-        "swan", tuple(times), tuple(places), frequency, np.array(density), np.array(mean, dtype=float)
-    )
+        "swan", tuple(times), tuple(places), frequency, np.array(density), np.array(mean, dtype=float),
+        _came_from(directions, nautical) if turned else None, np.array(energy, dtype=float) if turned else None,
+    )  # fmt: skip
+
+
+def _came_from(directions: Array, nautical: bool) -> Array:
+    """Return where waves come from; Cartesian directions are where they go, counter-clockwise from east."""
+    return directions if nautical else np.asarray((270.0 - directions) % 360.0)
 
 
 def _swan_block(
     word: str, lines: _Lines, frequency: Array, directions: Array, nautical: bool, exception: float, unit: float,
     columns: int,
-) -> tuple[Array, float]:  # fmt: skip
-    """Return the frequency spectrum of one block and its mean direction (coming from, from north)."""
+) -> tuple[Array, float, Array]:  # fmt: skip
+    """Return the frequency spectrum of one block, its mean direction (coming from, from north) and its energy."""
     count = frequency.size
-    if word == "NODATA":
-        return np.full(count, math.nan), math.nan
-    if word == "ZERO":
-        return np.zeros(count), math.nan
+    if word in ("NODATA", "ZERO"):
+        value = math.nan if word == "NODATA" else 0.0
+        return np.full(count, value), math.nan, np.full((count, directions.size), value)
     if word == "LOCATION":
         table = lines.numbers(count * columns).reshape(count, columns)
         values = np.where(table[:, 0] == exception, 0.0, table[:, 0]) * unit
-        return values, float(table[int(np.argmax(values)), 1]) % 360.0 if columns > 1 else math.nan
+        mean = float(table[int(np.argmax(values)), 1]) % 360.0 if columns > 1 else math.nan
+        return values, mean, np.zeros((count, directions.size))
     factor = float(lines.next().split()[0])
     raw = lines.numbers(count * directions.size).reshape(count, directions.size)
     spread = np.where(raw == exception, 0.0, raw) * factor * unit
     widths = direction_widths(directions) if directions.size > 1 else np.ones(1)
-    # Cartesian directions are where the waves go, counter-clockwise from east
-    came_from = directions if nautical else (270.0 - directions) % 360.0
-    return spread @ widths, mean_direction(spread * widths, came_from, frequency)
+    whole = spread * widths
+    return spread @ widths, mean_direction(whole, _came_from(directions, nautical), frequency), whole
 
 
 def _ww3_text(text: str, file: Path) -> SpectrumArchive:
@@ -247,12 +284,15 @@ def _ww3_text(text: str, file: Path) -> SpectrumArchive:
     widths = np.radians(direction_widths(np.degrees(directions)))
     times: list[str] = []
     places: list[str] = []
+    came_from = (np.degrees(directions) + 180.0) % 360.0
     density: list[list[Array]] = []
+    energy: list[list[Array]] = []
     mean: list[list[float]] = []
     while lines.more():
         stamp = lines.next().split()
         times.append(f"{stamp[0][:4]}-{stamp[0][4:6]}-{stamp[0][6:8]}T{stamp[1][:2]}:{stamp[1][2:4]}")
         density.append([])
+        energy.append([])
         mean.append([])
         for _ in range(points):
             name = lines.next().split("'")[1].strip()
@@ -261,51 +301,51 @@ def _ww3_text(text: str, file: Path) -> SpectrumArchive:
             # Fortran order: frequency runs first; values per radian and hertz
             spread = lines.numbers(count * turns).reshape(turns, count).T
             density[-1].append(spread @ widths)
+            energy[-1].append(spread * widths)
             # Like in its NetCDF files, directions are where the waves go, clockwise from north (here in radians)
-            mean[-1].append(mean_direction(spread * widths, (np.degrees(directions) + 180.0) % 360.0, frequency))
-    return SpectrumArchive("ww3", tuple(times), tuple(places), frequency, np.array(density), np.array(mean))
+            mean[-1].append(mean_direction(spread * widths, came_from, frequency))
+    return SpectrumArchive(
+        "ww3", tuple(times), tuple(places), frequency, np.array(density), np.array(mean), came_from, np.array(energy)
+    )
 
 
 def _netcdf(file: Path) -> SpectrumArchive:
-    """Read point spectra of WAVEWATCH III; other programs' files by wavespectra."""
-    netcdf_engine(file, "a file of spectra")
-    try:
-        return _ww3_netcdf(file)
-    except InputError as error:
-        try:
-            return read_with_wavespectra(file)
-        except InputError as other:
-            raise InputError(
-                error.fault.message,
-                parameter="file",
-                allowed=error.fault.allowed,
-                remedy="; ".join(part for part in (other.fault.message, other.fault.remedy) if part),
-            ) from None
-
-
-def _ww3_netcdf(file: Path) -> SpectrumArchive:
+    """Read a NetCDF file by what it holds: readers of other programs read each other's files, with wrong units."""
     with open_netcdf(file, "a file of spectra") as data:
-        if "efth" not in data or "frequency" not in data or "direction" not in data:
-            held = ", ".join(map(str, list(data.data_vars)[:6]))
-            raise InputError(
-                f"{file.name} holds no WAVEWATCH III spectra (efth)", parameter="file", allowed=f"found {held}"
-            )
-        frequency = np.asarray(data["frequency"].values, dtype=float)
-        directions = np.asarray(data["direction"].values, dtype=float)
-        name = "station" if "station" in data["efth"].dims else None
-        dims = ["time", *([name] if name else []), "frequency", "direction"]
-        spread = np.asarray(data["efth"].transpose(*dims).values, dtype=float)
-        if name is None:
-            spread = spread[:, None]
-        times = tuple(str(value)[:16] for value in data["time"].values)
-        widths = np.radians(direction_widths(directions))
-        # In WAVEWATCH III's point files the directions are where the waves go, clockwise from north
-        came_from = (directions + 180.0) % 360.0
-        mean = np.array(
-            [[mean_direction(np.nan_to_num(one) * widths, came_from, frequency) for one in row] for row in spread]
-        )
-        places = tuple(f"station {number + 1}" for number in range(spread.shape[1]))
-        return SpectrumArchive("ww3", times, places, frequency, spread @ widths, mean)
+        if {"freq", "efth"} <= {str(name) for name in data.variables}:
+            return archive_of(data, "wavespectra")
+        if not {"frequency", "direction", "efth"} <= {str(name) for name in data.variables}:
+            held = [str(name) for name in data.variables]
+            kind = next((kind for name, kind in NETCDF_KINDS.items() if name in held), "")
+            if not kind:
+                raise InputError(
+                    f"{file.name} holds no spectra that are known here", parameter="file",
+                    allowed="efth of WAVEWATCH III or wavespectra, d2fd of ERA5, density of SWAN, AC of WWM; it holds "
+                    + ", ".join(held[:6]),
+                )  # fmt: skip
+            return read_with_wavespectra(file, kind)
+        return _ww3_netcdf(data)
+
+
+def _ww3_netcdf(data: xr.Dataset) -> SpectrumArchive:
+    frequency = np.asarray(data["frequency"].values, dtype=float)
+    directions = np.asarray(data["direction"].values, dtype=float)
+    name = "station" if "station" in data["efth"].dims else None
+    dims = ["time", *([name] if name else []), "frequency", "direction"]
+    spread = np.asarray(data["efth"].transpose(*dims).values, dtype=float)
+    if name is None:
+        spread = spread[:, None]
+    times = tuple(str(value)[:16] for value in data["time"].values)
+    widths = direction_widths(directions)
+    if "deg" not in str(data["efth"].attrs.get("units", "")):
+        widths = np.radians(widths)
+    # In WAVEWATCH III's point files the directions are where the waves go, clockwise from north
+    came_from = (directions + 180.0) % 360.0
+    mean = np.array(
+        [[mean_direction(np.nan_to_num(one) * widths, came_from, frequency) for one in row] for row in spread]
+    )
+    places = tuple(f"station {number + 1}" for number in range(spread.shape[1]))
+    return SpectrumArchive("ww3", times, places, frequency, spread @ widths, mean, came_from, spread * widths)
 
 
 #: Numbers in front of frequencies in brackets; a number starts where none goes on, else a long one is read again from
@@ -313,11 +353,21 @@ def _ww3_netcdf(file: Path) -> SpectrumArchive:
 _BEFORE_BRACKETS = re.compile(r"(?<![\d.])([\d.]+)\s+\(")
 
 
+#: What the headings of NDBC's other files begin with, and what they hold.
+_NO_DENSITY = {
+    r"\b(WDIR|WSPD|WVHT|WTMP|PRES|BAR|WSPM|GSP|GDR|GST|DEPTH|HEIGHT)\b": "meteorological observations",
+    r"\balpha[12]_\d": "mean directions",
+    r"\br[12]_\d": "moments of the directions",
+}
+
+
 def _ndbc(text: str, file: Path) -> SpectrumArchive:
     rows = [line for line in text.splitlines() if line.strip()]
-    if re.search(r"\b(WDIR|WSPD|WVHT|WTMP|PRES|BAR)\b", rows[0], re.IGNORECASE):
+    # A number and an underscore behind alpha and r: mean directions and their first two moments
+    what = next((words for pattern, words in _NO_DENSITY.items() if re.search(pattern, rows[0], re.IGNORECASE)), "")
+    if what:
         raise InputError(
-            f"{file.name} holds meteorological observations of NDBC, no spectra",
+            f"{file.name} holds {what} of NDBC, no spectra",
             parameter="file",
             allowed="NDBC's spectral wave density (swden, data_spec or the yearly file NNNNNwYYYY)",
             remedy="fetch the station's spectral wave density",

@@ -21,7 +21,9 @@ if TYPE_CHECKING:
 
 
 _TEXT = ("octopus", "awac", "funwave", "obscape", "xwaves", "datawell", "triaxys", "spotter", "json")
-_NETCDF = ("ww3", "era5", "ncswan", "wwm", "wavespectra", "netcdf")
+#: Variables of NetCDF files of other programs, and the reader of each. Readers of wavespectra take each other's files
+#: without an error, with wrong units.
+NETCDF_KINDS = {"d2fd": "era5", "density": "ncswan", "AC": "wwm"}
 
 
 def kind_of(path: str | Path) -> str:
@@ -45,12 +47,14 @@ def kind_of(path: str | Path) -> str:
     return ""
 
 
-def read_with_wavespectra(path: str | Path) -> SpectrumArchive:
+def read_with_wavespectra(path: str | Path, kind: str = "") -> SpectrumArchive:
     """Read a file of spectra with wavespectra.
 
     Parameters
     ----------
     path : path-like
+    kind : str
+        Reader of wavespectra, where the file tells it; found from its beginning when empty, else tried in turn.
 
     Returns
     -------
@@ -63,7 +67,7 @@ def read_with_wavespectra(path: str | Path) -> SpectrumArchive:
         When wavespectra is absent, or none of its readers makes sense of the file.
     """
     file = Path(path)
-    kind = kind_of(file)
+    kind = kind or kind_of(file)
     try:
         import wavespectra
     except ImportError:
@@ -74,29 +78,32 @@ def read_with_wavespectra(path: str | Path) -> SpectrumArchive:
             allowed="SWAN, WAVEWATCH III and NDBC without it",
             remedy='pip install "moyai[wavespectra]"',
         ) from None
-    head = file.read_bytes()[:4]
-    several = _NETCDF if head[:3] == b"CDF" or head == b"\x89HDF" else _TEXT
     refused = ""
-    for name in (kind,) if kind else several:
+    for name in (kind,) if kind else _TEXT:
         reader = getattr(wavespectra, f"read_{name}", None)
         if reader is None:
             continue
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")
-                archive = _archive(reader(str(file)), name)
+                archive = archive_of(reader(str(file)), name)
         except Exception as error:
             # Readers of other kinds fail on a file in every way there is
             refused = refused or f"{name}: {type(error).__name__}: {error}"
             continue
-        if archive is not None:
-            return archive
-    reported = f" ({refused[:160]})" if kind else f" (tried {', '.join(several)})"
+        return archive
+    reported = f" ({refused[:160]})" if kind else f" (tried {', '.join(_TEXT)})"
     raise InputError(f"wavespectra finds no spectra in {file.name}{reported}", parameter="file")
 
 
-def _archive(data: Any, name: str) -> SpectrumArchive | None:
-    """Return a dataset of wavespectra as an archive, ``None`` where it holds no sensible spectra."""
+def archive_of(data: Any, name: str) -> SpectrumArchive:
+    """Return a dataset in the form of wavespectra as an archive.
+
+    Raises
+    ------
+    InputError
+        Where it holds no sensible spectra.
+    """
     from moyai.sea.spectrum_archives import SpectrumArchive, mean_direction
 
     spread = data["efth"]
@@ -115,7 +122,7 @@ def _archive(data: Any, name: str) -> SpectrumArchive | None:
     frequency, table = frequency[rising], np.take(table, rising, axis=2)
     known = table[np.isfinite(table)]
     if frequency.size < 2 or np.any(np.diff(frequency) <= 0.0) or not known.any() or np.any(known < 0.0):
-        return None
+        raise InputError("no rising frequencies with densities of 0 or more", parameter="file")
     mean = np.full(table.shape[:2], math.nan)
     if turned:
         directions = np.asarray(data["dir"].values, dtype=float)
@@ -125,14 +132,17 @@ def _archive(data: Any, name: str) -> SpectrumArchive | None:
         whole = np.nan_to_num(table[..., once]) * widths
         for place in np.ndindex(*mean.shape):
             mean[place] = mean_direction(whole[place], directions[once], frequency)
+        if "rad" in str(spread.attrs.get("units", "")):
+            whole = np.radians(whole)
         density = np.where(np.isfinite(table).any(axis=-1), whole.sum(axis=-1), math.nan)
+        by_direction = {"directions": directions[once], "energy": whole}
     else:
-        density = table
+        density, by_direction = table, {}
     if "time" in spread.coords:
         times = tuple(str(value)[:16] for value in spread["time"].values)
     else:
         times = ("stationary",)
-    return SpectrumArchive(name, times, _places(spread, apart), frequency, density, mean)
+    return SpectrumArchive(name, times, _places(spread, apart), frequency, density, mean, **by_direction)
 
 
 def _places(spread: Any, apart: list[str]) -> tuple[str, ...]:

@@ -24,6 +24,17 @@ def test_correction_of_macagno(shift, factor):
     assert float(ratio[0]) == pytest.approx(factor, abs=2e-5)
 
 
+def test_macagno_as_published():
+    """K_T = [1 + (k B sinh kh / (2 cosh k(h - d)))^2]^(-1/2); in deep water the fraction is exp(kd)."""
+    depth, beam, draught = 7.0, 5.0, 1.6
+    k = np.array([0.02, 0.2, 0.7, 1.5])
+    fraction = np.sinh(k * depth) / np.cosh(k * (depth - draught))
+    exact = (1.0 + (0.5 * k * beam * fraction) ** 2) ** -0.5
+    assert transmission_macagno(k, depth, beam, draught) == pytest.approx(exact, rel=1e-12)
+    deep = (1.0 + (0.5 * k * beam * np.exp(k * draught)) ** 2) ** -0.5
+    assert transmission_macagno(k, math.inf, beam, draught) == pytest.approx(deep, rel=1e-12)
+
+
 def test_wiegel_is_the_share_of_the_energy_flux_below_the_plate():
     """K_T^2 = (2 k s + sinh 2 k s) / (2 k h + sinh 2 k h), s = h - d; long waves sqrt(s / h), deep water exp(-k d)."""
     depth, draught = 6.0, 1.7

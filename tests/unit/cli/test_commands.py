@@ -82,7 +82,7 @@ def test_new_of_an_unknown_kind():
 def test_check_prints_the_derived_numbers(case):
     found = runner.invoke(app, ["check", str(case)])
     assert found.exit_code == 0, found.output
-    for words in ("draught", "natural period, heave", "relative depth kh", "MSL", "no faults"):
+    for words in ("draught", "natural period, heave", "relative depth kh", "MSL", "no errors"):
         assert words in found.stdout
 
 
@@ -109,7 +109,7 @@ def test_check_tells_every_fault_and_ends_with_two(case):
     lines = found.stderr.splitlines()
     assert lines[0].startswith(f"{case}:17:12: site.gravity: expected an acceleration")
     assert "did you mean 'draught'?" in lines[1]
-    assert lines[2] == "2 faults"
+    assert lines[2] == "2 errors"
     assert found.stdout == ""
 
 

@@ -169,6 +169,12 @@ def test_ordered():
     assert 1 < LIMIT * 1000
 def test_equal():
     assert 1 == 1
+def test_spread():
+    assert 1 == pytest.approx(1, abs=0.1 * LIMIT + 1e-9)
+def test_by_default():
+    np.testing.assert_allclose([1], [1])
+def test_of_run():
+    assert all(check.passed for check in [])
 """
 
 
@@ -182,7 +188,10 @@ def test_what_tests_allow_is_read_from_them(tmp_path: Path, monkeypatch: pytest.
     assert held_by_tests.allowed(held_by_tests.chosen("test_it.py -k refused")) == "refused"
     assert held_by_tests.allowed(held_by_tests.chosen("test_it.py -k ordered")) == "a bound in the test"
     assert held_by_tests.allowed(held_by_tests.chosen("test_it.py -k equal")) == "exact"
-    assert len(held_by_tests.chosen('test_it.py -k "not (first or second)"')) == 3
+    assert held_by_tests.allowed(held_by_tests.chosen("test_it.py -k spread")) == "a bound in the test"
+    assert held_by_tests.allowed(held_by_tests.chosen("test_it.py -k by_default")) == "rel 1e-7"
+    assert held_by_tests.allowed(held_by_tests.chosen("test_it.py -k of_run")) == "the run's own checks"
+    assert len(held_by_tests.chosen('test_it.py -k "not (first or second)"')) == 6
     assert held_by_tests.chosen("test_it.py -k third") == ()
     row = held_by_tests.read_rows(["within 77 of 0.003 | none | test_it.py -k first"])[0]
     assert held_by_tests.numbers_that_no_test_has(row) == ["77"]

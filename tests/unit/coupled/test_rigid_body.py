@@ -9,6 +9,7 @@ import pytest
 from bodies_for_tests import GRAVITY, SEA, VACUUM, random_inertia
 
 from moyai.core.errors import InputError
+from moyai.coupled import rigid_kernel
 from moyai.coupled.hulls import Lumps, box_hull, cylinder_hull, volume_lump
 from moyai.coupled.rigid import RigidBody, about, quaternion_of
 from moyai.flexible.flow import Flow
@@ -218,3 +219,24 @@ def test_impossible_bodies_are_refused_with_one_message(changes, reported) -> No
 def test_impossible_hulls_are_refused(make) -> None:
     with pytest.raises(InputError):
         make()
+
+
+def test_linear_restoring_depends_on_the_distance_from_its_rest_alone():
+    """Moved together, body and rest feel the same; along the yawed axes the force is the stiffness times the offset."""
+    rng = np.random.default_rng(21)
+    half = rng.normal(size=(6, 6))
+    stiffness, rest, offset = half @ half.T, rng.normal(size=6), 0.3 * rng.normal(size=3)
+    rest[3:] = 0.0
+    yaw = 0.7
+    turn = np.array([[np.cos(yaw), -np.sin(yaw), 0.0], [np.sin(yaw), np.cos(yaw), 0.0], [0.0, 0.0, 1.0]])
+    forces = []
+    for shift in (np.zeros(3), np.array([40.0, -7.0, 3.0])):
+        moved = rest.copy()
+        moved[:3] += shift
+        state, force = np.zeros(13), np.zeros(6)
+        state[:3] = moved[:3] + offset
+        rigid_kernel._restoring(state, turn, stiffness, moved, force)
+        forces.append(force)
+    assert np.allclose(forces[0], forces[1], atol=1e-9)
+    along = np.concatenate([turn.T @ offset, [0.0, 0.0, yaw]])
+    assert np.allclose(forces[0], -stiffness @ along, atol=1e-9)

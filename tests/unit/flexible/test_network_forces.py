@@ -189,6 +189,49 @@ def test_both_families_of_schemes_see_the_same_forces(seed):
     assert one.packed.bar_row(explicit_rows.PULL) == pytest.approx(two.tension, rel=1e-9, abs=1e-6)
 
 
+def test_nodes_on_a_smooth_bed_fulfil_the_implicit_law_of_spring_and_dashpot():
+    """Random inverse masses, forces and speeds: the impulse of the bed is that of where and how fast the node ends."""
+    rng = np.random.default_rng(77)
+    count, level, time = 40, -5.0, 0.01
+    row = explicit_rows
+    memory = np.zeros(row.TOTAL_ROWS * row.ROW)
+
+    def own(name):
+        first = getattr(row, name)
+        return memory[first : first + count]
+
+    half = rng.normal(size=(count, 3, 3))
+    inverse = half @ half.transpose(0, 2, 1) + 0.2 * np.eye(3)
+    for name, (i, j) in {
+        "IXX": (0, 0),
+        "IXY": (0, 1),
+        "IXZ": (0, 2),
+        "IYY": (1, 1),
+        "IYZ": (1, 2),
+        "IZZ": (2, 2),
+    }.items():
+        own(name)[:] = inverse[:, i, j]
+    load, pull, speed = (rng.normal(size=(3, count)) for _ in range(3))
+    for axis, name in enumerate("XYZ"):
+        own(f"T{name}")[:], own(f"F{name}")[:] = load[axis], pull[axis]
+        own("UVW"[axis])[:] = speed[axis]
+    own("Z")[:] = level + rng.normal(0.0, 0.02, count)
+    own("STIFF")[:], own("DAMP")[:] = rng.uniform(1.0, 1e3, count), rng.uniform(0.0, 30.0, count)
+    depth = level - own("Z")
+    force = load + np.diff(pull, axis=1, prepend=0.0)
+    free = speed + time * np.einsum("kij,jk->ik", inverse, force)
+    explicit_motion.kick_contact_and_drift(memory, count, level, time, 0.0)
+    end = np.array([own(name) for name in "UVW"])
+    impulse = (end[2] - free[2]) / inverse[:, 2, 2]
+    law = time * (own("STIFF") * (depth - time * end[2]) - own("DAMP") * end[2])
+    pushed = impulse > 1e-9
+    assert 10 < pushed.sum() < 35
+    assert np.allclose(impulse[pushed], law[pushed], rtol=1e-9)
+    assert np.allclose(end, free + inverse[:, :, 2].T * np.where(pushed, impulse, 0.0), rtol=1e-9, atol=1e-9)
+    # the others end above the bed, or are held back by their damping alone
+    assert np.all((law[~pushed] < 1e-9) | (depth[~pushed] <= time * free[2][~pushed]))
+
+
 @pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize("method", ["explicit", "esdirk4"])
 def test_momentum_of_a_loose_network_changes_with_its_weight_alone(seed, method):

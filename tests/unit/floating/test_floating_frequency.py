@@ -263,6 +263,17 @@ def test_decay_gives_back_linear_and_quadratic_damping(ratio: float, quadratic: 
     assert found.quadratic_over_inertia == pytest.approx(quadratic, rel=0.04, abs=1e-3)
 
 
+@pytest.mark.parametrize("rows", [9.2, 11.6])
+def test_extremes_stand_between_the_rows_of_a_coarse_record(rows: float) -> None:
+    """A few rows a period: the highest row alone lies up to 6 % below the extreme."""
+    ratio = 0.02
+    time = np.arange(0.0, 80.0, 2.0 * math.pi / rows)
+    found = fit_decay(time, np.exp(-ratio * time) * np.cos(math.sqrt(1.0 - ratio**2) * time))
+    assert found.period == pytest.approx(2.0 * math.pi / math.sqrt(1.0 - ratio**2), rel=5e-3)
+    assert found.damping_ratio == pytest.approx(ratio, rel=0.05)
+    assert abs(found.quadratic_over_inertia) < 2e-3
+
+
 def test_points_move_with_the_body() -> None:
     hydro, mass, stiffness = _body(13)
     motions = solve_motions(hydro, mass, stiffness)

@@ -111,7 +111,6 @@ def test_parts_make_one_body_as_in_moordyn(tmp_path):
         ("2   can     Body1 ", "2   con     Body1 ", 20, ("no rod type 'con'", "can")),
         ("2   can     Body1 ", "2   can     Hung ", 20, ("attachment of rod is 'Hung'",)),
         ("3   3   -9  0 ", "3   3   -9  2 ", 22, ("2 segments and no length",)),
-        ("-7  4   -18 6 ", "-7  4   -18 0 ", 19, ("0 segments and a length",)),
         ("3   rope     R2B ", "3   rope     R7B ", 34, ("rod 7, which is not there",)),
         ("2   Body1  1 ", "2   Body8  1 ", 27, ("body 8, which is not there",)),
     ],
@@ -136,3 +135,11 @@ def test_what_is_not_run_is_named_with_its_line(tmp_path):
             case_text(wrong)
     with pytest.raises(InputError, match=r"bodies or rods.*to_system"):
         to_network(deck_of(tmp_path))
+
+
+def test_a_rod_of_no_segments_stands_at_its_end_a(tmp_path):
+    """As MoorDyn's documentation writes clamps: the two ends only say where they point to."""
+    plain = deck_of(tmp_path)
+    clamp = deck_of(tmp_path, DECK.replace("3   3   -9  3   3   -9  0 ", "3   3   -9  4   3   -8  0 ", 1))
+    assert clamp.rods == plain.rods
+    assert any("rod 4 has 0 segments: it stands at its end A" in note for note in clamp.notes)

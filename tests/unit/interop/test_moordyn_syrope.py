@@ -1,12 +1,17 @@
 """Syrope ropes of decks: working curves by their definition, history of each line, what is refused."""
 
 import math
+import re
 
 import numpy as np
 import pytest
 
+from moyai.case.builder import build
+from moyai.case.reader import case_of
+from moyai.case.yaml_reader import parse_yaml
 from moyai.core.errors import CaseError, InputError
 from moyai.flexible.statics import solve_equilibrium
+from moyai.flexible.worn_law import WornRope
 from moyai.interop.moordyn_case import case_text
 from moyai.interop.moordyn_deck import write_deck
 from moyai.interop.moordyn_network import to_network
@@ -85,19 +90,35 @@ def test_lines_follow_the_curve_of_what_they_have_borne(tmp_path):
     by_hand = {"line 1": 1.2e6 * ((0.018 - 0.0075) / 0.0225) ** 2, "line 2": 7.2e5}
     for strand in network.strands:
         assert rest.tension[strand.bars].mean() == pytest.approx(by_hand[strand.name], rel=1e-3)
-    assert any("quick changes are stiffer" in note for note in deck.notes)
+    assert any("runs begin at rest after 1.2e+06 N" in note for note in deck.notes)
+
+
+def test_a_case_of_the_deck_has_the_law_of_each_line(tmp_path):
+    """The curve of the new rope and what it has borne; at rest and through time it is the network of the deck."""
+    deck = read_deck(written(tmp_path))
+    text = case_text(deck, duration=10.0)
+    found = build(case_of(parse_yaml(text, "deck.yaml"), tmp_path / "deck.yaml"))
+    worn, new = (line.parts[0].bar_type.slow for line in found.lines)
+    assert isinstance(worn, WornRope)
+    assert (worn.form, worn.k1, worn.k2) == ("quadratic", 0.25, 1.0)
+    assert (worn.stiffness, worn.growth, worn.viscosity, worn.highest) == (1.5e8, 20.0, 5e10, 1.2e6)
+    assert np.array_equal(worn.new_tension, NEW.tension)
+    assert new.highest == 0.0
+    slow = [kind.slow for kind in to_network(deck).bars.types]
+    assert sorted(law.highest for law in slow) == [0.0, 1.2e6]
+    with pytest.raises(CaseError, match="a worn rope has no curve"):
+        without = re.sub(r"curve: \{.*?\]\]\}", "axial_stiffness: 1e8", text)
+        case_of(parse_yaml(without, "deck.yaml"), tmp_path / "deck.yaml")
 
 
 def test_what_is_not_run_is_refused_by_name(tmp_path):
     deck = read_deck(written(tmp_path))
     assert "after 1.2e+06 N" in case_text(deck)
-    with pytest.raises(InputError, match="Syrope rope, which is run at rest only"):
-        case_text(deck, duration=10.0)
     with pytest.raises(InputError, match="files are not written"):
         write_deck(deck, tmp_path / "again.txt")
     for changes, said in (
-        ({"k2": "0.5"}, "QUADRATIC with k2 = 0.5"),
-        ({"k1": "1.25"}, "QUADRATIC with k1 = 1.25"),
+        ({"k2": "0.5"}, "quadratic with k2 = 0.5"),
+        ({"k1": "1.25"}, "quadratic with k1 = 1.25"),
         ({"form": "CUBIC"}, "WCType 'CUBIC'"),
         ({"deck": DECK.replace("1.2e6 5e5", "3.2e6 5e5")}, "highest mean tension of 3.2e"),
         ({"deck": DECK.replace("1.2e6 5e5", "1.2e6 5e6")}, "Tmean0 of 5e"),

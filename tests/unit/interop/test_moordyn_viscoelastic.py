@@ -75,3 +75,17 @@ def test_slips_are_told(tmp_path, old, new, words):
     with pytest.raises(CaseError) as caught:
         read_deck(tmp_path / "deck.txt")
     assert [fault for fault in caught.value.faults if words in str(fault) and fault.line == 6], caught.value.faults
+
+
+def test_the_slow_dashpot_may_be_a_part_of_critical(tmp_path):
+    """Three tenths of l sqrt(EA_s m) of a segment of 10 m."""
+    (tmp_path / "deck.txt").write_text(DECK.replace("4E9|11E6", "-0.3|11E6"))
+    deck = read_deck(tmp_path / "deck.txt")
+    slow = deck.line_types[0].slow
+    assert slow is not None
+    assert slow.damping == pytest.approx(0.3 * 10.0 * math.sqrt(1.424e8 * 22.42), rel=1e-12)
+    assert any("BA_s is 0.3 of critical" in note for note in deck.notes)
+    for wrong in ("4E9|-0.3", "0|11E6"):
+        (tmp_path / "deck.txt").write_text(DECK.replace("4E9|11E6", wrong))
+        with pytest.raises(CaseError, match="BA_s"):
+            read_deck(tmp_path / "deck.txt")

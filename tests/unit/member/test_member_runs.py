@@ -315,6 +315,19 @@ def test_effective_inertia_of_a_regular_wave_is_that_of_one_period():
     assert found == pytest.approx(np.full((3, 2), 1.6), rel=1e-12)
 
 
+def test_effective_inertia_of_a_moving_member_counts_from_the_water_that_goes_past_it():
+    """rho A (a_body + C (a - a_body)): the water's own push on what moves with it is no inertia of the coefficient."""
+    rng = np.random.default_rng(12)
+    time = np.linspace(0.0, 2.0, 41)
+    acceleration, own = rng.normal(size=(41, 3, 2)), rng.normal(size=(41, 1, 2))
+    wave = SimpleNamespace(time=time, regular=False)
+    block = SimpleNamespace(acceleration=acceleration, body_acceleration=own)
+    problem = SimpleNamespace(environment=SimpleNamespace(water=Water(10.0, 1025.0, 9.81)))
+    force = 1025.0 * 0.3 * (own + 1.7 * (acceleration - own))
+    found = _effective(problem, 0.3, block, force, np.zeros((41, 3, 2)), wave)
+    assert found == pytest.approx(np.full((3, 2), 1.7), rel=1e-12)
+
+
 def test_surface_effect_fades_with_depth():
     """Inertia under the surface tends to the ideal one, radiation to nothing, like the decay of the wave."""
     section = sections.rectangle(0.045, 0.024)

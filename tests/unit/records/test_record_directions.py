@@ -111,6 +111,16 @@ def test_surface_from_below(quantity, z):
     assert np.std(found.elevation[inner] - truth[inner]) < 0.01 * truth.std()
 
 
+def test_a_drift_of_the_sensor_is_no_wave():
+    """A straight line under the record, ten times as high as its waves, changes nothing."""
+    sensor = Sensor("pressure", z=-6.0)
+    record = seen(sea_of(6, 0.3, 10.0), sensor)
+    drift = 10.0 * record.std() * np.linspace(-1.0, 1.0, record.size)
+    limits = {"lowest": 0.05, "highest": 0.22}
+    still, drifting = (surface_elevation(STEP, values, sensor, WATER, **limits) for values in (record, record + drift))
+    assert np.allclose(drifting.elevation, still.elevation, atol=1e-9 * still.elevation.std())
+
+
 def test_limits_and_faults():
     sea = sea_of(5, 0.3, 10.0)
     deep = Sensor("pressure", z=-11.0)

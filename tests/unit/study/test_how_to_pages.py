@@ -8,12 +8,13 @@ from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner
+from written_tables import DOCS, differences, tables_of
 
 from moyai.case.templates import template
 from moyai.cli.main import app
 from moyai.study.plan import check_cases, load_study
 
-PAGES = Path(__file__).parents[3] / "docs" / "how_to"
+PAGES = DOCS / "how_to"
 
 
 @pytest.mark.parametrize(("page", "kind", "file", "count"), [
@@ -42,16 +43,8 @@ def _study_of(page: str, file: str, kind: str, folder: Path) -> tuple[list[list[
     for words in re.findall(r"^moyai query \S+ (.*)$", text, flags=re.MULTILINE):
         found = json.loads(runner.invoke(app, ["query", str(folder / "out"), *words.split(), "--json"]).stdout)
         answers.append([row[1:] for row in found["rows"]])
-    table = [
-        [cell.strip() for cell in line.strip("| \n").split("|")] for line in text.splitlines() if line[:3] != "|--"
-    ]
-    return [row for row in table if len(row) > 1][1:], answers
-
-
-def _written(texts: list[str]) -> list[tuple[float, float]]:
-    """Return the numbers of cells and half a unit of their last digit."""
-    numbers = re.findall(r"none|\d[\d.]*", ", ".join(texts))
-    return [(0.0, 0.5) if one == "none" else (float(one), 0.5 * 10.0 ** -len(one.partition(".")[2])) for one in numbers]
+    (table,) = tables_of(PAGES / page).values()
+    return table, answers
 
 
 @pytest.mark.slow
@@ -63,10 +56,8 @@ def test_the_table_of_the_page_is_what_its_study_answers(tmp_path, page, kind, f
     """``order``: of each number in a row, the query of the page and the column of its answer."""
     table, answers = _study_of(page, file, kind, tmp_path)
     assert len(answers) == 3 and len(table) == 3
-    for number, row in enumerate(table):
-        asked = [(int(query), int(column)) for query, column in order.split()]
-        values = [answers[query][number][column] / scales[query] for query, column in asked]
-        written = _written(row[1:])
-        assert len(written) == len(values)
-        for value, (shown, half) in zip(values, written, strict=True):
-            assert abs(value - shown) <= 1.01 * half, f"{row}: {values}"
+    values = [
+        [answers[query][number][column] / scales[query] for query, column in (map(int, one) for one in order.split())]
+        for number in range(3)
+    ]
+    assert differences([row[1:] for row in table], values) == []

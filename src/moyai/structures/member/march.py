@@ -20,7 +20,7 @@ from moyai.structures.member.waves import Wave
 
 CAUSES = ("inertia", "drag", "magnus")
 #: Values of one array that are held at a time; longer records are worked off in blocks of strips
-_BLOCK = 2_000_000
+_BLOCK = 400_000
 
 
 @dataclass(frozen=True, eq=False)

@@ -21,9 +21,9 @@ from moyai.coupled.simulate import CoupledHistory, simulate_coupled
 from moyai.coupled.wave_loads import WaveLoads
 from moyai.flexible.flow import Flow
 from moyai.flexible.network import Network
-from moyai.flexible.refine import more_viscous, refined, with_viscosity
+from moyai.flexible.refine import more_viscous, with_viscosity
 from moyai.flexible.result import History, State
-from moyai.flexible.sensitivity import PeakSensitivity
+from moyai.flexible.sensitivity import PeakSensitivity, refined_start
 from moyai.mooring.rotations import rotation_matrix
 from moyai.sea.water import Water
 from moyai.structures.network.coefficients import BodyCoefficients
@@ -230,12 +230,13 @@ def coupled_sensitivity(
     peak: float,
     steps: tuple[float, float],
     progress: Progress,
+    rest_flow: Flow | None,
     **options: Any,
 ) -> PeakSensitivity:
     """Run bodies and network with half of both steps, half the bars, half and twice the viscosity.
 
-    ``steps`` are those of the run, of network and bodies [s]; ``options`` are those of
-    :func:`moyai.coupled.simulate.simulate_coupled`.
+    ``steps`` are those of the run, of network and bodies [s], ``rest_flow`` that in which the start is at rest;
+    ``options`` are those of :func:`moyai.coupled.simulate.simulate_coupled`.
 
     Raises
     ------
@@ -244,7 +245,7 @@ def coupled_sensitivity(
     """
     bodies, start, placed = _start(problem, network, rest)
     last = any(strand.bars[-1] == bar and strand.bars.size > 1 for strand in placed.strands)
-    finer, state = refined(placed, 2, start)
+    finer, state = refined_start(placed, 2, start, rest_flow)
     # a step given by hand is as long as the given mesh bears at most
     shorter = {} if options.get("step") is None else {"step": 0.5 * options["step"]}
     cases: tuple[tuple[str, Network, State, int, dict[str, Any]], ...] = (

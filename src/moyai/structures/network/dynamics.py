@@ -12,7 +12,6 @@ from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.coupled.rest import CoupledRest
-from moyai.flexible.flow import Flow
 from moyai.flexible.result import History, State
 from moyai.flexible.sensitivity import PeakSensitivity, peak_sensitivity
 from moyai.flexible.simulation import simulate
@@ -206,7 +205,7 @@ def _worth(
         checked = check_event(assembly, history, motions, *event) if LANDING in why else None
         if checked is None and affordable(history, bool(why)):
             checked = check_peak(
-                assembly, history, motions, governing, starts[0], plan.skip, options, reported, _rest_of(problem, plan)
+                assembly, history, motions, governing, starts[0], plan.skip, options, reported, plan.rest_flow
             )
         elif checked is None and LANDING not in why:
             checked = check_event(assembly, history, motions, *event)
@@ -216,12 +215,6 @@ def _worth(
     except KeyboardInterrupt:
         message = "interrupted while the accuracy of its peak was found; the run itself is complete"
         return None, [], replace(history, status="interrupted", message=message)
-
-
-def _rest_of(problem: NetworkProblem, plan: RunPlan) -> Flow | None:
-    """Return the flow in which a run begins at rest, ``None`` where it begins as built."""
-    start = problem.settings.start
-    return None if start == "as_built" else plan.flow if start == "rest_in_current" else Flow()
 
 
 def sound_rows(history: History) -> History:
@@ -253,12 +246,13 @@ def _sensitivity(
     if coupled is not None:
         peak = float(np.nanmax(history.peak_at(bar)[history.time >= after]))
         return coupled_sensitivity(
-            problem, assembly.network, hung, bar, after, peak, (history.step, coupled.step), progress, motions=motions,
-            **_of_bodies(options),
+            problem, assembly.network, hung, bar, after, peak, (history.step, coupled.step), progress, plan.rest_flow,
+            motions=motions, **_of_bodies(options),
         )  # fmt: skip
     # built anew, the finer network may drop what its materials gathered: the plain call refines the network itself
     return peak_sensitivity(
-        assembly.network, motions, bar=bar, after=after, start=begin, progress=progress, **options
+        assembly.network, motions, bar=bar, after=after, start=begin, rest_flow=plan.rest_flow, progress=progress,
+        **options,
     )  # fmt: skip
 
 

@@ -5,7 +5,6 @@ Theory: docs/answer/network.md and [eq:flexible-landing].
 
 from __future__ import annotations
 
-import contextlib
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -22,9 +21,8 @@ from moyai.flexible.motion import Motion
 from moyai.flexible.network import FIXED, Network
 from moyai.flexible.refine import refined
 from moyai.flexible.result import History, State
-from moyai.flexible.sensitivity import PeakSensitivity
+from moyai.flexible.sensitivity import PeakSensitivity, refined_start
 from moyai.flexible.simulation import simulate
-from moyai.flexible.statics import solve_equilibrium
 from moyai.series.snaps import SnapRecord
 from moyai.structures.network.assembly import Assembly
 from moyai.structures.network.equilibrium import around, highest_of_run, named_points
@@ -253,7 +251,7 @@ def check_peak(
     skip: float,
     options: Mapping[str, Any],
     progress: Progress,
-    rest: Flow | None = None,
+    rest_flow: Flow | None = None,
 ) -> PeakSensitivity | None:
     """Run again with half the step and with every bar cut in two; return the highest tension of each in a line.
 
@@ -273,9 +271,8 @@ def check_peak(
     options : mapping
         Arguments of :func:`moyai.flexible.simulation.simulate`.
     progress : Progress
-    rest : Flow, optional
-        In which the network begins at rest: finer meshes then begin at their own rest. Friction on the bed would keep
-        what is left of the other mesh.
+    rest_flow : Flow, optional
+        In which ``begin`` is at rest.
 
     Returns
     -------
@@ -297,14 +294,14 @@ def check_peak(
         if found.status != "converged":
             raise ConvergenceError(found.message, parameter="sensitivity")
         top, of_points = _peaks_of(assembly, found, kept, skip)
-        if rest is None:
+        if rest_flow is None:
             # what another mesh makes of a place between its nodes jerks at the start, and friction on the bed keeps it
             begun = _early(assembly, found, skip)
             of_points = {n: pull for n, pull in of_points.items() if begun.get(n, 0.0) <= JERK * early.get(n, 0.0)}
         return top, of_points
 
     try:
-        finer, state = _begun(history.network, 2, begin, rest)
+        finer, state = refined_start(history.network, 2, begin, rest_flow)
         shorter = {} if options.get("step") is None else {"step": 0.5 * options["step"]}
         kept = np.concatenate([2 * bars, 2 * bars + 1])
         mesh, on_mesh = again(finer, state, kept, **shorter)
@@ -315,7 +312,7 @@ def check_peak(
             factor = 2
             while factor * bars.size < DAMPED_BARS:
                 factor *= 2
-            calm, state = _begun(history.network, factor, begin, rest)
+            calm, state = refined_start(history.network, factor, begin, rest_flow)
             kept = np.concatenate([factor * bars + part for part in range(factor)])
             shorter = {} if options.get("step") is None else {"step": options["step"] / factor}
             damped, calmed = again(damped_bars(calm), state, kept, **shorter)
@@ -328,16 +325,6 @@ def check_peak(
         for name in pulls.keys() & by_step.keys() & on_mesh.keys()
     }  # fmt: skip
     return PeakSensitivity(peak, step, mesh, math.nan, math.nan, history.step, damped, pulls=own)
-
-
-def _begun(network: Network, factor: int, begin: State, rest: Flow | None) -> tuple[Network, State]:
-    """Return a network on a finer mesh and where it begins, at its own rest where it has one."""
-    finer, state = refined(network, factor, begin)
-    if rest is None:
-        return finer, state
-    with contextlib.suppress(ConvergenceError):
-        state = solve_equilibrium(finer, flow=rest, start=state).state
-    return finer, state
 
 
 def change_of(found: PeakSensitivity) -> float:

@@ -54,6 +54,8 @@ class RunPlan:
     skip: float = 0.0
     #: Why so much; empty where all counts.
     skip_rule: str = ""
+    #: In which the network is at rest where the run starts; ``None`` as built.
+    rest_flow: Flow | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,12 +93,13 @@ def run_plans(problem: NetworkProblem, water: Water) -> tuple[RunPlan, ...]:
     InputError
         When there is nothing to tell how long a run should be.
     """
-    found = []
+    found, start = [], problem.settings.start
+    rest = None if start == "as_built" else steady_flow(problem, water) if start == "rest_in_current" else Flow()
     for plan in _plans(problem, water):
         used = [problem.motions[name] for name in _used_motions(problem) if name]
         waves = plan.period if plan.waves is not None else math.nan
         skip, rule = start_up(problem.settings.skip, used, plan.duration, waves)
-        found.append(replace(plan, skip=skip, skip_rule=rule))
+        found.append(replace(plan, skip=skip, skip_rule=rule, rest_flow=rest))
     return tuple(found)
 
 

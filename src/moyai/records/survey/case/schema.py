@@ -78,7 +78,7 @@ class TimeColumn(Block):
     )
     utc_offset: SignedDuration = Field(default=0.0, description="Local time of the stamps minus UTC, '9 h' for Japan.")
     order: Literal["strict", "drop"] = Field(
-        default="strict", description="Rows whose time does not increase are a fault, or are left out and reported."
+        default="strict", description="Rows whose time does not increase are an error, or are left out and reported."
     )
 
 
@@ -182,7 +182,7 @@ class RecordSite(Block):
 
 
 class BlockKeys(Block):
-    """Blocks of time that are worked off one by one."""
+    """Blocks of time that are processed one by one."""
 
     length: Duration = Field(description="Length of a block, '20 min'.")
     start: str | None = Field(default=None, description="Date at which a block begins; absent: whole multiples.")

@@ -63,7 +63,7 @@ class RigidCageStructure(Block):
     model: Literal["rigid"] = Field(description="Rigid body of three degrees of freedom: sway, heave, rotation.")
     equations: Literal["sound", "literal"] = Field(
         default="sound",
-        description="sound: complete rigid-body mechanics; literal: as Matsubara et al. print them, with faults.",
+        description="sound: complete rigid-body mechanics; literal: as Matsubara et al. print them, with their errors.",
     )
     kinematic_viscosity: Viscosity = Field(description="Of the water, 1.14e-6 m2/s at 15 degrees Celsius.")
     shape: RigidShape = Field(description="Box or upright cylinder that the nets span.")

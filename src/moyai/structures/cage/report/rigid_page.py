@@ -72,7 +72,7 @@ def _summary(result: Result, literal: bool) -> tuple[Block, ...]:
     found = headline_figures(result)
     blocks: list[Block] = [] if found is None else [found]
     if literal:
-        blocks.append(Paragraph("The equations are those in print, faults included: no result to design by."))
+        blocks.append(Paragraph("The equations are those in print, errors included: no result to design by."))
     return tuple(blocks)
 
 

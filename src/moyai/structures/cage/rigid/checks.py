@@ -73,7 +73,7 @@ def cage_notices(problem: RigidCageProblem) -> tuple[Notice, ...]:
         found.append(
             Notice(
                 "literal-equations",
-                f"the equations are those in print, with their {len(FAULTS)} faults: no result to design by",
+                f"the equations are those in print, with their {len(FAULTS)} errors: no result to design by",
                 value=float(len(FAULTS)),
                 limit=0.0,
                 remedy="use 'equations: sound'",

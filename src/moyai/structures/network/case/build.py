@@ -20,6 +20,7 @@ from moyai.flexible.bed import Ground, plane_ground
 from moyai.flexible.failures import LineFailure
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import BOX, SPHERE, BarType, RopeCurve, SlowStretch
+from moyai.flexible.worn_law import WornRope
 from moyai.sea.current_field import CurrentField
 from moyai.sea.elevation_record import components_of_record
 from moyai.sea.environment import Environment
@@ -272,15 +273,32 @@ def bar_type_of(
         # the two ends of a bar swing against each other at 2/l sqrt(EA/m)
         viscosity = (entry.damping_ratio or 0.0) * bar_length * math.sqrt(stiffness * made["mass_per_length"])
     made["axial_stiffness"] = stiffness
+    slow: SlowStretch | WornRope | None = _slow_stretch(getattr(entry, "slow_stretch", None))
+    worn = getattr(entry, "worn_rope", None)
+    if worn is not None:
+        slow, curve = _worn_rope(worn, curve, slow is not None), None
+        made["axial_stiffness"] = worn.quick_stiffness
     bar = BarType(
         name, viscosity=viscosity, bending_stiffness=entry.bending_stiffness, tension_only=tension_only, curve=curve,
-        slow=_slow_stretch(getattr(entry, "slow_stretch", None)), **made,
+        slow=slow, **made,
     )  # fmt: skip
     return bar, breaking
 
 
 def _slow_stretch(entry: parts.SlowStretch | None) -> SlowStretch | None:
     return None if entry is None else SlowStretch(entry.static_stiffness, entry.viscosity, entry.growth)
+
+
+def _worn_rope(entry: parts.WornRope, curve: RopeCurve | None, doubled: bool) -> WornRope:
+    if curve is None or doubled:
+        raise InputError(
+            "a worn rope has 'slow_stretch' as well" if doubled else "a worn rope has no curve", path="worn_rope",
+            allowed="with 'curve', that of the new rope, and without 'slow_stretch'",
+        )  # fmt: skip
+    return WornRope(
+        curve.strain, curve.tension, entry.form, entry.k1, entry.k2, entry.quick_stiffness, entry.growth,
+        entry.viscosity, entry.highest_mean_tension,
+    )  # fmt: skip
 
 
 def _known(name: str, types: Any, path: str) -> Any:

@@ -148,12 +148,13 @@ NetworkSea = Annotated[
 
 
 class CurrentInTime(Block):
-    """A current that changes with time, from a file in a form of MoorDyn."""
+    """A current that changes with time, place or direction, from a file in a form of MoorDyn."""
 
     file: FileName = Field(description="Text file, relative to the case file.")
-    form: Literal["profile", "grid"] = Field(
+    form: Literal["profile", "grid", "steady"] = Field(
         description="profile: velocities over the height at several times (current_profile_dynamic.txt of MoorDyn); "
-        "grid: on a grid of x, y, z and time (current_profile_4d.txt)."
+        "grid: on a grid of x, y, z and time (current_profile_4d.txt); steady: over the height, whose direction may "
+        "turn (current_profile.txt)."
     )
 
 

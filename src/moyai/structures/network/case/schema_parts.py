@@ -112,13 +112,28 @@ class CatalogueType(_Internal):
 
 
 class SlowStretch(Block):
-    """A spring beside a dashpot, in series with the quick stiffness."""
+    """A spring parallel to a dashpot, in series with the quick stiffness."""
 
     static_stiffness: PositiveForce = Field(description="EA of the whole rope under a load that stays.")
-    viscosity: Viscosity = Field(description="Of the dashpot beside the slow spring: force per rate of strain.")
+    viscosity: Viscosity = Field(description="Of the dashpot parallel to the slow spring: force per rate of strain.")
     growth: NonNegativeNumber = Field(
         default=0.0, description="Quick stiffness per tension at rest that it grows with. Default: 0."
     )
+
+
+class WornRope(Block):
+    """A polyester rope that remembers its highest mean tension (Syrope); its curve is that of the new rope."""
+
+    form: Literal["linear", "quadratic", "exponential"] = Field(description="Shape of the working curve at rest.")
+    k1: NonNegativeNumber = Field(
+        description="Strain left without tension over the strain at the highest tension; above 1 the stiffness of a "
+        "linear working curve [N]."
+    )
+    k2: NonNegativeNumber = Field(default=1.0, description="Exponent of the exponential. Default: 1.")
+    quick_stiffness: PositiveForce = Field(description="EA of quick changes without tension.")
+    growth: NonNegativeNumber = Field(default=0.0, description="Quick stiffness per mean tension. Default: 0.")
+    viscosity: Viscosity = Field(description="Of the dashpot beside the slow spring: force per rate of strain.")
+    highest_mean_tension: Pull = Field(default=0.0, description="Highest mean tension so far. Default: 0, a new rope.")
 
 
 class OwnType(_Internal):
@@ -134,6 +149,9 @@ class OwnType(_Internal):
         default=None,
         description="How a synthetic rope gives way under loads that stay; axial_stiffness then is that of quick "
         "changes.",
+    )
+    worn_rope: WornRope | None = Field(
+        default=None, description="How a polyester rope remembers its highest mean tension; needs 'curve'."
     )
     volume: Annotated[float, QuantityOf(quantities.AREA, least=0.0)] | None = Field(
         default=None, description="Displaced volume per length. Default: that of the diameter."
