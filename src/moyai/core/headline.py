@@ -104,6 +104,8 @@ class Headline:
     judged_on: str = ""
     #: Whether waves are no part of it, as stability at rest: it is judged where no sea was run.
     without_waves: bool = False
+    #: Significant digits that it and its band are known to: two where chance or rounding decides the third.
+    digits: int = 3
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "label", self.label[:1].upper() + self.label[1:])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -53,6 +53,8 @@ class PeakSensitivity:
     #: With every bar cut in ``factor`` [N]; NaN where no such mesh was run.
     finest: float = math.nan
     factor: int = 1
+    #: The same of the pull on fixed points, by their names; empty where it was not looked at.
+    pulls: Mapping[str, PeakSensitivity] = field(default_factory=dict)
 
     @property
     def discretisation_error(self) -> float:

@@ -119,6 +119,7 @@ def simulate(
     keep_bars: ArrayLike | None = None,
     state_file: str | PathLike[str] | None = None,
     failures: Sequence[LineFailure] = (),
+    counted_from: float = 0.0,
     progress: Progress = silent,
 ) -> History:
     """Run a network through time.
@@ -159,6 +160,8 @@ def simulate(
         (:func:`moyai.flexible.recovery.read_state`).
     failures : sequence of LineFailure
         Lines that part in the course of the run.
+    counted_from : float
+        Time since the start before which fronts and falls on the bed are not reported [s].
     progress : Progress
         Told the simulated time.
 
@@ -237,6 +240,8 @@ def simulate(
     try:
         while done < rows:
             count = min(per_chunk, rows - done)
+            if done * interval <= counted_from < (done + count) * interval:
+                run.watch.forget()
             sound = run.state()
             good = _advance(run, count, 1 + done, interval, parts, step, saved)
             steps = int(run.counts[2]) if isinstance(run, ImplicitRun) else run.steps

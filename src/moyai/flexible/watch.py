@@ -44,6 +44,11 @@ class Watch:
         """Return to what was seen before."""
         self.gauges[:], self.within[:], self.falls[:] = seen
 
+    def forget(self) -> None:
+        """Begin anew with rises, highest tensions and falls."""
+        self.gauges[:, 4:] = 0.0
+        self.falls[1:] = 0.0
+
     @property
     def system(self) -> Any:
         """What the kernels take."""

@@ -14,7 +14,7 @@ from moyai.report.first_page import largest_by_unit, limit_and_found
 from moyai.report.formatting import DASH, display_unit, format_number
 from moyai.report.systems import words_in_system
 
-RATIO = "1"
+RATIO, _DIGITS = "1", 3
 
 
 def headline_figures(result: Result) -> KeyFigures | None:
@@ -55,7 +55,7 @@ def headline_text(headline: Headline, like: float = 0.0) -> str:
         return headline.text
     if math.isnan(headline.value):
         return DASH
-    text = _quantity(headline.value, headline.unit, like)
+    text = _quantity(headline.value, headline.unit, like, headline.digits)
     return f"{headline.bound} {text}" if headline.bound else text
 
 
@@ -65,13 +65,17 @@ def band_text(headline: Headline, like: float = 0.0) -> str:
     if band is None:
         return ""
     like = max(like, abs(headline.value)) if math.isfinite(headline.value) else like
-    low, high = (_quantity(end, headline.unit, like) for end in (band.low, band.high))
+    low, high = (_quantity(end, headline.unit, like, headline.digits) for end in (band.low, band.high))
     return f"{low} to {high} ({band.of})"
 
 
-def _quantity(value: float, unit: str, like: float) -> str:
+def _quantity(value: float, unit: str, like: float, digits: int) -> str:
     shown = display_unit("" if unit == RATIO else unit, [value, like])
-    text = format_number(value * shown.factor)
+    number = value * shown.factor
+    if math.isfinite(number) and digits < _DIGITS:
+        # else digits before the point are kept
+        number = float(f"{number:.{digits - 1}e}")
+    text = format_number(number, digits)
     if text == DASH or not shown.name:
         return text
     return f"{text}{shown.pretty}" if shown.name == "deg" else f"{text} {shown.pretty}"

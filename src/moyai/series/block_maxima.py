@@ -8,13 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from moyai.series.intervals import GUMBEL_SKEWNESS
+from moyai.series.intervals import deviations_along
 
 #: Blocks that a record is cut into, at most and at least; a block holds that many periods or more.
 MOST_BLOCKS, LEAST_BLOCKS, PERIODS = 20, 6, 4.0
-
-#: Of Gumbel's law.
-_KURTOSIS = 5.4
 
 
 @dataclass(frozen=True)
@@ -36,8 +33,7 @@ class Maximum:
         Gumbel's law, its scale made larger by what mean and deviation of so few blocks leave open.
         """
         reach = math.sqrt(6.0) / math.pi * math.log(self.blocks)
-        doubt = (1.0 + GUMBEL_SKEWNESS * reach + 0.25 * (_KURTOSIS - 1.0) * reach**2) / self.blocks
-        scale = self.deviation * math.sqrt(1.0 + doubt) * math.sqrt(6.0) / math.pi
+        scale = self.deviation * math.sqrt(1.0 + deviations_along(reach, self.blocks)) * math.sqrt(6.0) / math.pi
         low, high = (self.mean - scale * (np.euler_gamma + math.log(-math.log(share))) for share in (0.05, 0.95))
         return low, high
 

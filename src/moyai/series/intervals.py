@@ -10,8 +10,8 @@ from numpy.typing import ArrayLike
 
 from moyai.core.errors import InputError
 
-#: Of Gumbel's law.
-GUMBEL_SKEWNESS = 1.1395
+#: ``GUMBEL_SKEWNESS``, ``GUMBEL_KURTOSIS``: Of Gumbel's law.
+GUMBEL_SKEWNESS, GUMBEL_KURTOSIS = 1.1395, 5.4
 
 
 @dataclass(frozen=True)
@@ -105,3 +105,29 @@ def reach_of_mean(values: ArrayLike, probability: float = 0.95, *, alike: ArrayL
     error = scatter / math.sqrt(found.size)
     quantile = student_quantile(2.0 * probability - 1.0, freedom)
     return (quantile + GUMBEL_SKEWNESS / (6.0 * math.sqrt(found.size)) * (1.0 + 2.0 * quantile**2)) * error
+
+
+def scatter_of_end(values: ArrayLike, probability: float = 0.95) -> float:
+    """Return the standard deviation, over sets of such values, of their mean with :func:`reach_of_mean` on top.
+
+    Mean and deviation of values by Gumbel's law vary together, as in [eq:extremes-range-of-records]. With five values
+    it is about the deviation of a single one.
+
+    Parameters
+    ----------
+    values : array_like
+        Independent largest values; 0 is returned for fewer than two.
+    probability : float
+        Of the interval of the mean.
+    """
+    found = np.asarray(values, dtype=np.float64)
+    deviation = float(np.std(found, ddof=1)) if found.size > 1 else 0.0
+    if not deviation > 0.0:
+        return 0.0
+    reach = reach_of_mean(found, probability) / deviation
+    return deviation * math.sqrt(deviations_along(reach, found.size))
+
+
+def deviations_along(reach: float, count: int) -> float:
+    """Return the variance, over that of one value, of the mean of values by Gumbel's law plus ``reach`` deviations."""
+    return (1.0 + GUMBEL_SKEWNESS * reach + 0.25 * (GUMBEL_KURTOSIS - 1.0) * reach**2) / count

@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 
 from moyai.core.headline import Criterion, governing, judge
-from moyai.structures.breakwater.headlines import _offset, _transmission
+from moyai.structures.breakwater.headlines import _offset, _roll, _transmission
 from moyai.structures.breakwater.largest_motion import LargestOfPeriods
 
 
@@ -39,6 +39,22 @@ def test_one_realisation_has_a_band_where_lines_in_motion_go_further():
     (alone,) = _offset("time", sea(1.5, 1.25, (1.2,)), "SWL", "storm", None)
     assert (alone.band.low, alone.band.high) == (pytest.approx(1.2), pytest.approx(1.44))
     assert _offset("time", sea(1.0, 1.25, (1.2,)), "SWL", "storm", None)[0].band is None
+
+
+def rolling(moving: float, still: float) -> xr.Dataset:
+    """A sea of three realisations in which the lines of some events were set in motion; roll in degrees."""
+    ends = {name: ("dof", np.array([1.0, 0.5, np.radians(roll)]))
+            for name, roll in {"event_offset": moving, "event_offset_lines_at_rest": still}.items()}  # fmt: skip
+    return sea(1.0, 1.0).assign(significant_motion=("dof", [0.5, 0.3, 0.12]), **ends)
+
+
+def test_roll_tells_what_lines_in_motion_make_of_it():
+    (plain,) = _roll("time", rolling(4.8, 14.9), "HW", "storm", None)
+    (further,) = _roll("time", rolling(9.0, 7.5), "HW", "storm", None)
+    assert "with lines in motion 4.8\u00b0, with lines at rest 14.9\u00b0" in plain.detail
+    assert further.value == plain.value and further.band.low == pytest.approx(plain.band.low)
+    assert further.band.high == pytest.approx(1.2 * plain.band.high)
+    assert further.band.judged[1] == pytest.approx(1.2 * plain.band.judged[1])
 
 
 def passed(values: tuple[float, ...], high: float, periods: tuple[float, ...] = ()) -> xr.Dataset:

@@ -331,7 +331,7 @@ def test_snap_table_is_the_sea_run_as_a_case(small):
     from moyai.core.progress import silent
     from moyai.sea.spectra import goda_peak_period, jonswap
     from moyai.sea.states import IrregularSea
-    from moyai.series.intervals import reach_of_mean
+    from moyai.series.intervals import reach_of_mean, scatter_of_end
     from moyai.structures.curtain.analyses.impact import solve_impact
     from moyai.structures.curtain.analyses.waves import wave_answer
     from moyai.structures.curtain.limits.loads import _snaps
@@ -354,9 +354,11 @@ def test_snap_table_is_the_sea_run_as_a_case(small):
     assert np.all(np.diff(series) >= 0.0) and series[0] == 0.0
     # a lower sea that pulls harder counts at the higher one too
     assert series[-1] >= tops.mean() * (1.0 - 1e-12)
-    own, judged = table._known[0.3, 6]
+    own, judged, others = table._known[0.3, 6]
     assert own == pytest.approx(tops.mean(), rel=1e-12)
     assert judged == pytest.approx(tops.mean() + reach_of_mean(tops), rel=1e-12)
+    assert others == pytest.approx(judged + scatter_of_end(tops), rel=1e-12)
+    assert table.tension(0.3, height, judged=True, other_seeds=True) >= others * (1.0 - 1e-12)
     # what was not run is not run for a map: at least what is known
     beyond = table.tension(0.3, settings.limits.highest_height, known=True)
     assert beyond == pytest.approx(table.tension(0.3, height), rel=1e-12)

@@ -190,6 +190,15 @@ def test_a_plate_that_is_a_bound_tells_no_wave_height(capacity: float, height: f
     assert (found.text == "not known") if height is None else (found.value == height and found.bound == "at least")
 
 
+@pytest.mark.parametrize(("degrees", "said"), [(15.0, True), (5.0, False)])
+def test_seas_that_are_all_oblique_say_what_would_tell_a_height(degrees: float, said: bool) -> None:
+    groups = groups_of(storm(), 200e3, "")
+    groups["/SWL/waves/storm"].attrs["angle_from_normal"] = np.radians(degrees)
+    found = {item.name: item for item in curtain_headlines(groups, ["SWL"])}["limit_wave_height"]
+    assert (found.text == "not known") is said
+    assert ("travel at 15 degrees to the normal" in found.detail) is said
+
+
 @pytest.mark.parametrize("order", [("HW", "LW"), ("LW", "HW")])
 def test_the_whole_span_has_to_hold_at_every_level_for_a_limit(order):
     """High water holds, low water does not: the state of the case is not held, in whatever order levels stand."""

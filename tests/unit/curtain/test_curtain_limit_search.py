@@ -24,6 +24,7 @@ from moyai.structures.curtain.limits.utilisation import (
     joint_spacing,
     speed_limit,
 )
+from moyai.structures.curtain.snaps.snap_table import SnapTable
 from moyai.structures.curtain.statics.drag import constant_drag
 from moyai.structures.curtain.statics.hanging import FloatLine, HangingCurtain
 from moyai.structures.curtain.statics.section import Skirt
@@ -194,6 +195,23 @@ def test_the_period_beside_a_limit_height_is_that_of_the_height_printed() -> Non
     groups = {"/LW": xr.Dataset(), "/LW/limits": drawn}
     (found,) = [item for item in limit_headlines(groups, ["LW"], lambda _: False) if item.name == "limit_wave_height"]
     assert found.value == pytest.approx(0.36)
+    assert "other seeds" not in found.detail
+
+
+def test_a_height_proved_by_few_seeds_says_what_others_may_give() -> None:
+    table = xr.Dataset(
+        {"design_limit_height": 0.64, "design_limit_low": 0.48, "design_limit_scatter": 0.045},
+        attrs={"design_limit_governing": "anchor", "with_snaps": 1, "sea_duration": 1800.0, "realisations": 5},
+    )
+
+    def detail(found: xr.Dataset) -> str:
+        shown = limit_headlines({"/LW": xr.Dataset(), "/LW/limits": found}, ["LW"], lambda _: False)
+        return next(item.detail for item in shown if item.name == "limit_wave_height")
+
+    assert "other seeds may give 0.045 m less or more (one standard deviation with 5 realisations)" in detail(table)
+    # less than its two digits show, or set by the depth and not by snaps
+    assert "other seeds" not in detail(table.assign(design_limit_scatter=0.004))
+    assert "other seeds" not in detail(table.assign(design_limit_scatter=0.0))
 
 
 @pytest.mark.parametrize(
@@ -208,3 +226,15 @@ def test_breaking_above_a_plate_that_is_a_bound_proves_no_height(monkeypatch, ro
     monkeypatch.setattr(CountedLimits, "_judged", lambda self, *_: (Limit(height, "breaking"), ""))
     counted = CountedLimits(None, None, loads)
     assert counted.height(0.3)[1] == bound
+
+
+def test_heights_at_which_seas_are_run_are_those_of_any_size():
+    """A curtain of a flume has as many heights below breaking as the one of a harbour."""
+    tables = [
+        SnapTable(lambda speed, height: np.array([height, height]), lambda height, most=most: height <= most, 3.0)
+        for most in (2.3, 2.3 / 9.0, 5.0)
+    ]
+    large, small, whole = (table._heights for table in tables)
+    assert small == pytest.approx(large / 9.0, rel=1e-6) and large.size == 11 and large[-1] == pytest.approx(2.3)
+    assert whole[-1] == 3.0
+    assert tables[1].tension(0.2, 0.1) == pytest.approx(0.1)

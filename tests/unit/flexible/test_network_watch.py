@@ -289,3 +289,17 @@ def test_the_ledger_keeps_the_energy_of_linear_motion_at_any_step(seed):
     # the first row, at rest in between two steps, has the plain energy
     assert np.ptp(total[1:]) < 1e-5 * kinetic
     assert total[1:].mean() == pytest.approx(kinetic, rel=1e-5)
+
+
+def test_fronts_of_the_start_are_not_those_that_count():
+    """A sudden pull makes a front at the start; after it the end stands still and the rope is calm."""
+    pull = 0.02
+    motion = Motion.from_function(
+        lambda time: np.outer(pull * (1.0 - np.exp(-((time / 0.005) ** 2))), [1.0, 0.0, 0.0]), duration=4.0, step=5e-4
+    )
+    network = rope(segments=20, viscosity=2e4)
+    codes = {}
+    for counted_from in (0.0, 2.0):
+        run = simulate(network, {"end": motion}, duration=4.0, output_step=0.1, counted_from=counted_from)
+        codes[counted_from] = {notice.code for notice in run.notices}
+    assert "wave-front" in codes[0.0] and "wave-front" not in codes[2.0]

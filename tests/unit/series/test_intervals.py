@@ -6,7 +6,7 @@ from scipy import stats
 
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.series.extremes import Fit, fit, kolmogorov_distance
-from moyai.series.intervals import reach_of_mean, reflected_interval, student_quantile
+from moyai.series.intervals import reach_of_mean, reflected_interval, scatter_of_end, student_quantile
 from moyai.series.likelihood import pareto_likelihood, weibull_likelihood
 
 
@@ -99,3 +99,13 @@ def test_more_values_of_the_same_scatter_narrow_an_interval_that_still_covers():
     assert more.mean() < 0.9 * alone.mean()
     # a smaller sample adds nothing
     assert reach_of_mean(values[0], alike=alike[0, :2]) == alone[0]
+
+
+@pytest.mark.parametrize("count", [3, 5, 8, 20])
+def test_the_end_of_an_interval_scatters_as_is_said(count):
+    """Drawn by Gumbel's law: the deviation of the ends of many sets, and the root mean square of what each set says."""
+    drawn = np.random.default_rng(count).gumbel(size=(20000, count))
+    ends = np.array([row.mean() + reach_of_mean(row) for row in drawn])
+    said = np.array([scatter_of_end(row) for row in drawn])
+    assert np.sqrt(np.mean(said**2)) == pytest.approx(ends.std(), rel=0.12 if count > 3 else 0.25)
+    assert scatter_of_end([2.0]) == 0.0 and scatter_of_end([2.0, 2.0]) == 0.0

@@ -5,7 +5,17 @@ import pytest
 import xarray as xr
 
 from moyai.core.headline import Criterion, judge
-from moyai.structures.units.headlines import _each, _gaps, _lines, _waves, _with_damping, _with_tilt, governing_seas
+from moyai.report.headlines import headline_text
+from moyai.structures.units.headlines import (
+    _connectors,
+    _each,
+    _gaps,
+    _lines,
+    _waves,
+    _with_damping,
+    _with_tilt,
+    governing_seas,
+)
 
 DOFS = ["sway", "heave", "roll"]
 
@@ -30,6 +40,14 @@ def test_the_time_domain_keeps_the_band_of_damping():
     roll, other = _each([(path, _with_tilt(data, "roll"))], "tilt")
     assert (roll.value, other.value) == pytest.approx((0.10, 0.06))
     assert (roll.band.low, roll.band.high) == pytest.approx((0.06, 0.15))
+
+
+def test_ends_that_were_run_in_time_stay():
+    frequency = motions("motion_amplitude", (0.06, 0.04), ends=(0.2, 9.0))
+    time = motions("motion_amplitude", (0.05, 0.03), ends=(0.9, 1.2))
+    found = _with_damping(time, frequency)
+    assert found["motion_amplitude_high"].values[:, 1, 2] == pytest.approx((0.06, 0.036))
+    assert found["motion_amplitude_low"].values[:, 1, 2] == pytest.approx((0.045, 0.027))
 
 
 def test_realisations_are_widened_by_the_damping():
@@ -117,3 +135,65 @@ def test_the_parts_of_a_motion_that_does_not_repeat_are_a_band():
         [("/SWL/time/daily", data.assign({k: v * np.nan for k, v in data[list(named)].items()}))], found.name
     )
     assert still.band is None and still.bound == ""
+
+
+def test_the_moment_of_a_connector_has_the_band_of_its_realisations():
+    each = np.array([600.0, 700.0, 650.0])
+    dims = ("connector", "component")
+    moments = np.zeros((3, 1, 3))
+    moments[:, 0, 2] = each
+    data = xr.Dataset(
+        {
+            "connector_resultant_largest": ("connector", [50.0]),
+            "connector_moment_largest": (dims, moments.mean(axis=0)),
+            "connector_moment_largest_of_realisation": (("member", *dims), moments),
+            "relative_motion_largest": (dims, np.zeros((1, 3))),
+            "line_tension_maximum": ("line", [1.0]),
+            "line_tension_mean": ("line", [1.0]),
+        },
+        coords={"connector": ["h"], "line": ["s"], "component": list("xyz")},
+        attrs={"status": "converged"},
+    )
+    rest = xr.Dataset({"connector_breaking_load": ("connector", [np.inf])})
+    found = _connectors({"/SWL/statics": rest}, [("/SWL/time/storm", data)])
+    (moment,) = [item for item in found if item.name == "connector_moment"]
+    assert (moment.value, moment.band.low, moment.band.high) == pytest.approx((650.0, 600.0, 700.0))
+    assert moment.band.judged[1] > 650.0
+
+
+@pytest.mark.parametrize(
+    ("tension", "curved", "shown"), [(424.0e3, False, "420 kN"), (44.1e3, False, "44.1 kN"), (44.1e3, True, "44 kN")]
+)
+def test_a_tension_that_no_run_repeats_has_two_digits(tension, curved, shown):
+    """Scaled and mirrored, such a row gives other digits: rounding decides when a chain comes taut."""
+    named = {"line_tension_maximum_of_realisation": (("member", "period", "line"), tension * np.ones((5, 1, 1)))}
+    stretched = {"elongation_highest": (("period", "connector"), [[0.1 if curved else np.nan]])}
+    groups = {"/SWL/statics": REST}
+    data = lines_of(tension).assign(named | stretched)
+    (line, share, *_) = _lines(groups, [("/SWL/time/daily", data)])
+    assert headline_text(line).removeprefix("at least ") == shown
+    assert share.digits == line.digits and share.value == tension / 1.0e6
+    # one run of regular waves that repeats, or the frequency domain, is known
+    alone = data.drop_vars(list(named))
+    assert next(iter(_lines(groups, [("/SWL/time/daily", alone)]))).digits == 3
+    assert next(iter(_lines(groups, [("/SWL/frequency/daily", lines_of(44.1e3).assign(stretched))]))).digits == 3
+
+
+@pytest.mark.parametrize(
+    ("path", "connector", "bound"),
+    [("frequency", "h 1-2", ""), ("frequency", "h 2-3", "at least"), ("time", "h 2-3", "")],
+)
+def test_a_gap_that_nothing_joins_closes_by_slow_drift_as_well(path, connector, bound):
+    data = xr.Dataset(
+        {
+            "gap_closing_largest": ("gap", [0.2]),
+            "significant_motion": (("unit", "dof"), np.zeros((2, 3))),
+            "line_tension_maximum": ("line", [1.0]),
+            "line_tension_mean": ("line", [1.0]),
+        },
+        coords={"gap": ["gap 1-2"], "connector": [connector], "unit": [1, 2], "dof": DOFS, "line": ["s"]},
+        attrs={"status": "converged"},
+    )
+    rest = xr.Dataset({"gap_width": ("gap", [0.5])}, coords={"gap": ["gap 1-2"]})
+    (closing,) = _gaps({"/SWL/statics": rest}, [(f"/SWL/{path}/storm", data)])
+    assert (closing.value, closing.bound) == (0.4, bound) and ("drift" in closing.detail) is bool(bound)

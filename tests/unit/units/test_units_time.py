@@ -5,9 +5,11 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+import xarray as xr
 
 pytest.importorskip("capytaine", reason="Capytaine is not installed")
 
+from moyai.core.progress import silent
 from moyai.flexible import BarType
 from moyai.mooring import Line, LineSystem, LineType, Segment, SpringLine
 from moyai.mooring.space_kernel import space_line_force
@@ -17,18 +19,23 @@ from moyai.sea.environment import Environment
 from moyai.sea.states import RegularSea
 from moyai.structures.units.assembly import assemble
 from moyai.structures.units.bem import panels_of
+from moyai.structures.units.datasets import regular_dataset, with_damping_band
 from moyai.structures.units.drift import share_drift
 from moyai.structures.units.hydrodynamics import solve_row
 from moyai.structures.units.mesh import row_mesh
 from moyai.structures.units.model import Connector, Curve, Settings, TimeSettings, UnitLine
 from moyai.structures.units.response import RowModel, respond
 from moyai.structures.units.seas import regular_answer
+from moyai.structures.units.time import damping as damping_in_time
+from moyai.structures.units.time import seas as seas_in_time
+from moyai.structures.units.time.analysis import SeaInTime, sea_in_time
+from moyai.structures.units.time.damping import curves_bear, with_ends_in_time
 from moyai.structures.units.time.datasets import run_numbers
 from moyai.structures.units.time.kernel import joint_force
 from moyai.structures.units.time.lines import Carried, events_of, moving_line, rerun, rerun_events
 from moyai.structures.units.time.memory import _Basis, _passive, _residues, fit_row_memory
 from moyai.structures.units.time.model import RowInTime, step_weights
-from moyai.structures.units.time.seas import TimeRun, Water3D, _change, regular_run
+from moyai.structures.units.time.seas import REPEATING, TimeRun, Water3D, _change, _growth, regular_run, repeating_run
 from moyai.validation.units import WATER, row
 
 HINGE = Connector("h", "hinge", ((0, 1),), 0.0, 3.0, (1.0, 0.0, 0.0))
@@ -222,6 +229,80 @@ def test_units_that_nothing_joins_have_their_numbers(hydro, memory):
     assert (found["maximum_motion"][1][:, 2] > 0.1).all()
 
 
+def test_ends_of_the_damping_in_time_are_those_of_the_frequency_domain_where_it_is_linear(hydro, memory):
+    """Damping linear in the speed, near the resonance of roll."""
+    given = replace(row(), viscous_factor=0.0, damping_fraction=np.array([0.05, 0.05, 0.0, 0.0, 0.08, 0.05]))
+    at = assemble(given, Environment(WATER), "SWL", 0.0)
+    own = replace(hydro, solutions=tuple(_with(item, memory) for item in hydro.solutions))
+    sea = RegularSea("w", 1.0, (2.0 * np.pi / 1.1,), np.radians(40.0))
+    settings = Settings(2.0, drift=False, time=TimeSettings(duration=300.0))
+    others = []
+    for factor in given.damping_band:
+        damped = replace(at, row=given.damped(factor))
+        others.append((damped, regular_answer(damped, own, sea, np.zeros(12), settings)))
+    answers = regular_answer(at, own, sea, np.zeros(12), settings)
+    water = Water3D(at, own, memory, np.zeros(12), settings)
+    found = sea_in_time(water, sea, answers, silent)
+    timed = with_ends_in_time(water, sea, found, others, silent).groups[""]
+    frequency = with_damping_band(
+        regular_dataset(at, sea, answers, own), [regular_dataset(there, sea, one, own) for there, one in others]
+    )
+    assert not curves_bear(at, frequency, timed)
+    own_roll = frequency["motion_amplitude"].values[0, :, 4]
+    for end in ("low", "high"):
+        expected = frequency[f"motion_amplitude_{end}"].values[0, :, 4] / own_roll
+        ratio = timed[f"motion_amplitude_{end}"].values[0, :, 4] / timed["motion_amplitude"].values[0, :, 4]
+        assert ratio == pytest.approx(expected, rel=0.01)
+    # the damping matters here
+    assert (frequency["motion_amplitude_high"].values[0, :, 4] > 1.05 * own_roll).all()
+
+
+def test_a_connector_with_a_curve_or_a_tight_line_has_its_damping_run_in_time():
+    def lines(tension):
+        data = {"line_tension_maximum": ("line", [tension]), "line_tension_mean": ("line", [10.0])}
+        return xr.Dataset(data, coords={"line": ["a"]})
+
+    chain = Connector("c", "chain", ((0, 1),), 0.0, 3.0, curve=Curve((-1.0, 0.1, 1.1), (0.0, 0.0, 4e6)))
+    assert curves_bear(at_rest(chain), lines(20.0), lines(20.0))
+    assert not curves_bear(at_rest(HINGE), lines(20.0), lines(20.0))
+    assert curves_bear(at_rest(HINGE), lines(51.0), lines(20.0)) and curves_bear(
+        at_rest(HINGE), lines(9.0), lines(51.0)
+    )
+
+
+def test_lines_in_motion_keep_the_change_of_lines_at_rest(monkeypatch):
+    """An end that does not come to its end leaves what there is."""
+    dims = ("line",)
+    data = xr.Dataset(
+        {
+            "line_tension_maximum": (dims, [90.0, 20.0]),
+            "line_tension_maximum_lines_at_rest": (dims, [60.0, 20.0]),
+            "line_tension_mean": (dims, [8.0, 8.0]),
+        },
+        coords={"line": ["a", "b"]},
+    )
+    found = SeaInTime({"": data, "/T4": data}, [], "converged")
+    ends = {0.5: [72.0, 15.0], 2.0: [54.0, 18.0]}
+    monkeypatch.setattr(damping_in_time, "runs_of", lambda water, sea, answers, progress: answers)
+    monkeypatch.setattr(damping_in_time.Kept, "of", staticmethod(lambda run: SimpleNamespace(status=run)))
+    monkeypatch.setattr(
+        damping_in_time, "numbers_of",
+        lambda row, sea, runs: xr.Dataset({"line_tension_maximum": (dims, ends[row])}, coords=data.coords),
+    )  # fmt: skip
+    water = Water3D(None, None, None, None, None)
+    both = [(factor, ["converged"]) for factor in ends]
+    ranged = with_ends_in_time(water, None, found, both, silent).groups
+    assert ranged[""]["line_tension_maximum_low"].values == pytest.approx([90.0 * 54 / 60, 15.0])
+    assert ranged[""]["line_tension_maximum_high"].values == pytest.approx([90.0 * 72 / 60, 20.0])
+    assert ranged["/T4"] is data
+    both[1] = (2.0, ["diverged"])
+    assert with_ends_in_time(water, None, found, both, silent) is found
+    # a user who has enough ends the run, and keeps what there is
+    both[1] = (2.0, ["interrupted"])
+    ended = with_ends_in_time(water, None, found, both, silent)
+    assert ended.status == "interrupted" and ended.groups is found.groups
+
+
 def _with(item, memory):
     added, damping = memory.coefficients(np.array([item.omega]))
     return replace(item, added_mass=added[0], damping=damping[0])
@@ -406,6 +487,53 @@ def test_a_motion_that_grows_does_not_repeat():
     position[:, 9] *= np.exp(growth * turns)
     assert _change(position, per_period, 10) == pytest.approx(1.0 - np.exp(-growth), rel=0.01)
     assert _change(position[: 10 * per_period], per_period, 10) == 0.0
+
+
+def test_a_resonance_that_grows_from_little_does_not_repeat_yet():
+    """One of another period under the motion of the waves: its change is small, its growth is known."""
+    per_period, turns = 50, np.arange(40 * 50) / 50
+    position = np.zeros((len(turns), 12))
+    for rate, expected in ((0.03, 0.03), (-0.03, 0.0)):
+        position[:, 0] = np.sin(2.0 * np.pi * turns) + 1e-4 * np.exp(rate * turns) * np.sin(np.pi * turns)
+        change = _change(position, per_period, 10)
+        assert change < 2e-3
+        assert _growth(position, per_period, 10) == pytest.approx(expected, abs=1e-3)
+    # a motion that never repeats, whose change goes up and down
+    generator, long = np.random.default_rng(2), np.arange(300 * 50) / 50
+    tops = np.repeat(generator.uniform(0.8, 1.2, 300), 50)
+    wild = np.zeros((len(long), 12))
+    wild[:, 0] = tops * np.sin(2.0 * np.pi * long)
+    assert _change(wild, per_period, 10) > REPEATING and _growth(wild, per_period, 10) == 0.0
+    # what rounding leaves
+    position[:, 0] = np.sin(2.0 * np.pi * turns) + 1e-9 * np.exp(0.03 * turns) * np.sin(np.pi * turns)
+    assert _growth(position, per_period, 10) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("runs", "count"),
+    [
+        ([(0.01, 0.0)], 1),
+        ([(0.01, 0.02), (0.01, 0.0)], 2),
+        ([(0.2, 0.0), (0.2, 0.0)], 2),
+        ([(0.2, 0.01), (0.3, 0.01), (0.9, 0.0)], 3),
+        ([(0.01, 0.01), (0.02, 0.01), (0.03, 0.01)], 3),
+    ],
+)
+def test_a_row_is_run_until_it_repeats_and_grows_no_more(monkeypatch, runs, count):
+    asked = []
+
+    def run(water, sea, period, answer, least, progress):
+        asked.append(least)
+        change, growth = runs[len(asked) - 1]
+        return SimpleNamespace(change=change, growth=growth, complete=True)
+
+    monkeypatch.setattr(seas_in_time, "regular_run", run)
+    water = SimpleNamespace(time=TimeSettings())
+    repeating_run(water, None, 4.0, None)
+    assert len(asked) == count and asked == [50.0, 300.0, 1000.0][:count]
+    asked.clear()
+    repeating_run(SimpleNamespace(time=TimeSettings(duration=60.0)), None, 4.0, None)
+    assert len(asked) == 1
 
 
 def test_parts_of_a_record_are_whole_periods_at_its_end():

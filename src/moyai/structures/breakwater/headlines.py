@@ -44,6 +44,7 @@ if TYPE_CHECKING:
 STEADY = "wind and current at rest, mean drift of the frequency domain"
 DAMPING_ALONE = "the band of damping alone, without waves round the ends or over the deck"
 ONE_DAMPING = "one damping without a band, without waves round the ends or over the deck"
+_SWAY, _ROLL = 0, 2
 MUCH_OVERTOPPING = 0.05  # share of waves over the deck from which linear transmission is qualified
 
 
@@ -228,14 +229,10 @@ def _offset(domain: str, data: xr.Dataset, level: str, sea: str, frequency: xr.D
     if "maximum_excursion" in data:
         value = float(data.variables["maximum_excursion"].values[0])
         scatter = np.asarray(data.variables["maximum_excursion_of_realisation"].values[:, 0], dtype=float)
-        band, bound, motion = seeds(scatter), alone(scatter), _in_motion(data)
-        if motion > 1.0:
-            # what lines in motion add to the offset of lines at rest in the same events
-            band = band or Band(value, value, "lines in motion in the events rerun")
-            band = band.scaled(1.0, motion)
+        band, bound = _with_lines_in_motion(value, seeds(scatter), data, _SWAY), alone(scatter)
         within = float(data.attrs.get("duration", math.nan))
         detail = f"largest in {storm_words(within)}; " if math.isfinite(within) else ""
-        detail += "; ".join(filter(None, (ALONE if bound else "", _motion_words(data), _slow_words(frequency))))
+        detail += "; ".join(filter(None, (ALONE if bound else "", _motion_words(data, _SWAY), _slow_words(frequency))))
     elif "largest_offset" in data:
         value = float(data["largest_offset"])
         band = storms(value, abs(float(mean[0])), _peak_factor(data, 0))
@@ -260,18 +257,28 @@ def _peak_factor(data: xr.Dataset, mode: int) -> float:
     )
 
 
-def _in_motion(data: xr.Dataset) -> float:
-    """Return the largest offset in the events with lines in motion over that with lines at rest, 1 without events."""
+def _in_motion(data: xr.Dataset, mode: int) -> tuple[float, float] | None:
+    """Return the largest motion in the events rerun, lines in motion and at rest; ``None`` without events."""
     if "event_offset" not in data:
-        return 1.0
-    return float(data.variables["event_offset"].values[0] / data.variables["event_offset_lines_at_rest"].values[0])
+        return None
+    moving, still = (data.variables[name].values[mode] for name in ("event_offset", "event_offset_lines_at_rest"))
+    return float(moving), float(still)
 
 
-def _motion_words(data: xr.Dataset) -> str:
-    if "event_offset" not in data:
+def _with_lines_in_motion(value: float, band: Band | None, data: xr.Dataset, mode: int) -> Band | None:
+    """Return a band with what lines in motion add to a motion with lines at rest in the same events."""
+    pair = _in_motion(data, mode)
+    if pair is None or not pair[0] > pair[1]:
+        return band
+    return (band or Band(value, value, "lines in motion in the events rerun")).scaled(1.0, pair[0] / pair[1])
+
+
+def _motion_words(data: xr.Dataset, mode: int) -> str:
+    pair = _in_motion(data, mode)
+    if pair is None:
         return ""
-    moving, still = (float(data.variables[name].values[0]) for name in ("event_offset", "event_offset_lines_at_rest"))
-    return f"in the events rerun with lines in motion {moving:.3g} m, with lines at rest {still:.3g} m"
+    moving, still = (f"{motion:.3g} m" if mode == _SWAY else f"{math.degrees(motion):.3g}\u00b0" for motion in pair)
+    return f"in the events rerun with lines in motion {moving}, with lines at rest {still}"
 
 
 def _motion_model(domain: str, data: xr.Dataset) -> str:
@@ -304,7 +311,8 @@ def _roll(domain: str, data: xr.Dataset, level: str, sea: str, frequency: xr.Dat
     value, significant = float(data.variables[name].values[2]), float(data.variables["significant_motion"].values[2])
     each = f"{name}_of_realisation"
     scatter = np.asarray(data.variables[each].values[:, 2], dtype=float) if each in data else np.zeros(0)
-    band = seeds(scatter) if scatter.size else storms(value, 0.0, _peak_factor(data, 2))
+    band = seeds(scatter) if scatter.size else storms(value, 0.0, _peak_factor(data, _ROLL))
+    band = _with_lines_in_motion(value, band, data, _ROLL)
     if frequency is not None and "significant_motion_low" in frequency:
         # the frequency domain tells by how much damping moves roll; the time domain is run at its nominal value
         own = float(frequency.variables["significant_motion"].values[2])
@@ -314,7 +322,8 @@ def _roll(domain: str, data: xr.Dataset, level: str, sea: str, frequency: xr.Dat
             given = band or Band(value, value, "")
             of = "; ".join(filter(None, (given.of, of)))
             band = replace(given.scaled(low, high), of=of, decides=given.judged is None)
-    detail = f"amplitude; significant double amplitude {math.degrees(significant):.3g}\u00b0"
+    double = f"significant double amplitude {math.degrees(significant):.3g}\u00b0"
+    detail = "; ".join(filter(None, ("amplitude", _motion_words(data, _ROLL), double)))
     model = _motion_model(domain, data)
     return [
         Headline("roll", "Largest roll", value, "rad", place(level, sea), model, band, alone(scatter), detail=detail)

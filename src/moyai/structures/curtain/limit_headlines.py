@@ -105,6 +105,8 @@ def limit_headlines(groups: Groups, levels: Sequence[str], span_holds: Callable[
                 words = "an upright plate bounds neither the sheet nor the anchors of a free toe in waves"
             run = groups.get(f"/{level}/dynamic")
             more = REMEDY if run is None else "the whole span is run in the seas of the case alone, to be run in others"
+            if waves and run is not None and (oblique := _all_oblique(groups, level)):
+                more = oblique
             detail = f"{words}; {more}"
             yield Headline(name, label, math.nan, unit, where=f"{where}: {level}", detail=detail, text="not known")
             continue
@@ -115,6 +117,7 @@ def limit_headlines(groups: Groups, levels: Sequence[str], span_holds: Callable[
         if waves and table.attrs.get("with_snaps"):
             # realisations of a sea do not tell a third digit
             limit = _two_digits(limit)
+            details += _of_other_seeds(table, limit)
         period = float(table.attrs.get("design_limit_period", math.nan))
         if key != "speed_limit" and math.isfinite(period) and limit > 0.0:
             # the period of the height that is printed, not of the one at the values themselves
@@ -129,6 +132,17 @@ def limit_headlines(groups: Groups, levels: Sequence[str], span_holds: Callable[
             detail="; ".join(details),
             text="" if limit > 0.0 else "none",
         )  # fmt: skip
+
+
+def _of_other_seeds(table: xr.Dataset, limit: float) -> list[str]:
+    """Say how far a height hangs on the seeds of the seas that prove it, where that is more than its two digits."""
+    scatter, count = _number(table, "design_limit_scatter"), int(table.attrs.get("realisations", 0))
+    if not (limit > 0.0 and scatter > 0.01 * limit and count):
+        return []
+    return [
+        f"other seeds may give {scatter:.2g} m less or more (one standard deviation with {count} realisations): "
+        "more by settings.waves.realisations"
+    ]
 
 
 def _proven(groups: Groups, key: str, span_holds: Callable[[str], bool], level: str) -> float:
@@ -175,6 +189,18 @@ def _in_the_case(groups: Groups, level: str, key: str) -> float:
     seas = [data for path, data in groups.items() if path.startswith(f"/{level}/waves/") and "realisations" in data]
     facing = [data for data in seas if float(data.attrs.get("angle_from_normal", 0.0)) <= FACING]
     return max((float(data["significant_height"]) for data in facing), default=math.nan)
+
+
+def _all_oblique(groups: Groups, level: str) -> str:
+    """Say that no irregular sea of the case travels near the normal, where there are any; else nothing."""
+    seas = [data for path, data in groups.items() if path.startswith(f"/{level}/waves/") and "realisations" in data]
+    nearest = min((float(data.attrs.get("angle_from_normal", 0.0)) for data in seas), default=0.0)
+    if nearest <= FACING:
+        return ""
+    return (
+        f"the seas of the case travel at {math.degrees(nearest):.0f} degrees to the normal and more: one within "
+        f"{math.degrees(FACING):.0f} degrees of it, in which the whole span holds, tells a height"
+    )
 
 
 def _number(table: xr.Dataset, name: str) -> float:

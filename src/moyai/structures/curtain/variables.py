@@ -276,6 +276,10 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "held_ratio": ("1", "height held over that of the sea, worst sea"),
     "orientation": ("rad", "heading of the normal of the curtain"),
     "design_limit_low": ("m", "the same with impact, snaps and depth at their unfavourable ends"),
+    "design_limit_scatter": (
+        "m",
+        "standard deviation of that height over other seeds of its seas",
+    ),
     "speed_limit_low": ("m/s", "largest surface speed without waves at the upper end of drag or impact"),
     "speed_limit_high": ("m/s", "largest surface speed without waves at the lower end of drag or impact"),
     "speed_limit_ratio": ("1", "largest surface speed without waves over the current of the case"),

@@ -289,7 +289,7 @@ def _chance_text(found: _Largest) -> str:
     scatter = found.scatter
     if scatter.size < 2:
         return f"; {ALONE}"
-    deviation = spoken(float(scatter.std(ddof=1)), "N", 2)
+    deviation = spoken(float(scatter.std(ddof=1)), "N", 2, like=found.value)
     return f"; mean of the largest of {scatter.size} realisations, their standard deviation {deviation}"
 
 

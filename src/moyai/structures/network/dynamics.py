@@ -126,7 +126,10 @@ def run(
         coupled = run_coupled(problem, network, hung, reported, left, motions=motions, keep_nodes=nodes, **options)
         history = coupled.history
     else:
-        history = simulate(network, motions, start=begin, progress=reported, keep_nodes=nodes, **options)
+        history = simulate(
+            network, motions, start=begin, progress=reported, keep_nodes=nodes, counted_from=plan.skip - begin.time,
+            **options,
+        )  # fmt: skip
     progress(plan.name, 1.0, 1.0)
     if history.status == "not_converged":
         history = sound_rows(history)

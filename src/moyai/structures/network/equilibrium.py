@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -15,7 +16,7 @@ from moyai.flexible.flow import Flow
 from moyai.flexible.modes import natural_modes
 from moyai.flexible.network import DRIVEN, Network
 from moyai.flexible.refine import refined
-from moyai.flexible.result import State
+from moyai.flexible.result import History, State
 from moyai.flexible.statics import Equilibrium, solve_equilibrium
 from moyai.structures.network.assembly import Assembly
 from moyai.structures.network.noise import without_noise
@@ -98,6 +99,35 @@ def highest_pulls(network: Network, nodes: NDArray[np.int64], position: Array, t
                 more = np.maximum(highest[:, bar] - tension[:, bar], 0.0)
                 out[:, column] = np.fmax(out[:, column], _measures(at_row[:, column] + more[:, None] * unit))
     return out
+
+
+def highest_of_run(
+    history: History, points: Mapping[str, int], after: float, before: float = math.inf
+) -> dict[str, float]:
+    """Return the highest pull [N] of a run on some nodes, by their names, between two times since its start [s].
+
+    Nodes whose neighbours or bars were not kept are left out.
+    """
+    network, since = history.network, history.time - history.time[0]
+    counted = (since >= after) & (since < before)
+    place = np.full((int(counted.sum()), len(network.nodes), 3), np.nan)
+    place[:, history.nodes] = history.position[counted]
+    at_row, highest = (np.full((place.shape[0], len(network.bars)), np.nan) for _ in range(2))
+    at_row[:, history.bars] = history.tension[counted]
+    highest[:, history.bars] = np.fmax(history.tension, history.tension_peak)[counted]
+    nodes = np.array(list(points.values()), dtype=np.int64)
+    if not nodes.size or not counted.any():
+        return {}
+    found = highest_pulls(network, nodes, place, at_row, highest)[..., 0]
+    whole = np.isfinite(found.sum(axis=0))
+    return {name: float(found[:, k].max()) for k, name in enumerate(points) if whole[k]}
+
+
+def around(network: Network, points: Mapping[str, int]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return the nodes and bars that a run has to keep for the pull on some nodes."""
+    bars, nodes = network.bars, np.array(list(points.values()), dtype=np.int64)
+    own = np.flatnonzero(np.isin(bars.start, nodes) | np.isin(bars.end, nodes))
+    return np.unique(np.concatenate([nodes, bars.start[own], bars.end[own]])), own
 
 
 def _measures(load: Array) -> Array:

@@ -16,18 +16,21 @@ from moyai.core.arrays import Array
 from moyai.core.headline import Band, Bound, Headline, governing, unfavourable
 from moyai.core.wording import spoken
 from moyai.flexible.sensitivity import PeakSensitivity
-from moyai.series.block_maxima import Maximum, maximum_of
+from moyai.series.block_maxima import PERIODS, Maximum, maximum_of
 from moyai.structures.network.held_rows import held_headlines
 from moyai.structures.network.model import NetworkProblem
 from moyai.structures.network.refinement import LANDING, band_of
 from moyai.structures.network.single_anchor import single_anchors
 from moyai.structures.network.start_up import ASKED, WAVES
+from moyai.structures.network.summary import LOADS_AGAIN
 
 if TYPE_CHECKING:
     import xarray as xr
 
 #: Highest tension over that at the ends of its line above which both are reported.
 INSIDE = 1.2
+#: Part by which the highest values of the periods of regular waves may differ where the motion repeats.
+REPEATING = 0.05
 DYNAMIC, REST = "run through time", "at rest"
 _NOT_JUDGED = Headline(
     "not_judged", "Not judged", math.nan, "1", text="one line lost, wear and fatigue, shackles, soil of the anchors",
@@ -201,16 +204,21 @@ def _start_up(groups: Mapping[str, xr.Dataset], peak: _Peak) -> list[Headline]:
     ]  # fmt: skip
 
 
+def _mesh_and_step(value: float, finer: list[float]) -> Band:
+    """Return the band of a peak: ``finer`` as in :class:`PeakSensitivity`, without step."""
+    of, half, mesh, damped, finest = finer
+    low, high = band_of(PeakSensitivity(of, half, mesh, math.nan, math.nan, math.nan, damped, finest))
+    words = "mesh and step: half the step, twice the segments, undamped and damped, and their change continued"
+    return Band(min(low, value), max(high, value), words)
+
+
 def _numerical_band(summary: xr.Dataset, peak: _Peak) -> tuple[Band | None, list[str]]:
     if "sensitivity_peak" in summary and math.isfinite(float(summary["sensitivity_peak"])):
         finer = ("half_step", "double_mesh", "half_viscosity", "double_viscosity", "damped", "finest")
         keys = ("sensitivity_peak", *finer)
         values = [float(summary[key]) for key in keys]
         if summary.attrs.get(f"governing {peak.run}") == peak.line:
-            peak_of, half, mesh, less, more, damped, finest = values
-            low, high = band_of(PeakSensitivity(peak_of, half, mesh, less, more, math.nan, damped, finest))
-            words = "mesh and step: half the step, twice the segments, undamped and damped, and their change continued"
-            band = Band(min(low, peak.value), max(high, peak.value), words)
+            band = _mesh_and_step(peak.value, [*values[:3], *values[5:]])
             viscous = [value for value in values[3:5] if math.isfinite(value)]
             said = f"half and twice the viscosity: {min(viscous):.4g} to {max(viscous):.4g} N" if viscous else ""
             return band, [said]
@@ -220,26 +228,48 @@ def _numerical_band(summary: xr.Dataset, peak: _Peak) -> tuple[Band | None, list
 
 def _chance(groups: Mapping[str, xr.Dataset], peak: _Peak) -> tuple[Maximum | None, list[str]]:
     """Return what one maximum of an irregular sea is worth, and say the height that was realised."""
-    if not _irregular(groups, peak.level, peak.run):
+    series = groups.get(f"/{peak.level}/time/{peak.run}")
+    if series is None:
         return None, []
-    series = groups[f"/{peak.level}/time/{peak.run}"]
+    if not _irregular(groups, peak.level, peak.run):
+        return _of_periods(series, *_record(series, peak.line)), []
     late = series.isel(time=series["time"].values >= series["time"].values[0] + series.attrs["skip"])
     said = []
     if "surface_elevation" in late:
         realised = 4.0 * float(late["surface_elevation"].values.std())
         said.append(f"realised Hs {realised:.2f} m of {series.attrs['wave_height']:.2f} m, seed {series.attrs['seed']}")
-    key, axis = (
-        ("line_tension_peak_since_row", "line") if peak.line in series["line"].values else ("net_tension", "net")
-    )
-    found: Maximum | None = maximum_of(
-        late["time"].values, late[key].sel({axis: peak.line}).values, float(series.attrs["period"])
-    )
+    found: Maximum | None = maximum_of(*_record(series, peak.line), float(series.attrs["period"]))
     if found is not None:
         said.append(
             f"largest of other seeds about {spoken(found.mean, 'N', 3)}, standard deviation "
             f"{spoken(found.deviation, 'N', 2, like=found.mean)}"
         )
     return found, said
+
+
+def _record(series: xr.Dataset, line: str) -> tuple[Array, Array]:
+    """Return time and highest tension since the row before of a line or net, over what counts."""
+    late = series.isel(time=series["time"].values >= series["time"].values[0] + series.attrs["skip"])
+    named = "line" in late and line in late["line"].values
+    key, axis = ("line_tension_peak_since_row", "line") if named else ("net_tension", "net")
+    if key not in late:
+        return np.zeros(0), np.zeros(0)
+    return late["time"].values, late[key].sel({axis: line}).values
+
+
+def _of_periods(series: xr.Dataset, time: Array, values: Array) -> Maximum | None:
+    """Return what the largest of a regular motion that never repeats is worth, ``None`` where it repeats.
+
+    The highest values of its periods are then taken as those of blocks of a record.
+    """
+    period = float(series.attrs.get("period", math.nan))
+    if not (math.isfinite(period) and period > 0.0 and time.size > 1 and np.isfinite(values).all()):
+        return None
+    count = int((time[-1] - time[0]) / period + 1e-9)
+    highest = [float(part.max()) for part in np.array_split(values, count)] if count else [0.0]
+    if min(highest) >= (1.0 - REPEATING) * max(highest):
+        return None
+    return maximum_of(time, values, period / PERIODS)
 
 
 def _utilisation(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peaks: list[_Peak]) -> list[Headline]:
@@ -280,10 +310,16 @@ def _band(groups: Mapping[str, xr.Dataset], peak: _Peak) -> tuple[Band | None, l
     if found is None:
         alone = _irregular(groups, peak.level, peak.run)
         return band, [*details, *([_ONE_SEED] if alone else [])], "at least" if alone else most
-    low, high, of = (peak.value, peak.value, "") if band is None else (band.low, band.high, band.of)
-    of = "; ".join(filter(None, (of, _of_seeds(found))))
+    return _with_chance(peak.value, band, found, _irregular(groups, peak.level, peak.run)), details, most
+
+
+def _with_chance(value: float, band: Band | None, found: Maximum, irregular: bool = True) -> Band:
+    """Return the band of mesh and step, where there is one, and of the chance of one seed."""
+    low, high, of = (value, value, "") if band is None else (band.low, band.high, band.of)
     least, highest = found.range
-    return Band(max(min(low, least), 0.0), max(high, highest), of), details, most
+    return Band(
+        max(min(low, least), 0.0), max(high, highest), "; ".join(filter(None, (of, _of_seeds(found, irregular))))
+    )
 
 
 def _irregular(groups: Mapping[str, xr.Dataset], level: str, run: str) -> bool:
@@ -302,7 +338,7 @@ def mesh_checked(groups: Mapping[str, xr.Dataset]) -> bool:
 
 
 def _anchor(groups: Mapping[str, xr.Dataset], peaks: list[_Peak]) -> list[Headline]:
-    """Return the largest pull on a fixed point with its parts; its band is that of the highest tension of its run."""
+    """Return the largest pull on a fixed point with its parts and its own band."""
     found = []
     for level, summary in _levels(groups, "dynamic"):
         network = groups[f"/{level}/network"]
@@ -312,7 +348,6 @@ def _anchor(groups: Mapping[str, xr.Dataset], peaks: list[_Peak]) -> list[Headli
         for run in (str(name) for name in summary["run"].values):
             mine = [peak for peak in peaks if (peak.level, peak.run) == (level, run)]
             most = max(mine, key=lambda peak: peak.value, default=None)
-            band, _, bound = (None, [], "") if most is None else _band(groups, most)
             for point in fixed:
                 row = summary.sel(run=run, point=point)
                 value = float(row["load_peak"])
@@ -320,10 +355,7 @@ def _anchor(groups: Mapping[str, xr.Dataset], peaks: list[_Peak]) -> list[Headli
                     continue
                 parts = (float(row["load_horizontal"]) / 1e3, float(row["load_upwards"]) / 1e3)
                 said = f"horizontal {parts[0]:.3g} kN, upwards {parts[1]:.3g} kN, each at its own largest"
-                own = None
-                if band is not None and most is not None and most.value > 0.0:
-                    low, high = (value * end / most.value for end in (band.low, band.high))
-                    own = Band(low, high, f"in proportion to the tension of {most.line}")
+                own, bound = _band_of_pull(groups, (level, run, point), value, most)
                 found.append(
                     Headline(
                         "anchor_load", "largest pull on a fixed point", value, "N", _place(groups, level, point, run),
@@ -331,6 +363,39 @@ def _anchor(groups: Mapping[str, xr.Dataset], peaks: list[_Peak]) -> list[Headli
                     )
                 )  # fmt: skip
     return governing(found)
+
+
+def _band_of_pull(
+    groups: Mapping[str, xr.Dataset], at: tuple[str, str, str], value: float, most: _Peak | None
+) -> tuple[Band | None, Bound]:
+    """Return what mesh, step and chance do to the pull on a fixed point: ``at`` level, run and name.
+
+    Where the runs that check the mesh did not find it, the mesh moves it as it moves the highest tension.
+    """
+    level, run, point = at
+    summary = groups[f"/{level}/dynamic"].sel(run=run)
+    bound: Bound = "" if most is None else _band(groups, most)[2]
+    mesh = None if most is None else _numerical_band(summary, most)[0]
+    finer = [value, *(float(summary[key].sel(point=point)) if key in summary else math.nan for key in LOADS_AGAIN)]
+    own: Band | None = None
+    if all(map(math.isfinite, finer[1:3])):
+        own = _mesh_and_step(value, finer)
+    elif mesh is not None and most is not None and most.value > 0.0:
+        low, high = (value * end / most.value for end in (mesh.low, mesh.high))
+        own = Band(low, high, f"mesh and step: in proportion to the tension of {most.line}")
+    series = groups.get(f"/{level}/time/{run}")
+    if series is None:
+        return own, bound
+    late = series.isel(time=series["time"].values >= series["time"].values[0] + series.attrs["skip"])
+    load = late["highest_load"].sel(point=point, measure="size").values
+    irregular = _irregular(groups, level, run)
+    if irregular:
+        chance = maximum_of(late["time"].values, load, float(series.attrs["period"]))
+    else:
+        chance = _of_periods(series, late["time"].values, load)
+    if chance is None:
+        return own, "at least" if irregular else bound
+    return _with_chance(value, own, chance, irregular), "at most" if own is None and bound == "at most" else ""
 
 
 def _offsets(groups: Mapping[str, xr.Dataset], anchors: Mapping[str, str]) -> list[Headline]:
@@ -391,7 +456,9 @@ def _swinging(
     return float(counted.max()), f"horizontal distance from its only anchor '{anchor}', round which it swings", away
 
 
-def _of_seeds(found: Maximum) -> str:
+def _of_seeds(found: Maximum, irregular: bool = True) -> str:
+    if not irregular:
+        return f"90 of 100 records as long, estimated from {found.blocks} parts of a motion that does not repeat"
     return f"90 of 100 seeds, estimated from {found.blocks} blocks of the record of one"
 
 

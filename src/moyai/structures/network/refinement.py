@@ -18,13 +18,14 @@ from moyai.core.validity import Notice
 from moyai.core.wording import spoken
 from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import Network
+from moyai.flexible.network import FIXED, Network
 from moyai.flexible.refine import refined
 from moyai.flexible.result import History, State
 from moyai.flexible.sensitivity import PeakSensitivity, refined_start
 from moyai.flexible.simulation import simulate
 from moyai.series.snaps import SnapRecord
 from moyai.structures.network.assembly import Assembly
+from moyai.structures.network.equilibrium import around, highest_of_run, named_points
 
 #: Bars times steps that both further runs together may take: of any run, and of one whose peak is doubtful. The
 #: explicit scheme does some ten million a second; a step of the implicit schemes costs about thirty times as much.
@@ -33,6 +34,8 @@ WORK, DOUBTFUL_WORK, IMPLICIT = 3e8, 1e9, 30.0
 DAMPING, DAMPED_BARS = 0.3, 32
 #: Periods before and after the highest tension that an event by itself takes, and how well it gives the peak again.
 LEAD, AFTER, SAME_EVENT = 3.0, 0.25, 0.02
+#: Highest pull on a point before a run counts, over that of the run itself, up to which another mesh begins like it.
+JERK = 1.1
 #: Bars of a line up to which its peak is doubtful whatever the run shows.
 FEW_BARS = 5
 #: Doubt of a peak that finer segments only lower: lumps that stop on the bed pull harder than a smooth line.
@@ -152,13 +155,13 @@ def check_event(
     peak = float(np.nanmax(history.tension_peak[counted][:, columns]))
     same = simulate(
         history.network, motions, start=window.begin, progress=progress,
-        **{**chosen, "step": history.step, "keep_nodes": [0], "keep_bars": bars},
+        **{**chosen, "step": history.step, **_kept(assembly, history.network, bars)},
     )  # fmt: skip
     if same.status == "interrupted":
         raise KeyboardInterrupt
     if same.status != "converged":
         return None
-    again = float(np.max(same.tension_peak[same.time >= same.time[0] + window.lead]))
+    again, _ = _peaks_of(assembly, same, bars, window.lead)
     lands = LANDING in why
     if not again > 0.0 or (abs(again / peak - 1.0) > SAME_EVENT and not lands):
         return None
@@ -166,17 +169,50 @@ def check_event(
     if found is None:
         return None
     if lands:
-        found = _down_to_links(found, same, motions, bars, window, chosen, progress)
-    scale = peak / again
+        found = _down_to_links(found, assembly, same, motions, bars, window, chosen, progress)
+    whole, pulls = highest_of_run(history, _fixed(assembly, history.network), skip), {}
+    for name, one in found.pulls.items():
+        # the event of the highest tension need not be that of this point
+        if one.peak > 0.0 and name in whole and (lands or abs(one.peak / whole[name] - 1.0) <= SAME_EVENT):
+            pulls[name] = _times(one, whole[name] / one.peak)
+    return replace(_times(found, peak / again), pulls=pulls)
+
+
+def _times(found: PeakSensitivity, factor: float) -> PeakSensitivity:
+    """Return peaks taken in proportion."""
     return replace(
-        found, peak=peak, half_step=scale * found.half_step, double_mesh=scale * found.double_mesh,
-        damped=scale * found.damped, finest=scale * found.finest,
+        found, peak=factor * found.peak, half_step=factor * found.half_step, double_mesh=factor * found.double_mesh,
+        damped=factor * found.damped, finest=factor * found.finest,
     )  # fmt: skip
 
 
+def _fixed(assembly: Assembly, network: Network) -> dict[str, int]:
+    """Return the fixed points of the case and their nodes in a network, also one whose bars were cut."""
+    points = {name: network.points[name] for name in named_points(assembly)[0] if name in network.points}
+    return {name: node for name, node in points.items() if network.nodes.kind[node] == FIXED}
+
+
+def _kept(assembly: Assembly, network: Network, bars: np.ndarray) -> dict[str, np.ndarray]:
+    """Return what a run keeps for the peaks of some bars and the pulls on fixed points."""
+    nodes, own = around(network, _fixed(assembly, network))
+    return {"keep_nodes": nodes if nodes.size else np.zeros(1, dtype=np.int64), "keep_bars": np.union1d(bars, own)}
+
+
+def _peaks_of(assembly: Assembly, history: History, bars: np.ndarray, after: float) -> tuple[float, dict[str, float]]:
+    """Return the highest tension of some bars in a run, and the highest pull on each fixed point."""
+    columns = np.flatnonzero(np.isin(history.bars, bars))
+    peaks = history.tension_peak[history.time >= history.time[0] + after][:, columns]
+    return float(np.nanmax(peaks)), highest_of_run(history, _fixed(assembly, history.network), after)
+
+
+def _early(assembly: Assembly, history: History, skip: float) -> dict[str, float]:
+    """Return the highest pull on each fixed point before what counts of a run."""
+    return highest_of_run(history, _fixed(assembly, history.network), 0.0, skip)
+
+
 def _down_to_links(
-    found: PeakSensitivity, event: History, motions: Mapping[str, Motion], bars: np.ndarray, window: Window,
-    options: Mapping[str, Any], progress: Progress,
+    found: PeakSensitivity, assembly: Assembly, event: History, motions: Mapping[str, Motion], bars: np.ndarray,
+    window: Window, options: Mapping[str, Any], progress: Progress,
 ) -> PeakSensitivity:  # fmt: skip
     """Cut the bars of an event in four, eight ... as long as its highest tension changes by a tenth each time."""
     network, factor, last = event.network, 4, found.double_mesh
@@ -186,14 +222,15 @@ def _down_to_links(
         finer, state = refined(network, factor, window.begin)
         kept = np.concatenate([factor * bars + part for part in range(factor)])
         shorter = {} if options.get("step") is None else {"step": options["step"] / factor}
-        chosen = {**options, **shorter, "keep_nodes": [0], "keep_bars": kept}
+        chosen = {**options, **shorter, **_kept(assembly, finer, kept)}
         run = simulate(finer, motions, start=state, progress=progress, **chosen)
         if run.status == "interrupted":
             raise KeyboardInterrupt
         if run.status != "converged":
             break
-        peak = float(np.max(run.tension_peak[run.time >= run.time[0] + window.lead]))
-        found = replace(found, finest=peak, factor=factor)
+        peak, pulls = _peaks_of(assembly, run, kept, window.lead)
+        own = {n: replace(one, finest=pulls[n], factor=factor) for n, one in found.pulls.items() if n in pulls}
+        found = replace(found, finest=peak, factor=factor, pulls=own)
         if abs(peak / last - 1.0) <= LANDED or factor == most:
             break
         factor, last = min(2 * factor, most), peak
@@ -243,29 +280,34 @@ def check_peak(
         Without what the viscosity changes; ``None`` for networks that cannot be refined, or a run that had to stop.
     """
     bars = _bars_of(assembly, line)
-    columns = np.flatnonzero(np.isin(history.bars, bars))
-    counted = history.time >= history.time[0] + skip
-    if not columns.size or not counted.any():
+    if not np.isin(history.bars, bars).any() or not (history.time >= history.time[0] + skip).any():
         return None
-    peak = float(np.nanmax(history.tension_peak[counted][:, columns]))
+    peak, pulls = _peaks_of(assembly, history, bars, skip)
 
-    def again(network: Network, start: State, kept: np.ndarray, **more: Any) -> float:
-        chosen = {**options, **more, "keep_nodes": [0], "keep_bars": kept}
+    early = _early(assembly, history, skip)
+
+    def again(network: Network, start: State, kept: np.ndarray, **more: Any) -> tuple[float, dict[str, float]]:
+        chosen = {**options, **more, **_kept(assembly, network, kept)}
         found = simulate(network, motions, start=start, progress=progress, **chosen)
         if found.status == "interrupted":
             raise KeyboardInterrupt
         if found.status != "converged":
             raise ConvergenceError(found.message, parameter="sensitivity")
-        return float(np.max(found.tension_peak[found.time >= found.time[0] + skip]))
+        top, of_points = _peaks_of(assembly, found, kept, skip)
+        if rest_flow is None:
+            # what another mesh makes of a place between its nodes jerks at the start, and friction on the bed keeps it
+            begun = _early(assembly, found, skip)
+            of_points = {n: pull for n, pull in of_points.items() if begun.get(n, 0.0) <= JERK * early.get(n, 0.0)}
+        return top, of_points
 
     try:
         finer, state = refined_start(history.network, 2, begin, rest_flow)
         shorter = {} if options.get("step") is None else {"step": 0.5 * options["step"]}
         kept = np.concatenate([2 * bars, 2 * bars + 1])
-        mesh = again(finer, state, kept, **shorter)
+        mesh, on_mesh = again(finer, state, kept, **shorter)
         exact = options.get("safety") == 1.0
-        step = peak if exact else again(history.network, begin, bars, step=0.5 * history.step)
-        damped = math.nan
+        step, by_step = (peak, pulls) if exact else again(history.network, begin, bars, step=0.5 * history.step)
+        damped, calmed = math.nan, dict[str, float]()
         if not exact and damped_bars(finer) is not finer:
             factor = 2
             while factor * bars.size < DAMPED_BARS:
@@ -273,10 +315,16 @@ def check_peak(
             calm, state = refined_start(history.network, factor, begin, rest_flow)
             kept = np.concatenate([factor * bars + part for part in range(factor)])
             shorter = {} if options.get("step") is None else {"step": options["step"] / factor}
-            damped = again(damped_bars(calm), state, kept, **shorter)
+            damped, calmed = again(damped_bars(calm), state, kept, **shorter)
     except (ConvergenceError, InputError):
         return None
-    return PeakSensitivity(peak, step, mesh, math.nan, math.nan, history.step, damped)
+    own = {
+        name: PeakSensitivity(
+            pulls[name], by_step[name], on_mesh[name], math.nan, math.nan, history.step, calmed.get(name, math.nan)
+        )
+        for name in pulls.keys() & by_step.keys() & on_mesh.keys()
+    }  # fmt: skip
+    return PeakSensitivity(peak, step, mesh, math.nan, math.nan, history.step, damped, pulls=own)
 
 
 def change_of(found: PeakSensitivity) -> float:

@@ -23,6 +23,11 @@ if TYPE_CHECKING:
 
 #: Loads on points in the summary, in the order of :func:`moyai.structures.network.equilibrium.highest_pulls`.
 LOADS = ("load_peak", "load_horizontal", "load_upwards", "load_downwards")
+#: Highest pulls on fixed points in the runs that check the mesh, and where they are found there.
+LOADS_AGAIN = {
+    "load_half_step": "half_step", "load_double_mesh": "double_mesh", "load_damped": "damped",
+    "load_finest": "finest",
+}  # fmt: skip
 #: Motions of bodies in the summary.
 SOLID = ("offset", "mean_offset", "heave_range", "roll_range", "pitch_range", "yaw_range", "highest_lean")
 
@@ -70,6 +75,10 @@ def summary_dataset(
             label = "sensitivity_peak" if key == "peak" else key
             values = [getattr(item.sensitivity, key) if item.sensitivity else math.nan for item in runs]
             out[label] = ("run", np.array(values))
+        for label, key in LOADS_AGAIN.items() if names else ():
+            pulls: list[dict[str, Any]] = [dict(item.sensitivity.pulls) if item.sensitivity else {} for item in runs]
+            values = [[getattr(own.get(name), key, math.nan) for name in names] for own in pulls]
+            out[label] = (("run", "point"), np.array(values))
     if rest is not None and names:
         out["still_place"] = (("point", "axis"), np.asarray(rest))
     if solids_at_rest is not None and solids:

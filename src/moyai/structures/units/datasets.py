@@ -379,9 +379,9 @@ def _status(answers: list[SeaAnswer]) -> str:
 #: Phases of a period at which a distance is looked at, and at which lines are.
 _PHASES, _STATES = 360, 36
 #: Numbers that are given a band of the damping.
-_BANDED = (
+BANDED = (
     "significant_motion", "motion_amplitude", "largest_offset", "line_tension_maximum", "connector_resultant_largest",
-    "transmission_coefficient", "wave_height_ratio_of_point",
+    "connector_moment_largest", "gap_closing_largest", "transmission_coefficient", "wave_height_ratio_of_point",
 )  # fmt: skip
 
 
@@ -398,7 +398,7 @@ def with_damping_band(data: xr.Dataset, others: list[xr.Dataset]) -> xr.Dataset:
     if not others:
         return data
     found = {}
-    for name in (name for name in _BANDED if name in data):
+    for name in (name for name in BANDED if name in data):
         values = np.array([item[name].values for item in (data, *others)])
         for end, pick in (("low", np.fmin), ("high", np.fmax)):
             found[f"{name}_{end}"] = (data[name].dims, pick.reduce(values, axis=0))
@@ -482,6 +482,7 @@ def map_dataset(
 
 
 __all__ = [
+    "BANDED",
     "along_the_path",
     "hydrodynamics_dataset",
     "irregular_dataset",

@@ -16,6 +16,7 @@ from moyai.core.arrays import Array
 from moyai.core.headline import Band, Bound, Headline, governing
 from moyai.core.wording import spoken
 from moyai.series.realisations import ALONE, alone, seeds
+from moyai.structures.units.datasets import BANDED
 from moyai.structures.units.model import DAMPING_BAND, SNAP_RATIO
 
 if TYPE_CHECKING:
@@ -26,10 +27,6 @@ AT_REST = "linear, lines at rest at every instant"
 TIME = "time domain, three dimensions"
 TIME_AT_REST = "time domain, lines at rest at every instant"
 IN_MOTION = "time domain, lines in motion around events"
-#: Numbers of the time domain that take the band of damping of the frequency domain.
-_SPREAD = (
-    "significant_motion", "motion_amplitude", "largest_offset", "line_tension_maximum", "connector_resultant_largest",
-)  # fmt: skip
 Seas = list[tuple[str, "xr.Dataset"]]
 
 
@@ -69,10 +66,18 @@ def governing_seas(groups: Mapping[str, xr.Dataset]) -> Seas:
 
 
 def _with_damping(time: xr.Dataset, frequency: xr.Dataset) -> xr.Dataset:
-    """Return a sea in time with the ends over the damping of the units, by their change in the frequency domain."""
+    """Return a sea in time with the ends over the damping of the units, by their change in the frequency domain.
+
+    Ends that were run in time stay.
+    """
     found = {}
-    for name in _SPREAD:
-        if name not in time or f"{name}_low" not in frequency or time[name].dims != frequency[name].dims:
+    for name in BANDED:
+        if (
+            name not in time
+            or f"{name}_low" in time
+            or f"{name}_low" not in frequency
+            or time[name].dims != frequency[name].dims
+        ):
             continue
         own = frequency[name].values
         for end in ("low", "high"):
@@ -143,6 +148,7 @@ def _greatest(
 #: Groups of waves move a row on chains slowly and far about its mean place; a single unit with it has several times the
 #: tension. Without it tensions and offsets of an irregular sea prove no strength.
 _WITHOUT_DRIFT = "; slow drift about the mean is not computed and adds to it, on chains several times over"
+_DRIFTS_APART = "; nothing joins the units, and their slow drift against each other is not computed and adds to it"
 _DAMPING = f"damping of the units beyond waves times {DAMPING_BAND[0]:g} to {DAMPING_BAND[1]:g}"
 _SNAPS = f"; pulled beyond {SNAP_RATIO:g} times its mean, where a line at rest at every instant says too little"
 
@@ -202,6 +208,16 @@ class _Largest:
         return alone(self.scatter)
 
     @property
+    def digits(self) -> int:
+        """Digits that are known: two where rounding decides when a connector or a line comes taut, so that no run
+        repeats."""
+        if not self.timed:
+            return 3
+        tight = self.data["line_tension_maximum"] > SNAP_RATIO * self.data["line_tension_mean"]
+        curved = "elongation_highest" in self.data and bool(np.isfinite(self.data["elongation_highest"]).any())
+        return 2 if self.scatter.size and (curved or bool(tight.any())) else 3
+
+    @property
     def without_drift(self) -> bool:
         """Whether it is of an irregular sea without slow drift."""
         return not self.timed and "significant_motion" in self.data
@@ -248,16 +264,24 @@ def _gaps(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Headline]:
     if "gap_width" not in statics or not statics.sizes["gap"]:
         return
     width = np.asarray(statics["gap_width"].values, dtype=float)
-    yield from _all_judged(
-        [
-            Headline(
-                "gap_closing", "Largest share of a gap that closes at a corner of the hulls", closing.value, "1",
-                closing.where, _model(closing), band=closing.band, bound=_of_motion(closing),
-                detail=f"{closing.value * closing.scale:.3g} m of {closing.scale:.3g} m; at 1 the hulls touch",
-            )
-            for closing in _each(seas, "gap_closing_largest", over=width)
-        ]
+    yield from _all_judged([_closing(found) for found in _each(seas, "gap_closing_largest", over=width)])
+
+
+def _closing(found: _Largest) -> Headline:
+    """Return how far a gap closes; units that nothing joins drift against each other as well."""
+    apart = found.without_drift and not _joined(found)
+    detail = f"{found.value * found.scale:.3g} m of {found.scale:.3g} m; at 1 the hulls touch"
+    return Headline(
+        "gap_closing", "Largest share of a gap that closes at a corner of the hulls", found.value, "1",
+        found.where, _model(found), band=found.band, bound="at least" if apart else _of_motion(found),
+        detail=detail + _DRIFTS_APART * apart,
     )  # fmt: skip
+
+
+def _joined(found: _Largest) -> bool:
+    """Whether a connector joins the units of a gap; names of both end with the numbers of the units."""
+    gap = str(found.data["gap"].values[found.index[-1]]).split()[-1]
+    return any(str(name).split()[-1] == gap for name in found.data["connector"].values)
 
 
 def _connectors(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Headline]:
@@ -266,23 +290,27 @@ def _connectors(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Headli
         return
     yield from _all_judged([_connector_force(found) for found in each])
     load = np.asarray(groups[f"/{each[0].path.split('/')[1]}/statics"]["connector_breaking_load"].values, dtype=float)
-    moment = _largest(seas, "connector_moment_largest")
+    moments = [found for found in _each(seas, "connector_moment_largest") if found.value > 0.0]
     if np.isfinite(load).any():
-        bent = moment is not None and moment.value > 0.0
         yield from _all_judged(
             [
                 Headline(
                     "connector_utilisation", "Largest force over breaking load of a connector", share.value, "1",
                     share.where, _model(share), band=share.band, bound=_of_motion(share),
-                    judged_on="the force without the moment" * bent,
+                    judged_on="the force without the moment" * bool(moments), digits=share.digits,
                 )
                 for share in _each(seas, "connector_resultant_largest", over=load)
             ]
         )  # fmt: skip
-    if moment is not None and moment.value > 0.0:
-        yield Headline(
-            "connector_moment", "Largest moment in a connector", moment.value, "N m", moment.where, _model(moment)
-        )
+    yield from _all_judged(
+        [
+            Headline(
+                "connector_moment", "Largest moment in a connector", found.value, "N m", found.where, _model(found),
+                band=found.band, bound=_of_motion(found),
+            )
+            for found in moments
+        ]
+    )  # fmt: skip
     opened = [(path, _with_opening(data)) for path, data in seas]
     yield from _all_judged(
         [
@@ -347,8 +375,7 @@ def _connector_force(found: _Largest) -> Headline:
     details = (words, ALONE if found.bound else "", across if _stretched(found) else "")
     return Headline(
         "connector_force", "Largest force in a connector", found.value, "N", found.where, _model(found),
-        band=found.band, bound=_of_motion(found),
-        detail="; ".join(filter(None, details)),
+        band=found.band, bound=_of_motion(found), detail="; ".join(filter(None, details)), digits=found.digits,
     )  # fmt: skip
 
 
@@ -408,6 +435,7 @@ def _line_tension(found: _Largest) -> Headline:
     return Headline(
         "line_tension", "Largest tension of a line", found.value, "N", found.where, _line_model(found), mean=mean,
         bound=bound, band=_line_band(found), detail=f"mean {spoken(mean, 'N', 3)}{words}", analysis=_analysis(found),
+        digits=found.digits,
     )  # fmt: skip
 
 
@@ -421,7 +449,7 @@ def _utilisation(share: _Largest, shown: bool) -> Headline:
     return Headline(
         "line_utilisation", "Tension over breaking load of a line", share.value, "1", share.where, _line_model(share),
         mean=own / share.scale, bound=_of_line(share, own)[0], band=_line_band(share), analysis=_analysis(share),
-        shown=shown,
+        shown=shown, digits=share.digits,
     )  # fmt: skip
 
 

@@ -48,6 +48,7 @@ from moyai.structures.units.seas import (
 from moyai.structures.units.section import SectionAnswer, comparable, section_answer
 from moyai.structures.units.time.analysis import sea_in_time, water_in_time
 from moyai.structures.units.time.band import ABOVE
+from moyai.structures.units.time.damping import curves_bear, with_ends_in_time
 from moyai.structures.units.variables import VOCABULARY
 from moyai.structures.units.viscous import eddy_notices
 
@@ -238,7 +239,8 @@ def _level_steps(
         yield
     progress("seas", len(answers), len(environment.sea_states))
     if "time" in settings.analyses:
-        yield from _time_steps(problem, at, hydro, wind + current, answers, collected, store, progress)
+        ends = {name: list(zip(others, found, strict=True)) for name, found in varied.items()}
+        yield from _time_steps(problem, at, hydro, wind + current, (answers, ends), collected, store, progress)
     if "map" in settings.analyses:
         section = _section(problem, at, hydro, progress)
         points = map_points(problem.map_area, at)
@@ -259,12 +261,12 @@ def _time_steps(
     at: RowAtLevel,
     hydro: RowHydrodynamics,
     steady: Array,
-    answers: dict[str, list[SeaAnswer]],
+    answered: tuple[dict[str, list[SeaAnswer]], dict[str, list[tuple[RowAtLevel, list[SeaAnswer]]]]],
     collected: Collected,
     store: DatasetStore | None,
     progress: Progress,
 ) -> Iterator[None]:
-    root = f"/{at.name}"
+    root, (answers, ends) = f"/{at.name}", answered
     water, data, checks, notices = water_in_time(at, hydro, steady, problem.settings, store=store, progress=progress)
     collected.checks.extend(checks)
     collected.notices.extend(notices)
@@ -272,6 +274,9 @@ def _time_steps(
         collected.groups[f"{root}/{name}"] = item
     for sea in problem.environment.sea_states:
         found = sea_in_time(water, sea, answers[sea.name], progress)
+        frequency = collected.groups[f"{root}/frequency/{sea.name}"]
+        if found.status == "converged" and ends[sea.name] and curves_bear(at, frequency, found.groups[""]):
+            found = with_ends_in_time(water, sea, found, ends[sea.name], progress)
         for end, item in found.groups.items():
             collected.groups[f"{root}/time/{sea.name}{end}"] = item
         collected.notices.extend(found.notices)

@@ -74,6 +74,7 @@ def run_cage(
         flow=flow,
         start=rest.state,
         step=step,
+        counted_from=ramp,
         progress=progress,
     )
     return CageRun(wave, rest, flow, ramp, history)

@@ -80,7 +80,8 @@ def limits_dataset(
     group = _limits_group(unit, settings, counted, _Found(most, most_bound, speeds, tuple(rows)), heights, parts)
     strict = _settled(counted, lost_depth)
     height = float(group["design_limit_height"])
-    return group.assign(design_limit_low=_design_low(_strict(counted, lost_depth), speeds)).assign_attrs(
+    return group.assign(_design_ends(_strict(counted, lost_depth), speeds)).assign_attrs(
+        realisations=settings.waves.realisations,
         speed_limit_of_least_depth=math.nan if strict.unit is unit else strict.speed()[0].value,
         design_limit_period=settings.limits.period_of(height) if height > 0.0 else math.nan,
         period_follows_height=int(settings.limits.period is None),
@@ -120,16 +121,25 @@ def _strict(counted: CountedLimits, lost_depth: float) -> CountedLimits:
     return replace(counted, unit=replace(unit, curtain=replace(unit.curtain, strengths=strict)))
 
 
-def _design_low(strict: CountedLimits, speeds: tuple[float, ...]) -> xr.DataArray:
-    """Return the height held in currents up to that of the case, loads at the upper ends of their bands [m]."""
+def _design_ends(strict: CountedLimits, speeds: tuple[float, ...]) -> dict[str, xr.DataArray]:
+    """Return the height held in currents up to that of the case, loads at the upper ends of their bands [m].
+
+    Beside it stands by how much other seeds of the seas that prove it may lower it.
+    """
     import xarray as xr
 
-    own, low = strict.unit.surface_speed, math.nan
+    own, low, lower = strict.unit.surface_speed, math.nan, math.nan
     if own > 0.0:
-        severe = replace(strict, loads=_severe(strict.unit, strict.loads))
         within = {speed for speed in speeds if speed < own * (1.0 - 1e-9)} | {own}
-        low = min(severe.height(speed)[0].value for speed in within)
-    return xr.DataArray(low)
+
+        def least(loads: SeaLoads) -> float:
+            counted = replace(strict, loads=loads)
+            return min(counted.height(speed)[0].value for speed in within)
+
+        severe = _severe(strict.unit, strict.loads)
+        low = least(severe)
+        lower = low if severe.snaps is None else least(replace(severe, other_seeds=True))
+    return {"design_limit_low": xr.DataArray(low), "design_limit_scatter": xr.DataArray(low - lower)}
 
 
 def _severe(unit: LevelCurtain, loads: SeaLoads) -> SeaLoads:

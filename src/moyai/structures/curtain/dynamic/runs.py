@@ -189,7 +189,7 @@ def run_span(
     rows = min(MOST_ROWS, max(2, round(duration / output_step)))
     history = simulate(
         built.network, duration=duration, output_step=duration / rows, flow=chosen, start=built.state, step=step,
-        progress=progress,
+        counted_from=from_time, progress=progress,
     )  # fmt: skip
     return DynamicRun(built, history, chosen, from_time)
 

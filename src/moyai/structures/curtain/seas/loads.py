@@ -191,6 +191,8 @@ class SeaLoads:
     upright: bool = False
     #: Whether snaps count at the upper end of the interval of their mean.
     judged: bool = False
+    #: Whether they count at that end as other seeds may give it.
+    other_seeds: bool = False
     #: Whether snaps are those of the heights that were run already: at least so much above them.
     known: bool = False
     #: Upper end of the band of the steady loads over their value [-], by component; None: at their value.
@@ -213,7 +215,9 @@ class SeaLoads:
         found = increase(self.drag.at(moving), statics)
         if self.snaps is not None:
             table, proportions = self.snaps
-            tension = table.tension(speed, significant_height, judged=self.judged, known=self.known)
+            tension = table.tension(
+                speed, significant_height, judged=self.judged, known=self.known, other_seeds=self.other_seeds
+            )
             struck = proportions.of_tension(tension)
             if self.energy is not None and not self.upright:
                 # the energy model was fitted to anchor lines of free toes; fixed supports would overload them

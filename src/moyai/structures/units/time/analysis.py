@@ -39,6 +39,8 @@ if TYPE_CHECKING:
 LEAST_WAVES = 10.0
 #: Error of the memory that is told, of the largest response
 _TOLD = 0.02
+#: Change of a growing motion from one period to the next that is told.
+_SEEN = 1e-3
 #: Turns in which frequencies are added where the memory misses what was interpolated, and most of them a turn.
 _MOST_TURNS, _MOST_GAPS = 2, 8
 
@@ -112,7 +114,7 @@ def sea_in_time(
     """Run all periods or all realisations of a sea."""
     runs: list[Kept] = []
     carried: list[list[Carried]] = []
-    for run in _runs(water, sea, answers, progress):
+    for run in runs_of(water, sea, answers, progress):
         runs.append(Kept.of(run))
         if not run.complete:
             break
@@ -120,14 +122,13 @@ def sea_in_time(
     good = [item for item in runs if item.status == "converged"] or runs[:1]
     regular = isinstance(sea, RegularSea)
     notices: list[Notice] = []
+    data = numbers_of(water.at, sea, good)
     if isinstance(sea, RegularSea):
-        data = regular_time_dataset(water.at, sea, good)
         if len(carried) == len(runs):
             data, told = _periods_in_motion(water, sea, data, carried, progress)
             notices += told
         groups = {f"T{period:g}": item.series for period, item in zip(sea.periods, good)}
     else:
-        data = irregular_time_dataset(water.at, sea, good)
         if len(carried) == len(runs):
             data, told = _in_motion(water, sea, data, [member for (member,) in carried], progress)
             notices += told
@@ -142,9 +143,17 @@ def sea_in_time(
     )  # fmt: skip
 
 
-def _runs(
+def numbers_of(at: RowAtLevel, sea: RegularSea | IrregularSea, runs: list[Kept]) -> xr.Dataset:
+    """Return the numbers of a sea."""
+    if isinstance(sea, RegularSea):
+        return regular_time_dataset(at, sea, runs)
+    return irregular_time_dataset(at, sea, runs)
+
+
+def runs_of(
     water: Water3D, sea: RegularSea | IrregularSea, answers: list[SeaAnswer], progress: Progress
 ) -> Iterator[TimeRun]:
+    """Yield the run of every period or realisation of a sea."""
     if isinstance(sea, RegularSea):
         for period, answer in zip(sea.periods, answers):
             yield repeating_run(water, sea, period, answer, progress)
@@ -275,13 +284,24 @@ def _notices(water: Water3D, sea: RegularSea | IrregularSea, data: xr.Dataset, r
             )  # fmt: skip
     if isinstance(sea, RegularSea):
         for period, run in zip(sea.periods, runs):
-            if run.change > REPEATING:
+            there = f"{where}, T = {float(period):g} s"
+            if run.growth and run.change > _SEEN:
+                out.append(
+                    Notice(
+                        "still-growing",
+                        f"{there}: the motion changes by {100.0 * run.change:.2g} % from one period to the next, "
+                        f"{100.0 * run.growth:.2g} % more each period: it grows slowly to another motion, whose loads "
+                        "are higher",
+                        value=run.change, limit=_SEEN, remedy="a longer settings.time.duration, or more damping",
+                    )
+                )  # fmt: skip
+            elif run.change > REPEATING:
                 ends = f"means over {len(run.parts)} parts of its end" if run.parts else "those of its end alone"
                 out.append(
                     Notice(
                         "not-repeating",
-                        f"{where}, T = {float(period):g} s: the motion changes by {100.0 * run.change:.0f} % from one "
-                        f"period to the next: it does not repeat, and its largest values are {ends}",
+                        f"{there}: the motion changes by {100.0 * run.change:.0f} % from one period to the next: it "
+                        f"does not repeat, and its largest values are {ends}",
                         value=run.change, limit=REPEATING,
                         remedy="slack connectors and lines may never settle to one period; a longer "
                         "settings.time.duration narrows the band",

@@ -28,8 +28,9 @@ if TYPE_CHECKING:
 MOST_ROWS = 20_000
 #: Of a mean that is taken over realisations: also kept one by one
 _SCATTER = (
-    "connector_resultant_largest", "connector_moment_resultant_largest", "line_tension_maximum", "largest_offset",
-    "gap_motion_largest", "gap_closing_largest", "connector_damage_rate", "maximum_motion",
+    "connector_resultant_largest", "connector_moment_largest", "connector_moment_resultant_largest",
+    "line_tension_maximum", "largest_offset", "gap_motion_largest", "gap_closing_largest", "connector_damage_rate",
+    "maximum_motion",
 )  # fmt: skip
 _LOWEST = ("elongation_lowest",)
 _HIGHEST = ("elongation_highest", "stretch_across")
@@ -149,7 +150,7 @@ class Kept:
     status, message : str
     contacts : bool
         As of :class:`moyai.structures.units.time.seas.TimeRun`.
-    change : float
+    change, growth : float
         As of the same.
     parts : tuple of dict
         Numbers of each part of a motion that does not repeat; none of others.
@@ -162,6 +163,7 @@ class Kept:
     message: str
     contacts: bool
     change: float
+    growth: float
     parts: tuple[Numbers, ...]
 
     @classmethod
@@ -170,7 +172,7 @@ class Kept:
         run, parts = given.run, tuple(run_numbers(part) for part in given.parts)
         return cls(
             _together(parts), series_dataset(run.model.at, given), given.seed, run.status, run.message,
-            given.contacts, given.change, parts if len(parts) > 1 else (),
+            given.contacts, given.change, given.growth, parts if len(parts) > 1 else (),
         )  # fmt: skip
 
 

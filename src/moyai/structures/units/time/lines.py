@@ -162,13 +162,15 @@ def rerun(at: RowAtLevel, moving: MovingLine, given: Carried, event: float) -> f
     state = carried_along(moving.network, moving.rest, {moving.line.name: at.centres[moving.unit] + start})
     duration = float(time[-1])
     flow = sea_of_lines(waves, None, 0.0, state.position, duration + step, step)
+    counted_from = event - begun - AROUND * given.period
     history = simulate(
-        moving.network, {moving.line.name: motion}, duration=duration, output_step=step, flow=flow, start=state
-    )
+        moving.network, {moving.line.name: motion}, duration=duration, output_step=step, flow=flow, start=state,
+        counted_from=counted_from,
+    )  # fmt: skip
     if history.status != "converged":
         raise ConvergenceError(f"line '{moving.line.name}' in motion: {history.message}")
     ends = end_tensions(moving.network, moving.line.name, history.position, history.tension_peak)
-    counts = history.time >= event - begun - AROUND * given.period
+    counts = history.time >= counted_from
     return float(np.maximum(ends[0], ends[1])[counts].max())
 
 

@@ -24,12 +24,17 @@ from moyai.structures.units.seas import SeaAnswer, columns_of
 from moyai.structures.units.time.memory import RowMemory
 from moyai.structures.units.time.model import STEPS_OF_WAVE, RowInTime, RowRun
 
-#: Periods of the ramp, of the whole run in regular waves, and of one whose motion does not repeat by then
-RAMP, PERIODS, MOST_PERIODS = 10.0, 50.0, 300.0
+#: Periods of the ramp, and of the whole run in regular waves: of one whose motion does not repeat by then, and of one
+#: that still grows
+RAMP, PERIODS, MOST_PERIODS, GROWING_PERIODS = 10.0, 50.0, 300.0, 1000.0
 #: Change of the motion from one period to the next, over its size, up to which it repeats
 REPEATING = 0.05
+#: Such change below which its growth is that of rounding or leads nowhere in the longest run.
+LEAST_CHANGE = 1e-6
 #: Parts of the last two thirds of a motion that never repeats, whose largest values are averaged; least periods of each
 PARTS, LEAST_OF_PART = 5, 4
+#: Stretches of a long record over which a change has to grow
+_STRETCHES = 5
 #: Share of the step of the waves that a contact may ask for
 _LEAST_STEP = 0.1
 #: Share of the energy of a sea in waves that the step resolves
@@ -88,6 +93,8 @@ class TimeRun:
         Of the analysis [s].
     change : float
         Of a regular motion from one period to the next, over its size.
+    growth : float
+        Of that change a period, 0 where it falls: a combination resonance of the lines begins small.
     """
 
     run: RowRun
@@ -100,6 +107,7 @@ class TimeRun:
     contacts: bool = True
     end: float = math.inf
     change: float = 0.0
+    growth: float = 0.0
 
     @property
     def kept(self) -> slice:
@@ -142,12 +150,19 @@ def repeating_run(
 ) -> TimeRun:
     """Run the row in regular waves until its motion repeats, or long enough for the statistics of one that never does.
 
+    One whose change from period to period is small and grows does not repeat yet.
+
     A given duration is kept.
     """
-    first = regular_run(water, sea, period, answer, PERIODS, progress)
-    if water.time.duration is not None or not first.complete or first.change <= REPEATING:
-        return first
-    return regular_run(water, sea, period, answer, MOST_PERIODS, progress)
+    found = regular_run(water, sea, period, answer, PERIODS, progress)
+    if water.time.duration is not None:
+        return found
+    for least in (MOST_PERIODS, GROWING_PERIODS):
+        settled = found.change <= REPEATING or least == GROWING_PERIODS
+        if not found.complete or (settled and not found.growth):
+            break
+        found = regular_run(water, sea, period, answer, least, progress)
+    return found
 
 
 def regular_run(
@@ -190,7 +205,10 @@ def regular_run(
     )
     begin = float(time[-1] - analysed)
     change = _change(run.position, per_period, settings.analysed_periods)
-    return TimeRun(run, one, wave.real[: len(run.time)], ramp, begin, omega, contacts=resolved, change=change)
+    return TimeRun(
+        run, one, wave.real[: len(run.time)], ramp, begin, omega, contacts=resolved, change=change,
+        growth=_growth(run.position, per_period, settings.analysed_periods),
+    )  # fmt: skip
 
 
 def _change(position: Array, per_period: int, periods: int) -> float:
@@ -206,6 +224,20 @@ def _change(position: Array, per_period: int, periods: int) -> float:
     moved = np.linalg.norm((last - before).reshape(units).std(axis=0), axis=(0, 2))
     size = np.linalg.norm(last.reshape(units).std(axis=0), axis=(0, 2))
     return float(np.max(moved / np.maximum(size, 1e-12)))
+
+
+def _growth(position: Array, per_period: int, periods: int) -> float:
+    """Return by how much the change from period to period grows a period, 0 where it falls or is that of rounding.
+
+    A long record has to show it over several stretches: the change of a motion that never repeats goes up and down.
+    """
+    rows = periods * per_period
+    stretches = _STRETCHES if len(position) > 3 * _STRETCHES * rows else 2
+    changes = [_change(position[: len(position) - k * rows], per_period, periods) for k in range(stretches)]
+    rising = all(late > early > 0.0 for late, early in itertools.pairwise(changes))
+    if not rising or changes[0] < LEAST_CHANGE:
+        return 0.0
+    return math.log(changes[0] / changes[-1]) / (periods * (stretches - 1))
 
 
 def irregular_run(
