@@ -241,8 +241,9 @@ def _misfit(basis: _Basis, s: ComplexArray, given: ComplexArray, found: Array, s
 def _passive(basis: _Basis, s: ComplexArray, weight: Array, found: Array, slope: Array) -> tuple[Array, Array, float]:
     """Move the residues as little as can be until damping is nowhere negative [eq:units-passive].
 
-    Least squares over the band and the nearest damping without negative eigenvalues at every watched frequency by turns
-    (alternating directions of multipliers); what is left then is lifted alike in all motions.
+    Nor is the added mass at infinite frequency. Least squares over the band and the nearest matrices without negative
+    eigenvalues, damping at every watched frequency and that added mass, by turns (alternating directions of
+    multipliers); what is left then is lifted alike in all motions.
     """
     design = _stacked(basis, s, weight)
     watched = basis.watched(float(np.abs(s).max()))
@@ -250,6 +251,7 @@ def _passive(basis: _Basis, s: ComplexArray, weight: Array, found: Array, slope:
     scale = float(np.linalg.norm(np.einsum("wb,bij->wij", damping, found), axis=(1, 2)).max())
     size = found.shape[1]
     rows = np.column_stack([damping, np.zeros(len(damping))])
+    rows = np.vstack([rows, np.eye(rows.shape[1])[-1]])
     first = np.concatenate([found, slope[None]]).reshape(-1, size * size)
     normal = design.T @ design
     pull = _PULL * np.trace(normal) / np.trace(rows.T @ rows)
@@ -266,7 +268,7 @@ def _passive(basis: _Basis, s: ComplexArray, weight: Array, found: Array, slope:
     short = float(np.linalg.eigvalsh((rows @ now).reshape(-1, size, size))[:, 0].min())
     if short < 0.0:
         triangle: Array = np.asarray(np.linalg.qr(design, mode="r"), dtype=float)
-        lift = -1.01 * short * _passive_function(damping, triangle)
+        lift = -1.01 * short * _passive_function(rows, triangle)
         now = now + lift[:, None] * np.eye(size).ravel()
     moved = now.reshape(-1, size, size)
     moved = 0.5 * (moved + moved.swapaxes(1, 2))
@@ -275,11 +277,11 @@ def _passive(basis: _Basis, s: ComplexArray, weight: Array, found: Array, slope:
     return moved[:-1], moved[-1], float(np.linalg.eigvalsh(every)[:, 0].min() / largest)
 
 
-def _passive_function(damping: Array, triangle: Array) -> Array:
-    """Return coefficients and slope (b + 1,) of the smallest function whose damping is 1 or more in every row."""
-    turned = np.linalg.solve(triangle.T, np.column_stack([damping, np.zeros(len(damping))]).T)
+def _passive_function(rows: Array, triangle: Array) -> Array:
+    """Return coefficients and slope (b + 1,) of the smallest function that is 1 or more in every row."""
+    turned = np.linalg.solve(triangle.T, rows.T)
     # least distance (Lawson and Hanson): min |y| with y turned >= 1
-    stack = np.vstack([turned, np.ones(len(damping))])
+    stack = np.vstack([turned, np.ones(len(rows))])
     unit = np.zeros(len(stack))
     unit[-1] = 1.0
     rest = stack @ nnls(stack, unit, maxiter=100 * stack.shape[1])[0] - unit
