@@ -27,7 +27,9 @@ def statics_band(statics: xr.Dataset, name: str) -> Band | None:
     ends = [f"steady_{name}_low", f"steady_{name}_high"]
     if all(end in statics for end in ends):
         low, high = (float(statics[end]) for end in ends)
-        return Band(low, high, "drag, weights and what the skirt's ends hold") if low < high else None
+        return (
+            Band(low, high, "drag, weights, flow under the toe and what the skirt's ends hold") if low < high else None
+        )
     if name not in statics:
         return None
     values = statics[name].values

@@ -303,7 +303,7 @@ def _band(found: _Largest, ranges: tuple[MeasuredRange, ...]) -> Band:
 
     Forces are proportional to their coefficients [eq:morison-strip], so the series of the causes give every
     combination without a further run. In an irregular sea both ends are moved in proportion by the smallest and the
-    largest realisation; criteria are judged with the one-sided 95 % interval of their mean instead.
+    largest realisation, or by the end of the one-sided 95 % interval of their mean, with which criteria are judged.
     """
     ends = [(1.0 - item.below, 1.0 + item.above) for item in ranges]
     order = (1, 0, 2)
@@ -324,8 +324,9 @@ def _band(found: _Largest, ranges: tuple[MeasuredRange, ...]) -> Band:
     low, high = min([own, *peaks]) / own, max([own, *peaks]) / own
     reach = reach_of_mean(scatter)
     words.append(f"{scatter.size} realisations; judged at the 95 % end of their mean")
+    most = max(float(scatter.max()), found.value + reach)
     return Band(
-        low * float(scatter.min()), high * float(scatter.max()), ", ".join(words), decides=False,
+        low * float(scatter.min()), high * most, ", ".join(words), decides=False,
         judged=(low * (found.value - reach), high * (found.value + reach)),
         realisations=scatter.size, more="settings.realisations", settled=high * found.value,
     )  # fmt: skip

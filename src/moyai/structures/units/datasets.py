@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from moyai.core.arrays import Array, ComplexArray
 from moyai.floating.irregular import response_statistics
@@ -301,6 +302,7 @@ def irregular_dataset(at: RowAtLevel, sea: IrregularSea, answer: SeaAnswer) -> x
         return float(largest(item.fine.motion @ joint.along))
 
     low, high = _by_curve(at, [answer], reach, top, resultant)
+    joins = _joins(at, answer)
     mean_tension = at.tensions(answer.rest.position)
     waves = response_statistics(omega, np.ones(density.shape), density)
     dims = ("connector", "component")
@@ -331,6 +333,8 @@ def irregular_dataset(at: RowAtLevel, sea: IrregularSea, answer: SeaAnswer) -> x
             "gap",
             largest_closing(at, answer.rest.position, lambda corners: largest(fine.motion @ corners.T)),
         ),
+        "connector_joins": ("connector", joins.astype(np.int8)),
+        "gap_joined": ("gap", np.array([_is_joined(at, gap.pair, joins) for gap in gaps_of(at)], dtype=np.int8)),
         "line_tension_mean": ("line", mean_tension),
         "line_tension_maximum": ("line", mean_tension + largest(fine.tension)),
     }
@@ -345,6 +349,21 @@ def irregular_dataset(at: RowAtLevel, sea: IrregularSea, answer: SeaAnswer) -> x
         "status": _status([answer]),
     }
     return data
+
+
+def _joins(at: RowAtLevel, answer: SeaAnswer) -> NDArray[np.bool_]:
+    """Return whether each connector holds its units together: it constrains them or outdoes the lines of a unit."""
+    lines = at.line_stiffness(answer.rest.position).diagonal().reshape(-1, 6)[:, :2].max(initial=0.0)
+    own = [
+        0.0 if joint.connector.stiffness is None else np.abs(joint.connector.stiffness[:3, :3]).max()
+        for joint in at.joints
+    ]
+    held = np.array([len(joint.held) > 0 for joint in at.joints], dtype=bool)
+    return np.asarray(held | (np.array(own) + answer.curve_stiffness > lines))
+
+
+def _is_joined(at: RowAtLevel, pair: tuple[int, int], joins: NDArray[np.bool_]) -> bool:
+    return any(there and set(joint.pair) == set(pair) for joint, there in zip(at.joints, joins, strict=True))
 
 
 def _gaussian_resultant(answer: SeaAnswer, duration: float) -> Array:

@@ -15,9 +15,7 @@ from moyai.core.arrays import Array
 from moyai.mooring.rotations import cross_matrix
 from moyai.structures.units.assembly import RowAtLevel
 from moyai.structures.units.links import displacement, hold_together
-
-#: Units that are turned against each other by more [rad], or lie further aside [lengths of a unit], do not face.
-_FACING = 1e-6
+from moyai.structures.units.model import facing
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,20 +72,14 @@ def gaps_of(at: RowAtLevel) -> tuple[Gap, ...]:
     out = []
     places, length = at.row.placements, at.row.length
     outline = np.concatenate([item.edges.polyline() for item in at.row.hull.outlines])
-    for first, one in enumerate(places):
-        for second, other in enumerate(places):
-            apart = one.rotation.T @ np.array([other.x - one.x, other.y - one.y, 0.0])
-            turned = abs(np.angle(np.exp(1j * (other.heading - one.heading))))
-            faces = turned <= _FACING and abs(apart[0]) <= _FACING * length
-            if first == second or not faces or not length < apart[1] < 2.0 * length:
-                continue
-            arms = []
-            for unit, end in ((first, 0.5 * length), (second, -0.5 * length)):
-                corners = np.column_stack([outline[:, 0], np.full(len(outline), end), outline[:, 1] - at.draught])
-                arms.append(places[unit].to_row(corners) - at.centres[unit])
-            bend = 0.0 if hold_together(at.joints, (first, second)) else 1.0
-            name = f"gap {first + 1}-{second + 1}"
-            out.append(Gap(name, (first, second), float(apart[1]) - length, one.rotation[:, 1], np.array(arms), bend))
+    for first, second, width in facing(places, length):
+        arms = []
+        for unit, end in ((first, 0.5 * length), (second, -0.5 * length)):
+            corners = np.column_stack([outline[:, 0], np.full(len(outline), end), outline[:, 1] - at.draught])
+            arms.append(places[unit].to_row(corners) - at.centres[unit])
+        bend = 0.0 if hold_together(at.joints, (first, second)) else 1.0
+        name = f"gap {first + 1}-{second + 1}"
+        out.append(Gap(name, (first, second), width, places[first].rotation[:, 1], np.array(arms), bend))
     return tuple(out)
 
 

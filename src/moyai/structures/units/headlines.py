@@ -148,7 +148,9 @@ def _greatest(
 #: Groups of waves move a row on chains slowly and far about its mean place; a single unit with it has several times the
 #: tension. Without it tensions and offsets of an irregular sea prove no strength.
 _WITHOUT_DRIFT = "; slow drift about the mean is not computed and adds to it, on chains several times over"
-_DRIFTS_APART = "; nothing joins the units, and their slow drift against each other is not computed and adds to it"
+_DRIFTS_APART = (
+    "; nothing holds the units together, and their slow drift against each other is not computed and adds to it"
+)
 _DAMPING = f"damping of the units beyond waves times {DAMPING_BAND[0]:g} to {DAMPING_BAND[1]:g}"
 _SNAPS = f"; pulled beyond {SNAP_RATIO:g} times its mean, where a line at rest at every instant says too little"
 
@@ -254,7 +256,8 @@ def _all_judged(items: list[Headline]) -> list[Headline]:
 
     A sea whose number may be larger than shown is no less open because another one pulls harder.
     """
-    kept = governing(items)
+    # of equal numbers the one that is open stands first
+    kept = governing(sorted(items, key=lambda item: not item.bound))
     open_ones = [item for item in items if item.bound and item.where not in {one.where for one in kept}]
     return [*kept, *(replace(item, shown=False, sea="") for item in open_ones)]
 
@@ -279,9 +282,16 @@ def _closing(found: _Largest) -> Headline:
 
 
 def _joined(found: _Largest) -> bool:
-    """Whether a connector joins the units of a gap; names of both end with the numbers of the units."""
-    gap = str(found.data["gap"].values[found.index[-1]]).split()[-1]
-    return any(str(name).split()[-1] == gap for name in found.data["connector"].values)
+    """Whether a connector holds the units of a gap together."""
+    return bool(found.data["gap_joined"].values[found.index[-1]])
+
+
+def _loose(found: _Largest) -> bool:
+    """Whether a number of a connector is of units that it does not hold together, without their slow drift."""
+    if not found.without_drift:
+        return False
+    row = found.index[found.data[found.name].dims.index("connector")]
+    return not found.data["connector_joins"].values[row]
 
 
 def _connectors(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Headline]:
@@ -345,7 +355,8 @@ def _of_motion(found: _Largest) -> Bound:
     strained = not found.timed and bool(
         (found.data["line_tension_maximum"] > SNAP_RATIO * found.data["line_tension_mean"]).any()
     )
-    return "at least" if strained or _stretched(found) else found.bound
+    loose = found.name in found.data and "connector" in found.data[found.name].dims and _loose(found)
+    return "at least" if strained or loose or _stretched(found) else found.bound
 
 
 def _with_opening(data: xr.Dataset) -> xr.Dataset:
@@ -372,7 +383,8 @@ def _connector_force(found: _Largest) -> Headline:
         else "mean and waves together, along the direction that bears most"
     )
     across = f"motion across would stretch a connector by {_stretched(found):.3g} m, not counted"
-    details = (words, ALONE if found.bound else "", across if _stretched(found) else "")
+    apart = _DRIFTS_APART[2:] if _loose(found) else ""
+    details = (words, ALONE if found.bound else "", across if _stretched(found) else "", apart)
     return Headline(
         "connector_force", "Largest force in a connector", found.value, "N", found.where, _model(found),
         band=found.band, bound=_of_motion(found), detail="; ".join(filter(None, details)), digits=found.digits,

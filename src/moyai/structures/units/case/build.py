@@ -19,19 +19,18 @@ from moyai.sea.environment import Environment
 from moyai.sea.water import Water
 from moyai.structures.units.case import schema
 from moyai.structures.units.case import schema_connectors as joints
+from moyai.structures.units.case.places import placements_of
 from moyai.structures.units.model import (
     DOFS,
     Connector,
     Curve,
     FloatingRow,
     MapArea,
-    Placement,
     RowCoefficients,
     Settings,
     TimeSettings,
     UnitLine,
     UnitsProblem,
-    straight_row,
 )
 from moyai.structures.units.seas import frequencies_of
 
@@ -126,13 +125,6 @@ def row_of(model: schema.UnitsCase, water: Water) -> FloatingRow:
         wind_drag_coefficient=unit.wind_drag_coefficient,
         current_drag_coefficient=unit.current_drag_coefficient,
     )
-
-
-def placements_of(units: schema.Units) -> tuple[Placement, ...]:
-    """Return the place of every unit."""
-    if units.places:
-        return tuple(Placement(place.x, place.y, math.radians(place.heading_deg)) for place in units.places)
-    return straight_row(units.count or 1, units.length, units.gap or 0.0)
 
 
 def _axis(given: Any) -> tuple[float, float, float]:

@@ -96,7 +96,7 @@ def _check_time(model: schema.UnitsCase, findings: Findings) -> None:
 
 
 def _places(model: schema.UnitsCase) -> tuple[Any, ...]:
-    from moyai.structures.units.case.build import placements_of
+    from moyai.structures.units.case.places import placements_of
 
     return placements_of(model.structure.units)
 

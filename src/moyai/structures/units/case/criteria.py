@@ -25,6 +25,8 @@ from moyai.case.schema_criteria import (
 from moyai.case.schema_types import Name, QuantityOf
 from moyai.core import quantities
 from moyai.core.headline import UNCONFIRMED, Criterion
+from moyai.structures.units.case.places import placements_of
+from moyai.structures.units.model import facing
 
 AFLOAT_SOURCE = "default of moyai: upright and afloat"
 #: Metacentric height over draught that Japanese practice asks of caissons afloat.
@@ -119,7 +121,8 @@ def criteria(model: Any, given: Any) -> Iterator[Criterion]:
     seas = limit if isinstance(limit, dict) else {} if limit is None else {"": limit}
     for sea, value in seas.items():
         yield Criterion("greatest_transmission", "transmission", value, "at most", CASE, "transmission", sea=sea)
-    if given.greatest_gap_closing is None and computed and (model.structure.units.count or 0) > 1:
+    gaps = facing(placements_of(model.structure.units), model.structure.units.length)
+    if given.greatest_gap_closing is None and computed and gaps:
         headline, unit, words = _OWN["greatest_gap_closing"]
         yield Criterion(
             "greatest_gap_closing", headline, 1.0, "at most", TOUCH_SOURCE, words, unit, assumed=True

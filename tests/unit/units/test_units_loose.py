@@ -1,0 +1,69 @@
+"""Units that no connector holds together drift against each other, which the frequency domain does not know."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from moyai.case.criteria import criteria_of
+from moyai.case.reader import case_of
+from moyai.case.templates import template
+from moyai.case.yaml_reader import parse_yaml
+from moyai.structures.units.headlines import _connectors, _gaps
+from moyai.structures.units.model import Placement, facing, straight_row
+
+
+def _sea(joins: int, joined: int, force: float, mean: float = 2.0) -> xr.Dataset:
+    dims = ("connector", "component")
+    return xr.Dataset(
+        {
+            "significant_motion": ("dof", [0.1]),
+            "connector_resultant_largest": ("connector", [force]),
+            "connector_moment_largest": (dims, np.zeros((1, 3))),
+            "relative_motion_largest": (dims, [[0.0, 0.0245, 0.0]]),
+            "connector_joins": ("connector", [joins]),
+            "gap_joined": ("gap", [joined]),
+            "gap_closing_largest": ("gap", [0.036]),
+            "line_tension_maximum": ("line", [mean]),
+            "line_tension_mean": ("line", [mean]),
+        },
+        coords={"connector": ["f"], "component": list("xyz"), "gap": ["gap 1-2"], "line": ["a"]},
+    )
+
+
+@pytest.mark.parametrize(("joins", "joined", "bound"), [(0, 0, "at least"), (1, 1, "")])
+def test_what_a_connector_does_not_hold_is_at_least_what_is_shown(joins: int, joined: int, bound: str) -> None:
+    """A fender with clearance and a slack chain bear nothing in the linear answer: that is no factor of safety."""
+    statics = xr.Dataset(
+        {"connector_breaking_load": ("connector", [1e5]), "gap_width": ("gap", [1.0])}, coords={"connector": ["f"]}
+    )
+    seas = [("/SWL/frequency/storm", _sea(joins, joined, 1e4 * joins))]
+    groups = {"/SWL/statics": statics, **dict(seas)}
+    found = {item.name: item for item in [*_connectors(groups, seas), *_gaps(groups, seas)]}
+    for name in ("connector_force", "connector_utilisation", "gap_motion", "gap_closing"):
+        assert found[name].bound == bound, name
+
+
+def test_hulls_must_not_touch_however_the_units_are_placed() -> None:
+    """By count, or by places in a straight row; units at a right angle have no gap between their ends."""
+
+    def judged(units: str) -> set[str]:
+        text = template("units").replace("units: {count: 3, length: 20 m, gap: 1 m}", units, 1)
+        model = case_of(parse_yaml(text, "case.yaml"), Path("case.yaml")).model
+        return {item.headline for item in criteria_of(model)}
+
+    straight = "units: {length: 20 m, places: [{y: -10.5 m}, {y: 10.5 m}]}"
+    corner = "units: {length: 20 m, places: [{y: -10.5 m}, {x: 16 m, y: 6 m, heading_deg: 90}]}"
+    assert "gap_closing" in judged("units: {count: 3, length: 20 m, gap: 1 m}")
+    assert "gap_closing" in judged(straight)
+    assert "gap_closing" not in judged(corner)
+
+
+def test_neighbours_face_each_other_end_to_end() -> None:
+    assert facing(straight_row(3, 20.0, 0.5), 20.0) == [(0, 1, pytest.approx(0.5)), (1, 2, pytest.approx(0.5))]
+    turned = [Placement(0.0, 0.0, 0.5), Placement(-20.4 * np.sin(0.5), 20.4 * np.cos(0.5), 0.5)]
+    assert facing(turned, 20.0) == [(0, 1, pytest.approx(0.4))]
+    assert facing(straight_row(1, 20.0, 0.5), 20.0) == []
