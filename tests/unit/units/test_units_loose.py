@@ -47,6 +47,36 @@ def test_what_a_connector_does_not_hold_is_at_least_what_is_shown(joins: int, jo
         assert found[name].bound == bound, name
 
 
+def test_a_loose_connector_is_not_forgotten_beside_one_that_bears_more() -> None:
+    """The hinge of one gap bears 8 kN and holds; the fender of the next bears little and drifts apart."""
+    dims = ("connector", "component")
+    held = _sea(1, 1, 8e3)
+    both = xr.Dataset(
+        {
+            "significant_motion": ("dof", [0.1]),
+            "connector_resultant_largest": ("connector", [8e3, 7e2]),
+            "connector_moment_largest": (dims, np.zeros((2, 3))),
+            "relative_motion_largest": (dims, [[0.0, 0.05, 0.0], [0.0, 0.02, 0.0]]),
+            "connector_joins": ("connector", [1, 0]),
+            "gap_joined": ("gap", [1, 0]),
+            "gap_closing_largest": ("gap", [0.3, 0.2]),
+            "line_tension_maximum": held["line_tension_maximum"],
+            "line_tension_mean": held["line_tension_mean"],
+        },
+        coords={"connector": ["h", "f"], "component": list("xyz"), "gap": ["gap 1-2", "gap 2-3"]},
+    )
+    statics = xr.Dataset({"connector_breaking_load": ("connector", [1e5, 1e4]), "gap_width": ("gap", [0.5, 0.5])})
+    seas = [("/SWL/frequency/storm", both)]
+    groups = {"/SWL/statics": statics, **dict(seas)}
+    found = [*_connectors(groups, seas), *_gaps(groups, seas)]
+    for name, known, open_one in (
+        ("connector_force", 8e3, 7e2), ("connector_utilisation", 0.08, 0.07), ("gap_motion", 0.05, 0.02),
+        ("gap_closing", 0.6, 0.4),
+    ):  # fmt: skip
+        shown = sorted((round(item.value, 9), item.bound) for item in found if item.name == name)
+        assert shown == [(open_one, "at least"), (known, "")], name
+
+
 def test_hulls_must_not_touch_however_the_units_are_placed() -> None:
     """By count, or by places in a straight row; units at a right angle have no gap between their ends."""
 
@@ -67,3 +97,6 @@ def test_neighbours_face_each_other_end_to_end() -> None:
     turned = [Placement(0.0, 0.0, 0.5), Placement(-20.4 * np.sin(0.5), 20.4 * np.cos(0.5), 0.5)]
     assert facing(turned, 20.0) == [(0, 1, pytest.approx(0.4))]
     assert facing(straight_row(1, 20.0, 0.5), 20.0) == []
+    # places to the millimetre, as a drawing gives them
+    rounded = [Placement(0.0, 0.0, 0.5), Placement(-9.78, 17.903, 0.5)]
+    assert facing(rounded, 20.0) == [(0, 1, pytest.approx(0.4, abs=2e-3))]

@@ -352,13 +352,13 @@ def irregular_dataset(at: RowAtLevel, sea: IrregularSea, answer: SeaAnswer) -> x
 
 
 def _joins(at: RowAtLevel, answer: SeaAnswer) -> NDArray[np.bool_]:
-    """Return whether each connector holds its units together: it constrains them or outdoes the lines of a unit."""
+    """Return whether each connector holds its units together along the gap, by constraint or stiffer than lines."""
     lines = at.line_stiffness(answer.rest.position).diagonal().reshape(-1, 6)[:, :2].max(initial=0.0)
-    own = [
-        0.0 if joint.connector.stiffness is None else np.abs(joint.connector.stiffness[:3, :3]).max()
-        for joint in at.joints
-    ]
-    held = np.array([len(joint.held) > 0 for joint in at.joints], dtype=bool)
+    own = []
+    for joint in at.joints:
+        spring, axis = joint.connector.stiffness, joint.from_end_to_end
+        own.append(0.0 if spring is None else float(axis @ spring[:3, :3] @ axis))
+    held = np.array([joint.held[:, :3].any() for joint in at.joints], dtype=bool)
     return np.asarray(held | (np.array(own) + answer.curve_stiffness > lines))
 
 

@@ -18,6 +18,7 @@ from moyai.core.wording import spoken
 from moyai.series.realisations import ALONE, alone, seeds
 from moyai.structures.units.datasets import BANDED
 from moyai.structures.units.model import DAMPING_BAND, SNAP_RATIO
+from moyai.structures.units.unjudged import Seas, in_time, not_judged
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -27,7 +28,6 @@ AT_REST = "linear, lines at rest at every instant"
 TIME = "time domain, three dimensions"
 TIME_AT_REST = "time domain, lines at rest at every instant"
 IN_MOTION = "time domain, lines in motion around events"
-Seas = list[tuple[str, "xr.Dataset"]]
 
 
 def headlines_of(groups: Mapping[str, xr.Dataset]) -> tuple[Headline, ...]:
@@ -47,7 +47,7 @@ def headlines_of(groups: Mapping[str, xr.Dataset]) -> tuple[Headline, ...]:
         if known:
             value, level = min(known)
             found.append(Headline(name, label, value, "m", level, "still water"))
-    found.append(_not_judged(seas))
+    found.append(not_judged(seas))
     return tuple(found)
 
 
@@ -87,36 +87,6 @@ def _with_damping(time: xr.Dataset, frequency: xr.Dataset) -> xr.Dataset:
     return time.assign(found)
 
 
-def _not_judged(seas: Seas) -> Headline:
-    timed = [data for path, data in seas if _in_time(path)]
-    words, detail = [], []
-    if len(timed) < len(seas) or not seas:
-        words.append("time domain, slow drift")
-        detail.append("no impacts and snaps in time, no slow drift about the mean")
-    if any(_snaps(data) for data in timed):
-        words.append("lines in motion")
-        detail.append("no snaps of lines")
-    if not any(np.isfinite(data["connector_damage_rate"].values).any() for data in timed):
-        words.append("fatigue")
-        detail.append("no fatigue of connectors and lines")
-    if any(np.nan_to_num(data["connector_moment_largest"].values).any() for _, data in seas):
-        words.append("moments in connectors")
-        detail.append("the moment in a connector is a number of the page, no strength of the case is held against it")
-    words += ["one line lost", "other directions of waves and current"]
-    detail.append("no row with a line or a connector lost, no directions but those of the seas of the case")
-    return Headline("not_judged", "Not judged", math.nan, "1", text=", ".join(words), detail="; ".join(detail))
-
-
-def _snaps(data: xr.Dataset) -> bool:
-    """Whether lines at rest are pulled beyond their range, and none was set in motion."""
-    beyond = data["line_tension_maximum"].values > SNAP_RATIO * data["line_tension_mean"].values
-    return bool(beyond.any()) and "lines_in_motion" not in data
-
-
-def _in_time(path: str) -> bool:
-    return path.split("/")[2] == "time"
-
-
 def _where(path: str, data: xr.Dataset, index: tuple[int, ...], dims: tuple[str, ...]) -> str:
     level, _, sea = path.split("/")[1:]
     words = [level, sea]
@@ -148,9 +118,7 @@ def _greatest(
 #: Groups of waves move a row on chains slowly and far about its mean place; a single unit with it has several times the
 #: tension. Without it tensions and offsets of an irregular sea prove no strength.
 _WITHOUT_DRIFT = "; slow drift about the mean is not computed and adds to it, on chains several times over"
-_DRIFTS_APART = (
-    "; nothing holds the units together, and their slow drift against each other is not computed and adds to it"
-)
+_DRIFTS_APART = "; nothing holds the units together, their slow drift against each other is not computed and adds to it"
 _DAMPING = f"damping of the units beyond waves times {DAMPING_BAND[0]:g} to {DAMPING_BAND[1]:g}"
 _SNAPS = f"; pulled beyond {SNAP_RATIO:g} times its mean, where a line at rest at every instant says too little"
 
@@ -169,7 +137,7 @@ class _Largest:
 
     @property
     def timed(self) -> bool:
-        return _in_time(self.path)
+        return in_time(self.path)
 
     @property
     def scatter(self) -> Array:
@@ -248,7 +216,23 @@ def _each(seas: Seas, name: str, over: Array | None = None) -> list[_Largest]:
         for path, data in seas
         for row in range(data.sizes.get("period", 1))
     ]
+    parts = [(path, apart) for path, data in parts for apart in _held_and_loose(path, data, name)]
     return [found for part in parts if (found := _largest([part], name, over)) is not None]
+
+
+def _held_and_loose(path: str, data: xr.Dataset, name: str) -> Iterator[xr.Dataset]:
+    """Yield a sea with a number of what connectors hold together, and with that of what drifts apart as well.
+
+    The larger of both may be known while the other one is open.
+    """
+    kind = "gap_joined" if name.startswith("gap_closing") else "connector_joins"
+    if name not in data or kind not in data or data[kind].dims[0] not in data[name].dims or in_time(path):
+        yield data
+        return
+    for held in (True, False):
+        there = data[kind].astype(bool) == held
+        if bool(there.any()):
+            yield data.assign({name: data[name].where(there)})
 
 
 def _all_judged(items: list[Headline]) -> list[Headline]:
@@ -387,7 +371,8 @@ def _connector_force(found: _Largest) -> Headline:
     details = (words, ALONE if found.bound else "", across if _stretched(found) else "", apart)
     return Headline(
         "connector_force", "Largest force in a connector", found.value, "N", found.where, _model(found),
-        band=found.band, bound=_of_motion(found), detail="; ".join(filter(None, details)), digits=found.digits,
+        band=found.band if found.value > 0.0 else None, bound=_of_motion(found),
+        detail="; ".join(filter(None, details)), digits=found.digits,
     )  # fmt: skip
 
 

@@ -26,7 +26,7 @@ from moyai.potential.sections import Hull
 from moyai.sea.environment import Environment
 
 #: Units that are turned against each other by more [rad], or lie further aside [lengths of a unit], do not face.
-_FACING = 1e-6
+_TURNED, _ASIDE = 1e-3, 0.02
 #: Along x, y, z and about x, y, z of the unit.
 DOFS = ("sway", "surge", "heave", "pitch", "roll", "yaw")
 #: Largest tension over the mean up to which a line at rest at every instant serves
@@ -384,7 +384,7 @@ def facing(places: Sequence[Placement], length: float) -> list[tuple[int, int, f
         for second, other in enumerate(places):
             apart = one.rotation.T @ np.array([other.x - one.x, other.y - one.y, 0.0])
             turned = abs(np.angle(np.exp(1j * (other.heading - one.heading))))
-            faces = turned <= _FACING and abs(apart[0]) <= _FACING * length
+            faces = turned <= _TURNED and abs(apart[0]) <= _ASIDE * length
             if first != second and faces and length < apart[1] < 2.0 * length:
                 found.append((first, second, float(apart[1]) - length))
     return found
