@@ -86,3 +86,19 @@ def test_curves_go_on_beyond_their_ends_and_are_rounded_by_their_mean():
     force, slope = curve.rounded(0.0, 0.2)
     assert force == pytest.approx(0.25 * 0.2 * 5.0)
     assert slope == pytest.approx(2.5)
+
+
+def test_lids_lie_between_ends_that_face_each_other_whatever_the_order_of_the_units():
+    section = shapes.rectangle(10.0, 4.5).immersed(3.0)
+
+    def lids(places):
+        mesh = row_mesh(section, 20.0, tuple(places), 2.5, lid=False, gap_lid=True)
+        part = mesh.part == GAP
+        return float(mesh.area[part].sum()), set(mesh.unit[part].tolist())
+
+    row = straight_row(3, 20.0, 1.0)
+    assert lids(row) == (pytest.approx(20.0), {0, 1})
+    assert lids(row[::-1]) == (pytest.approx(20.0), {1, 2})
+    # side by side there is no gap between ends, at a right angle open water
+    assert lids([Placement(0.0, 0.0), Placement(11.0, 0.0)]) == (0.0, set())
+    assert lids([Placement(0.0, 0.0), Placement(15.5, 6.0, 0.5 * np.pi)]) == (0.0, set())

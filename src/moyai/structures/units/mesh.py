@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import pairwise
+from itertools import pairwise, permutations
 
 import numpy as np
 
@@ -29,6 +29,8 @@ _LONG_EDGE = 0.08
 _LARGEST_TURN = 12.0
 #: Most panels of a row
 MOST_PANELS = 50_000
+#: Width over the length of a unit, and cosine of the turn, beyond which ends of two units enclose no gap
+_OPEN, _TURNED = 0.5, 0.7
 #: Least width of a gap over the size of a panel
 LEAST_GAP = 0.1
 
@@ -328,10 +330,12 @@ def _gap_lids(section: Section, length: float, placements: tuple[Placement, ...]
     left, right = section.waterlines[0][0], section.waterlines[-1][1]
     across = left + cuts(right - left, size, even=True)
     lids = []
-    for number, (one, other) in enumerate(pairwise(placements)):
+    for (number, one), (_, other) in permutations(enumerate(placements), 2):
         near = one.to_row(np.array([(x, 0.5 * length, 0.0) for x in across]))
         far = other.to_row(np.array([(x, -0.5 * length, 0.0) for x in across]))
         width = float(np.linalg.norm(far - near, axis=1).max())
+        if width > _OPEN * length or math.cos(other.heading - one.heading) < _TURNED:
+            continue  # open water, whatever the order of the units
         t = cuts(1.0, min(1.0, size / width), even=True, refined=(False, False))
         nodes = near[:, None] + t[None, :, None] * (far - near)[:, None]
         panels = [
