@@ -263,7 +263,8 @@ def test_odd_requests_are_refused(page: Page, body: Any) -> None:
 @pytest.mark.slow
 def test_a_full_run_with_its_files(page: Page) -> None:
     key = page.post("/api/cases", {"file": "pile.yaml"})["id"]
-    page.draft(key, sequence=9, text=MEMBER)
+    text = MEMBER + "# not saved\n"
+    page.draft(key, sequence=9, text=text)
     job = page.post("/api/jobs", {"case": key})
     end = time.monotonic() + 60.0
     while job["state"] in ("waiting", "running"):
@@ -277,7 +278,7 @@ def test_a_full_run_with_its_files(page: Page) -> None:
     assert job["command"] == "moyai run out/pile/case.yaml --output out/pile", "the text was not saved"
     report = page.get(f"/results/{job['id']}/report.html")
     assert report.headers["content-security-policy"] == REPORT_POLICY
-    assert page.get(f"/results/{job['id']}/case.yaml?download").text == MEMBER
+    assert page.get(f"/results/{job['id']}/case.yaml?download").text == text
     for name in ("coefficients", "..%2f..%2fsecret.txt", "report_tables", ".run.lock"):
         assert page.client.get(f"/results/{job['id']}/{name}").status_code == 404
     (page.folder / "out" / "pile" / "report.xlsx").unlink()
