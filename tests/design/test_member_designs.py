@@ -210,11 +210,11 @@ def test_the_force_of_a_storm_is_the_mean_of_realisations_with_their_scatter():
     assert "5 realisations" in force.band.of
     # Morison's drag alone scales by a quarter at most: the band of coefficients and seeds goes beyond that of the seeds
     assert force.band.low < each.min() and force.band.high > each.max()
-    # judged: one-sided 95 % of the mean of five skewed values, 2.989 s / sqrt(5), moved by the coefficients
-    reach = 2.989 * each.std(ddof=1) / math.sqrt(5.0)
-    assert force.band.judged[1] == pytest.approx(
-        force.band.high / each.max() * (force.value + reach), rel=1e-3
-    )  # fmt: skip
+    # judged: one-sided 95 % of the mean of five skewed values, 2.989 s / sqrt(5), moved by the coefficients; the band
+    # holds that end as well as the largest of the five
+    end = force.value + 2.989 * each.std(ddof=1) / math.sqrt(5.0)
+    assert force.band.high == pytest.approx(force.band.judged[1] / end * max(each.max(), end), rel=1e-3)
+    assert 1.1 < force.band.judged[1] / end < 1.3
     # the first realisation is that of the seed of the case, and alone it is said to be alone
     one = result_of(storm("settings: {realisations: 1}\n"))
     alone = headline(one, "peak_force")

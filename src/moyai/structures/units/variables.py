@@ -60,7 +60,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "connector_significant_force": ("N", "significant amplitude of the force in a connector, twice its deviation"),
     "connector_significant_moment": ("N m", "significant amplitude of the moment in a connector"),
     "connector_stiffness_of_curve": ("N/m", "linear stiffness that stands for the curve of a connector"),
-    "connector_joins": ("1", "whether a connector holds its units together: stiffer than the lines of a unit"),
+    "connector_joins": ("1", "whether a connector holds its units together, stiffer than the lines of a unit"),
     "gap_joined": ("1", "whether a connector holds the units of a gap together"),
     "elongation_lowest": ("m", "lowest elongation of a connector with a curve, mean and waves"),
     "elongation_highest": ("m", "highest elongation of a connector with a curve, mean and waves"),
