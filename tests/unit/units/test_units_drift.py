@@ -126,3 +126,11 @@ def test_the_drift_from_all_pairs_of_motions_is_that_of_the_panels(monkeypatch: 
         found[often] = [field.drift(hydro.solutions[0], hydro.headings, one[None] @ hinged.free.T) for one in moved]
         assert bool(field._pairs) == (often == 0.0)
     np.testing.assert_allclose(found[0.0], found[np.inf], rtol=0.0, atol=1e-11 * np.abs(found[np.inf]).max())
+
+
+def test_rows_of_other_damping_share_the_sums_and_rows_of_other_joints_do_not() -> None:
+    field, panels = _panels(2.5)
+    kept = NearField.of(field.at, panels)
+    assert NearField.of(replace(field.at, row=field.at.row.damped(2.0)), panels) is kept
+    hinged = at_rest(row((Connector("h", "hinge", ((0, 1),), 0.0, 3.0, (1.0, 0.0, 0.0)),)))
+    assert NearField.of(hinged, panels) is not kept

@@ -190,11 +190,16 @@ class NearField:
 
     @classmethod
     def of(cls, at: RowAtLevel, panels: Panels) -> NearField:
-        """Return the one that belongs to the panels."""
+        """Return the one that belongs to the panels; rows that differ in their damping alone share it."""
         found: NearField | None = panels.__dict__.get("_near_field")
-        if found is None or found.at is not at:
+        if found is None or not found._serves(at):
             found = panels.__dict__["_near_field"] = cls(at, panels)
         return found
+
+    def _serves(self, at: RowAtLevel) -> bool:
+        own = self.at
+        pairs = ((own.centres, at.centres), (own.hydrostatic, at.hydrostatic), (own.free, at.free))
+        return own is at or (own.water == at.water and all(np.array_equal(*pair) for pair in pairs))
 
     @cached_property
     def line(self) -> Waterline:
