@@ -26,6 +26,8 @@ from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Flags, compile_extra
 from numba.core.registry import CPUDispatcher
 
+from moyai.core.compile_costs import cut_costs
+
 _PACKAGE = Path(__file__).parents[1]
 _IMPORT = re.compile(r"^from (moyai[\w.]*) import (\([^)]*\)|[^\n]*)", re.MULTILINE)
 
@@ -127,6 +129,8 @@ class _Kernel(CPUDispatcher):  # type: ignore[misc]
 #: Versions of numba whose dispatchers are known to take kernels in as parts; with others kernels are compiled as numba
 #: does it by itself, which takes longer and gives the same.
 _KNOWN = numba.__version__.split(".")[:2] == ["0", "68"]
+if _KNOWN:
+    cut_costs()
 
 
 def njit(*, pointer: bool = False, **options: Any) -> Callable[[Callable[..., Any]], Any]:
