@@ -184,8 +184,11 @@ def limit_and_found(item: Judgement, like: float = 0.0) -> tuple[str, str]:
     criterion = item.criterion
     bound = f"{item.shown_bound} " if item.shown_bound else ""
     if criterion.as_factor:
+        asked = f"at least {format_number(criterion.shown(criterion.limit))}"
+        if item.value == 0.0:
+            return asked, DASH if item.bound else "no load"
         value = math.nan if math.isnan(item.value) else criterion.shown(item.value)
-        return f"at least {format_number(criterion.shown(criterion.limit))}", f"{bound}{format_number(value)}"
+        return asked, f"{bound}{format_number(value)}"
     if criterion.unit == "1":
         return f"{criterion.sense} {format_number(criterion.limit)}", f"{bound}{format_number(item.value)}"
     if criterion.unit == "%":

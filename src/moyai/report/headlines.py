@@ -107,6 +107,8 @@ def _asked(headline: Headline, item: Judgement, like: float) -> str:
     plain = own == found or not math.isfinite(headline.value) or item.criterion.mean_weight != 1.0
     place = f" ({item.reason})" if item.outcome != "not judged" and item.reason not in ("", headline.where) else ""
     if item.criterion.as_factor:
+        if item.value == 0.0:
+            return f"factor of safety not known, asked {limit}" if item.bound else f"no load, factor asked {limit}"
         here = "" if plain else f" where it is judged{place}, {own} at the value shown"
         return f"factor of safety {found}{here}, asked {limit}"
     return f"limit {limit}" if plain else f"limit {limit}, judged at {found.removeprefix('at most ')}{place}"

@@ -12,6 +12,9 @@ from moyai.case.criteria import criteria_of
 from moyai.case.reader import case_of
 from moyai.case.templates import template
 from moyai.case.yaml_reader import parse_yaml
+from moyai.core.headline import Bound, Criterion, Headline, Judgement
+from moyai.report.first_page import limit_and_found
+from moyai.report.headlines import _figure
 from moyai.structures.units.headlines import _connectors, _gaps
 from moyai.structures.units.model import Placement, facing, straight_row
 
@@ -100,3 +103,29 @@ def test_neighbours_face_each_other_end_to_end() -> None:
     # places to the millimetre, as a drawing gives them
     rounded = [Placement(0.0, 0.0, 0.5), Placement(-9.78, 17.903, 0.5)]
     assert facing(rounded, 20.0) == [(0, 1, pytest.approx(0.4, abs=2e-3))]
+
+
+def test_rounding_is_no_load_and_no_closing() -> None:
+    """A connector without load has differences of large forces left, and a rigid one moves by less than an atom."""
+    sea = _sea(1, 1, 5e-11)
+    sea["gap_closing_largest"][0] = 3.7e-16
+    for name in ("connector_resultant_largest", "gap_closing_largest"):
+        sea = sea.assign({f"{name}_low": 0.9 * sea[name], f"{name}_high": 1.1 * sea[name]})
+    statics = xr.Dataset(
+        {"connector_breaking_load": ("connector", [1e5]), "gap_width": ("gap", [1.0])}, coords={"connector": ["f"]}
+    )
+    seas = [("/SWL/frequency/storm", sea)]
+    groups = {"/SWL/statics": statics, **dict(seas)}
+    found = {item.name: item for item in [*_connectors(groups, seas), *_gaps(groups, seas)]}
+    for name in ("connector_force", "connector_utilisation", "gap_closing"):
+        assert found[name].value == 0.0 and found[name].band is None, name
+
+
+@pytest.mark.parametrize(("bound", "found", "words"), [("", "no load", "no load"), ("at least", "–", "not known")])
+def test_no_load_is_no_factor_of_safety(bound: Bound, found: str, words: str) -> None:
+    """One over nothing is not printed as a factor."""
+    criterion = Criterion("u", "u", 0.5, "at most", "source", "factor of safety", as_factor=True)
+    item = Judgement(criterion, 0.0, "not judged" if bound else "holds", bound=bound)
+    assert limit_and_found(item) == ("at least 2.00", found)
+    headline = Headline("u", "Use", 0.0, "1", "SWL", "linear", bound=bound)
+    assert words in _figure(headline, [item], {}).detail and "∞" not in _figure(headline, [item], {}).detail

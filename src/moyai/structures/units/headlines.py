@@ -87,6 +87,11 @@ def _with_damping(time: xr.Dataset, frequency: xr.Dataset) -> xr.Dataset:
     return time.assign(found)
 
 
+#: Loads and closings of connectors that pull nothing or do not move are differences of large numbers: what is below
+#: this [N, N m, m] is rounding.
+_ROUNDED, _NOTHING = ("connector_resultant_largest", "connector_moment_largest", "gap_closing_largest"), 1e-6
+
+
 def _where(path: str, data: xr.Dataset, index: tuple[int, ...], dims: tuple[str, ...]) -> str:
     level, _, sea = path.split("/")[1:]
     words = [level, sea]
@@ -104,6 +109,8 @@ def _greatest(
         if name not in data or not data[name].size:
             continue
         values = np.abs(np.asarray(data[name].values, dtype=float))
+        if name in _ROUNDED:
+            values[values < _NOTHING] = 0.0
         if over is not None:
             values = values / over
         if not np.isfinite(values).any():
@@ -153,8 +160,8 @@ class _Largest:
 
     @property
     def band(self) -> Band | None:
-        """What the realisations and the damping of the units are worth."""
-        return self.spread(self.chance())
+        """What the realisations and the damping of the units are worth; none of nothing."""
+        return self.spread(self.chance()) if self.value > 0.0 else None
 
     def chance(self, bound: Array | None = None) -> Band | None:
         """Return the band of realisations, or of parts of a regular motion that does not repeat."""
@@ -371,7 +378,7 @@ def _connector_force(found: _Largest) -> Headline:
     details = (words, ALONE if found.bound else "", across if _stretched(found) else "", apart)
     return Headline(
         "connector_force", "Largest force in a connector", found.value, "N", found.where, _model(found),
-        band=found.band if found.value > 0.0 else None, bound=_of_motion(found),
+        band=found.band, bound=_of_motion(found),
         detail="; ".join(filter(None, details)), digits=found.digits,
     )  # fmt: skip
 
