@@ -7,6 +7,7 @@ value there and no interpolation enters.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal, Protocol
 
@@ -242,27 +243,30 @@ class IrregularForcing:
     def sample(self, step: float, count: int) -> tuple[Array, Array]:
         """Return forces and the incident surface at x = 0."""
         modes = self.excitation.shape[1]
-        columns = [self.amplitude[:, None], self.amplitude[:, None] * self.excitation]
+        rows = [self.amplitude[:, None], self.amplitude[:, None] * self.excitation]
         slow = self.drift is not None and self.drift_law in ("newman", "newman_product")
         if slow:
             assert self.drift is not None
-            if self.drift_law == "newman":
-                columns.append(self.amplitude[:, None] * self.drift)
-            else:
-                columns.append(self.amplitude[:, None] * np.sqrt(np.abs(self.drift)))
-        series = complex_sum(self.omega, np.concatenate(columns, axis=1), step, count)
-        elevation, force = series[:, 0].real.copy(), series[:, 1 : 1 + modes].real.copy()
+            share = self.drift if self.drift_law == "newman" else np.sqrt(np.abs(self.drift))
+            rows.append(self.amplitude[:, None] * share)
+        columns = sum_by_columns(self.omega, np.concatenate(rows, axis=1), step, count)
+        surface = next(columns)
+        elevation, force = surface.real.copy(), np.empty((count, modes))
+        for mode in range(modes):
+            force[:, mode] = next(columns).real
         if slow:
             assert self.drift is not None
-            if self.drift_law == "newman":
-                force += (series[:, 1 + modes :] * series[:, :1].conj()).real
-            else:
-                force += np.sign(np.sum(self.drift, axis=0)) * np.abs(series[:, 1 + modes :]) ** 2
+            for mode, column in enumerate(columns):
+                if self.drift_law == "newman":
+                    force[:, mode] += (column * surface.conj()).real
+                else:
+                    force[:, mode] += np.sign(np.sum(self.drift[:, mode])) * np.abs(column) ** 2
         elif self.drift_law == "ramped":
             force += self.mean_drift()
         shape = cosine_ramp(step * np.arange(count), self.ramp)
         force += np.asarray(self.steady, dtype=float)
-        return shape[:, None] * force, shape * elevation
+        force *= shape[:, None]
+        return force, shape * elevation
 
 
 def complex_sum(omega: Array, amplitude: ComplexArray, step: float, count: int) -> ComplexArray:
@@ -282,24 +286,25 @@ def complex_sum(omega: Array, amplitude: ComplexArray, step: float, count: int) 
     By one fast Fourier transform a column when all frequencies are whole multiples of 2 pi / (n step) for a whole n;
     else by a compiled sum whose phase factors are advanced by multiplication and renewed every 256 steps.
     """
+    return np.stack(list(sum_by_columns(omega, amplitude, step, count)), axis=1)
+
+
+def sum_by_columns(omega: Array, amplitude: ComplexArray, step: float, count: int) -> Iterator[ComplexArray]:
+    """Yield the columns (count,) of :func:`complex_sum` one by one: a long record of all of them fills the memory."""
     length = _transform_length(omega, step)
     if length == 0:
-        return np.asarray(_direct_sum(omega, np.ascontiguousarray(amplitude), step, count))
+        yield from _direct_sum(omega, np.ascontiguousarray(amplitude), step, count).T
+        return
     bins = np.rint(omega * step * length / (2.0 * math.pi)).astype(int)
     if window_pays(bins, count, length):
-        return np.ascontiguousarray(sum_in_window(bins, amplitude.T, count, length).T)
-    result = np.empty((count, amplitude.shape[1]), dtype=np.complex128)
-    for column in range(amplitude.shape[1]):
-        spectrum = np.zeros(length, dtype=np.complex128)
-        np.add.at(spectrum, bins, amplitude[:, column])
-        from scipy.fft import fft
+        yield from sum_in_window(bins, amplitude.T, count, length)
+        return
+    from scipy.fft import fft
 
-        series = fft(spectrum, overwrite_x=True)
-        full, rest = divmod(count, length)
-        for repeat in range(full):
-            result[repeat * length : (repeat + 1) * length, column] = series
-        result[full * length :, column] = series[:rest]
-    return result
+    for column in amplitude.T:
+        spectrum = np.zeros(length, dtype=np.complex128)
+        np.add.at(spectrum, bins, column)
+        yield np.resize(fft(spectrum, overwrite_x=True), count)
 
 
 def _transform_length(omega: Array, step: float) -> int:
