@@ -13,7 +13,7 @@ from moyai.sea.environment import Environment
 from moyai.structures.units.assembly import RowAtLevel, assemble, steady_position
 from moyai.structures.units.connectors import stretch
 from moyai.structures.units.datasets import along_the_path
-from moyai.structures.units.links import PULLS, PUSHES, Work, displacement, part_of
+from moyai.structures.units.links import PULLS, PUSHES, SHORTEST, Work, displacement, part_of
 from moyai.structures.units.model import Connector, Curve, Placement, UnitLine
 from moyai.structures.units.time.memory import RowMemory
 from moyai.structures.units.time.model import RowInTime
@@ -285,3 +285,22 @@ def test_lines_at_rest_along_the_motion_see_what_the_tangent_does_not() -> None:
     assert found.shape == (1, 6)
     assert found[0] == pytest.approx(2e4 * (np.hypot(60.0, 3.0) - 60.0), rel=0.01)
     assert np.abs(at.tension_gradient(np.zeros(12))[:, [2, 8]]).max() < 1.0
+
+
+@pytest.mark.parametrize("connector", [CHAIN, RUBBER])
+def test_where_both_ends_meet_it_bears_nothing(connector: Connector) -> None:
+    """A line without length has no direction: no force, a stiffness that is finite, also just beside that place."""
+    at = at_rest(connector)
+    link = at.links[0]
+    # waves work a chain about a slack mean: it pulls in the mean
+    work = Work(1e-4, np.full(len(at.links), 1.0))
+    met = np.zeros(12)
+    met[6:9] = -link.span * link.axis
+    assert link.bears(met, work)[0] > 0.0
+    for aside in (0.0, 1e-12, 1e-3):
+        position = met.copy()
+        position[6] += aside
+        assert np.all(np.isfinite(link.stiffness(position, work))), aside
+        mean = link.bears(position, work)[0]
+        assert np.linalg.norm(mean * link.along(position)[6:9]) <= 1.01 * mean / (SHORTEST * link.span) * aside, aside
+    assert float(link.elongation(met)) == pytest.approx(-link.span, rel=1e-12)

@@ -84,7 +84,7 @@ def stretch(moved: Array, axis: Array, span: float) -> Array:
         return np.asarray(along)
     # without the difference of two nearly equal lengths
     change = 2.0 * span * along + np.sum(moved**2, axis=-1)
-    return np.asarray(change / (np.sqrt(span**2 + change) + span))
+    return np.asarray(change / (np.sqrt(np.maximum(span**2 + change, 0.0)) + span))
 
 
 def joints_of(row: FloatingRow, centres: Array, draught: float) -> tuple[Joint, ...]:

@@ -18,6 +18,9 @@ from moyai.structures.units.model import Curve
 
 #: Which forces a curve bears: it pulls only, it pushes only, both.
 PULLS, PUSHES, BOTH = 1.0, -1.0, 0.0
+#: Length, over that at rest, below which the force of a line falls to nothing where its ends meet: it has no direction
+#: there.
+SHORTEST = 0.01
 
 
 def displacement(motion: Array, arm: Array, bend: float = 1.0) -> Array:
@@ -126,10 +129,14 @@ class Link:
         if self.span == 0.0:
             return np.broadcast_to(self.axis, moved.shape)
         apart = self.span * self.axis + moved
-        return np.asarray(apart / np.linalg.norm(apart, axis=-1, keepdims=True))
+        length = np.linalg.norm(apart, axis=-1, keepdims=True)
+        return np.asarray(apart / np.maximum(length, SHORTEST * self.span))
 
     def direction(self, position: Array) -> Array:
-        """Return the unit vector (..., 3) that it pulls the near end along, axes of the unit before it."""
+        """Return the unit vector (..., 3) that it pulls the near end along, axes of the unit before it.
+
+        It falls to nothing where both ends meet.
+        """
         return np.asarray(self._direction(position) @ self.frame.T)
 
     def along(self, position: Array) -> Array:
@@ -167,7 +174,7 @@ class Link:
         direction, rows = self._direction(position), self.rows(position)
         inner = slope * np.outer(direction, direction)
         if self.span > 0.0:
-            length = self.span + float(self.elongation(position))
+            length = max(self.span + float(self.elongation(position)), SHORTEST * self.span)
             inner += force / length * (np.eye(3) - np.outer(direction, direction))
         out = rows.T @ inner @ rows
         for (sign, arm, _), unit in zip(self._ends(position), self.pair, strict=True):
@@ -235,4 +242,4 @@ def _beyond(inner: tuple[float, float], end: tuple[float, float]) -> list[tuple[
     return [(zero, 0.0), (2.0 * zero - end[0], -end[1])]
 
 
-__all__ = ["BOTH", "PULLS", "PUSHES", "Link", "Work", "displacement", "hold_together", "links_of", "part_of"]
+__all__ = ["BOTH", "PULLS", "PUSHES", "SHORTEST", "Link", "Work", "displacement", "hold_together", "links_of", "part_of"]

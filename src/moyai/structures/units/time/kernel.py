@@ -12,6 +12,7 @@ import numpy as np
 
 from moyai.core.compiled import njit
 from moyai.mooring.space_kernel import space_line_force
+from moyai.structures.units.links import SHORTEST
 
 RUNNING, DIVERGED, UNSETTLED = 0, 1, 2
 _PASSES, _TURNS, _SWEEPS, _HALVINGS = 40, 60, 400, 80
@@ -76,8 +77,10 @@ def _draw(
         drawn[i] = change
         if spans[i] > 0.0:
             change = 2.0 * spans[i] * change + square
-            length = np.sqrt(spans[i] * spans[i] + change)
+            length = np.sqrt(max(spans[i] * spans[i] + change, 0.0))
             drawn[i] = change / (length + spans[i])
+            # where both ends meet it has no direction and bears nothing
+            length = max(length, SHORTEST * spans[i])
             for c in range(3):
                 direction[c] = (spans[i] * axes[i, c] + moved[c]) / length
         along[i, :] = 0.0
