@@ -8,7 +8,6 @@ from moyai.core.headline import Criterion, judge
 from moyai.report.headlines import headline_text
 from moyai.structures.units.headlines import (
     _connectors,
-    _each,
     _gaps,
     _lines,
     _waves,
@@ -16,6 +15,7 @@ from moyai.structures.units.headlines import (
     _with_tilt,
     governing_seas,
 )
+from moyai.structures.units.largest import each_of
 
 DOFS = ["sway", "heave", "roll"]
 
@@ -37,7 +37,7 @@ def test_the_time_domain_keeps_the_band_of_damping():
     time = motions("motion_amplitude", (0.05, 0.03))
     ((path, data),) = governing_seas({"/SWL/frequency/daily": frequency, "/SWL/time/daily": time})
     assert path == "/SWL/time/daily"
-    roll, other = _each([(path, _with_tilt(data, "roll"))], "tilt")
+    roll, other = each_of([(path, _with_tilt(data, "roll"))], "tilt")
     assert (roll.value, other.value) == pytest.approx((0.10, 0.06))
     assert (roll.band.low, roll.band.high) == pytest.approx((0.06, 0.15))
 
@@ -67,7 +67,7 @@ def test_realisations_are_widened_by_the_damping():
     )
     spread = {f"significant_motion_{end}": (dims, f * significant) for end, f in (("low", 0.8), ("high", 1.25))}
     frequency = time[["significant_motion"]].assign(spread)
-    (roll,) = _each([("/SWL/time/storm", _with_tilt(_with_damping(time, frequency), "roll"))], "tilt")
+    (roll,) = each_of([("/SWL/time/storm", _with_tilt(_with_damping(time, frequency), "roll"))], "tilt")
     assert roll.value == pytest.approx(0.10) and not roll.band.decides
     assert (roll.band.low, roll.band.high) == pytest.approx((0.8 * 0.08, 1.25 * 0.12))
     # Johnson's interval of three skewed values: 4.899 standard errors of 0.02 / sqrt(3), then the damping
@@ -127,11 +127,11 @@ def test_the_parts_of_a_motion_that_does_not_repeat_are_a_band():
     parts = np.array([40.0, 42.0, 41.0, 45.0, 43.0]) * 1e3
     named = {"line_tension_maximum_of_realisation": (("member", "period", "line"), parts[:, None, None])}
     data = lines_of(float(parts.mean())).assign(named)
-    (found,) = _each([("/SWL/time/daily", data)], "line_tension_maximum")
+    (found,) = each_of([("/SWL/time/daily", data)], "line_tension_maximum")
     assert (found.band.low, found.band.high) == (40e3, 45e3) and "5 parts of a record" in found.band.of
     assert found.band.judged[1] > found.value and found.band.more == "settings.time.duration"
     # those of periods that do repeat are blank
-    (still,) = _each(
+    (still,) = each_of(
         [("/SWL/time/daily", data.assign({k: v * np.nan for k, v in data[list(named)].items()}))], found.name
     )
     assert still.band is None and still.bound == ""

@@ -12,7 +12,7 @@ from moyai.case.criteria import criteria_of
 from moyai.case.reader import case_of
 from moyai.case.templates import template
 from moyai.case.yaml_reader import parse_yaml
-from moyai.core.headline import Bound, Criterion, Headline, Judgement
+from moyai.core.headline import Bound, Criterion, Headline, Judgement, judge
 from moyai.report.first_page import limit_and_found
 from moyai.report.headlines import _figure
 from moyai.structures.units.headlines import _connectors, _gaps
@@ -43,11 +43,25 @@ def test_what_a_connector_does_not_hold_is_at_least_what_is_shown(joins: int, jo
     statics = xr.Dataset(
         {"connector_breaking_load": ("connector", [1e5]), "gap_width": ("gap", [1.0])}, coords={"connector": ["f"]}
     )
-    seas = [("/SWL/frequency/storm", _sea(joins, joined, 1e4 * joins))]
+    seas = [("/SWL/frequency/storm", _sea(joins, joined, 1e4))]
     groups = {"/SWL/statics": statics, **dict(seas)}
     found = {item.name: item for item in [*_connectors(groups, seas), *_gaps(groups, seas)]}
     for name in ("connector_force", "connector_utilisation", "gap_motion", "gap_closing"):
         assert found[name].bound == bound, name
+        assert ("slow drift" in found[name].detail) is (joins == 0 and name != "connector_utilisation"), name
+
+
+def test_at_least_nothing_is_not_known() -> None:
+    """A slack chain bears nothing in the linear answer: its load in a sea is not known, and no limit holds."""
+    statics = xr.Dataset({"connector_breaking_load": ("connector", [1e5])}, coords={"connector": ["f"]})
+    seas = [("/SWL/frequency/storm", _sea(0, 0, 0.0))]
+    found = {item.name: item for item in _connectors({"/SWL/statics": statics, **dict(seas)}, seas)}
+    for name in ("connector_force", "connector_utilisation"):
+        item = found[name]
+        assert item.text == "not known" and np.isnan(item.value) and not item.bound, name
+        assert "slow drift" in item.detail
+    limit = Criterion("u", "connector_utilisation", 0.5, "at most", "source")
+    assert judge(found.values(), [limit], computed=True).outcome == "not judged"
 
 
 def test_a_loose_connector_is_not_forgotten_beside_one_that_bears_more() -> None:

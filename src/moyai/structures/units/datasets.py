@@ -6,7 +6,6 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from moyai.core.arrays import Array, ComplexArray
 from moyai.floating.irregular import response_statistics
@@ -15,6 +14,7 @@ from moyai.sea.states import IrregularSea, RegularSea
 from moyai.structures.units.across import stretch_across
 from moyai.structures.units.assembly import RowAtLevel, steady_position
 from moyai.structures.units.connectors import Joint
+from moyai.structures.units.contact import contact_variables, distance_at, measured_ends, meeting_variables
 from moyai.structures.units.field import MapPoints, WaveField, height_ratio, line_transmission, sea_height_ratio
 from moyai.structures.units.gaps import gaps_of, largest_closing
 from moyai.structures.units.hydrodynamics import RowHydrodynamics
@@ -55,6 +55,12 @@ def statics_dataset(at: RowAtLevel, wind: Array, current: Array) -> xr.Dataset:
     ).reshape(len(lines), -1, 3)
     outline = at.section.drawn()
     places = np.array([joint.place for joint in at.joints]).reshape(-1, 3)
+    ends = np.array(
+        [
+            (np.nan, np.nan) if (c := joint.connector).curve is None else measured_ends(c.curve, c.kind)
+            for joint in at.joints
+        ]
+    ).reshape(-1, 2)
     out: dict[str, Any] = {
         "draught": ((), at.draught),
         "freeboard": ((), at.freeboard),
@@ -84,7 +90,11 @@ def statics_dataset(at: RowAtLevel, wind: Array, current: Array) -> xr.Dataset:
         "connector_y": ("connector", places[:, 1]),
         "connector_z": ("connector", places[:, 2]),
         "connector_breaking_load": ("connector", _known(np.array([j.connector.breaking_load for j in at.joints]))),
+        "curve_lowest": ("connector", ends[:, 0]),
+        "curve_highest": ("connector", ends[:, 1]),
         "gap_width": ("gap", np.array([gap.width for gap in gaps_of(at)])),
+        "least_distance": ((), distance_at(at, rest.position)),
+        "gap_closing_steady": ("gap", largest_closing(at, rest.position, lambda corners: np.zeros(len(corners)))),
         "steady_offset": (("unit", "dof"), at.in_unit_axes(rest.position)),
         "steady_force_of_wind": (("unit", "dof"), wind.reshape(-1, 6)),
         "steady_force_of_current": (("unit", "dof"), current.reshape(-1, 6)),
@@ -190,6 +200,8 @@ def regular_dataset(at: RowAtLevel, sea: RegularSea, answers: list[SeaAnswer], h
         return lambda corners: amplitude * np.abs(corners @ item.fine.motion[0, 0])
 
     low, high = _by_curve(at, answers, reach, largest, resultant)
+    closings = np.array([largest_closing(at, item.rest.position, closing(item)) for item in answers])
+    meeting = [meeting_variables(at, item.rest.position, each) for item, each in zip(answers, closings, strict=True)]
     dims = ("period", "connector", "component")
     out: dict[str, Any] = {
         "wave_height": ((), sea.height),
@@ -212,10 +224,7 @@ def regular_dataset(at: RowAtLevel, sea: RegularSea, answers: list[SeaAnswer], h
         "stretch_across": (("period", "connector"), stretch_across(at.joints, relative[..., :3], high, in_time=False)),
         "relative_motion_largest": (dims, relative[..., :3]),
         "relative_turn_largest": (dims, relative[..., 3:]),
-        "gap_closing_largest": (
-            ("period", "gap"),
-            np.array([largest_closing(at, item.rest.position, closing(item)) for item in answers]),
-        ),
+        "gap_closing_largest": (("period", "gap"), closings),
         "line_tension_mean": (("period", "line"), mean_tension),
         "tension_amplitude": (("period", "line"), tension),
         "line_tension_maximum": (
@@ -223,6 +232,9 @@ def regular_dataset(at: RowAtLevel, sea: RegularSea, answers: list[SeaAnswer], h
             np.maximum(mean_tension + tension, along_the_path(at, answers, amplitude)),
         ),
     }
+    out |= {name: (("period", name.split("_")[0]), flags)
+            for name, flags in contact_variables(at, answers, low, high).items()}  # fmt: skip
+    out |= {name: ("period", np.array([each[name] for each in meeting])) for name in meeting[0]}
     drift = answers[0].far.drift.copy()
     for period, item in zip(sea.periods, answers):
         row = int(np.argmin(np.abs(item.coarse.omega - 2.0 * np.pi / period)))
@@ -302,7 +314,7 @@ def irregular_dataset(at: RowAtLevel, sea: IrregularSea, answer: SeaAnswer) -> x
         return float(largest(item.fine.motion @ joint.along))
 
     low, high = _by_curve(at, [answer], reach, top, resultant)
-    joins = _joins(at, answer)
+    closing = largest_closing(at, answer.rest.position, lambda corners: largest(fine.motion @ corners.T))
     mean_tension = at.tensions(answer.rest.position)
     waves = response_statistics(omega, np.ones(density.shape), density)
     dims = ("connector", "component")
@@ -329,15 +341,12 @@ def irregular_dataset(at: RowAtLevel, sea: IrregularSea, answer: SeaAnswer) -> x
         "stretch_across": ("connector", stretch_across(at.joints, relative[:, :3], high[0], in_time=False)),
         "relative_motion_largest": (dims, relative[:, :3]),
         "relative_turn_largest": (dims, relative[:, 3:]),
-        "gap_closing_largest": (
-            "gap",
-            largest_closing(at, answer.rest.position, lambda corners: largest(fine.motion @ corners.T)),
-        ),
-        "connector_joins": ("connector", joins.astype(np.int8)),
-        "gap_joined": ("gap", np.array([_is_joined(at, gap.pair, joins) for gap in gaps_of(at)], dtype=np.int8)),
+        "gap_closing_largest": ("gap", closing),
         "line_tension_mean": ("line", mean_tension),
         "line_tension_maximum": ("line", mean_tension + largest(fine.tension)),
     }
+    out |= {name: (name.split("_")[0], flags[0]) for name, flags in contact_variables(at, [answer], low, high).items()}
+    out |= {name: ((), value) for name, value in meeting_variables(at, answer.rest.position, closing).items()}
     out |= _drift_of(answer.far.drift, answer, answer.headings)
     coords = coords_of(at) | {"direction": ["across", "along", "about z"]}
     data = labelled(xr.Dataset(out, coords=coords))
@@ -349,21 +358,6 @@ def irregular_dataset(at: RowAtLevel, sea: IrregularSea, answer: SeaAnswer) -> x
         "status": _status([answer]),
     }
     return data
-
-
-def _joins(at: RowAtLevel, answer: SeaAnswer) -> NDArray[np.bool_]:
-    """Return whether each connector holds its units together along the gap, by constraint or stiffer than lines."""
-    lines = at.line_stiffness(answer.rest.position).diagonal().reshape(-1, 6)[:, :2].max(initial=0.0)
-    own = []
-    for joint in at.joints:
-        spring, axis = joint.connector.stiffness, joint.from_end_to_end
-        own.append(0.0 if spring is None else float(axis @ spring[:3, :3] @ axis))
-    held = np.array([joint.held[:, :3].any() for joint in at.joints], dtype=bool)
-    return np.asarray(held | (np.array(own) + answer.curve_stiffness > lines))
-
-
-def _is_joined(at: RowAtLevel, pair: tuple[int, int], joins: NDArray[np.bool_]) -> bool:
-    return any(there and set(joint.pair) == set(pair) for joint, there in zip(at.joints, joins, strict=True))
 
 
 def _gaussian_resultant(answer: SeaAnswer, duration: float) -> Array:
@@ -403,6 +397,12 @@ BANDED = (
     "connector_moment_largest", "gap_closing_largest", "transmission_coefficient", "wave_height_ratio_of_point",
 )  # fmt: skip
 
+#: What holds with the damping at either end alone holds.
+_WORST = {
+    "connector_joins": np.minimum, "gap_joined": np.minimum, "connector_loses_contact": np.maximum,
+    "gap_loses_contact": np.maximum,
+}  # fmt: skip
+
 
 def with_damping_band(data: xr.Dataset, others: list[xr.Dataset]) -> xr.Dataset:
     """Return a dataset with the range of its numbers over its own damping and that at the ends of its band.
@@ -421,6 +421,8 @@ def with_damping_band(data: xr.Dataset, others: list[xr.Dataset]) -> xr.Dataset:
         values = np.array([item[name].values for item in (data, *others)])
         for end, pick in (("low", np.fmin), ("high", np.fmax)):
             found[f"{name}_{end}"] = (data[name].dims, pick.reduce(values, axis=0))
+    for name, worst in ((name, worst) for name, worst in _WORST.items() if name in data):
+        found[name] = (data[name].dims, worst.reduce([item[name].values for item in (data, *others)]))
     return labelled(data.assign(found))
 
 

@@ -7,18 +7,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from moyai.core.arrays import Array
 from moyai.core.headline import Band, Bound, Headline, governing
 from moyai.core.wording import spoken
-from moyai.series.realisations import ALONE, alone, seeds
+from moyai.series.realisations import ALONE
+from moyai.structures.units import doubts
 from moyai.structures.units.datasets import BANDED
-from moyai.structures.units.model import DAMPING_BAND, SNAP_RATIO
-from moyai.structures.units.unjudged import Seas, in_time, not_judged
+from moyai.structures.units.largest import Largest, each_of
+from moyai.structures.units.model import SNAP_RATIO
+from moyai.structures.units.unjudged import Seas, not_judged
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -62,7 +63,14 @@ def governing_seas(groups: Mapping[str, xr.Dataset]) -> Seas:
             found.append((other, _with_damping(groups[other], data)))
         else:
             found.append((path, data))
-    return found
+    return [(path, _with_curve_ends(groups, path, data)) for path, data in found]
+
+
+def _with_curve_ends(groups: Mapping[str, xr.Dataset], path: str, data: xr.Dataset) -> xr.Dataset:
+    """Return a sea with the ends of the measured curves of its connectors."""
+    rest = groups.get(f"/{path.split('/')[1]}/statics")
+    names = ("curve_lowest", "curve_highest")
+    return data if rest is None else data.assign({name: rest[name] for name in names if name in rest})
 
 
 def _with_damping(time: xr.Dataset, frequency: xr.Dataset) -> xr.Dataset:
@@ -87,159 +95,10 @@ def _with_damping(time: xr.Dataset, frequency: xr.Dataset) -> xr.Dataset:
     return time.assign(found)
 
 
-#: Loads and closings of connectors that pull nothing or do not move are differences of large numbers: what is below
-#: this [N, N m, m] is rounding.
-_ROUNDED, _NOTHING = ("connector_resultant_largest", "connector_moment_largest", "gap_closing_largest"), 1e-6
-
-
-def _where(path: str, data: xr.Dataset, index: tuple[int, ...], dims: tuple[str, ...]) -> str:
-    level, _, sea = path.split("/")[1:]
-    words = [level, sea]
-    for dim, number in zip(dims, index):
-        value = data[dim].values[number]
-        words.append(f"T = {float(value):g} s" if dim == "period" else f"unit {value}" if dim == "unit" else str(value))
-    return ", ".join(words)
-
-
-def _greatest(
-    groups: list[tuple[str, xr.Dataset]], name: str, over: Array | None = None
-) -> tuple[float, str, tuple[str, xr.Dataset, tuple[int, ...]]] | None:
-    best: tuple[float, str, tuple[str, xr.Dataset, tuple[int, ...]]] | None = None
-    for path, data in groups:
-        if name not in data or not data[name].size:
-            continue
-        values = np.abs(np.asarray(data[name].values, dtype=float))
-        if name in _ROUNDED:
-            values[values < _NOTHING] = 0.0
-        if over is not None:
-            values = values / over
-        if not np.isfinite(values).any():
-            continue
-        index = tuple(int(i) for i in np.unravel_index(int(np.nanargmax(values)), values.shape))
-        value = float(values[index])
-        if best is None or value > best[0]:
-            best = value, _where(path, data, index, tuple(str(dim) for dim in data[name].dims)), (path, data, index)
-    return best
-
-
 #: Groups of waves move a row on chains slowly and far about its mean place; a single unit with it has several times the
 #: tension. Without it tensions and offsets of an irregular sea prove no strength.
 _WITHOUT_DRIFT = "; slow drift about the mean is not computed and adds to it, on chains several times over"
-_DRIFTS_APART = "; nothing holds the units together, their slow drift against each other is not computed and adds to it"
-_DAMPING = f"damping of the units beyond waves times {DAMPING_BAND[0]:g} to {DAMPING_BAND[1]:g}"
 _SNAPS = f"; pulled beyond {SNAP_RATIO:g} times its mean, where a line at rest at every instant says too little"
-
-
-@dataclass(frozen=True)
-class _Largest:
-    """The largest value of a variable over all seas, and where it stands."""
-
-    value: float
-    where: str
-    path: str
-    data: xr.Dataset
-    index: tuple[int, ...]
-    name: str
-    scale: float
-
-    @property
-    def timed(self) -> bool:
-        return in_time(self.path)
-
-    @property
-    def scatter(self) -> Array:
-        """The value of each realisation, none where the number is of no random sea in time and repeats."""
-        return self.members(self.name)
-
-    def members(self, name: str) -> Array:
-        """Return a number of each realisation, or of each part of a regular motion that does not repeat."""
-        scatter = self.data.get(f"{name}_of_realisation")
-        rows = () if scatter is None else np.asarray(scatter.values, dtype=float)
-        found = np.array([row[self.index] for row in rows]) / self.scale
-        return found[np.isfinite(found)]
-
-    @property
-    def band(self) -> Band | None:
-        """What the realisations and the damping of the units are worth; none of nothing."""
-        return self.spread(self.chance()) if self.value > 0.0 else None
-
-    def chance(self, bound: Array | None = None) -> Band | None:
-        """Return the band of realisations, or of parts of a regular motion that does not repeat."""
-        found = seeds(self.scatter, bound)
-        if found is None or "period" not in self.data.dims:
-            return found
-        of = f"{found.realisations} parts of a record that does not repeat; judged at the 95 % end of their mean"
-        return replace(found, of=of, more="settings.time.duration")
-
-    def spread(self, chance: Band | None) -> Band | None:
-        """Return a band of realisations widened by what the damping of the units is worth."""
-        damping = _damping_band(self.data, self.name, self.index, self.scale)
-        if damping is None or chance is None or not self.value > 0.0:
-            return chance or damping
-        less, more = damping.low / self.value, damping.high / self.value
-        return replace(chance.scaled(less, more), of=f"{chance.of}; {damping.of}")
-
-    @property
-    def bound(self) -> Bound:
-        """What one realisation alone proves."""
-        return alone(self.scatter)
-
-    @property
-    def digits(self) -> int:
-        """Digits that are known: two where rounding decides when a connector or a line comes taut, so that no run
-        repeats."""
-        if not self.timed:
-            return 3
-        tight = self.data["line_tension_maximum"] > SNAP_RATIO * self.data["line_tension_mean"]
-        curved = "elongation_highest" in self.data and bool(np.isfinite(self.data["elongation_highest"]).any())
-        return 2 if self.scatter.size and (curved or bool(tight.any())) else 3
-
-    @property
-    def without_drift(self) -> bool:
-        """Whether it is of an irregular sea without slow drift."""
-        return not self.timed and "significant_motion" in self.data
-
-
-def _damping_band(data: xr.Dataset, name: str, index: tuple[int, ...], scale: float = 1.0) -> Band | None:
-    """Return the band of a number over the damping of the units; None where there was none to vary."""
-    if f"{name}_low" not in data:
-        return None
-    low, high = (abs(float(data[f"{name}_{end}"].values[index])) / scale for end in ("low", "high"))
-    return Band(low, high, _DAMPING)
-
-
-def _largest(seas: Seas, name: str, over: Array | None = None) -> _Largest | None:
-    found = _greatest(seas, name, over)
-    if found is None:
-        return None
-    value, where, (path, data, index) = found
-    return _Largest(value, where, path, data, index, name, 1.0 if over is None else float(over[index[-1]]))
-
-
-def _each(seas: Seas, name: str, over: Array | None = None) -> list[_Largest]:
-    """Return the largest value of every sea, of regular waves of every period."""
-    parts = [
-        (path, data.isel(period=[row])) if "period" in data.dims else (path, data)
-        for path, data in seas
-        for row in range(data.sizes.get("period", 1))
-    ]
-    parts = [(path, apart) for path, data in parts for apart in _held_and_loose(path, data, name)]
-    return [found for part in parts if (found := _largest([part], name, over)) is not None]
-
-
-def _held_and_loose(path: str, data: xr.Dataset, name: str) -> Iterator[xr.Dataset]:
-    """Yield a sea with a number of what connectors hold together, and with that of what drifts apart as well.
-
-    The larger of both may be known while the other one is open.
-    """
-    kind = "gap_joined" if name.startswith("gap_closing") else "connector_joins"
-    if name not in data or kind not in data or data[kind].dims[0] not in data[name].dims or in_time(path):
-        yield data
-        return
-    for held in (True, False):
-        there = data[kind].astype(bool) == held
-        if bool(there.any()):
-            yield data.assign({name: data[name].where(there)})
 
 
 def _all_judged(items: list[Headline]) -> list[Headline]:
@@ -258,96 +117,106 @@ def _gaps(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Headline]:
     if "gap_width" not in statics or not statics.sizes["gap"]:
         return
     width = np.asarray(statics["gap_width"].values, dtype=float)
-    yield from _all_judged([_closing(found) for found in _each(seas, "gap_closing_largest", over=width)])
+    yield from _all_judged([_closing(found) for found in each_of(seas, "gap_closing_largest", over=width)])
 
 
-def _closing(found: _Largest) -> Headline:
+def _closing(found: Largest) -> Headline:
     """Return how far a gap closes; units that nothing joins drift against each other as well."""
-    apart = found.without_drift and not _joined(found)
+    apart = found.why_loose
     detail = f"{found.value * found.scale:.3g} m of {found.scale:.3g} m; at 1 the hulls touch"
     return Headline(
         "gap_closing", "Largest share of a gap that closes at a corner of the hulls", found.value, "1",
         found.where, _model(found), band=found.band, bound="at least" if apart else _of_motion(found),
-        detail=detail + _DRIFTS_APART * apart,
+        detail="; ".join(filter(None, (detail, apart))),
     )  # fmt: skip
 
 
-def _joined(found: _Largest) -> bool:
-    """Whether a connector holds the units of a gap together."""
-    return bool(found.data["gap_joined"].values[found.index[-1]])
-
-
-def _loose(found: _Largest) -> bool:
-    """Whether a number of a connector is of units that it does not hold together, without their slow drift."""
-    if not found.without_drift:
-        return False
-    row = found.index[found.data[found.name].dims.index("connector")]
-    return not found.data["connector_joins"].values[row]
-
-
 def _connectors(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Headline]:
-    each = _each(seas, "connector_resultant_largest")
+    each = each_of(seas, "connector_resultant_largest")
     if not each:
         return
-    yield from _all_judged([_connector_force(found) for found in each])
+    yield from _as_known(each, [_connector_force(found) for found in each])
     load = np.asarray(groups[f"/{each[0].path.split('/')[1]}/statics"]["connector_breaking_load"].values, dtype=float)
-    moments = [found for found in _each(seas, "connector_moment_largest") if found.value > 0.0]
+    moments = [found for found in each_of(seas, "connector_moment_largest") if found.value > 0.0]
     if np.isfinite(load).any():
-        yield from _all_judged(
+        shares = each_of(seas, "connector_resultant_largest", over=load)
+        yield from _as_known(
+            shares,
             [
                 Headline(
                     "connector_utilisation", "Largest force over breaking load of a connector", share.value, "1",
                     share.where, _model(share), band=share.band, bound=_of_motion(share),
                     judged_on="the force without the moment" * bool(moments), digits=share.digits,
                 )
-                for share in _each(seas, "connector_resultant_largest", over=load)
-            ]
+                for share in shares
+            ],
         )  # fmt: skip
-    yield from _all_judged(
+    yield from _as_known(
+        moments,
         [
             Headline(
                 "connector_moment", "Largest moment in a connector", found.value, "N m", found.where, _model(found),
                 band=found.band, bound=_of_motion(found),
             )
             for found in moments
-        ]
+        ],
     )  # fmt: skip
-    opened = [(path, _with_opening(data)) for path, data in seas]
-    yield from _all_judged(
+    opened = each_of([(path, _with_opening(data)) for path, data in seas], "opened")
+    openings = [found for found in opened if found.value > 1e-9]
+    yield from _as_known(
+        openings,
         [
             Headline(
                 "gap_motion", "Largest opening and closing of a gap at a connector, about its mean", opening.value, "m",
                 opening.where, _model(opening), band=opening.band, bound=_of_motion(opening),
+                detail=opening.why_loose,
             )
-            for opening in _each(opened, "opened")
-            if opening.value > 1e-9
-        ]
+            for opening in openings
+        ],
     )  # fmt: skip
     worn = [(path, _with_damage(data)) for path, data in seas if "connector_damage_rate" in data]
-    yield from _all_judged(
+    damages = each_of([item for item in worn if "duration" in item[1].attrs], "worn")
+    yield from _as_known(
+        damages,
         [
             Headline(
                 "connector_damage", "Share of the life of a connector that the sea takes", damage.value, "1",
                 damage.where, TIME, band=damage.band, bound=damage.bound,
                 detail=f"in {float(damage.data.attrs['duration']) / 3600.0:.3g} h, cycles by rainflow",
             )
-            for damage in _each([item for item in worn if "duration" in item[1].attrs], "worn")
-        ]
+            for damage in damages
+        ],
     )  # fmt: skip
 
 
-def _stretched(found: _Largest) -> float:
+def _as_known(each: list[Largest], items: list[Headline]) -> list[Headline]:
+    """Return what governs of numbers of connectors, those first of which nothing is known as hulls meet.
+
+    Of a load of which the linear answer has nothing at all nothing is known either.
+    """
+    found = []
+    for one, item in zip(each, items, strict=True):
+        if doubts.meets(one.data):
+            found.append((replace(one, value=math.inf), doubts.not_known(item, doubts.MEET)))
+        elif item.bound == "at least" and item.value == 0.0:
+            found.append((one, doubts.not_known(item, _reasons(one) or doubts.STRAINED)))
+        else:
+            found.append((one, item))
+    return _with_unknown([one for one, _ in found], [item for _, item in found])
+
+
+def _stretched(found: Largest) -> float:
     """Return what motion across would stretch any of the connectors of a sea [m]."""
     return float(np.max(found.data["stretch_across"].values, initial=0.0)) if "stretch_across" in found.data else 0.0
 
 
-def _of_motion(found: _Largest) -> Bound:
+def _of_motion(found: Largest) -> Bound:
     """Return ``at least`` where the units move against each other beyond what their linear motion knows."""
     strained = not found.timed and bool(
         (found.data["line_tension_maximum"] > SNAP_RATIO * found.data["line_tension_mean"]).any()
     )
-    loose = found.name in found.data and "connector" in found.data[found.name].dims and _loose(found)
-    return "at least" if strained or loose or _stretched(found) else found.bound
+    doubted = strained or found.why_loose or _stretched(found) or found.why_beyond
+    return "at least" if doubted else found.bound
 
 
 def _with_opening(data: xr.Dataset) -> xr.Dataset:
@@ -367,43 +236,47 @@ def _with_damage(data: xr.Dataset) -> xr.Dataset:
     return data.assign(found)
 
 
-def _connector_force(found: _Largest) -> Headline:
+def _connector_force(found: Largest) -> Headline:
     words = (
         "largest of the record, all components together"
         if found.timed
         else "mean and waves together, along the direction that bears most"
     )
-    across = f"motion across would stretch a connector by {_stretched(found):.3g} m, not counted"
-    apart = _DRIFTS_APART[2:] if _loose(found) else ""
-    details = (words, ALONE if found.bound else "", across if _stretched(found) else "", apart)
     return Headline(
         "connector_force", "Largest force in a connector", found.value, "N", found.where, _model(found),
         band=found.band, bound=_of_motion(found),
-        detail="; ".join(filter(None, details)), digits=found.digits,
+        detail="; ".join(filter(None, (words, _reasons(found)))), digits=found.digits,
     )  # fmt: skip
 
 
-def _model(found: _Largest) -> str:
+def _reasons(found: Largest) -> str:
+    """Return why a force is no more than a bound."""
+    across = f"motion across would stretch a connector by {_stretched(found):.3g} m, not counted"
+    details = (ALONE if found.bound else "", across if _stretched(found) else "", found.why_loose, found.why_beyond)
+    return "; ".join(filter(None, details))
+
+
+def _model(found: Largest) -> str:
     return TIME if found.timed else MODEL
 
 
 def _lines(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Headline]:
-    each = _each(seas, "line_tension_maximum")
+    each = each_of(seas, "line_tension_maximum")
     if not each:
         return
     yield from _with_unknown(each, [_line_tension(found) for found in each])
     load = np.asarray(groups[f"/{each[0].path.split('/')[1]}/statics"]["breaking_load"].values, dtype=float)
     if not np.isfinite(load).any():
         return
-    shares = _each(seas, "line_tension_maximum", over=load)
+    shares = each_of(seas, "line_tension_maximum", over=load)
     yield from _with_unknown(shares, [_utilisation(share, True) for share in shares])
     if any(_moved(share) for share in shares):
         # codes ask another factor of lines at rest: the highest of them is judged too
         still = [(path, _at_rest(data)) for path, data in seas]
-        yield from (_utilisation(share, False) for share in _each(still, "line_tension_maximum", over=load))
+        yield from (_utilisation(share, False) for share in each_of(still, "line_tension_maximum", over=load))
 
 
-def _with_unknown(each: list[_Largest], items: list[Headline]) -> list[Headline]:
+def _with_unknown(each: list[Largest], items: list[Headline]) -> list[Headline]:
     """Return what governs, with the highest number that is not known: it stands first where none is higher."""
     unknown = [(found.value, item) for found, item in zip(each, items, strict=True) if math.isnan(item.value)]
     known = [item for item in items if not math.isnan(item.value)]
@@ -416,7 +289,7 @@ def _with_unknown(each: list[_Largest], items: list[Headline]) -> list[Headline]
     return [worst, *(replace(item, shown=False, sea="") for item in rest)]
 
 
-def _unknown_line(found: _Largest, mean: float) -> str:
+def _unknown_line(found: Largest, mean: float) -> str:
     """Return why a line of the frequency domain is not known: motions there do not feel how tight it comes."""
     tension = found.value * found.scale
     if found.timed or tension <= SNAP_RATIO * mean:
@@ -428,7 +301,7 @@ def _unknown_line(found: _Largest, mean: float) -> str:
     )
 
 
-def _line_tension(found: _Largest) -> Headline:
+def _line_tension(found: Largest) -> Headline:
     mean = float(found.data["line_tension_mean"].values[found.index])
     if why := _unknown_line(found, mean):
         return Headline(
@@ -443,7 +316,7 @@ def _line_tension(found: _Largest) -> Headline:
     )  # fmt: skip
 
 
-def _utilisation(share: _Largest, shown: bool) -> Headline:
+def _utilisation(share: Largest, shown: bool) -> Headline:
     own = float(share.data["line_tension_mean"].values[share.index])
     if why := _unknown_line(share, own):
         return Headline(
@@ -466,26 +339,26 @@ def _at_rest(data: xr.Dataset) -> xr.Dataset:
     return data.assign(line_tension_maximum=(data["line_tension_maximum"].dims, np.where(kept, tension, np.nan)))
 
 
-def _moved(found: _Largest) -> bool:
+def _moved(found: Largest) -> bool:
     return "lines_in_motion" in found.data and bool(found.data["lines_in_motion"].values[found.index])
 
 
-def _line_band(found: _Largest) -> Band | None:
+def _line_band(found: Largest) -> Band | None:
     """Return the band of realisations, judged at what events that were not rerun leave open."""
     if not _moved(found):
         return found.band
     return found.spread(found.chance(found.members("line_tension_bound")))
 
 
-def _line_model(found: _Largest) -> str:
+def _line_model(found: Largest) -> str:
     return IN_MOTION if _moved(found) else TIME_AT_REST if found.timed else AT_REST
 
 
-def _analysis(found: _Largest) -> str:
+def _analysis(found: Largest) -> str:
     return "dynamic" if _moved(found) else "quasi_static"
 
 
-def _of_line(found: _Largest, mean: float) -> tuple[Bound, str]:
+def _of_line(found: Largest, mean: float) -> tuple[Bound, str]:
     """Return the bound of a tension and its reason: slow drift left out, or snaps that lines at rest do not see."""
     if found.without_drift:
         return "at least", _WITHOUT_DRIFT
@@ -500,7 +373,7 @@ def _of_line(found: _Largest, mean: float) -> tuple[Bound, str]:
 
 def _motions(seas: Seas) -> Iterator[Headline]:
     offsets = []
-    for offset in _each(seas, "largest_offset"):
+    for offset in each_of(seas, "largest_offset"):
         left_out = offset.without_drift
         words = "mean, slow drift and waves" if offset.timed else "mean and waves"
         offsets.append(
@@ -519,9 +392,16 @@ def _motions(seas: Seas) -> Iterator[Headline]:
                 "roll", f"Largest {dof} of a unit, double amplitude", tilt.value, "rad", tilt.where, _model(tilt),
                 band=tilt.band, bound=tilt.bound,
             )
-            for tilt in _each(turned, "tilt")
+            for tilt in each_of(turned, "tilt")
         ]  # fmt: skip
     yield from _all_judged(tilts)
+
+
+def greatest_rolls(seas: Seas) -> list[tuple[str, float]]:
+    """Return the largest roll [rad] of every sea at the end of its band, and where: level, sea, unit."""
+    turned = [(path, _with_tilt(data, "roll")) for path, data in seas]
+    found = each_of(turned, "tilt")
+    return [(one.where, 0.5 * max(one.value, 0.0 if one.band is None else one.band.high)) for one in found]
 
 
 def _with_tilt(data: xr.Dataset, dof: str) -> xr.Dataset:
@@ -549,7 +429,7 @@ def _with_tilt(data: xr.Dataset, dof: str) -> xr.Dataset:
 
 
 def _waves(maps: list[tuple[str, xr.Dataset]]) -> Iterator[Headline]:
-    passed = _each(maps, "transmission_coefficient")
+    passed = each_of(maps, "transmission_coefficient")
     items = [
         Headline(
             "transmission", "Transmission over the line behind", one.value, "1", one.where, MODEL, band=one.band,
@@ -565,11 +445,11 @@ def _waves(maps: list[tuple[str, xr.Dataset]]) -> Iterator[Headline]:
             "berth_wave_height", "Largest wave height at a named point over the incident one", point.value, "1",
             point.where, MODEL, band=point.band,
         )
-        for point in _each(maps, "wave_height_ratio_of_point")
+        for point in each_of(maps, "wave_height_ratio_of_point")
     )  # fmt: skip
 
 
-def _of_section(found: _Largest) -> str:
+def _of_section(found: Largest) -> str:
     """Say what the transmission is, and that of the section alone."""
     words = "root mean square of K along the line behind"
     section = float(np.atleast_1d(found.data["section_transmission"].values)[found.index[0] if found.index else 0])

@@ -242,4 +242,6 @@ def _beyond(inner: tuple[float, float], end: tuple[float, float]) -> list[tuple[
     return [(zero, 0.0), (2.0 * zero - end[0], -end[1])]
 
 
-__all__ = ["BOTH", "PULLS", "PUSHES", "SHORTEST", "Link", "Work", "displacement", "hold_together", "links_of", "part_of"]
+__all__ = [
+    "BOTH", "PULLS", "PUSHES", "SHORTEST", "Link", "Work", "displacement", "hold_together", "links_of", "part_of",
+]  # fmt: skip

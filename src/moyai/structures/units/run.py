@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from moyai.core.arrays import Array
-from moyai.core.collected import Collected
+from moyai.core.collected import Collected, most_severe
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
@@ -29,12 +29,14 @@ from moyai.structures.units.datasets import (
     statics_dataset,
     with_damping_band,
 )
+from moyai.structures.units.doubts import curve_notices, meeting_notices
 from moyai.structures.units.field import map_points, wave_field
 from moyai.structures.units.green import green_function
-from moyai.structures.units.headlines import headlines_of
+from moyai.structures.units.headlines import governing_seas, greatest_rolls, headlines_of
 from moyai.structures.units.hydrodynamics import RowHydrodynamics, solve_row
 from moyai.structures.units.mesh import row_mesh
 from moyai.structures.units.model import DOFS, Settings, UnitsProblem
+from moyai.structures.units.outlines import check_apart
 from moyai.structures.units.seas import (
     ENERGY_LEFT_OUT,
     SeaAnswer,
@@ -151,7 +153,9 @@ def run(problem: UnitsProblem, progress: Progress = silent, *, store: DatasetSto
     """
     collected = Collected()
     collected.take(_steps(problem, collected, store, progress))
+    seas = governing_seas(collected.groups)
     collected.notices.extend(across_notices(collected.groups))
+    collected.notices.extend((*curve_notices(seas), *meeting_notices(collected.groups, seas)))
     return _result(problem, collected)
 
 
@@ -159,6 +163,7 @@ def _steps(
     problem: UnitsProblem, collected: Collected, store: DatasetStore | None, progress: Progress
 ) -> Iterator[None]:
     environment = problem.environment
+    check_apart(problem.row)
     levels = [assemble(problem.row, environment, name, level) for name, level in environment.water_levels]
     of_file = None
     if WITH_WAVES & set(problem.settings.analyses):
@@ -234,8 +239,7 @@ def _level_steps(
         if data.attrs["status"] != "converged":
             collected.failures.append(f"not settled: {at.name}/frequency/{sea.name}")
         collected.checks.extend(_balance(at, sea, answers[sea.name], hydro))
-        in_time = "time" in settings.analyses
-        collected.notices.extend((*(() if in_time else _curve_notices(at)), *_beyond_curves(at, sea.name, data)))
+        collected.notices.extend(() if "time" in settings.analyses else _curve_notices(at))
         yield
     progress("seas", len(answers), len(environment.sea_states))
     if "time" in settings.analyses:
@@ -330,28 +334,6 @@ def _curve_notices(at: RowAtLevel) -> list[Notice]:
     ]
 
 
-def _beyond_curves(at: RowAtLevel, sea: str, data: xr.Dataset) -> list[Notice]:
-    """Say which rubber is stretched or pressed beyond its curve, which then goes on straight."""
-    out = []
-    for number, joint in enumerate(at.joints):
-        curve = joint.connector.curve
-        if curve is None or joint.connector.kind != "rubber":
-            continue
-        low = float(np.min(data["elongation_lowest"].values[..., number]))
-        high = float(np.max(data["elongation_highest"].values[..., number]))
-        if low < curve.elongation[0] or high > curve.elongation[-1]:
-            out.append(
-                Notice(
-                    "beyond-curve",
-                    f"{at.name}, {sea}: connector '{joint.name}' is worked from {low:.3g} to {high:.3g} m, its curve "
-                    f"ends at {curve.elongation[0]:.3g} and {curve.elongation[-1]:.3g} m and is drawn out straight",
-                    value=max(-low, high), limit=max(-curve.elongation[0], curve.elongation[-1]),
-                    remedy="give the curve farther, or a stiffer connector",
-                )
-            )  # fmt: skip
-    return out
-
-
 def _notices(problem: UnitsProblem, at: RowAtLevel) -> list[Notice]:
     out = []
     row = at.row
@@ -412,12 +394,12 @@ def _result(problem: UnitsProblem, collected: Collected) -> Result:
         for seed in data["seed_of_realisation"].values
     ]
     found = headlines_of(collected.groups)
-    for item in (item for item in found if item.name == "roll" and item.shown):
-        rest = collected.groups[f"/{item.where.split(', ')[0]}/statics"]
+    rolls = []
+    for where, roll in greatest_rolls(governing_seas(collected.groups)):
+        rest = collected.groups[f"/{where.split(', ')[0]}/statics"]
         sizes = {"freeboard": float(rest["freeboard"]), "draught": float(rest["draught"]), "beam": rest.attrs["beam"]}
-        # a row prints double amplitudes
-        if "pitch" not in item.label:
-            collected.notices.extend(roll_notices(0.5 * item.value, where=item.where, **sizes))
+        rolls += roll_notices(roll, where=where, **sizes)
+    collected.notices.extend(most_severe(rolls))
     return collected.close(
         VOCABULARY,
         attributes,

@@ -359,6 +359,8 @@ def _check_problem(problem: UnitsProblem, findings: Findings) -> None:
     from moyai.structures.units.assembly import assemble, level_notices, steady_load, steady_position
     from moyai.structures.units.bem import check_memory
     from moyai.structures.units.coefficients_file import read_row, row_from_file
+    from moyai.structures.units.contact import steady_meeting
+    from moyai.structures.units.outlines import check_apart
     from moyai.structures.units.run import WITH_WAVES, check_resolution, highest_frequency, row_panels
     from moyai.structures.units.seas import frequencies_of, headings_of
 
@@ -368,12 +370,14 @@ def _check_problem(problem: UnitsProblem, findings: Findings) -> None:
     of_file = None
     for name, level in environment.water_levels:
         try:
+            check_apart(problem.row)
             at = assemble(problem.row, environment, name, level)
             notices = list(level_notices(at))
             if _check_lines_at_rest(problem, at, findings):
                 return
             wind, current = steady_load(at, environment)
-            steady_position(at, wind + current)
+            for notice in steady_meeting(at, steady_position(at, wind + current).position):
+                findings.warn(("structure",), notice.message, remedy=notice.remedy)
             if problem.coefficients is not None and WITH_WAVES & set(problem.settings.analyses) and omega.size:
                 of_file = read_row(problem.coefficients) if of_file is None else of_file
                 notices += row_from_file(of_file, at, omega, headings_of(environment)).notices

@@ -15,6 +15,7 @@ from moyai.sea.states import IrregularSea, RegularSea
 from moyai.series.rainflow import count_cycles
 from moyai.structures.units.across import stretch_across
 from moyai.structures.units.assembly import RowAtLevel
+from moyai.structures.units.contact import meeting_variables
 from moyai.structures.units.datasets import coords_of
 from moyai.structures.units.gaps import gaps_of
 from moyai.structures.units.time.memory import RowMemory
@@ -32,8 +33,8 @@ _SCATTER = (
     "line_tension_maximum", "largest_offset", "gap_motion_largest", "gap_closing_largest", "connector_damage_rate",
     "maximum_motion",
 )  # fmt: skip
-_LOWEST = ("elongation_lowest",)
-_HIGHEST = ("elongation_highest", "stretch_across")
+_LOWEST = ("elongation_lowest", "least_distance")
+_HIGHEST = ("elongation_highest", "stretch_across", "hulls_meet")
 Numbers = dict[str, tuple[tuple[str, ...], Array]]
 _CONNECTOR, _COMPONENT = ("connector",), ("connector", "component")
 
@@ -84,6 +85,7 @@ def run_numbers(given: TimeRun) -> Numbers:
         high[link.joint] = np.fmax(high[link.joint], elongation.max())
     stretch = stretch_across(at.joints, moved[:, :3], high, in_time=True)
     tension = run.tension[part]
+    closing = np.array([gap.largest(motions) for gap in gaps_of(at)])
     most = np.abs(loads).max(axis=0)
     out: Numbers = {
         "mean_offset": (("unit", "dof"), mean),
@@ -102,14 +104,12 @@ def run_numbers(given: TimeRun) -> Numbers:
         "relative_motion_largest": (_COMPONENT, moved[:, :3]),
         "relative_turn_largest": (_COMPONENT, moved[:, 3:]),
         "gap_motion_largest": (_CONNECTOR, moved[:, 1]),
-        "gap_closing_largest": (
-            ("gap",),
-            np.array([gap.largest(motions) for gap in gaps_of(at)]),
-        ),
+        "gap_closing_largest": (("gap",), closing),
         "line_tension_mean": (("line",), tension.mean(axis=0)),
         "line_tension_maximum": (("line",), tension.max(axis=0)),
         "line_tension_minimum": (("line",), tension.min(axis=0)),
     }
+    out |= {name: ((), value) for name, value in meeting_variables(at, motions.mean(axis=0), closing).items()}
     if given.seed >= 0:
         out["significant_motion"] = (("unit", "dof"), 4.0 * motion.std(axis=0))
         out["significant_height"] = ((), np.asarray(4.0 * given.elevation[part].std()))

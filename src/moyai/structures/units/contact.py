@@ -1,0 +1,126 @@
+"""Where connectors that bear one way keep contact, and where hulls meet: what the linear answer then still knows.
+
+A fender that is pressed at rest is a spring both ways in the linear answer; it holds its units only as long as no wave
+lifts it off. Hulls that meet push each other, which neither domain computes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.core.arrays import Array
+from moyai.core.validity import Notice
+from moyai.structures.units.assembly import RowAtLevel
+from moyai.structures.units.doubts import meeting_notice
+from moyai.structures.units.gaps import gaps_of, largest_closing
+from moyai.structures.units.model import Curve, Placement
+from moyai.structures.units.outlines import least_distance
+from moyai.structures.units.seas import SeaAnswer
+
+#: Travel [m] and force [N] that are rounding.
+_NO_TRAVEL, _NO_FORCE = 1e-9, 1e-6
+Flags = NDArray[np.bool_]
+
+
+def touches(curve: Curve, low: float, high: float) -> tuple[bool, bool]:
+    """Return whether a connector bears anywhere from one elongation to another [m], and whether it lets go on the way.
+
+    It lets go where its curve is zero over a stretch; a curve that passes through zero changes its side there.
+    """
+    if high - low < _NO_TRAVEL:
+        return bool(abs(float(curve.at(np.array(low)))) > _NO_FORCE), False
+    nodes = np.array(curve.elongation)
+    e = np.concatenate([[low], nodes[(nodes > low) & (nodes < high)], [high]])
+    free = np.abs(curve.at(e)) <= _NO_FORCE
+    loose = free[1:] & free[:-1] & (np.diff(e) > _NO_TRAVEL)
+    return bool(not free.all()), bool(loose.any())
+
+
+def measured_ends(curve: Curve, kind: str) -> tuple[float, float]:
+    """Return the ends [m] between which a curve was measured; NaN where it has none or bears nothing beyond it."""
+    ends = np.array([curve.elongation[0], curve.elongation[-1]])
+    force = np.array(curve.force)
+    idle = [not force[:2].any(), not force[-2:].any()]
+    found = np.where(idle, np.nan, ends) if kind == "rubber" else np.full(2, np.nan)
+    return float(found[0]), float(found[1])
+
+
+def contact_of(at: RowAtLevel, answer: SeaAnswer, low: Array, high: Array) -> tuple[Flags, Flags, Flags, Flags]:
+    """Return of every connector whether its units are held and whether contact is lost; of every gap the same.
+
+    Units are held by a constraint, or by what is stiffer than the lines of a unit and never lets go. Contact is lost
+    where nothing holds them and a connector between them bears and lets go in one motion.
+
+    Parameters
+    ----------
+    at : RowAtLevel
+    answer : SeaAnswer
+    low, high : ndarray (joints,)
+        Elongations that connectors with a curve are worked between [m].
+    """
+    lines = at.line_stiffness(answer.rest.position).diagonal().reshape(-1, 6)[:, :2].max(initial=0.0)
+    holds, lets_go = np.zeros(len(at.joints), dtype=bool), np.zeros(len(at.joints), dtype=bool)
+    for number, joint in enumerate(at.joints):
+        spring, axis, curve = joint.connector.stiffness, joint.from_end_to_end, joint.connector.curve
+        own = 0.0 if spring is None else float(axis @ spring[:3, :3] @ axis)
+        if curve is not None:
+            bears, lets_go[number] = touches(curve, float(low[number]), float(high[number]))
+            own += answer.curve_stiffness[number] if bears and not lets_go[number] else 0.0
+            lets_go[number] &= bears
+        holds[number] = joint.held[:, :3].any() or own > lines
+
+    def among(pair: tuple[int, int]) -> tuple[bool, bool]:
+        same = np.array([set(joint.pair) == set(pair) for joint in at.joints], dtype=bool)
+        held = bool(holds[same].any())
+        return held, bool(lets_go[same].any()) and not held
+
+    joints = np.array([among(joint.pair) for joint in at.joints], dtype=bool).reshape(-1, 2)
+    gaps = np.array([among(gap.pair) for gap in gaps_of(at)], dtype=bool).reshape(-1, 2)
+    return joints[:, 0], joints[:, 1], gaps[:, 0], gaps[:, 1]
+
+
+def contact_variables(at: RowAtLevel, answers: Sequence[SeaAnswer], low: Array, high: Array) -> dict[str, Array]:
+    """Return the flags of :func:`contact_of` (n, joints or gaps), by the names of results."""
+    names = ("connector_joins", "connector_loses_contact", "gap_joined", "gap_loses_contact")
+    rows = [contact_of(at, *each) for each in zip(answers, low, high, strict=True)]
+    return {name: np.array([row[number] for row in rows]).astype(np.int8) for number, name in enumerate(names)}
+
+
+def distance_at(at: RowAtLevel, position: Array) -> float:
+    """Return the least distance [m] of two units in plan at a position (m,) of the row; negative where they overlap."""
+    moved = [
+        Placement(place.x + float(move[0]), place.y + float(move[1]), place.heading + float(move[5]))
+        for place, move in zip(at.row.placements, position.reshape(-1, 6), strict=True)
+    ]
+    return least_distance(at.row, moved)[0]
+
+
+def meeting_variables(at: RowAtLevel, position: Array, closing: Array) -> dict[str, Any]:
+    """Return the distance of the units in their mean position (m,), and whether hulls meet there or by their motion.
+
+    Parameters
+    ----------
+    at : RowAtLevel
+    position : ndarray (m,)
+    closing : ndarray (gaps,)
+        Largest of every gap [m].
+    """
+    width, least = np.array([gap.width for gap in gaps_of(at)]), distance_at(at, position)
+    meet = bool(np.any(closing >= width)) or least <= 0.0
+    return {"least_distance": np.asarray(least), "hulls_meet": np.asarray(meet, dtype=np.int8)}
+
+
+def steady_meeting(at: RowAtLevel, position: Array) -> Iterator[Notice]:
+    """Say that hulls meet under wind and current alone, at their position (m,)."""
+    width = np.array([gap.width for gap in gaps_of(at)])
+    closing = largest_closing(at, position, lambda corners: np.zeros(len(corners)))
+    yield from meeting_notice(f"{at.name}, wind and current", closing / width, width, distance_at(at, position))
+
+
+__all__ = [
+    "contact_of", "contact_variables", "distance_at", "measured_ends", "meeting_variables", "steady_meeting", "touches",
+]  # fmt: skip

@@ -1,0 +1,179 @@
+"""The largest value of a variable over seas, with what it varies by."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from moyai.core.arrays import Array
+from moyai.core.headline import Band, Bound
+from moyai.series.realisations import alone, seeds
+from moyai.structures.units import doubts
+from moyai.structures.units.model import DAMPING_BAND, SNAP_RATIO
+from moyai.structures.units.unjudged import Seas, in_time
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+_DAMPING = f"damping of the units beyond waves times {DAMPING_BAND[0]:g} to {DAMPING_BAND[1]:g}"
+#: Loads and closings of connectors that pull nothing or do not move are differences of large numbers: what is below
+#: this [N, N m, m] is rounding.
+_ROUNDED, _NOTHING = ("connector_resultant_largest", "connector_moment_largest", "gap_closing_largest"), 1e-6
+
+
+def _where(path: str, data: xr.Dataset, index: tuple[int, ...], dims: tuple[str, ...]) -> str:
+    level, _, sea = path.split("/")[1:]
+    words = [level, sea]
+    for dim, number in zip(dims, index):
+        value = data[dim].values[number]
+        words.append(f"T = {float(value):g} s" if dim == "period" else f"unit {value}" if dim == "unit" else str(value))
+    return ", ".join(words)
+
+
+def _greatest(
+    groups: list[tuple[str, xr.Dataset]], name: str, over: Array | None = None
+) -> tuple[float, str, tuple[str, xr.Dataset, tuple[int, ...]]] | None:
+    best: tuple[float, str, tuple[str, xr.Dataset, tuple[int, ...]]] | None = None
+    for path, data in groups:
+        if name not in data or not data[name].size:
+            continue
+        values = np.abs(np.asarray(data[name].values, dtype=float))
+        if name in _ROUNDED:
+            values[values < _NOTHING] = 0.0
+        if over is not None:
+            values = values / over
+        if not np.isfinite(values).any():
+            continue
+        index = tuple(int(i) for i in np.unravel_index(int(np.nanargmax(values)), values.shape))
+        value = float(values[index])
+        if best is None or value > best[0]:
+            best = value, _where(path, data, index, tuple(str(dim) for dim in data[name].dims)), (path, data, index)
+    return best
+
+
+@dataclass(frozen=True)
+class Largest:
+    """The largest value of a variable over all seas, and where it stands."""
+
+    value: float
+    where: str
+    path: str
+    data: xr.Dataset
+    index: tuple[int, ...]
+    name: str
+    scale: float
+
+    @property
+    def timed(self) -> bool:
+        return in_time(self.path)
+
+    @property
+    def scatter(self) -> Array:
+        """The value of each realisation, none where the number is of no random sea in time and repeats."""
+        return self.members(self.name)
+
+    def members(self, name: str) -> Array:
+        """Return a number of each realisation, or of each part of a regular motion that does not repeat."""
+        scatter = self.data.get(f"{name}_of_realisation")
+        rows = () if scatter is None else np.asarray(scatter.values, dtype=float)
+        found = np.array([row[self.index] for row in rows]) / self.scale
+        return found[np.isfinite(found)]
+
+    @property
+    def band(self) -> Band | None:
+        """What the realisations and the damping of the units are worth; none of nothing."""
+        return self.spread(self.chance()) if self.value > 0.0 else None
+
+    def chance(self, bound: Array | None = None) -> Band | None:
+        """Return the band of realisations, or of parts of a regular motion that does not repeat."""
+        found = seeds(self.scatter, bound)
+        if found is None or "period" not in self.data.dims:
+            return found
+        of = f"{found.realisations} parts of a record that does not repeat; judged at the 95 % end of their mean"
+        return replace(found, of=of, more="settings.time.duration")
+
+    def spread(self, chance: Band | None) -> Band | None:
+        """Return a band of realisations widened by what the damping of the units is worth."""
+        damping = damping_band(self.data, self.name, self.index, self.scale)
+        if damping is None or chance is None or not self.value > 0.0:
+            return chance or damping
+        less, more = damping.low / self.value, damping.high / self.value
+        return replace(chance.scaled(less, more), of=f"{chance.of}; {damping.of}")
+
+    @property
+    def bound(self) -> Bound:
+        """What one realisation alone proves."""
+        return alone(self.scatter)
+
+    @property
+    def digits(self) -> int:
+        """Digits that are known: two where rounding decides when a connector or a line comes taut, so that no run
+        repeats."""
+        if not self.timed:
+            return 3
+        tight = self.data["line_tension_maximum"] > SNAP_RATIO * self.data["line_tension_mean"]
+        curved = "elongation_highest" in self.data and bool(np.isfinite(self.data["elongation_highest"]).any())
+        return 2 if self.scatter.size and (curved or bool(tight.any())) else 3
+
+    @property
+    def why_loose(self) -> str:
+        """Why units move against each other by more than the linear answer knows."""
+        return doubts.why_loose(self.path, self.data, self.name, self.index)
+
+    @property
+    def why_beyond(self) -> str:
+        """How far a connector is worked beyond its measured curve."""
+        return doubts.why_beyond(self.data, self.name, self.index)
+
+    @property
+    def without_drift(self) -> bool:
+        """Whether it is of an irregular sea without slow drift."""
+        return not self.timed and "significant_motion" in self.data
+
+
+def damping_band(data: xr.Dataset, name: str, index: tuple[int, ...], scale: float = 1.0) -> Band | None:
+    """Return the band of a number over the damping of the units; None where there was none to vary."""
+    if f"{name}_low" not in data:
+        return None
+    low, high = (abs(float(data[f"{name}_{end}"].values[index])) / scale for end in ("low", "high"))
+    return Band(low, high, _DAMPING)
+
+
+def _largest(seas: Seas, name: str, over: Array | None = None) -> Largest | None:
+    found = _greatest(seas, name, over)
+    if found is None:
+        return None
+    value, where, (path, data, index) = found
+    return Largest(value, where, path, data, index, name, 1.0 if over is None else float(over[index[-1]]))
+
+
+def each_of(seas: Seas, name: str, over: Array | None = None) -> list[Largest]:
+    """Return the largest value of every sea, of regular waves of every period."""
+    parts = [
+        (path, data.isel(period=[row])) if "period" in data.dims else (path, data)
+        for path, data in seas
+        for row in range(data.sizes.get("period", 1))
+    ]
+    parts = [(path, apart) for path, data in parts for apart in _held_and_loose(path, data, name)]
+    return [found for part in parts if (found := _largest([part], name, over)) is not None]
+
+
+def _held_and_loose(path: str, data: xr.Dataset, name: str) -> Iterator[xr.Dataset]:
+    """Yield a sea with a number of what connectors hold together, and with that of what drifts apart as well.
+
+    The larger of both may be known while the other one is open.
+    """
+    known = None if in_time(path) else doubts.followed(data, name)
+    if known is None:
+        yield data
+        return
+    for held in (True, False):
+        there = known == held
+        if bool(there.any()):
+            yield data.assign({name: data[name].where(there)})
+
+
+__all__ = ["Largest", "damping_band", "each_of"]
