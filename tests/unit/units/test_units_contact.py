@@ -1,0 +1,241 @@
+"""Connectors that let go within a wave, and hulls that meet: what the first page then still knows."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from moyai.core.errors import InputError
+from moyai.core.headline import Criterion, judge
+from moyai.potential.shapes import circle, trapezoid
+from moyai.structures.units.contact import contact_of, measured_ends, meeting_variables, steady_meeting, touches
+from moyai.structures.units.datasets import with_damping_band
+from moyai.structures.units.doubts import curve_notices, meeting_notices
+from moyai.structures.units.headlines import _connectors, _gaps, governing_seas, greatest_rolls
+from moyai.structures.units.model import Connector, Curve, Placement
+from moyai.structures.units.outlines import breadths, check_apart, least_distance
+from moyai.validation.units import at_rest, row
+
+FENDER = Curve((-1.05, -0.05, 1.05), (-3e6, 0.0, 0.0))
+CHAIN = Curve((-0.9, 0.1, 1.1), (0.0, 0.0, 2e6))
+RUBBER = Curve((-0.1, 0.0, 0.2), (-8e4, 0.0, 6e4))
+PULLING = Curve((-0.1, 0.0, 0.2), (0.0, 0.0, 6e4))
+
+
+@pytest.mark.parametrize(
+    ("curve", "low", "high", "expected"),
+    [
+        (FENDER, -0.09, -0.06, (True, False)),  # pressed all the while
+        (FENDER, -0.09, -0.02, (True, True)),
+        (FENDER, -0.04, 3.0, (False, True)),  # beyond its curve as well
+        (CHAIN, 0.2, 0.5, (True, False)),
+        (CHAIN, -0.2, 0.5, (True, True)),
+        (RUBBER, -0.05, 0.1, (True, False)),  # changes its side at one point
+        (PULLING, -0.05, 0.1, (True, True)),
+        (PULLING, 0.01, 0.1, (True, False)),
+        (FENDER, -0.06, -0.06, (True, False)),  # no motion
+        (FENDER, 0.0, 0.0, (False, False)),
+    ],
+)
+def test_a_connector_lets_go_where_its_curve_is_zero_over_a_stretch(
+    curve: Curve, low: float, high: float, expected: tuple[bool, bool]
+) -> None:
+    assert touches(curve, low, high) == expected
+
+
+def _fender(name: str) -> Connector:
+    return Connector(name, "fender", ((0, 1),), 0.0, 3.0, (0.0, 1.0, 0.0), curve=FENDER)
+
+
+PIN = Connector("pin", "ball", ((0, 1),), 0.0, 1.0)
+
+
+@pytest.mark.parametrize(
+    ("connectors", "worked", "held", "lost"),
+    [
+        ((_fender("f"),), [(-0.09, -0.06)], True, False),
+        ((_fender("f"),), [(-0.09, 0.02)], False, True),
+        ((_fender("f"),), [(-0.02, 0.02)], False, False),
+        # one that is lifted beside one that never is, and beside a ball
+        ((_fender("f"), _fender("g")), [(-0.09, 0.02), (-0.09, -0.06)], True, False),
+        ((_fender("f"), _fender("g")), [(-0.09, 0.02), (-0.09, -0.01)], False, True),
+        ((PIN, _fender("f")), [(np.nan, np.nan), (-0.09, 0.02)], True, False),
+    ],
+)
+def test_a_gap_is_held_by_what_never_lets_go(
+    connectors: tuple[Connector, ...], worked: list[tuple[float, float]], held: bool, lost: bool
+) -> None:
+    """A fender that is pressed by 3 cm at rest is no spring that pulls: all connectors of a gap agree with the gap."""
+    at = at_rest(row(connectors))
+    stiffness = np.array([3e6 * (joint.connector.curve is not None) for joint in at.joints])
+    answer: Any = SimpleNamespace(rest=SimpleNamespace(position=np.zeros(12)), curve_stiffness=stiffness)
+    low, high = np.array(worked).T
+    joins, loses, gap_joined, gap_loses = contact_of(at, answer, low, high)
+    assert joins.tolist() == [held] * len(connectors) and gap_joined.tolist() == [held]
+    assert loses.tolist() == [lost] * len(connectors) and gap_loses.tolist() == [lost]
+
+
+def test_contact_that_is_lost_at_an_end_of_the_damping_is_lost() -> None:
+    own, other = (
+        xr.Dataset({"connector_joins": ("connector", [joins]), "gap_loses_contact": ("gap", [1 - joins])})
+        for joins in (1, 0)
+    )
+    found = with_damping_band(own, [own, other])
+    assert found["connector_joins"].values.tolist() == [0] and found["gap_loses_contact"].values.tolist() == [1]
+
+
+DIMS = ("connector", "component")
+
+
+def _regular(*, loses: int = 0, meet: int = 0, closing: float = 0.05, force: float = 5e2) -> xr.Dataset:
+    """One period over two units with a fender in a gap of 0.5 m."""
+    data = xr.Dataset(
+        {
+            "connector_resultant_largest": ("connector", [force]),
+            "connector_moment_largest": (DIMS, [[10.0, 0.0, 0.0]]),
+            "relative_motion_largest": (DIMS, [[0.0, 0.006, 0.0]]),
+            "connector_joins": ("connector", [1 - loses]),
+            "connector_loses_contact": ("connector", [loses]),
+            "gap_joined": ("gap", [1 - loses]),
+            "gap_loses_contact": ("gap", [loses]),
+            "gap_closing_largest": ("gap", [closing]),
+            "hulls_meet": ((), meet),
+            "least_distance": ((), 0.4),
+            "elongation_lowest": ("connector", [-0.21]),
+            "elongation_highest": ("connector", [0.33]),
+            "line_tension_maximum": ("line", [2.0]),
+            "line_tension_mean": ("line", [2.0]),
+        },
+        coords={"connector": ["f"], "component": list("xyz"), "gap": ["gap 1-2"], "line": ["a"]},
+    )
+    return data.expand_dims({"period": [4.0]})
+
+
+def _groups(sea: xr.Dataset, domain: str = "frequency", **statics: Any) -> dict[str, xr.Dataset]:
+    known = {"connector_breaking_load": ("connector", [1e5]), "gap_width": ("gap", [0.5]), **statics}
+    rest = xr.Dataset(known, coords={"connector": ["f"]})
+    return {"/SWL/statics": rest, f"/SWL/{domain}/daily": sea}
+
+
+LIMITS = (
+    Criterion("factor", "connector_utilisation", 0.5, "at most", "case", as_factor=True),
+    Criterion("motion", "gap_motion", 0.3, "at most", "case"),
+    Criterion("closing", "gap_closing", 1.0, "at most", "case"),
+)
+
+
+def test_regular_waves_that_lift_a_fender_give_bounds_that_hold_nothing() -> None:
+    for loses, outcome in ((0, "holds"), (1, "not judged")):
+        groups = _groups(_regular(loses=loses))
+        seas = governing_seas(groups)
+        found = [*_connectors(groups, seas), *_gaps(groups, seas)]
+        assert {item.bound for item in found} == {"at least" if loses else ""}
+        assert {item.outcome for item in judge(found, LIMITS, computed=True).judgements} == {outcome}
+        words = {item.name: item.detail for item in found}
+        for name in ("connector_force", "gap_motion", "gap_closing"):
+            assert ("lets go within the wave" in words[name]) is bool(loses), name
+            assert "slow drift" not in words[name]
+
+
+@pytest.mark.parametrize("force", [0.0, 2.7e5])
+def test_nothing_is_known_of_connectors_between_hulls_that_meet(force: float) -> None:
+    """Neither no load nor the pull of a chain whose ends have passed through each other."""
+    groups = _groups(_regular(meet=1, closing=1.33, force=force))
+    seas = governing_seas(groups)
+    found = [*_connectors(groups, seas), *_gaps(groups, seas)]
+    assert {item.name for item in found if item.text == "not known" and np.isnan(item.value)} == {
+        "connector_force", "connector_utilisation", "connector_moment", "gap_motion",
+    }  # fmt: skip
+    assert all("hulls meet" in item.detail for item in found if item.text)
+    outcomes = {item.criterion.name: item.outcome for item in judge(found, LIMITS, computed=False).judgements}
+    assert outcomes == {"factor": "not judged", "motion": "not judged", "closing": "does not hold"}
+    (notice,) = meeting_notices(groups, seas)
+    assert notice.severity == "error" and notice.limit == 1.0 and notice.value == pytest.approx(2.66)
+    assert "T = 4 s" in notice.message and "1.33 m of 0.5 m" in notice.message
+
+
+def test_a_sea_in_which_hulls_meet_stands_before_one_that_is_known() -> None:
+    groups = {**_groups(_regular()), "/SWL/frequency/storm": _regular(meet=1, closing=0.6, force=0.0)}
+    force = next(item for item in _connectors(groups, governing_seas(groups)) if item.name == "connector_force")
+    assert force.text == "not known" and "storm" in force.where and force.shown
+
+
+def test_one_realisation_in_which_hulls_meet_is_told() -> None:
+    sea = _regular(meet=1, closing=0.45).squeeze("period", drop=True)
+    sea["gap_closing_largest_of_realisation"] = (("member", "gap"), [[0.4], [0.52]])
+    groups = _groups(sea)
+    (notice,) = meeting_notices(groups, [("/SWL/time/storm", sea)])
+    assert notice.value == pytest.approx(1.04)
+
+
+def test_hulls_meet_by_their_motion_or_where_they_lie_in_the_mean() -> None:
+    at = at_rest(row())
+    moved = np.zeros(12)
+    assert not meeting_variables(at, moved, np.array([0.99]))["hulls_meet"]
+    assert meeting_variables(at, moved, np.array([1.0]))["hulls_meet"]
+    moved[7] = -1.6
+    found = meeting_variables(at, moved, np.array([0.0]))
+    assert found["hulls_meet"] and float(found["least_distance"]) == pytest.approx(-0.6)
+    (notice,) = steady_meeting(at, moved)
+    assert notice.value == pytest.approx(1.6) and "wind and current" in notice.message
+    # side by side there is no gap that is followed
+    aside = at_rest(replace(row(), placements=(Placement(0.0, 0.0), Placement(11.0, 0.0))))
+    moved = np.zeros(12)
+    assert not list(steady_meeting(aside, moved))
+    moved[6] = -1.25
+    (notice,) = steady_meeting(aside, moved)
+    assert "overlap by 0.25 m" in notice.message and notice.severity == "error"
+
+
+def test_decks_that_lie_in_one_another_are_refused() -> None:
+    """Trapezoids of 4 m at the keel and 6 m at the deck, 5.5 m from middle to middle: waterlines apart, decks not."""
+    hull = trapezoid(4.0, 6.0, 2.2)
+    assert np.allclose(breadths(hull), [[-3.0, 3.0]])
+    places = (Placement(0.0, 0.0), Placement(5.5, 0.0))
+    given = replace(row(), hull=hull, placements=places)
+    assert least_distance(given, places) == (pytest.approx(-0.5), (0, 1))
+    with pytest.raises(InputError, match=r"units 1 and 2 overlap by 0.5 m"):
+        check_apart(given)
+    check_apart(replace(given, placements=(places[0], Placement(6.1, 0.0))))
+    # turned by a right angle, its end 0.2 m from the deck of the other
+    least, _ = least_distance(given, (places[0], Placement(13.2, 0.0, 0.5 * np.pi)))
+    assert least == pytest.approx(0.2)
+    assert np.allclose(breadths(circle(3.0)), [[-3.0, 3.0]], atol=3e-3)
+
+
+def test_rubber_beyond_its_curve_bears_at_least_what_is_shown() -> None:
+    """From -0.21 to 0.33 m on a curve from -0.1 to 0.2 m, in time as well; a side that bears nothing has no end."""
+    assert measured_ends(RUBBER, "rubber") == (-0.1, 0.2)
+    low, high = measured_ends(PULLING, "rubber")
+    assert np.isnan(low) and high == 0.2
+    assert np.isnan(measured_ends(CHAIN, "chain")).all()
+    for ends, bound in (((-0.1, 0.2), "at least"), ((-0.3, 0.4), ""), ((np.nan, 0.4), "")):
+        known = {"curve_lowest": ("connector", [ends[0]]), "curve_highest": ("connector", [ends[1]])}
+        sea = _regular().assign_attrs(status="converged")
+        groups = {**_groups(sea, **known), "/SWL/time/daily": sea}
+        seas = governing_seas(groups)
+        found = {item.name: item for item in _connectors(groups, seas)}
+        assert found["connector_force"].bound == found["connector_utilisation"].bound == bound
+        assert ("curve ends at -0.1 and 0.2 m" in found["connector_force"].detail) is bool(bound)
+        notices = list(curve_notices(seas))
+        assert len(notices) == bool(bound)
+        assert all("worked from -0.21 to 0.33 m" in item.message for item in notices)
+
+
+def test_roll_is_held_against_the_deck_edge_at_the_end_of_its_band() -> None:
+    dims = ("unit", "dof")
+    data = xr.Dataset(
+        {
+            "significant_motion": (dims, [[0.4], [0.6]]), "significant_motion_high": (dims, [[0.4], [0.75]]),
+            "significant_motion_low": (dims, [[0.4], [0.5]]),
+            "most_probable_maximum_motion": (dims, [[0.3], [0.45]]),
+        },
+        coords={"unit": [1, 2], "dof": ["roll"]},
+    )  # fmt: skip
+    ((where, roll),) = greatest_rolls([("/SWL/frequency/storm", data)])
+    assert where == "SWL, storm, unit 2" and roll == pytest.approx(0.45 * 0.75 / 0.6)
