@@ -183,11 +183,11 @@ def test_hulls_meet_by_their_motion_or_where_they_lie_in_the_mean() -> None:
     assert found["hulls_meet"] and float(found["least_distance"]) == pytest.approx(-0.6)
     (notice,) = steady_meeting(at, moved)
     assert notice.value == pytest.approx(1.6) and "wind and current" in notice.message
-    # side by side there is no gap that is followed
-    aside = at_rest(replace(row(), placements=(Placement(0.0, 0.0), Placement(11.0, 0.0))))
+    # beyond the corner of a unit there is no gap that is followed
+    aside = at_rest(replace(row(), placements=(Placement(0.0, 0.0), Placement(11.0, 21.0))))
     moved = np.zeros(12)
     assert not list(steady_meeting(aside, moved))
-    moved[6] = -1.25
+    moved[6:8] = -1.25, -1.5
     (notice,) = steady_meeting(aside, moved)
     assert "overlap by 0.25 m" in notice.message and notice.severity == "error"
 
