@@ -165,6 +165,15 @@ def test_a_sea_in_which_hulls_meet_stands_before_one_that_is_known() -> None:
     assert force.text == "not known" and "storm" in force.where and force.shown
 
 
+@pytest.mark.parametrize(("known", "shown"), [(0.0, "not known"), (3e3, "")])
+def test_no_load_in_one_sea_is_none_in_the_next(known: float, shown: str) -> None:
+    """A chain that stays slack in regular waves; in the storm, where it bears and lets go, nothing is known of it."""
+    groups = {**_groups(_regular(force=known)), "/SWL/frequency/storm": _regular(loses=1, force=0.0)}
+    found = [item for item in _connectors(groups, governing_seas(groups)) if item.name == "connector_force"]
+    assert [item.text for item in found if item.shown] == [shown]
+    assert {item.text for item in found} == {"not known", ""}
+
+
 def test_one_realisation_in_which_hulls_meet_is_told() -> None:
     sea = _regular(meet=1, closing=0.45).squeeze("period", drop=True)
     sea["gap_closing_largest_of_realisation"] = (("member", "gap"), [[0.4], [0.52]])
@@ -182,7 +191,7 @@ def test_hulls_meet_by_their_motion_or_where_they_lie_in_the_mean() -> None:
     found = meeting_variables(at, moved, np.array([0.0]))
     assert found["hulls_meet"] and float(found["least_distance"]) == pytest.approx(-0.6)
     (notice,) = steady_meeting(at, moved)
-    assert notice.value == pytest.approx(1.6) and "wind and current" in notice.message
+    assert notice.value == pytest.approx(1.6) and "without waves" in notice.message
     # beyond the corner of a unit there is no gap that is followed
     aside = at_rest(replace(row(), placements=(Placement(0.0, 0.0), Placement(11.0, 21.0))))
     moved = np.zeros(12)

@@ -115,10 +115,10 @@ def meeting_variables(at: RowAtLevel, position: Array, closing: Array) -> dict[s
 
 
 def steady_meeting(at: RowAtLevel, position: Array) -> Iterator[Notice]:
-    """Say that hulls meet under wind and current alone, at their position (m,)."""
+    """Say that hulls meet under lines, wind and current alone, at their position (m,)."""
     width = np.array([gap.width for gap in gaps_of(at)])
     closing = largest_closing(at, position, lambda corners: np.zeros(len(corners)))
-    yield from meeting_notice(f"{at.name}, wind and current", closing / width, width, distance_at(at, position))
+    yield from meeting_notice(f"{at.name}, without waves", closing / width, width, distance_at(at, position))
 
 
 __all__ = [

@@ -80,13 +80,13 @@ def not_known(item: Headline, why: str) -> Headline:
 
 
 def meeting_notices(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Notice]:
-    """Say where hulls meet, under wind and current and in every sea of those that govern."""
+    """Say where hulls meet, without waves and in every sea of those that govern."""
     for path, rest in groups.items():
         if path.endswith("/statics") and "gap_closing_steady" in rest:
             level = path.split("/")[1]
             share = rest["gap_closing_steady"] / rest["gap_width"]
             yield from meeting_notice(
-                f"{level}, wind and current", share.values, rest["gap_width"].values, float(rest["least_distance"]),
+                f"{level}, without waves", share.values, rest["gap_width"].values, float(rest["least_distance"]),
             )  # fmt: skip
     for path, data in seas:
         if not meets(data):

@@ -199,7 +199,8 @@ def _as_known(each: list[Largest], items: list[Headline]) -> list[Headline]:
         if doubts.meets(one.data):
             found.append((replace(one, value=math.inf), doubts.not_known(item, doubts.MEET)))
         elif item.bound == "at least" and item.value == 0.0:
-            found.append((one, doubts.not_known(item, _reasons(one) or doubts.STRAINED)))
+            # before a sea that is known to give nothing
+            found.append((replace(one, value=1e-300), doubts.not_known(item, _reasons(one) or doubts.STRAINED)))
         else:
             found.append((one, item))
     return _with_unknown([one for one, _ in found], [item for _, item in found])

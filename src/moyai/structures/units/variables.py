@@ -70,7 +70,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "curve_lowest": ("m", "elongation at which a measured curve begins"),
     "curve_highest": ("m", "elongation at which a measured curve ends"),
     "least_distance": ("m", "least distance of two units in plan in their mean position; below zero they overlap"),
-    "gap_closing_steady": ("m", "closing of a gap under wind and current at a corner of the hulls"),
+    "gap_closing_steady": ("m", "closing of a gap without waves at a corner of the hulls"),
     "hulls_meet": ("1", "whether hulls meet, in their mean position or by their motion"),
     "elongation_lowest": ("m", "lowest elongation of a connector with a curve, mean and waves"),
     "elongation_highest": ("m", "highest elongation of a connector with a curve, mean and waves"),
