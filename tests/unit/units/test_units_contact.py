@@ -236,15 +236,15 @@ def test_rubber_beyond_its_curve_bears_at_least_what_is_shown() -> None:
         assert all("worked from -0.21 to 0.33 m" in item.message for item in notices)
 
 
-def test_roll_is_held_against_the_deck_edge_at_the_end_of_its_band() -> None:
+def test_roll_is_held_against_the_deck_edge_from_upright_at_the_end_of_its_band() -> None:
     dims = ("unit", "dof")
     data = xr.Dataset(
         {
             "significant_motion": (dims, [[0.4], [0.6]]), "significant_motion_high": (dims, [[0.4], [0.75]]),
             "significant_motion_low": (dims, [[0.4], [0.5]]),
-            "most_probable_maximum_motion": (dims, [[0.3], [0.45]]),
+            "most_probable_maximum_motion": (dims, [[0.3], [0.45]]), "mean_offset": (dims, [[0.1], [-0.02]]),
         },
         coords={"unit": [1, 2], "dof": ["roll"]},
     )  # fmt: skip
     ((where, roll),) = greatest_rolls([("/SWL/frequency/storm", data)])
-    assert where == "SWL, storm, unit 2" and roll == pytest.approx(0.45 * 0.75 / 0.6)
+    assert where == "SWL, storm, unit 2" and roll == pytest.approx(0.02 + 0.45 * 0.75 / 0.6)

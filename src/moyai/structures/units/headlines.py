@@ -399,10 +399,12 @@ def _motions(seas: Seas) -> Iterator[Headline]:
 
 
 def greatest_rolls(seas: Seas) -> list[tuple[str, float]]:
-    """Return the largest roll [rad] of every sea at the end of its band, and where: level, sea, unit."""
-    turned = [(path, _with_tilt(data, "roll")) for path, data in seas]
-    found = each_of(turned, "tilt")
-    return [(one.where, 0.5 * max(one.value, 0.0 if one.band is None else one.band.high)) for one in found]
+    """Return the largest roll [rad] of every sea from upright, at the end of its band, and where: level, sea, unit."""
+    rolls = []
+    for found in each_of([(path, _with_tilt(data, "roll")) for path, data in seas], "tilt"):
+        mean = abs(float(found.data["mean_offset"].sel(dof="roll").values[found.index]))
+        rolls.append((found.where, mean + 0.5 * max(found.value, 0.0 if found.band is None else found.band.high)))
+    return rolls
 
 
 def _with_tilt(data: xr.Dataset, dof: str) -> xr.Dataset:
