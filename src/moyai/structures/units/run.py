@@ -394,7 +394,7 @@ def _result(problem: UnitsProblem, collected: Collected) -> Result:
         for seed in data["seed_of_realisation"].values
     ]
     found = headlines_of(collected.groups)
-    rolls = []
+    rolls: list[Notice] = []
     for where, roll in greatest_rolls(governing_seas(collected.groups)):
         rest = collected.groups[f"/{where.split(', ')[0]}/statics"]
         sizes = {"freeboard": float(rest["freeboard"]), "draught": float(rest["draught"]), "beam": rest.attrs["beam"]}
