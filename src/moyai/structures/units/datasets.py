@@ -400,7 +400,8 @@ _PHASES, _STATES = 360, 36
 #: Numbers that are given a band of the damping.
 BANDED = (
     "significant_motion", "motion_amplitude", "largest_offset", "line_tension_maximum", "connector_resultant_largest",
-    "connector_moment_largest", "gap_closing_largest", "transmission_coefficient", "wave_height_ratio_of_point",
+    "connector_moment_largest", "relative_motion_largest", "gap_closing_largest", "transmission_coefficient",
+    "wave_height_ratio_of_point",
 )  # fmt: skip
 
 

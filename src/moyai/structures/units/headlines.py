@@ -352,7 +352,11 @@ def _of_motion(found: _Largest) -> Bound:
 
 def _with_opening(data: xr.Dataset) -> xr.Dataset:
     """Return a sea with the opening of its gaps, its realisations where they are known."""
-    found = {"opened": data["relative_motion_largest"].sel(component="y")}
+    found = {
+        f"opened{end}": data[f"relative_motion_largest{end}"].sel(component="y")
+        for end in ("", "_low", "_high")
+        if f"relative_motion_largest{end}" in data
+    }
     if "gap_motion_largest_of_realisation" in data:
         found["opened_of_realisation"] = data["gap_motion_largest_of_realisation"]
     return data.assign(found)
