@@ -86,11 +86,17 @@ def test_a_line_is_asked_at_the_motion_of_its_own_unit() -> None:
 
 
 def test_the_distance_counts_where_the_tangent_pulls_another_way() -> None:
-    """A hanging line lifts its chain by heave: its largest linear tension is that of heave, sway pulls it straight."""
-    motion = swaying(1.27)
+    """A slack chain is lifted by heave and hardly pulled by sway, which then pulls it straight."""
+    motion, rest = swaying(3.27), np.array([-2.0, 0.0, 0.0, 0.0, 0.0, 0.0])
     motion[:, 0, 2] = 1j * motion[:, 0, 0]
     lines = RowLines(((chain(),),), DEPTH)
-    assert found(lines, motion)[0] > 1.3e6
+    across, up = lines.at(rest).tension_gradient[0, [0, 2]]
+    lifted = 3.27 * np.array([across, up]) / math.hypot(across, up)
+    (at_largest_tangent,) = lines.tensions_of(rest + np.array([[[lifted[0], 0.0, lifted[1], 0.0, 0.0, 0.0]]]))[0]
+    away = lines.spans(rest)[1][0, [0, 2]] * 3.27
+    (farthest,) = lines.tensions_of(rest + np.array([[[away[0], 0.0, away[1], 0.0, 0.0, 0.0]]]))[0]
+    assert farthest > 2.0 * at_largest_tangent
+    assert found(lines, motion, rest)[0] == pytest.approx(farthest, rel=1e-6)
 
 
 def test_an_inextensible_line_that_cannot_reach_has_no_bound() -> None:
