@@ -40,6 +40,18 @@ def not_judged(seas: Seas) -> Headline:
     return Headline("not_judged", "Not judged", math.nan, "1", text=", ".join(words), detail="; ".join(detail))
 
 
+def not_judged_at_rest(rests: Seas) -> Headline:
+    """Return what the first page says nothing about where no sea was run."""
+    words = ["waves"]
+    if any(data.sizes.get("connector", 0) for _, data in rests):
+        words.append("forces in connectors")
+    if any(data.sizes.get("gap", 0) for _, data in rests):
+        words.append("closing of gaps")
+    words += ["one line lost", "other directions of wind and current"]
+    detail = "no sea was run: tensions and offsets are those of wind and current alone, waves and drift add to them"
+    return Headline("not_judged", "Not judged", math.nan, "1", text=", ".join(words), detail=detail)
+
+
 def _snaps(data: xr.Dataset) -> bool:
     """Whether lines at rest are pulled beyond their range, and none was set in motion."""
     beyond = data["line_tension_maximum"].values > SNAP_RATIO * data["line_tension_mean"].values
