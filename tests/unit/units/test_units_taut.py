@@ -78,6 +78,22 @@ def test_small_seas_give_the_linear_tension_to_first_order(height: float) -> Non
     assert half / whole == pytest.approx(np.full(3, 0.25), rel=0.1)
 
 
+def test_it_is_what_random_records_of_the_row_give() -> None:
+    """The catenary at every instant of thirty records of sway, heave and roll, 30 minutes each."""
+    phase = np.exp(1j * np.array([0.3, 1.4, -0.8, 0.0]))
+    motion = swaying(0.9)
+    motion[:, 0, [0, 2, 4]] = motion[:, 0, [0]] * np.array([1.0, 0.8, 0.05]) * phase[:3]
+    lines, rng = RowLines(((chain(),),), DEPTH), np.random.default_rng(11)
+    time, step = np.arange(0.0, DURATION, 0.25), OMEGA[1] - OMEGA[0]
+    omega = OMEGA[:, None] + step * rng.uniform(-0.5, 0.5, size=(len(OMEGA), 30))
+    size = np.sqrt(DENSITY * step) * (rng.normal(size=omega.shape) + 1j * rng.normal(size=omega.shape))
+    largest = []
+    for record in range(30):
+        waves = np.exp(-1j * np.outer(time, omega[:, record])) * size[:, record]
+        largest.append(lines.tensions_of((waves @ motion[:, 0]).real[:, None, :]).max())
+    assert np.percentile(largest, 20) < found(lines, motion)[0] < np.percentile(largest, 60)
+
+
 def test_a_line_is_asked_at_the_motion_of_its_own_unit() -> None:
     lines = RowLines(((chain(),), (chain(name="other"),)), DEPTH)
     still, moved = found(lines, swaying(1.0, unit=1, units=2))

@@ -427,13 +427,15 @@ def _unknown_line(found: _Largest, mean: float) -> str:
         return ""
     if math.isinf(highest):
         return "a line at rest does not reach so far; run the time domain with lines in motion"
-    ratio = highest / mean if mean > 0.0 else math.inf
-    given = spoken(tension, "N", 3)
+    ratio, given = highest / mean if mean > 0.0 else math.inf, spoken(tension, "N", 3)
     if tension <= SNAP_RATIO * mean:
-        given += f", with damping at the end of its band {spoken(highest, 'N', 3)}"
+        return (
+            f"lines at rest give {given}, with damping at the end of its band {spoken(highest, 'N', 3)}, {ratio:.1f} "
+            f"times the mean, beyond their range of {SNAP_RATIO:g}; run the time domain with lines in motion"
+        )
     return (
-        f"lines at rest give {given}, {ratio:.1f} times the mean, beyond their range of "
-        f"{SNAP_RATIO:g}; run the time domain with lines in motion"
+        f"lines at rest give {given}, {ratio:.1f} times the mean, beyond their range of {SNAP_RATIO:g}; run the time "
+        "domain with lines in motion"
     )
 
 

@@ -1,4 +1,4 @@
-"""The first page's numbers of a row at rest: freeboard and stability, and under wind and current where no sea was run."""
+"""The first page's numbers of a row at rest: freeboard and stability; tensions and offset where no sea was run."""
 
 from __future__ import annotations
 

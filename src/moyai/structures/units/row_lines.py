@@ -79,8 +79,9 @@ class RowLines:
         return self._last[key]
 
     def tensions_of(self, positions: Array) -> Array:
-        """Return the tensions (..., lines) [N] of lines at rest, each with its unit at a position (..., lines, 6) of its
-        own; infinite where an inextensible line cannot reach.
+        """Return the tensions (..., lines) [N] of lines at rest, each with its unit at a position (..., lines, 6).
+
+        Infinite where an inextensible line cannot reach.
         """
         fairlead, anchor, _ = self._places
         points = positions[..., :3] + np.einsum("...ij,...j->...i", rotation_matrix(positions[..., 3:]), fairlead)
@@ -93,8 +94,9 @@ class RowLines:
         return out
 
     def spans(self, position: Array) -> tuple[Array, Array]:
-        """Return the distance (lines,) [m] of every fairlead from its anchor at a position (m,), and its derivative
-        (lines, 6) by the motions of the unit.
+        """Return how far every fairlead is from its anchor [m] at a position (m,), and that by the motions of its unit.
+
+        Shapes are (lines,) and (lines, 6).
         """
         fairlead, anchor, _ = self._places
         place = position.reshape(-1, 6)[self.unit]

@@ -51,4 +51,3 @@ def largest_at_rest(
     share = np.divide(most, variance, out=np.zeros_like(most), where=variance > 0.0)
     positions = rest.reshape(-1, 6)[unit] + share[..., None] * together
     return np.asarray(lines.tensions_of(positions).max(axis=0))
-
