@@ -52,6 +52,12 @@ SLIPS = {
                  "connector 'second 1-2' holds", "structure.connectors"),
     "no such unit": ((PIN, PIN.replace("kind: hinge", "between: [[1, 4]], kind: hinge")), "there is no unit 4", "between"),
     "joined to itself": ((PIN, PIN.replace("kind: hinge", "between: [[2, 2]], kind: hinge")), "joined to itself", ""),
+    "a unit between": (
+        (PIN, PIN.replace("kind: hinge", "between: [[1, 3]], kind: hinge")), "unit 2 lies between them", "between",
+    ),
+    "units apart": (
+        (UNITS, "units: {length: 20 m, places: [{y: 0 m}, {y: 45 m}]}"), "are 25 m apart", "between",
+    ),
     "line of no unit": (("# units: [1, 3]", "units: [1, 5]   #"), "there is no unit 5", "lines[0].units"),
     "line in motion": (("# units: [1, 3]", "dynamic: true   #"), "at rest at every instant", "lines[0].dynamic"),
     "drag of a line": (("# units: [1, 3]", "drag_width: 0.1 m   #"), "is not counted", "lines[0].drag_width"),

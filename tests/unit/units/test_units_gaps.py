@@ -44,5 +44,5 @@ def test_surge_sway_and_yaw_close_a_gap_as_small_motions_do() -> None:
 
 def test_gaps_are_those_of_neighbours_that_face_each_other() -> None:
     assert [gap.name for gap in gaps_of(at_rest(row(count=3)))] == ["gap 1-2", "gap 2-3"]
-    bent = replace(row(), placements=(Placement(0.0, 0.0), Placement(14.0, 18.0, -1.0)))
-    assert not gaps_of(at_rest(bent))
+    corner = replace(row(), placements=(Placement(0.0, 0.0), Placement(16.0, 16.5, 0.5 * np.pi)))
+    assert not gaps_of(at_rest(corner))

@@ -99,6 +99,11 @@ def test_lids_lie_between_ends_that_face_each_other_whatever_the_order_of_the_un
     row = straight_row(3, 20.0, 1.0)
     assert lids(row) == (pytest.approx(20.0), {0, 1})
     assert lids(row[::-1]) == (pytest.approx(20.0), {1, 2})
-    # side by side there is no gap between ends, at a right angle open water
-    assert lids([Placement(0.0, 0.0), Placement(11.0, 0.0)]) == (0.0, set())
-    assert lids([Placement(0.0, 0.0), Placement(15.5, 6.0, 0.5 * np.pi)]) == (0.0, set())
+    # one of them turned round has its gap as well
+    turned = [row[0], Placement(row[1].x, row[1].y, np.pi), row[2]]
+    assert lids(turned) == (pytest.approx(20.0), {0, 1})
+    # side by side, and an end before a side of which it covers nine metres
+    assert lids([Placement(0.0, 0.0), Placement(11.0, 0.0)]) == (pytest.approx(20.0), {0})
+    assert lids([Placement(0.0, 0.0), Placement(15.5, 6.0, 0.5 * np.pi)]) == (pytest.approx(4.5), {1})
+    # far apart there is open water
+    assert lids([Placement(0.0, 0.0), Placement(25.0, 0.0)]) == (0.0, set())

@@ -1,7 +1,8 @@
 """Connectors between units: what they hold, what they give way to, and the loads in them.
 
 The relative motion of a connector is that of the unit after it less that of the unit before it, at its place, in axes
-of the unit before it [eq:units-relative]. Held components are constraints; the others bear by springs, dashpots,
+of the gap: x along the face of the unit before it, y across the gap, z up [eq:units-relative]. The order in which a
+pair is listed does not matter [eq:units-faces]. Held components are constraints; the others bear by springs, dashpots,
 curves.
 """
 
@@ -14,6 +15,7 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.mooring.rotations import cross_matrix
+from moyai.structures.units.faces import meeting
 from moyai.structures.units.model import Connector, FloatingRow
 
 _RANK = 1e-9
@@ -38,7 +40,7 @@ class Joint:
     span : float
         Distance of its ends at rest [m].
     frame : ndarray (3, 3)
-        From row axes to those of the unit before it.
+        From row axes to those of the gap.
     from_end_to_end : ndarray (3,)
         Unit vector from the near end to the far end at rest, the same axes; zero where they meet.
     """
@@ -60,7 +62,7 @@ class Joint:
 
     @property
     def axis(self) -> Array:
-        """Direction of a curve at rest (3,), axes of the unit before it."""
+        """Direction of a curve at rest (3,), axes of the gap."""
         return self.from_end_to_end if self.in_space else np.asarray(self.connector.axis, dtype=float)
 
     @property
@@ -98,23 +100,20 @@ def joints_of(row: FloatingRow, centres: Array, draught: float) -> tuple[Joint, 
     draught : float
         [m].
     """
-    joints = []
+    joints, bounds = [], row.hull.bounds[:2]
     for connector in row.connectors:
-        for first, second in connector.pairs:
-            one, other = row.placements[first], row.placements[second]
-            half = 0.5 * row.length
-            height = connector.above_keel - draught
-            near = one.to_row(np.array([connector.x, half, height]))
-            far = other.to_row(np.array([connector.x, -half, height]))
-            place = 0.5 * (near + far)
-            frame = one.rotation.T
+        for listed in connector.pairs:
+            met = meeting(row.placements, listed, row.length, bounds)
+            first, second = met.pair
+            near, far = (np.array([*point, connector.above_keel - draught]) for point in met.joined_at(connector.x))
+            place, frame = 0.5 * (near + far), met.frame
             relative = np.zeros((6, 6 * row.count))
             for unit, sign in ((first, -1.0), (second, 1.0)):
                 columns = slice(6 * unit, 6 * unit + 6)
                 arm = cross_matrix(place - centres[unit])
                 relative[:3, columns] = sign * np.concatenate([frame, -frame @ arm], axis=1)
                 relative[3:, columns.start + 3 : columns.stop] = sign * frame
-            name = connector.name if len(connector.pairs) == 1 else f"{connector.name} {first + 1}-{second + 1}"
+            name = connector.name if len(connector.pairs) == 1 else f"{connector.name} {listed[0] + 1}-{listed[1] + 1}"
             apart = frame @ (far - near)
             span = float(np.linalg.norm(apart))
             axis = apart / span if span > 0.0 else apart

@@ -1,7 +1,8 @@
 """The gap between two units: how far their hulls close it, corner against corner.
 
-A connector may hold the middle of a gap open while decks or keels meet. Every corner of the end of one hull stands
-against the same corner of the next; they touch where they close the gap by its width [eq:units-gap].
+A connector may hold the middle of a gap open while decks or keels meet. Every corner of the face of one hull stands
+before the face of the other; they touch where it closes its own clearance [eq:units-gap]. Faces that are turned or
+moved aside have corners of different clearance: the one that uses most of its own counts.
 """
 
 from __future__ import annotations
@@ -14,8 +15,8 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.mooring.rotations import cross_matrix
 from moyai.structures.units.assembly import RowAtLevel
+from moyai.structures.units.faces import Face, Meeting, gaps_between
 from moyai.structures.units.links import displacement, hold_together
-from moyai.structures.units.model import facing
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,11 +30,13 @@ class Gap:
     pair : tuple of (int, int)
         Units, counted from 0.
     width : float
-        At rest [m].
-    along : ndarray (3,)
+        Least clearance of a corner at rest [m].
+    along : ndarray (corners, 3)
         From the first unit to the second, row axes.
     arms : ndarray (2, corners, 3)
-        Corners of both ends from the centres of their units [m], row axes.
+        Points that touch, from the centres of their units [m], row axes.
+    weight : ndarray (corners,)
+        Width over the clearance of a corner: closings are those of a gap of this width.
     bend : float
         1 where turns count to second order, 0 where the units are held together along their gap.
     """
@@ -43,44 +46,77 @@ class Gap:
     width: float
     along: Array
     arms: Array
+    weight: Array
     bend: float
 
     def rows(self, size: int) -> Array:
         """Return the closing (corners, m) by small motions of all units."""
-        out = np.zeros((self.arms.shape[1], size))
+        out = np.zeros((len(self.weight), size))
         for unit, sign, arms in zip(self.pair, (1.0, -1.0), self.arms, strict=True):
             columns = slice(6 * unit, 6 * unit + 6)
             out[:, columns] = sign * np.array(
-                [np.concatenate([self.along, -self.along @ cross_matrix(arm)]) for arm in arms]
+                [
+                    weight * np.concatenate([along, -along @ cross_matrix(arm)])
+                    for weight, along, arm in zip(self.weight, self.along, arms, strict=True)
+                ]
             )
         return out
 
     def largest(self, position: Array) -> float:
         """Return the largest closing of any corner [m] over positions (n, m) of the row."""
         most = np.full(len(position), -np.inf)
-        for near, far in zip(*self.arms, strict=True):
+        for near, far, along, weight in zip(*self.arms, self.along, self.weight, strict=True):
             one, other = (
                 displacement(position[:, 6 * unit : 6 * unit + 6], arm, self.bend)
                 for unit, arm in zip(self.pair, (near, far), strict=True)
             )
-            most = np.maximum(most, (one - other) @ self.along)
+            most = np.maximum(most, weight * ((one - other) @ along))
         return float(most.max())
 
 
 def gaps_of(at: RowAtLevel) -> tuple[Gap, ...]:
     """Return the gaps between neighbours, narrower than a unit is long."""
     out = []
-    places, length = at.row.placements, at.row.length
-    outline = np.concatenate([item.edges.polyline() for item in at.row.hull.outlines])
-    for first, second, width in facing(places, length):
-        arms = []
-        for unit, end in ((first, 0.5 * length), (second, -0.5 * length)):
-            corners = np.column_stack([outline[:, 0], np.full(len(outline), end), outline[:, 1] - at.draught])
-            arms.append(places[unit].to_row(corners) - at.centres[unit])
-        bend = 0.0 if hold_together(at.joints, (first, second)) else 1.0
-        name = f"gap {first + 1}-{second + 1}"
-        out.append(Gap(name, (first, second), width, places[first].rotation[:, 1], np.array(arms), bend))
+    for met in gaps_between(at.row.placements, at.row.length, at.row.hull.bounds[:2]):
+        clearance, along, arms = _corners(at, met)
+        if not clearance.size or not clearance.min() > 0.0:
+            continue
+        bend = 0.0 if hold_together(at.joints, met.pair) else 1.0
+        name, width = f"gap {met.pair[0] + 1}-{met.pair[1] + 1}", float(clearance.min())
+        out.append(Gap(name, met.pair, width, along, arms, width / clearance, bend))
     return tuple(out)
+
+
+def _corners(at: RowAtLevel, met: Meeting) -> tuple[Array, Array, Array]:
+    """Return clearance (n,) [m], direction (n, 3) and arms (2, n, 3) of the corners of both faces before the other."""
+    clearances: list[float] = []
+    along: list[Array] = []
+    arms: list[tuple[Array, Array]] = []
+    for own, other, sign in ((met.far, met.near, 1.0), (met.near, met.far, -1.0)):
+        towards = np.array([*other.normal, 0.0])
+        for corner in _outline(at, own):
+            apart = float(other.before(corner[:2]))
+            pair = (corner - apart * towards, corner)[:: int(sign)]
+            if not other.holds(corner[:2]) or any(np.allclose(pair, known, atol=1e-9) for known in arms):
+                continue
+            clearances.append(apart)
+            along.append(sign * towards)
+            arms.append(pair)
+    points = np.array(arms).reshape(-1, 2, 3).swapaxes(0, 1)
+    return np.array(clearances), np.array(along), points - at.centres[list(met.pair)][:, None]
+
+
+def _outline(at: RowAtLevel, face: Face) -> Array:
+    """Return the corners (n, 3) of the hull on a face [m], row axes."""
+    outline = np.concatenate([item.edges.polyline() for item in at.row.hull.outlines])
+    left, right = at.row.hull.bounds[:2]
+    half, place = 0.5 * at.row.length, at.row.placements[face.unit]
+    if face.is_end:
+        points = [(x, half if face.kind == 0 else -half, z) for x, z in outline]
+    else:
+        middle, side = 0.5 * (left + right), 1.0 if face.kind == 1 else -1.0
+        points = [(x, y, z) for x, z in outline if side * (x - middle) >= 0.0 for y in (-half, half)]
+    return place.to_row(np.array(points) - np.array([0.0, 0.0, at.draught]))
 
 
 def largest_closing(at: RowAtLevel, position: Array, reach: Callable[[Array], Array]) -> Array:

@@ -89,7 +89,7 @@ class Link:
     span : float
         Distance of the ends at rest [m]; zero of a curve that keeps its direction.
     frame : ndarray (3, 3)
-        From row axes to those of the unit before it.
+        From row axes to those of the gap.
     bend : float
         1 where turns count to second order, 0 where units are held together along their gap.
     """
@@ -129,7 +129,7 @@ class Link:
         return np.asarray(apart / np.linalg.norm(apart, axis=-1, keepdims=True))
 
     def direction(self, position: Array) -> Array:
-        """Return the unit vector (..., 3) that it pulls the near end along, axes of the unit before it."""
+        """Return the unit vector (..., 3) that it pulls the near end along, axes of the gap."""
         return np.asarray(self._direction(position) @ self.frame.T)
 
     def along(self, position: Array) -> Array:

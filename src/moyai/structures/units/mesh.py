@@ -10,13 +10,14 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import pairwise, permutations
+from itertools import combinations, pairwise
 
 import numpy as np
 
 from moyai.core.arrays import Array, IntArray
 from moyai.core.errors import InputError
 from moyai.potential.sections import Section
+from moyai.structures.units.faces import Meeting, gaps_between
 from moyai.structures.units.model import Placement
 
 HULL, LID, GAP = 0, 1, 2
@@ -29,8 +30,8 @@ _LONG_EDGE = 0.08
 _LARGEST_TURN = 12.0
 #: Most panels of a row
 MOST_PANELS = 50_000
-#: Width over the length of a unit, and cosine of the turn, beyond which ends of two units enclose no gap
-_OPEN, _TURNED = 0.5, 0.7
+#: Width over the length of a unit beyond which two faces enclose no gap
+_OPEN = 0.5
 #: Least width of a gap over the size of a panel
 LEAST_GAP = 0.1
 
@@ -309,7 +310,7 @@ def row_mesh(
 def gap_size(section: Section, length: float, placements: tuple[Placement, ...], size: float) -> float:
     """Return the size of panels that face each other in a gap [m]: its width, a quarter of the others at least."""
     plans = [waterplane(section, length, place) for place in placements]
-    narrowest = min((clearance(one, other) for one, other in pairwise(plans)), default=size)
+    narrowest = min((clearance(one, other) for one, other in combinations(plans, 2)), default=size)
     return min(size, max(narrowest, 0.25 * size))
 
 
@@ -327,25 +328,38 @@ def _check_count(section: Section, length: float, units: int, size: float) -> No
 
 
 def _gap_lids(section: Section, length: float, placements: tuple[Placement, ...], size: float) -> list[PanelMesh]:
-    left, right = section.waterlines[0][0], section.waterlines[-1][1]
-    across = left + cuts(right - left, size, even=True)
+    bounds = section.waterlines[0][0], section.waterlines[-1][1]
     lids = []
-    for (number, one), (_, other) in permutations(enumerate(placements), 2):
-        near = one.to_row(np.array([(x, 0.5 * length, 0.0) for x in across]))
-        far = other.to_row(np.array([(x, -0.5 * length, 0.0) for x in across]))
+    for met in gaps_between(placements, length, bounds):
+        near, far = _edges(met, size)
         width = float(np.linalg.norm(far - near, axis=1).max())
-        if width > _OPEN * length or math.cos(other.heading - one.heading) < _TURNED:
-            continue  # open water, whatever the order of the units
+        if width > _OPEN * length:
+            continue  # open water
         t = cuts(1.0, min(1.0, size / width), even=True, refined=(False, False))
         nodes = near[:, None] + t[None, :, None] * (far - near)[:, None]
         panels = [
             [nodes[i, j], nodes[i, j + 1], nodes[i + 1, j + 1], nodes[i + 1, j]]
-            for i in range(len(across) - 1)
+            for i in range(len(near) - 1)
             for j in range(len(t) - 1)
         ]
         corners = _outward(np.array(panels), np.array([0.0, 0.0, -1.0]))
-        lids.append(PanelMesh(corners, np.full(len(panels), number), np.full(len(panels), GAP)))
+        lids.append(PanelMesh(corners, np.full(len(panels), met.near.unit), np.full(len(panels), GAP)))
     return lids
+
+
+def _edges(met: Meeting, size: float) -> tuple[Array, Array]:
+    """Return the points (n, 3) of a lid on both faces: from corner to corner of ends, across from each other else."""
+    near, far = met.near, met.far
+    low, high = (near.low, near.high) if near.is_end and far.is_end else met.overlap
+    offsets = low + cuts(high - low, size, even=True)
+    start = near.middle + offsets[:, None] * near.along
+    if near.is_end and far.is_end:
+        end = far.middle - offsets[:, None] * far.along
+    else:
+        reach = far.before(start) / -float(far.normal @ near.normal)
+        end = start + reach[:, None] * near.normal
+    level = np.zeros((len(offsets), 1))
+    return np.hstack([start, level]), np.hstack([end, level])
 
 
 def waterplane(section: Section, length: float, place: Placement) -> Array:

@@ -8,7 +8,7 @@ about y, yaw about z.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Literal
@@ -25,8 +25,6 @@ from moyai.mooring.lines import Clump, Segment
 from moyai.potential.sections import Hull
 from moyai.sea.environment import Environment
 
-#: Units that are turned against each other by more [rad], or lie further aside [lengths of a unit], do not face.
-_TURNED, _ASIDE = 1e-3, 0.02
 #: Along x, y, z and about x, y, z of the unit.
 DOFS = ("sway", "surge", "heave", "pitch", "roll", "yaw")
 #: Largest tension over the mean up to which a line at rest at every instant serves
@@ -121,7 +119,7 @@ class Connector:
     x, above_keel : float
         Where: across from the centre line and above the keel [m]; along, the middle of the gap.
     axis : tuple of three float
-        Axis of a hinge, direction of a curve, in axes of the first unit of the pair.
+        Axis of a hinge, direction of a curve, in axes of the gap.
     stiffness, damping : ndarray (6, 6) or None
         Of a spring [N/m, N, N m], [N s/m, N s, N m s].
     curve : Curve or None
@@ -375,19 +373,6 @@ class UnitsProblem:
     case_text: str = ""
     case_hash: str = ""
     coefficients: RowCoefficients | None = None
-
-
-def facing(places: Sequence[Placement], length: float) -> list[tuple[int, int, float]]:
-    """Return neighbours that face each other end to end, nearer than a unit is long, with the gap between them [m]."""
-    found = []
-    for first, one in enumerate(places):
-        for second, other in enumerate(places):
-            apart = one.rotation.T @ np.array([other.x - one.x, other.y - one.y, 0.0])
-            turned = abs(np.angle(np.exp(1j * (other.heading - one.heading))))
-            faces = turned <= _TURNED and abs(apart[0]) <= _ASIDE * length
-            if first != second and faces and length < apart[1] < 2.0 * length:
-                found.append((first, second, float(apart[1]) - length))
-    return found
 
 
 def straight_row(count: int, length: float, gap: float) -> tuple[Placement, ...]:

@@ -32,9 +32,10 @@ def not_judged(seas: Seas) -> Headline:
     if any(np.nan_to_num(data["connector_moment_largest"].values).any() for _, data in seas):
         words.append("moments in connectors")
         detail.append("the moment in a connector is a number of the page, no strength of the case is held against it")
-    if any(data.sizes.get("unit", 1) > 1 and not data.sizes.get("gap", 0) for _, data in seas):
+    if alone := _without_gap(seas):
         words.append("contact of hulls")
-        detail.append("units that do not face each other end to end have no gap that is followed")
+        numbers = ", ".join(str(unit) for unit in alone)
+        detail.append(f"no face of another unit stands before these units, no gap of theirs is followed: {numbers}")
     words += ["one line lost", "other directions of waves and current"]
     detail.append("no row with a line or a connector lost, no directions but those of the seas of the case")
     return Headline("not_judged", "Not judged", math.nan, "1", text=", ".join(words), detail="; ".join(detail))
@@ -47,9 +48,21 @@ def not_judged_at_rest(rests: Seas) -> Headline:
         words.append("forces in connectors")
     if any(data.sizes.get("gap", 0) for _, data in rests):
         words.append("closing of gaps")
+    if _without_gap(rests):
+        words.append("contact of hulls")
     words += ["one line lost", "other directions of wind and current"]
     detail = "no sea was run: tensions and offsets are those of wind and current alone, waves and drift add to them"
     return Headline("not_judged", "Not judged", math.nan, "1", text=", ".join(words), detail=detail)
+
+
+def _without_gap(seas: Seas) -> list[int]:
+    """Return the units of a row, counted from 1, that no gap is followed of."""
+    _, data = seas[0] if seas else ("", None)
+    if data is None or data.sizes.get("unit", 1) < 2:
+        return []
+    names = [str(name) for name in data["gap"].values] if "gap" in data.coords else []
+    known = {int(number) for name in names for number in name.split(" ", 1)[1].split("-")}
+    return [unit for unit in range(1, data.sizes["unit"] + 1) if unit not in known]
 
 
 def _snaps(data: xr.Dataset) -> bool:

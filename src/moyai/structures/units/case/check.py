@@ -35,6 +35,7 @@ def check(model: schema.UnitsCase, findings: Findings, folder: Path) -> None:
     hull = _hull(model, findings)
     if hull is not None:
         _check_floating(model, hull, findings)
+        _check_joined(model, hull, findings)
     _check_by_building(model, findings, folder)
 
 
@@ -129,6 +130,35 @@ def _check_numbers(model: schema.UnitsCase, findings: Findings) -> None:
         findings.fault(
             ("lines", index, "name"), f"two lines are called '{model.lines[index].name}'", remedy="rename one"
         )
+
+
+def _check_joined(model: schema.UnitsCase, hull: Hull, findings: Findings) -> None:
+    """Refuse connectors between units that do not meet."""
+    from moyai.structures.units.faces import between, meeting
+
+    places, length, bounds = _places(model), model.structure.units.length, hull.bounds[:2]
+    for index, entry in enumerate(model.structure.connectors):
+        path: KeyPath = ("structure", "connectors", index, "between")
+        listed = not isinstance(entry.between, str)
+        pairs: Any = entry.between if listed else [(unit, unit + 1) for unit in range(1, len(places))]
+        for number, pair in enumerate(pairs):
+            if max(pair) > len(places) or pair[0] == pair[1]:
+                continue
+            first, second = sorted(pair)
+            met = meeting(places, (first - 1, second - 1), length, bounds)
+            other = between(places, met, length, bounds)
+            if other is not None:
+                reason = f"unit {other + 1} lies between them"
+            elif met.distance > length and entry.kind != "chain":
+                reason = f"the faces that they turn to each other are {met.distance:.3g} m apart"
+            else:
+                continue
+            findings.fault(
+                (*path, number) if listed else path,
+                f"connector '{entry.name}' joins units {first} and {second}, which do not meet: {reason}",
+                allowed=f"units nearer than {length:g} m with no other between them",
+                remedy="list the units in their order, or give the pairs in 'between'",
+            )
 
 
 def _check_lines(model: schema.UnitsCase, findings: Findings) -> None:

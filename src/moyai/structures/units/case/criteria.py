@@ -26,7 +26,7 @@ from moyai.case.schema_types import Name, QuantityOf
 from moyai.core import quantities
 from moyai.core.headline import UNCONFIRMED, Criterion
 from moyai.structures.units.case.places import placements_of
-from moyai.structures.units.model import facing
+from moyai.structures.units.faces import gaps_between
 
 AFLOAT_SOURCE = "default of moyai: upright and afloat"
 #: Metacentric height over draught that Japanese practice asks of caissons afloat.
@@ -121,8 +121,7 @@ def criteria(model: Any, given: Any) -> Iterator[Criterion]:
     seas = limit if isinstance(limit, dict) else {} if limit is None else {"": limit}
     for sea, value in seas.items():
         yield Criterion("greatest_transmission", "transmission", value, "at most", CASE, "transmission", sea=sea)
-    gaps = facing(placements_of(model.structure.units), model.structure.units.length)
-    if given.greatest_gap_closing is None and computed and gaps:
+    if given.greatest_gap_closing is None and computed and _has_gaps(model):
         headline, unit, words = _OWN["greatest_gap_closing"]
         yield Criterion(
             "greatest_gap_closing", headline, 1.0, "at most", TOUCH_SOURCE, words, unit, assumed=True
@@ -132,3 +131,8 @@ def criteria(model: Any, given: Any) -> Iterator[Criterion]:
         yield plain_criterion("least_metacentric_height", STABLE_SHARE * model.structure.draught, STABLE_SOURCE)
     if given.least_freeboard is None:
         yield plain_criterion("least_freeboard", 0.0, AFLOAT_SOURCE)
+
+
+def _has_gaps(model: Any) -> bool:
+    units = model.structure.units
+    return bool(gaps_between(placements_of(units), units.length, model.structure.section.hull().bounds[:2]))

@@ -76,7 +76,10 @@ class ConnectorBlock(Block):
         description="all: every unit and the next; or pairs of units, counted from 1. Default: all.",
         examples=[[[1, 2], [3, 4]]],
     )
-    x: Length = Field(default=0.0, description="Across, from the centre line. Default: 0.")
+    x: Length = Field(
+        default=0.0,
+        description="Across, from the centre line of the unit before the gap; on a side, along it. Default: 0.",
+    )
     above_keel: Length = Field(description="Height above the keel; along, it stands in the middle of the gap.")
     breaking_load: PositiveForce | None = Field(
         default=None, description="Largest force that it bears; without it no utilisation is shown."
@@ -103,7 +106,7 @@ class HingeConnector(ConnectorBlock):
 
     kind: Literal["hinge"] = Field(description="Hinge.")
     axis: Direction = Field(
-        description="Axis: x (across), y (along), z (upright), or three numbers, in axes of the first unit of a pair."
+        description="Axis: x (along the faces of the gap), y (from unit to unit), z (upright), or three numbers."
     )
 
 
@@ -112,7 +115,8 @@ class SpringConnector(ConnectorBlock):
 
     kind: Literal["spring"] = Field(description="Springs and dashpots.")
     stiffness: tuple[NonNegativeStiffness, NonNegativeStiffness, NonNegativeStiffness] = Field(
-        description="Along x, y, z of the first unit of a pair.", examples=[["1 MN/m", "5 MN/m", "1 MN/m"]]
+        description="Along x (the faces of the gap), y (from unit to unit), z (up).",
+        examples=[["1 MN/m", "5 MN/m", "1 MN/m"]],
     )
     rotational_stiffness: tuple[RotationalStiffness, RotationalStiffness, RotationalStiffness] = Field(
         default=(0.0, 0.0, 0.0), description="About x, y, z. Default: none."

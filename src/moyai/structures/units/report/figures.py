@@ -329,7 +329,7 @@ def connector_table(level: Group, sea: Group, period: int | None) -> Table | Non
         note="Most loaded first. Largest values: "
         + ("of the record, in an irregular sea the mean of its realisations" if _domain(sea) else "mean and waves "
         "together, in an irregular sea the most probable largest in its duration")
-        + ". Axes of the unit before the connector: x across, y along, z up.",
+        + ". Axes of the gap: x along the faces, y from unit to unit, z up.",
     )  # fmt: skip
 
 

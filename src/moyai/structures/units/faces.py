@@ -1,0 +1,238 @@
+"""Ends and sides of units, and which of them face each other, in whatever order the units are listed.
+
+A unit has four faces in plan: two ends and two sides. Two units meet at the pair of faces that stand nearest and most
+squarely to each other [eq:units-faces]. The axes of what stands there are those of the nearer face: x along it, y
+across the gap from the near unit to the far one, z up; at the end of a row by count they are those of the units.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import combinations, product
+
+import numpy as np
+
+from moyai.core.arrays import Array
+from moyai.structures.units.model import Placement
+
+#: Faces that are turned from each other by more than this do not face [cosine of 45 degrees, with rounding].
+_SQUARE = math.cos(math.radians(45.0)) - 1e-9
+#: What a side counts for against an end, in beams: where both are as near, ends meet.
+_SIDE = 0.25
+#: Lateral distance up to which a point counts as in front of a face [of the beam].
+_EDGE = 1e-6
+
+
+@dataclass(frozen=True, eq=False)
+class Face:
+    """An end or a side of a unit in plan, row axes.
+
+    Parameters
+    ----------
+    unit : int
+        Counted from 0.
+    kind : int
+        0: the end at +y, 1: the side at +x, 2: the side at -x, 3: the end at -y.
+    middle : ndarray (2,)
+        On the axis of the unit [m].
+    normal, along : ndarray (2,)
+        Outward, and along it, so that (along, normal, up) is right-handed.
+    low, high : float
+        Where it begins and ends along ``along`` from ``middle`` [m].
+    """
+
+    unit: int
+    kind: int
+    middle: Array
+    normal: Array
+    along: Array
+    low: float
+    high: float
+
+    @property
+    def is_end(self) -> bool:
+        """Whether it is an end of the unit."""
+        return self.kind in (0, 3)
+
+    def at(self, offset: float) -> Array:
+        """Return the point (2,) [m] at an offset along it."""
+        return np.asarray(self.middle + offset * self.along)
+
+    def offset(self, points: Array) -> Array:
+        """Return offsets (...) [m] of points (..., 2) along it."""
+        return np.asarray((points - self.middle) @ self.along)
+
+    def before(self, points: Array) -> Array:
+        """Return how far points (..., 2) stand in front of it [m]."""
+        return np.asarray((points - self.middle) @ self.normal)
+
+    def holds(self, points: Array) -> Array:
+        """Whether points (..., 2) stand in front of it, edges included."""
+        offset, margin = self.offset(points), _EDGE * (self.high - self.low)
+        return np.asarray((offset >= self.low - margin) & (offset <= self.high + margin))
+
+    def corners(self) -> Array:
+        """Return both ends (2, 2) [m]."""
+        return np.array([self.at(self.low), self.at(self.high)])
+
+
+@dataclass(frozen=True, eq=False)
+class Meeting:
+    """Two faces that face each other, and the points in plan where a connector on their axes stands.
+
+    Parameters
+    ----------
+    near, far : Face
+        The gap leads from the near one to the far one.
+    start, end : ndarray (2,)
+        Points of both [m].
+    """
+
+    near: Face
+    far: Face
+    start: Array
+    end: Array
+
+    @property
+    def pair(self) -> tuple[int, int]:
+        """Units of both faces."""
+        return self.near.unit, self.far.unit
+
+    @property
+    def distance(self) -> float:
+        """Between both points [m]."""
+        return float(np.linalg.norm(self.end - self.start))
+
+    @property
+    def same_way(self) -> bool:
+        """Whether the axis of the far unit across it points the way of the near one's."""
+        return float(_own_across(self.near) @ _own_across(self.far)) > 0.0
+
+    @property
+    def frame(self) -> Array:
+        """Matrix (3, 3) from row axes to (along the near face, across the gap, up)."""
+        return np.array([[*self.near.along, 0.0], [*self.near.normal, 0.0], [0.0, 0.0, 1.0]])
+
+    @property
+    def overlap(self) -> tuple[float, float]:
+        """Offsets along the near face between which the far one stands in front of it [m]; empty where none does."""
+        ends = self.near.offset(self.far.corners())
+        return max(self.near.low, float(ends.min())), min(self.near.high, float(ends.max()))
+
+    def joined_at(self, across: float) -> tuple[Array, Array]:
+        """Return the two points (2,) of a connector that stands ``across`` from the centre line of the near unit."""
+        sign = 1.0 if self.near.kind < 3 else -1.0
+        start = self.start + sign * across * self.near.along
+        if self.far.is_end and self.near.is_end:
+            return start, self.end + (across if self.same_way else -across) * _own_across(self.far)
+        return start, self.end + sign * across * self.near.along
+
+
+def _own_across(face: Face) -> Array:
+    """Return the direction x of the unit of a face."""
+    turn = {0: face.along, 1: face.normal, 2: -face.normal, 3: -face.along}
+    return turn[face.kind]
+
+
+def faces_of(place: Placement, unit: int, length: float, bounds: tuple[float, float]) -> tuple[Face, ...]:
+    """Return the four faces of a unit.
+
+    Parameters
+    ----------
+    place : Placement
+    unit : int
+        Its number.
+    length : float
+        [m].
+    bounds : tuple of two float
+        Least and largest x of its section [m].
+    """
+    x, y = place.rotation[:2, 0], place.rotation[:2, 1]
+    centre, half = np.array([place.x, place.y]), 0.5 * length
+    left, right = bounds
+    return (
+        Face(unit, 0, centre + half * y, y, x, left, right),
+        Face(unit, 1, centre + right * x, x, -y, -half, half),
+        Face(unit, 2, centre + left * x, -x, y, -half, half),
+        Face(unit, 3, centre - half * y, -y, -x, -right, -left),
+    )
+
+
+def meeting(places: Sequence[Placement], pair: tuple[int, int], length: float, bounds: tuple[float, float]) -> Meeting:
+    """Return where two units meet; the order of the pair does not matter.
+
+    Parameters
+    ----------
+    places : sequence of Placement
+    pair : tuple of (int, int)
+    length, bounds
+        See :func:`faces_of`.
+    """
+    first, second = (faces_of(places[unit], unit, length, bounds) for unit in sorted(pair))
+    beam = bounds[1] - bounds[0]
+    best: tuple[float, Meeting] | None = None
+    for one, other in product(first, second):
+        square = float(one.normal @ other.normal)
+        if square > -_SQUARE:
+            continue
+        found = _met(*((one, other) if one.kind <= other.kind else (other, one)))
+        behind = max(-float(found.near.before(found.end)), -float(found.far.before(found.start)), 0.0)
+        sides = (not one.is_end) + (not other.is_end)
+        cost = found.distance + 4.0 * behind + beam * (1.0 + square + _SIDE * sides)
+        if best is None or cost < best[0] - 1e-9 * length:
+            best = cost, found
+    assert best is not None  # two rectangles have faces within 45 degrees of each other, whatever their turn
+    return best[1]
+
+
+def _met(near: Face, far: Face) -> Meeting:
+    """Return where two faces meet: at the axes of ends, across from an end on a side, in the middle of two sides."""
+    if near.is_end and far.is_end:
+        return Meeting(near, far, near.middle, far.middle)
+    if far.is_end:
+        return Meeting(near, far, near.at(_inside(near, float(near.offset(far.middle)))), far.middle)
+    if near.is_end:
+        return Meeting(near, far, near.middle, far.at(_inside(far, float(far.offset(near.middle)))))
+    ends = np.clip(near.offset(far.corners()), near.low, near.high)
+    start = near.at(0.5 * float(ends.sum()))
+    return Meeting(near, far, start, far.at(_inside(far, float(far.offset(start)))))
+
+
+def _inside(face: Face, offset: float) -> float:
+    return min(max(offset, face.low), face.high)
+
+
+def gaps_between(places: Sequence[Placement], length: float, bounds: tuple[float, float]) -> tuple[Meeting, ...]:
+    """Return where neighbours face each other, nearer than a unit is long and with no other unit between them.
+
+    Parameters
+    ----------
+    places, length, bounds
+        See :func:`meeting`.
+    """
+    found = []
+    for pair in combinations(range(len(places)), 2):
+        one = meeting(places, pair, length, bounds)
+        low, high = one.overlap
+        if one.distance < length and high > low and not between(places, one, length, bounds):
+            found.append(one)
+    return tuple(found)
+
+
+def between(places: Sequence[Placement], met: Meeting, length: float, bounds: tuple[float, float]) -> int | None:
+    """Return a unit that lies between two others where they meet, counted from 0; None where none does."""
+    steps = np.linspace(0.0, 1.0, 101)[:, None]
+    points = met.start + steps * (met.end - met.start)
+    for unit, place in enumerate(places):
+        if unit in met.pair:
+            continue
+        own = (points - np.array([place.x, place.y])) @ place.rotation[:2, :2]
+        inside = (np.abs(own[:, 1]) < 0.5 * length) & (own[:, 0] > bounds[0]) & (own[:, 0] < bounds[1])
+        if inside.any():
+            return unit
+    return None
+
+
+__all__ = ["Face", "Meeting", "between", "faces_of", "gaps_between", "meeting"]
