@@ -11,8 +11,18 @@ import pytest
 from moyai.core.arrays import Array, ComplexArray
 from moyai.floating.irregular import response_statistics
 from moyai.mooring import Line, LineType, Segment
+from moyai.sea.spectra import jonswap
+from moyai.sea.states import IrregularSea
+from moyai.structures.units.assembly import RowPosition
+from moyai.structures.units.datasets import irregular_dataset, statics_dataset
+from moyai.structures.units.headlines import _lines
+from moyai.structures.units.links import Work
+from moyai.structures.units.model import UnitLine
+from moyai.structures.units.response import FarWaves, RowResponse
 from moyai.structures.units.row_lines import RowLines
+from moyai.structures.units.seas import SeaAnswer
 from moyai.structures.units.taut import largest_at_rest
+from moyai.validation.units import at_rest, row
 
 DEPTH, LENGTH, STIFFNESS, WEIGHT = 10.0, 49.0, 165e6, 330.0
 OMEGA, DURATION = np.linspace(0.7, 1.6, 61), 1800.0
@@ -79,7 +89,11 @@ def test_small_seas_give_the_linear_tension_to_first_order(height: float) -> Non
 
 
 def test_it_is_what_random_records_of_the_row_give() -> None:
-    """The catenary at every instant of thirty records of sway, heave and roll, 30 minutes each."""
+    """The catenary at every instant of thirty records of sway, heave and roll, 30 minutes each.
+
+    A most probable largest value is passed in 63 % of records of independent waves; waves in groups pass it less often,
+    47 % of 400 such records did. Thirty of them scatter by 9 %.
+    """
     phase = np.exp(1j * np.array([0.3, 1.4, -0.8, 0.0]))
     motion = swaying(0.9)
     motion[:, 0, [0, 2, 4]] = motion[:, 0, [0]] * np.array([1.0, 0.8, 0.05]) * phase[:3]
@@ -91,7 +105,8 @@ def test_it_is_what_random_records_of_the_row_give() -> None:
     for record in range(30):
         waves = np.exp(-1j * np.outer(time, omega[:, record])) * size[:, record]
         largest.append(lines.tensions_of((waves @ motion[:, 0]).real[:, None, :]).max())
-    assert np.percentile(largest, 20) < found(lines, motion)[0] < np.percentile(largest, 60)
+    passed = np.mean(np.array(largest) > found(lines, motion)[0])
+    assert 0.47 - 0.18 < passed < 0.63 + 0.18
 
 
 def test_a_line_is_asked_at_the_motion_of_its_own_unit() -> None:
@@ -118,3 +133,31 @@ def test_the_distance_counts_where_the_tangent_pulls_another_way() -> None:
 def test_an_inextensible_line_that_cannot_reach_has_no_bound() -> None:
     assert found(RowLines(((chain(math.inf),),), DEPTH), swaying(1.27))[0] == math.inf
     assert found(RowLines(((),), DEPTH), swaying(1.27)).shape == (0,)
+
+
+def test_the_tension_of_a_sea_is_the_larger_of_tangent_and_line_at_rest() -> None:
+    """Two boxes on chains that sway by their own answer to a sea: numbers of the frequency domain."""
+    segment = Segment(LineType("chain", WEIGHT, STIFFNESS), LENGTH)
+    line = UnitLine("chain", 1, (0, 1), (-3.0, 0.0, 1.5), (-50.41, 0.0, 0.0), segments=(segment,))
+    at = at_rest(replace(row(), lines=(line,)))
+    sea = IrregularSea("storm", jonswap(1.0, 6.0, 3.3), duration=DURATION)
+    motion = swaying(1.27, units=2) + 0.1 * swaying(1.27, unit=1, units=2)
+    rest = RowPosition(np.zeros(12), np.zeros(12), np.zeros(0))
+    nothing = np.zeros((len(OMEGA), 1, 0, 6), dtype=complex)
+    tension = motion @ at.tension_gradient(rest.position).T
+    fine = RowResponse(OMEGA, motion, nothing, nothing, tension, np.zeros((len(OMEGA), 1)))
+    waves: ComplexArray = np.zeros((len(OMEGA), 1, 0), dtype=complex)
+    far = FarWaves(waves, waves[..., 0:0], np.zeros((len(OMEGA), 1, 3)), np.zeros((len(OMEGA), 1)))
+    answer = SeaAnswer(
+        rest, np.zeros(3), np.zeros(12), np.zeros((0, 0, 12)), fine, far, fine, DENSITY, np.zeros(1), np.zeros(0),
+        Work(at.rounding), True,
+    )  # fmt: skip
+    data = irregular_dataset(at, sea, answer)
+    taut, slack = data["line_tension_maximum"].values
+    tangent = linear(at.row_lines, motion)
+    assert taut == pytest.approx(found(at.row_lines, motion)[0]) and taut > 10.0 * tangent[0]
+    assert slack == pytest.approx(tangent[1], rel=0.05) and slack >= tangent[1]
+    strained = _lines(
+        {"/SWL/statics": statics_dataset(at, np.zeros(12), np.zeros(12))}, [("/SWL/frequency/storm", data)]
+    )
+    assert next(iter(strained)).text == "not known"
