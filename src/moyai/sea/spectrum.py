@@ -226,7 +226,12 @@ class Spectrum:
                 low = left
             else:
                 high = right
-        return float(0.5 * (low + high))
+        found = 0.5 * (low + high)
+        # the top is flat: the peak of a formula is one where the density there is no lower but for rounding
+        tops = [peak for peak in peaks if grid[0] <= peak <= grid[-1]]
+        nearest = min(tops, key=lambda peak: abs(peak - found), default=found)
+        as_high = self.density_at(nearest) >= (1.0 - 8.0 * np.finfo(np.float64).eps) * self.density_at(found)
+        return float(nearest if as_high else found)
 
     @property
     def peak_period(self) -> float:

@@ -12,6 +12,7 @@ from moyai.case.reader import load_case
 from moyai.reproduce.inputs import problem_of
 from moyai.reproduce.nakamura.runs import variant
 from moyai.structures.breakwater.run import run
+from moyai.structures.breakwater.time import regular
 
 PERIODS = (1.2, 1.6)
 LOSS, WORK = "loss of the first harmonic and work of the damping", "loss of the first harmonic and work of all forces"
@@ -128,7 +129,11 @@ settings: {time: {lines: {mode: quasi_static}}}
 """
 
 
-def test_a_motion_that_never_repeats_has_no_reflection_and_its_largest_values_are_of_a_hundred_periods(tmp_path):
+def test_a_motion_that_never_repeats_has_no_reflection_and_its_largest_values_are_of_a_hundred_periods(
+    tmp_path, monkeypatch
+):
+    # rounding decides how much one hundred periods of chaos differ from the next: 2 to 10 %, never a thousandth
+    monkeypatch.setattr(regular, "REPEATING_LIMIT", 5e-3)
     (tmp_path / "taut.yaml").write_text(TAUT, encoding="utf-8")
     result = run(build(load_case(tmp_path / "taut.yaml")))
     data = result.tree["SWL/time/daily"].to_dataset().sel(period=3.0)
