@@ -22,6 +22,7 @@ from moyai.structures.units.mesh import waterplane
 from moyai.structures.units.model import DOFS, MapArea
 from moyai.structures.units.seas import SeaAnswer, cell_weights, columns_of
 from moyai.structures.units.section import PLANAR, SectionAnswer
+from moyai.structures.units.taut import largest_at_rest
 from moyai.structures.units.variables import labelled
 
 if TYPE_CHECKING:
@@ -336,7 +337,13 @@ def irregular_dataset(at: RowAtLevel, sea: IrregularSea, answer: SeaAnswer) -> x
         "connector_joins": ("connector", joins.astype(np.int8)),
         "gap_joined": ("gap", np.array([_is_joined(at, gap.pair, joins) for gap in gaps_of(at)], dtype=np.int8)),
         "line_tension_mean": ("line", mean_tension),
-        "line_tension_maximum": ("line", mean_tension + largest(fine.tension)),
+        "line_tension_maximum": (
+            "line",
+            np.maximum(
+                mean_tension + largest(fine.tension),
+                largest_at_rest(at.row_lines, answer.rest.position, omega, fine.motion, density, duration),
+            ),
+        ),
     }
     out |= _drift_of(answer.far.drift, answer, answer.headings)
     coords = coords_of(at) | {"direction": ["across", "along", "about z"]}

@@ -18,7 +18,8 @@ from moyai.core.wording import spoken
 from moyai.series.realisations import ALONE, alone, seeds
 from moyai.structures.units.datasets import BANDED
 from moyai.structures.units.model import DAMPING_BAND, SNAP_RATIO
-from moyai.structures.units.unjudged import Seas, in_time, not_judged
+from moyai.structures.units.rest_headlines import stability_headlines, steady_headlines
+from moyai.structures.units.unjudged import Seas, in_time, not_judged, not_judged_at_rest
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -41,13 +42,11 @@ def headlines_of(groups: Mapping[str, xr.Dataset]) -> tuple[Headline, ...]:
         found += _gaps(groups, seas)
         found += _lines(groups, seas)
         found += _motions(seas)
+    else:
+        found += steady_headlines(rests)
     found += _waves(maps)
-    for name, label in (("freeboard", "Freeboard"), ("metacentric_height", "Metacentric height GM of a unit")):
-        known = [(float(data[name]), path.split("/")[1]) for path, data in rests]
-        if known:
-            value, level = min(known)
-            found.append(Headline(name, label, value, "m", level, "still water"))
-    found.append(not_judged(seas))
+    found += stability_headlines(rests)
+    found.append(not_judged(seas) if seas else not_judged_at_rest(rests))
     return tuple(found)
 
 
@@ -113,7 +112,7 @@ def _greatest(
             values[values < _NOTHING] = 0.0
         if over is not None:
             values = values / over
-        if not np.isfinite(values).any():
+        if np.isnan(values).all():
             continue
         index = tuple(int(i) for i in np.unravel_index(int(np.nanargmax(values)), values.shape))
         value = float(values[index])
@@ -343,11 +342,15 @@ def _stretched(found: _Largest) -> float:
 
 def _of_motion(found: _Largest) -> Bound:
     """Return ``at least`` where the units move against each other beyond what their linear motion knows."""
-    strained = not found.timed and bool(
-        (found.data["line_tension_maximum"] > SNAP_RATIO * found.data["line_tension_mean"]).any()
-    )
     loose = found.name in found.data and "connector" in found.data[found.name].dims and _loose(found)
-    return "at least" if strained or loose or _stretched(found) else found.bound
+    return "at least" if _strained(found) or loose or _stretched(found) else found.bound
+
+
+def _strained(found: _Largest) -> bool:
+    """Whether any line of a sea comes tighter, with damping within its band, than its linear motions feel."""
+    ends = [found.data[name] for name in ("line_tension_maximum", "line_tension_maximum_high") if name in found.data]
+    beyond = (bool((tension > SNAP_RATIO * found.data["line_tension_mean"]).any()) for tension in ends)
+    return not found.timed and any(beyond)
 
 
 def _with_opening(data: xr.Dataset) -> xr.Dataset:
@@ -422,13 +425,21 @@ def _with_unknown(each: list[_Largest], items: list[Headline]) -> list[Headline]
 
 def _unknown_line(found: _Largest, mean: float) -> str:
     """Return why a line of the frequency domain is not known: motions there do not feel how tight it comes."""
-    tension = found.value * found.scale
-    if found.timed or tension <= SNAP_RATIO * mean:
+    tension, damping = found.value * found.scale, _damping_band(found.data, found.name, found.index)
+    highest = tension if damping is None else max(tension, damping.high)
+    if found.timed or highest <= SNAP_RATIO * mean:
         return ""
-    ratio = tension / mean if mean > 0.0 else math.inf
+    if math.isinf(highest):
+        return "a line at rest does not reach so far; run the time domain with lines in motion"
+    ratio, given = highest / mean if mean > 0.0 else math.inf, spoken(tension, "N", 3)
+    if tension <= SNAP_RATIO * mean:
+        return (
+            f"lines at rest give {given}, with damping at the end of its band {spoken(highest, 'N', 3)}, {ratio:.1f} "
+            f"times the mean, beyond their range of {SNAP_RATIO:g}; run the time domain with lines in motion"
+        )
     return (
-        f"lines at rest give {spoken(tension, 'N', 3)}, {ratio:.1f} times the mean, beyond their range of "
-        f"{SNAP_RATIO:g}; run the time domain with lines in motion"
+        f"lines at rest give {given}, {ratio:.1f} times the mean, beyond their range of {SNAP_RATIO:g}; run the time "
+        "domain with lines in motion"
     )
 
 
