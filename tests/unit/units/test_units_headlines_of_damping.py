@@ -1,5 +1,7 @@
 """The band of damping on the first page of a row: in time as in the frequency domain, and at named regular seas."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -16,6 +18,7 @@ from moyai.structures.units.headlines import (
     governing_seas,
 )
 from moyai.structures.units.largest import each_of
+from moyai.structures.units.time.damping import curves_bear
 
 DOFS = ["sway", "heave", "roll"]
 
@@ -121,6 +124,22 @@ def test_lines_beyond_their_range_make_the_frequency_domain_unknown(tension, kno
     timed = [("/SWL/time/daily", lines_of(tension))]
     assert next(iter(_lines(groups, timed))).bound == ("" if known else "at least")
     assert next(iter(_gaps(groups, timed))).bound == ""
+
+
+def test_lines_beyond_their_range_at_an_end_of_the_damping_are_not_known_either():
+    """That end is what is judged, and the motions there hold a line as little as those in between."""
+    ends = {f"line_tension_maximum_{end}": (("period", "line"), [[v]]) for end, v in (("low", 40e3), ("high", 80e3))}
+    data, groups = lines_of(45.0e3).assign(ends), {"/SWL/statics": REST}
+    tension, *_ = _lines(groups, [("/SWL/frequency/daily", data)])
+    assert tension.text == "not known" and "45 kN, with damping at the end of its band 80 kN" in tension.detail
+    assert next(iter(_gaps(groups, [("/SWL/frequency/daily", data)]))).bound == "at least"
+    assert curves_bear(SimpleNamespace(joints=()), data, lines_of(45.0e3))
+    assert not curves_bear(SimpleNamespace(joints=()), lines_of(45.0e3), lines_of(45.0e3))
+
+
+def test_an_inextensible_line_that_does_not_reach_is_not_known():
+    found = list(_lines({"/SWL/statics": REST}, [("/SWL/frequency/daily", lines_of(np.inf))]))
+    assert {item.text for item in found} == {"not known"} and "does not reach" in found[0].detail
 
 
 def test_the_parts_of_a_motion_that_does_not_repeat_are_a_band():

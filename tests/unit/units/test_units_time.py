@@ -21,6 +21,7 @@ from moyai.structures.units.assembly import assemble
 from moyai.structures.units.bem import panels_of
 from moyai.structures.units.datasets import regular_dataset, with_damping_band
 from moyai.structures.units.drift import share_drift
+from moyai.structures.units.headlines import _largest, _with_opening
 from moyai.structures.units.hydrodynamics import solve_row
 from moyai.structures.units.mesh import row_mesh
 from moyai.structures.units.model import Connector, Curve, Settings, TimeSettings, UnitLine
@@ -35,7 +36,16 @@ from moyai.structures.units.time.kernel import joint_force
 from moyai.structures.units.time.lines import Carried, events_of, moving_line, rerun, rerun_events
 from moyai.structures.units.time.memory import _Basis, _passive, _residues, fit_row_memory
 from moyai.structures.units.time.model import RowInTime, step_weights
-from moyai.structures.units.time.seas import REPEATING, TimeRun, Water3D, _change, _growth, regular_run, repeating_run
+from moyai.structures.units.time.seas import (
+    REPEATING,
+    TimeRun,
+    Water3D,
+    _change,
+    _growth,
+    _repetition,
+    regular_run,
+    repeating_run,
+)  # fmt: skip
 from moyai.validation.units import WATER, row
 
 HINGE = Connector("h", "hinge", ((0, 1),), 0.0, 3.0, (1.0, 0.0, 0.0))
@@ -545,3 +555,28 @@ def test_parts_of_a_record_are_whole_periods_at_its_end():
     assert np.allclose(np.diff(ends, axis=1), 40 * period)
     assert all(part.kept.stop - part.kept.start == round(40 * period / step) + 1 for part in run.parts)
     assert len(replace(run, change=0.01).parts) == 1
+
+
+@pytest.mark.parametrize("every", [1, 2, 13, 0])
+def test_a_motion_that_repeats_after_several_periods_repeats(every: int) -> None:
+    """Lines that come taut every thirteenth wave make one long period; noise from period to period makes none."""
+    per_period, count = 24, 200
+    period = np.arange(count * per_period) / per_period
+    number = np.floor(period).astype(int)
+    generator = np.random.default_rng(3)
+    size = 1.0 + 0.3 * (generator.random(count)[number] if every == 0 else np.cos(2.0 * np.pi * number / every))
+    wave = np.sin(2.0 * np.pi * period) * size
+    position = wave[:, None] * np.linspace(1.0, 2.0, 12)
+    found, change = _repetition(position, per_period, 10)
+    assert found == max(every, 1)
+    assert (change > REPEATING) == (every == 0)
+
+
+def test_an_opening_has_the_band_of_the_damping() -> None:
+    data = xr.Dataset(
+        {f"relative_motion_largest{end}": (("connector", "component"), [[0.0, value, 0.0]])
+         for end, value in (("", 0.2), ("_low", 0.15), ("_high", 0.3))},
+        coords={"connector": ["f"], "component": list("xyz")},
+    )  # fmt: skip
+    opened = _largest([("/SWL/frequency/storm", _with_opening(data))], "opened")
+    assert opened is not None and (opened.band.low, opened.band.high) == (0.15, 0.3)

@@ -22,6 +22,7 @@ from moyai.structures.units.mesh import waterplane
 from moyai.structures.units.model import DOFS, MapArea
 from moyai.structures.units.seas import SeaAnswer, cell_weights, columns_of
 from moyai.structures.units.section import PLANAR, SectionAnswer
+from moyai.structures.units.taut import largest_at_rest
 from moyai.structures.units.variables import labelled
 
 if TYPE_CHECKING:
@@ -343,7 +344,13 @@ def irregular_dataset(at: RowAtLevel, sea: IrregularSea, answer: SeaAnswer) -> x
         "relative_turn_largest": (dims, relative[:, 3:]),
         "gap_closing_largest": ("gap", closing),
         "line_tension_mean": ("line", mean_tension),
-        "line_tension_maximum": ("line", mean_tension + largest(fine.tension)),
+        "line_tension_maximum": (
+            "line",
+            np.maximum(
+                mean_tension + largest(fine.tension),
+                largest_at_rest(at.row_lines, answer.rest.position, omega, fine.motion, density, duration),
+            ),
+        ),
     }
     out |= {name: (name.split("_")[0], flags[0]) for name, flags in contact_variables(at, [answer], low, high).items()}
     out |= {name: ((), value) for name, value in meeting_variables(at, answer.rest.position, closing).items()}
@@ -394,7 +401,8 @@ _PHASES, _STATES = 360, 36
 #: Numbers that are given a band of the damping.
 BANDED = (
     "significant_motion", "motion_amplitude", "largest_offset", "line_tension_maximum", "connector_resultant_largest",
-    "connector_moment_largest", "gap_closing_largest", "transmission_coefficient", "wave_height_ratio_of_point",
+    "connector_moment_largest", "relative_motion_largest", "gap_closing_largest", "transmission_coefficient",
+    "wave_height_ratio_of_point",
 )  # fmt: skip
 
 #: What holds with the damping at either end alone holds.

@@ -17,9 +17,10 @@ from moyai.core.wording import spoken
 from moyai.series.realisations import ALONE
 from moyai.structures.units import doubts
 from moyai.structures.units.datasets import BANDED
-from moyai.structures.units.largest import Largest, each_of
+from moyai.structures.units.largest import Largest, damping_band, each_of
 from moyai.structures.units.model import SNAP_RATIO
-from moyai.structures.units.unjudged import Seas, not_judged
+from moyai.structures.units.rest_headlines import stability_headlines, steady_headlines
+from moyai.structures.units.unjudged import Seas, not_judged, not_judged_at_rest
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -42,13 +43,11 @@ def headlines_of(groups: Mapping[str, xr.Dataset]) -> tuple[Headline, ...]:
         found += _gaps(groups, seas)
         found += _lines(groups, seas)
         found += _motions(seas)
+    else:
+        found += steady_headlines(rests)
     found += _waves(maps)
-    for name, label in (("freeboard", "Freeboard"), ("metacentric_height", "Metacentric height GM of a unit")):
-        known = [(float(data[name]), path.split("/")[1]) for path, data in rests]
-        if known:
-            value, level = min(known)
-            found.append(Headline(name, label, value, "m", level, "still water"))
-    found.append(not_judged(seas))
+    found += stability_headlines(rests)
+    found.append(not_judged(seas) if seas else not_judged_at_rest(rests))
     return tuple(found)
 
 
@@ -200,7 +199,7 @@ def _as_known(each: list[Largest], items: list[Headline]) -> list[Headline]:
             found.append((replace(one, value=math.inf), doubts.not_known(item, doubts.MEET)))
         elif item.bound == "at least" and item.value == 0.0:
             # before a sea that is known to give nothing
-            found.append((replace(one, value=1e-300), doubts.not_known(item, _reasons(one) or doubts.STRAINED)))
+            found.append((replace(one, value=1e-300), doubts.not_known(item, _reasons(one))))
         else:
             found.append((one, item))
     return _with_unknown([one for one, _ in found], [item for _, item in found])
@@ -213,16 +212,24 @@ def _stretched(found: Largest) -> float:
 
 def _of_motion(found: Largest) -> Bound:
     """Return ``at least`` where the units move against each other beyond what their linear motion knows."""
-    strained = not found.timed and bool(
-        (found.data["line_tension_maximum"] > SNAP_RATIO * found.data["line_tension_mean"]).any()
-    )
-    doubted = strained or found.why_loose or _stretched(found) or found.why_beyond
+    doubted = _strained(found) or found.why_loose or _stretched(found) or found.why_beyond
     return "at least" if doubted else found.bound
+
+
+def _strained(found: Largest) -> bool:
+    """Whether any line of a sea comes tighter, with damping within its band, than its linear motions feel."""
+    ends = [found.data[name] for name in ("line_tension_maximum", "line_tension_maximum_high") if name in found.data]
+    beyond = (bool((tension > SNAP_RATIO * found.data["line_tension_mean"]).any()) for tension in ends)
+    return not found.timed and any(beyond)
 
 
 def _with_opening(data: xr.Dataset) -> xr.Dataset:
     """Return a sea with the opening of its gaps, its realisations where they are known."""
-    found = {"opened": data["relative_motion_largest"].sel(component="y")}
+    found = {
+        f"opened{end}": data[f"relative_motion_largest{end}"].sel(component="y")
+        for end in ("", "_low", "_high")
+        if f"relative_motion_largest{end}" in data
+    }
     if "gap_motion_largest_of_realisation" in data:
         found["opened_of_realisation"] = data["gap_motion_largest_of_realisation"]
     return data.assign(found)
@@ -253,7 +260,10 @@ def _connector_force(found: Largest) -> Headline:
 def _reasons(found: Largest) -> str:
     """Return why a force is no more than a bound."""
     across = f"motion across would stretch a connector by {_stretched(found):.3g} m, not counted"
-    details = (ALONE if found.bound else "", across if _stretched(found) else "", found.why_loose, found.why_beyond)
+    details = (
+        ALONE if found.bound else "", across if _stretched(found) else "", found.why_loose, found.why_beyond,
+        doubts.STRAINED if _strained(found) else "",
+    )  # fmt: skip
     return "; ".join(filter(None, details))
 
 
@@ -292,13 +302,21 @@ def _with_unknown(each: list[Largest], items: list[Headline]) -> list[Headline]:
 
 def _unknown_line(found: Largest, mean: float) -> str:
     """Return why a line of the frequency domain is not known: motions there do not feel how tight it comes."""
-    tension = found.value * found.scale
-    if found.timed or tension <= SNAP_RATIO * mean:
+    tension, damping = found.value * found.scale, damping_band(found.data, found.name, found.index)
+    highest = tension if damping is None else max(tension, damping.high)
+    if found.timed or highest <= SNAP_RATIO * mean:
         return ""
-    ratio = tension / mean if mean > 0.0 else math.inf
+    if math.isinf(highest):
+        return "a line at rest does not reach so far; run the time domain with lines in motion"
+    ratio, given = highest / mean if mean > 0.0 else math.inf, spoken(tension, "N", 3)
+    if tension <= SNAP_RATIO * mean:
+        return (
+            f"lines at rest give {given}, with damping at the end of its band {spoken(highest, 'N', 3)}, {ratio:.1f} "
+            f"times the mean, beyond their range of {SNAP_RATIO:g}; run the time domain with lines in motion"
+        )
     return (
-        f"lines at rest give {spoken(tension, 'N', 3)}, {ratio:.1f} times the mean, beyond their range of "
-        f"{SNAP_RATIO:g}; run the time domain with lines in motion"
+        f"lines at rest give {given}, {ratio:.1f} times the mean, beyond their range of {SNAP_RATIO:g}; run the time "
+        "domain with lines in motion"
     )
 
 

@@ -45,7 +45,7 @@ def _greatest(
             values[values < _NOTHING] = 0.0
         if over is not None:
             values = values / over
-        if not np.isfinite(values).any():
+        if np.isnan(values).all():
             continue
         index = tuple(int(i) for i in np.unravel_index(int(np.nanargmax(values)), values.shape))
         value = float(values[index])

@@ -43,7 +43,8 @@ class RowLines:
     _last: dict[bytes, LinesAt] = field(default_factory=dict, repr=False)
 
     @cached_property
-    def _unit(self) -> IntArray:
+    def unit(self) -> IntArray:
+        """Which unit every line holds, counted from 0."""
         return np.repeat(np.arange(len(self.lines)), [len(each) for each in self.lines])
 
     @cached_property
@@ -77,8 +78,36 @@ class RowLines:
             self._last[key] = found
         return self._last[key]
 
+    def tensions_of(self, positions: Array) -> Array:
+        """Return the tensions (..., lines) [N] of lines at rest, each with its unit at a position (..., lines, 6).
+
+        Infinite where an inextensible line cannot reach.
+        """
+        fairlead, anchor, _ = self._places
+        points = positions[..., :3] + np.einsum("...ij,...j->...i", rotation_matrix(positions[..., 3:]), fairlead)
+        out = np.zeros(points.shape[:-1])
+        for line, which in self._groups:
+            there = points[..., which, :] - anchor[which] + np.asarray(line.anchor)
+            with np.errstate(invalid="ignore"):
+                state = line.solve(there.reshape(-1, 3), self.water_depth)
+            out[..., which] = state.tension_fairlead.reshape(there.shape[:-1])
+        return out
+
+    def spans(self, position: Array) -> tuple[Array, Array]:
+        """Return how far every fairlead is from its anchor [m] at a position (m,), and that by the motions of its unit.
+
+        Shapes are (lines,) and (lines, 6).
+        """
+        fairlead, anchor, _ = self._places
+        place = position.reshape(-1, 6)[self.unit]
+        arm = np.einsum("lij,lj->li", rotation_matrix(place[:, 3:]), fairlead)
+        span = place[:, :3] + arm - anchor
+        length = np.linalg.norm(span, axis=1)
+        away = span / np.maximum(length, 1e-300)[:, None]
+        return length, np.concatenate([away, np.cross(arm, away)], axis=1)
+
     def _solved(self, position: Array) -> LinesAt:
-        unit, size = self._unit, position.size
+        unit, size = self.unit, position.size
         fairlead, anchor, copies = self._places
         force, stiffness, tension = np.zeros((len(unit), 3)), np.zeros((len(unit), 3, 3)), np.zeros(len(unit))
         arm = np.einsum("lij,lj->li", rotation_matrix(position[:, 3:])[unit], fairlead)

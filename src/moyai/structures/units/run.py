@@ -12,6 +12,7 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.core.collected import Collected, most_severe
 from moyai.core.errors import InputError
+from moyai.core.headline import SEAS_LEFT_OUT
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
 from moyai.core.store import DatasetStore
@@ -407,6 +408,9 @@ def _result(problem: UnitsProblem, collected: Collected) -> Result:
         fulfilled="all identities hold and all iterations converged",
         headlines=found,
         criteria=problem.criteria,
+        left_out=SEAS_LEFT_OUT
+        if problem.environment.sea_states and not WITH_WAVES & set(problem.settings.analyses)
+        else "",
     )
 
 

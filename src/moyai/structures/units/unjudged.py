@@ -41,6 +41,20 @@ def not_judged(seas: Seas) -> Headline:
     return Headline("not_judged", "Not judged", math.nan, "1", text=", ".join(words), detail="; ".join(detail))
 
 
+def not_judged_at_rest(rests: Seas) -> Headline:
+    """Return what the first page says nothing about where no sea was run."""
+    words = ["waves"]
+    if any(data.sizes.get("connector", 0) for _, data in rests):
+        words.append("forces in connectors")
+    if any(data.sizes.get("gap", 0) for _, data in rests):
+        words.append("closing of gaps")
+    if _without_gap(rests):
+        words.append("contact of hulls")
+    words += ["one line lost", "other directions of wind and current"]
+    detail = "no sea was run: tensions and offsets are those of wind and current alone, waves and drift add to them"
+    return Headline("not_judged", "Not judged", math.nan, "1", text=", ".join(words), detail=detail)
+
+
 def _without_gap(seas: Seas) -> list[int]:
     """Return the units of a row, counted from 1, that no gap is followed of."""
     _, data = seas[0] if seas else ("", None)

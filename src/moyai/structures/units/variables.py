@@ -129,6 +129,8 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "connector_resultant_largest_high": ("N", "largest force with damping at the end of its band that gives more"),
     "connector_moment_largest_low": ("N m", "largest moment with damping at the end of its band that gives less"),
     "connector_moment_largest_high": ("N m", "largest moment with damping at the end of its band that gives more"),
+    "relative_motion_largest_low": ("m", "relative motion with damping at the end of its band that gives less"),
+    "relative_motion_largest_high": ("m", "relative motion with damping at the end of its band that gives more"),
     "gap_closing_largest_low": ("m", "closing of the gap with damping at the end of its band that gives less"),
     "gap_closing_largest_high": ("m", "closing of the gap with damping at the end of its band that gives more"),
     "transmission_coefficient_low": ("1", "transmission with damping at the end of its band that gives less"),

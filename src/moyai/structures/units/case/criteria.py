@@ -103,8 +103,8 @@ def criteria(model: Any, given: Any) -> Iterator[Criterion]:
     computed = bool(model.waves) and bool({"frequency", "map", "time"} & set(model.analyses))
     yield from line_criteria(
         given,
-        DEFAULT_CODE if moored and computed else "",
-        "" if "time" in model.analyses else "quasi_static",
+        DEFAULT_CODE if moored else "",
+        "" if "time" in model.analyses else "quasi_static" if computed else "static",
         [getattr(part, "catalogue", None) for line in moored for part in line.segments if not hasattr(part, "clump")],
     )
     asked, given_loads = given.connector_safety_factor, [one.breaking_load for one in model.structure.connectors]

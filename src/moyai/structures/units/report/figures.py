@@ -376,7 +376,9 @@ def line_table(level: Group, sea: Group, period: int | None) -> Table | None:
     return Table(
         _key(level, "tensions", sea, period),
         f"Lines: {sea.name}{when}{_said(sea)}", tuple(columns),
-        note="At rest at every instant" + ("." if _domain(sea) else ", linear about the mean position."),
+        note="At rest at every instant."
+        if _domain(sea)
+        else "At rest at every instant, with the motions of the frequency domain.",
     )  # fmt: skip
 
 

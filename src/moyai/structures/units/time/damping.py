@@ -30,10 +30,14 @@ _TENSION = "line_tension_maximum"
 
 
 def curves_bear(at: RowAtLevel, frequency: xr.Dataset, time: xr.Dataset) -> bool:
-    """Whether a connector has a curve, or lines at rest are pulled beyond the range of their tangent."""
+    """Whether a connector has a curve, or lines at rest are pulled beyond the range of their tangent.
+
+    In the frequency domain with any damping of its band: where it lets lines come taut, its change is none of time.
+    """
     if any(joint.connector.curve is not None for joint in at.joints):
         return True
-    return any(bool((data[_TENSION] > SNAP_RATIO * data["line_tension_mean"]).any()) for data in (frequency, time))
+    pulled = [(data, name) for data in (frequency, time) for name in (_TENSION, f"{_TENSION}_high") if name in data]
+    return any(bool((data[name] > SNAP_RATIO * data["line_tension_mean"]).any()) for data, name in pulled)
 
 
 def with_ends_in_time(

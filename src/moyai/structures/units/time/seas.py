@@ -29,6 +29,8 @@ from moyai.structures.units.time.model import STEPS_OF_WAVE, RowInTime, RowRun
 RAMP, PERIODS, MOST_PERIODS, GROWING_PERIODS = 10.0, 50.0, 300.0, 1000.0
 #: Change of the motion from one period to the next, over its size, up to which it repeats
 REPEATING = 0.05
+#: Periods after which a motion may repeat, and its change by then, over its size: chaos comes as near now and then.
+MOST_REPEAT, EXACTLY = 16, 0.002
 #: Such change below which its growth is that of rounding or leads nowhere in the longest run.
 LEAST_CHANGE = 1e-6
 #: Parts of the last two thirds of a motion that never repeats, whose largest values are averaged; least periods of each
@@ -92,7 +94,9 @@ class TimeRun:
     end : float
         Of the analysis [s].
     change : float
-        Of a regular motion from one period to the next, over its size.
+        Of a regular motion from one period to the next, over its size; by when it repeats, where it does later.
+    every : int
+        Periods after which it repeats.
     growth : float
         Of that change a period, 0 where it falls: a combination resonance of the lines begins small.
     """
@@ -108,6 +112,7 @@ class TimeRun:
     end: float = math.inf
     change: float = 0.0
     growth: float = 0.0
+    every: int = 1
 
     @property
     def kept(self) -> slice:
@@ -203,23 +208,38 @@ def regular_run(
     one = WaveComponents(
         np.array([omega]), np.array([0.5 * sea.height]), np.zeros(1), np.array([sea.heading]), k, at.water
     )
-    begin = float(time[-1] - analysed)
-    change = _change(run.position, per_period, settings.analysed_periods)
+    every, change = _repetition(run.position, per_period, settings.analysed_periods)
+    begin = float(time[-1]) - math.ceil(settings.analysed_periods / every) * every * period
     return TimeRun(
         run, one, wave.real[: len(run.time)], ramp, begin, omega, contacts=resolved, change=change,
-        growth=_growth(run.position, per_period, settings.analysed_periods),
+        growth=_growth(run.position, per_period, settings.analysed_periods), every=every,
     )  # fmt: skip
 
 
-def _change(position: Array, per_period: int, periods: int) -> float:
-    """Return how motions (n, m) of the last periods differ from those one period before, over their size.
+def _repetition(position: Array, per_period: int, periods: int) -> tuple[int, float]:
+    """Return after how many periods motions (n, m) repeat, and their change by then; from one period to the next where
+    they do not."""
+    change = _change(position, per_period, periods)
+    if change > REPEATING:
+        for every in range(2, MOST_REPEAT + 1):
+            # two rounds that are alike, beyond what the first half of the run may still have of its beginning
+            rounds = max(periods, 2 * every)
+            if len(position) > 2 * (rounds + every) * per_period:
+                later = _change(position, per_period, rounds, every)
+                if later <= EXACTLY:
+                    return every, later
+    return 1, change
+
+
+def _change(position: Array, per_period: int, periods: int, every: int = 1) -> float:
+    """Return how motions (n, m) of the last periods differ from those ``every`` periods before, over their size.
 
     Translations and turns by themselves; 0 of a run that is too short.
     """
-    rows = periods * per_period
-    if len(position) <= rows + per_period:
+    rows, lag = periods * per_period, every * per_period
+    if len(position) <= rows + lag:
         return 0.0
-    last, before = position[-rows:], position[-rows - per_period : -per_period]
+    last, before = position[-rows:], position[-rows - lag : -lag]
     units = (rows, -1, 2, 3)
     moved = np.linalg.norm((last - before).reshape(units).std(axis=0), axis=(0, 2))
     size = np.linalg.norm(last.reshape(units).std(axis=0), axis=(0, 2))
