@@ -21,8 +21,9 @@ from moyai.structures.units.assembly import assemble
 from moyai.structures.units.bem import panels_of
 from moyai.structures.units.datasets import regular_dataset, with_damping_band
 from moyai.structures.units.drift import share_drift
-from moyai.structures.units.headlines import _largest, _with_opening
+from moyai.structures.units.headlines import _with_opening
 from moyai.structures.units.hydrodynamics import solve_row
+from moyai.structures.units.largest import each_of
 from moyai.structures.units.mesh import row_mesh
 from moyai.structures.units.model import Connector, Curve, Settings, TimeSettings, UnitLine
 from moyai.structures.units.response import RowModel, respond
@@ -578,5 +579,5 @@ def test_an_opening_has_the_band_of_the_damping() -> None:
          for end, value in (("", 0.2), ("_low", 0.15), ("_high", 0.3))},
         coords={"connector": ["f"], "component": list("xyz")},
     )  # fmt: skip
-    opened = _largest([("/SWL/frequency/storm", _with_opening(data))], "opened")
+    (opened,) = each_of([("/SWL/frequency/storm", _with_opening(data))], "opened")
     assert opened is not None and (opened.band.low, opened.band.high) == (0.15, 0.3)
