@@ -565,7 +565,7 @@ def test_a_motion_that_repeats_after_several_periods_repeats(every: int) -> None
     period = np.arange(count * per_period) / per_period
     number = np.floor(period).astype(int)
     generator = np.random.default_rng(3)
-    size = 1.0 + 0.3 * (generator.random(count)[number] if every == 0 else np.cos(2.0 * np.pi * number / every))
+    size = 1.0 + 0.6 * (generator.random(count)[number] if every == 0 else np.cos(2.0 * np.pi * number / every))
     wave = np.sin(2.0 * np.pi * period) * size
     position = wave[:, None] * np.linspace(1.0, 2.0, 12)
     found, change = _repetition(position, per_period, 10)
