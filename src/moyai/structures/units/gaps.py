@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -74,6 +75,7 @@ class Gap:
         return float(most.max())
 
 
+@lru_cache(maxsize=16)
 def gaps_of(at: RowAtLevel) -> tuple[Gap, ...]:
     """Return the gaps between neighbours, narrower than a unit is long."""
     out = []
