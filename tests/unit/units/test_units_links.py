@@ -15,6 +15,7 @@ from moyai.structures.units.connectors import stretch
 from moyai.structures.units.datasets import along_the_path
 from moyai.structures.units.links import PULLS, PUSHES, SHORTEST, Work, displacement, part_of
 from moyai.structures.units.model import Connector, Curve, Placement, UnitLine
+from moyai.structures.units.time.kernel import _draw
 from moyai.structures.units.time.memory import RowMemory
 from moyai.structures.units.time.model import RowInTime
 from moyai.validation.units import WATER, row
@@ -304,3 +305,17 @@ def test_where_both_ends_meet_it_bears_nothing(connector: Connector) -> None:
         mean = link.bears(position, work)[0]
         assert np.linalg.norm(mean * link.along(position)[6:9]) <= 1.01 * mean / (SHORTEST * link.span) * aside, aside
     assert float(link.elongation(met)) == pytest.approx(-link.span, rel=1e-12)
+
+
+def test_the_compiled_step_draws_a_line_whose_ends_meet_as_the_row_at_rest_does() -> None:
+    at = at_rest(CHAIN)
+    link = at.links[0]
+    pairs, arms, bends, axes, spans, *_ = RowInTime._joints(SimpleNamespace(at=at))
+    for aside in (0.0, 1e-3, 0.5):
+        position = np.zeros(12)
+        position[6:9] = -link.span * link.axis
+        position[6] += aside
+        drawn, along = np.zeros(1), np.zeros((1, 12))
+        _draw(position, np.eye(12), pairs, arms, bends, axes, spans, drawn, along)
+        assert drawn[0] == pytest.approx(float(link.elongation(position)), abs=1e-12)
+        assert np.allclose(along[0], link.along(position), rtol=1e-12, atol=1e-12)
