@@ -17,6 +17,8 @@ from moyai.structures.units.links import SHORTEST
 RUNNING, DIVERGED, UNSETTLED = 0, 1, 2
 _PASSES, _TURNS, _SWEEPS, _HALVINGS = 40, 60, 400, 80
 _SETTLED = 1e-8
+#: Change of the force of lines, of that at rest, below which it is no larger than its rounding lets it be settled
+_AT_REST = 1e-4
 #: Share of the largest motion that an elongation may miss, change of its derivative within a pass of the step
 _STRAIGHT, _DIRECTION = 1e-10, 1e-5
 
@@ -220,7 +222,9 @@ def march(
     along, along_next = np.empty((j, r)), np.empty((j, r))
     answer, compliance = np.empty((r, j)), np.empty((j, j))
     curves = (xs, fs, ends, dashpots, sides)
-    has_lines = parameters.shape[0] > 0
+    has_lines, at_rest = parameters.shape[0] > 0, 1e-300
+    for i in range(m):
+        at_rest = max(at_rest, _AT_REST * abs(balanced[i]))
     for step in range(steps):
         number = first + step + 1
         for i in range(r):
@@ -300,7 +304,8 @@ def march(
                 q[i] = total
                 pull[i] = 0.0
             space_line_force(q, holder, parameters, index, nodes, last, pull, tension)
-            size, apart = 1e-300, 0.0
+            # what is left of forces in balance is rounding
+            size, apart = at_rest, 0.0
             former[:] = pushed
             for i in range(r):
                 total = 0.0

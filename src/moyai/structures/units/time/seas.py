@@ -117,8 +117,9 @@ class TimeRun:
     @property
     def kept(self) -> slice:
         """Rows that are analysed."""
-        ends = np.searchsorted(self.run.time, (self.begin - 1e-9, self.end + 1e-9))
-        return slice(int(ends[0]), int(ends[1]))
+        low, high = np.searchsorted(self.run.time, (self.begin - 1e-9, self.end + 1e-9))
+        # of a run that ended before, its last row
+        return slice(min(int(low), int(high) - 1), int(high))
 
     @property
     def period(self) -> float:
