@@ -94,13 +94,17 @@ def _corners(at: RowAtLevel, met: Meeting) -> tuple[Array, Array, Array]:
     clearances: list[float] = []
     along: list[Array] = []
     arms: list[tuple[Array, Array]] = []
+    known: set[tuple[float, ...]] = set()
     for own, other, sign in ((met.far, met.near, 1.0), (met.near, met.far, -1.0)):
         towards = np.array([*other.normal, 0.0])
         for corner in _outline(at, own):
             apart = float(other.before(corner[:2]))
             pair = (corner - apart * towards, corner)[:: int(sign)]
-            if not other.holds(corner[:2]) or any(np.allclose(pair, known, atol=1e-9) for known in arms):
+            # a corner that stands right before another one is both of them
+            place = tuple(np.round(np.concatenate(pair), 6).tolist())
+            if place in known or not other.holds(corner[:2]):
                 continue
+            known.add(place)
             clearances.append(apart)
             along.append(sign * towards)
             arms.append(pair)
