@@ -15,7 +15,7 @@ from moyai.case.yaml_reader import parse_yaml
 from moyai.core.headline import Bound, Criterion, Headline, Judgement, judge
 from moyai.report.first_page import limit_and_found
 from moyai.report.headlines import _figure
-from moyai.structures.units.headlines import _connectors, _gaps
+from moyai.structures.units.headlines import _connectors, _gaps, _lines, _motions
 
 
 def _sea(joins: int, joined: int, force: float, mean: float = 2.0) -> xr.Dataset:
@@ -134,3 +134,19 @@ def test_no_load_is_no_factor_of_safety(bound: Bound, found: str, words: str) ->
     assert limit_and_found(item) == ("at least 2.00", found)
     headline = Headline("u", "Use", 0.0, "1", "SWL", "linear", bound=bound)
     assert words in _figure(headline, [item], {}).detail and "∞" not in _figure(headline, [item], {}).detail
+
+
+@pytest.mark.parametrize(("drift", "bound"), [("none", "at least"), ("mean", "")])
+def test_drift_that_is_left_out_makes_offsets_and_tensions_bounds(drift: str, bound: str) -> None:
+    """In regular waves and in time too: what the waves push the row by is missing."""
+    sea = xr.Dataset(
+        {"largest_offset": (("period", "unit"), [[0.3]]), "line_tension_maximum": (("period", "line"), [[3e3]]),
+         "line_tension_mean": (("period", "line"), [[2e3]]), "motion_amplitude": (("period", "unit", "dof"), [[[0.1] * 2]])},
+        coords={"period": [4.0], "unit": [1], "line": ["a"], "dof": ["roll", "pitch"]}, attrs={"drift": drift},
+    )  # fmt: skip
+    seas = [("/SWL/time/daily", sea)]
+    groups = {"/SWL/statics": xr.Dataset({"breaking_load": ("line", [1e6])})}
+    found = {item.name: item for item in [*_motions(seas), *_lines(groups, seas)]}
+    for name in ("offset", "line_tension", "line_utilisation"):
+        assert found[name].bound == bound, name
+        assert ("left out" in found[name].detail) == bool(bound and name != "line_utilisation")

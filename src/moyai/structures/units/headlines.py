@@ -380,7 +380,7 @@ def _analysis(found: Largest) -> str:
 def _of_line(found: Largest, mean: float) -> tuple[Bound, str]:
     """Return the bound of a tension and its reason: slow drift left out, or snaps that lines at rest do not see."""
     if found.without_drift:
-        return "at least", _WITHOUT_DRIFT
+        return "at least", _left_out(found)
     if found.bound:
         return found.bound, f"; {ALONE}"
     if _moved(found):
@@ -390,16 +390,22 @@ def _of_line(found: Largest, mean: float) -> tuple[Bound, str]:
     return ("at least", _SNAPS) if snapped else ("", "")
 
 
+def _left_out(found: Largest) -> str:
+    """Say which drift a number is without."""
+    if found.drift_left_out:
+        return "; the drift of the waves is left out and adds to it"
+    return _WITHOUT_DRIFT if found.without_drift else ""
+
+
 def _motions(seas: Seas) -> Iterator[Headline]:
     offsets = []
     for offset in each_of(seas, "largest_offset"):
-        left_out = offset.without_drift
-        words = "mean, slow drift and waves" if offset.timed else "mean and waves"
+        words = "mean, slow drift and waves" if offset.timed and not offset.drift_left_out else "mean and waves"
         offsets.append(
             Headline(
                 "offset", "Largest offset of a unit from rest", offset.value, "m", offset.where, _model(offset),
-                bound="at least" if left_out else offset.bound, band=offset.band,
-                detail=words + _WITHOUT_DRIFT * left_out,
+                bound="at least" if offset.without_drift else offset.bound, band=offset.band,
+                detail=words + _left_out(offset),
             )
         )  # fmt: skip
     yield from _all_judged(offsets)

@@ -130,8 +130,13 @@ class Largest:
 
     @property
     def without_drift(self) -> bool:
-        """Whether it is of an irregular sea without slow drift."""
-        return not self.timed and "significant_motion" in self.data
+        """Whether it is of an irregular sea without slow drift, or of any without drift."""
+        return self.drift_left_out or (not self.timed and "significant_motion" in self.data)
+
+    @property
+    def drift_left_out(self) -> bool:
+        """Whether the case leaves drift out."""
+        return bool(self.data.attrs.get("drift") == "none")
 
 
 def damping_band(data: xr.Dataset, name: str, index: tuple[int, ...], scale: float = 1.0) -> Band | None:

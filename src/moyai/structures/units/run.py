@@ -236,6 +236,7 @@ def _level_steps(
             numbers(at, sea, answers[sea.name]),
             [numbers(row, sea, found) for row, found in zip(others, varied[sea.name], strict=True)],
         )
+        data.attrs["drift"] = "mean" if settings.drift else "none"
         collected.groups[f"{root}/frequency/{sea.name}"] = data
         if data.attrs["status"] != "converged":
             collected.failures.append(f"not settled: {at.name}/frequency/{sea.name}")
@@ -345,6 +346,16 @@ def _notices(problem: UnitsProblem, at: RowAtLevel) -> list[Notice]:
                 "the water in the gaps between units has no damping: near its resonance the waves there are too high",
                 severity="information",
                 remedy="give 'structure.gap_damping_lid' and compare",
+            )
+        )
+    if not problem.settings.drift:
+        out.append(
+            Notice(
+                "drift-left-out",
+                f"{at.name}: the drift of the waves is left out: offsets and tensions are too low, on chains several "
+                "times over in an irregular sea",
+                severity="warning",
+                remedy="leave 'settings.drift' out; coefficients of a file need its drift",
             )
         )
     out.extend(replace(notice, message=f"{at.name}: {notice.message}") for notice in eddy_notices(at))

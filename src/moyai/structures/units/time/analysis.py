@@ -134,7 +134,7 @@ def sea_in_time(
             notices += told
         groups = {"realisation": good[shown_run(good)].series}
     data.attrs["status"] = status_of(runs)
-    data.attrs["drift"] = "mean" if regular else ("newman" if water.settings.drift else "none")
+    data.attrs["drift"] = "none" if not water.settings.drift else "mean" if regular else "newman"
     bad = [item.message for item in runs if item.status == "diverged"]
     return SeaInTime(
         {"": data} | {f"/{name}": item for name, item in groups.items()},
