@@ -141,7 +141,8 @@ def test_drift_that_is_left_out_makes_offsets_and_tensions_bounds(drift: str, bo
     """In regular waves and in time too: what the waves push the row by is missing."""
     sea = xr.Dataset(
         {"largest_offset": (("period", "unit"), [[0.3]]), "line_tension_maximum": (("period", "line"), [[3e3]]),
-         "line_tension_mean": (("period", "line"), [[2e3]]), "motion_amplitude": (("period", "unit", "dof"), [[[0.1] * 2]])},
+         "line_tension_mean": (("period", "line"), [[2e3]]),
+         "motion_amplitude": (("period", "unit", "dof"), [[[0.1] * 2]])},
         coords={"period": [4.0], "unit": [1], "line": ["a"], "dof": ["roll", "pitch"]}, attrs={"drift": drift},
     )  # fmt: skip
     seas = [("/SWL/time/daily", sea)]
