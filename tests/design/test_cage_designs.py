@@ -80,6 +80,7 @@ analyses: [statics]
 """
 
 
+@pytest.mark.slow
 def test_a_flume_cage_of_lader_and_enerhaug():
     """1.435 m across, 1.44 m deep, solidity 0.225, 16 x 400 g: stiff at 0.05 m/s, far from it at 0.4 m/s."""
     sinkers = "{count: 16, submerged_weight: 3.92 N}"
@@ -283,6 +284,7 @@ def test_a_rigid_cage_is_judged_on_offset_and_anchors():
         assert headline(turned, name).value == pytest.approx(headline(found, name).value, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_drag_and_volume_are_judged_for_moments_in_the_sea_too():
     """A limit that the current alone keeps and the sea breaks does not hold."""
     text = template("cage").replace("{around: 32, down: 6, bottom: 4}", "{around: 16, down: 3, bottom: 2}")

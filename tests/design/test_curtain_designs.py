@@ -154,6 +154,7 @@ def test_steady_load_is_what_the_weights_allow(designs, name: str) -> None:
     assert 0.99 * catenary <= steady <= 1.01 * circle
 
 
+@pytest.mark.slow
 def test_held_toe_carries_at_most_the_drag_of_its_length(designs) -> None:
     given, result = designs("held toe")
     line = float(result.tree["/SWL/statics"]["section_load"].sel(drag_case="given"))
@@ -404,6 +405,7 @@ def test_the_whole_span_governs_where_it_is_run(designs, tmp_path: Path) -> None
     assert attrs["counted_from"] == pytest.approx(7.0 * attrs["period"])
 
 
+@pytest.mark.slow
 def test_the_plate_in_a_weaker_current_decides_where_the_whole_span_gives_less(tmp_path: Path) -> None:
     """Weaker currents come with every stronger one, twice a tide."""
     design = DESIGNS["held toe"] | {
@@ -450,6 +452,7 @@ analyses: [statics, impact]
 """
 
 
+@pytest.mark.slow
 def test_a_weaker_current_asks_no_more_of_the_sheet(tmp_path):
     """A skirt that hangs straighter bears more of the same load: weaker currents come with every stronger one."""
 

@@ -210,6 +210,7 @@ def test_the_template_is_converged_on_its_mesh():
     assert tension.band.low <= headline(finer, "line_tension").value <= tension.band.high * 1.005
 
 
+@pytest.mark.slow
 def test_damping_of_the_mesh_leaves_a_smooth_tension_alone():
     """A tenth of critical damping of a bar moves the highest tension of a chain that stays taut by less than 0.1 %."""
     text = SETTLED.replace("skip: 30 s", "skip: 30 s\n  mesh_check: off")
@@ -218,6 +219,7 @@ def test_damping_of_the_mesh_leaves_a_smooth_tension_alone():
     assert with_it == pytest.approx(without, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_a_chain_that_goes_slack_on_the_bed_is_not_called_converged():
     """The same buoy in a weak current: 24, 48 and 96 segments gave 11.8, 9.4 and 5.6 kN under 'converged'."""
     text = SETTLED.replace("speed: 1 m/s", "speed: 0.3 m/s").replace("segments: 48}", "segments: 24}")

@@ -68,7 +68,14 @@ def test_signals_end_a_long_run_with_a_partial_result(case_file, tmp_path, numbe
 
 
 @pytest.mark.parametrize("closing", [pytest.param(">&-", marks=pytest.mark.slow), ">&- 2>&-", "| true"])
-@pytest.mark.parametrize("command", ["new", pytest.param("new breakwater --json", marks=pytest.mark.slow), "schema"])
+@pytest.mark.parametrize(
+    "command",
+    [
+        "new",
+        pytest.param("new breakwater --json", marks=pytest.mark.slow),
+        pytest.param("schema", marks=pytest.mark.slow),
+    ],
+)
 def test_closed_standard_output_ends_without_a_traceback(tmp_path, command, closing):
     line = f"{sys.executable} -m moyai {command} 2>{tmp_path / 'errors'} {closing}"
     subprocess.run(["/bin/sh", "-c", line], check=False)

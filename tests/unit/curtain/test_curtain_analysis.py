@@ -225,6 +225,7 @@ def test_impact_governs_where_it_is_the_largest(tmp_path):
     assert float(table.sel(component="anchor")["impact_load"]) > float(table.sel(component="anchor")["wave_load"])
 
 
+@pytest.mark.slow
 def test_limit_height_is_where_a_component_is_used_up(small):
     """At the height of the table the largest utilisation is 1, a little above it exceeds 1 or the wave breaks."""
     problem, result = small
@@ -296,6 +297,7 @@ def test_waves_along_the_normal_load_a_curtain_in_an_oblique_current_by_their_ow
         assert one.anchor_line == pytest.approx(other.anchor_line, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_notices_name_their_water_level_where_it_matters(tmp_path):
     text = SMALL.replace("water_depth: 8 m,", "water_depth: 8 m, water_levels: {HWL: 2 m, LWL: -1.5 m},")
     text = text.replace("[statics, impact, waves, anchor_loads, limits]", "[statics, impact]")
@@ -431,6 +433,7 @@ def test_irregular_sea_has_snaps_and_a_law(tmp_path):
     assert float(largest["tension"].max()) == pytest.approx(nearest, rel=0.02)
 
 
+@pytest.mark.slow
 def test_skirt_on_the_bed_says_what_is_assumed(tmp_path):
     text = (
         SMALL.replace("{length: 4 m, sub", "{length: 8.6 m, sub")
@@ -453,6 +456,7 @@ def test_skirt_on_the_bed_says_what_is_assumed(tmp_path):
     assert float(faster.tree["SWL/statics"]["toe_gap"].sel(drag_case="given")) > 0.0
 
 
+@pytest.mark.slow
 def test_record_of_a_flume_lies_beside_the_models(flume, tmp_path):
     """A made record: its impact is found above the plateau, per cable and summed, each model is held against it."""
     from moyai.sea.water import Water

@@ -180,6 +180,7 @@ def test_anchored_span_in_a_current_ends_at_its_drag() -> None:
     assert 0.5 * (up - down) * slope == pytest.approx(drag, rel=0.01)
 
 
+@pytest.mark.slow
 def test_sensitivity_names_what_the_peak_is_worth() -> None:
     span, mesh = CurtainSpan(**BASE), Mesh(12, 6)  # type: ignore[arg-type]
     rise = peak_by_energy(Impact(0.7, 0.8, 0.15, 75.0, 75.0, 0.3, FLUME)).time
@@ -271,6 +272,7 @@ def write(folder: Path, text: str) -> Path:
     return path
 
 
+@pytest.mark.slow
 def test_case_of_a_snap_in_the_current(tmp_path: Path) -> None:
     result = moyai.run(moyai.load_case(write(tmp_path, CASE)))
     assert result.status == "converged", result.message
@@ -469,6 +471,7 @@ def test_gathered_cloth_goes_on_with_turning_sections(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("way", [pytest.param("stopped", marks=pytest.mark.slow), "viscosity took"])
+@pytest.mark.slow
 def test_a_run_that_turning_sections_spoil_is_made_again_with_held_normals(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, way: str
 ) -> None:

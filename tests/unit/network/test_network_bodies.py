@@ -68,6 +68,7 @@ def stopped(tmp_path_factory):
     return problem, part, part.write(folder / "results.nc")
 
 
+@pytest.mark.slow
 def test_a_run_with_bodies_goes_on_from_where_it_was_stopped(stopped):
     problem, part, file = stopped
     whole = run(problem)
@@ -94,6 +95,7 @@ def test_a_run_with_bodies_goes_on_from_where_it_was_stopped(stopped):
     assert any("goes on from an earlier one" in notice.message for notice in rest.notices)
 
 
+@pytest.mark.slow
 def test_motions_of_bodies_stand_in_the_summary(tmp_path):
     text = CASE.format(analyses="[statics, dynamic]", more=", skip: 1 s", bars=4)
     path = tmp_path / "case.yaml"
@@ -126,6 +128,7 @@ def test_rest_in_a_current_is_rest_in_the_run(tmp_path):
     assert abs(float(series["solid_position"][0, 0, 1])) > 0.5
 
 
+@pytest.mark.slow
 def test_a_body_that_turns_over_is_told(tmp_path):
     text = CASE.format(analyses="[statics]", more="", bars=2).replace("[0.05 m, 0, -0.1 m]", "[0, 0, 1.5 m]")
     path = tmp_path / "case.yaml"
