@@ -65,8 +65,9 @@ def band_text(headline: Headline, like: float = 0.0) -> str:
     if band is None:
         return ""
     like = max(like, abs(headline.value)) if math.isfinite(headline.value) else like
-    low, high = (_quantity(end, headline.unit, like, headline.digits) for end in (band.low, band.high))
-    return f"{low} to {high} ({band.of})"
+    ends = (band.low, headline.value, band.high)
+    low, own, high = (_quantity(end, headline.unit, like, headline.digits) for end in ends)
+    return f"the same to {headline.digits} digits ({band.of})" if low == own == high else f"{low} to {high} ({band.of})"
 
 
 def _quantity(value: float, unit: str, like: float, digits: int) -> str:
@@ -111,7 +112,7 @@ def _asked(headline: Headline, item: Judgement, like: float) -> str:
             return f"factor of safety not known, asked {limit}" if item.bound else f"no load, factor asked {limit}"
         here = "" if plain else f" where it is judged{place}, {own} at the value shown"
         return f"factor of safety {found}{here}, asked {limit}"
-    return f"limit {limit}" if plain else f"limit {limit}, judged at {found.removeprefix('at most ')}{place}"
+    return f"limit {limit}" if plain else f"limit {limit}, judged at {found.removeprefix(f'{item.bound} ')}{place}"
 
 
 def _severity(item: Judgement) -> int:

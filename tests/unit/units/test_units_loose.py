@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,9 +13,9 @@ from moyai.case.criteria import criteria_of
 from moyai.case.reader import case_of
 from moyai.case.templates import template
 from moyai.case.yaml_reader import parse_yaml
-from moyai.core.headline import Bound, Criterion, Headline, Judgement, judge
+from moyai.core.headline import Band, Bound, Criterion, Headline, Judgement, judge
 from moyai.report.first_page import limit_and_found
-from moyai.report.headlines import _figure
+from moyai.report.headlines import _figure, band_text
 from moyai.structures.units.headlines import _connectors, _gaps, _lines, _motions
 
 
@@ -151,3 +152,9 @@ def test_drift_that_is_left_out_makes_offsets_and_tensions_bounds(drift: str, bo
     for name in ("offset", "line_tension", "line_utilisation"):
         assert found[name].bound == bound, name
         assert ("left out" in found[name].detail) == bool(bound and name != "line_utilisation")
+
+
+def test_ends_of_a_band_that_print_alike_are_not_printed_twice() -> None:
+    alike = Headline("g", "Closing", 0.10912, "1", "SWL", "linear", band=Band(0.10911, 0.10914, "damping"))
+    assert band_text(alike) == "the same to 3 digits (damping)"
+    assert band_text(replace(alike, band=Band(0.1091, 0.12, "damping"))) == "0.109 to 0.120 (damping)"
