@@ -23,21 +23,28 @@ from moyai.structures.units.seas import SeaAnswer
 
 #: Travel [m] and force [N] that are rounding.
 _NO_TRAVEL, _NO_FORCE = 1e-9, 1e-6
+#: Least over largest slope of a curve on its way, below which it lets go there: a tie that hardly pulls holds nothing.
+_LETS_GO = 0.05
+#: Stiffness over that of the lines of a unit from which slow drift no longer parts two units by more than a tenth more.
+_HOLDS = 100.0
 Flags = NDArray[np.bool_]
 
 
-def touches(curve: Curve, low: float, high: float) -> tuple[bool, bool]:
-    """Return whether a connector bears anywhere from one elongation to another [m], and whether it lets go on the way.
+def touches(curve: Curve, low: float, high: float) -> tuple[bool, bool, float]:
+    """Return whether a connector bears from one elongation to another [m], whether it lets go there, its least slope.
 
-    It lets go where its curve is zero over a stretch; a curve that passes through zero changes its side there.
+    It lets go where its curve is flat over a stretch, or hardly rises beside another one; the slope is in N/m.
     """
-    if high - low < _NO_TRAVEL:
-        return bool(abs(float(curve.at(np.array(low)))) > _NO_FORCE), False
     nodes = np.array(curve.elongation)
+    if high - low < _NO_TRAVEL:
+        low, high = low - _NO_TRAVEL, high + _NO_TRAVEL
+        nodes = np.zeros(0)
     e = np.concatenate([[low], nodes[(nodes > low) & (nodes < high)], [high]])
-    free = np.abs(curve.at(e)) <= _NO_FORCE
-    loose = free[1:] & free[:-1] & (np.diff(e) > _NO_TRAVEL)
-    return bool(not free.all()), bool(loose.any())
+    e = e[np.concatenate([[True], np.diff(e) >= _NO_TRAVEL])]
+    force = curve.at(e)
+    slopes = np.diff(force) / np.diff(e)
+    bears = bool(np.any(np.abs(force) > _NO_FORCE))
+    return bears, bears and float(slopes.min()) < _LETS_GO * float(slopes.max()), max(float(slopes.min()), 0.0)
 
 
 def measured_ends(curve: Curve, kind: str) -> tuple[float, float]:
@@ -52,8 +59,8 @@ def measured_ends(curve: Curve, kind: str) -> tuple[float, float]:
 def contact_of(at: RowAtLevel, answer: SeaAnswer, low: Array, high: Array) -> tuple[Flags, Flags, Flags, Flags]:
     """Return of every connector whether its units are held and whether contact is lost; of every gap the same.
 
-    Units are held by a constraint, or by what is stiffer than the lines of a unit and never lets go. Contact is lost
-    where nothing holds them and a connector between them bears and lets go in one motion.
+    Units are held by a constraint, or by what is much stiffer than the lines of a unit and never lets go. Where one
+    connector bears and lets go in one motion, its impacts go through the whole row: contact is lost for all.
 
     Parameters
     ----------
@@ -68,19 +75,17 @@ def contact_of(at: RowAtLevel, answer: SeaAnswer, low: Array, high: Array) -> tu
         spring, axis, curve = joint.connector.stiffness, joint.from_end_to_end, joint.connector.curve
         own = 0.0 if spring is None else float(axis @ spring[:3, :3] @ axis)
         if curve is not None:
-            bears, lets_go[number] = touches(curve, float(low[number]), float(high[number]))
-            own += answer.curve_stiffness[number] if bears and not lets_go[number] else 0.0
-            lets_go[number] &= bears
-        holds[number] = joint.held[:, :3].any() or own > lines
+            _, lets_go[number], slope = touches(curve, float(low[number]), float(high[number]))
+            own += slope
+        holds[number] = joint.held[:, :3].any() or own > _HOLDS * lines
 
-    def among(pair: tuple[int, int]) -> tuple[bool, bool]:
-        same = np.array([set(joint.pair) == set(pair) for joint in at.joints], dtype=bool)
-        held = bool(holds[same].any())
-        return held, bool(lets_go[same].any()) and not held
+    def held(pair: tuple[int, int]) -> bool:
+        return any(there and set(joint.pair) == set(pair) for joint, there in zip(at.joints, holds, strict=True))
 
-    joints = np.array([among(joint.pair) for joint in at.joints], dtype=bool).reshape(-1, 2)
-    gaps = np.array([among(gap.pair) for gap in gaps_of(at)], dtype=bool).reshape(-1, 2)
-    return joints[:, 0], joints[:, 1], gaps[:, 0], gaps[:, 1]
+    joints = np.array([held(joint.pair) for joint in at.joints], dtype=bool)
+    gaps = np.array([held(gap.pair) for gap in gaps_of(at)], dtype=bool)
+    lost = bool(lets_go.any())
+    return joints, np.full(len(joints), lost), gaps, np.full(len(gaps), lost)
 
 
 def contact_variables(at: RowAtLevel, answers: Sequence[SeaAnswer], low: Array, high: Array) -> dict[str, Array]:

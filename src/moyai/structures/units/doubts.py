@@ -23,21 +23,22 @@ LETS_GO = (
 MEET = "hulls meet in this sea, and their impact is not computed"
 STRAINED = "the linear motion does not feel how tight lines come"
 NOT_KNOWN = "not known"
+_JOINS = {"gap": "gap_joined", "connector": "connector_joins"}
 
 
 def followed(data: xr.Dataset, name: str) -> xr.DataArray | None:
     """Return whether the units of each connector or gap are followed in the linear answer; None where all are.
 
-    In an irregular sea what nothing holds together drifts apart; in regular waves it meets and lets go.
+    In an irregular sea what nothing holds together drifts apart; in any what bears and lets go meets with impacts.
     """
     kind = "gap" if name.startswith("gap_closing") else "connector"
     if name not in data or kind not in data[name].dims:
         return None
-    if "significant_motion" in data:
-        flags = data.get(f"{kind}_joined" if kind == "gap" else "connector_joins")
-        return None if flags is None else flags.astype(bool)
-    flags = data.get(f"{kind}_loses_contact")
-    return None if flags is None else ~flags.astype(bool)
+    joins = data.get(_JOINS[kind]) if "significant_motion" in data else None
+    lost = data.get(f"{kind}_loses_contact")
+    if lost is None:
+        return None if joins is None else joins.astype(bool)
+    return ~lost.astype(bool) if joins is None else joins.astype(bool) & ~lost.astype(bool)
 
 
 def why_loose(path: str, data: xr.Dataset, name: str, index: tuple[int, ...]) -> str:
@@ -48,7 +49,15 @@ def why_loose(path: str, data: xr.Dataset, name: str, index: tuple[int, ...]) ->
     place = tuple(number for dim, number in zip(data[name].dims, index, strict=True) if dim in known.dims)
     if bool(known.values[place]):
         return ""
-    return DRIFTS_APART if "significant_motion" in data else LETS_GO
+    joins = data.get(_JOINS["gap" if name.startswith("gap_closing") else "connector"])
+    apart = "significant_motion" in data and joins is not None and not bool(joins.values[place])
+    return "; ".join([DRIFTS_APART] * apart + [LETS_GO] * lets_go(path, data))
+
+
+def lets_go(path: str, data: xr.Dataset) -> bool:
+    """Whether a connector of the row bears and lets go within the waves, in the frequency domain."""
+    lost = None if in_time(path) else data.get("connector_loses_contact")
+    return lost is not None and bool(lost.values.any())
 
 
 def why_beyond(data: xr.Dataset, name: str, index: tuple[int, ...]) -> str:
@@ -151,5 +160,6 @@ def curve_notices(seas: Seas) -> Iterator[Notice]:
 
 
 __all__ = [
-    "curve_notices", "followed", "meeting_notice", "meeting_notices", "meets", "not_known", "why_beyond", "why_loose",
+    "curve_notices", "followed", "lets_go", "meeting_notice", "meeting_notices", "meets", "not_known", "why_beyond",
+    "why_loose",
 ]  # fmt: skip

@@ -379,8 +379,8 @@ def _analysis(found: Largest) -> str:
 
 def _of_line(found: Largest, mean: float) -> tuple[Bound, str]:
     """Return the bound of a tension and its reason: slow drift left out, or snaps that lines at rest do not see."""
-    if found.without_drift:
-        return "at least", _left_out(found)
+    if found.without_drift or found.lets_go:
+        return "at least", _left_out(found) + f"; {doubts.LETS_GO}" * found.lets_go
     if found.bound:
         return found.bound, f"; {ALONE}"
     if _moved(found):
@@ -404,8 +404,8 @@ def _motions(seas: Seas) -> Iterator[Headline]:
         offsets.append(
             Headline(
                 "offset", "Largest offset of a unit from rest", offset.value, "m", offset.where, _model(offset),
-                bound="at least" if offset.without_drift else offset.bound, band=offset.band,
-                detail=words + _left_out(offset),
+                bound="at least" if offset.without_drift or offset.lets_go else offset.bound, band=offset.band,
+                detail=words + _left_out(offset) + f"; {doubts.LETS_GO}" * offset.lets_go,
             )
         )  # fmt: skip
     yield from _all_judged(offsets)
@@ -415,7 +415,7 @@ def _motions(seas: Seas) -> Iterator[Headline]:
         tilts += [
             Headline(
                 "roll", f"Largest {dof} of a unit, double amplitude", tilt.value, "rad", tilt.where, _model(tilt),
-                band=tilt.band, bound=tilt.bound,
+                band=tilt.band, bound="at least" if tilt.lets_go else tilt.bound,
             )
             for tilt in each_of(turned, "tilt")
         ]  # fmt: skip

@@ -129,6 +129,11 @@ class Largest:
         return doubts.why_beyond(self.data, self.name, self.index)
 
     @property
+    def lets_go(self) -> bool:
+        """Whether a connector of the row bears and lets go, which its linear motions do not know."""
+        return doubts.lets_go(self.path, self.data)
+
+    @property
     def without_drift(self) -> bool:
         """Whether it is of an irregular sea without slow drift, or of any without drift."""
         return self.drift_left_out or (not self.timed and "significant_motion" in self.data)
