@@ -137,6 +137,19 @@ def test_no_load_is_no_factor_of_safety(bound: Bound, found: str, words: str) ->
     assert words in _figure(headline, [item], {}).detail and "∞" not in _figure(headline, [item], {}).detail
 
 
+def test_closings_and_connectors_without_drift_are_bounds() -> None:
+    statics = xr.Dataset(
+        {"connector_breaking_load": ("connector", [1e5]), "gap_width": ("gap", [1.0])}, coords={"connector": ["f"]}
+    )
+    for drift, bound in (("none", "at least"), ("mean", "")):
+        seas = [("/SWL/frequency/storm", _sea(1, 1, 1e4).assign_attrs(drift=drift))]
+        groups = {"/SWL/statics": statics, **dict(seas)}
+        found = {item.name: item for item in [*_connectors(groups, seas), *_gaps(groups, seas)]}
+        for name in ("connector_force", "connector_utilisation", "gap_closing"):
+            assert found[name].bound == bound, name
+        assert ("left out" in found["gap_closing"].detail) == bool(bound)
+
+
 @pytest.mark.parametrize(("drift", "bound"), [("none", "at least"), ("mean", "")])
 def test_drift_that_is_left_out_makes_offsets_and_tensions_bounds(drift: str, bound: str) -> None:
     """In regular waves and in time too: what the waves push the row by is missing."""

@@ -121,7 +121,7 @@ def _gaps(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Headline]:
 
 def _closing(found: Largest) -> Headline:
     """Return how far a gap closes; units that nothing joins drift against each other as well."""
-    apart = found.why_loose
+    apart = "; ".join(filter(None, (found.why_loose, _left_out(found)[2:] * found.drift_left_out)))
     detail = f"{found.value * found.scale:.3g} m of {found.scale:.3g} m; at 1 the hulls touch"
     return Headline(
         "gap_closing", "Largest share of a gap that closes at a corner of the hulls", found.value, "1",
@@ -212,7 +212,9 @@ def _stretched(found: Largest) -> float:
 
 def _of_motion(found: Largest) -> Bound:
     """Return ``at least`` where the units move against each other beyond what their linear motion knows."""
-    doubted = _strained(found) or found.why_loose or _stretched(found) or found.why_beyond
+    doubted = (
+        _strained(found) or found.why_loose or _stretched(found) or found.why_beyond or found.drift_left_out
+    )  # fmt: skip
     return "at least" if doubted else found.bound
 
 
@@ -262,7 +264,7 @@ def _reasons(found: Largest) -> str:
     across = f"motion across would stretch a connector by {_stretched(found):.3g} m, not counted"
     details = (
         ALONE if found.bound else "", across if _stretched(found) else "", found.why_loose, found.why_beyond,
-        doubts.STRAINED if _strained(found) else "",
+        doubts.STRAINED if _strained(found) else "", _left_out(found)[2:] * found.drift_left_out,
     )  # fmt: skip
     return "; ".join(filter(None, details))
 

@@ -352,8 +352,8 @@ def _notices(problem: UnitsProblem, at: RowAtLevel) -> list[Notice]:
         out.append(
             Notice(
                 "drift-left-out",
-                f"{at.name}: the drift of the waves is left out: offsets and tensions are too low, on chains several "
-                "times over in an irregular sea",
+                f"{at.name}: the drift of the waves is left out: offsets, tensions and closings of gaps are too low, "
+                "on chains several times over in an irregular sea",
                 severity="warning",
                 remedy="leave 'settings.drift' out; coefficients of a file need its drift",
             )
