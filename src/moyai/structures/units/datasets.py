@@ -408,7 +408,7 @@ BANDED = (
 #: What holds with the damping at either end alone holds.
 _WORST = {
     "connector_joins": np.minimum, "gap_joined": np.minimum, "connector_loses_contact": np.maximum,
-    "gap_loses_contact": np.maximum,
+    "gap_loses_contact": np.maximum, "hulls_meet": np.maximum,
 }  # fmt: skip
 
 

@@ -22,6 +22,7 @@ LETS_GO = (
 )
 MEET = "hulls meet in this sea, and their impact is not computed"
 STRAINED = "the linear motion does not feel how tight lines come"
+OTHERS_APART = "other units of the row drift apart and meet, and their impacts go through it"
 NOT_KNOWN = "not known"
 _JOINS = {"gap": "gap_joined", "connector": "connector_joins"}
 
@@ -35,6 +36,8 @@ def followed(data: xr.Dataset, name: str) -> xr.DataArray | None:
     if name not in data or kind not in data[name].dims:
         return None
     joins = data.get(_JOINS[kind]) if "significant_motion" in data else None
+    if joins is not None and elsewhere_apart(data):
+        return joins.astype(bool) & False
     lost = data.get(f"{kind}_loses_contact")
     if lost is None:
         return None if joins is None else joins.astype(bool)
@@ -51,7 +54,14 @@ def why_loose(path: str, data: xr.Dataset, name: str, index: tuple[int, ...]) ->
         return ""
     joins = data.get(_JOINS["gap" if name.startswith("gap_closing") else "connector"])
     apart = "significant_motion" in data and joins is not None and not bool(joins.values[place])
-    return "; ".join([DRIFTS_APART] * apart + [LETS_GO] * lets_go(path, data))
+    others = elsewhere_apart(data) and not apart
+    return "; ".join([DRIFTS_APART] * apart + [OTHERS_APART] * others + [LETS_GO] * lets_go(path, data))
+
+
+def elsewhere_apart(data: xr.Dataset) -> bool:
+    """Whether a connector of the row in an irregular sea does not hold its units, which drift apart and meet."""
+    joins = data.get("connector_joins") if "significant_motion" in data else None
+    return joins is not None and not bool(joins.values.all())
 
 
 def lets_go(path: str, data: xr.Dataset) -> bool:
