@@ -195,6 +195,17 @@ def test_one_realisation_in_which_hulls_meet_is_told() -> None:
     assert notice.value == pytest.approx(1.04)
 
 
+def test_hulls_that_meet_with_less_damping_are_told() -> None:
+    """The force is then not known, and the run is no more within its range than its verdict says."""
+    own, other = _regular(closing=0.45), _regular(meet=1, closing=0.52)
+    sea = with_damping_band(own, [own, other])
+    groups = _groups(sea)
+    seas = governing_seas(groups)
+    (notice,) = meeting_notices(groups, seas)
+    assert notice.severity == "error" and notice.value == pytest.approx(1.04)
+    assert {item.text for item in _connectors(groups, seas) if item.name == "connector_force"} == {"not known"}
+
+
 def test_hulls_meet_by_their_motion_or_where_they_lie_in_the_mean() -> None:
     at = at_rest(row())
     moved = np.zeros(12)

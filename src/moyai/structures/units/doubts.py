@@ -113,8 +113,10 @@ def meeting_notices(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[No
         level, _, sea = path.split("/")[1:]
         width = groups[f"/{level}/statics"]["gap_width"].values
         closing = data["gap_closing_largest"].values / width
-        if "gap_closing_largest_of_realisation" in data:
-            closing = np.fmax(closing, data["gap_closing_largest_of_realisation"].values / width)
+        # in any realisation, and with damping at the end of its band, which is where the closing is judged
+        for further in ("gap_closing_largest_high", "gap_closing_largest_of_realisation"):
+            if further in data:
+                closing = np.fmax(closing, data[further].values / width)
         least = data["least_distance"].values
         periods = data["period"].values if "period" in data.dims else [None]
         for row, period in enumerate(periods):
