@@ -16,7 +16,8 @@ from moyai.coupled.rigid import RigidCarrier
 from moyai.flexible.flow import Flow
 from moyai.flexible.network import Network
 from moyai.flexible.stepping import LEAST_STEPS
-from moyai.floating.time import STEPS_PER_NATURAL_PERIOD, STEPS_PER_PERIOD
+from moyai.floating.forcing import STEPS_PER_PERIOD
+from moyai.floating.time import STEPS_PER_NATURAL_PERIOD
 
 #: Longest step of a body that nothing hurries [s], and one for bodies under gravity alone over their size.
 CALM_STEP = 0.1
@@ -100,8 +101,8 @@ def choose_body_step(
                 pull += arm.T @ line_stiffness(network, point) @ arm
         elif isinstance(carrier, PlanarCarrier) and isinstance(body, PlanarBody):
             inertia, stiffness, place = body.model.inertia, body.model.stiffness, carrier.place_and_velocity()[0]
-            if math.isfinite(body.forcing.shortest_period):
-                limits["the shortest wave period that matters"] = body.forcing.shortest_period / STEPS_PER_PERIOD
+            if math.isfinite(body.forcing.longest_step):
+                limits["the periods of the waves"] = body.forcing.longest_step
             pull = np.zeros((3, 3))
             modes = _arms_to_modes(place - carrier.centre)[:, :, [0, 2, 4]]
             for point, arm, copies in zip(carrier.points, modes, carrier.copies, strict=True):

@@ -192,9 +192,9 @@ def _drive(
     throughput = 1e-12 * float(np.sum(network.bars.of_type("axial_stiffness") * network.bars.length)) + 1e-12
     for log in logs.values():
         log.keep(joint)
+    march = PlanarMarch.where_possible(joint, stepped, [*logs.values()], interval, rows) if per_row == 1 else None
+    row = 0
     try:
-        march = PlanarMarch.where_possible(joint, stepped, [*logs.values()], interval, rows) if per_row == 1 else None
-        row = 0
         while row < rows:
             taken = march.advance(row) if march is not None else 0
             if taken == 0:
@@ -209,24 +209,27 @@ def _drive(
             throughput = max(throughput, energy[0] + energy[1], abs(energy[2]), joint.work, kinetic)
             gain = (energy[0] + energy[1]) - (start[0] + start[1]) - (energy[2] - start[2])
             if not gain <= ENERGY_STOP * throughput:
-                ending.status, ending.message = (
-                    "not_converged",
-                    (
-                        f"stopped at t = {begin + row * interval:g} s: energy of {gain:.3g} J came from nowhere in the "
-                        "network; more viscosity of the bars or a smaller step calms it"
-                    ),
+                ending.status = "not_converged"
+                ending.message = (
+                    f"stopped at t = {begin + row * interval:g} s: energy of {gain:.3g} J came from nowhere in the "
+                    "network; more viscosity of the bars or a smaller step calms it"
                 )
-                return ending
-            # bodies and network of one instant, whatever interrupts the next step
-            ending = _Ending.at(stepped, logs)
+                break
+            if march is None:
+                # bodies and network of one instant, whatever interrupts the next step
+                ending = _Ending.at(stepped, logs)
             progress("bodies and network", row * interval, rows * interval)
     except KeyboardInterrupt:
-        ending.status, ending.message = "interrupted", f"interrupted at t = {ending.state.time:g} s"
+        time = ending.state.time if march is None else stepped.time
+        ending.status, ending.message = "interrupted", f"interrupted at t = {time:g} s"
     except ConvergenceError as error:
         ending.status = "not_converged"
         ending.message = f"stopped at t = {stepped.time:g} s: {error.fault.message}"
         if error.fault.remedy:
             ending.message += f"; {error.fault.remedy}"
+    if march is not None:
+        # a planar body has no state to go on from: that of the network is made once
+        ending.state = stepped.state()
     return ending
 
 

@@ -9,11 +9,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from moyai.core.arrays import Array
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.flexible.flow import Flow
+from moyai.flexible.sea_table_kernel import COLUMNS, spread_kinematics
 from moyai.sea.components import WaveComponents
+from moyai.sea.short_window import ShortWindow, frequency_spacing
 from moyai.sea.time_sum import sum_rows_over_time
 
 if TYPE_CHECKING:
@@ -22,6 +24,8 @@ if TYPE_CHECKING:
 
 #: Components up to which the water is summed at the present place of every node.
 FEW_COMPONENTS = 8
+#: Components for each frequency of a short window, from which on they are merged.
+LEAST_MERGED = 0.25
 #: Numbers of a tabulated sea.
 MOST_NUMBERS = 4e8
 
@@ -117,20 +121,32 @@ def _table(waves: WaveComponents, nodes: Array, count: int, step: float) -> NDAr
     """Sum the linear kinematics of all components at every node; above still water as at still water."""
     water = waves.water
     assert water is not None
+    out = np.zeros((7, len(nodes), count), dtype=np.float32)
+    time, level = step * np.arange(count, dtype=np.float64), np.minimum(nodes[:, 2], 0.0)
+    if np.ptp(waves.omega) < LEAST_MERGED * len(waves) * frequency_spacing(time):
+        window = ShortWindow.of(waves.omega, time)
+        parts = (
+            waves.amplitude, waves.phase - waves.omega * window.middle, waves.intrinsic_omega, waves.wave_number,
+            np.cos(waves.heading), np.sin(waves.heading),
+        )  # fmt: skip
+        sea = tuple(np.array(part, dtype=np.float64) for part in parts)
+        spread = np.zeros((len(nodes), window.count, COLUMNS))
+        spread_kinematics(np.array(nodes), level, sea, float(water.depth), window.first, window.shares, spread)
+        rows = spread.reshape(len(nodes), -1, 7, 2).transpose(2, 0, 1, 3).reshape(7 * len(nodes), -1)
+        out[:] = (rows @ window.waves).reshape(out.shape)
+        return out
     k, depth = waves.wave_number, water.depth
     intrinsic = np.asarray(waves.intrinsic_omega)
     amplitude = waves.amplitude * np.exp(1j * waves.phase)
     cosine, sine = np.cos(waves.heading), np.sin(waves.heading)
     whole = -np.expm1(-2.0 * k * depth)
-    out = np.zeros((7, len(nodes), count), dtype=np.float32)
-    time = step * np.arange(count, dtype=np.float64)
-    for number, (x, y, z) in enumerate(nodes):
-        level = min(z, 0.0)
+    for number, (x, y, _) in enumerate(nodes):
         turn = amplitude * np.exp(1j * k * (x * cosine + y * sine))
-        fall, back = np.exp(k * level), np.exp(-2.0 * k * (level + depth)) if math.isfinite(depth) else 0.0 * k
+        fall = np.exp(k * level[number])
+        back = np.exp(-2.0 * k * (level[number] + depth)) if math.isfinite(depth) else 0.0 * k
         along, up = fall * (1.0 + back) / whole, fall * (1.0 - back) / whole
         flow = intrinsic * turn * along
-        rows = np.stack([flow * cosine, flow * sine, -1j * intrinsic * turn * up])
-        rows = np.concatenate([rows, -1j * intrinsic * rows, turn[None]])
-        out[:, number] = sum_rows_over_time(waves.omega, rows, time, waves.frequency_step)
+        velocity = np.stack([flow * cosine, flow * sine, -1j * intrinsic * turn * up])
+        whole_sea: ComplexArray = np.concatenate([velocity, -1j * intrinsic * velocity, turn[None]])
+        out[:, number] = sum_rows_over_time(waves.omega, whole_sea, time, waves.frequency_step)
     return out

@@ -23,6 +23,11 @@ from moyai.floating.coefficients import Hydrodynamics
 from moyai.sea.components import WaveComponents
 from moyai.sea.time_sum import sum_in_window, window_pays
 
+STEPS_PER_PERIOD = 40
+"""Steps in the mean period of the waves: a phase error of 5e-6, extremes between rows below 0.3 %."""
+STEPS_PER_SHORTEST = 20
+"""Steps in the shortest period of a sea that matters: a phase error of 8e-5 where a hundredth of the energy is left."""
+
 
 class Forcing(Protocol):
     """Forces on the body that do not depend on its motion."""
@@ -30,6 +35,10 @@ class Forcing(Protocol):
     @property
     def shortest_period(self) -> float:
         """Shortest period that carries force worth resolving [s]; ``inf`` for steady forces."""
+
+    @property
+    def longest_step(self) -> float:
+        """Longest step that resolves the waves [s]; ``inf`` for steady forces."""
 
     def fitted_step(self, time_step: float) -> float:
         """Return a step not longer than ``time_step`` [s] that suits the forcing."""
@@ -57,6 +66,11 @@ class CalmWater:
 
     @property
     def shortest_period(self) -> float:
+        """Infinite."""
+        return math.inf
+
+    @property
+    def longest_step(self) -> float:
         """Infinite."""
         return math.inf
 
@@ -100,6 +114,11 @@ class RegularForcing:
         """The wave period, half of it when the drift pulsates."""
         period = 2.0 * math.pi / self.omega
         return 0.5 * period if self.drift_law == "pulsating" and np.any(self.mean_drift) else period
+
+    @property
+    def longest_step(self) -> float:
+        """Longest step that resolves the wave and its drift [s]."""
+        return self.shortest_period / STEPS_PER_PERIOD
 
     def fitted_step(self, time_step: float) -> float:
         """Return the longest step that divides the period."""
@@ -211,6 +230,13 @@ class IrregularForcing:
         energy = np.cumsum(np.abs(self.amplitude[order]) ** 2)
         last = int(np.searchsorted(energy, self.energy_share * energy[-1]))
         return 2.0 * math.pi / float(self.omega[order][min(last, len(order) - 1)])
+
+    @property
+    def longest_step(self) -> float:
+        """Longest step that resolves the zero-crossing period 2 pi sqrt(m0/m2) and the shortest one [s]."""
+        energy = np.abs(self.amplitude) ** 2
+        mean = 2.0 * math.pi * math.sqrt(float(np.sum(energy) / np.sum(energy * self.omega**2)))
+        return min(mean / STEPS_PER_PERIOD, self.shortest_period / STEPS_PER_SHORTEST)
 
     @property
     def repeat_period(self) -> float:

@@ -30,6 +30,11 @@ class MovingWater:
         """That of the forcing [s]."""
         return self.forcing.shortest_period
 
+    @property
+    def longest_step(self) -> float:
+        """That of the forcing [s]."""
+        return self.forcing.longest_step
+
     def fitted_step(self, time_step: float) -> float:
         """Return the step that suits the forcing [s]."""
         return self.forcing.fitted_step(time_step)

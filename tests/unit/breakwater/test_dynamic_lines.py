@@ -164,15 +164,24 @@ def test_bars_are_shared_by_length_and_clumps_ride_between_them(tmp_path) -> Non
     assert np.allclose(lines.tension_at_rest(), exact[list(lines.index)], rtol=5e-3)
 
 
-def test_a_tabulated_sea_is_the_sea_summed_at_the_nodes() -> None:
-    """Random components at random places: the table meets direct sums at its times, and half way nearly."""
+@pytest.mark.parametrize("merged", [False, True])
+def test_a_tabulated_sea_is_the_sea_summed_at_the_nodes(merged) -> None:
+    """Random components at random places: the table meets direct sums at its times, and half way nearly.
+
+    The many components of a long record, with headings and intrinsic frequencies of their own, are merged for a short
+    window of it.
+    """
     random = np.random.default_rng(4)
     water = Water(depth=12.0, density=1025.0, gravity=9.81)
-    base = 2.0 * math.pi / 120.0
-    omega = base * np.arange(8, 40)
+    repeat = 6000.0 if merged else 120.0
+    base = 2.0 * math.pi / repeat
+    omega = np.arange(0.42, 2.1, base) // base * base
+    assert (omega.size > 1500) == merged
+    spread = merged * random.uniform(-1.0, 1.0, omega.size)
     waves = WaveComponents(
-        omega, random.uniform(0.0, 0.1, omega.size), random.uniform(0, 6.28, omega.size), np.full(omega.size, 0.4),
-        wave_number(omega, 12.0, 9.81), water, frequency_step=base,
+        omega, random.uniform(0.0, 0.1, omega.size) * math.sqrt(120.0 / repeat), random.uniform(0, 6.28, omega.size),
+        0.4 + spread, wave_number(omega, 12.0, 9.81), water, frequency_step=base,
+        intrinsic_omega=omega * (1.0 + 0.1 * spread),
     )  # fmt: skip
     nodes = np.column_stack([random.uniform(-40, 40, 5), random.uniform(-10, 10, 5), random.uniform(-12, -1, 5)])
     step = 120.0 / 1500

@@ -211,7 +211,7 @@ class Swelling:
 
     def __init__(self, forcing, times, shares):
         self.forcing, self.times, self.shares = forcing, times, shares
-        self.shortest_period = forcing.shortest_period
+        self.shortest_period, self.longest_step = forcing.shortest_period, forcing.longest_step
 
     def fitted_step(self, step):
         return self.forcing.fitted_step(step)

@@ -284,7 +284,7 @@ def test_time_step_says_what_decides_and_is_stable() -> None:
         assert run.status == "converged" and np.max(np.abs(run.position)) < 1.5
     fast = RegularForcing(50.0, 1.0, np.zeros(3, complex), np.zeros(3), np.zeros(3))
     step, notice = choose_time_step(remembering, fast)
-    assert "wave period" in notice.message
+    assert "periods of the waves" in notice.message
     assert np.isclose(2 * np.pi / 50.0 / step, 40.0)
 
 
