@@ -11,11 +11,14 @@ from typing import Any
 
 from moyai.case.line_code import code_criteria, code_criterion
 from moyai.case.schema_criteria import LineCriteria
-from moyai.core.headline import Criterion, Sense
+from moyai.core.headline import UNCONFIRMED, Criterion, Sense
 from moyai.core.kinds import structure_kind
 
 CASE = "case file"
 DEFAULT_CODE = "ISO 19901-7"
+UPLIFT_SOURCE = (
+    f"default of moyai: drag anchors bear no uplift (API RP 2SK, {UNCONFIRMED}); give 'greatest_uplift' for others"
+)
 """Of the lines of breakwaters and networks: the factors that are common to ISO 19901-7 and API RP 2SK."""
 
 

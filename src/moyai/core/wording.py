@@ -28,6 +28,13 @@ def spoken(value: float, unit: str, digits: int = 4, *, like: float | None = Non
     return f"{value / factor:.{digits}g} {prefix}{unit}"
 
 
+def kilonewton(force: float) -> str:
+    """Return a force in kilonewtons to the kilonewton from 100 kN on, to three digits below, in newtons below 1 kN."""
+    if abs(force) < 1e3:
+        return f"{force:.3g} N"
+    return f"{1e-3 * force:.0f} kN" if abs(force) >= 1e5 else f"{1e-3 * force:.3g} kN"
+
+
 def counted(number: int, word: str) -> str:
     """Return how many there are of something: ``1 case``, ``2 cases``.
 

@@ -11,12 +11,12 @@ from moyai.report.headlines import headline_text
 from moyai.structures.units.headlines import (
     _connectors,
     _gaps,
-    _lines,
     _waves,
     _with_damping,
     _with_tilt,
     governing_seas,
 )
+from moyai.structures.units.line_headlines import line_headlines
 from moyai.structures.units.largest import each_of
 from moyai.structures.units.time.damping import curves_bear
 
@@ -114,7 +114,7 @@ REST = xr.Dataset({"breaking_load": ("line", [1.0e6]), "gap_width": ("gap", [0.5
 def test_lines_beyond_their_range_make_the_frequency_domain_unknown(tension, known):
     """The motions that pull a line tight are not held back by it: neither the tension nor what gaps leave is proved."""
     groups, seas = {"/SWL/statics": REST}, [("/SWL/frequency/daily", lines_of(tension))]
-    share = next(item for item in _lines(groups, seas) if item.name == "line_utilisation")
+    share = next(item for item in line_headlines(groups, seas) if item.name == "line_utilisation")
     safety = Criterion("line_safety", "line_utilisation", 0.5, "at most", "case file")
     assert judge([share], [safety], computed=True).outcome == ("holds" if known else "not judged")
     assert np.isnan(share.value) != known
@@ -122,7 +122,7 @@ def test_lines_beyond_their_range_make_the_frequency_domain_unknown(tension, kno
     assert (closing.value, closing.bound) == (0.4, "" if known else "at least")
     # in time lines at rest still tell the least that there is
     timed = [("/SWL/time/daily", lines_of(tension))]
-    assert next(iter(_lines(groups, timed))).bound == ("" if known else "at least")
+    assert next(iter(line_headlines(groups, timed))).bound == ("" if known else "at least")
     assert next(iter(_gaps(groups, timed))).bound == ""
 
 
@@ -130,7 +130,7 @@ def test_lines_beyond_their_range_at_an_end_of_the_damping_are_not_known_either(
     """That end is what is judged, and the motions there hold a line as little as those in between."""
     ends = {f"line_tension_maximum_{end}": (("period", "line"), [[v]]) for end, v in (("low", 40e3), ("high", 80e3))}
     data, groups = lines_of(45.0e3).assign(ends), {"/SWL/statics": REST}
-    tension, *_ = _lines(groups, [("/SWL/frequency/daily", data)])
+    tension, *_ = line_headlines(groups, [("/SWL/frequency/daily", data)])
     assert tension.text == "not known" and "45 kN, with damping at the end of its band 80 kN" in tension.detail
     assert next(iter(_gaps(groups, [("/SWL/frequency/daily", data)]))).bound == "at least"
     assert curves_bear(SimpleNamespace(joints=()), data, lines_of(45.0e3))
@@ -138,7 +138,7 @@ def test_lines_beyond_their_range_at_an_end_of_the_damping_are_not_known_either(
 
 
 def test_an_inextensible_line_that_does_not_reach_is_not_known():
-    found = list(_lines({"/SWL/statics": REST}, [("/SWL/frequency/daily", lines_of(np.inf))]))
+    found = list(line_headlines({"/SWL/statics": REST}, [("/SWL/frequency/daily", lines_of(np.inf))]))
     assert {item.text for item in found} == {"not known"} and "does not reach" in found[0].detail
 
 
@@ -189,13 +189,13 @@ def test_a_tension_that_no_run_repeats_has_two_digits(tension, curved, shown):
     stretched = {"elongation_highest": (("period", "connector"), [[0.1 if curved else np.nan]])}
     groups = {"/SWL/statics": REST}
     data = lines_of(tension).assign(named | stretched)
-    (line, share, *_) = _lines(groups, [("/SWL/time/daily", data)])
+    (line, share, *_) = line_headlines(groups, [("/SWL/time/daily", data)])
     assert headline_text(line).removeprefix("at least ") == shown
     assert share.digits == line.digits and share.value == tension / 1.0e6
     # one run of regular waves that repeats, or the frequency domain, is known
     alone = data.drop_vars(list(named))
-    assert next(iter(_lines(groups, [("/SWL/time/daily", alone)]))).digits == 3
-    assert next(iter(_lines(groups, [("/SWL/frequency/daily", lines_of(44.1e3).assign(stretched))]))).digits == 3
+    assert next(iter(line_headlines(groups, [("/SWL/time/daily", alone)]))).digits == 3
+    assert next(iter(line_headlines(groups, [("/SWL/frequency/daily", lines_of(44.1e3).assign(stretched))]))).digits == 3
 
 
 @pytest.mark.parametrize(

@@ -16,7 +16,8 @@ from moyai.case.yaml_reader import parse_yaml
 from moyai.core.headline import Band, Bound, Criterion, Headline, Judgement, judge
 from moyai.report.first_page import limit_and_found
 from moyai.report.headlines import _figure, band_text
-from moyai.structures.units.headlines import _connectors, _gaps, _lines, _motions
+from moyai.structures.units.headlines import _connectors, _gaps, _motions
+from moyai.structures.units.line_headlines import line_headlines
 
 
 def _sea(joins: int, joined: int, force: float, mean: float = 2.0) -> xr.Dataset:
@@ -161,7 +162,7 @@ def test_drift_that_is_left_out_makes_offsets_and_tensions_bounds(drift: str, bo
     )  # fmt: skip
     seas = [("/SWL/time/daily", sea)]
     groups = {"/SWL/statics": xr.Dataset({"breaking_load": ("line", [1e6])})}
-    found = {item.name: item for item in [*_motions(seas), *_lines(groups, seas)]}
+    found = {item.name: item for item in [*_motions(seas), *line_headlines(groups, seas)]}
     for name in ("offset", "line_tension", "line_utilisation"):
         assert found[name].bound == bound, name
         assert ("left out" in found[name].detail) == bool(bound and name != "line_utilisation")

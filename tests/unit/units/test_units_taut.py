@@ -15,7 +15,7 @@ from moyai.sea.spectra import jonswap
 from moyai.sea.states import IrregularSea
 from moyai.structures.units.assembly import RowPosition
 from moyai.structures.units.datasets import irregular_dataset, statics_dataset
-from moyai.structures.units.headlines import _lines
+from moyai.structures.units.line_headlines import line_headlines
 from moyai.structures.units.links import Work
 from moyai.structures.units.model import UnitLine
 from moyai.structures.units.response import FarWaves, RowResponse
@@ -157,7 +157,7 @@ def test_the_tension_of_a_sea_is_the_larger_of_tangent_and_line_at_rest() -> Non
     tangent = linear(at.row_lines, motion)
     assert taut == pytest.approx(found(at.row_lines, motion)[0]) and taut > 10.0 * tangent[0]
     assert slack == pytest.approx(tangent[1], rel=0.05) and slack >= tangent[1]
-    strained = _lines(
+    strained = line_headlines(
         {"/SWL/statics": statics_dataset(at, np.zeros(12), np.zeros(12))}, [("/SWL/frequency/storm", data)]
     )
     assert next(iter(strained)).text == "not known"

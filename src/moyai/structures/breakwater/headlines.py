@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from moyai.core.headline import Band, Headline, governing, unfavourable
+from moyai.core.wording import kilonewton
 from moyai.series.realisations import ALONE, alone, seeds, storms
 from moyai.structures.breakwater.largest_motion import LargestOfPeriods
 from moyai.structures.breakwater.lines.headlines import (
@@ -28,7 +29,6 @@ from moyai.structures.breakwater.lines.headlines import (
     anchor_headlines,
     drift_left_out,
     governing_group,
-    kilonewton,
     line_headlines,
     line_peaks,
     place,

@@ -12,12 +12,14 @@ from moyai.floating.irregular import response_statistics
 from moyai.mooring.shape import even_points
 from moyai.sea.states import IrregularSea, RegularSea
 from moyai.structures.units.across import stretch_across
+from moyai.structures.units.anchors import anchor_curves
 from moyai.structures.units.assembly import RowAtLevel, steady_position
 from moyai.structures.units.connectors import Joint
 from moyai.structures.units.contact import contact_variables, distance_at, measured_ends, meeting_variables
 from moyai.structures.units.field import MapPoints, WaveField, height_ratio, line_transmission, sea_height_ratio
 from moyai.structures.units.gaps import gaps_of, largest_closing
 from moyai.structures.units.hydrodynamics import RowHydrodynamics
+from moyai.structures.units.mean_loads import drift_felt, mean_loads
 from moyai.structures.units.mesh import waterplane
 from moyai.structures.units.model import DOFS, MapArea
 from moyai.structures.units.seas import SeaAnswer, cell_weights, columns_of
@@ -86,6 +88,7 @@ def statics_dataset(at: RowAtLevel, wind: Array, current: Array) -> xr.Dataset:
         "outline_z": ("outline_point", outline[:, 1]),
         "unit_centre_z": ("unit", at.centres[:, 2]),
         "breaking_load": ("line", _known(at.breaking_load)),
+        **anchor_curves(at),
         "line_tension_mean": ("line", at.tensions(rest.position)),
         "connector_x": ("connector", places[:, 0]),
         "connector_y": ("connector", places[:, 1]),
@@ -143,25 +146,6 @@ def hydrodynamics_dataset(at: RowAtLevel, hydro: RowHydrodynamics) -> xr.Dataset
     return labelled(data)
 
 
-def _mean_loads(at: RowAtLevel, answer: SeaAnswer) -> Array:
-    """Return the mean loads (joints, 6) in the connectors."""
-    position = answer.rest.position
-    held = answer.rest.held_load
-    out = np.zeros((len(at.joints), 6))
-    first = 0
-    for number, joint in enumerate(at.joints):
-        connector = joint.connector
-        if len(joint.held):
-            out[number] += held[first : first + len(joint.held)] @ joint.held
-            first += len(joint.held)
-        if connector.stiffness is not None:
-            out[number] += connector.stiffness @ (joint.relative @ position)
-    for link in at.links:
-        force = link.bears(position, answer.work)[0]
-        out[link.joint, :3] += force * link.direction(position)
-    return out
-
-
 def _of_units(answer: SeaAnswer) -> Array:
     """Return the mean drift of every unit (u, 3): across, along, about the vertical through its centre."""
     return answer.pushed.reshape(-1, 6)[:, [0, 1, 5]]
@@ -183,7 +167,7 @@ def regular_dataset(at: RowAtLevel, sea: RegularSea, answers: list[SeaAnswer], h
     motion = np.array([at.in_unit_axes(item.fine.motion[0, 0]) for item in answers])
     load = amplitude * np.abs(np.array([item.fine.load[0, 0] for item in answers]))
     relative = amplitude * np.abs(np.array([item.fine.relative[0, 0] for item in answers]))
-    mean_load = np.array([_mean_loads(at, item) for item in answers])
+    mean_load = np.array([mean_loads(at, item.rest, item.work) for item in answers])
     offset = np.array([at.in_unit_axes(item.rest.position) for item in answers])
     tension = amplitude * np.abs(np.array([item.fine.tension[0, 0] for item in answers]))
     mean_tension = np.array([at.tensions(item.rest.position) for item in answers])
@@ -305,7 +289,7 @@ def irregular_dataset(at: RowAtLevel, sea: IrregularSea, answer: SeaAnswer) -> x
     motion = response_statistics(omega, at.in_unit_axes(fine.motion), density)
     load = response_statistics(omega, fine.load, density)
     offset = at.in_unit_axes(answer.rest.position)
-    mean_load = _mean_loads(at, answer)
+    mean_load = mean_loads(at, answer.rest, answer.work)
     top = np.abs(mean_load) + load.most_probable_maximum(duration)
     resultant = np.linalg.norm(mean_load[:, :3], axis=1) + _gaussian_resultant(answer, duration)
     relative = largest(fine.relative)
@@ -354,6 +338,8 @@ def irregular_dataset(at: RowAtLevel, sea: IrregularSea, answer: SeaAnswer) -> x
     }
     out |= {name: (name.split("_")[0], flags[0]) for name, flags in contact_variables(at, [answer], low, high).items()}
     out |= {name: ((), value) for name, value in meeting_variables(at, answer.rest.position, closing).items()}
+    felt = drift_felt(at, answer, resultant[0], np.abs(top[0, :, 3:]).max(axis=1, initial=0.0), closing)
+    out |= {name: (name.split("_")[0], flags.astype(np.int8)) for name, flags in felt.items()}
     out |= _drift_of(answer.far.drift, answer, answer.headings)
     coords = coords_of(at) | {"direction": ["across", "along", "about z"]}
     data = labelled(xr.Dataset(out, coords=coords))
@@ -408,7 +394,8 @@ BANDED = (
 #: What holds with the damping at either end alone holds.
 _WORST = {
     "connector_joins": np.minimum, "gap_joined": np.minimum, "connector_loses_contact": np.maximum,
-    "gap_loses_contact": np.maximum, "hulls_meet": np.maximum,
+    "gap_loses_contact": np.maximum, "hulls_meet": np.maximum, "connector_feels_drift": np.maximum,
+    "gap_feels_drift": np.maximum,
 }  # fmt: skip
 
 

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+import operator
 from collections.abc import Iterator, Mapping
+from functools import reduce
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,6 +22,7 @@ LETS_GO = (
     "a connector bears and lets go within the wave: its impacts are not in the linear answer and add to it, run the "
     "time domain"
 )
+FEELS_DRIFT = "slow drift, which is not computed in the frequency domain, goes through it and adds to it"
 MEET = "hulls meet in this sea, and their impact is not computed"
 STRAINED = "the linear motion does not feel how tight lines come"
 OTHERS_APART = "other units of the row drift apart and meet, and their impacts go through it"
@@ -30,7 +33,8 @@ _JOINS = {"gap": "gap_joined", "connector": "connector_joins"}
 def followed(data: xr.Dataset, name: str) -> xr.DataArray | None:
     """Return whether the units of each connector or gap are followed in the linear answer; None where all are.
 
-    In an irregular sea what nothing holds together drifts apart; in any what bears and lets go meets with impacts.
+    In an irregular sea what nothing holds together drifts apart, and slow drift goes through what bears mean drift; in
+    any sea what bears and lets go meets with impacts.
     """
     kind = "gap" if name.startswith("gap_closing") else "connector"
     if name not in data or kind not in data[name].dims:
@@ -38,10 +42,10 @@ def followed(data: xr.Dataset, name: str) -> xr.DataArray | None:
     joins = data.get(_JOINS[kind]) if "significant_motion" in data else None
     if joins is not None and elsewhere_apart(data):
         return joins.astype(bool) & False
-    lost = data.get(f"{kind}_loses_contact")
-    if lost is None:
-        return None if joins is None else joins.astype(bool)
-    return ~lost.astype(bool) if joins is None else joins.astype(bool) & ~lost.astype(bool)
+    flags = [data[flag] == 0 for flag in (f"{kind}_loses_contact", f"{kind}_feels_drift") if flag in data]
+    if joins is not None:
+        flags.append(joins.astype(bool))
+    return reduce(operator.and_, flags) if flags else None
 
 
 def why_loose(path: str, data: xr.Dataset, name: str, index: tuple[int, ...]) -> str:
@@ -55,7 +59,10 @@ def why_loose(path: str, data: xr.Dataset, name: str, index: tuple[int, ...]) ->
     joins = data.get(_JOINS["gap" if name.startswith("gap_closing") else "connector"])
     apart = "significant_motion" in data and joins is not None and not bool(joins.values[place])
     others = elsewhere_apart(data) and not apart
-    return "; ".join([DRIFTS_APART] * apart + [OTHERS_APART] * others + [LETS_GO] * lets_go(path, data))
+    felt = data.get("gap_feels_drift" if name.startswith("gap_closing") else "connector_feels_drift")
+    drift = felt is not None and bool(felt.values[place]) and not apart
+    reasons = {DRIFTS_APART: apart, OTHERS_APART: others, FEELS_DRIFT: drift, LETS_GO: lets_go(path, data)}
+    return "; ".join(words for words, there in reasons.items() if there)
 
 
 def elsewhere_apart(data: xr.Dataset) -> bool:

@@ -20,6 +20,7 @@ from moyai.core.validity import IdentityCheck, Notice
 from moyai.floating.checks import roll_notices
 from moyai.sea.states import IrregularSea, RegularSea, SeaState
 from moyai.structures.units.across import across_notices
+from moyai.structures.units.anchors import anchored
 from moyai.structures.units.assembly import RowAtLevel, assemble, level_notices, steady_load
 from moyai.structures.units.bem import Panels, panels_of
 from moyai.structures.units.datasets import (
@@ -52,7 +53,7 @@ from moyai.structures.units.section import SectionAnswer, comparable, section_an
 from moyai.structures.units.time.analysis import sea_in_time, water_in_time
 from moyai.structures.units.time.band import ABOVE
 from moyai.structures.units.time.damping import curves_bear, with_ends_in_time
-from moyai.structures.units.variables import VOCABULARY
+from moyai.structures.units.variables import VOCABULARY, labelled
 from moyai.structures.units.viscous import eddy_notices
 
 if TYPE_CHECKING:
@@ -405,6 +406,8 @@ def _result(problem: UnitsProblem, collected: Collected) -> Result:
         if "seed_of_realisation" in data
         for seed in data["seed_of_realisation"].values
     ]
+    for path, data in [*anchored(collected.groups)]:
+        collected.groups[path] = labelled(data)
     found = headlines_of(collected.groups)
     rolls: list[Notice] = []
     for where, roll in greatest_rolls(governing_seas(collected.groups)):

@@ -36,6 +36,13 @@ def not_judged(seas: Seas) -> Headline:
         words.append("contact of hulls")
         numbers = ", ".join(str(unit) for unit in alone)
         detail.append(f"no face of another unit stands before these units, no gap of theirs is followed: {numbers}")
+    if any(
+        np.isfinite(data["maximum_anchor_horizontal_tension"].values).any()
+        for _, data in seas
+        if "maximum_anchor_horizontal_tension" in data
+    ):
+        words.append("the holding of an anchor in its soil")
+        detail.append("loads of anchors are numbers of the page, no soil is held against them")
     words += ["one line lost", "other directions of waves and current"]
     detail.append("no row with a line or a connector lost, no directions but those of the seas of the case")
     return Headline("not_judged", "Not judged", math.nan, "1", text=", ".join(words), detail="; ".join(detail))

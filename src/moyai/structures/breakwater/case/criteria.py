@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 from pydantic import Discriminator, Field, Tag
 
-from moyai.case.criteria import CASE, DEFAULT_CODE, given_criteria, line_criteria, plain_criterion
+from moyai.case.criteria import CASE, DEFAULT_CODE, UPLIFT_SOURCE, given_criteria, line_criteria, plain_criterion
 from moyai.case.schema_criteria import (
     OFF,
     GreatestAngle,
@@ -24,9 +24,6 @@ from moyai.case.schema_criteria import (
 from moyai.case.schema_types import Name
 from moyai.core.headline import UNCONFIRMED, Criterion
 
-UPLIFT_SOURCE = (
-    f"default of moyai: drag anchors bear no uplift (API RP 2SK, {UNCONFIRMED}); give 'greatest_uplift' for others"
-)
 AFLOAT_SOURCE = "default of moyai: upright and afloat"
 #: Metacentric height over draught that Japanese practice asks of caissons afloat.
 STABLE_SHARE = 0.05

@@ -11,11 +11,11 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.headline import Band, Bound, Headline, governing, unfavourable
-from moyai.mooring.anchors import gravity_anchor_weight
+from moyai.core.wording import kilonewton
+from moyai.design.anchor_needs import anchor_need, judged_end
 from moyai.series.intervals import student_quantile
 from moyai.series.realisations import ALONE, alone, seeds, storms
 from moyai.structures.breakwater.responses import SNAP_RATIO
-from moyai.tables.design_codes import anchor_factor, holding_data
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -27,7 +27,6 @@ FREQUENCY = "frequency domain, waves and slow drift"
 FIRST_ORDER = "frequency domain, regular waves"
 STILL = "at rest, no waves run"
 STORM_DURATION = 10800.0  # [s], for which the largest values of a sea state are usually asked
-SINKER = ("concrete", "sand")  # for which the weight of a sinker is shown
 
 
 @dataclass(frozen=True)
@@ -296,33 +295,17 @@ def anchor_headlines(groups: Mapping[str, xr.Dataset], levels: list[str], peaks:
                 ("anchor_uplift", "Uplift at an anchor"),
             )
         ]
-    drag, level_factor = anchor_factor("drag_anchor", "horizontal"), anchor_factor("gravity_anchor", "horizontal")
-    up_factor, friction = anchor_factor("gravity_anchor", "vertical"), holding_data("sinker", *SINKER)
     # a sinker is bought for the end at which criteria are judged, not for the mean of a few realisations
-    weight = gravity_anchor_weight(
-        _judged_end(hardest.horizontal, hardest.band(hardest.horizontal, hardest.horizontal_scatter)),
-        _judged_end(hardest.vertical, hardest.band(hardest.vertical, np.maximum(hardest.vertical_scatter, 0.0))),
-        friction.value, level_factor.value, up_factor.value,
-    )  # fmt: skip
-    lies = hardest.grounded > 0.0 and hardest.vertical <= 0.0
-    bed = f"{hardest.grounded:.3g} m of line left on the bed" if lies else "no line left on the bed"
-    sinker = (
-        f"a concrete sinker of {kilonewton(weight)} in water (friction {friction.value:g} on {SINKER[1]}, factors "
-        f"{level_factor.value:g} and {up_factor.value:g}, at the upper end of pull and uplift)"
+    judged = (
+        judged_end(hardest.horizontal, hardest.band(hardest.horizontal, hardest.horizontal_scatter)),
+        judged_end(hardest.vertical, hardest.band(hardest.vertical, np.maximum(hardest.vertical_scatter, 0.0))),
     )
-    # where the anchor is lifted no drag anchor serves: the factor is that of anchors that hold by weight or as a pile
-    factor = drag if hardest.vertical <= 0.0 else level_factor
-    asked = f"{factor.value:g} times the pull of one line ({factor.source}, {_confirmed(factor.confirmed)})"
+    need = anchor_need(hardest.vertical, hardest.grounded, judged)
     capacity = Headline(
         "anchor_capacity_required", "Horizontal holding capacity that an anchor needs",
-        factor.value * hardest.horizontal, "N", hardest.where, hardest.model,
-        band=hardest.band(factor.value * hardest.horizontal, factor.value * hardest.horizontal_scatter),
-        bound=hardest.proves,
-        detail=(
-            f"{asked}; {bed} at the peak; or {sinker}"
-            if hardest.vertical <= 0.0
-            else f"not a drag anchor, {bed} at the peak: {sinker}, or a pile; {asked}"
-        ),
+        need.factor * hardest.horizontal, "N", hardest.where, hardest.model,
+        band=hardest.band(need.factor * hardest.horizontal, need.factor * hardest.horizontal_scatter),
+        bound=hardest.proves, detail=need.words,
     )  # fmt: skip
     pull = [
         Headline(
@@ -359,10 +342,6 @@ def anchor_headlines(groups: Mapping[str, xr.Dataset], levels: list[str], peaks:
     ]  # fmt: skip
     widest = [item for item in lifts if unfavourable(item) > unfavourable(uplift)]
     return [capacity, *governing(pull), uplift, *widest, *unknown]
-
-
-def _judged_end(value: float, band: Band | None) -> float:
-    return max(value, 0.0) if band is None or band.judged is None else max(value, band.judged[1], 0.0)
 
 
 def _bare_lines(groups: Mapping[str, xr.Dataset], levels: list[str]) -> str:
@@ -414,13 +393,3 @@ def storm_words(duration: float) -> str:
     hours = duration >= 3600.0
     text = f"{duration / 3600.0:.3g} h" if hours else f"{duration / 60.0:.3g} min"
     return text if duration >= STORM_DURATION else f"{text} (a storm of {STORM_DURATION / 3600.0:g} h has higher ones)"
-
-
-def kilonewton(force: float) -> str:
-    if abs(force) < 1e3:
-        return f"{force:.3g} N"
-    return f"{1e-3 * force:.0f} kN" if abs(force) >= 1e5 else f"{1e-3 * force:.3g} kN"
-
-
-def _confirmed(value: bool) -> str:
-    return "confirmed" if value else "not confirmed against it"

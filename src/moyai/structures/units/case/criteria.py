@@ -7,11 +7,19 @@ from typing import Annotated, Any
 
 from pydantic import Discriminator, Field, Tag
 
-from moyai.case.criteria import CASE, DEFAULT_CODE, given_criteria, line_criteria, plain_criterion
+from moyai.case.criteria import (
+    CASE,
+    DEFAULT_CODE,
+    UPLIFT_SOURCE,
+    given_criteria,
+    line_criteria,
+    plain_criterion,
+)
 from moyai.case.schema_criteria import (
     OFF,
     FactorOfSafety,
     GreatestAngle,
+    GreatestForce,
     GreatestLength,
     GreatestTension,
     LeastLength,
@@ -77,6 +85,12 @@ class UnitsCriteria(LineCriteria):
     greatest_offset: GreatestLength = Field(
         default=None, description="Largest horizontal distance from rest" + OFF + "."
     )
+    greatest_uplift: GreatestForce = Field(
+        default=None, description="Largest upward force on an anchor, or 'none'" + OFF + "."
+    )
+    greatest_anchor_load: GreatestForce = Field(
+        default=None, description="Largest horizontal force on an anchor, its holding force" + OFF + "."
+    )
     greatest_roll_deg: GreatestAngle = Field(
         default=None, description="Largest roll or pitch, double amplitude" + OFF + "."
     )
@@ -126,7 +140,9 @@ def criteria(model: Any, given: Any) -> Iterator[Criterion]:
         yield Criterion(
             "greatest_gap_closing", headline, 1.0, "at most", TOUCH_SOURCE, words, unit, assumed=True
         )  # fmt: skip
-    yield from given_criteria(given)
+    if given.greatest_uplift is None and moored:
+        yield plain_criterion("greatest_uplift", 0.0, UPLIFT_SOURCE)
+    yield from given_criteria(given, {"greatest_anchor_load": "anchor_horizontal_load"})
     if given.least_metacentric_height is None:
         yield plain_criterion("least_metacentric_height", STABLE_SHARE * model.structure.draught, STABLE_SOURCE)
     if given.least_freeboard is None:

@@ -1,0 +1,80 @@
+"""The numbers of the first page that the anchors of a row give: holding capacity, horizontal pull, uplift."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from moyai.core.headline import Headline
+from moyai.design.anchor_needs import anchor_need, judged_end
+from moyai.structures.units.doubts import not_known
+from moyai.structures.units.largest import Largest, each_of
+from moyai.structures.units.line_headlines import line_model, of_line, unknown_line, with_unknown
+from moyai.structures.units.unjudged import Seas
+
+_PULL, _UPLIFT, _LIES = "maximum_anchor_horizontal_tension", "maximum_anchor_vertical_tension", "least_grounded_length"
+
+
+def anchor_headlines(seas: Seas) -> Iterator[Headline]:
+    """Return what an anchor must hold: of the line that pulls hardest, and the uplift wherever it is highest."""
+    pulls = each_of(seas, _PULL)
+    if not pulls:
+        return
+    items = [_load(found, "anchor_horizontal_load", "Horizontal pull on an anchor") for found in pulls]
+    hardest, item = max(zip(pulls, items, strict=True), key=lambda pair: pair[0].value)
+    yield _capacity(hardest, item)
+    yield from with_unknown(pulls, items)
+    lifts = each_of(seas, _UPLIFT)
+    lifted = [_load(found, "anchor_uplift", "Uplift at an anchor") for found in lifts]
+    # before a sea that is known to lift nothing
+    ranked = [
+        replace(found, value=1e-300) if math.isnan(item.value) and found.value == 0.0 else found
+        for found, item in zip(lifts, lifted, strict=True)
+    ]
+    yield from (_with_bed(item, seas) for item in with_unknown(ranked, lifted))
+
+
+def _load(found: Largest, name: str, label: str) -> Headline:
+    """Return a load of an anchor, known as far as the tension of its line is."""
+    tension = _beside(found, "line_tension_maximum")
+    mean = float(found.data["line_tension_mean"].values[found.index])
+    item = Headline(
+        name, label, found.value, "N", found.where, line_model(tension), band=found.band, digits=found.digits
+    )
+    if why := unknown_line(tension, mean):
+        return not_known(item, why)
+    bound, words = of_line(tension, mean)
+    if bound == "at least" and found.value == 0.0:
+        return not_known(item, words[2:])
+    return replace(item, bound=bound, detail=words[2:] * (bound == "at least"))
+
+
+def _beside(found: Largest, name: str) -> Largest:
+    """Return another number of the same line in the same sea."""
+    return replace(found, name=name, value=float(found.data[name].values[found.index]))
+
+
+def _capacity(found: Largest, pull: Headline) -> Headline:
+    item = replace(pull, name="anchor_capacity_required", label="Horizontal holding capacity that an anchor needs")
+    if math.isnan(pull.value):
+        return item
+    uplift, grounded = _beside(found, _UPLIFT), _beside(found, _LIES)
+    judged = judged_end(found.value, found.band), judged_end(uplift.value, uplift.band)
+    need = anchor_need(uplift.value, grounded.value, judged)
+    band = None if found.band is None else found.band.scaled(need.factor)
+    return replace(item, value=need.factor * found.value, band=band, detail=need.words)
+
+
+def _with_bed(item: Headline, seas: Seas) -> Headline:
+    """Return an uplift; where there is none, with what lies on the bed at the least."""
+    if item.value != 0.0:
+        return item
+    least = min(float(np.nanmin(data[_LIES].values)) for _, data in seas if _LIES in data)
+    kept = f"{least:.3g} m of line stays on the bed" if least > 0.0 else "the line leaves the bed"
+    return replace(item, text="none", detail=kept)
+
+
+__all__ = ["anchor_headlines"]

@@ -1,0 +1,128 @@
+"""What the lines of a row ask of their anchors, against closed forms; what the first page says and judges of it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from moyai.core.headline import Criterion, Headline, judge
+from moyai.mooring.lines import LineType, Segment
+from moyai.structures.units.anchor_headlines import anchor_headlines
+from moyai.structures.units.anchors import anchor_curves, anchored, loads_at
+from moyai.structures.units.assembly import RowAtLevel, steady_position
+from moyai.structures.units.headlines import headlines_of
+from moyai.structures.units.links import Work
+from moyai.structures.units.mean_loads import drift_felt, mean_loads
+from moyai.structures.units.model import Connector, UnitLine
+from moyai.validation.units import at_rest, row
+
+WEIGHT, LENGTH, DEPTH = 600.0, 49.0, 10.0
+#: Fairleads 0.5 m above the keel of a draught of 3 m.
+RISE = DEPTH - 3.0 + 0.5
+CHAIN = LineType("chain", WEIGHT, 1e12, 2e6)
+
+
+def _moored(units: tuple[int, ...], connectors: tuple[Connector, ...] = (), count: int = 1) -> RowAtLevel:
+    lines = tuple(
+        UnitLine(f"{side}", 1, units, (sign * 5.0, 0.0, 0.5), (sign * 50.0, 0.0, 0.0), (Segment(CHAIN, LENGTH),))
+        for side, sign in (("sea", -1.0), ("shore", 1.0))
+    )
+    return at_rest(replace(row(connectors, count=count), lines=lines), replace(at_rest(row()).water, depth=DEPTH))
+
+
+def _curves(at: RowAtLevel) -> xr.Dataset:
+    return xr.Dataset(anchor_curves(at), coords={"line": list(at.line_names)})
+
+
+@pytest.mark.parametrize("share", [1.3, 3.0, 10.0, 60.0])
+def test_pull_and_uplift_are_those_of_the_catenary_of_that_tension(share: float) -> None:
+    """H = T - w Z with chain on the bed; else V from T^2 = H^2 + (V + w L)^2 and (T - w Z)^2 = H^2 + V^2."""
+    tension = share * WEIGHT * RISE
+    pull, uplift, lies = loads_at(np.array([tension, tension]), _curves(_moored((0,))))[:, 0]
+    hanging = np.sqrt(RISE**2 + 2.0 * RISE * (tension / WEIGHT - RISE))
+    if hanging < LENGTH:
+        assert pull == pytest.approx(tension - WEIGHT * RISE, rel=2e-3)
+        assert uplift == pytest.approx(0.0, abs=1e-3 * tension) and lies == pytest.approx(LENGTH - hanging, rel=2e-2)
+        return
+    lifted = (2.0 * tension * WEIGHT * RISE - (WEIGHT * RISE) ** 2 - (WEIGHT * LENGTH) ** 2) / (2.0 * WEIGHT * LENGTH)
+    assert uplift == pytest.approx(lifted, rel=5e-3) and lies == 0.0
+    assert pull == pytest.approx(np.sqrt((tension - WEIGHT * RISE) ** 2 - lifted**2), rel=2e-3)
+
+
+def _sea(at: RowAtLevel, tension: float, *, irregular: bool = False) -> dict[str, xr.Dataset]:
+    names = ("significant_motion",) if irregular else ()
+    data = xr.Dataset(
+        {
+            "line_tension_maximum": ("line", [tension, 0.5 * tension]),
+            "line_tension_mean": ("line", [0.4 * tension, 0.4 * tension]),
+            **{name: ("dof", [0.1]) for name in names},
+        },
+        coords={"line": list(at.line_names)},
+    )
+    groups = {"/SWL/statics": _curves(at), "/SWL/frequency/daily": data}
+    return groups | dict(anchored(groups))
+
+
+def _found(groups: dict[str, xr.Dataset]) -> dict[str, Headline]:
+    seas = [(path, data) for path, data in groups.items() if path.endswith("daily")]
+    return {item.name: item for item in anchor_headlines(seas)}
+
+
+UPLIFT = Criterion("greatest_uplift", "anchor_uplift", 0.0, "at most", "source", "uplift on the anchors", "N")
+
+
+def test_uplift_of_the_line_that_pulls_hardest_fails_and_chain_on_the_bed_holds() -> None:
+    at = _moored((0,))
+    found = _found(_sea(at, 3.5e5))
+    tension, lifted = 3.5e5, found["anchor_uplift"]
+    expected = (2.0 * tension * WEIGHT * RISE - (WEIGHT * RISE) ** 2 - (WEIGHT * LENGTH) ** 2) / (2.0 * WEIGHT * LENGTH)
+    assert lifted.value == pytest.approx(expected, rel=5e-3)
+    assert "not a drag anchor" in found["anchor_capacity_required"].detail
+    assert judge(found.values(), [UPLIFT], computed=True).outcome == "does not hold"
+    found = _found(_sea(at, 1.2e4))
+    assert found["anchor_uplift"].text == "none" and "stays on the bed" in found["anchor_uplift"].detail
+    capacity = found["anchor_capacity_required"].value
+    assert capacity == pytest.approx(1.5 * (1.2e4 - WEIGHT * RISE), rel=5e-3)
+    assert judge(found.values(), [UPLIFT], computed=True).outcome == "holds"
+
+
+def test_no_uplift_without_slow_drift_is_not_known() -> None:
+    found = _found(_sea(_moored((0,)), 1.2e4, irregular=True))
+    assert found["anchor_uplift"].text == "not known" and "slow drift" in found["anchor_uplift"].detail
+    assert found["anchor_horizontal_load"].bound == "at least"
+    assert judge(found.values(), [UPLIFT], computed=True).outcome == "not judged"
+
+
+def test_anchors_stand_on_the_page_where_no_sea_was_run() -> None:
+    at = _moored((0,))
+    from moyai.structures.units.datasets import statics_dataset
+
+    groups = {"/SWL/statics": statics_dataset(at, np.zeros(at.size), np.zeros(at.size))}
+    found = {item.name: item for item in headlines_of(groups)}
+    assert found["anchor_uplift"].text == "none" and found["anchor_uplift"].value == 0.0
+
+
+PINS = tuple(Connector(f"pin {n}", "hinge", ((n, n + 1),), 0.0, 1.0, axis=(1.0, 0.0, 0.0)) for n in range(3))
+PUSH = 2e3
+
+
+@pytest.mark.parametrize(("units", "felt"), [((0, 3), True), ((0, 1, 2, 3), False)])
+def test_drift_goes_through_the_pins_of_units_without_lines(units: tuple[int, ...], felt: bool) -> None:
+    """The pin between an end unit that is moored and one that is not bears the drift of the latter, by symmetry."""
+    at = _moored(units, PINS, count=4)
+    pushed = np.zeros(at.size)
+    pushed[0::6] = PUSH
+    rest, work = steady_position(at, pushed), Work(at.rounding, np.zeros(0))
+    answer: Any = SimpleNamespace(rest=rest, pushed=pushed, work=work)
+    shear = np.abs(mean_loads(at, rest, work)[:, 0])
+    assert shear == pytest.approx([PUSH * felt, 0.0, PUSH * felt], abs=1e-3 * PUSH)
+    found = drift_felt(at, answer, np.full(3, 10.0 * PUSH), np.full(3, 1e9), np.ones(len(at.joints)))
+    assert found["connector_feels_drift"].tolist() == [felt, False, felt]
+    # next to waves that give a hundred times as much it is nothing
+    found = drift_felt(at, answer, np.full(3, 100.0 * PUSH), np.full(3, 1e9), np.ones(len(at.joints)))
+    assert not found["connector_feels_drift"].any()
