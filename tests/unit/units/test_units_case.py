@@ -140,3 +140,11 @@ def test_automatic_panels_resolve_the_shortest_wave():
 def test_a_fraction_stands_for_eddies_where_it_holds_for_roll(damping, factor):
     line = next(line for line in BASE.splitlines() if line.startswith("  damping:"))
     assert build(case((line, f"  {damping}"))).row.viscous_factor == factor
+
+
+def test_chain_that_leaves_nothing_on_the_bed_is_warned_of_before_the_run():
+    assert not any("lies on the bed" in str(warning) for warning in case().warnings)
+    short = [("length: 60 m}]", "length: 57 m}]")] * 4
+    found = [str(warning) for warning in case(*short, (ANALYSES, "analyses: [statics]")).warnings]
+    assert sum("no chain lies on the bed at rest" in warning for warning in found) == 4
+    assert "of line would just touch down" in found[0]

@@ -16,8 +16,8 @@ from moyai.structures.units.headlines import (
     _with_tilt,
     governing_seas,
 )
-from moyai.structures.units.line_headlines import line_headlines
 from moyai.structures.units.largest import each_of
+from moyai.structures.units.line_headlines import line_headlines
 from moyai.structures.units.time.damping import curves_bear
 
 DOFS = ["sway", "heave", "roll"]
@@ -195,7 +195,9 @@ def test_a_tension_that_no_run_repeats_has_two_digits(tension, curved, shown):
     # one run of regular waves that repeats, or the frequency domain, is known
     alone = data.drop_vars(list(named))
     assert next(iter(line_headlines(groups, [("/SWL/time/daily", alone)]))).digits == 3
-    assert next(iter(line_headlines(groups, [("/SWL/frequency/daily", lines_of(44.1e3).assign(stretched))]))).digits == 3
+    assert (
+        next(iter(line_headlines(groups, [("/SWL/frequency/daily", lines_of(44.1e3).assign(stretched))]))).digits == 3
+    )
 
 
 @pytest.mark.parametrize(

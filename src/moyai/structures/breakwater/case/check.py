@@ -6,6 +6,7 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from moyai.case.chain_on_bed import check_chain_on_bed
 from moyai.case.check_catalogue import SAID_OTHERWISE, check_catalogue, line_place
 from moyai.case.check_sea import check_file, check_level_names, check_surroundings, check_waves
 from moyai.case.findings import Findings, duplicates
@@ -15,7 +16,6 @@ from moyai.case.yaml_reader import KeyPath
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.structures.breakwater.case.check_lines import (
     across_the_hull,
-    check_chain_on_bed,
     check_sides,
     count_panels,
     off_the_hull,
@@ -394,8 +394,10 @@ def _check_lines_at_rest(model: BreakwaterCase, unit: Breakwater, environment: E
         water = environment.water_at(level)
         centre = body_to_site(unit.centre_of_gravity, draught, 0.0)
         lines = site_lines(unit, water, centre, draught, 0.0)
-        check_chain_on_bed(model, lines, water.depth + centre[1], name, findings, chains_told)
-        for notice in check_line_system(LineSystem(lines, water.depth + centre[1])):
+        depth = water.depth + centre[1]
+        placed = ((index, *pair, depth) for index, pair in enumerate(zip(model.lines, lines)))
+        check_chain_on_bed(placed, name, findings, chains_told)
+        for notice in check_line_system(LineSystem(lines, depth)):
             label, _, message = notice.message.partition(": ")
             line = label.removeprefix("lines.")
             if line not in places or notice.code in SAID_OTHERWISE or (line, notice.code) in said:

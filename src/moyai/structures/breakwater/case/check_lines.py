@@ -1,25 +1,18 @@
-"""Checks of a breakwater before anything is solved: chain left on the bed at rest, panels that its section needs."""
+"""Checks of a breakwater before anything is solved: sides of its lines, panels that its section needs."""
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from moyai.case.findings import Findings
-from moyai.case.schema_lines import CatalogueSegment
 from moyai.core.remembered import Remembered, key_of_objects
-from moyai.mooring.lines import Line
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from moyai.structures.breakwater.assembly import FloatingUnit
 
 _COUNTED: Remembered[bool] = Remembered(64)
-#: Longest line that is looked for, over the line of the case
-_LONGEST = 3.0
 
 
 def count_panels(unit: FloatingUnit) -> None:
@@ -44,47 +37,6 @@ def _count(unit: FloatingUnit) -> bool:
     numbers = wave_number(np.array([omega.min(), omega.max()]), water.depth, water.gravity)
     require_memory(lay_out(unit.section, water.depth, (float(numbers[0]), float(numbers[1])), Resolution()))
     return True
-
-
-def check_chain_on_bed(
-    model: Any, lines: Sequence[Any], depth: float, level: str, findings: Findings, reported: set[str]
-) -> None:
-    """Warn of chains to the bed that leave nothing on it at rest: their anchors are pulled upwards.
-
-    Parameters
-    ----------
-    model : BreakwaterCase
-    lines : sequence of line elements
-        Of the upright unit at rest, their origin at its centre of gravity.
-    depth : float
-        Of the bed under that origin [m].
-    level : str
-        Name of the water level.
-    findings : Findings
-    reported : set of str
-        Names of the lines that were reported of at another level; the highest level comes first.
-    """
-    for index, (entry, line) in enumerate(zip(model.lines, lines)):
-        if not isinstance(line, Line) or line.name in reported or not _begins_with_chain(entry):
-            continue
-        if line.bed_clearance(depth) != 0.0:
-            continue
-        state = line.solve(np.array([line.fairlead]), depth)
-        uplift = float(state.vertical_tension_anchor[0])
-        if not (float(state.grounded_length[0]) <= 0.0 < uplift):
-            continue
-        reported.add(line.name)
-        needed = _length_with_chain_on_bed(line, depth)
-        remedy = "bring the anchor nearer or lengthen the line"
-        if needed is not None:
-            remedy = f"{needed:.4g} m of line would just touch down at rest; in waves it needs more"
-        findings.warn(
-            ("lines", index, "segments"),
-            f"line '{line.name}': no chain lies on the bed at rest (water level {level}); it pulls its anchor upwards "
-            f"with {uplift / 1e3:.3g} kN before any wave",
-            allowed="some chain on the bed, unless the anchor bears uplift",
-            remedy=remedy,
-        )
 
 
 def across_the_hull(entry: Any) -> str:
@@ -135,30 +87,3 @@ def check_sides(model: Any, findings: Findings) -> None:
         allowed="anchors on both sides",
         remedy="check the sign of the anchor's x" if crossing else "add lines on the other side",
     )
-
-
-def _begins_with_chain(entry: Any) -> bool:
-    first = entry.segments[0]
-    if isinstance(first, CatalogueSegment):
-        return "chain" in first.catalogue
-    return "chain" in (first.name or "") or "chain" in entry.name
-
-
-def _length_with_chain_on_bed(line: Line, depth: float) -> float | None:
-    """Return the shortest length whose catenary touches the bed at the anchor [m], to a thousandth."""
-
-    def grounded(length: float) -> bool:
-        first = replace(line.segments[0], length=line.segments[0].length + length - line.length)
-        longer = replace(line, segments=(first, *line.segments[1:]))
-        return float(longer.solve(np.array([line.fairlead]), depth).grounded_length[0]) > 0.0
-
-    low, high = line.length, line.length
-    while not grounded(high):
-        high += 0.02 * line.length
-        if high > _LONGEST * line.length:
-            return None
-    low = max(low, high - 0.02 * line.length)
-    while high - low > 1e-4 * line.length:
-        middle = 0.5 * (low + high)
-        low, high = (low, middle) if grounded(middle) else (middle, high)
-    return high

@@ -3,15 +3,22 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from moyai.case.check_catalogue import SAID_OTHERWISE, line_place
 from moyai.case.check_sea import check_file, check_level_names, check_surroundings, check_waves
 from moyai.case.findings import Findings, duplicates
 from moyai.case.schema_environment import sea_names
 from moyai.case.yaml_reader import KeyPath
+from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
+from moyai.mooring.lines import Line, LineElement
+from moyai.mooring.rotations import rotation_matrix
 from moyai.sea.states import RegularSea
 from moyai.structures.units.case import schema
 
@@ -345,7 +352,7 @@ def _check_by_building(model: schema.UnitsCase, findings: Findings, folder: Path
     check_waves(model, problem.environment, findings, lambda *_: None)
     if not findings.faults:
         _check_step(problem, findings)
-        _check_problem(problem, findings)
+        _check_problem(model, problem, findings)
 
 
 def _check_lines_at_rest(problem: UnitsProblem, at: RowAtLevel, findings: Findings) -> bool:
@@ -368,6 +375,20 @@ def _check_lines_at_rest(problem: UnitsProblem, at: RowAtLevel, findings: Findin
     return bool(findings.faults)
 
 
+def _placed(
+    model: schema.UnitsCase, problem: UnitsProblem, at: RowAtLevel, position: Array
+) -> Iterator[tuple[int, Any, LineElement, float]]:
+    """Yield the lines of every unit at a position (m,), their place in the case and the depth below their origin."""
+    for number, (lines, centre) in enumerate(zip(at.lines, at.centres)):
+        own = [index for index, line in enumerate(problem.row.lines) if number in line.units]
+        move = position[6 * number : 6 * number + 6]
+        for index, line in zip(own, lines, strict=True):
+            entry = model.lines[index]
+            if isinstance(line, Line):
+                x, y, z = (move[:3] + rotation_matrix(move[3:]) @ np.asarray(line.fairlead)).tolist()
+                yield index, entry, replace(line, fairlead=(x, y, z)), at.water.depth + float(centre[2])
+
+
 def _check_step(problem: UnitsProblem, findings: Findings) -> None:
     step = problem.settings.time.time_step
     if step is None or "time" not in problem.settings.analyses:
@@ -385,7 +406,8 @@ def _check_step(problem: UnitsProblem, findings: Findings) -> None:
         )
 
 
-def _check_problem(problem: UnitsProblem, findings: Findings) -> None:
+def _check_problem(model: schema.UnitsCase, problem: UnitsProblem, findings: Findings) -> None:
+    from moyai.case.chain_on_bed import check_chain_on_bed
     from moyai.structures.units.assembly import assemble, level_notices, steady_load, steady_position
     from moyai.structures.units.bem import check_memory
     from moyai.structures.units.coefficients_file import read_row, row_from_file
@@ -398,13 +420,16 @@ def _check_problem(problem: UnitsProblem, findings: Findings) -> None:
     omega = frequencies_of(environment, problem.settings)
     said: set[str] = set()
     of_file = None
-    for name, level in environment.water_levels:
+    bare: set[str] = set()
+    for name, level in sorted(environment.water_levels, key=lambda entry: -entry[1]):
         try:
             check_apart(problem.row)
             at = assemble(problem.row, environment, name, level)
             notices = list(level_notices(at))
             if _check_lines_at_rest(problem, at, findings):
                 return
+            still = steady_position(at, np.zeros(at.size)).position
+            check_chain_on_bed(_placed(model, problem, at, still), name, findings, bare)
             wind, current = steady_load(at, environment)
             for notice in steady_meeting(at, steady_position(at, wind + current).position):
                 findings.warn(("structure",), notice.message, remedy=notice.remedy)
