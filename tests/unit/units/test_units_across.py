@@ -41,6 +41,18 @@ def test_a_chain_of_half_a_metre_is_stretched_as_its_ends_move_apart() -> None:
     assert stretch_across(JOINTS, _motion(1.2), highest, in_time=True) == pytest.approx([0.0, 0.8, 0.0])
 
 
+def _spring(across: float) -> Joint:
+    stiffness = np.diag([across, 6e6, across, 0.0, 0.0, 0.0])
+    spring = Connector("spring", "spring", ((0, 1),), stiffness=stiffness)
+    return Joint("s", spring, (0, 1), np.zeros(3), np.zeros((6, 12)), np.zeros((0, 6)), 0.5, np.eye(3), ALONG)
+
+
+@pytest.mark.parametrize(("across", "stretch"), [(0.0, 0.8), (5e5, 0.8), (6e6, 0.0)])
+def test_a_spring_that_gives_way_across_is_stretched_as_a_chain_is(across: float, stretch: float) -> None:
+    found = stretch_across((_spring(across),), _motion(1.2)[:1], np.array([np.nan]), in_time=True)
+    assert found == pytest.approx([stretch])
+
+
 def test_little_motion_across_does_not_count() -> None:
     assert not stretch_across(JOINTS, _motion(0.05), np.full(3, 0.09), in_time=False).any()
 

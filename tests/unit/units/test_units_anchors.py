@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -15,9 +13,9 @@ from moyai.mooring.lines import LineType, Segment
 from moyai.structures.units.anchor_headlines import anchor_headlines
 from moyai.structures.units.anchors import anchor_curves, anchored, loads_at
 from moyai.structures.units.assembly import RowAtLevel, steady_position
+from moyai.structures.units.datasets import mean_loads, statics_dataset
 from moyai.structures.units.headlines import headlines_of
 from moyai.structures.units.links import Work
-from moyai.structures.units.mean_loads import drift_felt, mean_loads
 from moyai.structures.units.model import Connector, UnitLine
 from moyai.validation.units import at_rest, row
 
@@ -100,8 +98,6 @@ def test_no_uplift_without_slow_drift_is_not_known() -> None:
 
 def test_anchors_stand_on_the_page_where_no_sea_was_run() -> None:
     at = _moored((0,))
-    from moyai.structures.units.datasets import statics_dataset
-
     groups = {"/SWL/statics": statics_dataset(at, np.zeros(at.size), np.zeros(at.size))}
     found = {item.name: item for item in headlines_of(groups)}
     assert found["anchor_uplift"].text == "none" and found["anchor_uplift"].value == 0.0
@@ -117,12 +113,5 @@ def test_drift_goes_through_the_pins_of_units_without_lines(units: tuple[int, ..
     at = _moored(units, PINS, count=4)
     pushed = np.zeros(at.size)
     pushed[0::6] = PUSH
-    rest, work = steady_position(at, pushed), Work(at.rounding, np.zeros(0))
-    answer: Any = SimpleNamespace(rest=rest, pushed=pushed, work=work)
-    shear = np.abs(mean_loads(at, rest, work)[:, 0])
+    shear = np.abs(mean_loads(at, steady_position(at, pushed), Work(at.rounding, np.zeros(0)))[:, 0])
     assert shear == pytest.approx([PUSH * felt, 0.0, PUSH * felt], abs=1e-3 * PUSH)
-    found = drift_felt(at, answer, np.full(3, 10.0 * PUSH), np.full(3, 1e9), np.ones(len(at.joints)))
-    assert found["connector_feels_drift"].tolist() == [felt, False, felt]
-    # next to waves that give a hundred times as much it is nothing
-    found = drift_felt(at, answer, np.full(3, 100.0 * PUSH), np.full(3, 1e9), np.ones(len(at.joints)))
-    assert not found["connector_feels_drift"].any()

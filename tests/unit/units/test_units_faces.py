@@ -119,3 +119,9 @@ def test_corners_of_turned_units_count_by_their_own_clearance() -> None:
     # the nearest corner has met, the others have not
     closing = gap.rows(at.size) @ push
     assert closing.max() == pytest.approx(gap.width) and closing.min() < 0.9 * gap.width
+
+
+def test_units_on_both_sides_of_the_first_one_do_not_face_each_other() -> None:
+    """Three narrow units side by side, the middle one listed first."""
+    places = [Placement(0.0, 0.0), Placement(-4.6, 0.0), Placement(4.6, 0.0)]
+    assert {met.pair for met in gaps_between(places, LENGTH, BOUNDS)} <= {(0, 1), (1, 0), (0, 2), (2, 0)}

@@ -198,23 +198,3 @@ def test_a_tension_that_no_run_repeats_has_two_digits(tension, curved, shown):
     assert (
         next(iter(line_headlines(groups, [("/SWL/frequency/daily", lines_of(44.1e3).assign(stretched))]))).digits == 3
     )
-
-
-@pytest.mark.parametrize(
-    ("path", "joined", "bound"), [("frequency", 1, ""), ("frequency", 0, "at least"), ("time", 0, "")]
-)
-def test_a_gap_that_nothing_joins_closes_by_slow_drift_as_well(path, joined, bound):
-    data = xr.Dataset(
-        {
-            "gap_closing_largest": ("gap", [0.2]),
-            "gap_joined": ("gap", [joined]),
-            "significant_motion": (("unit", "dof"), np.zeros((2, 3))),
-            "line_tension_maximum": ("line", [1.0]),
-            "line_tension_mean": ("line", [1.0]),
-        },
-        coords={"gap": ["gap 1-2"], "unit": [1, 2], "dof": DOFS, "line": ["s"]},
-        attrs={"status": "converged"},
-    )
-    rest = xr.Dataset({"gap_width": ("gap", [0.5])}, coords={"gap": ["gap 1-2"]})
-    (closing,) = _gaps({"/SWL/statics": rest}, [(f"/SWL/{path}/storm", data)])
-    assert (closing.value, closing.bound) == (0.4, bound) and ("drift" in closing.detail) is bool(bound)

@@ -1,7 +1,8 @@
-"""Chains and rubber that act along one direction: how far motion across it would stretch them besides.
+"""Connectors that act along one direction: how far motion across it would stretch them besides.
 
-In time a chain or rubber is drawn from end to end [eq:units-in-space]. The frequency domain, and a ``direction`` of the
-case, take the relative motion along one axis alone; sway and heave of the units against each other draw it as well.
+In time a chain or rubber is drawn from end to end [eq:units-in-space]. The frequency domain, a ``direction`` of the
+case and a spring with little stiffness across take the relative motion along one axis alone; sway and heave of the
+units against each other draw it as well.
 """
 
 from __future__ import annotations
@@ -20,6 +21,8 @@ if TYPE_CHECKING:
 
 #: Share of the largest elongation that motion across may add before the force is no more than a bound from below.
 COUNTS = 0.1
+#: Stiffness across over that along, below which a spring is a line from end to end that does not know it.
+SLENDER = 0.1
 
 
 def stretch_across(joints: Sequence[Joint], motion: Array, highest: Array, *, in_time: bool) -> Array:
@@ -40,13 +43,25 @@ def stretch_across(joints: Sequence[Joint], motion: Array, highest: Array, *, in
     ndarray (..., joints)
         Zero where motion across does not matter, or does not count beside the elongation along the axis.
     """
-    span = np.array(
-        [j.span if j.connector.kind in ("chain", "rubber") and not (in_time and j.in_space) else 0.0 for j in joints]
-    )
-    axis = np.array([joint.axis for joint in joints]).reshape(len(joints), 3)
+    span = np.array([joint.span if _on_one_axis(joint, in_time) else 0.0 for joint in joints])
+    axis = np.array([j.axis if j.connector.stiffness is None else j.from_end_to_end for j in joints])
+    axis = axis.reshape(len(joints), 3)
     across = np.sqrt(np.sum(motion**2 * np.maximum(1.0 - axis**2, 0.0), axis=-1))
+    along = np.where(np.isnan(highest), np.sum(motion * np.abs(axis), axis=-1), highest)
     stretch = np.where(span > 0.0, np.hypot(span, across) - span, 0.0)
-    return np.asarray(np.where(stretch > COUNTS * np.maximum(np.nan_to_num(highest), 0.0), stretch, 0.0))
+    return np.asarray(np.where(stretch > COUNTS * np.maximum(along, 0.0), stretch, 0.0))
+
+
+def _on_one_axis(joint: Joint, in_time: bool) -> bool:
+    """Whether a connector bears along one axis alone that would bear from end to end."""
+    if joint.connector.kind in ("chain", "rubber"):
+        return not (in_time and joint.in_space)
+    if joint.connector.stiffness is None or joint.span == 0.0:
+        return False
+    axis, stiffness = joint.from_end_to_end, joint.connector.stiffness[:3, :3]
+    aside = np.eye(3) - np.outer(axis, axis)
+    own = float(axis @ stiffness @ axis)
+    return own > 0.0 and float(np.linalg.norm(aside @ stiffness @ aside, 2)) < SLENDER * own
 
 
 def across_notices(groups: Mapping[str, xr.Dataset]) -> Iterator[Notice]:
@@ -65,9 +80,9 @@ def across_notices(groups: Mapping[str, xr.Dataset]) -> Iterator[Notice]:
         yield Notice(
             "motion-across-connector",
             f"{level}, {where}: the units move against each other across the connector, which would stretch it by "
-            f"{most:.3g} m; its curve acts along one direction and does not see it: its force is higher",
+            f"{most:.3g} m; it acts along one direction and does not see it: its force is higher",
             value=most, severity="warning",
-            remedy="run the analysis time, where it is drawn from end to end"
+            remedy="run the analysis time, where chain and rubber are drawn from end to end"
             if analysis == "frequency"
-            else "leave its direction out, so that it is drawn from end to end",
+            else "give chain or rubber without a direction, which is drawn from end to end",
         )  # fmt: skip

@@ -468,6 +468,18 @@ def level_notices(at: RowAtLevel) -> tuple[Notice, ...]:
     displaced = at.statics.displaced_mass
     pulls = np.array([-system.forces(np.zeros(6))[2] if system.lines else 0.0 for system in at.systems])
     share = 100.0 * (displaced - at.masses - pulls / at.water.gravity) / displaced
+    spread = 100.0 * float(np.ptp(at.masses) / at.masses.mean())
+    if spread > IMBALANCE_LIMIT:
+        light, heavy = int(at.masses.argmin()), int(at.masses.argmax())
+        notices.append(
+            Notice(
+                "unlike-masses",
+                f"{at.name}: all units float at the draught of the case only where unit {light + 1} weighs "
+                f"{1e-3 * at.masses[light]:.4g} t and unit {heavy + 1} {1e-3 * at.masses[heavy]:.4g} t, as their lines "
+                "pull them down unlike",
+                spread, IMBALANCE_LIMIT, remedy="check length and anchors of the lines of these units",
+            )
+        )  # fmt: skip
     worst = int(np.abs(share).argmax())
     if abs(share[worst]) > IMBALANCE_LIMIT:
         notices.append(

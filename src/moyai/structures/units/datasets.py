@@ -13,13 +13,13 @@ from moyai.mooring.shape import even_points
 from moyai.sea.states import IrregularSea, RegularSea
 from moyai.structures.units.across import stretch_across
 from moyai.structures.units.anchors import anchor_curves
-from moyai.structures.units.assembly import RowAtLevel, steady_position
+from moyai.structures.units.assembly import RowAtLevel, RowPosition, steady_position
 from moyai.structures.units.connectors import Joint
-from moyai.structures.units.contact import contact_variables, distance_at, measured_ends, meeting_variables
+from moyai.structures.units.contact import distance_at, loses_contact, measured_ends, meeting_variables
 from moyai.structures.units.field import MapPoints, WaveField, height_ratio, line_transmission, sea_height_ratio
 from moyai.structures.units.gaps import gaps_of, largest_closing
 from moyai.structures.units.hydrodynamics import RowHydrodynamics
-from moyai.structures.units.mean_loads import drift_felt, mean_loads
+from moyai.structures.units.links import Work
 from moyai.structures.units.mesh import waterplane
 from moyai.structures.units.model import DOFS, MapArea
 from moyai.structures.units.seas import SeaAnswer, cell_weights, columns_of
@@ -94,6 +94,10 @@ def statics_dataset(at: RowAtLevel, wind: Array, current: Array) -> xr.Dataset:
         "connector_y": ("connector", places[:, 1]),
         "connector_z": ("connector", places[:, 2]),
         "connector_breaking_load": ("connector", _known(np.array([j.connector.breaking_load for j in at.joints]))),
+        "connector_endurance_exponent": (
+            "connector",
+            [np.nan if (e := joint.connector.endurance) is None else e.exponent for joint in at.joints],
+        ),
         "curve_lowest": ("connector", ends[:, 0]),
         "curve_highest": ("connector", ends[:, 1]),
         "gap_width": ("gap", np.array([gap.width for gap in gaps_of(at)])),
@@ -144,6 +148,24 @@ def hydrodynamics_dataset(at: RowAtLevel, hydro: RowHydrodynamics) -> xr.Dataset
             "gap_damping_lid": hydro.panels.gap_damping,
         }
     return labelled(data)
+
+
+def mean_loads(at: RowAtLevel, rest: RowPosition, work: Work) -> Array:
+    """Return the mean loads (joints, 6) in the connectors [N, N m]."""
+    position, held = rest.position, rest.held_load
+    out = np.zeros((len(at.joints), 6))
+    first = 0
+    for number, joint in enumerate(at.joints):
+        connector = joint.connector
+        if len(joint.held):
+            out[number] += held[first : first + len(joint.held)] @ joint.held
+            first += len(joint.held)
+        if connector.stiffness is not None:
+            out[number] += connector.stiffness @ (joint.relative @ position)
+    for link in at.links:
+        force = link.bears(position, work)[0]
+        out[link.joint, :3] += force * link.direction(position)
+    return out
 
 
 def _of_units(answer: SeaAnswer) -> Array:
@@ -217,8 +239,8 @@ def regular_dataset(at: RowAtLevel, sea: RegularSea, answers: list[SeaAnswer], h
             np.maximum(mean_tension + tension, along_the_path(at, answers, amplitude)),
         ),
     }
-    out |= {name: (("period", name.split("_")[0]), flags)
-            for name, flags in contact_variables(at, answers, low, high).items()}  # fmt: skip
+    lost = [loses_contact(at, *ends) for ends in zip(low, high, strict=True)]
+    out["connector_loses_contact"] = ("period", np.array(lost, dtype=np.int8))
     out |= {name: ("period", np.array([each[name] for each in meeting])) for name in meeting[0]}
     drift = answers[0].far.drift.copy()
     for period, item in zip(sea.periods, answers):
@@ -336,10 +358,8 @@ def irregular_dataset(at: RowAtLevel, sea: IrregularSea, answer: SeaAnswer) -> x
             ),
         ),
     }
-    out |= {name: (name.split("_")[0], flags[0]) for name, flags in contact_variables(at, [answer], low, high).items()}
+    out["connector_loses_contact"] = ((), np.array(loses_contact(at, low[0], high[0]), dtype=np.int8))
     out |= {name: ((), value) for name, value in meeting_variables(at, answer.rest.position, closing).items()}
-    felt = drift_felt(at, answer, resultant[0], np.abs(top[0, :, 3:]).max(axis=1, initial=0.0), closing)
-    out |= {name: (name.split("_")[0], flags.astype(np.int8)) for name, flags in felt.items()}
     out |= _drift_of(answer.far.drift, answer, answer.headings)
     coords = coords_of(at) | {"direction": ["across", "along", "about z"]}
     data = labelled(xr.Dataset(out, coords=coords))
@@ -392,11 +412,7 @@ BANDED = (
 )  # fmt: skip
 
 #: What holds with the damping at either end alone holds.
-_WORST = {
-    "connector_joins": np.minimum, "gap_joined": np.minimum, "connector_loses_contact": np.maximum,
-    "gap_loses_contact": np.maximum, "hulls_meet": np.maximum, "connector_feels_drift": np.maximum,
-    "gap_feels_drift": np.maximum,
-}  # fmt: skip
+_WORST = {"connector_loses_contact": np.maximum, "hulls_meet": np.maximum}
 
 
 def with_damping_band(data: xr.Dataset, others: list[xr.Dataset]) -> xr.Dataset:

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import math
-import operator
 from collections.abc import Iterator, Mapping
-from functools import reduce
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,58 +15,21 @@ from moyai.structures.units.unjudged import Seas, in_time
 if TYPE_CHECKING:
     import xarray as xr
 
-DRIFTS_APART = "nothing holds the units together, their slow drift against each other is not computed and adds to it"
+SLOW_DRIFT = "slow drift of the units against each other is not computed in the frequency domain and adds to it"
 LETS_GO = (
     "a connector bears and lets go within the wave: its impacts are not in the linear answer and add to it, run the "
     "time domain"
 )
-FEELS_DRIFT = "slow drift, which is not computed in the frequency domain, goes through it and adds to it"
 MEET = "hulls meet in this sea, and their impact is not computed"
 STRAINED = "the linear motion does not feel how tight lines come"
-OTHERS_APART = "other units of the row drift apart and meet, and their impacts go through it"
 NOT_KNOWN = "not known"
-_JOINS = {"gap": "gap_joined", "connector": "connector_joins"}
 
 
-def followed(data: xr.Dataset, name: str) -> xr.DataArray | None:
-    """Return whether the units of each connector or gap are followed in the linear answer; None where all are.
-
-    In an irregular sea what nothing holds together drifts apart, and slow drift goes through what bears mean drift; in
-    any sea what bears and lets go meets with impacts.
-    """
-    kind = "gap" if name.startswith("gap_closing") else "connector"
-    if name not in data or kind not in data[name].dims:
-        return None
-    joins = data.get(_JOINS[kind]) if "significant_motion" in data else None
-    if joins is not None and elsewhere_apart(data):
-        return joins.astype(bool) & False
-    flags = [data[flag] == 0 for flag in (f"{kind}_loses_contact", f"{kind}_feels_drift") if flag in data]
-    if joins is not None:
-        flags.append(joins.astype(bool))
-    return reduce(operator.and_, flags) if flags else None
-
-
-def why_loose(path: str, data: xr.Dataset, name: str, index: tuple[int, ...]) -> str:
-    """Return why a number of a connector or a gap is larger than the linear answer knows; empty where it is not."""
-    known = None if in_time(path) else followed(data, name)
-    if known is None:
+def why_loose(path: str, data: xr.Dataset) -> str:
+    """Return why units move against each other by more than the frequency domain knows; empty where they do not."""
+    if in_time(path):
         return ""
-    place = tuple(number for dim, number in zip(data[name].dims, index, strict=True) if dim in known.dims)
-    if bool(known.values[place]):
-        return ""
-    joins = data.get(_JOINS["gap" if name.startswith("gap_closing") else "connector"])
-    apart = "significant_motion" in data and joins is not None and not bool(joins.values[place])
-    others = elsewhere_apart(data) and not apart
-    felt = data.get("gap_feels_drift" if name.startswith("gap_closing") else "connector_feels_drift")
-    drift = felt is not None and bool(felt.values[place]) and not apart
-    reasons = {DRIFTS_APART: apart, OTHERS_APART: others, FEELS_DRIFT: drift, LETS_GO: lets_go(path, data)}
-    return "; ".join(words for words, there in reasons.items() if there)
-
-
-def elsewhere_apart(data: xr.Dataset) -> bool:
-    """Whether a connector of the row in an irregular sea does not hold its units, which drift apart and meet."""
-    joins = data.get("connector_joins") if "significant_motion" in data else None
-    return joins is not None and not bool(joins.values.all())
+    return "; ".join([SLOW_DRIFT] * ("significant_motion" in data) + [LETS_GO] * lets_go(path, data))
 
 
 def lets_go(path: str, data: xr.Dataset) -> bool:
@@ -90,6 +51,27 @@ def why_beyond(data: xr.Dataset, name: str, index: tuple[int, ...]) -> str:
     return (
         f"it is worked from {worked[0]:.3g} to {worked[1]:.3g} m, its curve ends at {known} m and is drawn out straight"
     )
+
+
+def most_closing(data: xr.Dataset) -> np.ndarray:
+    """Return how far every gap closes at the most [m]: in any realisation, with damping at either end of its band."""
+    own = data["gap_closing_largest"].values
+    most = own
+    if "gap_closing_largest_of_realisation" in data:
+        most = np.fmax(own, np.fmax.reduce(data["gap_closing_largest_of_realisation"].values, axis=0))
+    if "gap_closing_largest_high" in data:
+        high = data["gap_closing_largest_high"].values
+        # as its mean over realisations grows with damping, so does every one of them
+        most = most * np.where(own > 0.0, high / np.where(own > 0.0, own, 1.0), 1.0)
+    return np.asarray(most)
+
+
+def with_meeting(data: xr.Dataset, width: np.ndarray) -> xr.Dataset:
+    """Return a sea with whether hulls meet in it at the most that gaps of a width (gaps,) [m] close."""
+    if "hulls_meet" not in data or "gap_closing_largest" not in data or not len(width):
+        return data
+    meet = (most_closing(data) >= width).any(axis=-1) | (data["hulls_meet"].values != 0)
+    return data.assign(hulls_meet=(data["hulls_meet"].dims, meet.astype(np.int8)))
 
 
 def meets(data: xr.Dataset) -> bool:
@@ -119,11 +101,7 @@ def meeting_notices(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[No
             continue
         level, _, sea = path.split("/")[1:]
         width = groups[f"/{level}/statics"]["gap_width"].values
-        closing = data["gap_closing_largest"].values / width
-        # in any realisation, and with damping at the end of its band, which is where the closing is judged
-        for further in ("gap_closing_largest_high", "gap_closing_largest_of_realisation"):
-            if further in data:
-                closing = np.fmax(closing, data[further].values / width)
+        closing = most_closing(data) / width
         least = data["least_distance"].values
         periods = data["period"].values if "period" in data.dims else [None]
         for row, period in enumerate(periods):
@@ -179,6 +157,6 @@ def curve_notices(seas: Seas) -> Iterator[Notice]:
 
 
 __all__ = [
-    "curve_notices", "followed", "lets_go", "meeting_notice", "meeting_notices", "meets", "not_known", "why_beyond",
-    "why_loose",
+    "curve_notices", "lets_go", "meeting_notice", "meeting_notices", "meets", "most_closing", "not_known",
+    "why_beyond", "why_loose", "with_meeting",
 ]  # fmt: skip

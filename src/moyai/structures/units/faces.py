@@ -216,7 +216,7 @@ def gaps_between(places: Sequence[Placement], length: float, bounds: tuple[float
     for pair in combinations(range(len(places)), 2):
         one = meeting(places, pair, length, bounds)
         low, high = one.overlap
-        if one.distance < length and high > low and not between(places, one, length, bounds):
+        if one.distance < length and high > low and between(places, one, length, bounds) is None:
             found.append(one)
     return tuple(found)
 

@@ -61,14 +61,17 @@ def governing_seas(groups: Mapping[str, xr.Dataset]) -> Seas:
             found.append((other, _with_damping(groups[other], data)))
         else:
             found.append((path, data))
-    return [(path, _with_curve_ends(groups, path, data)) for path, data in found]
+    return [(path, _with_rest(groups, path, data)) for path, data in found]
 
 
-def _with_curve_ends(groups: Mapping[str, xr.Dataset], path: str, data: xr.Dataset) -> xr.Dataset:
-    """Return a sea with the ends of the measured curves of its connectors."""
+def _with_rest(groups: Mapping[str, xr.Dataset], path: str, data: xr.Dataset) -> xr.Dataset:
+    """Return a sea with curves, gaps and endurance of its row at rest, and whether hulls meet at the most."""
     rest = groups.get(f"/{path.split('/')[1]}/statics")
-    names = ("curve_lowest", "curve_highest")
-    return data if rest is None else data.assign({name: rest[name] for name in names if name in rest})
+    if rest is None:
+        return data
+    names = ("curve_lowest", "curve_highest", "gap_width", "connector_endurance_exponent")
+    data = data.assign({name: rest[name] for name in names if name in rest})
+    return doubts.with_meeting(data, data["gap_width"].values) if "gap_width" in data else data
 
 
 def _with_damping(time: xr.Dataset, frequency: xr.Dataset) -> xr.Dataset:
@@ -225,6 +228,12 @@ def _with_damage(data: xr.Dataset) -> xr.Dataset:
     found = {"worn": data["connector_damage_rate"] * span}
     if "connector_damage_rate_of_realisation" in data:
         found["worn_of_realisation"] = data["connector_damage_rate_of_realisation"] * span
+    force = data.get("connector_resultant_largest")
+    if "connector_endurance_exponent" in data and "connector_resultant_largest_low" in data and force is not None:
+        # ranges of force follow the largest one
+        for end in ("low", "high"):
+            ratio = (data[f"connector_resultant_largest_{end}"] / force).where(force > 0.0, 1.0)
+            found[f"worn_{end}"] = found["worn"] * ratio ** data["connector_endurance_exponent"]
     return data.assign(found)
 
 
@@ -257,7 +266,8 @@ def _model(found: Largest) -> str:
 
 def _motions(seas: Seas) -> Iterator[Headline]:
     offsets = []
-    for offset in each_of(seas, "largest_offset"):
+    each = each_of(seas, "largest_offset")
+    for offset in each:
         words = "mean, slow drift and waves" if offset.timed and not offset.drift_left_out else "mean and waves"
         offsets.append(
             Headline(
@@ -266,18 +276,27 @@ def _motions(seas: Seas) -> Iterator[Headline]:
                 detail=words + left_out(offset) + f"; {doubts.LETS_GO}" * offset.lets_go,
             )
         )  # fmt: skip
-    yield from all_judged(offsets)
-    tilts = []
+    yield from _with_meeting_unknown(each, offsets)
+    tilts, turns = [], []
     for dof in ("roll", "pitch"):
-        turned = [(path, _with_tilt(data, dof)) for path, data in seas]
+        turned = each_of([(path, _with_tilt(data, dof)) for path, data in seas], "tilt")
+        turns += turned
         tilts += [
             Headline(
                 "roll", f"Largest {dof} of a unit, double amplitude", tilt.value, "rad", tilt.where, _model(tilt),
                 band=tilt.band, bound="at least" if tilt.lets_go else tilt.bound,
             )
-            for tilt in each_of(turned, "tilt")
+            for tilt in turned
         ]  # fmt: skip
-    yield from all_judged(tilts)
+    yield from _with_meeting_unknown(turns, tilts)
+
+
+def _with_meeting_unknown(each: list[Largest], items: list[Headline]) -> list[Headline]:
+    """Return what governs of motions; those of hulls that meet, first, are not known."""
+    met = [doubts.meets(one.data) for one in each]
+    kept = [doubts.not_known(item, doubts.MEET) if hit else item for item, hit in zip(items, met, strict=True)]
+    ranked = [replace(one, value=math.inf) if hit else one for one, hit in zip(each, met, strict=True)]
+    return with_unknown(ranked, kept)
 
 
 def greatest_rolls(seas: Seas) -> list[tuple[str, float]]:

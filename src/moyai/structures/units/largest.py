@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -10,7 +10,7 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.headline import Band, Bound
-from moyai.series.realisations import alone, seeds
+from moyai.series.realisations import alone, seeds, storms
 from moyai.structures.units import doubts
 from moyai.structures.units.model import DAMPING_BAND, SNAP_RATIO
 from moyai.structures.units.unjudged import Seas, in_time
@@ -22,6 +22,17 @@ _DAMPING = f"damping of the units beyond waves times {DAMPING_BAND[0]:g} to {DAM
 #: Loads and closings of connectors that pull nothing or do not move are differences of large numbers: what is below
 #: this [N, N m, m] is rounding.
 _ROUNDED, _NOTHING = ("connector_resultant_largest", "connector_moment_largest", "gap_closing_largest"), 1e-6
+
+
+#: Mean over time of a largest value of an irregular sea.
+_MEAN: dict[str, Callable[[xr.Dataset, tuple[int, ...]], float]] = {
+    "connector_resultant_largest": lambda data, at: float(np.linalg.norm(data["connector_force_mean"].values[at])),
+    "connector_moment_largest": lambda data, at: float(data["connector_moment_mean"].values[at]),
+    "line_tension_maximum": lambda data, at: float(data["line_tension_mean"].values[at]),
+    "gap_closing_largest": lambda data, at: 0.0,
+    "opened": lambda data, at: 0.0,
+    "tilt": lambda data, at: 0.0,
+}
 
 
 def _where(path: str, data: xr.Dataset, index: tuple[int, ...], dims: tuple[str, ...]) -> str:
@@ -84,16 +95,36 @@ class Largest:
 
     @property
     def band(self) -> Band | None:
-        """What the realisations and the damping of the units are worth; none of nothing."""
+        """What chance and the damping of the units are worth; none of nothing."""
         return self.spread(self.chance()) if self.value > 0.0 else None
 
     def chance(self, bound: Array | None = None) -> Band | None:
-        """Return the band of realisations, or of parts of a regular motion that does not repeat."""
+        """Return the band of realisations, of parts of a regular motion that does not repeat, or of storms alike."""
+        if not self.timed:
+            return self._of_storms()
         found = seeds(self.scatter, bound)
         if found is None or "period" not in self.data.dims:
             return found
         of = f"{found.realisations} parts of a record that does not repeat; judged at the 95 % end of their mean"
         return replace(found, of=of, more="settings.time.duration")
+
+    def _of_storms(self) -> Band | None:
+        """Return the band of a most probable largest value of the frequency domain over storms alike.
+
+        That of a curve does not follow its motion, and an offset is no number without slow drift.
+        """
+        if "most_probable_maximum_motion" not in self.data or self.name not in _MEAN:
+            return None
+        worked = self.data.get("elongation_highest") if self.name == "connector_resultant_largest" else None
+        if worked is not None and np.isfinite(worked.values[self.index]):
+            return None
+        deviation = 0.25 * self.data["significant_motion"].values
+        moving = deviation > _NOTHING * max(float(deviation.max(initial=0.0)), _NOTHING)
+        if not moving.any():
+            return None
+        ratio = self.data["most_probable_maximum_motion"].values[moving] / deviation[moving]
+        mean = _MEAN[self.name](self.data, self.index) / self.scale
+        return storms(self.value, min(abs(mean), self.value), float(np.median(ratio)))
 
     def spread(self, chance: Band | None) -> Band | None:
         """Return a band of realisations widened by what the damping of the units is worth."""
@@ -121,7 +152,7 @@ class Largest:
     @property
     def why_loose(self) -> str:
         """Why units move against each other by more than the linear answer knows."""
-        return doubts.why_loose(self.path, self.data, self.name, self.index)
+        return doubts.why_loose(self.path, self.data)
 
     @property
     def why_beyond(self) -> str:
@@ -167,23 +198,7 @@ def each_of(seas: Seas, name: str, over: Array | None = None) -> list[Largest]:
         for path, data in seas
         for row in range(data.sizes.get("period", 1))
     ]
-    parts = [(path, apart) for path, data in parts for apart in _held_and_loose(path, data, name)]
     return [found for part in parts if (found := _largest([part], name, over)) is not None]
-
-
-def _held_and_loose(path: str, data: xr.Dataset, name: str) -> Iterator[xr.Dataset]:
-    """Yield a sea with a number of what connectors hold together, and with that of what drifts apart as well.
-
-    The larger of both may be known while the other one is open.
-    """
-    known = None if in_time(path) else doubts.followed(data, name)
-    if known is None:
-        yield data
-        return
-    for held in (True, False):
-        there = known == held
-        if bool(there.any()):
-            yield data.assign({name: data[name].where(there)})
 
 
 __all__ = ["Largest", "damping_band", "each_of"]

@@ -72,7 +72,9 @@ def with_unknown(each: list[Largest], items: list[Headline]) -> list[Headline]:
 
 
 def unknown_line(found: Largest, mean: float) -> str:
-    """Return why a line of the frequency domain is not known: motions there do not feel how tight it comes."""
+    """Return why a line is not known: hulls that meet, or a linear motion that does not feel how tight it comes."""
+    if doubts.meets(found.data):
+        return doubts.MEET
     tension, damping = found.value * found.scale, damping_band(found.data, found.name, found.index)
     highest = tension if damping is None else max(tension, damping.high)
     if found.timed or highest <= SNAP_RATIO * mean:

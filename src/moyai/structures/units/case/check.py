@@ -43,6 +43,8 @@ def check(model: schema.UnitsCase, findings: Findings, folder: Path) -> None:
     if hull is not None:
         _check_floating(model, hull, findings)
         _check_joined(model, hull, findings)
+        if not findings.faults:
+            _check_faces(model, hull, findings)
     _check_by_building(model, findings, folder)
 
 
@@ -165,6 +167,38 @@ def _check_joined(model: schema.UnitsCase, hull: Hull, findings: Findings) -> No
                 f"connector '{entry.name}' joins units {first} and {second}, which do not meet: {reason}",
                 allowed=f"units nearer than {length:g} m with no other between them",
                 remedy="list the units in their order, or give the pairs in 'between'",
+            )
+
+
+def _check_faces(model: schema.UnitsCase, hull: Hull, findings: Findings) -> None:
+    """Say where a connector stands at a corner, and which units that face each other get none."""
+    from moyai.structures.units.faces import gaps_between, meeting
+
+    places, length, bounds = _places(model), model.structure.units.length, hull.bounds[:2]
+    facing = {tuple(sorted(gap.pair)) for gap in gaps_between(places, length, bounds)}
+    for index, entry in enumerate(model.structure.connectors):
+        path: KeyPath = ("structure", "connectors", index, "between")
+        in_order = isinstance(entry.between, str)
+        listed: Any = [(unit, unit + 1) for unit in range(1, len(places))] if in_order else entry.between
+        pairs = {(min(pair) - 1, max(pair) - 1) for pair in listed}
+        for first, second in sorted(pairs - facing):
+            met = meeting(places, (first, second), length, bounds)
+            if met.overlap[1] > met.overlap[0]:
+                continue
+            near, far = met.joined_at(entry.x)
+            x, y = 0.5 * (near + far)
+            findings.warn(
+                path,
+                f"units {first + 1} and {second + 1} turn no faces to each other, they meet at a corner: connector "
+                f"'{entry.name}' stands there at x = {x:.3g} m, y = {y:.3g} m of the row",
+                remedy="give the pairs that face each other in 'between', or place the units face to face",
+            )
+        if in_order and (left := sorted(facing - pairs)):
+            words = ", ".join(f"{first + 1} and {second + 1}" for first, second in left)
+            findings.warn(
+                path,
+                f"connector '{entry.name}' joins units in the order of the list; {words} face each other and get none",
+                remedy="give the pairs in 'between'",
             )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
@@ -37,6 +38,10 @@ if TYPE_CHECKING:
 
 #: Peak periods in a record, below which its largest values say nothing of the sea state
 LEAST_WAVES = 10.0
+#: Natural periods of sway in a record, for its largest slow excursion to be near its most probable
+LEAST_CYCLES = 25.0
+#: Frequency of slow drift, for its added mass [rad/s].
+_SLOW = 1e-3
 #: Error of the memory that is told, of the largest response
 _TOLD = 0.02
 #: Change of a growing motion from one period to the next that is told.
@@ -318,4 +323,28 @@ def _notices(water: Water3D, sea: RegularSea | IrregularSea, data: xr.Dataset, r
                     value=waves, limit=LEAST_WAVES, severity="error", remedy="give a longer duration",
                 )
             )  # fmt: skip
+        period = slow_sway_period(water)
+        if water.settings.drift and sea.duration < LEAST_CYCLES * period < math.inf:
+            cycles = sea.duration / period
+            out.append(
+                Notice(
+                    "few-slow-cycles",
+                    f"{where}: the record of {sea.duration:g} s holds {cycles:.2g} natural periods of sway "
+                    f"({period:.3g} s); its largest slow excursion "
+                    + ("scatters widely" if cycles >= 1.0 else "is not in it"),
+                    value=cycles, limit=LEAST_CYCLES, severity="warning" if cycles >= 1.0 else "error",
+                    remedy=f"give a duration of {LEAST_CYCLES * period:.0f} s or more, or more "
+                    "settings.time.realisations",
+                )
+            )  # fmt: skip
     return out
+
+
+def slow_sway_period(water: Water3D) -> float:
+    """Return the natural period of the whole row across its axis on its lines at rest [s]; infinite without any."""
+    at = water.at
+    across = np.tile(np.eye(6)[0], at.row.count)
+    stiffness = float(across @ at.line_stiffness(np.zeros(at.size)) @ across)
+    added = water.memory.coefficients(np.array([_SLOW]))[0][0]
+    mass = float(across @ (at.inertia + added) @ across)
+    return 2.0 * math.pi * math.sqrt(mass / stiffness) if stiffness > 0.0 else math.inf
