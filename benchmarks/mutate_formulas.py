@@ -1,10 +1,10 @@
 """Change formulas one at a time and see whether a fast test notices.
 
 ``python benchmarks/mutate_formulas.py`` takes the hundred changes of ``formulas.txt`` one after the other: it copies
-the package, changes a line, runs the fast tests that name the changed function or import its module, then, where
-these see nothing, all others of its package, and sets the line back. It prints a line for every change and at the end a table by package. Results are kept in ``--results``;
-what stands there is not run again. Survivors are to be looked at: a change may be without effect (a guard, a
-tolerance, a start value), or a test is missing.
+the package, changes a line, runs the fast tests that name the changed function or import its module, then, where these
+see nothing, all others of its package, and sets the line back. It prints a line for every change and at the end a
+table by package. Results are kept in ``--results``; what stands there is not run again. Survivors are to be looked at:
+a change may be without effect (a guard, a tolerance, a start value), or a test is missing.
 
 ``--count 60 --seed 1`` draws other changes instead: an operator, a constant or a function in a formula that names its
 equation.
