@@ -9,9 +9,10 @@ import pytest
 import xarray as xr
 
 from moyai.core.headline import Criterion, Headline, judge
-from moyai.mooring.lines import LineType, Segment
+from moyai.design.anchor_needs import sinker_weight
+from moyai.mooring.lines import Line, LineType, Segment
 from moyai.structures.units.anchor_headlines import anchor_headlines
-from moyai.structures.units.anchors import anchor_curves, anchored, loads_at
+from moyai.structures.units.anchors import AT_REST, TENSION, anchor_curves, anchored, loads_at, loads_of_record
 from moyai.structures.units.assembly import RowAtLevel, steady_position
 from moyai.structures.units.datasets import mean_loads, statics_dataset
 from moyai.structures.units.headlines import headlines_of
@@ -115,3 +116,53 @@ def test_drift_goes_through_the_pins_of_units_without_lines(units: tuple[int, ..
     pushed[0::6] = PUSH
     shear = np.abs(mean_loads(at, steady_position(at, pushed), Work(at.rounding, np.zeros(0)))[:, 0])
     assert shear == pytest.approx([PUSH * felt, 0.0, PUSH * felt], abs=1e-3 * PUSH)
+
+
+def test_a_light_rope_without_a_breaking_load_pulls_on_a_straight_line() -> None:
+    """Ten and ten thousand times its weight: pull and uplift are the tension along the chord."""
+    rope = LineType("rope", 0.5, 2e6)
+    lines = (UnitLine("s", 1, (0,), (-5.0, 0.0, 0.5), (-31.0, 0.0, 0.0), (Segment(rope, 27.0),)),)
+    at = at_rest(replace(row(count=1), lines=lines), replace(at_rest(row()).water, depth=DEPTH))
+    for tension in (22.5e3, 37.6e3, 2e6):
+        pull, uplift, lies = loads_at(np.array([tension]), _curves(at))[:, 0]
+        assert np.hypot(pull, uplift) == pytest.approx(tension, rel=1e-3) and lies == 0.0
+        # at 22.5 kN the rope is 1.1 % longer
+        assert uplift / tension == pytest.approx(RISE / (27.0 * (1.0 + min(tension, 6e5) / 2e6)), rel=5e-3)
+
+
+def test_anchors_of_a_record_are_those_of_the_lines_where_the_row_is() -> None:
+    """A unit that heaves by 1 m while it drifts by 3.3 m: the line from anchor to fairlead is solved by itself."""
+    at = _moored((0,))
+    motions = np.zeros((50, at.size))
+    motions[:, 0], motions[:, 2] = np.linspace(0.0, 3.3, 50), np.linspace(0.0, 1.0, 50)
+    tension = np.array([at.tensions(position) for position in motions])
+    found = loads_of_record(at, motions, tension)
+    line = at.lines[0][0]
+    assert isinstance(line, Line)
+    across = line.fairlead[0] - line.anchor[0] + 3.3
+    out, _ = line.solve_plane(np.array([across]), np.array([RISE + 1.0]), DEPTH + float(at.centres[0, 2]))
+    assert found[TENSION][0] == pytest.approx(np.hypot(out[0, 0], out[0, 1]), rel=1e-6)
+    assert found[AT_REST[0]][0] == pytest.approx(out[0, 0], rel=1e-6)
+    assert found[AT_REST[1]][0] == pytest.approx(max(out[0, 3], 0.0), rel=1e-6)
+    # and the same tension with the fairlead at its height at rest lifts less
+    assert found[AT_REST[1]][0] > loads_at(tension.max(axis=0), _curves(at))[1, 0]
+
+
+def test_ends_of_damping_lift_an_anchor_that_lies_at_the_value() -> None:
+    at = _moored((0,))
+    groups = _sea(at, 8e4)
+    data = groups["/SWL/frequency/daily"]
+    ends = {
+        "line_tension_maximum_low": 0.9 * data["line_tension_maximum"],
+        "line_tension_maximum_high": 1.5 * data["line_tension_maximum"],
+    }
+    groups["/SWL/frequency/daily"] = data.assign(ends)
+    found = _found(groups | dict(anchored(groups)))
+    lifted = found["anchor_uplift"]
+    assert lifted.text == "none" and lifted.band is not None and lifted.band.high > 1e3
+    assert judge(found.values(), [UPLIFT], computed=True).outcome == "does not hold"
+    pull = found["anchor_horizontal_load"]
+    assert pull.band is not None and lifted.band is not None
+    weight = sinker_weight(pull.band.high, lifted.band.high)
+    assert f"{weight / 1e3:.0f} kN" in found["anchor_capacity_required"].detail
+    assert "not a drag anchor" in found["anchor_capacity_required"].detail

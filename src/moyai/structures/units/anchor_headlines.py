@@ -8,8 +8,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from moyai.core.headline import Headline
-from moyai.design.anchor_needs import anchor_need, judged_end
+from moyai.core.headline import Band, Headline
+from moyai.design.anchor_needs import anchor_need, judged_end, sinker_weight
 from moyai.structures.units.doubts import not_known
 from moyai.structures.units.largest import Largest, each_of
 from moyai.structures.units.line_headlines import line_model, of_line, unknown_line, with_unknown
@@ -24,8 +24,7 @@ def anchor_headlines(seas: Seas) -> Iterator[Headline]:
     if not pulls:
         return
     items = [_load(found, "anchor_horizontal_load", "Horizontal pull on an anchor") for found in pulls]
-    hardest, item = max(zip(pulls, items, strict=True), key=lambda pair: pair[0].value)
-    yield _capacity(hardest, item)
+    yield _capacity(*max(zip(pulls, items, strict=True), key=lambda pair: pair[0].value), seas)
     yield from with_unknown(pulls, items)
     lifts = each_of(seas, _UPLIFT)
     lifted = [_load(found, "anchor_uplift", "Uplift at an anchor") for found in lifts]
@@ -42,7 +41,7 @@ def _load(found: Largest, name: str, label: str) -> Headline:
     tension = _beside(found, "line_tension_maximum")
     mean = float(found.data["line_tension_mean"].values[found.index])
     item = Headline(
-        name, label, found.value, "N", found.where, line_model(tension), band=found.band, digits=found.digits
+        name, label, found.value, "N", found.where, line_model(tension), band=_band(found), digits=found.digits
     )
     if why := unknown_line(tension, mean):
         return not_known(item, why)
@@ -52,27 +51,47 @@ def _load(found: Largest, name: str, label: str) -> Headline:
     return replace(item, bound=bound, detail=words[2:] * (bound == "at least"))
 
 
+def _band(found: Largest) -> Band | None:
+    """Return the band of a load; an uplift of nothing has one where its end lifts the anchor."""
+    band = found.spread(found.chance())
+    return band if band is not None and band.high > 0.0 else None
+
+
 def _beside(found: Largest, name: str) -> Largest:
     """Return another number of the same line in the same sea."""
     return replace(found, name=name, value=float(found.data[name].values[found.index]))
 
 
-def _capacity(found: Largest, pull: Headline) -> Headline:
+def _capacity(found: Largest, pull: Headline, seas: Seas) -> Headline:
     item = replace(pull, name="anchor_capacity_required", label="Horizontal holding capacity that an anchor needs")
     if math.isnan(pull.value):
         return item
     uplift, grounded = _beside(found, _UPLIFT), _beside(found, _LIES)
-    judged = judged_end(found.value, found.band), judged_end(uplift.value, uplift.band)
-    need = anchor_need(uplift.value, grounded.value, judged)
-    band = None if found.band is None else found.band.scaled(need.factor)
+    weight, where = _heaviest_sinker(seas)
+    lifted = judged_end(uplift.value, _band(uplift))
+    need = anchor_need(lifted, grounded.value, weight, "" if where in found.where else where)
+    band = None if item.band is None else item.band.scaled(need.factor)
     return replace(item, value=need.factor * found.value, band=band, detail=need.words)
+
+
+def _heaviest_sinker(seas: Seas) -> tuple[float, str]:
+    """Return the weight [N] of the heaviest sinker that a line asks for in any sea, and which line that is."""
+    best = 0.0, ""
+    for path, data in seas:
+        for line, name in enumerate(data["line"].values):
+            for found in each_of([(path, data.isel(line=[line]))], _PULL):
+                uplift = _beside(found, _UPLIFT)
+                weight = sinker_weight(judged_end(found.value, _band(found)), judged_end(uplift.value, _band(uplift)))
+                best = max(best, (weight, str(name)))
+    return best
 
 
 def _with_bed(item: Headline, seas: Seas) -> Headline:
     """Return an uplift; where there is none, with what lies on the bed at the least."""
     if item.value != 0.0:
         return item
-    least = min(float(np.nanmin(data[_LIES].values)) for _, data in seas if _LIES in data)
+    ends = (_LIES, f"{_LIES}_high", f"{_LIES}_of_realisation")
+    least = min(float(np.nanmin(data[end].values)) for _, data in seas for end in ends if end in data)
     kept = f"{least:.3g} m of line stays on the bed" if least > 0.0 else "the line leaves the bed"
     return replace(item, text="none", detail=kept)
 

@@ -12,7 +12,7 @@ from moyai.floating.irregular import response_statistics
 from moyai.mooring.shape import even_points
 from moyai.sea.states import IrregularSea, RegularSea
 from moyai.structures.units.across import stretch_across
-from moyai.structures.units.anchors import anchor_curves
+from moyai.structures.units.anchors import anchor_curves, loads_of_record
 from moyai.structures.units.assembly import RowAtLevel, RowPosition, steady_position
 from moyai.structures.units.connectors import Joint
 from moyai.structures.units.contact import distance_at, loses_contact, measured_ends, meeting_variables
@@ -90,6 +90,7 @@ def statics_dataset(at: RowAtLevel, wind: Array, current: Array) -> xr.Dataset:
         "breaking_load": ("line", _known(at.breaking_load)),
         **anchor_curves(at),
         "line_tension_mean": ("line", at.tensions(rest.position)),
+        **{name: ("line", load) for name, load in zip(_ANCHOR_AT_REST, _anchors_at(at, rest.position))},
         "connector_x": ("connector", places[:, 0]),
         "connector_y": ("connector", places[:, 1]),
         "connector_z": ("connector", places[:, 2]),
@@ -114,6 +115,15 @@ def statics_dataset(at: RowAtLevel, wind: Array, current: Array) -> xr.Dataset:
             length=row.length, beam=row.hull.beam, height=row.hull.height, connector_kinds=kinds
         )
     )
+
+
+_ANCHOR_AT_REST = ("anchor_horizontal_tension", "anchor_vertical_tension", "grounded_length")
+
+
+def _anchors_at(at: RowAtLevel, position: Array) -> Array:
+    """Return pull across and uplift of the anchors and length on the bed (3, lines) at a position (m,)."""
+    lines = at.row_lines
+    return lines.anchor_loads_of(position.reshape(-1, 6)[lines.unit]) if at.line_names else np.zeros((3, 0))
 
 
 def _known(values: Array) -> Array:
@@ -239,6 +249,7 @@ def regular_dataset(at: RowAtLevel, sea: RegularSea, answers: list[SeaAnswer], h
             np.maximum(mean_tension + tension, along_the_path(at, answers, amplitude)),
         ),
     }
+    out |= _anchors_along_the_path(at, answers, amplitude)
     lost = [loses_contact(at, *ends) for ends in zip(low, high, strict=True)]
     out["connector_loses_contact"] = ("period", np.array(lost, dtype=np.int8))
     out |= {name: ("period", np.array([each[name] for each in meeting])) for name in meeting[0]}
@@ -258,12 +269,26 @@ def along_the_path(at: RowAtLevel, answers: list[SeaAnswer], amplitude: float) -
 
     The tangent at the mean does not see a line that comes taut.
     """
-    phases = np.exp(-2j * np.pi * np.arange(_STATES) / _STATES)[:, None]
     out = np.zeros((len(answers), len(at.line_names)))
     for number, item in enumerate(answers if at.line_names else ()):
-        path = item.rest.position + amplitude * (item.fine.motion[0, 0] * phases).real
-        out[number] = np.max([at.tensions(position) for position in path], axis=0)
+        out[number] = np.max([at.tensions(position) for position in _path(item, amplitude)], axis=0)
     return out
+
+
+def _path(item: SeaAnswer, amplitude: float) -> Array:
+    """Return positions (n, m) of the row over a period."""
+    phases = np.exp(-2j * np.pi * np.arange(_STATES) / _STATES)[:, None]
+    return np.asarray(item.rest.position + amplitude * (item.fine.motion[0, 0] * phases).real)
+
+
+def _anchors_along_the_path(at: RowAtLevel, answers: list[SeaAnswer], amplitude: float) -> dict[str, Any]:
+    """Return the largest loads of the anchors of each period, as variables."""
+    found: list[dict[str, Array]] = []
+    for item in answers if at.line_names else ():
+        path = _path(item, amplitude)
+        found.append(loads_of_record(at, path, np.array([at.tensions(position) for position in path])))
+    names = found[0] if found else ()
+    return {name: (("period", "line"), np.array([loads[name] for loads in found])) for name in names}
 
 
 def _harmonic_resultant(force: ComplexArray, mean: Array) -> Array:

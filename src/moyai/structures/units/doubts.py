@@ -53,6 +53,11 @@ def why_beyond(data: xr.Dataset, name: str, index: tuple[int, ...]) -> str:
     )
 
 
+def stretched(data: xr.Dataset) -> float:
+    """Return what motion across would stretch any of the connectors of a sea [m]."""
+    return float(np.max(data["stretch_across"].values, initial=0.0)) if "stretch_across" in data else 0.0
+
+
 def most_closing(data: xr.Dataset) -> np.ndarray:
     """Return how far every gap closes at the most [m]: in any realisation, with damping at either end of its band."""
     own = data["gap_closing_largest"].values
@@ -157,6 +162,6 @@ def curve_notices(seas: Seas) -> Iterator[Notice]:
 
 
 __all__ = [
-    "curve_notices", "lets_go", "meeting_notice", "meeting_notices", "meets", "most_closing", "not_known",
+    "curve_notices", "lets_go", "meeting_notice", "meeting_notices", "meets", "most_closing", "not_known", "stretched",
     "why_beyond", "why_loose", "with_meeting",
 ]  # fmt: skip

@@ -16,6 +16,7 @@ from moyai.core.headline import Bound, Headline, governing
 from moyai.series.realisations import ALONE
 from moyai.structures.units import doubts
 from moyai.structures.units.anchor_headlines import anchor_headlines
+from moyai.structures.units.anchors import has_anchors, with_anchor_loads
 from moyai.structures.units.datasets import BANDED
 from moyai.structures.units.largest import Largest, each_of
 from moyai.structures.units.line_headlines import all_judged, left_out, line_headlines, with_unknown
@@ -71,6 +72,9 @@ def _with_rest(groups: Mapping[str, xr.Dataset], path: str, data: xr.Dataset) ->
         return data
     names = ("curve_lowest", "curve_highest", "gap_width", "connector_endurance_exponent")
     data = data.assign({name: rest[name] for name in names if name in rest})
+    if "line_tension_maximum" in data and has_anchors(rest):
+        # with damping at its ends, which the time domain takes from the frequency domain
+        data = with_anchor_loads(data, rest)
     return doubts.with_meeting(data, data["gap_width"].values) if "gap_width" in data else data
 
 
@@ -190,15 +194,10 @@ def _as_known(each: list[Largest], items: list[Headline]) -> list[Headline]:
     return with_unknown([one for one, _ in found], [item for _, item in found])
 
 
-def _stretched(found: Largest) -> float:
-    """Return what motion across would stretch any of the connectors of a sea [m]."""
-    return float(np.max(found.data["stretch_across"].values, initial=0.0)) if "stretch_across" in found.data else 0.0
-
-
 def _of_motion(found: Largest) -> Bound:
     """Return ``at least`` where the units move against each other beyond what their linear motion knows."""
     doubted = (
-        _strained(found) or found.why_loose or _stretched(found) or found.why_beyond or found.drift_left_out
+        _strained(found) or found.why_loose or doubts.stretched(found.data) or found.why_beyond or found.drift_left_out
     )  # fmt: skip
     return "at least" if doubted else found.bound
 
@@ -252,9 +251,9 @@ def _connector_force(found: Largest) -> Headline:
 
 def _reasons(found: Largest) -> str:
     """Return why a force is no more than a bound."""
-    across = f"motion across would stretch a connector by {_stretched(found):.3g} m, not counted"
+    across = f"motion across would stretch a connector by {doubts.stretched(found.data):.3g} m, not counted"
     details = (
-        ALONE if found.bound else "", across if _stretched(found) else "", found.why_loose, found.why_beyond,
+        ALONE if found.bound else "", across if doubts.stretched(found.data) else "", found.why_loose, found.why_beyond,
         doubts.STRAINED if _strained(found) else "", left_out(found)[2:] * found.drift_left_out,
     )  # fmt: skip
     return "; ".join(filter(None, details))

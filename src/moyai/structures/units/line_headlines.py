@@ -156,6 +156,11 @@ def of_line(found: Largest, mean: float) -> tuple[Bound, str]:
         return "at least", left_out(found) + f"; {doubts.LETS_GO}" * found.lets_go
     if found.bound:
         return found.bound, f"; {ALONE}"
+    if most := doubts.stretched(found.data):
+        return (
+            "at least",
+            f"; motion across would stretch a connector by {most:.3g} m, not counted",
+        )
     if _moved(found):
         still = float(found.data["line_tension_maximum_lines_at_rest"].values[found.index])
         return "", f"; {spoken(still, 'N', 3)} with lines at rest at every instant"

@@ -9,7 +9,6 @@ import numpy as np
 
 from moyai.core.headline import Headline
 from moyai.core.wording import spoken
-from moyai.structures.units.anchors import loads_at
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -30,7 +29,7 @@ def stability_headlines(rests: Rests) -> Iterator[Headline]:
 
 
 def steady_headlines(rests: Rests) -> Iterator[Headline]:
-    """Return largest tension of a line, share of the breaking load, uplift and offset under wind and current."""
+    """Return largest tension of a line, share of its breaking load, loads of anchors, offset under wind and current."""
     loads = [data[f"steady_force_of_{name}"].values for _, data in rests for name in ("wind", "current")]
     model = STEADY if any(load.any() for load in loads) else STILL
     tensions = [
@@ -53,17 +52,19 @@ def steady_headlines(rests: Rests) -> Iterator[Headline]:
             "line_utilisation", "Steady tension over breaking load of a line", share, "1", where, model, mean=share,
             analysis="static", detail=f"breaking load {spoken(load, 'N', 3)}",
         )  # fmt: skip
-    uplifts = [
-        (float(uplift), f"{path.split('/')[1]}, {line}")
-        for path, data in rests
-        for uplift, line in zip(loads_at(data["line_tension_mean"].values, data)[1], data["line"].values, strict=True)
-        if np.isfinite(uplift)
-    ]
-    if uplifts:
-        uplift, where = max(uplifts)
-        yield Headline(
-            "anchor_uplift", "Steady uplift at an anchor", uplift, "N", where, model, text="none" * (uplift == 0.0)
-        )
+    for name, label, variable in (
+        ("anchor_horizontal_load", "Steady horizontal pull on an anchor", "anchor_horizontal_tension"),
+        ("anchor_uplift", "Steady uplift at an anchor", "anchor_vertical_tension"),
+    ):
+        found = [
+            (float(load), f"{path.split('/')[1]}, {line}")
+            for path, data in rests
+            for load, line in zip(data[variable].values, data["line"].values, strict=True)
+            if np.isfinite(load)
+        ]
+        if found:
+            load, where = max(found)
+            yield Headline(name, label, load, "N", where, model, text="none" * (load == 0.0))
     offsets = [
         (float(np.hypot(*offset[:2])), f"{path.split('/')[1]}, unit {unit}")
         for path, data in rests

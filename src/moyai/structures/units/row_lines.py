@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 
 from moyai.core.arrays import Array, IntArray
-from moyai.mooring.lines import Line, LineElement
+from moyai.mooring.lines import Line, LineElement, LineState
 from moyai.mooring.rotations import cross_matrix, rotation_matrix
 
 
@@ -83,15 +84,32 @@ class RowLines:
 
         Infinite where an inextensible line cannot reach.
         """
+        out = np.zeros(positions.shape[:-1])
+        for _, which, state in self._states(positions):
+            out[..., which] = state.tension_fairlead.reshape(out[..., which].shape)
+        return out
+
+    def anchor_loads_of(self, positions: Array) -> Array:
+        """Return pull across and uplift at the anchors [N] and length on the bed [m] (3, ..., lines) at rest.
+
+        Each line with its unit at a position (..., lines, 6); springs have no anchor: NaN.
+        """
+        out = np.full((3, *positions.shape[:-1]), np.nan)
+        for line, which, state in self._states(positions):
+            if isinstance(line, Line):
+                loads = state.horizontal_tension, state.vertical_tension_anchor, state.grounded_length
+                for row, load in zip(out, loads, strict=True):
+                    row[..., which] = load.reshape(row[..., which].shape)
+        return np.asarray(np.maximum(out, 0.0))
+
+    def _states(self, positions: Array) -> Iterator[tuple[LineElement, IntArray, LineState]]:
+        """Yield every kind of line, which lines are of it, and their states at positions (..., lines, 6)."""
         fairlead, anchor, _ = self._places
         points = positions[..., :3] + np.einsum("...ij,...j->...i", rotation_matrix(positions[..., 3:]), fairlead)
-        out = np.zeros(points.shape[:-1])
         for line, which in self._groups:
             there = points[..., which, :] - anchor[which] + np.asarray(line.anchor)
             with np.errstate(invalid="ignore"):
-                state = line.solve(there.reshape(-1, 3), self.water_depth)
-            out[..., which] = state.tension_fairlead.reshape(there.shape[:-1])
-        return out
+                yield line, which, line.solve(there.reshape(-1, 3), self.water_depth)
 
     def spans(self, position: Array) -> tuple[Array, Array]:
         """Return how far every fairlead is from its anchor [m] at a position (m,), and that by the motions of its unit.

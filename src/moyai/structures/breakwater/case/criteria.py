@@ -49,7 +49,8 @@ class BreakwaterCriteria(LineCriteria):
         default=None, description="Largest upward force on an anchor, or 'none'" + OFF + "."
     )
     greatest_anchor_load: GreatestForce = Field(
-        default=None, description="Largest horizontal force on an anchor, its holding force" + OFF + "."
+        default=None,
+        description="Largest horizontal force on an anchor: its holding force over its factor of safety" + OFF + ".",
     )
     least_freeboard: LeastLength = Field(default=None, description="Freeboard that is left" + OFF + ".")
     least_metacentric_height: LeastLength = Field(default=None, description="Metacentric height GM" + OFF + ".")

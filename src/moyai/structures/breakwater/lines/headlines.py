@@ -12,7 +12,7 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.core.headline import Band, Bound, Headline, governing, unfavourable
 from moyai.core.wording import kilonewton
-from moyai.design.anchor_needs import anchor_need, judged_end
+from moyai.design.anchor_needs import anchor_need, judged_end, sinker_weight
 from moyai.series.intervals import student_quantile
 from moyai.series.realisations import ALONE, alone, seeds, storms
 from moyai.structures.breakwater.responses import SNAP_RATIO
@@ -296,11 +296,9 @@ def anchor_headlines(groups: Mapping[str, xr.Dataset], levels: list[str], peaks:
             )
         ]
     # a sinker is bought for the end at which criteria are judged, not for the mean of a few realisations
-    judged = (
-        judged_end(hardest.horizontal, hardest.band(hardest.horizontal, hardest.horizontal_scatter)),
-        judged_end(hardest.vertical, hardest.band(hardest.vertical, np.maximum(hardest.vertical_scatter, 0.0))),
-    )
-    need = anchor_need(hardest.vertical, hardest.grounded, judged)
+    weight, heaviest = max(((_sinker(peak), peak) for peak in pulled if peak.known), key=lambda pair: pair[0])
+    other = "" if heaviest.line == hardest.line else heaviest.line
+    need = anchor_need(hardest.vertical, hardest.grounded, weight, other)
     capacity = Headline(
         "anchor_capacity_required", "Horizontal holding capacity that an anchor needs",
         need.factor * hardest.horizontal, "N", hardest.where, hardest.model,
@@ -342,6 +340,13 @@ def anchor_headlines(groups: Mapping[str, xr.Dataset], levels: list[str], peaks:
     ]  # fmt: skip
     widest = [item for item in lifts if unfavourable(item) > unfavourable(uplift)]
     return [capacity, *governing(pull), uplift, *widest, *unknown]
+
+
+def _sinker(peak: LinePeak) -> float:
+    return sinker_weight(
+        judged_end(peak.horizontal, peak.band(peak.horizontal, peak.horizontal_scatter)),
+        judged_end(peak.vertical, peak.band(peak.vertical, np.maximum(peak.vertical_scatter, 0.0))),
+    )
 
 
 def _bare_lines(groups: Mapping[str, xr.Dataset], levels: list[str]) -> str:

@@ -89,7 +89,8 @@ class UnitsCriteria(LineCriteria):
         default=None, description="Largest upward force on an anchor, or 'none'" + OFF + "."
     )
     greatest_anchor_load: GreatestForce = Field(
-        default=None, description="Largest horizontal force on an anchor, its holding force" + OFF + "."
+        default=None,
+        description="Largest horizontal force on an anchor: its holding force over its factor of safety" + OFF + ".",
     )
     greatest_roll_deg: GreatestAngle = Field(
         default=None, description="Largest roll or pitch, double amplitude" + OFF + "."

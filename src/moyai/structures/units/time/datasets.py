@@ -14,6 +14,7 @@ from moyai.design.fatigue import damage
 from moyai.sea.states import IrregularSea, RegularSea
 from moyai.series.rainflow import count_cycles
 from moyai.structures.units.across import stretch_across
+from moyai.structures.units.anchors import AT_REST, TENSION, loads_of_record
 from moyai.structures.units.assembly import RowAtLevel
 from moyai.structures.units.contact import meeting_variables
 from moyai.structures.units.datasets import coords_of
@@ -31,7 +32,7 @@ MOST_ROWS = 20_000
 _SCATTER = (
     "connector_resultant_largest", "connector_moment_largest", "connector_moment_resultant_largest",
     "line_tension_maximum", "largest_offset", "gap_motion_largest", "gap_closing_largest", "connector_damage_rate",
-    "maximum_motion",
+    "maximum_motion", *AT_REST, TENSION,
 )  # fmt: skip
 _LOWEST = ("elongation_lowest", "least_distance")
 _HIGHEST = ("elongation_highest", "stretch_across", "hulls_meet")
@@ -108,6 +109,7 @@ def run_numbers(given: TimeRun) -> Numbers:
         "line_tension_mean": (("line",), tension.mean(axis=0)),
         "line_tension_maximum": (("line",), tension.max(axis=0)),
         "line_tension_minimum": (("line",), tension.min(axis=0)),
+        **{name: (("line",), values) for name, values in loads_of_record(at, motions, tension).items()},
     }
     out |= {name: ((), value) for name, value in meeting_variables(at, motions.mean(axis=0), closing).items()}
     if given.seed >= 0:
