@@ -16,6 +16,7 @@ from moyai.case.yaml_reader import parse_yaml
 from moyai.core.headline import Band, Bound, Criterion, Headline, Judgement, judge
 from moyai.report.first_page import limit_and_found
 from moyai.report.headlines import _figure, band_text
+from moyai.structures.units.doubts import push_notices
 from moyai.structures.units.headlines import _connectors, _gaps, _motions, governing_seas
 from moyai.structures.units.line_headlines import line_headlines
 
@@ -157,3 +158,14 @@ def test_the_largest_of_a_storm_is_judged_at_the_mean_of_such_storms() -> None:
     assert force.band is not None and force.band.judged is not None
     assert force.band.judged[1] == pytest.approx(2e3 + 1.8e4 * (1.0 + np.euler_gamma / 3.5**2))
     assert not force.band.decides
+
+
+@pytest.mark.parametrize(("least", "said"), [(-5.2e3, True), (10.0, False)])
+def test_springs_that_push_are_said(least: float, said: bool) -> None:
+    rest = xr.Dataset(
+        {"anchor_curve_tension": (("line", "p"), [[np.nan] * 2, [0.0, 1.0]])}, coords={"line": ["s", "c"]}
+    )
+    sea = xr.Dataset({"line_tension_mean": ("line", [9e2] * 2), "line_tension_minimum": ("line", [least, -1.0])})
+    found = list(push_notices({"/SWL/statics": rest}, [("/SWL/time/storm", sea)]))
+    words = "SWL, storm: the spring 's' pushes with up to 5.2 kN, as a rope does not"
+    assert [notice.message for notice in found] == [words] * said

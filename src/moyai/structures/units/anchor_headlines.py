@@ -24,7 +24,8 @@ def anchor_headlines(seas: Seas) -> Iterator[Headline]:
     if not pulls:
         return
     items = [_load(found, "anchor_horizontal_load", "Horizontal pull on an anchor") for found in pulls]
-    yield _capacity(*max(zip(pulls, items, strict=True), key=lambda pair: pair[0].value), seas)
+    sinker = _heaviest_sinker(seas)
+    yield from with_unknown(pulls, [_capacity(found, item, sinker) for found, item in zip(pulls, items, strict=True)])
     yield from with_unknown(pulls, items)
     lifts = each_of(seas, _UPLIFT)
     lifted = [_load(found, "anchor_uplift", "Uplift at an anchor") for found in lifts]
@@ -62,16 +63,19 @@ def _beside(found: Largest, name: str) -> Largest:
     return replace(found, name=name, value=float(found.data[name].values[found.index]))
 
 
-def _capacity(found: Largest, pull: Headline, seas: Seas) -> Headline:
+def _capacity(found: Largest, pull: Headline, sinker: tuple[float, str]) -> Headline:
     item = replace(pull, name="anchor_capacity_required", label="Horizontal holding capacity that an anchor needs")
     if math.isnan(pull.value):
         return item
     uplift, grounded = _beside(found, _UPLIFT), _beside(found, _LIES)
-    weight, where = _heaviest_sinker(seas)
+    weight, where = sinker
     lifted = judged_end(uplift.value, _band(uplift))
     need = anchor_need(lifted, grounded.value, weight, "" if where in found.where else where)
     band = None if item.band is None else item.band.scaled(need.factor)
-    return replace(item, value=need.factor * found.value, band=band, detail=need.words)
+    words = need.words
+    if pull.bound == "at least" and lifted == 0.0:
+        words = f"{words.split('; ')[0]}, if it holds a line that stays on the bed, which is not known"
+    return replace(item, value=need.factor * found.value, band=band, detail=words)
 
 
 def _heaviest_sinker(seas: Seas) -> tuple[float, str]:

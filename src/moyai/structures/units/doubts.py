@@ -138,6 +138,31 @@ def meeting_notice(where: str, share: np.ndarray, width: np.ndarray, least: floa
         )  # fmt: skip
 
 
+def push_notices(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Notice]:
+    """Say which springs push: they stand for ropes that would go slack, or for guides."""
+    worst: dict[str, tuple[float, str]] = {}
+    for path, data in seas:
+        rest = groups.get(f"/{path.split('/')[1]}/statics")
+        if rest is None or "anchor_curve_tension" not in rest or "line_tension_mean" not in data:
+            continue
+        if "line_tension_minimum" in data:
+            least = data["line_tension_minimum"].values
+        else:
+            least = 2.0 * data["line_tension_mean"].values - data["line_tension_maximum"].values
+        springs = np.isnan(rest["anchor_curve_tension"].values).all(axis=1)
+        for number in np.flatnonzero(springs):
+            push = -float(np.min(least[..., number]))
+            name = str(rest["line"].values[number])
+            if push > max(0.0, worst.get(name, (0.0, ""))[0]):
+                worst[name] = push, ", ".join(path.split("/")[1::2])
+    for name, (push, where) in worst.items():
+        yield Notice(
+            "spring-pushes",
+            f"{where}: the spring '{name}' pushes with up to {1e-3 * push:.3g} kN, as a rope does not",
+            value=push, limit=0.0, remedy="give more pretension, or a rope with its segments",
+        )  # fmt: skip
+
+
 def curve_notices(seas: Seas) -> Iterator[Notice]:
     """Say which connectors are stretched or pressed beyond their measured curve, which then goes on straight."""
     for path, data in seas:
@@ -162,6 +187,6 @@ def curve_notices(seas: Seas) -> Iterator[Notice]:
 
 
 __all__ = [
-    "curve_notices", "lets_go", "meeting_notice", "meeting_notices", "meets", "most_closing", "not_known", "stretched",
-    "why_beyond", "why_loose", "with_meeting",
+    "curve_notices", "lets_go", "meeting_notice", "meeting_notices", "meets", "most_closing", "not_known",
+    "push_notices", "stretched", "why_beyond", "why_loose", "with_meeting",
 ]  # fmt: skip

@@ -271,7 +271,10 @@ def _motions(seas: Seas) -> Iterator[Headline]:
         offsets.append(
             Headline(
                 "offset", "Largest offset of a unit from rest", offset.value, "m", offset.where, _model(offset),
-                bound="at least" if offset.without_drift or offset.lets_go else offset.bound, band=offset.band,
+                bound="at least"
+                if offset.without_drift or offset.lets_go or doubts.stretched(offset.data)
+                else offset.bound,
+                band=offset.band,
                 detail=words + left_out(offset) + f"; {doubts.LETS_GO}" * offset.lets_go,
             )
         )  # fmt: skip

@@ -31,7 +31,7 @@ from moyai.structures.units.datasets import (
     statics_dataset,
     with_damping_band,
 )
-from moyai.structures.units.doubts import curve_notices, meeting_notices
+from moyai.structures.units.doubts import curve_notices, meeting_notices, push_notices
 from moyai.structures.units.field import map_points, wave_field
 from moyai.structures.units.green import green_function
 from moyai.structures.units.headlines import governing_seas, greatest_rolls, headlines_of
@@ -158,6 +158,7 @@ def run(problem: UnitsProblem, progress: Progress = silent, *, store: DatasetSto
     seas = governing_seas(collected.groups)
     collected.notices.extend(across_notices(collected.groups))
     collected.notices.extend((*curve_notices(seas), *meeting_notices(collected.groups, seas)))
+    collected.notices.extend(push_notices(collected.groups, seas))
     return _result(problem, collected)
 
 
