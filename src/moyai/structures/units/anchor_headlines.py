@@ -15,6 +15,8 @@ from moyai.structures.units.largest import Largest, each_of
 from moyai.structures.units.line_headlines import line_model, of_line, unknown_line, with_unknown
 from moyai.structures.units.unjudged import Seas
 
+#: Weights of sinkers that are the same.
+_ALIKE = 1.005
 _PULL, _UPLIFT, _LIES = "maximum_anchor_horizontal_tension", "maximum_anchor_vertical_tension", "least_grounded_length"
 
 
@@ -70,7 +72,10 @@ def _capacity(found: Largest, pull: Headline, sinker: tuple[float, str]) -> Head
     uplift, grounded = _beside(found, _UPLIFT), _beside(found, _LIES)
     weight, where = sinker
     lifted = judged_end(uplift.value, _band(uplift))
-    need = anchor_need(lifted, grounded.value, weight, "" if where in found.where else where)
+    # lines that lie alike ask for the same one
+    if weight <= _ALIKE * sinker_weight(judged_end(found.value, _band(found)), lifted):
+        where = ""
+    need = anchor_need(lifted, grounded.value, weight, where)
     band = None if item.band is None else item.band.scaled(need.factor)
     words = need.words
     if pull.bound == "at least" and lifted == 0.0:
