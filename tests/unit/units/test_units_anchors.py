@@ -12,10 +12,19 @@ from moyai.core.headline import Criterion, Headline, judge
 from moyai.design.anchor_needs import sinker_weight
 from moyai.mooring.lines import Line, LineType, Segment
 from moyai.structures.units.anchor_headlines import anchor_headlines
-from moyai.structures.units.anchors import AT_REST, TENSION, anchor_curves, anchored, loads_at, loads_of_record
+from moyai.structures.units.anchors import (
+    AT_REST,
+    TENSION,
+    anchor_curves,
+    anchored,
+    loads_at,
+    loads_of_record,
+    with_anchor_loads,
+)
 from moyai.structures.units.assembly import RowAtLevel, steady_position
 from moyai.structures.units.datasets import mean_loads, statics_dataset
 from moyai.structures.units.headlines import headlines_of
+from moyai.structures.units.line_headlines import line_headlines
 from moyai.structures.units.links import Work
 from moyai.structures.units.model import Connector, UnitLine
 from moyai.validation.units import at_rest, row
@@ -166,3 +175,47 @@ def test_ends_of_damping_lift_an_anchor_that_lies_at_the_value() -> None:
     weight = sinker_weight(pull.band.high, lifted.band.high)
     assert f"{weight / 1e3:.0f} kN" in found["anchor_capacity_required"].detail
     assert "not a drag anchor" in found["anchor_capacity_required"].detail
+
+
+def test_an_anchor_that_no_realisation_lifts_is_judged_at_the_end_of_its_tension() -> None:
+    """Three realisations lie on the bed; at the 95 % end of their mean tension the chain is lifted."""
+    at = _moored((0,))
+    # lifted from w (L^2 + Z^2) / (2 Z) on: 98.3 kN
+    each = np.array([[8.0e4, 4e4], [9.0e4, 4e4], [9.7e4, 4e4]])
+    data = xr.Dataset(
+        {
+            "line_tension_maximum_of_realisation": (("member", "line"), each),
+            "line_tension_maximum": ("line", each.mean(axis=0)),
+            "line_tension_mean": ("line", [4e4, 4e4]),
+            "significant_motion": ("dof", [0.1]),
+        },
+        coords={"line": list(at.line_names)},
+    )
+    groups = {"/SWL/statics": _curves(at), "/SWL/time/storm": data}
+    seas = [("/SWL/time/storm", with_anchor_loads(data, groups["/SWL/statics"]).assign(_curves(at).data_vars))]
+    found = {item.name: item for item in anchor_headlines(seas)}
+    lifted = found["anchor_uplift"]
+    assert lifted.text == "none" and lifted.band is not None and lifted.band.high > 0.0
+    assert judge(found.values(), [UPLIFT], computed=True).outcome == "does not hold"
+    assert "not a drag anchor" in found["anchor_capacity_required"].detail
+
+
+@pytest.mark.parametrize(("path", "bound"), [(5.0e4, "at least"), (2.6e4, "")])
+def test_a_chain_that_comes_taut_along_regular_waves_is_a_bound(path: float, bound: str) -> None:
+    """Mean and linear amplitude are 22 kN; the line at rest along the path gives more than twice that."""
+    at = _moored((0,))
+    sea = xr.Dataset(
+        {
+            "line_tension_maximum": (("period", "line"), [[path, 1.2e4]]),
+            "line_tension_mean": (("period", "line"), [[1.2e4, 1.2e4]]),
+            "tension_amplitude": (("period", "line"), [[1.0e4, 1e3]]),
+            "largest_offset": (("period", "unit"), [[0.4]]),
+        },
+        coords={"period": [4.0], "line": list(at.line_names), "unit": [1]},
+    )
+    statics = _curves(at).assign(breaking_load=("line", [2e6, 2e6]))
+    groups = {"/SWL/statics": statics}
+    seas = [("/SWL/frequency/daily", with_anchor_loads(sea, statics))]
+    found = {item.name: item for item in [*line_headlines(groups, seas), *anchor_headlines(seas)]}
+    for name in ("line_tension", "line_utilisation", "anchor_horizontal_load"):
+        assert found[name].bound == bound, name

@@ -10,9 +10,10 @@ import numpy as np
 
 from moyai.core.headline import Band, Headline
 from moyai.design.anchor_needs import anchor_need, judged_end, sinker_weight
+from moyai.structures.units.anchors import loads_at
 from moyai.structures.units.doubts import not_known
 from moyai.structures.units.largest import Largest, each_of
-from moyai.structures.units.line_headlines import line_model, of_line, unknown_line, with_unknown
+from moyai.structures.units.line_headlines import line_band, line_model, of_line, unknown_line, with_unknown
 from moyai.structures.units.unjudged import Seas
 
 #: Weights of sinkers that are the same.
@@ -55,9 +56,17 @@ def _load(found: Largest, name: str, label: str) -> Headline:
 
 
 def _band(found: Largest) -> Band | None:
-    """Return the band of a load; an uplift of nothing has one where its end lifts the anchor."""
+    """Return the band of a load; an uplift of nothing has one where the end of the tension lifts the anchor."""
     band = found.spread(found.chance())
-    return band if band is not None and band.high > 0.0 else None
+    if band is not None and band.high > 0.0:
+        return band
+    tension = _beside(found, "line_tension_maximum")
+    if found.name != _UPLIFT or "anchor_curve_tension" not in found.data:
+        return None
+    tensions = np.zeros(found.data.sizes["line"])
+    tensions[found.index[-1]] = judged_end(tension.value, line_band(tension))
+    end = float(loads_at(tensions, found.data)[1, found.index[-1]])
+    return Band(0.0, end, "at the end of its tension at which the line is judged") if end > 0.0 else None
 
 
 def _beside(found: Largest, name: str) -> Largest:
@@ -101,7 +110,7 @@ def _with_bed(item: Headline, seas: Seas) -> Headline:
         return item
     ends = (_LIES, f"{_LIES}_high", f"{_LIES}_of_realisation")
     least = min(float(np.nanmin(data[end].values)) for _, data in seas for end in ends if end in data)
-    kept = f"{least:.3g} m of line stays on the bed" if least > 0.0 else "the line leaves the bed"
+    kept = f"{least:.3g} m of line stays on the bed" if least > 0.0 else "the line leaves the bed within its band"
     return replace(item, text="none", detail=kept)
 
 

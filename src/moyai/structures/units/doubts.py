@@ -10,6 +10,7 @@ import numpy as np
 
 from moyai.core.headline import Headline
 from moyai.core.validity import Notice
+from moyai.structures.units.model import SNAP_RATIO
 from moyai.structures.units.unjudged import Seas, in_time
 
 if TYPE_CHECKING:
@@ -23,6 +24,8 @@ LETS_GO = (
 MEET = "hulls meet in this sea, and their impact is not computed"
 STRAINED = "the linear motion does not feel how tight lines come"
 NOT_KNOWN = "not known"
+#: Tension along the path of regular waves over the linear one, from which lines are no linear springs.
+_TAUT = 1.5
 
 
 def why_loose(path: str, data: xr.Dataset) -> str:
@@ -51,6 +54,23 @@ def why_beyond(data: xr.Dataset, name: str, index: tuple[int, ...]) -> str:
     return (
         f"it is worked from {worked[0]:.3g} to {worked[1]:.3g} m, its curve ends at {known} m and is drawn out straight"
     )
+
+
+def strained(path: str, data: xr.Dataset) -> bool:
+    """Whether any line of a sea comes tighter, with damping within its band, than its linear motions feel.
+
+    So does one that is pulled beyond five times its mean, and one that is half as much again above its linear tension
+    along the path of regular waves.
+    """
+    if in_time(path) or "line_tension_maximum" not in data:
+        return False
+    mean = data["line_tension_mean"]
+    ends = [data[name] for name in ("line_tension_maximum", "line_tension_maximum_high") if name in data]
+    if any(bool((tension > SNAP_RATIO * mean).any()) for tension in ends):
+        return True
+    if "tension_amplitude" not in data:
+        return False
+    return bool((data["line_tension_maximum"] > _TAUT * (mean + data["tension_amplitude"])).any())
 
 
 def stretched(data: xr.Dataset) -> float:
@@ -188,5 +208,5 @@ def curve_notices(seas: Seas) -> Iterator[Notice]:
 
 __all__ = [
     "curve_notices", "lets_go", "meeting_notice", "meeting_notices", "meets", "most_closing", "not_known",
-    "push_notices", "stretched", "why_beyond", "why_loose", "with_meeting",
+    "push_notices", "strained", "stretched", "why_beyond", "why_loose", "with_meeting",
 ]  # fmt: skip

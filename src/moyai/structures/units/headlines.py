@@ -20,7 +20,6 @@ from moyai.structures.units.anchors import has_anchors, with_anchor_loads
 from moyai.structures.units.datasets import BANDED
 from moyai.structures.units.largest import Largest, each_of
 from moyai.structures.units.line_headlines import all_judged, left_out, line_headlines, with_unknown
-from moyai.structures.units.model import SNAP_RATIO
 from moyai.structures.units.rest_headlines import stability_headlines, steady_headlines
 from moyai.structures.units.unjudged import Seas, not_judged, not_judged_at_rest
 
@@ -74,7 +73,7 @@ def _with_rest(groups: Mapping[str, xr.Dataset], path: str, data: xr.Dataset) ->
     data = data.assign({name: rest[name] for name in names if name in rest})
     if "line_tension_maximum" in data and has_anchors(rest):
         # with damping at its ends, which the time domain takes from the frequency domain
-        data = with_anchor_loads(data, rest)
+        data = with_anchor_loads(data, rest).assign({name: rest[name] for name in rest if "anchor_curve" in str(name)})
     return doubts.with_meeting(data, data["gap_width"].values) if "gap_width" in data else data
 
 
@@ -197,16 +196,9 @@ def _as_known(each: list[Largest], items: list[Headline]) -> list[Headline]:
 def _of_motion(found: Largest) -> Bound:
     """Return ``at least`` where the units move against each other beyond what their linear motion knows."""
     doubted = (
-        _strained(found) or found.why_loose or doubts.stretched(found.data) or found.why_beyond or found.drift_left_out
+        found.strained or found.why_loose or doubts.stretched(found.data) or found.why_beyond or found.drift_left_out
     )  # fmt: skip
     return "at least" if doubted else found.bound
-
-
-def _strained(found: Largest) -> bool:
-    """Whether any line of a sea comes tighter, with damping within its band, than its linear motions feel."""
-    ends = [found.data[name] for name in ("line_tension_maximum", "line_tension_maximum_high") if name in found.data]
-    beyond = (bool((tension > SNAP_RATIO * found.data["line_tension_mean"]).any()) for tension in ends)
-    return not found.timed and any(beyond)
 
 
 def _with_opening(data: xr.Dataset) -> xr.Dataset:
@@ -254,7 +246,7 @@ def _reasons(found: Largest) -> str:
     across = f"motion across would stretch a connector by {doubts.stretched(found.data):.3g} m, not counted"
     details = (
         ALONE if found.bound else "", across if doubts.stretched(found.data) else "", found.why_loose, found.why_beyond,
-        doubts.STRAINED if _strained(found) else "", left_out(found)[2:] * found.drift_left_out,
+        doubts.STRAINED if found.strained else "", left_out(found)[2:] * found.drift_left_out,
     )  # fmt: skip
     return "; ".join(filter(None, details))
 
@@ -272,7 +264,10 @@ def _motions(seas: Seas) -> Iterator[Headline]:
             Headline(
                 "offset", "Largest offset of a unit from rest", offset.value, "m", offset.where, _model(offset),
                 bound="at least"
-                if offset.without_drift or offset.lets_go or doubts.stretched(offset.data)
+                if offset.without_drift
+                or offset.lets_go
+                or doubts.stretched(offset.data)
+                or offset.strained
                 else offset.bound,
                 band=offset.band,
                 detail=words + left_out(offset) + f"; {doubts.LETS_GO}" * offset.lets_go,
@@ -286,7 +281,7 @@ def _motions(seas: Seas) -> Iterator[Headline]:
         tilts += [
             Headline(
                 "roll", f"Largest {dof} of a unit, double amplitude", tilt.value, "rad", tilt.where, _model(tilt),
-                band=tilt.band, bound="at least" if tilt.lets_go else tilt.bound,
+                band=tilt.band, bound="at least" if tilt.lets_go or tilt.strained else tilt.bound,
             )
             for tilt in turned
         ]  # fmt: skip

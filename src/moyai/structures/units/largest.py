@@ -165,6 +165,11 @@ class Largest:
         return doubts.lets_go(self.path, self.data)
 
     @property
+    def strained(self) -> bool:
+        """Whether a line of the sea comes tighter than its linear motions feel."""
+        return doubts.strained(self.path, self.data)
+
+    @property
     def without_drift(self) -> bool:
         """Whether it is of an irregular sea without slow drift, or of any without drift."""
         return self.drift_left_out or (not self.timed and "significant_motion" in self.data)

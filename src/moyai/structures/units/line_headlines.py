@@ -156,6 +156,8 @@ def of_line(found: Largest, mean: float) -> tuple[Bound, str]:
         return "at least", left_out(found) + f"; {doubts.LETS_GO}" * found.lets_go
     if found.bound:
         return found.bound, f"; {ALONE}"
+    if found.strained:
+        return "at least", f"; {doubts.STRAINED}, run the time domain"
     if most := doubts.stretched(found.data):
         return (
             "at least",
