@@ -219,3 +219,24 @@ def test_a_chain_that_comes_taut_along_regular_waves_is_a_bound(path: float, bou
     found = {item.name: item for item in [*line_headlines(groups, seas), *anchor_headlines(seas)]}
     for name in ("line_tension", "line_utilisation", "anchor_horizontal_load"):
         assert found[name].bound == bound, name
+
+
+def test_the_sinker_is_that_of_the_line_that_is_lifted_where_it_asks_for_more() -> None:
+    """A chain that pulls with 13 kN lies on the bed, a light rope that pulls with 11.9 kN lifts its anchor."""
+    rope = LineType("rope", 0.5, 2e6)
+    lines = (
+        UnitLine("chain", 1, (0,), (5.0, 0.0, 0.5), (50.0, 0.0, 0.0), (Segment(CHAIN, LENGTH),)),
+        UnitLine("rope", 1, (0,), (-5.0, 0.0, 0.5), (-31.0, 0.0, 0.0), (Segment(rope, 27.0),)),
+    )
+    at = at_rest(replace(row(count=1), lines=lines), replace(at_rest(row()).water, depth=DEPTH))
+    tension = np.array([1.75e4, 1.24e4])
+    data = xr.Dataset(
+        {"line_tension_maximum": ("line", tension), "line_tension_mean": ("line", 0.5 * tension)},
+        coords={"line": list(at.line_names)},
+    )
+    seas = [("/SWL/frequency/daily", with_anchor_loads(data, _curves(at)))]
+    found = next(item for item in anchor_headlines(seas) if item.name == "anchor_capacity_required")
+    pull, uplift, _ = loads_at(tension, _curves(at))
+    assert pull[0] > pull[1] and uplift[0] == 0.0 < uplift[1]
+    assert f"{sinker_weight(pull[1], uplift[1]) / 1e3:.3g} kN in water at line rope" in found.detail
+    assert "no drag anchor holds line rope" in found.detail

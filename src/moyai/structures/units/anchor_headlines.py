@@ -74,12 +74,12 @@ def _beside(found: Largest, name: str) -> Largest:
     return replace(found, name=name, value=float(found.data[name].values[found.index]))
 
 
-def _capacity(found: Largest, pull: Headline, sinker: tuple[float, str]) -> Headline:
+def _capacity(found: Largest, pull: Headline, sinker: tuple[float, str, bool]) -> Headline:
     item = replace(pull, name="anchor_capacity_required", label="Horizontal holding capacity that an anchor needs")
     if math.isnan(pull.value):
         return item
     uplift, grounded = _beside(found, _UPLIFT), _beside(found, _LIES)
-    weight, where = sinker
+    weight, where, raised = sinker
     lifted = judged_end(uplift.value, _band(uplift))
     # lines that lie alike ask for the same one
     if weight <= _ALIKE * sinker_weight(judged_end(found.value, _band(found)), lifted):
@@ -89,18 +89,21 @@ def _capacity(found: Largest, pull: Headline, sinker: tuple[float, str]) -> Head
     words = need.words
     if pull.bound == "at least" and lifted == 0.0:
         words = f"{words.split('; ')[0]}, if it holds a line that stays on the bed, which is not known"
+    if where and raised and lifted == 0.0:
+        words += f"; no drag anchor holds line {where}, which lifts it"
     return replace(item, value=need.factor * found.value, band=band, detail=words)
 
 
-def _heaviest_sinker(seas: Seas) -> tuple[float, str]:
-    """Return the weight [N] of the heaviest sinker that a line asks for in any sea, and which line that is."""
-    best = 0.0, ""
+def _heaviest_sinker(seas: Seas) -> tuple[float, str, bool]:
+    """Return the weight [N] of the heaviest sinker that a line asks for, which line, and whether it lifts its anchor."""
+    best = 0.0, "", False
     for path, data in seas:
         for line, name in enumerate(data["line"].values):
             for found in each_of([(path, data.isel(line=[line]))], _PULL):
                 uplift = _beside(found, _UPLIFT)
-                weight = sinker_weight(judged_end(found.value, _band(found)), judged_end(uplift.value, _band(uplift)))
-                best = max(best, (weight, str(name)))
+                lifted = judged_end(uplift.value, _band(uplift))
+                weight = sinker_weight(judged_end(found.value, _band(found)), lifted)
+                best = max(best, (weight, str(name), lifted > 0.0))
     return best
 
 
