@@ -95,7 +95,7 @@ def _capacity(found: Largest, pull: Headline, sinker: tuple[float, str, bool]) -
 
 
 def _heaviest_sinker(seas: Seas) -> tuple[float, str, bool]:
-    """Return the weight [N] of the heaviest sinker that a line asks for, which line, and whether it lifts its anchor."""
+    """Return the weight [N] of the heaviest sinker that a line asks for, which line, and whether that is lifted."""
     best = 0.0, "", False
     for path, data in seas:
         for line, name in enumerate(data["line"].values):
