@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 #: Components up to which the water is summed at the present place of every node.
 FEW_COMPONENTS = 8
-#: Components for each frequency of a short window, from which on they are merged.
+#: Frequencies of a short window over components, up to which these are merged.
 LEAST_MERGED = 0.25
 #: Numbers of a tabulated sea.
 MOST_NUMBERS = 4e8
