@@ -11,6 +11,7 @@ import xarray as xr
 from moyai.core.headline import Criterion, Headline, judge
 from moyai.design.anchor_needs import sinker_weight
 from moyai.mooring.lines import Line, LineType, Segment
+from moyai.series.intervals import reach_of_mean
 from moyai.structures.units.anchor_headlines import anchor_headlines
 from moyai.structures.units.anchors import (
     AT_REST,
@@ -240,3 +241,23 @@ def test_the_sinker_is_that_of_the_line_that_is_lifted_where_it_asks_for_more() 
     assert pull[0] > pull[1] and uplift[0] == 0.0 < uplift[1]
     assert f"{sinker_weight(pull[1], uplift[1]) / 1e3:.3g} kN in water at line rope" in found.detail
     assert "no drag anchor holds line rope" in found.detail
+
+
+def test_an_uplift_reaches_to_the_tension_at_which_its_line_is_judged() -> None:
+    """One of three realisations hardly lifts the anchor: their mean is cut off at nothing, the tension's end is not."""
+    at = _moored((0,))
+    each = np.array([[8.0e4, 4e4], [9.0e4, 4e4], [9.9e4, 4e4]])
+    data = xr.Dataset(
+        {
+            "line_tension_maximum_of_realisation": (("member", "line"), each),
+            "line_tension_maximum": ("line", each.mean(axis=0)),
+            "line_tension_mean": ("line", [4e4, 4e4]),
+            "significant_motion": ("dof", [0.1]),
+        },
+        coords={"line": list(at.line_names)},
+    )
+    data = with_anchor_loads(data, _curves(at)).assign(_curves(at).data_vars)
+    lifted = next(item for item in anchor_headlines([("/SWL/time/storm", data)]) if item.name == "anchor_uplift")
+    judged = each[:, 0].mean() + reach_of_mean(each[:, 0])
+    assert lifted.value > 0.0 and lifted.band is not None
+    assert lifted.band.high == pytest.approx(loads_at(np.array([judged, 0.0]), _curves(at))[1, 0], rel=1e-9)

@@ -56,17 +56,19 @@ def _load(found: Largest, name: str, label: str) -> Headline:
 
 
 def _band(found: Largest) -> Band | None:
-    """Return the band of a load; an uplift of nothing has one where the end of the tension lifts the anchor."""
+    """Return the band of a load; that of an uplift reaches to the tension at which its line is judged."""
     band = found.spread(found.chance())
-    if band is not None and band.high > 0.0:
-        return band
-    tension = _beside(found, "line_tension_maximum")
+    band = band if band is not None and band.high > 0.0 else None
     if found.name != _UPLIFT or "anchor_curve_tension" not in found.data:
-        return None
-    tensions = np.zeros(found.data.sizes["line"])
+        return band
+    tension, tensions = _beside(found, "line_tension_maximum"), np.zeros(found.data.sizes["line"])
     tensions[found.index[-1]] = judged_end(tension.value, line_band(tension))
     end = float(loads_at(tensions, found.data)[1, found.index[-1]])
-    return Band(0.0, end, "at the end of its tension at which the line is judged") if end > 0.0 else None
+    if end <= judged_end(found.value, band):
+        return band
+    # means of what is cut off at nothing say less than the tension does
+    low = found.value if band is None else band.low
+    return Band(low, end, "at the end of its tension at which the line is judged")
 
 
 def _beside(found: Largest, name: str) -> Largest:
@@ -96,14 +98,21 @@ def _capacity(found: Largest, pull: Headline, sinker: tuple[float, str, bool]) -
 
 def _heaviest_sinker(seas: Seas) -> tuple[float, str, bool]:
     """Return the weight [N] of the heaviest sinker that a line asks for, which line, and whether that is lifted."""
+    level, up = sinker_weight(1.0, 0.0), sinker_weight(0.0, 1.0)
     best = 0.0, "", False
     for path, data in seas:
-        for line, name in enumerate(data["line"].values):
-            for found in each_of([(path, data.isel(line=[line]))], _PULL):
-                uplift = _beside(found, _UPLIFT)
-                lifted = judged_end(uplift.value, _band(uplift))
-                weight = sinker_weight(judged_end(found.value, _band(found)), lifted)
-                best = max(best, (weight, str(name), lifted > 0.0))
+        if _PULL not in data:
+            continue
+        end = "_high" if f"{_PULL}_high" in data else ""
+        pull, uplift = data[f"{_PULL}{end}"].values, data[f"{_UPLIFT}{end}"].values
+        weight = np.nan_to_num(level * pull + up * uplift)
+        # the line that asks for most in this sea, in the period in which it does
+        index = np.unravel_index(int(weight.argmax()), weight.shape)
+        at = {dim: [int(row)] for dim, row in zip(data[_PULL].dims, index, strict=True)}
+        for found in each_of([(path, data.isel(at))], _PULL):
+            lifted = judged_end((own := _beside(found, _UPLIFT)).value, _band(own))
+            asked = sinker_weight(judged_end(found.value, _band(found)), lifted)
+            best = max(best, (asked, str(data["line"].values[index[-1]]), lifted > 0.0))
     return best
 
 

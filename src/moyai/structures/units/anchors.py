@@ -76,8 +76,8 @@ def _curve(line: Line, rise: float, depth: float) -> Array:
     most = most if np.isfinite(most) else _WEIGHTS * max(weight, 1.0)
     far = np.array([np.sqrt(max(line.length**2 - rise**2, (1e-3 * line.length) ** 2))])
     near = 1e-3 * far
-    while tension(far)[0] < most:
-        far = 1.1 * far
+    for _ in range(_TURNS):
+        far = far if tension(far)[0] >= most else 1.1 * far
     least = float(tension(near)[0])
     wanted = np.geomspace(max(least * (1.0 + 1e-9), 1e-9 * most), most, _POINTS)
 

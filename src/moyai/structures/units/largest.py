@@ -88,8 +88,9 @@ class Largest:
 
     def members(self, name: str) -> Array:
         """Return a number of each realisation, or of each part of a regular motion that does not repeat."""
-        scatter = self.data.get(f"{name}_of_realisation")
-        rows = () if scatter is None else np.asarray(scatter.values, dtype=float)
+        # asked for by membership: a missing variable takes milliseconds to be missed
+        own = f"{name}_of_realisation"
+        rows = np.asarray(self.data[own].values, dtype=float) if own in self.data else ()
         found = np.array([row[self.index] for row in rows]) / self.scale
         return found[np.isfinite(found)]
 
