@@ -200,7 +200,7 @@ def transfer_velocity_acceleration(
     """Fill complex velocity and acceleration per unit complex amplitude at fixed nodes, shape (nodes, 3, components).
 
     The motion is Re(transfer * a e^{i phase} e^{-i omega t}). For nodes that stay where they are this is computed
-    once; each time then costs one complex product per entry (:func:`sum_transfer`) or one Fourier transform per row.
+    once; each time then costs one complex product per entry, or one Fourier transform per row.
     ``stretching`` is 0 (constant) or 1 (linear).
     """
     for node in range(x.size):
@@ -217,16 +217,6 @@ def transfer_velocity_acceleration(
             velocity[node, 2, i] = -1j * sigma * vertical * turn
             for axis in range(3):
                 acceleration[node, axis, i] = -1j * sigma * velocity[node, axis, i]
-
-
-@njit(cache=True, error_model="numpy")
-def sum_transfer(transfer: NDArray[np.complex128], turned: NDArray[np.complex128], out: Array) -> None:
-    """Sum Re(transfer[row, i] * turned[i]) over i into ``out[row]``; ``turned`` is a e^{i (phase - omega t)}."""
-    for row in range(transfer.shape[0]):
-        total = 0.0
-        for i in range(turned.size):
-            total += transfer[row, i].real * turned[i].real - transfer[row, i].imag * turned[i].imag
-        out[row] = total
 
 
 @njit(cache=True, error_model="numpy")
