@@ -40,28 +40,25 @@ def _coefficients(table: Any, grid: Any, law: int, cosine: float, speed: float) 
 @njit(cache=True, error_model="numpy")
 def _matrix(
     x0: float, x1: float, x2: float, y0: float, y1: float, y2: float, low: float, high: float,
-    w0: float, w1: float, w2: float, area: float, table: Any, grid: Any, law: int, half_density: float, S: Any,
-) -> None:  # fmt: skip
-    """Write S of one panel (xx, xy, xz, yy, yz, zz) from its diagonals x and y, its span of heights over the surface
+    w0: float, w1: float, w2: float, area: float, table: Any, grid: Any, law: int, half_density: float,
+) -> tuple[float, float, float, float, float, float]:  # fmt: skip
+    """Return S of one panel (xx, xy, xz, yy, yz, zz) from its diagonals x and y, its span of heights over the surface
     and the relative velocity w.
 
     Of a triangle the diagonals are two of its edges.
     """
-    for row in range(6):
-        S[row] = 0.0
     n0, n1, n2 = x1 * y2 - x2 * y1, x2 * y0 - x0 * y2, x0 * y1 - x1 * y0
     twice = math.sqrt(n0 * n0 + n1 * n1 + n2 * n2)
     speed = math.sqrt(w0 * w0 + w1 * w1 + w2 * w2)
     if twice <= 0.0 or speed <= 0.0 or low >= 0.0:
-        return
+        return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     n0, n1, n2 = n0 / twice, n1 / twice, n2 / twice
     wet = 1.0 if high <= 0.0 else -low / (high - low)
     cosine = min(abs(n0 * w0 + n1 * w1 + n2 * w2) / speed, 1.0)
     a, b = _coefficients(table, grid, law, cosine, speed)
     scale = half_density * (area if area > 0.0 else 0.5 * twice) * wet * speed
     a, b = scale * a, scale * b
-    S[0], S[1], S[2] = a + b * n0 * n0, b * n0 * n1, b * n0 * n2
-    S[3], S[4], S[5] = a + b * n1 * n1, b * n1 * n2, a + b * n2 * n2
+    return a + b * n0 * n0, b * n0 * n1, b * n0 * n2, a + b * n1 * n1, b * n1 * n2, a + b * n2 * n2
 
 
 @njit(cache=True, error_model="numpy")
@@ -76,10 +73,8 @@ def screen_loads(
     """
     corners, rows, table, grid = panels
     half = 0.5 * ahead
-    S = np.empty(6)
-    for row in range(9):
-        for i in range(out.shape[1]):
-            out[row, i] = 0.0
+    # by node: what a corner takes then lies in one place
+    sums = np.zeros((out.shape[1], 9))
     for p in range(corners.shape[0]):
         a, b, c, d = corners[p, 0], corners[p, 1], corners[p, 2], corners[p, 3]
         count = 4 if d >= 0 else 3
@@ -96,25 +91,31 @@ def screen_loads(
             low, high = min(low, over), max(high, over)
         e, f = (c, a) if count == 4 else (b, a)
         g, h = (d, b) if count == 4 else (c, a)
-        _matrix(
+        xx, xy, xz, yy, yz, zz = _matrix(
             x[e] - x[f], y[e] - y[f], z[e] - z[f], x[g] - x[h], y[g] - y[h], z[g] - z[h], low, high,
             share * w0 - s0, share * w1 - s1, share * w2 - s2, rows[p, 0], table, grid, int(rows[p, 5]), half_density,
-            S,
         )  # fmt: skip
-        if S[0] + S[3] + S[5] <= 0.0:
+        if xx + yy + zz <= 0.0:
             continue
-        for row in range(6):
-            S[row] *= share
+        xx, xy, xz, yy, yz, zz = share * xx, share * xy, share * xz, share * yy, share * yz, share * zz
         for k in range(count):
             i = corners[p, k]
-            for row in range(6):
-                out[row, i] += S[row]
+            own = sums[i]
             f0 = factor * (wu[i] + half * wa[i]) - s0
             f1 = factor * (wv[i] + half * wb[i]) - s1
             f2 = factor * (ww[i] + half * wc[i]) - s2
-            out[6, i] += S[0] * f0 + S[1] * f1 + S[2] * f2
-            out[7, i] += S[1] * f0 + S[3] * f1 + S[4] * f2
-            out[8, i] += S[2] * f0 + S[4] * f1 + S[5] * f2
+            own[0] += xx
+            own[1] += xy
+            own[2] += xz
+            own[3] += yy
+            own[4] += yz
+            own[5] += zz
+            own[6] += xx * f0 + xy * f1 + xz * f2
+            own[7] += xy * f0 + yy * f1 + yz * f2
+            own[8] += xz * f0 + yz * f1 + zz * f2
+    for row in range(9):
+        for i in range(out.shape[1]):
+            out[row, i] = sums[i, row]
 
 
 @njit(cache=True, error_model="numpy")
@@ -134,11 +135,11 @@ def _on_one(p: int, xl: Any, vl: Any, water: Any, panels: Any, half_density: flo
         over = xl[k, 2] - water[6, i]
         low, high = min(low, over), max(high, over)
     e, f, g, h = (2, 0, 3, 1) if count == 4 else (1, 0, 2, 0)
-    _matrix(
+    S[0], S[1], S[2], S[3], S[4], S[5] = _matrix(
         xl[e, 0] - xl[f, 0], xl[e, 1] - xl[f, 1], xl[e, 2] - xl[f, 2],
         xl[g, 0] - xl[h, 0], xl[g, 1] - xl[h, 1], xl[g, 2] - xl[h, 2], low, high,
         share * w0 - rows[p, 2], share * w1 - rows[p, 3], share * w2 - rows[p, 4], rows[p, 0], table, grid,
-        int(rows[p, 5]), half_density, S,
+        int(rows[p, 5]), half_density,
     )  # fmt: skip
     for k in range(count):
         i = corners[p, k]
