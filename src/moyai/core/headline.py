@@ -158,13 +158,26 @@ def governing(candidates: Iterable[Headline], sense: Sense = "at most") -> list[
     shown = max(items, key=lambda item: (sign * item.value, sign * unfavourable(item, sense)))
     widest = max(items, key=lambda item: sign * unfavourable(item, sense))
     end, own = unfavourable(widest, sense), unfavourable(shown, sense)
-    if not sign * end > sign * own:
-        return [shown]
-    if widest.where != shown.where and abs(end - own) > 1e-3 * abs(own):
-        # the band of the number shown is not the one that is judged
-        words = f"{'up' if sense == 'at most' else 'down'} to {_worded(end, shown.unit)} at {widest.where}"
-        shown = replace(shown, detail="; ".join(filter(None, (shown.detail, words))))
-    return [shown, replace(widest, shown=False, sea="")]
+    found = [shown]
+    if sign * end > sign * own:
+        if widest.where != shown.where and abs(end - own) > 1e-3 * abs(own):
+            # the band of the number shown is not the one that is judged
+            words = f"{'up' if sense == 'at most' else 'down'} to {_worded(end, shown.unit)} at {widest.where}"
+            found = [replace(shown, detail="; ".join(filter(None, (shown.detail, words))))]
+        found.append(replace(widest, shown=False, sea=""))
+    return found + (_varying_more(items, found) if sense == "at most" else [])
+
+
+def _varying_more(items: list[Headline], kept: list[Headline]) -> list[Headline]:
+    """Return, not shown, the smaller values with a smaller mean: codes may weigh their varying part more."""
+    found, least = [], math.inf
+    for item in sorted(items, key=unfavourable, reverse=True):
+        if item.mean is None or not item.mean < least:
+            continue
+        least = item.mean
+        if all((one.where, one.value) != (item.where, item.value) for one in kept):
+            found.append(replace(item, shown=False, sea=""))
+    return found
 
 
 @dataclass(frozen=True)

@@ -32,13 +32,16 @@ def headline_figures(result: Result) -> KeyFigures | None:
 
 
 def _judged(result: Result, headline: Headline) -> list[Judgement]:
-    """Return the judgements of one headline: of its name and sea, and where several share a name of its place."""
+    """Return the judgements of one headline: of its name and sea, and where several on the page share it of its place.
+
+    What is not shown and judged worse, another line with a wider band, stands with the only one that is.
+    """
     found = [
         item
         for item in result.verdict.judgements
         if item.criterion.headline == headline.name and item.criterion.sea in ("", headline.sea)
     ]
-    alone = sum(other.name == headline.name for other in result.headlines) == 1
+    alone = sum(other.name == headline.name and other.shown for other in result.headlines) == 1
     return [item for item in found if alone or item.reason == headline.where or item.outcome == "not judged"]
 
 

@@ -322,3 +322,34 @@ def test_an_end_of_damping_beyond_the_range_of_lines_at_rest_keeps_no_limit() ->
     assert items[0].bound == "at least" and "end of its band" in items[0].detail
     kept = Criterion("limit", "line_utilisation", 0.5, "at most", "source", "limit", "1")
     assert judge(items, [kept], computed=True).outcome == "not judged"
+
+
+def _rows_in_time(tensions: dict[str, list[float]], mean: list[float], load: list[float]) -> list[Headline]:
+    data = xr.Dataset(
+        {f"line_tension_maximum{end}": ("line", values) for end, values in tensions.items()},
+        coords={"line": ["rope", "chain"]},
+    ).assign(line_tension_mean=("line", mean))
+    groups = {"/SWL/statics": xr.Dataset({"breaking_load": ("line", load)}), "/SWL/time/daily": data}
+    return list(line_headlines(groups, [("/SWL/time/daily", data)]))
+
+
+def test_a_line_known_as_a_bound_alone_is_not_lost_behind_a_larger_one_that_is_known() -> None:
+    """A rope at 0.46 of its load is known; a chain at 0.35, seventeen times its mean, may bear more."""
+    for strength in (1.0, 2.0):
+        items = _rows_in_time({"": [7.1e5, 2.3e5]}, [3e5, 1.4e4], [strength * 1.55e6, 6.6e5])
+        use = Criterion("limit", "line_utilisation", 0.5, "at most", "source", "limit", "1")
+        assert judge(items, [use], computed=True).outcome == "not judged"
+
+
+def test_a_code_that_weighs_the_mean_is_judged_on_the_line_whose_tension_varies_most() -> None:
+    """1.1 mean + 1.5 varying part: 0.77 of a load of which 0.20 stands asks for more than 0.785 of which 0.55 does."""
+    items = _rows_in_time({"": [0.785e5, 0.768e5]}, [0.55e5, 0.20e5], [1e5, 1e5])
+    weighed = Criterion(
+        "limit", "line_utilisation", 0.95 / 1.5, "at most", "source", "limit", "1", mean_weight=1.1 / 1.5
+    )
+    demands = [1.1 * mean + 1.5 * (most - mean) for most, mean in ((0.785, 0.55), (0.768, 0.20))]
+    assert demands[0] < 1.0 < demands[1]
+    limit = replace(weighed, limit=1.0 / 1.5)
+    assert judge(items, [limit], computed=True).outcome == "does not hold"
+    alone = _rows_in_time({"": [0.785e5, 0.1e5]}, [0.55e5, 0.05e5], [1e5, 1e5])
+    assert judge(alone, [limit], computed=True).outcome == "holds"

@@ -13,7 +13,7 @@ from moyai.core.headline import Band, Headline
 from moyai.design.anchor_needs import anchor_need, judged_end, sinker_weight
 from moyai.structures.units.anchors import loads_at
 from moyai.structures.units.doubts import not_known
-from moyai.structures.units.largest import Largest, each_of, members_of, regular_apart
+from moyai.structures.units.largest import Largest, each_of
 from moyai.structures.units.line_headlines import line_band, line_model, of_line, unknown_line, with_unknown
 from moyai.structures.units.unjudged import Seas
 
@@ -27,14 +27,14 @@ _LEAVES = "the line leaves the bed within its band"
 
 def anchor_headlines(seas: Seas) -> Iterator[Headline]:
     """Return what an anchor must hold: of the line that pulls hardest, and the uplift wherever it is highest."""
-    pulls = each_of(seas, _PULL, band=_band)
+    pulls = each_of(seas, _PULL)
     if not pulls:
         return
     items = [_load(found, "anchor_horizontal_load", "Horizontal pull on an anchor") for found in pulls]
-    asked = _asked(seas)
+    asked = [_asked_by(pull) for pull in pulls]
     yield from with_unknown(pulls, [_capacity(found, item, asked) for found, item in zip(pulls, items, strict=True)])
     yield from with_unknown(pulls, items)
-    lifts = each_of(seas, _UPLIFT, band=_band)
+    lifts = each_of(seas, _UPLIFT)
     lifted = [_load(found, "anchor_uplift", "Uplift at an anchor") for found in lifts]
     # before a sea that is known to lift nothing
     ranked = [
@@ -97,26 +97,23 @@ def _capacity(found: Largest, pull: Headline, asked: list[_Asked]) -> Headline:
     raised = max((one for one in asked if one.uplift > 0.0), key=lambda one: one.uplift, default=None)
     if raised is not None and lifted == 0.0:
         words += f"; no drag anchor holds line {raised.line}, which lifts it"
-    return replace(item, value=need.factor * found.value, band=band, detail=words)
+    # another line may stand beside it, of an anchor of another kind
+    where = f"{item.where}, {need.factor:g} times its pull"
+    return replace(item, value=need.factor * found.value, band=band, detail=words, where=where)
 
 
 class _Asked(NamedTuple):
-    """What the anchor of a line asks for in a sea: the weight of a sinker, and the uplift at which it is judged [N]."""
+    """What the anchor of a line asks for in a sea: the weight of a sinker, the uplift at which it is judged [N]."""
 
     line: str
     sinker: float
     uplift: float
 
 
-def _asked(seas: Seas) -> list[_Asked]:
-    """Return what every line asks for, in every sea and period."""
-    found = []
-    for path, data in regular_apart(seas):
-        for pull in members_of(path, data, _PULL):
-            lifted = judged_end((uplift := _beside(pull, _UPLIFT)).value, _band(uplift))
-            weight = sinker_weight(judged_end(pull.value, _band(pull)), lifted)
-            found.append(_Asked(str(data["line"].values[pull.index[-1]]), weight, lifted))
-    return found
+def _asked_by(pull: Largest) -> _Asked:
+    lifted = judged_end((uplift := _beside(pull, _UPLIFT)).value, _band(uplift))
+    weight = sinker_weight(judged_end(pull.value, _band(pull)), lifted)
+    return _Asked(str(pull.data["line"].values[pull.index[-1]]), weight, lifted)
 
 
 def _with_bed(item: Headline, seas: Seas) -> Headline:

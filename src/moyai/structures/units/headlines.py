@@ -298,11 +298,14 @@ def _with_meeting_unknown(each: list[Largest], items: list[Headline]) -> list[He
 
 def greatest_rolls(seas: Seas) -> list[tuple[str, float]]:
     """Return the largest roll [rad] of every sea from upright, at the end of its band, and where: level, sea, unit."""
-    rolls = []
+    rolls: dict[int, tuple[str, float]] = {}
     for found in each_of([(path, _with_tilt(data, "roll")) for path, data in seas], "tilt"):
         mean = abs(float(found.data["mean_offset"].sel(dof="roll").values[found.index]))
-        rolls.append((found.where, mean + 0.5 * max(found.value, 0.0 if found.band is None else found.band.high)))
-    return rolls
+        roll = mean + 0.5 * max(found.value, 0.0 if found.band is None else found.band.high)
+        # members of a sea, or of one period of it, share its data
+        sea = id(found.data)
+        rolls[sea] = max(rolls.get(sea, ("", -math.inf)), (found.where, roll), key=lambda one: one[1])
+    return list(rolls.values())
 
 
 def _with_tilt(data: xr.Dataset, dof: str) -> xr.Dataset:

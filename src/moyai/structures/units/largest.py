@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.headline import Band, Bound
-from moyai.design.anchor_needs import judged_end
 from moyai.series.realisations import alone, seeds, storms
 from moyai.structures.units import doubts
 from moyai.structures.units.model import DAMPING_BAND, SNAP_RATIO
@@ -36,18 +35,18 @@ _MEAN: dict[str, Callable[[xr.Dataset, tuple[int, ...]], float]] = {
 }
 
 
-def _where(path: str, data: xr.Dataset, index: tuple[int, ...], dims: tuple[str, ...]) -> str:
-    level, _, sea = path.split("/")[1:]
-    words = [level, sea]
-    for dim, number in zip(dims, index):
-        value = data[dim].values[number]
-        words.append(f"T = {float(value):g} s" if dim == "period" else f"unit {value}" if dim == "unit" else str(value))
-    return ", ".join(words)
+def _labels(data: xr.Dataset, dims: tuple[str, ...]) -> list[list[str]]:
+    """Return how every place along each dimension is called."""
+    called: dict[str, Callable[[Any], str]] = {
+        "period": lambda value: f"T = {float(value):g} s",
+        "unit": "unit {}".format,
+    }
+    return [[called.get(dim, str)(value) for value in data[dim].values] for dim in dims]
 
 
 @dataclass(frozen=True)
 class Largest:
-    """A value of a variable in a sea, the largest of its connectors, lines, gaps or units, and where it stands."""
+    """A value of a variable in a sea: of a connector, line, gap or unit, and where it stands."""
 
     value: float
     where: str
@@ -56,10 +55,6 @@ class Largest:
     index: tuple[int, ...]
     name: str
     scale: float
-
-    @property
-    def dims(self) -> tuple[str, ...]:
-        return tuple(str(dim) for dim in self.data[self.name].dims)
 
     @property
     def timed(self) -> bool:
@@ -173,38 +168,11 @@ def damping_band(data: xr.Dataset, name: str, index: tuple[int, ...], scale: flo
     return Band(low, high, _DAMPING)
 
 
-def members_of(path: str, data: xr.Dataset, name: str, over: Array | None = None) -> list[Largest]:
-    """Return every known value of a sea, whose places are still to be said, the largest first."""
-    if name not in data or not data[name].size:
-        return []
-    values = np.abs(np.asarray(data[name].values, dtype=float))
-    if name in _ROUNDED:
-        values[values < _NOTHING] = 0.0
-    if over is not None:
-        values = values / over
-    indices = [index for index in np.ndindex(values.shape) if not np.isnan(values[index])]
-    found = [
-        Largest(float(values[at]), "", path, data, at, name, 1.0 if over is None else float(over[at[-1]]))
-        for at in indices
-    ]
-    return sorted(found, key=lambda one: -one.value)
+def each_of(seas: Seas, name: str, over: Array | None = None) -> list[Largest]:
+    """Return every known value of every sea, the largest of each sea first.
 
-
-def regular_apart(seas: Seas) -> Seas:
-    """Return the seas, regular waves of each period by themselves."""
-    return [
-        (path, data.isel(period=[row])) if "period" in data.dims else (path, data)
-        for path, data in seas
-        for row in range(data.sizes.get("period", 1))
-    ]
-
-
-def each_of(
-    seas: Seas, name: str, over: Array | None = None, band: Callable[[Largest], Band | None] | None = None
-) -> list[Largest]:
-    """Return the largest value of every sea, of regular waves of every period, and that which is judged highest.
-
-    Another line or connector may have the smaller value and the wider band, whose end is what a limit is held against.
+    Which one decides is known where bands, bounds and means are: another line or connector may have the smaller value
+    and the wider band, or be known as a bound alone.
 
     Parameters
     ----------
@@ -212,19 +180,34 @@ def each_of(
     name : str
     over : ndarray, optional
         What the last dimension is divided by.
-    band : callable, optional
-        Band of a value; its own when left out.
     """
     found: list[Largest] = []
-    for path, data in regular_apart(seas):
-        members = members_of(path, data, name, over)
-        if not members:
+    for path, whole in seas:
+        if name not in whole or not whole[name].size:
             continue
-        ends = [judged_end(one.value, band(one) if band is not None else one.band) for one in members]
-        widest = int(np.argmax(ends))
-        chosen = [members[0], members[widest]] if ends[widest] > ends[0] else members[:1]
-        found += [replace(one, where=_where(path, data, one.index, one.dims)) for one in chosen]
+        parts = (
+            [whole.isel(period=[row]) for row in range(whole.sizes["period"])] if "period" in whole.dims else [whole]
+        )
+        for data in parts:
+            found += _members(path, data, name, over)
     return found
 
 
-__all__ = ["Largest", "damping_band", "each_of", "members_of", "regular_apart"]
+def _members(path: str, data: xr.Dataset, name: str, over: Array | None) -> list[Largest]:
+    values = np.abs(np.asarray(data[name].values, dtype=float))
+    if name in _ROUNDED:
+        values[values < _NOTHING] = 0.0
+    if over is not None:
+        values = values / over
+    level, _, sea = path.split("/")[1:]
+    labels = _labels(data, tuple(str(dim) for dim in data[name].dims))
+    found = []
+    for at in np.ndindex(values.shape):
+        if not np.isnan(values[at]):
+            where = ", ".join([level, sea, *(names[row] for names, row in zip(labels, at, strict=True))])
+            scale = 1.0 if over is None else float(over[at[-1]])
+            found.append(Largest(float(values[at]), where, path, data, at, name, scale))
+    return sorted(found, key=lambda one: -one.value)
+
+
+__all__ = ["Largest", "damping_band", "each_of"]

@@ -33,41 +33,45 @@ _SNAPS_WITH_DAMPING = f"; with damping at the end of its band{_SNAPS[1:]}"
 
 
 def all_judged(items: list[Headline]) -> list[Headline]:
-    """Return what governs of one number of every sea, and, not shown, every sea of which only a bound is known.
+    """Return what governs of one number of every sea and, not shown, what governs of those known as a bound alone.
 
-    A sea whose number may be larger than shown is no less open because another one pulls harder.
+    A number that may be larger than shown is no less open because another one is larger.
     """
     # of equal numbers the one that is open stands first
     kept = governing(sorted(items, key=lambda item: not item.bound))
-    open_ones = [item for item in items if item.bound and item.where not in {one.where for one in kept}]
-    return [*kept, *(replace(item, shown=False, sea="") for item in open_ones)]
+    for bound in sorted({item.bound for item in items} - {""}):
+        alike = governing(item for item in items if item.bound == bound)
+        known = {one.where for one in kept if one.bound == bound}
+        kept += [replace(item, shown=False, sea="") for item in alike if item.where not in known]
+    return kept
 
 
 def line_headlines(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Headline]:
-    each = each_of(seas, "line_tension_maximum", band=line_band)
+    each = each_of(seas, "line_tension_maximum")
     if not each:
         return
     yield from with_unknown(each, [_line_tension(found) for found in each])
     load = np.asarray(groups[f"/{each[0].path.split('/')[1]}/statics"]["breaking_load"].values, dtype=float)
     if not np.isfinite(load).any():
         return
-    shares = each_of(seas, "line_tension_maximum", load, line_band)
+    shares = each_of(seas, "line_tension_maximum", load)
     yield from with_unknown(shares, [_utilisation(share, True) for share in shares])
     if any(_moved(share) for share in shares):
         # codes ask another factor of lines at rest: the highest of them is judged too
         still = [(path, _at_rest(data)) for path, data in seas]
-        yield from (_utilisation(share, False) for share in each_of(still, "line_tension_maximum", load, line_band))
+        yield from (_utilisation(share, False) for share in each_of(still, "line_tension_maximum", load))
 
 
 def with_unknown(each: list[Largest], items: list[Headline]) -> list[Headline]:
     """Return what governs, with the highest number that is not known: it stands first where none is higher."""
-    unknown = [(found.value, item) for found, item in zip(each, items, strict=True) if math.isnan(item.value)]
-    known = [item for item in items if not math.isnan(item.value)]
-    rest = all_judged(known) if known else []
+    pairs = list(zip(each, items, strict=True))
+    unknown = [(found.value, item) for found, item in pairs if math.isnan(item.value)]
+    known = [(found.value, item) for found, item in pairs if not math.isnan(item.value)]
+    rest = all_judged([item for _, item in known]) if known else []
     if not unknown:
         return rest
     value, worst = max(unknown, key=lambda pair: pair[0])
-    if any(item.value >= value for item in known):
+    if any(other >= value for other, _ in known):
         return [*rest, replace(worst, shown=False, sea="")]
     return [worst, *(replace(item, shown=False, sea="") for item in rest)]
 
