@@ -48,6 +48,7 @@ SHORTER: dict[str, dict[str, Any]] = {
     "curtain/dynamic": {"settings.dynamic.cells_along": 12, "settings.dynamic.cells_down": 4},
     "curtain/tidal_channel": {"waves[0].duration": "3 min"},
     "member/inclined_brace": {"waves[0].duration": "5 min"},
+    "nakamura/tank_model": {"waves.periods": [0.6, 0.8, 1.0, 1.6]},
     "network/buoy": {"waves[0].duration": "100 s"},
     "network/net_in_current": {"settings.duration": "12 s"},
     "network/skirt": {
@@ -55,6 +56,20 @@ SHORTER: dict[str, dict[str, Any]] = {
         **{f"structure.lines.rope {n}.end": f"skirt[3,{6 * n - 6}]" for n in (1, 2)},
         **{f"structure.lines.rope {n}.segments": 6 for n in (1, 2)},
     },
+    "tabata/kansai": {
+        "waves": [
+            {
+                "name": "typhoon 9918",
+                "kind": "bretschneider_mitsuyasu",
+                "significant_height": "3.06 m",
+                "significant_period": "6.75 s",
+                "heading_deg": 60,
+                "duration": "5 min",
+            }
+        ],
+        "settings.waves": {"realisations": 2},
+        "settings.dynamic": {"cells_along": 8, "cells_down": 4},
+    },  # fmt: skip
     "units/two_pontoons": {"settings.panel_size": "3 m"},
 }
 
