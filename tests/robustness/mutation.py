@@ -1,7 +1,7 @@
 """Damage to files, drawn from a seed, and what a reader makes of it.
 
-``python tests/robustness/mutation.py KIND,... SEED COUNT`` prints the failures of kinds as lines; it is run as a process
-of its own where a reader may take the interpreter down. Every kind is named as it is begun and ended.
+``python tests/robustness/mutation.py KIND,... SEED COUNT`` prints the failures of kinds as lines, and each kind as it
+is begun and ended; it is run as a process of its own where a reader may take the interpreter down.
 """
 
 from __future__ import annotations

@@ -40,6 +40,10 @@ def examples(head: str) -> list[Path]:
 CASES, STUDIES = examples("structure"), examples("study")
 #: Shorter seas and coarser meshes, with which a report has the same words.
 COARSE = {"around": 16, "down": 3, "bottom": 3, "rope_length": "14 m"}
+TYPHOON = {
+    "name": "typhoon 9918", "kind": "bretschneider_mitsuyasu", "significant_height": "3.06 m",
+    "significant_period": "6.75 s", "heading_deg": 60, "duration": "5 min",
+}  # fmt: skip
 SHORTER: dict[str, dict[str, Any]] = {
     "units": {"settings.panel_size": "4 m"},
     "breakwater/dynamic_lines": {"waves[1].duration": "2 min"},
@@ -57,19 +61,10 @@ SHORTER: dict[str, dict[str, Any]] = {
         **{f"structure.lines.rope {n}.segments": 6 for n in (1, 2)},
     },
     "tabata/kansai": {
-        "waves": [
-            {
-                "name": "typhoon 9918",
-                "kind": "bretschneider_mitsuyasu",
-                "significant_height": "3.06 m",
-                "significant_period": "6.75 s",
-                "heading_deg": 60,
-                "duration": "5 min",
-            }
-        ],
+        "waves": [TYPHOON],
         "settings.waves": {"realisations": 2},
         "settings.dynamic": {"cells_along": 8, "cells_down": 4},
-    },  # fmt: skip
+    },
     "units/two_pontoons": {"settings.panel_size": "3 m"},
 }
 
