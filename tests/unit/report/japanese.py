@@ -10,18 +10,21 @@ import zipfile
 import zlib
 from collections.abc import Collection, Iterator
 from dataclasses import fields, is_dataclass, replace
+from functools import cache
 from html import unescape
 from typing import Any
 from unittest.mock import patch
 
 from fontTools.ttLib import TTFont
+from matplotlib import font_manager
 
 from moyai.core.results import Result
 from moyai.language import spoken_in
 from moyai.language.words import latin_words, numbers
 from moyai.report.document import Choice, Document, Figure, Listing, NoticeBlock, Option, Section, Table
 from moyai.report.figures_static import draw_figure
-from moyai.report.fonts import JAPANESE, packaged_font
+from moyai.report.fonts import JAPANESE, matplotlib_families, packaged_font
+from moyai.report.formatting import pretty_unit, subscripted
 from moyai.report.html import notice_items, render_html
 from moyai.report.language import in_the_language
 from moyai.report.pdf import render_pdf
@@ -106,17 +109,51 @@ def drawn_without_boxes(document: Document, most: int = 3) -> int:
 
 
 def without_boxes(document: Document) -> dict[str, set[str]]:
-    """Return the letters of page, PDF and Word that no font of theirs has; a figure drawn without one is an error.
+    """Return the letters of page, PDF and Word that no font of theirs has; a letter that no figure has is an error.
 
-    Each figure is drawn once, for the PDF. Word has an empty picture in its place and the first rows of each table: it
-    is the faces of its styles that are looked at there, and the page holds the letters of all rows.
+    One figure of each make is drawn, for the PDF; the letters of all are looked up in the faces of figures. Word has an
+    empty picture in the place of each, and the first rows of each table: it is the faces of its styles that are looked
+    at there, and the page holds the letters of all rows.
     """
+    drawn: dict[Any, bytes] = {}
+
+    def draw_once(figure: Figure) -> bytes:
+        assert letters_missing_in_figure(figure) == set(), figure.title
+        make = _make_of(figure)
+        if make not in drawn:
+            drawn[make] = draw_figure(figure)
+        return drawn[make]
+
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        pdf = render_pdf(document)
-        with patch("moyai.report.word.draw_figure", return_value=_EMPTY_PICTURE):
+        with patch("moyai.report.pdf.draw_figure", draw_once):
+            pdf = render_pdf(document)
+        empty = {"draw_figure": lambda *_, **__: _EMPTY_PICTURE, "_rasterised": lambda _: _EMPTY_PICTURE}
+        with patch.multiple("moyai.report.word", **empty):
             word = render_docx(_with_first_rows(document))
     return {"page": missing_in_page(render_html(document)), "PDF": missing_in_pdf(pdf), "Word": missing_in_word(word)}
+
+
+def _make_of(figure: Figure) -> tuple[Any, ...]:
+    """Return what decides by which ways a figure is drawn."""
+    styles = frozenset((one.style, one.dash, one.faint, bool(one.belongs_to)) for one in figure.series)
+    marks = frozenset((one.x is None, one.y is None) for one in figure.marks if one.known)
+    panels = tuple((one.limits is None, one.from_zero) for one in figure.panels)
+    return styles, marks, panels, bool(figure.categories), figure.window is None, figure.abscissae[0].log
+
+
+def letters_missing_in_figure(figure: Figure) -> set[str]:
+    """Return the letters of a figure on paper that no face of figures has."""
+    named = [*figure.abscissae[:1], *figure.panels]
+    texts = [one.label for one in (*named, *figure.series, *figure.marks)]
+    texts += [pretty_unit(one.unit) for one in named] + list(figure.categories)
+    return set("".join(map(subscripted, texts))) - _letters_of_figures() - {"\n"}
+
+
+@cache
+def _letters_of_figures() -> frozenset[str]:
+    faces = (font_manager.get_font(font_manager.findfont(family)) for family in matplotlib_families())
+    return frozenset(chr(code) for face in faces for code in face.get_charmap())
 
 
 #: A PNG of one point.

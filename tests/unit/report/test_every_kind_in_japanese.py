@@ -10,7 +10,14 @@ from typing import Any
 
 import pytest
 from fontTools.ttLib import TTFont
-from japanese import compared_document, drawn_without_boxes, missing_in_page, without_boxes, words_of
+from japanese import (
+    compared_document,
+    drawn_without_boxes,
+    letters_missing_in_figure,
+    missing_in_page,
+    without_boxes,
+    words_of,
+)
 from kept_runs import kept_paper, kept_run
 from synthetic_result import build
 from typer.testing import CliRunner
@@ -21,7 +28,7 @@ from moyai.cli.main import app
 from moyai.core.results import Result, read_result
 from moyai.language.catalogue import catalogue
 from moyai.report import fonts
-from moyai.report.document import Document
+from moyai.report.document import Document, Figure
 from moyai.report.writer import compose_document
 
 EXAMPLES = Path(__file__).resolve().parents[3] / "examples"
@@ -152,6 +159,14 @@ def test_a_letter_that_no_font_has_is_found(letter: str) -> None:
     found = without_boxes(document)
     assert found["page"] == {letter} and found["Word"] == {letter}
     assert len(found["PDF"]) == 1
+
+
+@pytest.mark.parametrize("letter", ["\U0001f9ff", "\U0002a6d6"])
+def test_a_letter_that_no_face_of_figures_has_is_found(letter: str) -> None:
+    figure = next(block for block in compose_document(build(), language="ja").blocks() if isinstance(block, Figure))
+    assert letters_missing_in_figure(figure) == set()
+    named = replace(figure.series[0], label=f"線{letter}₂")
+    assert letters_missing_in_figure(replace(figure, series=(named, *figure.series[1:]))) == {letter}
 
 
 def test_the_font_has_every_letter_of_the_catalogue() -> None:
