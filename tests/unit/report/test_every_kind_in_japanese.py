@@ -52,7 +52,13 @@ TYPHOON = {
     "significant_period": "6.75 s", "heading_deg": 60, "duration": "5 min",
 }  # fmt: skip
 SHORTER: dict[str, dict[str, Any]] = {
-    "units": {"settings.panel_size": "4 m"},
+    "units": {
+        "map.points_across": 7,
+        "map.points_along": 7,
+        "settings.panel_size": "4 m",
+        "settings.frequencies.count": 5,
+        "settings.time": {"realisations": 3, "memory_frequencies": 14},
+    },
     "breakwater/dynamic_lines": {"waves[1].duration": "2 min"},
     "cage/circular_50m": {"structure.mesh": {**COARSE, "around": 24}},
     "cage/grid_2x2": {"structure.mesh": COARSE, "settings.flexible.periods": 2},
