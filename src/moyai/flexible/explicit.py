@@ -317,9 +317,11 @@ class ExplicitRun:
         row_interval, before = interval
         step, per_load, per_row = self.prepare(row_interval, wanted)
         end = self.time + rows * row_interval
-        rate = np.zeros_like(self.water)
+        # the water at the end, where the nodes are then by their present speeds: the next interval begins with it
+        ahead = self.water
         if not self.flow.steady:
-            rate = (self.flow.at(end, self.place + (end - self.time) * self.speed) - self.water) / (end - self.time)
+            ahead = self.flow.at(end, self.place + (end - self.time) * self.speed)
+        rate = (ahead - self.water) / (end - self.time)
         # what blows up for another reason must not be followed down to steps without end
         bear = DRAG_BROKEN if watchful and step >= LEAST_PART * self.stable else math.inf
         good = self._call_march(
@@ -332,8 +334,8 @@ class ExplicitRun:
             end = self.time + taken * step
         self.taken, self.steps, self.smallest = self.taken + taken, self.steps + taken, min(self.smallest, step)
         self.time = end
-        if not self.flow.steady:
-            self.water = self.flow.at(end, self.place)
+        whole = good >= 0 and broken < 0
+        self.water = ahead if whole or self.flow.steady else self.flow.at(end, self.place)
         return good
 
     def state(self) -> State:

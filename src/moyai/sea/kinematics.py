@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from moyai.core.arrays import Array
 from moyai.core.compiled import njit
 from moyai.core.errors import InputError
+from moyai.sea.vector_kernel import CONTRACT, REORDER, falling_exponential, sine_and_cosine
 
 Stretching = Literal["constant", "linear", "wheeler"]
 
@@ -72,6 +73,56 @@ def wheeler_elevation_scalar(z: float, elevation: float, water_depth: float) -> 
     return (z - elevation) * water_depth / (water_depth + elevation)
 
 
+@njit(cache=True, error_model="numpy", fastmath=CONTRACT)
+def _turn(
+    x: float, y: float, wave_number: Array, cosines: Array, sines: Array, begin: Array, amplitude: Array,
+    surface: Array, quarter: Array,
+) -> None:  # fmt: skip
+    """Write the elevation of each component at a place, and what it is a quarter of a period later."""
+    for i in range(surface.size):
+        sine, cosine = sine_and_cosine(wave_number[i] * (x * cosines[i] + y * sines[i]) + begin[i])
+        surface[i], quarter[i] = amplitude[i] * cosine, amplitude[i] * sine
+
+
+@njit(cache=True, error_model="numpy", fastmath=REORDER)
+def _sum(values: Array) -> float:
+    total = 0.0
+    for i in range(values.size):
+        total += values[i]
+    return total
+
+
+@njit(cache=True, error_model="numpy", fastmath=CONTRACT)
+def _lift(level: float, wave_number: Array, lift: Array) -> None:
+    """Write e^{kz} of each component."""
+    for i in range(lift.size):
+        lift[i] = falling_exponential(wave_number[i] * level)
+
+
+@njit(cache=True, error_model="numpy", fastmath=REORDER)
+def _orbits(
+    above: float, wave_number: Array, intrinsic_omega: Array, cosines: Array, sines: Array, shares: Array, back: Array,
+    lift: Array, surface: Array, quarter: Array,
+) -> tuple[float, float, float, float, float, float]:  # fmt: skip
+    """Sum velocity and acceleration of all components; ``shares`` is 1 / (1 - e^{-2kh}) and ``back`` e^{-2kh}."""
+    u = v = w = du = dv = dw = 0.0
+    for i in range(surface.size):
+        # cosh and sinh of k (z + h) over sinh kh: e^{kz} and e^{-k (z + 2h)} [eq:sea-depth-functions]
+        k, sigma, down = wave_number[i], intrinsic_omega[i], back[i] / lift[i]
+        horizontal, vertical = shares[i] * (lift[i] + down), shares[i] * (lift[i] - down)
+        # above still water by the slope of each function at z = 0, k times the other one
+        horizontal, vertical = horizontal + above * k * vertical, vertical + above * k * horizontal
+        forward, upward = sigma * horizontal * surface[i], sigma * vertical
+        across = sigma * sigma * horizontal * quarter[i]
+        u += forward * cosines[i]
+        v += forward * sines[i]
+        w += upward * quarter[i]
+        du += across * cosines[i]
+        dv += across * sines[i]
+        dw -= sigma * upward * surface[i]
+    return u, v, w, du, dv, dw
+
+
 @njit(cache=True, error_model="numpy")
 def linear_velocity_acceleration(
     omega: Array,
@@ -112,39 +163,21 @@ def linear_velocity_acceleration(
     """
     count = omega.size
     cosines, sines = np.cos(heading), np.sin(heading)
-    # 1 - e^{-2kh} belongs to the component, not to the node
-    whole = -np.expm1(-2.0 * wave_number * water_depth)
-    endless = math.isinf(water_depth)
-    surface, quarter = np.empty(count), np.empty(count)
+    # what belongs to the component, not to the node; e^{-2kh} is zero in infinite depth
+    shares, back = -1.0 / np.expm1(-2.0 * wave_number * water_depth), np.exp(-2.0 * wave_number * water_depth)
+    begin = phase - omega * time
+    surface, quarter, lift = np.empty(count), np.empty(count), np.empty(count)
     for node in range(x.size):
         level = z[node]
-        eta = 0.0
-        for i in range(count):
-            argument = wave_number[i] * (x[node] * cosines[i] + y[node] * sines[i]) - omega[i] * time + phase[i]
-            surface[i], quarter[i] = amplitude[i] * math.cos(argument), amplitude[i] * math.sin(argument)
-            eta += surface[i]
+        _turn(x[node], y[node], wave_number, cosines, sines, begin, amplitude, surface, quarter)
+        eta = _sum(surface)
         if stretching == 2:
             level = wheeler_elevation_scalar(level, eta, water_depth)
         above = level if (stretching == 1 and level > 0.0) else 0.0
-        level = min(max(level, -water_depth), 0.0)
-        u = v = w = du = dv = dw = 0.0
-        for i in range(count):
-            k, sigma, real, imaginary = wave_number[i], intrinsic_omega[i], surface[i], quarter[i]
-            horizontal = vertical = math.exp(k * level)
-            if not endless:
-                # the depth functions of depth_functions_scalar [eq:sea-depth-functions]
-                sinh_part = -math.expm1(-2.0 * k * (level + water_depth))
-                horizontal, vertical = horizontal * (2.0 - sinh_part) / whole[i], vertical * sinh_part / whole[i]
-            if above > 0.0:
-                # the slope of each function at z = 0 is k times the other one
-                horizontal, vertical = horizontal + above * k * vertical, vertical + above * k * horizontal
-            across, forward, upward = sigma * horizontal * imaginary, sigma * horizontal * real, sigma * vertical
-            u += forward * cosines[i]
-            v += forward * sines[i]
-            w += upward * imaginary
-            du += sigma * across * cosines[i]
-            dv += sigma * across * sines[i]
-            dw -= sigma * upward * real
+        _lift(min(max(level, -water_depth), 0.0), wave_number, lift)
+        u, v, w, du, dv, dw = _orbits(
+            above, wave_number, intrinsic_omega, cosines, sines, shares, back, lift, surface, quarter
+        )
         elevation[node] = eta
         velocity[node, 0], velocity[node, 1], velocity[node, 2] = u, v, w
         acceleration[node, 0], acceleration[node, 1], acceleration[node, 2] = du, dv, dw
@@ -167,7 +200,7 @@ def transfer_velocity_acceleration(
     """Fill complex velocity and acceleration per unit complex amplitude at fixed nodes, shape (nodes, 3, components).
 
     The motion is Re(transfer * a e^{i phase} e^{-i omega t}). For nodes that stay where they are this is computed
-    once; each time then costs one complex product per entry (:func:`sum_transfer`) or one Fourier transform per row.
+    once; each time then costs one complex product per entry, or one Fourier transform per row.
     ``stretching`` is 0 (constant) or 1 (linear).
     """
     for node in range(x.size):
@@ -184,16 +217,6 @@ def transfer_velocity_acceleration(
             velocity[node, 2, i] = -1j * sigma * vertical * turn
             for axis in range(3):
                 acceleration[node, axis, i] = -1j * sigma * velocity[node, axis, i]
-
-
-@njit(cache=True, error_model="numpy")
-def sum_transfer(transfer: NDArray[np.complex128], turned: NDArray[np.complex128], out: Array) -> None:
-    """Sum Re(transfer[row, i] * turned[i]) over i into ``out[row]``; ``turned`` is a e^{i (phase - omega t)}."""
-    for row in range(transfer.shape[0]):
-        total = 0.0
-        for i in range(turned.size):
-            total += transfer[row, i].real * turned[i].real - transfer[row, i].imag * turned[i].imag
-        out[row] = total
 
 
 @njit(cache=True, error_model="numpy")

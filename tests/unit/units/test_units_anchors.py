@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from moyai.core.headline import Criterion, Headline, judge
+from moyai.core.headline import Criterion, Headline, judge, unfavourable
+from moyai.core.wording import kilonewton
 from moyai.design.anchor_needs import sinker_weight
 from moyai.mooring.lines import Line, LineType, Segment
 from moyai.series.intervals import reach_of_mean
@@ -261,3 +262,63 @@ def test_an_uplift_reaches_to_the_tension_at_which_its_line_is_judged() -> None:
     judged = each[:, 0].mean() + reach_of_mean(each[:, 0])
     assert lifted.value > 0.0 and lifted.band is not None
     assert lifted.band.high == pytest.approx(loads_at(np.array([judged, 0.0]), _curves(at))[1, 0], rel=1e-9)
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_the_line_with_the_wider_band_is_judged_whatever_the_order(turned: bool) -> None:
+    """Of a line of 26 kN that may bear 30 kN and one of 25 kN that may bear 350 kN the second decides."""
+    at, order = _moored((0,)), slice(None, None, -1 if turned else 1)
+    ends = {"": [2.6e4, 2.5e4], "_low": [2.5e4, 2.4e4], "_high": [3.0e4, 3.5e5]}
+    data = xr.Dataset(
+        {f"line_tension_maximum{end}": ("line", values[order]) for end, values in ends.items()},
+        coords={"line": list(at.line_names)},
+    ).assign(line_tension_mean=("line", [8e4, 8e4]))
+    groups = {"/SWL/statics": _curves(at).assign(breaking_load=("line", [4e5, 4e5])), "/SWL/time/daily": data}
+    groups |= dict(anchored(groups))
+    seas = [(path, data) for path, data in groups.items() if path.endswith("daily")]
+    seas = [(path, data.assign(groups["/SWL/statics"].data_vars)) for path, data in seas]
+    items = [*anchor_headlines(seas), *line_headlines(groups, seas)]
+    wide = at.line_names[0 if turned else 1]
+    for name, limit in (("anchor_uplift", 1e3), ("anchor_horizontal_load", 5e4), ("line_utilisation", 0.5)):
+        asked = Criterion("limit", name, limit, "at most", "source", "limit", "N")
+        judged = max((item for item in items if item.name == name), key=unfavourable)
+        assert judge(items, [asked], computed=True).outcome == "does not hold" and wide in judged.where, name
+    pull, uplift, _ = loads_at(np.array([3.5e5, 3.5e5]), _curves(at))[:, 0]
+    sinker = next(item.detail for item in items if item.name == "anchor_capacity_required")
+    assert f"sinker of {kilonewton(sinker_weight(float(pull), float(uplift)))}" in sinker
+
+
+def test_an_uplift_of_the_line_listed_last_is_not_lost_behind_one_of_nothing() -> None:
+    at = _moored((0,))
+    data = xr.Dataset(
+        {
+            "line_tension_maximum": ("line", [1.2e4, 1.2e4]),
+            "line_tension_maximum_low": ("line", [1.1e4, 1.1e4]),
+            "line_tension_maximum_high": ("line", [1.3e4, 3.5e5]),
+            "line_tension_mean": ("line", [8e4, 8e4]),
+        },
+        coords={"line": list(at.line_names)},
+    )
+    found = _found({"/SWL/statics": _curves(at), "/SWL/frequency/daily": data} | dict(anchored(
+        {"/SWL/statics": _curves(at), "/SWL/frequency/daily": data}
+    )))  # fmt: skip
+    assert judge(found.values(), [UPLIFT], computed=True).outcome == "does not hold"
+    assert "not a drag anchor" in found["anchor_capacity_required"].detail
+
+
+def test_an_end_of_damping_beyond_the_range_of_lines_at_rest_keeps_no_limit() -> None:
+    at = _moored((0,))
+    data = xr.Dataset(
+        {
+            "line_tension_maximum": ("line", [2.0e4, 1.0e4]),
+            "line_tension_maximum_low": ("line", [1.9e4, 0.9e4]),
+            "line_tension_maximum_high": ("line", [9.0e4, 1.1e4]),
+            "line_tension_mean": ("line", [1.0e4, 1.0e4]),
+        },
+        coords={"line": list(at.line_names)},
+    )
+    groups = {"/SWL/statics": xr.Dataset({"breaking_load": ("line", [4e5, 4e5])}), "/SWL/time/daily": data}
+    items = list(line_headlines(groups, [("/SWL/time/daily", data)]))
+    assert items[0].bound == "at least" and "end of its band" in items[0].detail
+    kept = Criterion("limit", "line_utilisation", 0.5, "at most", "source", "limit", "1")
+    assert judge(items, [kept], computed=True).outcome == "not judged"

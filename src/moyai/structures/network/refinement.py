@@ -134,8 +134,8 @@ def check_event(
 
     The event is run first on the mesh and step of the run: where that does not give its peak again within
     :data:`SAME_EVENT` the start has not faded, and nothing is known. What finer runs change is taken in proportion.
-    Fronts of segments that land never come twice at one height: there the highest of the event by itself is the
-    measure, and bars are cut further until it stands or bars are as short as the line is thick.
+    Fronts of segments that land never come twice at one height: there the highest of the event on shorter bars is the
+    measure by itself, and bars are cut further until it stands or bars are as short as the line is thick.
 
     Returns
     -------
@@ -174,15 +174,19 @@ def check_event(
     for name, one in found.pulls.items():
         # the event of the highest tension need not be that of this point
         if one.peak > 0.0 and name in whole and (lands or abs(one.peak / whole[name] - 1.0) <= SAME_EVENT):
-            pulls[name] = _times(one, whole[name] / one.peak)
-    return replace(_times(found, peak / again), pulls=pulls)
+            pulls[name] = _in_proportion(one, whole[name] / one.peak, lands)
+    return replace(_in_proportion(found, peak / again, lands), pulls=pulls)
 
 
-def _times(found: PeakSensitivity, factor: float) -> PeakSensitivity:
-    """Return peaks taken in proportion."""
+def _in_proportion(found: PeakSensitivity, factor: float, lands: bool) -> PeakSensitivity:
+    """Return peaks of an event taken in proportion to those of the whole run.
+
+    Where segments land, the chance of their height is that of this mesh: shorter ones give what they give.
+    """
+    finer = 1.0 if lands else factor
     return replace(
-        found, peak=factor * found.peak, half_step=factor * found.half_step, double_mesh=factor * found.double_mesh,
-        damped=factor * found.damped, finest=factor * found.finest,
+        found, peak=factor * found.peak, half_step=factor * found.half_step, double_mesh=finer * found.double_mesh,
+        damped=finer * found.damped, finest=finer * found.finest,
     )  # fmt: skip
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from moyai.core.headline import Band, Headline
 from moyai.design.anchor_needs import anchor_need, judged_end, sinker_weight
 from moyai.structures.units.anchors import loads_at
 from moyai.structures.units.doubts import not_known
-from moyai.structures.units.largest import Largest, each_of
+from moyai.structures.units.largest import Largest, each_of, members_of, regular_apart
 from moyai.structures.units.line_headlines import line_band, line_model, of_line, unknown_line, with_unknown
 from moyai.structures.units.unjudged import Seas
 
@@ -21,16 +22,19 @@ _ALIKE = 1.005
 _PULL, _UPLIFT, _LIES = "maximum_anchor_horizontal_tension", "maximum_anchor_vertical_tension", "least_grounded_length"
 
 
+_LEAVES = "the line leaves the bed within its band"
+
+
 def anchor_headlines(seas: Seas) -> Iterator[Headline]:
     """Return what an anchor must hold: of the line that pulls hardest, and the uplift wherever it is highest."""
-    pulls = each_of(seas, _PULL)
+    pulls = each_of(seas, _PULL, band=_band)
     if not pulls:
         return
     items = [_load(found, "anchor_horizontal_load", "Horizontal pull on an anchor") for found in pulls]
-    sinker = _heaviest_sinker(seas)
-    yield from with_unknown(pulls, [_capacity(found, item, sinker) for found, item in zip(pulls, items, strict=True)])
+    asked = _asked(seas)
+    yield from with_unknown(pulls, [_capacity(found, item, asked) for found, item in zip(pulls, items, strict=True)])
     yield from with_unknown(pulls, items)
-    lifts = each_of(seas, _UPLIFT)
+    lifts = each_of(seas, _UPLIFT, band=_band)
     lifted = [_load(found, "anchor_uplift", "Uplift at an anchor") for found in lifts]
     # before a sea that is known to lift nothing
     ranked = [
@@ -76,44 +80,43 @@ def _beside(found: Largest, name: str) -> Largest:
     return replace(found, name=name, value=float(found.data[name].values[found.index]))
 
 
-def _capacity(found: Largest, pull: Headline, sinker: tuple[float, str, bool]) -> Headline:
+def _capacity(found: Largest, pull: Headline, asked: list[_Asked]) -> Headline:
     item = replace(pull, name="anchor_capacity_required", label="Horizontal holding capacity that an anchor needs")
     if math.isnan(pull.value):
         return item
     uplift, grounded = _beside(found, _UPLIFT), _beside(found, _LIES)
-    weight, where, raised = sinker
     lifted = judged_end(uplift.value, _band(uplift))
+    heaviest = max(asked, key=lambda one: one.sinker)
     # lines that lie alike ask for the same one
-    if weight <= _ALIKE * sinker_weight(judged_end(found.value, _band(found)), lifted):
-        where = ""
-    need = anchor_need(lifted, grounded.value, weight, where)
+    alike = heaviest.sinker <= _ALIKE * sinker_weight(judged_end(found.value, _band(found)), lifted)
+    need = anchor_need(lifted, grounded.value, heaviest.sinker, "" if alike else heaviest.line)
     band = None if item.band is None else item.band.scaled(need.factor)
     words = need.words
     if pull.bound == "at least" and lifted == 0.0:
         words = f"{words.split('; ')[0]}, if it holds a line that stays on the bed, which is not known"
-    if where and raised and lifted == 0.0:
-        words += f"; no drag anchor holds line {where}, which lifts it"
+    raised = max((one for one in asked if one.uplift > 0.0), key=lambda one: one.uplift, default=None)
+    if raised is not None and lifted == 0.0:
+        words += f"; no drag anchor holds line {raised.line}, which lifts it"
     return replace(item, value=need.factor * found.value, band=band, detail=words)
 
 
-def _heaviest_sinker(seas: Seas) -> tuple[float, str, bool]:
-    """Return the weight [N] of the heaviest sinker that a line asks for, which line, and whether that is lifted."""
-    level, up = sinker_weight(1.0, 0.0), sinker_weight(0.0, 1.0)
-    best = 0.0, "", False
-    for path, data in seas:
-        if _PULL not in data:
-            continue
-        end = "_high" if f"{_PULL}_high" in data else ""
-        pull, uplift = data[f"{_PULL}{end}"].values, data[f"{_UPLIFT}{end}"].values
-        weight = np.nan_to_num(level * pull + up * uplift)
-        # the line that asks for most in this sea, in the period in which it does
-        index = np.unravel_index(int(weight.argmax()), weight.shape)
-        at = {dim: [int(row)] for dim, row in zip(data[_PULL].dims, index, strict=True)}
-        for found in each_of([(path, data.isel(at))], _PULL):
-            lifted = judged_end((own := _beside(found, _UPLIFT)).value, _band(own))
-            asked = sinker_weight(judged_end(found.value, _band(found)), lifted)
-            best = max(best, (asked, str(data["line"].values[index[-1]]), lifted > 0.0))
-    return best
+class _Asked(NamedTuple):
+    """What the anchor of a line asks for in a sea: the weight of a sinker, and the uplift at which it is judged [N]."""
+
+    line: str
+    sinker: float
+    uplift: float
+
+
+def _asked(seas: Seas) -> list[_Asked]:
+    """Return what every line asks for, in every sea and period."""
+    found = []
+    for path, data in regular_apart(seas):
+        for pull in members_of(path, data, _PULL):
+            lifted = judged_end((uplift := _beside(pull, _UPLIFT)).value, _band(uplift))
+            weight = sinker_weight(judged_end(pull.value, _band(pull)), lifted)
+            found.append(_Asked(str(data["line"].values[pull.index[-1]]), weight, lifted))
+    return found
 
 
 def _with_bed(item: Headline, seas: Seas) -> Headline:
@@ -122,7 +125,7 @@ def _with_bed(item: Headline, seas: Seas) -> Headline:
         return item
     ends = (_LIES, f"{_LIES}_high", f"{_LIES}_of_realisation")
     least = min(float(np.nanmin(data[end].values)) for _, data in seas for end in ends if end in data)
-    kept = f"{least:.3g} m of line stays on the bed" if least > 0.0 else "the line leaves the bed within its band"
+    kept = f"{least:.3g} m of line stays on the bed" if least > 0.0 and item.band is None else _LEAVES
     return replace(item, text="none", detail=kept)
 
 

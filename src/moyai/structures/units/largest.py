@@ -10,6 +10,7 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.headline import Band, Bound
+from moyai.design.anchor_needs import judged_end
 from moyai.series.realisations import alone, seeds, storms
 from moyai.structures.units import doubts
 from moyai.structures.units.model import DAMPING_BAND, SNAP_RATIO
@@ -44,30 +45,9 @@ def _where(path: str, data: xr.Dataset, index: tuple[int, ...], dims: tuple[str,
     return ", ".join(words)
 
 
-def _greatest(
-    groups: list[tuple[str, xr.Dataset]], name: str, over: Array | None = None
-) -> tuple[float, str, tuple[str, xr.Dataset, tuple[int, ...]]] | None:
-    best: tuple[float, str, tuple[str, xr.Dataset, tuple[int, ...]]] | None = None
-    for path, data in groups:
-        if name not in data or not data[name].size:
-            continue
-        values = np.abs(np.asarray(data[name].values, dtype=float))
-        if name in _ROUNDED:
-            values[values < _NOTHING] = 0.0
-        if over is not None:
-            values = values / over
-        if np.isnan(values).all():
-            continue
-        index = tuple(int(i) for i in np.unravel_index(int(np.nanargmax(values)), values.shape))
-        value = float(values[index])
-        if best is None or value > best[0]:
-            best = value, _where(path, data, index, tuple(str(dim) for dim in data[name].dims)), (path, data, index)
-    return best
-
-
 @dataclass(frozen=True)
 class Largest:
-    """The largest value of a variable over all seas, and where it stands."""
+    """A value of a variable in a sea, the largest of its connectors, lines, gaps or units, and where it stands."""
 
     value: float
     where: str
@@ -76,6 +56,10 @@ class Largest:
     index: tuple[int, ...]
     name: str
     scale: float
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        return tuple(str(dim) for dim in self.data[self.name].dims)
 
     @property
     def timed(self) -> bool:
@@ -189,22 +173,58 @@ def damping_band(data: xr.Dataset, name: str, index: tuple[int, ...], scale: flo
     return Band(low, high, _DAMPING)
 
 
-def _largest(seas: Seas, name: str, over: Array | None = None) -> Largest | None:
-    found = _greatest(seas, name, over)
-    if found is None:
-        return None
-    value, where, (path, data, index) = found
-    return Largest(value, where, path, data, index, name, 1.0 if over is None else float(over[index[-1]]))
+def members_of(path: str, data: xr.Dataset, name: str, over: Array | None = None) -> list[Largest]:
+    """Return every known value of a sea, whose places are still to be said, the largest first."""
+    if name not in data or not data[name].size:
+        return []
+    values = np.abs(np.asarray(data[name].values, dtype=float))
+    if name in _ROUNDED:
+        values[values < _NOTHING] = 0.0
+    if over is not None:
+        values = values / over
+    indices = [index for index in np.ndindex(values.shape) if not np.isnan(values[index])]
+    found = [
+        Largest(float(values[at]), "", path, data, at, name, 1.0 if over is None else float(over[at[-1]]))
+        for at in indices
+    ]
+    return sorted(found, key=lambda one: -one.value)
 
 
-def each_of(seas: Seas, name: str, over: Array | None = None) -> list[Largest]:
-    """Return the largest value of every sea, of regular waves of every period."""
-    parts = [
+def regular_apart(seas: Seas) -> Seas:
+    """Return the seas, regular waves of each period by themselves."""
+    return [
         (path, data.isel(period=[row])) if "period" in data.dims else (path, data)
         for path, data in seas
         for row in range(data.sizes.get("period", 1))
     ]
-    return [found for part in parts if (found := _largest([part], name, over)) is not None]
 
 
-__all__ = ["Largest", "damping_band", "each_of"]
+def each_of(
+    seas: Seas, name: str, over: Array | None = None, band: Callable[[Largest], Band | None] | None = None
+) -> list[Largest]:
+    """Return the largest value of every sea, of regular waves of every period, and that which is judged highest.
+
+    Another line or connector may have the smaller value and the wider band, whose end is what a limit is held against.
+
+    Parameters
+    ----------
+    seas : list of (path, dataset)
+    name : str
+    over : ndarray, optional
+        What the last dimension is divided by.
+    band : callable, optional
+        Band of a value; its own when left out.
+    """
+    found: list[Largest] = []
+    for path, data in regular_apart(seas):
+        members = members_of(path, data, name, over)
+        if not members:
+            continue
+        ends = [judged_end(one.value, band(one) if band is not None else one.band) for one in members]
+        widest = int(np.argmax(ends))
+        chosen = [members[0], members[widest]] if ends[widest] > ends[0] else members[:1]
+        found += [replace(one, where=_where(path, data, one.index, one.dims)) for one in chosen]
+    return found
+
+
+__all__ = ["Largest", "damping_band", "each_of", "members_of", "regular_apart"]

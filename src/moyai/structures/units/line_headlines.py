@@ -29,6 +29,7 @@ IN_MOTION = "time domain, lines in motion around events"
 #: tension. Without it tensions and offsets of an irregular sea prove no strength.
 _WITHOUT_DRIFT = "; slow drift about the mean is not computed and adds to it, on chains several times over"
 _SNAPS = f"; pulled beyond {SNAP_RATIO:g} times its mean, where a line at rest at every instant says too little"
+_SNAPS_WITH_DAMPING = f"; with damping at the end of its band{_SNAPS[1:]}"
 
 
 def all_judged(items: list[Headline]) -> list[Headline]:
@@ -43,19 +44,19 @@ def all_judged(items: list[Headline]) -> list[Headline]:
 
 
 def line_headlines(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Headline]:
-    each = each_of(seas, "line_tension_maximum")
+    each = each_of(seas, "line_tension_maximum", band=line_band)
     if not each:
         return
     yield from with_unknown(each, [_line_tension(found) for found in each])
     load = np.asarray(groups[f"/{each[0].path.split('/')[1]}/statics"]["breaking_load"].values, dtype=float)
     if not np.isfinite(load).any():
         return
-    shares = each_of(seas, "line_tension_maximum", over=load)
+    shares = each_of(seas, "line_tension_maximum", load, line_band)
     yield from with_unknown(shares, [_utilisation(share, True) for share in shares])
     if any(_moved(share) for share in shares):
         # codes ask another factor of lines at rest: the highest of them is judged too
         still = [(path, _at_rest(data)) for path, data in seas]
-        yield from (_utilisation(share, False) for share in each_of(still, "line_tension_maximum", over=load))
+        yield from (_utilisation(share, False) for share in each_of(still, "line_tension_maximum", load, line_band))
 
 
 def with_unknown(each: list[Largest], items: list[Headline]) -> list[Headline]:
@@ -166,8 +167,12 @@ def of_line(found: Largest, mean: float) -> tuple[Bound, str]:
     if _moved(found):
         still = float(found.data["line_tension_maximum_lines_at_rest"].values[found.index])
         return "", f"; {spoken(still, 'N', 3)} with lines at rest at every instant"
-    snapped = found.value * found.scale > SNAP_RATIO * mean
-    return ("at least", _SNAPS) if snapped else ("", "")
+    if found.value * found.scale > SNAP_RATIO * mean:
+        return "at least", _SNAPS
+    damping = damping_band(found.data, found.name, found.index)
+    if damping is not None and damping.high > SNAP_RATIO * mean:
+        return "at least", _SNAPS_WITH_DAMPING
+    return "", ""
 
 
 def left_out(found: Largest) -> str:

@@ -182,7 +182,7 @@ def simulate_in_flow(
     taut = taut_shape(impact.span_ratio)
     cable = np.array([impact.span, impact.span_ratio, taut, impact.stiffness, slack_sag(impact)])
     drag = 0.5 * impact.water.density * drag_coefficient * impact.draught
-    table = np.zeros((_TABLE_ROWS, 3))
+    table = np.zeros((_TABLE_ROWS, 5))
     # as far as model A goes at the largest speed that the water and the start give, and once more
     fastest = max(float(np.abs(given[:, 0]).max()), abs(start[1]), 1e-9)
     reach = 2.0 * float(sweep_peaks(impact.span, impact.length, impact.stiffness, fastest, moved)[1])

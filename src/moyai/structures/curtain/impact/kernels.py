@@ -56,7 +56,8 @@ def shape_of_sag(sag: float, guess: float) -> float:
     for _ in range(100):
         step = (sag_ratio(b) - sag) / _sag_slope(b)
         b = max(b - step, 0.1 * b)
-        if abs(step) <= 4e-16 * b:
+        # Newton squares the error: what is left is below rounding
+        if abs(step) <= 1e-9 * b:
             break
     return b
 
@@ -294,29 +295,33 @@ def _flow_at(flow: Array, place: float) -> tuple[float, float]:
 
 @njit(cache=True, error_model="numpy")
 def load_table(span: float, span_ratio: float, taut: float, stiffness: float, out: Array) -> None:
-    """Fill ``out`` (n, 3) with displacement, load and its slope, evenly spaced in the square of the row's number.
+    """Fill ``out`` (n, 5): displacement (given), load, its slope, tension, its slope.
 
-    Small displacements are resolved finely: the load of a cable as long as its span starts as a cube.
+    The rows are evenly spaced in the square of their number. Small displacements are resolved finely: the load of a
+    cable as long as its span starts as a cube.
     """
+    b = taut
     for i in range(out.shape[0]):
         sag = sag_ratio(taut) + 2.0 * out[i, 0] / span
-        b = shape_of_sag(sag, taut) if sag > 0.0 else 0.0
+        b = shape_of_sag(sag, b) if sag > 0.0 else 0.0
         tension = stiffness * span_ratio * (sinh_excess(b) - sinh_excess(taut))
         # d excess/db = (cosh b - 1 - excess)/b = (cosh b - sinh(b)/b)/b
         widening = (math.cosh(b) - 1.0 - sinh_excess(b)) / b if b > 1e-4 else b / 3.0
-        rate = stiffness * span_ratio * widening * b + tension
-        out[i, 1] = tension * 2.0 * b / span
-        out[i, 2] = rate * 2.0 / span / (_sag_slope(b) * 0.5 * span)
+        # the displacement grows with b by half the span times the slope of the sag
+        per_shape, stretching = _sag_slope(b) * 0.5 * span, stiffness * span_ratio * widening
+        out[i, 1], out[i, 2] = tension * 2.0 * b / span, (stretching * b + tension) * 2.0 / span / per_shape
+        out[i, 3], out[i, 4] = tension, stretching / per_shape
 
 
 @njit(cache=True, error_model="numpy")
-def _load(displacement: float, cable: Array, table: Array) -> float:
-    """Load by cubics between the rows of the table, exactly beyond it."""
+def _of_cable(displacement: float, cable: Array, table: Array, column: int) -> float:
+    """Load (column 1) or tension (column 3) by cubics between the rows of the table, exactly beyond it."""
     if displacement <= 0.0:
         return 0.0
     last = table.shape[0] - 1
     if displacement >= table[last, 0]:
-        return spring(displacement, cable[0], cable[1], cable[2], cable[3])[0]
+        load, tension = spring(displacement, cable[0], cable[1], cable[2], cable[3])
+        return load if column == 1 else tension
     i = min(int(math.sqrt(displacement / table[last, 0]) * last), last - 1)
     if displacement < table[i, 0]:
         i -= 1
@@ -325,8 +330,8 @@ def _load(displacement: float, cable: Array, table: Array) -> float:
     width = table[i + 1, 0] - table[i, 0]
     s = (displacement - table[i, 0]) / width
     far = 1.0 - s
-    return far * far * ((1.0 + 2.0 * s) * table[i, 1] + s * width * table[i, 2]) + s * s * (
-        (3.0 - 2.0 * s) * table[i + 1, 1] - far * width * table[i + 1, 2]
+    return far * far * ((1.0 + 2.0 * s) * table[i, column] + s * width * table[i, column + 1]) + s * s * (
+        (3.0 - 2.0 * s) * table[i + 1, column] - far * width * table[i + 1, column + 1]
     )
 
 
@@ -354,7 +359,7 @@ def _swing(
         relative = water - speed
         force = drag * relative * abs(relative)
         if side != 0:
-            force -= side * _load(side * place - cable[4], cable, table)
+            force -= side * _of_cable(side * place - cable[4], cable, table, 1)
         rate = forward + force / mass
         weight = 1.0 if stage in (0, 3) else 2.0
         sum_y += weight * speed
@@ -388,27 +393,27 @@ def _locate(
     y1, v1 = _swing(y, v, at, high, side, cable, table, drag, mass, flow, step)
     last = v1 if target == 0 else target * y1 - cable[4]
     rising = last > first
-    h = high
+    h, before, kept = high, 0.0, 0
     if last != first:
         h = min(max(low - first * (high - low) / (last - first), low), high)
     for _ in range(100):
         y1, v1 = _swing(y, v, at, h, side, cable, table, drag, mass, flow, step)
         value = v1 if target == 0 else target * y1 - cable[4]
+        moved = abs(h - before)
+        before = h
+        # the straight line through both ends, its older end halved where it stays (Illinois)
         if (value > 0.0) == rising:
-            high = h
+            high, last = h, value
+            first = 0.5 * first if kept > 0 else first
+            kept = 1
         else:
-            low = h
-        if high - low <= 1e-13 * step or value == 0.0:
+            low, first = h, value
+            last = 0.5 * last if kept < 0 else last
+            kept = -1
+        if min(high - low, moved) <= 1e-13 * step or value == 0.0:
             break
-        new = 0.5 * (low + high)
-        if target != 0 and v1 != 0.0:
-            guess = h - value / (target * v1)
-            if low < guess < high:
-                if abs(guess - h) <= 1e-13 * step:
-                    h = guess
-                    break
-                new = guess
-        h = new
+        new = low - first * (high - low) / (last - first)
+        h = new if low < new < high else 0.5 * (low + high)
     return h
 
 
@@ -444,7 +449,7 @@ def slack_taut(
     furthest, when = 0.0, 0.0
     for n in range(out.shape[0]):
         out[n, 0], out[n, 1] = y, v
-        out[n, 2] = spring(abs(y) - loose, cable[0], cable[1], cable[2], cable[3])[1] if side != 0 else 0.0
+        out[n, 2] = _of_cable(abs(y) - loose, cable, table, 3) if side != 0 else 0.0
         if n + 1 == out.shape[0]:
             break
         done = 0.0
@@ -486,8 +491,9 @@ def slack_taut(
                 elif side * y1 > furthest:
                     furthest, when = side * y1, at + h
                 if 0 <= current < contacts.shape[0]:
-                    contacts[current, 3] = when
-                    contacts[current, 4] = spring(furthest - loose, cable[0], cable[1], cable[2], cable[3])[1]
+                    contacts[current, 3], contacts[current, 4] = when, furthest - loose
             y, v = y1, v1
             done += h
+    for row in range(min(count, contacts.shape[0])):
+        contacts[row, 4] = spring(contacts[row, 4], cable[0], cable[1], cable[2], cable[3])[1]
     return count
