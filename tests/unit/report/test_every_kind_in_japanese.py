@@ -49,7 +49,7 @@ CASES, STUDIES = examples("structure"), examples("study")
 COARSE = {"around": 16, "down": 3, "bottom": 3, "rope_length": "14 m"}
 TYPHOON = {
     "name": "typhoon 9918", "kind": "bretschneider_mitsuyasu", "significant_height": "3.06 m",
-    "significant_period": "6.75 s", "heading_deg": 60, "duration": "5 min",
+    "significant_period": "6.75 s", "heading_deg": 60, "duration": "20 min",
 }  # fmt: skip
 SHORTER: dict[str, dict[str, Any]] = {
     "units": {
@@ -66,8 +66,7 @@ SHORTER: dict[str, dict[str, Any]] = {
     "curtain/tidal_channel": {"waves[0].duration": "3 min"},
     "member/inclined_brace": {"waves[0].duration": "5 min"},
     "nakamura/tank_model": {"waves.periods": [0.6, 0.8, 1.0, 1.6]},
-    "network/buoy": {"waves[0].duration": "100 s"},
-    "network/net_in_current": {"settings.duration": "12 s"},
+    "network/net_in_current": {"settings.duration": "20 s"},
     "network/skirt": {
         **{f"structure.sheets.skirt.{name}": count for name, count in {"rows": 4, "columns": 7}.items()},
         **{f"structure.lines.rope {n}.end": f"skirt[3,{6 * n - 6}]" for n in (1, 2)},
