@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 from kept_runs import kept_paper
 
-from moyai.reproduce import reproduction
+from moyai.reproduce import reproduction, stored
 
 
 def take_kept_paper(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -19,5 +19,6 @@ def take_kept_paper(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
         return found
 
     paper = replace(found.paper, run=run, figures=lambda runs: runs.figures, filled=lambda runs: runs.filled)
-    monkeypatch.setattr(reproduction, "paper", {name: paper}.__getitem__)
+    for module in (reproduction, stored):
+        monkeypatch.setattr(module, "paper", {name: paper}.__getitem__)
     monkeypatch.setattr(reproduction, "rows_of", lambda _, runs: runs.rows)

@@ -51,14 +51,11 @@ TYPHOON = {
     "name": "typhoon 9918", "kind": "bretschneider_mitsuyasu", "significant_height": "3.06 m",
     "significant_period": "6.75 s", "heading_deg": 60, "duration": "20 min",
 }  # fmt: skip
+FEW_POINTS = {
+    "map.points_across": 7, "map.points_along": 7, "settings.time": {"realisations": 3, "memory_frequencies": 14},
+}  # fmt: skip
 SHORTER: dict[str, dict[str, Any]] = {
-    "units": {
-        "map.points_across": 7,
-        "map.points_along": 7,
-        "settings.panel_size": "4 m",
-        "settings.frequencies.count": 5,
-        "settings.time": {"realisations": 3, "memory_frequencies": 14},
-    },
+    "units": FEW_POINTS | {"settings.panel_size": "4 m", "settings.frequencies.count": 5},
     "breakwater/dynamic_lines": {"waves[1].duration": "2 min"},
     "cage/circular_50m": {"structure.mesh": {**COARSE, "around": 24}},
     "cage/grid_2x2": {"structure.mesh": COARSE, "settings.flexible.periods": 2},
@@ -77,7 +74,7 @@ SHORTER: dict[str, dict[str, Any]] = {
         "settings.waves": {"realisations": 2},
         "settings.dynamic": {"cells_along": 8, "cells_down": 4},
     },
-    "units/two_pontoons": {"settings.panel_size": "3 m"},
+    "units/two_pontoons": FEW_POINTS | {"settings.panel_size": "3 m", "settings.frequencies.count": 6},
 }
 
 
