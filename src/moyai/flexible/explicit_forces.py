@@ -8,15 +8,18 @@ from typing import Any
 from moyai.core.compiled import njit
 from moyai.flexible.explicit_rows import (
     FAST,
+    FIRST_END,
     FX,
     FY,
     FZ,
     LENGTH,
     LIMIT,
+    MOTION,
     PEAK,
     PULL,
     RIB,
     ROW,
+    SECOND_END,
     SPRING,
     TINY,
     TX,
@@ -29,58 +32,96 @@ from moyai.flexible.explicit_rows import (
     Z,
 )
 
+#: Ribs of a run up to which loops over its rows cost more than what they do.
+SHORT = 8
+
+
+@njit(cache=True, error_model="numpy")
+def _copy(target: Any, source: Any) -> None:
+    for i in range(target.size):
+        target[i] = source[i]
+
+
+@njit(cache=True, error_model="numpy")
+def add(target: Any, source: Any, factor: float) -> None:
+    """Add a factor times values to a stretch of a row.
+
+    Of a stretch the compiler knows that no index is negative, of a sum of offsets it does not, and then takes one
+    number after the other.
+    """
+    for i in range(target.size):
+        target[i] += factor * source[i]
+
+
+@njit(cache=True, error_model="numpy")
+def fetch_ends(A: Any, runs: Any, rows: int) -> int:
+    """Copy the first ``rows`` rows of nodes to the ends of the ribs, in their order; return the number of ribs."""
+    last = 0
+    for r in range(runs.shape[0]):
+        a0, b0, k0, count = runs[r, 0], runs[r, 1], runs[r, 2], runs[r, 3]
+        last = k0 + count
+        if count < SHORT:
+            for i in range(count):
+                for row in range(rows):
+                    A[FIRST_END + row * ROW + k0 + i] = A[row * ROW + a0 + i]
+                    A[SECOND_END + row * ROW + k0 + i] = A[row * ROW + b0 + i]
+        else:
+            for row in range(rows):
+                one, two, node = FIRST_END + row * ROW + k0, SECOND_END + row * ROW + k0, row * ROW
+                _copy(A[one : one + count], A[node + a0 : node + a0 + count])
+                _copy(A[two : two + count], A[node + b0 : node + b0 + count])
+    return last
+
 
 @njit(cache=True, error_model="numpy", fastmath=FAST)
-def spine_forces(A: Any, count: int) -> None:
-    """Write force, tension and highest tension of the spine's bars [eq:flexible-bar]."""
+def bar_pulls(A: Any, a0: int, b0: int, k0: int, count: int) -> None:
+    """Write force, tension and highest tension of straight bars from nodes a0, b0 on [eq:flexible-bar]."""
     for i in range(count):
-        dx, dy, dz = A[X + i + 1] - A[X + i], A[Y + i + 1] - A[Y + i], A[Z + i + 1] - A[Z + i]
+        a, b, k = a0 + i, b0 + i, k0 + i
+        dx, dy, dz = A[X + b] - A[X + a], A[Y + b] - A[Y + a], A[Z + b] - A[Z + a]
         square = dx * dx + dy * dy + dz * dz + TINY
         inverse = 1.0 / math.sqrt(square)
-        along = dx * (A[U + i + 1] - A[U + i]) + dy * (A[V + i + 1] - A[V + i]) + dz * (A[W + i + 1] - A[W + i])
-        elastic = A[SPRING + i] * (square * inverse - A[LENGTH + i])
-        pull = elastic + A[VISCOUS + i] * along * inverse
-        limit = A[LIMIT + i]
+        along = dx * (A[U + b] - A[U + a]) + dy * (A[V + b] - A[V + a]) + dz * (A[W + b] - A[W + a])
+        elastic = A[SPRING + k] * (square * inverse - A[LENGTH + k])
+        pull = elastic + A[VISCOUS + k] * along * inverse
+        limit = A[LIMIT + k]
         pull = pull if pull > limit else limit
-        A[PULL + i] = pull
-        A[PEAK + i] = pull if pull > A[PEAK + i] else A[PEAK + i]
+        A[PULL + k] = pull
+        A[PEAK + k] = pull if pull > A[PEAK + k] else A[PEAK + k]
         per = pull * inverse
-        A[FX + i] = per * dx
-        A[FY + i] = per * dy
-        A[FZ + i] = per * dz
+        A[FX + k] = per * dx
+        A[FY + k] = per * dy
+        A[FZ + k] = per * dz
 
 
-@njit(cache=True, error_model="numpy", fastmath=FAST)
+@njit(cache=True, error_model="numpy")
+def spine_forces(A: Any, count: int) -> None:
+    """Write force, tension and highest tension of the spine's bars."""
+    bar_pulls(A, 0, 1, 0, count)
+
+
+@njit(cache=True, error_model="numpy")
 def rib_forces(A: Any, runs: Any, curves: Any) -> None:
     """Do the same for the ribs and add their forces to the total of the nodes."""
+    if runs.shape[0] == 0:
+        return
+    fetch_ends(A, runs, MOTION)
+    # ribs that follow a rope curve come last
+    straight = 0
+    for r in range(runs.shape[0]):
+        if runs[r, 4] < 0:
+            straight = runs[r, 2] + runs[r, 3]
+    bar_pulls(A, FIRST_END, SECOND_END, RIB, straight)
     for r in range(runs.shape[0]):
         a0, b0, k0, count, curve = runs[r, 0], runs[r, 1], runs[r, 2], runs[r, 3], runs[r, 4]
-        if curve < 0:
-            for i in range(count):
-                a, b, k = a0 + i, b0 + i, RIB + k0 + i
-                dx, dy, dz = A[X + b] - A[X + a], A[Y + b] - A[Y + a], A[Z + b] - A[Z + a]
-                square = dx * dx + dy * dy + dz * dz + TINY
-                inverse = 1.0 / math.sqrt(square)
-                along = dx * (A[U + b] - A[U + a]) + dy * (A[V + b] - A[V + a]) + dz * (A[W + b] - A[W + a])
-                elastic = A[SPRING + k] * (square * inverse - A[LENGTH + k])
-                pull = elastic + A[VISCOUS + k] * along * inverse
-                limit = A[LIMIT + k]
-                pull = pull if pull > limit else limit
-                A[PULL + k] = pull
-                A[PEAK + k] = pull if pull > A[PEAK + k] else A[PEAK + k]
-                per = pull * inverse
-                A[FX + k] = per * dx
-                A[FY + k] = per * dy
-                A[FZ + k] = per * dz
-        else:
+        if curve >= 0:
             for i in range(count):
                 _curved(A, a0 + i, b0 + i, RIB + k0 + i, curves[curve])
         for axis in range(3):
             node, bar = TX + axis * ROW, FX + axis * ROW + RIB + k0
-            for i in range(count):
-                A[node + a0 + i] += A[bar + i]
-            for i in range(count):
-                A[node + b0 + i] -= A[bar + i]
+            force = A[bar : bar + count]
+            add(A[node + a0 : node + a0 + count], force, 1.0)
+            add(A[node + b0 : node + b0 + count], force, -1.0)
 
 
 @njit(cache=True, error_model="numpy")

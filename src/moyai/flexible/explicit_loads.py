@@ -6,6 +6,7 @@ import math
 from typing import Any
 
 from moyai.core.compiled import njit
+from moyai.flexible.explicit_forces import SHORT, add, fetch_ends
 from moyai.flexible.explicit_rows import (
     ACROSS,
     ADDED,
@@ -30,6 +31,7 @@ from moyai.flexible.explicit_rows import (
     EY,
     EZ,
     FAST,
+    FIRST_END,
     FORM,
     FREE_X,
     FREE_Y,
@@ -61,6 +63,8 @@ from moyai.flexible.explicit_rows import (
     RATE,
     RIB,
     ROW,
+    SECOND_END,
+    SEEN,
     SHARE,
     SKIN,
     TINY,
@@ -195,18 +199,24 @@ def add_ribs(A: Any, runs: Any) -> None:
     """Add the loads and added mass of the ribs to their nodes."""
     for r in range(runs.shape[0]):
         a0, b0, k0, count = runs[r, 0], runs[r, 1], RIB + runs[r, 2], runs[r, 3]
-        for axis in range(3):
-            node, one, two = QX + axis * ROW, AX + axis * ROW + k0, EX + axis * ROW + k0
+        if count < SHORT:
             for i in range(count):
-                A[node + a0 + i] += A[one + i]
-            for i in range(count):
-                A[node + b0 + i] += A[two + i]
-        for row in range(6):
-            node, bar = MXX + row * ROW, DXX + row * ROW + k0
-            for i in range(count):
-                A[node + a0 + i] += A[bar + i]
-            for i in range(count):
-                A[node + b0 + i] += A[bar + i]
+                for axis in range(3):
+                    A[QX + axis * ROW + a0 + i] += A[AX + axis * ROW + k0 + i]
+                    A[QX + axis * ROW + b0 + i] += A[EX + axis * ROW + k0 + i]
+                for row in range(6):
+                    A[MXX + row * ROW + a0 + i] += A[DXX + row * ROW + k0 + i]
+                    A[MXX + row * ROW + b0 + i] += A[DXX + row * ROW + k0 + i]
+        else:
+            for axis in range(3):
+                node, one, two = QX + axis * ROW, AX + axis * ROW + k0, EX + axis * ROW + k0
+                add(A[node + a0 : node + a0 + count], A[one : one + count], 1.0)
+                add(A[node + b0 : node + b0 + count], A[two : two + count], 1.0)
+            for row in range(6):
+                node, bar = MXX + row * ROW, DXX + row * ROW + k0
+                mass = A[bar : bar + count]
+                add(A[node + a0 : node + a0 + count], mass, 1.0)
+                add(A[node + b0 : node + b0 + count], mass, 1.0)
 
 
 @njit(cache=True, error_model="numpy")
@@ -268,15 +278,14 @@ def loads(
 ) -> None:  # fmt: skip
     """Write weight, buoyancy, drag and inertia of the water at every node, and the inverse mass blocks."""
     count, spine = sizes[0], sizes[1]
+    ribs = fetch_ends(A, runs, SEEN)
     if surface:
         wetness(A, 0, 1, 0, spine)
-        for r in range(runs.shape[0]):
-            wetness(A, runs[r, 0], runs[r, 1], RIB + runs[r, 2], runs[r, 3])
+        wetness(A, FIRST_END, SECOND_END, RIB, ribs)
     bar_loads(A, 0, 1, 0, spine, waves, ahead)
     node_loads(A, count, spine)
-    if runs.shape[0] > 0:
-        for r in range(runs.shape[0]):
-            bar_loads(A, runs[r, 0], runs[r, 1], RIB + runs[r, 2], runs[r, 3], waves, ahead)
+    if ribs > 0:
+        bar_loads(A, FIRST_END, SECOND_END, RIB, ribs, waves, ahead)
         add_ribs(A, runs)
     if attached.size > 0:
         attached_loads(A, attached, rho, gravity, ahead)

@@ -20,16 +20,17 @@ FAST: Any = {"contract", "arcp", "nsz", "reassoc"}
 TINY = 1e-200
 #: Distance of rows; networks of up to about this many nodes fit. Memory that is not touched costs nothing.
 ROW = 65536 + 24
-#: Rows by name. Nodes: position, velocity, force in use, new load, load before, inverse mass, mass block.
+#: Rows by name. Nodes: position, velocity, the water (velocity, acceleration, elevation): what bars see of their ends.
 X, Y, Z, U, V, W = 0 * ROW, 1 * ROW, 2 * ROW, 3 * ROW, 4 * ROW, 5 * ROW
-PX, PY, PZ, QX, QY, QZ = 6 * ROW, 7 * ROW, 8 * ROW, 9 * ROW, 10 * ROW, 11 * ROW
-BX, BY, BZ = 12 * ROW, 13 * ROW, 14 * ROW
-IXX, IXY, IXZ, IYY, IYZ, IZZ = 15 * ROW, 16 * ROW, 17 * ROW, 18 * ROW, 19 * ROW, 20 * ROW
-MXX, MXY, MXZ, MYY, MYZ, MZZ = 21 * ROW, 22 * ROW, 23 * ROW, 24 * ROW, 25 * ROW, 26 * ROW
-#: Nodes: what does not change, and the water (velocity, acceleration, elevation).
-MASS, WEIGHT, VOLUME, DRAG, ADDED, STIFF, DAMP, HEIGHT, FORM = (row * ROW for row in range(27, 36))
-FREE_X, FREE_Y, FREE_Z = 36 * ROW, 37 * ROW, 38 * ROW
-WU, WV, WW, WA, WB, WC, ETA = (row * ROW for row in range(39, 46))
+WU, WV, WW, WA, WB, WC, ETA = (row * ROW for row in range(6, 13))
+#: Nodes: force in use, new load, load before, inverse mass, mass block.
+PX, PY, PZ, QX, QY, QZ = 13 * ROW, 14 * ROW, 15 * ROW, 16 * ROW, 17 * ROW, 18 * ROW
+BX, BY, BZ = 19 * ROW, 20 * ROW, 21 * ROW
+IXX, IXY, IXZ, IYY, IYZ, IZZ = 22 * ROW, 23 * ROW, 24 * ROW, 25 * ROW, 26 * ROW, 27 * ROW
+MXX, MXY, MXZ, MYY, MYZ, MZZ = 28 * ROW, 29 * ROW, 30 * ROW, 31 * ROW, 32 * ROW, 33 * ROW
+#: Nodes: what does not change.
+MASS, WEIGHT, VOLUME, DRAG, ADDED, STIFF, DAMP, HEIGHT, FORM = (row * ROW for row in range(34, 43))
+FREE_X, FREE_Y, FREE_Z = 43 * ROW, 44 * ROW, 45 * ROW
 TX, TY, TZ = 46 * ROW, 47 * ROW, 48 * ROW
 #: Bars: constants, force on the first node, tension, its highest value, loads of the water on both ends, added mass.
 LENGTH, SPRING, VISCOUS, LIMIT, ACROSS, SKIN, CROSS, ALONG, LIFT, SHARE, RADIUS, LIGHT, DISPLACED = (
@@ -47,3 +48,8 @@ LEDGER = 6
 #: Ribs repeat the rows of bars, from here on.
 RIB = (ROWS - ROWS_OF_NODES) * ROW
 TOTAL_ROWS = ROWS + ROWS - ROWS_OF_NODES
+#: Rows of nodes that a bar needs for its tension and for its loads, and where they lie a second time for both ends of
+#: every rib, in the order of the ribs: loops over them then run through memory as those of the spine do.
+MOTION, SEEN = 6, 13
+FIRST_END, SECOND_END = TOTAL_ROWS * ROW, (TOTAL_ROWS + SEEN) * ROW
+ROWS_IN_MEMORY = TOTAL_ROWS + 2 * SEEN

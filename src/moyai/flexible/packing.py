@@ -74,7 +74,7 @@ def pack(arrays: KernelArrays) -> Packed:
             parameter="network",
             allowed=f"up to {rows_of.ROW - 2 * _LANES} in the explicit scheme",
         )
-    memory = _untouched(rows_of.TOTAL_ROWS * rows_of.ROW)
+    memory = _untouched(rows_of.ROWS_IN_MEMORY * rows_of.ROW)
     # a bar between neighbours goes on the spine, the first one for each pair; its direction may be reversed
     low = np.minimum(arrays.start, arrays.end)
     neighbours = (np.abs(arrays.end - arrays.start) == 1) & (arrays.curve < 0)
