@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
+import numpy as np
+
 from moyai.core.compiled import njit
+from moyai.sea.kinematics import lift_to, turn
 
 COLUMNS = 14
 """Velocity, acceleration and elevation of a frequency: real and imaginary part of each."""
@@ -31,17 +33,17 @@ def spread_kinematics(nodes: Any, level: Any, sea: Any, depth: float, first: Any
         Is added to.
     """
     amplitude, phase, omega, wave_number, cosine, sine = sea
+    count = amplitude.size
+    surface, quarter, lift = np.empty(count), np.empty(count), np.empty(count)
+    shares_of_bed, back = -1.0 / np.expm1(-2.0 * wave_number * depth), np.exp(-2.0 * wave_number * depth)
     for i in range(nodes.shape[0]):
-        x, y, z, found = nodes[i, 0], nodes[i, 1], level[i], out[i]
-        for j in range(amplitude.size):
-            k = wave_number[j]
-            turn = phase[j] + k * (x * cosine[j] + y * sine[j])
-            real, imaginary = amplitude[j] * math.cos(turn), amplitude[j] * math.sin(turn)
-            # deep water where the bed is out of reach
-            rate, back, whole = omega[j] * math.exp(k * z), 0.0, 1.0
-            if k * depth < 20.0:
-                back, whole = math.exp(-2.0 * k * (z + depth)), -math.expm1(-2.0 * k * depth)
-            along, up = rate * (1.0 + back) / whole, rate * (1.0 - back) / whole
+        found = out[i]
+        turn(nodes[i, 0], nodes[i, 1], wave_number, cosine, sine, phase, amplitude, surface, quarter)
+        lift_to(level[i], wave_number, lift)
+        for j in range(count):
+            real, imaginary, down = surface[j], quarter[j], back[j] / lift[j]
+            rate = omega[j] * shares_of_bed[j]
+            along, up = rate * (lift[j] + down), rate * (lift[j] - down)
             u, v, w = along * cosine[j] * real, along * sine[j] * real, up * imaginary
             u_turned, v_turned, w_turned = along * cosine[j] * imaginary, along * sine[j] * imaginary, -up * real
             for q in range(shares.shape[1]):

@@ -74,7 +74,7 @@ def wheeler_elevation_scalar(z: float, elevation: float, water_depth: float) -> 
 
 
 @njit(cache=True, error_model="numpy", fastmath=CONTRACT)
-def _turn(
+def turn(
     x: float, y: float, wave_number: Array, cosines: Array, sines: Array, begin: Array, amplitude: Array,
     surface: Array, quarter: Array,
 ) -> None:  # fmt: skip
@@ -93,7 +93,7 @@ def _sum(values: Array) -> float:
 
 
 @njit(cache=True, error_model="numpy", fastmath=CONTRACT)
-def _lift(level: float, wave_number: Array, lift: Array) -> None:
+def lift_to(level: float, wave_number: Array, lift: Array) -> None:
     """Write e^{kz} of each component."""
     for i in range(lift.size):
         lift[i] = falling_exponential(wave_number[i] * level)
@@ -169,12 +169,12 @@ def linear_velocity_acceleration(
     surface, quarter, lift = np.empty(count), np.empty(count), np.empty(count)
     for node in range(x.size):
         level = z[node]
-        _turn(x[node], y[node], wave_number, cosines, sines, begin, amplitude, surface, quarter)
+        turn(x[node], y[node], wave_number, cosines, sines, begin, amplitude, surface, quarter)
         eta = _sum(surface)
         if stretching == 2:
             level = wheeler_elevation_scalar(level, eta, water_depth)
         above = level if (stretching == 1 and level > 0.0) else 0.0
-        _lift(min(max(level, -water_depth), 0.0), wave_number, lift)
+        lift_to(min(max(level, -water_depth), 0.0), wave_number, lift)
         u, v, w, du, dv, dw = _orbits(
             above, wave_number, intrinsic_omega, cosines, sines, shares, back, lift, surface, quarter
         )
