@@ -9,7 +9,7 @@ from __future__ import annotations
 import hashlib
 import os
 import pickle
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
@@ -46,6 +46,20 @@ def kept_paper(name: str, *, quick: bool) -> Any:
     with _alone_at(Path(folder), ".pickle", name, str(quick)) as kept:
         if not kept.exists():
             kept.write_bytes(pickle.dumps(reproduce(name, quick=quick)))
+    return pickle.loads(kept.read_bytes())
+
+
+def kept_value(name: str, compute: Callable[[], Any]) -> Any:
+    """Return what a function computes out of the package alone, computed where nobody has done so before.
+
+    The name says all that it depends on besides the package.
+    """
+    folder = os.environ.get(FOLDER)
+    if not folder:
+        return compute()
+    with _alone_at(Path(folder), ".pickle", "value", name) as kept:
+        if not kept.exists():
+            kept.write_bytes(pickle.dumps(compute()))
     return pickle.loads(kept.read_bytes())
 
 

@@ -7,6 +7,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
+from kept_runs import kept_run
 
 import moyai
 from moyai.case.builder import build
@@ -201,7 +202,7 @@ SETTLED = template("network").replace("  # duration: 2 min", "  duration: 50 s")
 @pytest.mark.slow
 def test_the_template_is_converged_on_its_mesh():
     """The buoy of `moyai new network`: its band holds what four times the segments give."""
-    found = result_of(template("network"))
+    found = kept_run(template("network"))
     assert found.status == "converged", found.message
     tension = headline(found, "line_tension")
     assert tension.band is not None

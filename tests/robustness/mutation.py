@@ -1,7 +1,7 @@
 """Damage to files, drawn from a seed, and what a reader makes of it.
 
-``python tests/robustness/mutation.py KIND SEED COUNT`` prints the failures of one kind as lines; it is run as a process
-of its own where a reader may take the interpreter down.
+``python tests/robustness/mutation.py KIND,... SEED COUNT`` prints the failures of kinds as lines, and each kind as it
+is begun and ended; it is run as a process of its own where a reader may take the interpreter down.
 """
 
 from __future__ import annotations
@@ -120,4 +120,6 @@ def try_damaged(kind: str, seed: int, count: int) -> list[str]:
 if __name__ == "__main__":
     # A file that claims more than it holds is to be refused, not to fill the memory
     resource.setrlimit(resource.RLIMIT_AS, (6 << 30, 6 << 30))
-    print("\n".join(try_damaged(sys.argv[1], int(sys.argv[2]), int(sys.argv[3]))))
+    for one in sys.argv[1].split(","):
+        print(f"begun: {one}", flush=True)
+        print("\n".join([*try_damaged(one, int(sys.argv[2]), int(sys.argv[3])), f"ended: {one}"]), flush=True)

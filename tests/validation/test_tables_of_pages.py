@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import yaml
-from kept_runs import kept_run
+from kept_runs import kept_run, kept_value
 from written_tables import DOCS, differences, tables_of
 
 import moyai
@@ -338,7 +338,8 @@ def strong_current():
 def released_skirt():
     case = problem_of("sawaragi", "flume")
     for cells in ((12, 4), (24, 8)):
-        record = Runs(span_of(case), case, 21, cells).whole_line
+        runs = Runs(span_of(case), case, 21, cells)
+        record = kept_value(f"whole span of the flume, {cells} cells", lambda runs=runs: runs.whole_line)
         yield [record.spike, record.spike_time, record.plateau]
 
 

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import xarray as xr
+from kept_runs import kept_run
 
 import moyai
 from moyai.case.templates import template
@@ -53,9 +54,8 @@ def test_regular_waves_have_no_chance_and_short_records_say_so():
 
 
 @pytest.mark.slow  # a cage in waves
-def test_a_law_out_of_its_range_is_reported_once(tmp_path):
-    (tmp_path / "c.yaml").write_text(template("rigid_cage"), encoding="utf-8")
-    result = moyai.run(moyai.load_case(tmp_path / "c.yaml"))
+def test_a_law_out_of_its_range_is_reported_once():
+    result = kept_run(template("rigid_cage"))
     said = [notice for notice in result.notices if notice.severity == "warning"]
     assert [notice.code for notice in said] == ["net-law-choice"]
     assert "the power goes on up to the cap" in said[0].message

@@ -3,6 +3,7 @@
 import json
 
 import pytest
+from kept_papers import take_kept_paper
 from typer.testing import CliRunner
 
 from moyai.cli.main import app
@@ -40,7 +41,8 @@ def test_what_does_not_exist_is_one_line(tmp_path, monkeypatch, arguments, messa
 
 
 @pytest.mark.slow
-def test_a_page_with_points_from_end_to_end(tmp_path):
+def test_a_page_with_points_from_end_to_end(tmp_path, monkeypatch):
+    take_kept_paper("sawaragi", monkeypatch)
     points = tmp_path / "own.csv"
     points.write_text("Fr, C_T\n0.1, 3.0\n0.2, 1.5\n", encoding="utf-8")
     folder = tmp_path / "page"

@@ -6,7 +6,7 @@ import shutil
 from pathlib import Path
 
 import pytest
-from japanese import compared, drawn_without_boxes, without_boxes
+from japanese import compared_document, drawn_without_boxes, without_boxes, words_of
 from test_net_campaign import EXAMPLE as NETS
 from test_net_campaign import folder as net_folder
 from test_net_campaign import reduced
@@ -34,12 +34,13 @@ def measured(kind: str, file: Path, *more: str) -> Result:
 
 def assert_japanese(result: Result, least: int) -> None:
     """Hold the report of a result in Japanese against that in English."""
-    left, count = compared(result)
+    document = compose_document(result, language="ja")
+    left, count = compared_document(document, words_of(result))
     assert count > least
     assert not left, "\n".join(left)
-    assert drawn_without_boxes(result, most=1) == 1
+    assert drawn_without_boxes(document, most=1) == 1
     if packaged_font() is not None:  # there is a font to hold the letters against
-        found = without_boxes(compose_document(result, language="ja"))
+        found = without_boxes(document)
         assert found == {"page": set(), "PDF": set(), "Word": set()}
 
 

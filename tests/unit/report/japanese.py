@@ -9,18 +9,22 @@ import warnings
 import zipfile
 import zlib
 from collections.abc import Collection, Iterator
-from dataclasses import fields, is_dataclass
+from dataclasses import fields, is_dataclass, replace
+from functools import cache
 from html import unescape
 from typing import Any
+from unittest.mock import patch
 
 from fontTools.ttLib import TTFont
+from matplotlib import font_manager
 
 from moyai.core.results import Result
 from moyai.language import spoken_in
 from moyai.language.words import latin_words, numbers
-from moyai.report.document import Document, Figure, Listing, NoticeBlock, Table
+from moyai.report.document import Choice, Document, Figure, Listing, NoticeBlock, Option, Section, Table
 from moyai.report.figures_static import draw_figure
-from moyai.report.fonts import JAPANESE, packaged_font
+from moyai.report.fonts import JAPANESE, matplotlib_families, packaged_font
+from moyai.report.formatting import pretty_unit, subscripted
 from moyai.report.html import notice_items, render_html
 from moyai.report.language import in_the_language
 from moyai.report.pdf import render_pdf
@@ -71,9 +75,13 @@ def compared(result: Result, file: str = "") -> tuple[list[str], int]:
 
     Words of the case file, or of that of a study, are the reader's own. Every number has to stand in both languages.
     """
+    return compared_document(compose_document(result, language="ja"), words_of(result, file))
+
+
+def words_of(result: Result, file: str = "") -> set[str]:
+    """Return the words of the case file of a result, and of the file of a study."""
     text = f"{file}\n{result.tree.attrs.get('case_text', '')}"
-    own = set(latin_words(text.replace("_", " ").replace(":", " ")))
-    return compared_document(compose_document(result, language="ja"), own)
+    return set(latin_words(text.replace("_", " ").replace(":", " ")))
 
 
 def compared_document(document: Document, own: Collection[str] = ()) -> tuple[list[str], int]:
@@ -90,9 +98,8 @@ def compared_document(document: Document, own: Collection[str] = ()) -> tuple[li
     return left, count
 
 
-def drawn_without_boxes(result: Result, most: int = 3) -> int:
+def drawn_without_boxes(document: Document, most: int = 3) -> int:
     """Draw figures of a report in Japanese; a letter that the fonts do not have is an error."""
-    document = compose_document(result, language="ja")
     figures = [block for block in document.blocks() if isinstance(block, Figure)][:most]
     with spoken_in("ja"), warnings.catch_warnings():
         warnings.simplefilter("error")
@@ -102,11 +109,74 @@ def drawn_without_boxes(result: Result, most: int = 3) -> int:
 
 
 def without_boxes(document: Document) -> dict[str, set[str]]:
-    """Return the letters of page, PDF and Word that no font of theirs has; a figure drawn without one is an error."""
+    """Return the letters of page, PDF and Word that no font of theirs has; a letter that no figure has is an error.
+
+    One figure of each make is drawn, for the PDF; the letters of all are looked up in the faces of figures. Word has an
+    empty picture in the place of each, and the first rows of each table: it is the faces of its styles that are looked
+    at there, and the page holds the letters of all rows.
+    """
+    drawn: dict[Any, bytes] = {}
+
+    def draw_once(figure: Figure) -> bytes:
+        assert letters_missing_in_figure(figure) == set(), figure.title
+        make = _make_of(figure)
+        if make not in drawn:
+            drawn[make] = draw_figure(figure)
+        return drawn[make]
+
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        pdf, word = render_pdf(document), render_docx(document)
+        with patch("moyai.report.pdf.draw_figure", draw_once):
+            pdf = render_pdf(document)
+        empty = {"draw_figure": lambda *_, **__: _EMPTY_PICTURE, "_rasterised": lambda _: _EMPTY_PICTURE}
+        with patch.multiple("moyai.report.word", **empty):
+            word = render_docx(_with_first_rows(document))
     return {"page": missing_in_page(render_html(document)), "PDF": missing_in_pdf(pdf), "Word": missing_in_word(word)}
+
+
+def _make_of(figure: Figure) -> tuple[Any, ...]:
+    """Return what decides by which ways a figure is drawn."""
+    styles = frozenset((one.style, one.dash, one.faint, bool(one.belongs_to)) for one in figure.series)
+    marks = frozenset((one.x is None, one.y is None) for one in figure.marks if one.known)
+    panels = tuple((one.limits is None, one.from_zero) for one in figure.panels)
+    return styles, marks, panels, bool(figure.categories), figure.window is None, figure.abscissae[0].log
+
+
+def letters_missing_in_figure(figure: Figure) -> set[str]:
+    """Return the letters of a figure on paper that no face of figures has."""
+    named = [*figure.abscissae[:1], *figure.panels]
+    texts = [one.label for one in (*named, *figure.series, *figure.marks)]
+    texts += [pretty_unit(one.unit) for one in named] + list(figure.categories)
+    return set("".join(map(subscripted, texts))) - _letters_of_figures() - {"\n"}
+
+
+@cache
+def _letters_of_figures() -> frozenset[str]:
+    faces = (font_manager.get_font(font_manager.findfont(family)) for family in matplotlib_families())
+    return frozenset(chr(code) for face in faces for code in face.get_charmap())
+
+
+#: A PNG of one point.
+_EMPTY_PICTURE = base64.b64decode(
+    "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mP8z8BQDwAEhQGAhKmMIQAAAABJRU5ErkJggg=="
+)
+
+
+def _with_first_rows(item: Any, most: int = 8) -> Any:
+    """Return a document, or a part of it, with no more than the first rows of its tables."""
+    match item:
+        case tuple():
+            return tuple(_with_first_rows(one, most) for one in item)
+        case Document():
+            return replace(item, sections=_with_first_rows(item.sections, most))
+        case Section() | Option():
+            return replace(item, blocks=_with_first_rows(item.blocks, most))
+        case Choice():
+            return replace(item, options=_with_first_rows(item.options, most))
+        case Table():
+            columns = (replace(one, values=one.values[:most], links=one.links[:most]) for one in item.columns)
+            return replace(item, columns=tuple(columns))
+    return item
 
 
 def wide(text: str) -> set[str]:

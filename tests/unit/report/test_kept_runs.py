@@ -40,6 +40,14 @@ def test_a_case_is_run_once_and_read_as_it_was(runs: list[str], monkeypatch: pyt
         assert len(loads[0]) > 5 and loads[0].identical(loads[1])
 
 
+def test_a_value_is_computed_once_for_each_name(runs: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("one", "one", "other"):
+        assert kept_runs.kept_value(name, lambda name=name: runs.append(name) or name) == name
+    assert runs == ["one", "other"]
+    monkeypatch.delenv(kept_runs.FOLDER)
+    assert kept_runs.kept_value("one", lambda: "fresh") == "fresh"
+
+
 def test_another_case_and_another_package_are_run(runs: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
     case = moyai.load_case(moyai.template("member")).replace("waves", SHORT)
     kept_runs.kept_run(case)

@@ -4,6 +4,7 @@ import re
 
 import numpy as np
 import pytest
+from kept_papers import take_kept_paper
 
 from moyai.cli.main import app
 from moyai.core.results import read_result
@@ -58,9 +59,10 @@ def test_the_page_of_the_results_is_that_of_the_run(tmp_path, language):
 
 
 @pytest.mark.slow
-def test_report_after_reproduce_in_the_language_of_the_run(tmp_path):
+def test_report_after_reproduce_in_the_language_of_the_run(tmp_path, monkeypatch):
     from typer.testing import CliRunner
 
+    take_kept_paper("arai", monkeypatch)
     ran = CliRunner().invoke(app, ["--language", "ja", "reproduce", "arai", "--quick", "-q", "-o", str(tmp_path)])
     assert ran.exit_code == 0, ran.output
     first = (tmp_path / "report.html").read_text(encoding="utf-8")

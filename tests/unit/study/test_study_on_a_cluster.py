@@ -90,22 +90,30 @@ study:
 """
 
 
-@pytest.mark.parametrize("by_post", [True, False])
-def test_the_pontoon_itself_has_the_same_bits_on_a_cluster(cluster, tmp_path, monkeypatch, by_post):
+@pytest.fixture(scope="module")
+def pontoon(tmp_path_factory):
+    """The study of the pontoon, and its result by one process."""
     from moyai.cli.runner import run
 
-    client, _ = cluster
+    folder = tmp_path_factory.mktemp("pontoon")
+    path = folder / "study.yaml"
+    path.write_text(PONTOON.format(base=Path(__file__).parents[3] / "examples" / "pontoon.yaml"), encoding="utf-8")
+    study = load_study(path)
+    return study, run_study(study, folder / "here", run, workers=1)
+
+
+@pytest.mark.parametrize("by_post", [True, False])
+def test_the_pontoon_itself_has_the_same_bits_on_a_cluster(cluster, pontoon, tmp_path, monkeypatch, by_post):
+    from moyai.cli.runner import run
+
+    (client, _), (study, here) = cluster, pontoon
     if by_post:
         monkeypatch.setattr(client, "gather", None)
     else:
         # What is too large for the post, or gets lost in it, is fetched
         monkeypatch.setattr(client, "subscribe_topic", lambda name, handler: None)
         monkeypatch.setattr(client, "unsubscribe_topic", lambda name: None)
-    path = tmp_path / "study.yaml"
-    path.write_text(PONTOON.format(base=Path(__file__).parents[3] / "examples" / "pontoon.yaml"), encoding="utf-8")
-    study = load_study(path)
     on_cluster = run_study(study, tmp_path / "cluster", run, workers=1, on=client)
-    here = run_study(study, tmp_path / "here", run, workers=1)
     numbers = 0
     for node in here.tree.subtree:
         for name, variable in node.data_vars.items():
