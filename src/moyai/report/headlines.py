@@ -110,10 +110,18 @@ def _asked(headline: Headline, item: Judgement, like: float) -> str:
     _, own = limit_and_found(replace(item, value=headline.value), like)
     plain = own == found or not math.isfinite(headline.value) or item.criterion.mean_weight != 1.0
     place = f" ({item.reason})" if item.outcome != "not judged" and item.reason not in ("", headline.where) else ""
+    if item.outcome == "not judged" and item.judged_on not in ("", headline.where, headline.judged_on):
+        # of another line, of which only a bound is known
+        what = "factor of safety " if item.criterion.as_factor else ""
+        return f"asked {limit}; not judged at {item.judged_on}: {what}{found}"
     if item.criterion.as_factor:
         if item.value == 0.0:
             return f"factor of safety not known, asked {limit}" if item.bound else f"no load, factor asked {limit}"
-        here = "" if plain else f" where it is judged{place}, {own} at the value shown"
+        here = (
+            f" where it is judged{place}" * bool(place)
+            if plain
+            else (f" where it is judged{place}, {own} at the value shown")
+        )
         return f"factor of safety {found}{here}, asked {limit}"
     return f"limit {limit}" if plain else f"limit {limit}, judged at {found.removeprefix(f'{item.bound} ')}{place}"
 

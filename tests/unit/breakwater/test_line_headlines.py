@@ -4,10 +4,18 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from moyai.core.headline import Criterion, judge
 from moyai.structures.breakwater import responses
-from moyai.structures.breakwater.lines.headlines import AT_REST, IN_MOTION, LinePeak, anchor_headlines, line_headlines
+from moyai.structures.breakwater.lines.headlines import (
+    AT_REST,
+    IN_MOTION,
+    LinePeak,
+    anchor_headlines,
+    line_headlines,
+    line_peaks,
+)
 from moyai.structures.breakwater.report import reading as breakwater_reading
 from moyai.structures.breakwater.report.tables import range_words, sway_words
 
@@ -110,3 +118,45 @@ def test_a_sea_without_its_slow_drift_proves_no_strength():
     assert judge(numbers, (FACTOR,), computed=True).outcome == "not judged"
     assert judge(numbers, (UPLIFT,), computed=True).outcome == "not judged"
     assert judge(numbers, (replace(FACTOR, limit=0.05),), computed=True).outcome == "does not hold"
+
+
+def test_every_regular_wave_is_judged_by_a_code_that_weighs_the_mean():
+    """13.8 kN of which 12.2 stand at 3 s keep a limit of 1.1 mean + 1.5 varying part that 13.1 of 7.3 at 10 s break."""
+    coords = {"period": [3.0, 10.0], "line": ["seaward"]}
+    data = xr.Dataset(
+        {
+            "line_tension_maximum": (("period", "line"), [[13.80e3], [13.12e3]]),
+            "line_tension_mean": (("period", "line"), [[12.22e3], [7.28e3]]),
+        },
+        coords=coords, attrs={"status": "converged"},
+    )  # fmt: skip
+    statics = xr.Dataset({"breaking_load": ("line", [17.1e3]), "unstretched_length": ("line", [60.0])})
+    weighed = Criterion("factor", "line_utilisation", 0.95 / 1.5, "at most", "code", mean_weight=1.1 / 1.5)
+    outcomes = []
+    for part in (data.isel(period=[0]), data):
+        peaks = line_peaks({"/SWL/statics": statics, "/SWL/time/daily": part}, "SWL")
+        outcomes.append(judge(line_headlines(peaks), (weighed,), computed=True).outcome)
+    assert outcomes == ["holds", "does not hold"]
+
+
+def test_a_line_without_a_strength_next_to_one_that_has_it_is_not_judged():
+    bare = replace(GOVERNS, line="bare", breaking_load=np.nan)
+    verdict = judge(line_headlines([GOVERNS, bare]), (FACTOR,), computed=True)
+    assert verdict.outcome == "not judged" and "breaking load not given of bare" in verdict.message
+    # a spring has none
+    spring = replace(bare, chain=False)
+    assert judge(line_headlines([GOVERNS, spring]), (FACTOR,), computed=True).outcome == "holds"
+
+
+def test_capacity_and_tension_are_the_largest_of_unlike_lines():
+    """The weaker rope has the higher utilisation, the chain the larger tension and pull, with its own factor."""
+    rope = replace(GOVERNS, line="rope", breaking_load=1e6)
+    chain = replace(
+        GOVERNS, line="chain", tension=500e3, horizontal=480e3, vertical=10e3, grounded=0.0, scatter=SCATTER + 100e3,
+        horizontal_scatter=SCATTER + 80e3, vertical_scatter=0.0 * SCATTER + 10e3, bound=SCATTER + 100e3,
+    )  # fmt: skip
+    numbers = page(rope, chain)
+    assert headline(numbers, "line_utilisation").value == pytest.approx(0.4)
+    assert headline(numbers, "line_tension").value == 500e3
+    capacity = headline(numbers, "anchor_capacity_required")
+    assert capacity.value == pytest.approx(1.6 * 480e3) and "line chain, 1.6 times its pull" in capacity.where

@@ -329,7 +329,8 @@ def _rows_in_time(tensions: dict[str, list[float]], mean: list[float], load: lis
         {f"line_tension_maximum{end}": ("line", values) for end, values in tensions.items()},
         coords={"line": ["rope", "chain"]},
     ).assign(line_tension_mean=("line", mean))
-    groups = {"/SWL/statics": xr.Dataset({"breaking_load": ("line", load)}), "/SWL/time/daily": data}
+    curves = {"anchor_curve_tension": (("line", "anchor_point"), [[0.0, 1e6], [0.0, 1e6]])}
+    groups = {"/SWL/statics": xr.Dataset({"breaking_load": ("line", load), **curves}), "/SWL/time/daily": data}
     return list(line_headlines(groups, [("/SWL/time/daily", data)]))
 
 
@@ -353,3 +354,10 @@ def test_a_code_that_weighs_the_mean_is_judged_on_the_line_whose_tension_varies_
     assert judge(items, [limit], computed=True).outcome == "does not hold"
     alone = _rows_in_time({"": [0.785e5, 0.1e5]}, [0.55e5, 0.05e5], [1e5, 1e5])
     assert judge(alone, [limit], computed=True).outcome == "holds"
+
+
+def test_a_line_of_a_row_without_a_strength_next_to_one_that_has_it_is_not_judged() -> None:
+    use = Criterion("limit", "line_utilisation", 0.5, "at most", "source", "limit", "1")
+    items = _rows_in_time({"": [1e5, 1e5]}, [5e4, 5e4], [4e5, float("nan")])
+    assert judge(items, [use], computed=True).message.endswith("breaking load not given of chain")
+    assert judge(_rows_in_time({"": [1e5, 1e5]}, [5e4, 5e4], [4e5, 4e5]), [use], computed=True).outcome == "holds"

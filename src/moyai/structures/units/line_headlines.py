@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 AT_REST = "linear, lines at rest at every instant"
 TIME_AT_REST = "time domain, lines at rest at every instant"
 IN_MOTION = "time domain, lines in motion around events"
+#: What is said of a line without a breaking load next to lines that have one.
+NO_STRENGTH = "breaking load not given of"
 
 
 #: Groups of waves move a row on chains slowly and far about its mean place; a single unit with it has several times the
@@ -54,6 +56,17 @@ def line_headlines(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Hea
     load = np.asarray(groups[f"/{each[0].path.split('/')[1]}/statics"]["breaking_load"].values, dtype=float)
     if not np.isfinite(load).any():
         return
+    statics = groups[f"/{each[0].path.split('/')[1]}/statics"]
+    # springs have no strength
+    chains = (
+        np.isfinite(statics["anchor_curve_tension"].values).all(axis=1) if "anchor_curve_tension" in statics else load
+    )
+    bare = ", ".join(str(each[0].data["line"].values[row]) for row in np.flatnonzero(np.isnan(load) & (chains > 0)))
+    if bare:
+        yield Headline(
+            "line_utilisation", "Tension over breaking load of a line", math.nan, "1", text=f"{NO_STRENGTH} {bare}",
+            shown=False,
+        )  # fmt: skip
     shares = each_of(seas, "line_tension_maximum", load)
     yield from with_unknown(shares, [_utilisation(share, True) for share in shares])
     if any(_moved(share) for share in shares):

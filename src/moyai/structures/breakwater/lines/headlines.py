@@ -26,6 +26,8 @@ AT_REST = "time domain, lines at rest at every instant"
 FREQUENCY = "frequency domain, waves and slow drift"
 FIRST_ORDER = "frequency domain, regular waves"
 STILL = "at rest, no waves run"
+#: What is said of a line whose tension is known and whose strength is not, next to lines that have one.
+NO_STRENGTH = "breaking load not given of"
 STORM_DURATION = 10800.0  # [s], for which the largest values of a sea state are usually asked
 
 
@@ -58,6 +60,8 @@ class LinePeak:
     without_drift: bool = False
     #: Most probable largest over standard deviation of a tension of the frequency domain; NaN in time.
     factor: float = math.nan
+    #: Whether it is a line of segments, which has a strength; a spring has none.
+    chain: bool = True
 
     def band(self, value: float, scatter: Array, bound: Array | None = None, mean: float = 0.0) -> Band | None:
         """Return the band of a number of this line: of realisations, in the frequency domain of storms alike."""
@@ -119,7 +123,7 @@ def drift_left_out(data: xr.Dataset) -> bool:
 
 
 def line_peaks(groups: Mapping[str, xr.Dataset], level: str) -> list[LinePeak]:
-    """Return the largest tension of every kind of line in every sea at a water level."""
+    """Return the largest tension of every kind of line at a water level, in every sea, of every regular wave."""
     found: list[LinePeak] = []
     statics = groups.get(f"/{level}/statics")
     for sea in seas_of(groups, level):
@@ -135,19 +139,19 @@ def line_peaks(groups: Mapping[str, xr.Dataset], level: str) -> list[LinePeak]:
         for number, line in enumerate(data.variables["line"].values):
             chain = bool(np.isfinite(statics.variables["unstretched_length"].values[number]))
             load = float(statics.variables["breaking_load"].values[number])
-            peak = _line_peak(domain, data, level, sea, str(line), number, load, chain)
-            if peak is not None:
-                found.append(peak)
+            table = np.atleast_2d(data.variables["line_tension_maximum"].values)[:, number]
+            found += [
+                _line_peak(domain, data, (level, sea, str(line)), (int(row), number), load, chain)
+                for row in np.flatnonzero(np.isfinite(table))
+            ]
     return found
 
 
 def _line_peak(
-    domain: str, data: xr.Dataset, level: str, sea: str, line: str, number: int, load: float, chain: bool
-) -> LinePeak | None:
-    table = np.atleast_2d(data.variables["line_tension_maximum"].values)[:, number]
-    if not np.isfinite(table).any():
-        return None
-    row = int(np.nanargmax(table))
+    domain: str, data: xr.Dataset, names: tuple[str, str, str], at: tuple[int, int], load: float, chain: bool
+) -> LinePeak:
+    """Return a peak: ``names`` are level, sea and line, ``at`` the row of the period and the number of the line."""
+    (level, sea, line), (row, number) = names, at
 
     def of(name: str) -> float:
         return float(np.atleast_2d(data.variables[name].values)[row, number]) if name in data else math.nan
@@ -164,17 +168,18 @@ def _line_peak(
     mean = of("line_tension_mean")
     deviation = 0.25 * of("significant_tension")
     factor = (of("most_probable_maximum_tension") - mean) / deviation if deviation > 0.0 else math.nan
-    highest = float(np.nanmax(scatter)) if scatter.size else float(table[row])
+    tension = of("line_tension_maximum")
+    highest = float(np.nanmax(scatter)) if scatter.size else tension
     # A spring is linear at any tension; a chain at rest at every instant says nothing beyond the range
     known = moving or not chain or highest <= SNAP_RATIO * mean
     period = float(data.variables["period"].values[row]) if regular else math.nan
     return LinePeak(
-        level, sea, line, period, float(table[row]), mean, load,
+        level, sea, line, period, tension, mean, load,
         of("maximum_anchor_vertical_tension"), of("maximum_anchor_horizontal_tension"), of("least_grounded_length"),
         model, known, scatter, scatter_of("maximum_anchor_vertical_tension"),
         scatter_of("maximum_anchor_horizontal_tension"),
         scatter_of("line_tension_bound") if moving else scatter, float(data.attrs.get("duration", math.nan)),
-        drift_left_out(data), factor,
+        drift_left_out(data), factor, chain,
     )  # fmt: skip
 
 
@@ -190,26 +195,19 @@ def line_headlines(peaks: list[LinePeak]) -> list[Headline]:
             )
         ]  # fmt: skip
     also = _other_level(highest, peaks)
-    chance = _mean_of(highest.scatter, highest.duration)
-    left_out = WITHOUT_DRIFT if highest.without_drift else ""
-    tension = Headline(
-        "line_tension", "Largest line tension", highest.tension, "N", highest.where, highest.model,
-        band=highest.band(highest.tension, highest.scatter, highest.bound, highest.mean), bound=highest.proves,
-        detail="; ".join(filter(None, (chance, left_out, _open(highest), also))),
-        analysis=highest.analysis,
-    )  # fmt: skip
+    tensions = governing(_tension(peak, also if peak is highest else "") for peak in peaks if peak.known)
+    tension = tensions[0]
     load = highest.breaking_load
     unknown = [
         Headline(item.name, item.label, math.nan, item.unit, peak.where, peak.model, text=f"{peak.where}: not known, "
                  + _beyond(peak), shown=False, analysis=peak.analysis)
-        for peak in peaks
-        if not peak.known
+        for peak in _farthest_beyond(peaks)
         for item in (tension, replace(tension, name="line_utilisation", label="Utilisation of the breaking load",
                                       unit="1"))
     ]  # fmt: skip
     if not load > 0.0:
         return [
-            tension,
+            *tensions,
             Headline("line_utilisation", "Utilisation of the breaking load", math.nan, "1", highest.where,
                      highest.model, detail="breaking load not given in the case"),
             *unknown,
@@ -219,7 +217,30 @@ def line_headlines(peaks: list[LinePeak]) -> list[Headline]:
     same = [_utilisation(peak) for peak in strong if peak.analysis == highest.analysis]
     others = [_utilisation(peak) for peak in strong if peak.analysis != highest.analysis]
     hidden = [replace(item, shown=False) for item in governing(others)]
-    return [tension, *governing(same), *hidden, *unknown]
+    bare = ", ".join(dict.fromkeys(peak.line for peak in peaks if peak.chain and not peak.breaking_load > 0.0))
+    without = [
+        Headline("line_utilisation", "Utilisation of the breaking load", math.nan, "1", text=f"{NO_STRENGTH} {bare}",
+                 shown=False)
+    ]  # fmt: skip
+    return [*tensions, *governing(same), *hidden, *unknown, *(without if bare else [])]
+
+
+def _tension(peak: LinePeak, also: str) -> Headline:
+    chance = _mean_of(peak.scatter, peak.duration)
+    left_out = WITHOUT_DRIFT if peak.without_drift else ""
+    return Headline(
+        "line_tension", "Largest line tension", peak.tension, "N", peak.where, peak.model,
+        band=peak.band(peak.tension, peak.scatter, peak.bound, peak.mean), bound=peak.proves,
+        detail="; ".join(filter(None, (chance, left_out, _open(peak), also))), analysis=peak.analysis,
+    )  # fmt: skip
+
+
+def _farthest_beyond(peaks: list[LinePeak]) -> list[LinePeak]:
+    """Return of every line in every sea the period that is farthest beyond its range, of those that are not known."""
+    found: dict[tuple[str, str, str], LinePeak] = {}
+    for peak in sorted((one for one in peaks if not one.known), key=lambda one: one.tension / max(one.mean, 1e-300)):
+        found[peak.level, peak.sea, peak.line] = peak
+    return list(found.values())
 
 
 def _utilisation(peak: LinePeak) -> Headline:
@@ -297,14 +318,8 @@ def anchor_headlines(groups: Mapping[str, xr.Dataset], levels: list[str], peaks:
         ]
     # a sinker is bought for the end at which criteria are judged, not for the mean of a few realisations
     weight, heaviest = max(((_sinker(peak), peak) for peak in pulled if peak.known), key=lambda pair: pair[0])
-    other = "" if heaviest.line == hardest.line else heaviest.line
-    need = anchor_need(hardest.vertical, hardest.grounded, weight, other)
-    capacity = Headline(
-        "anchor_capacity_required", "Horizontal holding capacity that an anchor needs",
-        need.factor * hardest.horizontal, "N", hardest.where, hardest.model,
-        band=hardest.band(need.factor * hardest.horizontal, need.factor * hardest.horizontal_scatter),
-        bound=hardest.proves, detail=need.words,
-    )  # fmt: skip
+    open_ones = any(not peak.known for peak in pulled)
+    capacities = governing(_capacity(peak, weight, heaviest, open_ones) for peak in pulled if peak.known)
     pull = [
         Headline(
             "anchor_horizontal_load", "Horizontal pull on an anchor", peak.horizontal, "N", peak.where, peak.model,
@@ -316,8 +331,7 @@ def anchor_headlines(groups: Mapping[str, xr.Dataset], levels: list[str], peaks:
     unknown = [
         Headline(name, label, math.nan, "N", peak.where, peak.model, text=f"{peak.where}: not known, {_beyond(peak)}",
                  shown=False)
-        for peak in pulled
-        if not peak.known
+        for peak in _farthest_beyond(pulled)
         for name, label in (("anchor_uplift", "Uplift at an anchor"),
                             ("anchor_horizontal_load", "Horizontal pull on an anchor"))
     ]  # fmt: skip
@@ -339,7 +353,19 @@ def anchor_headlines(groups: Mapping[str, xr.Dataset], levels: list[str], peaks:
         if peak.known and peak.vertical > 0.0 and peak is not lifted
     ]  # fmt: skip
     widest = [item for item in lifts if unfavourable(item) > unfavourable(uplift)]
-    return [capacity, *governing(pull), uplift, *widest, *unknown]
+    return [*capacities, *governing(pull), uplift, *widest, *unknown]
+
+
+def _capacity(peak: LinePeak, weight: float, heaviest: LinePeak, more: bool) -> Headline:
+    """Return the holding capacity that the anchor of a line needs; ``more`` where another one is not known."""
+    need = anchor_need(peak.vertical, peak.grounded, weight, "" if heaviest.line == peak.line else heaviest.line)
+    value = need.factor * peak.horizontal
+    return Headline(
+        "anchor_capacity_required", "Horizontal holding capacity that an anchor needs", value, "N",
+        f"{peak.where}, {need.factor:g} times its pull", peak.model,
+        band=peak.band(value, need.factor * peak.horizontal_scatter), bound="at least" if more else peak.proves,
+        detail=need.words,
+    )  # fmt: skip
 
 
 def _sinker(peak: LinePeak) -> float:
