@@ -180,6 +180,21 @@ def _varying_more(items: list[Headline], kept: list[Headline]) -> list[Headline]
     return found
 
 
+def all_judged(candidates: Iterable[Headline], sense: Sense = "at most") -> list[Headline]:
+    """Return what governs of one number and, not shown, what governs of those known as a bound alone.
+
+    A number that may be worse than shown is no less open because another one is worse. See :func:`governing`.
+    """
+    items = list(candidates)
+    # of equal numbers the one that is open stands first
+    kept = governing(sorted(items, key=lambda item: not item.bound), sense)
+    for bound in sorted({item.bound for item in items} - {""}):
+        alike = governing((item for item in items if item.bound == bound), sense)
+        known = {one.where for one in kept if one.bound == bound}
+        kept += [replace(item, shown=False, sea="") for item in alike if item.where not in known]
+    return kept
+
+
 @dataclass(frozen=True)
 class Criterion:
     """What a headline has to keep."""

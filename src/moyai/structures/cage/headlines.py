@@ -7,14 +7,15 @@ How the answer is made: docs/answer/cage.md.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from moyai.core.arrays import Array
-from moyai.core.headline import Band, Headline, governing
+from moyai.core.headline import Band, Headline, Sense, all_judged
+from moyai.core.options import checks_words
 from moyai.series.block_maxima import maximum_of
 from moyai.structures.cage.conditions import condition_headlines, runs_of, sea_words
 from moyai.structures.cage.flexible.problem import FlexibleCageProblem
@@ -158,6 +159,12 @@ def flexible_headlines(problem: FlexibleCageProblem, groups: Groups) -> tuple[He
     return (*(alone(_with_mesh(item, factors)) for item in items), *condition_headlines(groups), *named)
 
 
+@checks_words
+def judged_seas(items: Iterable[Headline], sense: Sense = "at most") -> list[Headline]:
+    """Return what is judged of one number of all seas, those of one short seed as bounds."""
+    return all_judged(map(alone, items), sense)
+
+
 def alone(item: Headline) -> Headline:
     """Return a number of one seed too short to tell its scatter as a bound: other seeds give more, of a volume less."""
     if item.band is None or not item.band.of.startswith(TOO_SHORT):
@@ -249,12 +256,12 @@ def _volume(states: list[_State], runs: Runs) -> list[Headline]:
         low, high, seed = chance(run, 1.0 - least, 1.0 - series)
         band = _band_with_laws(by_level.get(level), "volume_share", 1.0 - high, 1.0 - low, seed)
         moments.append(Headline("volume_left", "volume left for moments", least, "1", where, DYNAMIC, band))
-    worst, words = governing(moments, "at least"), ""
+    worst, words = judged_seas(moments, "at least"), ""
     if worst:
         band = worst[0].band
         span = "" if band is None else f" ({band.low:.3g} to {band.high:.3g})"
         words = f"down to {worst[0].value:.3g} for moments in the sea" + span
-    return _with_moments(governing(found, "at least"), worst, words)
+    return _with_moments(judged_seas(found, "at least"), worst, words)
 
 
 def _drag(states: list[_State], runs: Runs) -> list[Headline]:
@@ -278,12 +285,12 @@ def _drag(states: list[_State], runs: Runs) -> list[Headline]:
         low, high, seed = chance(run, value, series, run["drag_time"].values)
         band = _band_with_laws(by_level.get(level), "drag", low, high, seed)
         moments.append(Headline("drag", "drag for moments", value, "N", where, DYNAMIC, band))
-    worst, words = governing(moments), ""
+    worst, words = judged_seas(moments), ""
     if worst:
         band = worst[0].band
         span = "" if band is None else f" ({band.low / 1e3:.3g} to {band.high / 1e3:.3g} kN)"
         words = f"up to {worst[0].value / 1e3:.3g} kN for moments in the sea" + span
-    return _with_moments(governing(found), worst, words)
+    return _with_moments(judged_seas(found), worst, words)
 
 
 def _with_moments(steady: list[Headline], moments: list[Headline], words: str) -> list[Headline]:
@@ -327,7 +334,7 @@ def _tension(states: list[_State], runs: Runs) -> tuple[list[Headline], list[Hea
             )
     if not used:
         return [], []
-    utilisations = governing(used.values())
+    utilisations = judged_seas(used.values())
     return [replace(tensions[item.where], shown=item.shown) for item in utilisations], utilisations
 
 
@@ -377,7 +384,7 @@ def _offset(states: list[_State], runs: Runs) -> list[Headline]:
             found.append((value, where, DYNAMIC, _band_in_sea(state, "offset", run, value, series)))
     if not found or max(item[0] for item in found) < 1e-9:
         return []
-    return governing(
+    return judged_seas(
         Headline("offset", "largest offset of a collar", value, "m", where, model, band)
         for value, where, model, band in found
     )
@@ -392,17 +399,17 @@ def _anchor(states: list[_State], runs: Runs) -> list[Headline]:
         names = [str(name) for name in run["line"].values]
         anchors = [k for k, name in enumerate(names) if "anchor" in name]
         if anchors:
-            pulls = run["line_tension_maximum_lower"].values[anchors]
-            at = int(np.argmax(pulls))
-            pull = float(pulls[at])
-            # the lower end has no series of its own: the chance is that of the line's largest tension
-            line = run["line_tension_peak_since_row"].values[:, anchors[at]]
-            share = pull / max(float(run["line_tension_maximum"].values[anchors[at]]), 1e-300)
-            state = by_level.get(level)
-            band = _band_in_sea(state, "anchor_pull", run, pull, share * line, anchors[at])
+            lower = run["line_tension_maximum_lower"].values
             up = float(run["line_uplift_lower"].values[anchors].max())
             detail = f"upwards {up / 1e3:.3g} kN at most, of all anchors"
-            found.append((pull, f"lower end of {names[anchors[at]]}, {where}", DYNAMIC, detail, band))
+            state = by_level.get(level)
+            for line in anchors:
+                pull = float(lower[line])
+                # the lower end has no series of its own: the chance is that of the line's largest tension
+                share = pull / max(float(run["line_tension_maximum"].values[line]), 1e-300)
+                series = share * run["line_tension_peak_since_row"].values[:, line]
+                band = _band_in_sea(state, "anchor_pull", run, pull, series, line)
+                found.append((pull, f"lower end of {names[line]}, {where}", DYNAMIC, detail, band))
     for state in [] if found else states:
         if "anchor_pull" in state.statics and state.statics["anchor_pull"].size:
             pulls = state.statics.variables["anchor_pull"].values[state.row]
@@ -413,7 +420,7 @@ def _anchor(states: list[_State], runs: Runs) -> list[Headline]:
             found.append((float(pulls[at]), f"{name}, {state.where}", STATICS, detail, state.band("anchor_pull")))
     if not found:
         return []
-    return governing(
+    return judged_seas(
         Headline("anchor_load", "largest pull on an anchor", value, "N", where, model, band, detail=detail)
         for value, where, model, detail, band in found
     )
@@ -431,7 +438,7 @@ def _net(states: list[_State], runs: Runs) -> list[Headline]:
     for state in [] if found else states:
         value = float(state.statics.variables["net_tension"].values[state.row].max())
         found.append((value, state.where, STATICS, state.band("net_tension")))
-    return governing(
+    return judged_seas(
         Headline(
             "net_tension", "largest tension of the net", value, "N/m", where, model, band,
             detail="ropes sewn into the net share it; a bar of the mesh spreads what a weight or rope brings in",
@@ -457,7 +464,7 @@ def _stress(states: list[_State], runs: Runs) -> list[Headline]:
             found.append((value, where, DYNAMIC, band))
     if not found:
         return []
-    return governing(
+    return judged_seas(
         Headline("collar_stress", "largest stress of the collar", value, "Pa", where, model, band)
         for value, where, model, band in found
     )

@@ -12,14 +12,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from moyai.core.headline import Bound, Headline, governing
+from moyai.core.headline import Bound, Headline, all_judged, governing
 from moyai.series.realisations import ALONE
 from moyai.structures.units import doubts
 from moyai.structures.units.anchor_headlines import anchor_headlines
 from moyai.structures.units.anchors import has_anchors, with_anchor_loads
 from moyai.structures.units.datasets import BANDED
 from moyai.structures.units.largest import Largest, each_of
-from moyai.structures.units.line_headlines import all_judged, left_out, line_headlines, with_unknown
+from moyai.structures.units.line_headlines import left_out, line_headlines, with_unknown
 from moyai.structures.units.rest_headlines import stability_headlines, steady_headlines
 from moyai.structures.units.unjudged import Seas, not_judged, not_judged_at_rest
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from moyai.core.headline import Band, Bound, Headline, governing
+from moyai.core.headline import Band, Bound, Headline, all_judged
 from moyai.core.wording import spoken
 from moyai.series.realisations import ALONE
 from moyai.structures.units import doubts
@@ -32,20 +32,6 @@ NO_STRENGTH = "breaking load not given of"
 _WITHOUT_DRIFT = "; slow drift about the mean is not computed and adds to it, on chains several times over"
 _SNAPS = f"; pulled beyond {SNAP_RATIO:g} times its mean, where a line at rest at every instant says too little"
 _SNAPS_WITH_DAMPING = f"; with damping at the end of its band{_SNAPS[1:]}"
-
-
-def all_judged(items: list[Headline]) -> list[Headline]:
-    """Return what governs of one number of every sea and, not shown, what governs of those known as a bound alone.
-
-    A number that may be larger than shown is no less open because another one is larger.
-    """
-    # of equal numbers the one that is open stands first
-    kept = governing(sorted(items, key=lambda item: not item.bound))
-    for bound in sorted({item.bound for item in items} - {""}):
-        alike = governing(item for item in items if item.bound == bound)
-        known = {one.where for one in kept if one.bound == bound}
-        kept += [replace(item, shown=False, sea="") for item in alike if item.where not in known]
-    return kept
 
 
 def line_headlines(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Headline]:

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from moyai.core.arrays import Array
-from moyai.core.headline import Band, Headline, governing
+from moyai.core.headline import Band, Headline
 from moyai.structures.cage.conditions import condition_headlines, sea_words
-from moyai.structures.cage.headlines import NOT_JUDGED, Groups, alone, chance, laws_text
+from moyai.structures.cage.headlines import NOT_JUDGED, Groups, alone, chance, judged_seas, laws_text
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -48,6 +48,7 @@ Seas = list[tuple[str, str, "xr.Dataset"]]
 def _rigid_tension(seas: Seas, groups: Groups) -> list[Headline]:
     """Return the highest tension of all seas and the utilisations that decide, with the band of seed and net law."""
     tensions, utilisations = [], []
+    bare: dict[str, None] = {}
     for level, name, sea in seas:
         for line, title in enumerate(sea["line"].values):
             values = sea["line_tension_maximum"].values.reshape(sea.sizes["wave"], sea.sizes["line"], -1)[:, line]
@@ -63,7 +64,9 @@ def _rigid_tension(seas: Seas, groups: Groups) -> list[Headline]:
                 Headline("line_tension", "highest line tension", value, "N", where, model, band, detail=said)
             )
             breaking = float(groups[f"/{level}/statics"]["breaking_load"].values[line])
-            if math.isfinite(breaking):
+            if not math.isfinite(breaking):
+                bare[str(title)] = None
+            else:
                 scaled = None if band is None else replace(band, low=band.low / breaking, high=band.high / breaking)
                 utilisations.append(
                     Headline(
@@ -71,7 +74,12 @@ def _rigid_tension(seas: Seas, groups: Groups) -> list[Headline]:
                         detail=f"breaking load {breaking / 1e3:.4g} kN, without a safety factor",
                     )
                 )  # fmt: skip
-    return [*governing(tensions), *governing(utilisations)]
+    if bare and utilisations:
+        # next to lines that have a strength
+        text = f"breaking load not given of {', '.join(bare)}"
+        open_one = Headline("line_utilisation", "tension over breaking load", math.nan, "1", text=text, shown=False)
+        return [*judged_seas(tensions), *judged_seas(utilisations), open_one]
+    return [*judged_seas(tensions), *judged_seas(utilisations)]
 
 
 def _rigid_anchor(seas: Seas, groups: Groups) -> list[Headline]:
@@ -93,7 +101,7 @@ def _rigid_anchor(seas: Seas, groups: Groups) -> list[Headline]:
             where = f"lower end of {title}, {_rigid_where(level, name, sea, wave, groups)}"
             model = f"{RIGID}, {run.attrs['theory']}"
             found.append(Headline("anchor_load", "largest pull on an anchor", value, "N", where, model, band))
-    return governing(found)
+    return judged_seas(found)
 
 
 def rigid_offsets(statics: xr.Dataset, sea: xr.Dataset) -> tuple[float, Array]:
@@ -123,7 +131,7 @@ def _rigid_offset(seas: Seas, groups: Groups) -> list[Headline]:
                 f"{RIGID}, {run.attrs['theory']}", band, detail=said,
             )
         )  # fmt: skip
-    return governing(found)
+    return judged_seas(found)
 
 
 def _rigid_band(
