@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -35,6 +36,9 @@ if TYPE_CHECKING:
     import xarray as xr
 
 STATICS, DYNAMIC = "equilibrium in the current of the site", "run through time"
+#: By which factors a finer mesh may move each number, either way.
+Factors = Mapping[str, tuple[float, float]]
+NO_MESH: Factors = MappingProxyType({})
 Groups = Mapping[str, "xr.Dataset"]
 NOT_JUDGED = Headline(
     "not_judged", "Not judged", math.nan, "1",
@@ -143,26 +147,29 @@ def flexible_headlines(problem: FlexibleCageProblem, groups: Groups) -> tuple[He
     levels = [path[1:] for path in groups if path.count("/") == 1]
     states = [state for level in levels if (state := _state(level, groups)) is not None]
     runs = [item for level in levels for item in _runs(level, groups)]
-    tension, utilisation = _tension(states, runs)
+    factors = _mesh_factors(groups)
+    tension, utilisation = _tension(states, runs, factors)
     items = [
-        *_volume(states, runs),
-        *_drag(states, runs),
+        *_volume(states, runs, factors),
+        *_drag(states, runs, factors),
         *tension,
         *utilisation,
-        *_offset(states, runs),
-        *_anchor(states, runs),
-        *_net(states, runs),
-        *_stress(states, runs),
+        *_offset(states, runs, factors),
+        *_anchor(states, runs, factors),
+        *_net(states, runs, factors),
+        *_stress(states, runs, factors),
     ]
-    factors = _mesh_factors(groups)
     named = [_OTHER_DIRECTIONS] if runs else []
-    return (*(alone(_with_mesh(item, factors)) for item in items), *condition_headlines(groups), *named)
+    return (*items, *condition_headlines(groups), *named)
 
 
 @checks_words
-def judged_seas(items: Iterable[Headline], sense: Sense = "at most") -> list[Headline]:
-    """Return what is judged of one number of all seas, those of one short seed as bounds."""
-    return all_judged(map(alone, items), sense)
+def judged_seas(items: Iterable[Headline], sense: Sense = "at most", factors: Factors = NO_MESH) -> list[Headline]:
+    """Return what is judged of one number of all seas, with the band of the mesh, those of one short seed as bounds.
+
+    Both decide which one is the worst: they come first.
+    """
+    return all_judged((alone(_with_mesh(item, factors)) for item in items), sense)
 
 
 def alone(item: Headline) -> Headline:
@@ -172,7 +179,7 @@ def alone(item: Headline) -> Headline:
     return replace(item, bound="at most" if item.name == "volume_left" else "at least")
 
 
-def _mesh_factors(groups: Groups) -> dict[str, tuple[float, float]]:
+def _mesh_factors(groups: Groups) -> Factors:
     """Return by which factors a finer mesh may move each number: what a coarser one changed, either way."""
     found: dict[str, tuple[float, float]] = {}
     for path, group in groups.items():
@@ -187,7 +194,7 @@ def _mesh_factors(groups: Groups) -> dict[str, tuple[float, float]]:
     return found
 
 
-def _with_mesh(item: Headline, factors: dict[str, tuple[float, float]]) -> Headline:
+def _with_mesh(item: Headline, factors: Factors) -> Headline:
     """Return a number whose band covers the mesh as well, where it was checked."""
     kinds = ("anchor", "bridle", "frame", "buoy")
     line = next((kind for kind in kinds if item.where.removeprefix("lower end of ").startswith(kind)), "")
@@ -236,7 +243,7 @@ def volume_text(volume: float) -> str:
 Runs = list[tuple[str, str, "xr.Dataset"]]
 
 
-def _volume(states: list[_State], runs: Runs) -> list[Headline]:
+def _volume(states: list[_State], runs: Runs, factors: Factors = NO_MESH) -> list[Headline]:
     """Return the least volume in the current of the site and, judged with it, what the sea leaves for moments."""
     found = []
     for state in states:
@@ -256,15 +263,15 @@ def _volume(states: list[_State], runs: Runs) -> list[Headline]:
         low, high, seed = chance(run, 1.0 - least, 1.0 - series)
         band = _band_with_laws(by_level.get(level), "volume_share", 1.0 - high, 1.0 - low, seed)
         moments.append(Headline("volume_left", "volume left for moments", least, "1", where, DYNAMIC, band))
-    worst, words = judged_seas(moments, "at least"), ""
+    worst, words = judged_seas(moments, "at least", factors), ""
     if worst:
         band = worst[0].band
         span = "" if band is None else f" ({band.low:.3g} to {band.high:.3g})"
         words = f"down to {worst[0].value:.3g} for moments in the sea" + span
-    return _with_moments(judged_seas(found, "at least"), worst, words)
+    return _with_moments(judged_seas(found, "at least", factors), worst, words)
 
 
-def _drag(states: list[_State], runs: Runs) -> list[Headline]:
+def _drag(states: list[_State], runs: Runs, factors: Factors = NO_MESH) -> list[Headline]:
     """Return the largest drag in the current of the site and, judged with it, what the sea brings for moments."""
     found = []
     for state in states:
@@ -285,12 +292,12 @@ def _drag(states: list[_State], runs: Runs) -> list[Headline]:
         low, high, seed = chance(run, value, series, run["drag_time"].values)
         band = _band_with_laws(by_level.get(level), "drag", low, high, seed)
         moments.append(Headline("drag", "drag for moments", value, "N", where, DYNAMIC, band))
-    worst, words = judged_seas(moments), ""
+    worst, words = judged_seas(moments, factors=factors), ""
     if worst:
         band = worst[0].band
         span = "" if band is None else f" ({band.low / 1e3:.3g} to {band.high / 1e3:.3g} kN)"
         words = f"up to {worst[0].value / 1e3:.3g} kN for moments in the sea" + span
-    return _with_moments(judged_seas(found), worst, words)
+    return _with_moments(judged_seas(found, factors=factors), worst, words)
 
 
 def _with_moments(steady: list[Headline], moments: list[Headline], words: str) -> list[Headline]:
@@ -301,7 +308,7 @@ def _with_moments(steady: list[Headline], moments: list[Headline], words: str) -
     return [*steady, *(replace(item, shown=False) for item in moments)]
 
 
-def _tension(states: list[_State], runs: Runs) -> tuple[list[Headline], list[Headline]]:
+def _tension(states: list[_State], runs: Runs, factors: Factors = NO_MESH) -> tuple[list[Headline], list[Headline]]:
     """Return the governing tension and its utilisation: of the seas where they were run, else of the current.
 
     Each line carries its own band; the one whose judged end is nearest to its breaking load is judged.
@@ -334,8 +341,9 @@ def _tension(states: list[_State], runs: Runs) -> tuple[list[Headline], list[Hea
             )
     if not used:
         return [], []
-    utilisations = judged_seas(used.values())
-    return [replace(tensions[item.where], shown=item.shown) for item in utilisations], utilisations
+    utilisations = judged_seas(used.values(), factors=factors)
+    own = [replace(alone(_with_mesh(tensions[item.where], factors)), shown=item.shown) for item in utilisations]
+    return own, utilisations
 
 
 def _static_tension(state: _State, line: int, name: str) -> Headline:
@@ -367,7 +375,7 @@ def _dynamic_tension(run: xr.Dataset, line: int, where: str, state: _State | Non
     )  # fmt: skip
 
 
-def _offset(states: list[_State], runs: Runs) -> list[Headline]:
+def _offset(states: list[_State], runs: Runs, factors: Factors = NO_MESH) -> list[Headline]:
     """Return the largest way of a collar from its place in still water."""
     found: list[tuple[float, str, str, Band | None]] = []
     for state in states:
@@ -385,12 +393,15 @@ def _offset(states: list[_State], runs: Runs) -> list[Headline]:
     if not found or max(item[0] for item in found) < 1e-9:
         return []
     return judged_seas(
-        Headline("offset", "largest offset of a collar", value, "m", where, model, band)
-        for value, where, model, band in found
+        (
+            Headline("offset", "largest offset of a collar", value, "m", where, model, band)
+            for value, where, model, band in found
+        ),
+        factors=factors,
     )
 
 
-def _anchor(states: list[_State], runs: Runs) -> list[Headline]:
+def _anchor(states: list[_State], runs: Runs, factors: Factors = NO_MESH) -> list[Headline]:
     found: list[tuple[float, str, str, str, Band | None]] = []
     by_level = {state.level: state for state in states}
     for level, where, run in runs:
@@ -421,12 +432,15 @@ def _anchor(states: list[_State], runs: Runs) -> list[Headline]:
     if not found:
         return []
     return judged_seas(
-        Headline("anchor_load", "largest pull on an anchor", value, "N", where, model, band, detail=detail)
-        for value, where, model, detail, band in found
+        (
+            Headline("anchor_load", "largest pull on an anchor", value, "N", where, model, band, detail=detail)
+            for value, where, model, detail, band in found
+        ),
+        factors=factors,
     )
 
 
-def _net(states: list[_State], runs: Runs) -> list[Headline]:
+def _net(states: list[_State], runs: Runs, factors: Factors = NO_MESH) -> list[Headline]:
     """Return the largest tension of the net over its width: of the seas where they were run, else of the current."""
     found: list[tuple[float, str, str, Band | None]] = []
     by_level = {state.level: state for state in states}
@@ -439,15 +453,18 @@ def _net(states: list[_State], runs: Runs) -> list[Headline]:
         value = float(state.statics.variables["net_tension"].values[state.row].max())
         found.append((value, state.where, STATICS, state.band("net_tension")))
     return judged_seas(
+        (
         Headline(
             "net_tension", "largest tension of the net", value, "N/m", where, model, band,
             detail="ropes sewn into the net share it; a bar of the mesh spreads what a weight or rope brings in",
         )
         for value, where, model, band in found
+        ),
+        factors=factors,
     )  # fmt: skip
 
 
-def _stress(states: list[_State], runs: Runs) -> list[Headline]:
+def _stress(states: list[_State], runs: Runs, factors: Factors = NO_MESH) -> list[Headline]:
     found: list[tuple[float, str, str, Band | None]] = []
     by_level = {state.level: state for state in states}
     for state in states:
@@ -465,6 +482,9 @@ def _stress(states: list[_State], runs: Runs) -> list[Headline]:
     if not found:
         return []
     return judged_seas(
-        Headline("collar_stress", "largest stress of the collar", value, "Pa", where, model, band)
-        for value, where, model, band in found
+        (
+            Headline("collar_stress", "largest stress of the collar", value, "Pa", where, model, band)
+            for value, where, model, band in found
+        ),
+        factors=factors,
     )
