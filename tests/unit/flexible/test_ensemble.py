@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from networks_for_tests import random_network
 
 from moyai.core.errors import InputError
 from moyai.flexible import (
@@ -142,3 +143,18 @@ def test_faults_are_refused(rope: Network, buoy: tuple[Network, State]) -> None:
     builder.line("nylon", "top", "foot", nylon, length=10.0, segments=4)
     with pytest.raises(InputError, match="not marched side by side"):
         simulate_together(builder.build(), [Member()], duration=1.0, output_step=0.1)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_networks_at_random_do_not_feel_the_company(seed: int) -> None:
+    # ribs, rope curves, hinges, held components, floats, a rough bed
+    rng = np.random.default_rng(seed)
+    network = random_network(rng, nodes=int(rng.integers(6, 14)))
+    members = [Member(flow=Flow(tuple(rng.uniform(-0.5, 0.5, 3)), ramp=0.1)) for _ in range(4)]
+    given = {"duration": 0.2, "output_step": 0.02, "interval": 0.02}
+    whole = simulate_together(network, members, **given)
+    assert whole.complete.all()
+    for number, member in enumerate(members):
+        alone = simulate_together(network, [member], **given)
+        assert np.array_equal(whole.position[number], alone.position[0])
+        assert np.array_equal(whole.tension_peak[number, 1:], alone.tension_peak[0, 1:])
