@@ -227,7 +227,8 @@ def simulate_together(
     duration, output_step : float
         Length of the runs and spacing of their rows [s], as in :func:`moyai.flexible.simulation.simulate`.
     interval : float, optional
-        Time between two evaluations of the water [s]; that of the member that asks for the shortest when left out.
+        Time between two evaluations of the water [s]; what each member asks for when left out. Members that share it
+        are marched together.
     start : State, optional
         Where all start; as built and at rest when left out.
     step, safety, load_steps : float, float, int
@@ -284,21 +285,20 @@ def simulate_together(
             allowed="lines, twines, floats, a bed",
             remedy="run the members one by one with simulate",
         )
-    moving = [member.flow.update_interval for member in members if not member.flow.steady]
-    look = min([LONGEST_LOOK, *([interval] if interval is not None else moving)])
     count = len(members)
     out = Ensemble(
         network, np.asarray(start.time + spacing * np.arange(rows + 1), dtype=np.float64), nodes, bars,
         np.full((count, rows + 1, nodes.size, 3), np.nan), np.full((count, rows + 1, bars.size), np.nan),
         np.full((count, rows + 1, bars.size), np.nan), np.full(count, np.nan), np.zeros(count, dtype=np.int64),
     )  # fmt: skip
-    # members by what they ask for: waves or not, the load interval of all or loads at every step
-    waiting: dict[tuple[bool, bool], list[int]] = {}
+    # members by what they ask for: waves or not, how often the water is found, loads at every step or not
+    waiting: dict[tuple[bool, float, bool], list[int]] = {}
     for number, member in enumerate(members):
-        waiting.setdefault((member.flow.waves is not None, False), []).append(number)
+        own = math.inf if member.flow.steady else interval or member.flow.update_interval
+        waiting.setdefault((member.flow.waves is not None, min(LONGEST_LOOK, own), False), []).append(number)
     alone: list[int] = []
     while waiting:
-        (waves, quick), left = waiting.popitem()
+        (waves, look, quick), left = waiting.popitem()
         plan = _plan(network, start, waves, (spacing, look), (step, safety, 1 if quick else load_steps, drag_rate))
         while left:
             chosen, left = np.array(left[:together]), left[together:]
@@ -314,7 +314,7 @@ def simulate_together(
             out.step[chosen[calm]], out.load_steps[chosen[calm]] = plan.step, plan.per_load
             again = run.stable & ~calm & (plan.per_load > 1)
             if again.any():
-                waiting.setdefault((waves, True), []).extend(chosen[again])
+                waiting.setdefault((waves, look, True), []).extend(chosen[again])
             alone.extend(chosen[~calm & ~again])
             progress("members", int(out.complete.sum()), count)
     for m in sorted(alone):

@@ -124,11 +124,11 @@ def test_a_member_whose_drag_outruns_the_step_is_run_by_itself() -> None:
     network = builder.build()
     calm, fast = (Member(flow=Flow((speed, 0.0, 0.0), ramp=0.5)) for speed in (0.1, 12.0))
     given = {"duration": 1.0, "output_step": 0.05}
-    found = simulate_together(network, [calm, fast], interval=0.02, **given)
+    found = simulate_together(network, [calm, fast], **given)
     assert found.load_steps[0] > 0
     assert found.load_steps[1] == 0
     assert np.array_equal(found.position[1], simulate(network, flow=fast.flow, **given).position)
-    assert np.array_equal(found.position[0], simulate_together(network, [calm], interval=0.02, **given).position[0])
+    assert np.array_equal(found.position[0], simulate_together(network, [calm], **given).position[0])
 
 
 def test_faults_are_refused(rope: Network, buoy: tuple[Network, State]) -> None:
@@ -151,7 +151,7 @@ def test_networks_at_random_do_not_feel_the_company(seed: int) -> None:
     rng = np.random.default_rng(seed)
     network = random_network(rng, nodes=int(rng.integers(6, 14)))
     members = [Member(flow=Flow(tuple(rng.uniform(-0.5, 0.5, 3)), ramp=0.1)) for _ in range(4)]
-    given = {"duration": 0.2, "output_step": 0.02, "interval": 0.02}
+    given = {"duration": 0.2, "output_step": 0.02}
     whole = simulate_together(network, members, **given)
     assert whole.complete.all()
     for number, member in enumerate(members):
