@@ -10,12 +10,20 @@ from typing import Any
 from moyai.case.schema_types import Block
 from moyai.case.templates import kind_of_file
 from moyai.core.kinds import structure_kind, structure_kinds
+from moyai.core.options import check_word
 
 _DRAFT = "http://json-schema.org/draft-07/schema#"
 
 
 def root_schema(kind: str) -> type[Block]:
-    """Return the root schema of a structure's case files."""
+    """Return the root schema of a structure's case files.
+
+    Raises
+    ------
+    InputError
+        When there is no such kind of structure.
+    """
+    check_word(kind, structure_kinds(), "kind")
     schema: type[Block] = structure_kind(kind).schema()
     return schema
 

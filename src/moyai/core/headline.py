@@ -11,6 +11,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass, replace
 from typing import Any, Literal
 
+from moyai.core.options import checks_words
 from moyai.core.wording import spoken
 
 Bound = Literal["", "at most", "at least"]
@@ -58,6 +59,7 @@ class Band:
         return replace(self, low=less * self.low, high=more * self.high, judged=judged, settled=settled)
 
 
+@checks_words
 @dataclass(frozen=True)
 class Headline:
     """One number of the first page.
@@ -129,6 +131,7 @@ class Headline:
         return cls(**{**record, "value": float(record["value"]), "band": band})
 
 
+@checks_words
 def unfavourable(headline: Headline, sense: Sense = "at most") -> float:
     """Return the end at which a limit is judged: of the band, of the interval of a mean, or the value itself."""
     band, value = headline.band, headline.value
@@ -139,6 +142,7 @@ def unfavourable(headline: Headline, sense: Sense = "at most") -> float:
     return (max if sense == "at most" else min)(ends, default=value)
 
 
+@checks_words
 def governing(candidates: Iterable[Headline], sense: Sense = "at most") -> list[Headline]:
     """Return the worst of one number over seas, levels and places, and, not shown, the one whose judged end is worst.
 
@@ -180,6 +184,7 @@ def _varying_more(items: list[Headline], kept: list[Headline]) -> list[Headline]
     return found
 
 
+@checks_words
 def all_judged(candidates: Iterable[Headline], sense: Sense = "at most") -> list[Headline]:
     """Return what governs of one number and, not shown, what governs of those known as a bound alone.
 
@@ -195,6 +200,7 @@ def all_judged(candidates: Iterable[Headline], sense: Sense = "at most") -> list
     return kept
 
 
+@checks_words
 @dataclass(frozen=True)
 class Criterion:
     """What a headline has to keep."""
@@ -237,6 +243,7 @@ class Criterion:
         return math.inf if value == 0.0 else 1.0 / value
 
 
+@checks_words
 @dataclass(frozen=True)
 class Judgement:
     """A criterion with the value it was judged at and the outcome; ``reason`` says why it was not judged.
@@ -279,6 +286,7 @@ class Judgement:
         )  # fmt: skip
 
 
+@checks_words
 @dataclass(frozen=True)
 class Verdict:
     """Whether the design holds: every criterion judged, and the whole."""

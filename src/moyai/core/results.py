@@ -22,6 +22,7 @@ from moyai.core.files import partial_file
 from moyai.core.foreign_files import netcdf_engine, reads, require_plausible_size
 from moyai.core.groups import Groups
 from moyai.core.headline import Headline, Verdict, without_computation
+from moyai.core.options import checks_words
 from moyai.core.validity import IdentityCheck, Notice
 
 if TYPE_CHECKING:
@@ -35,6 +36,7 @@ RESULT_FILES = ("results.nc", "study.nc", "fit.nc")
 DIRECTION_CONVENTION = "heading 0 travels towards +x, 90 degrees towards +y; x, y, z right-handed, z up"
 
 
+@checks_words
 @dataclass(frozen=True)
 class Result:
     """What a run hands back and what the file on disk holds."""

@@ -6,9 +6,12 @@ import math
 from dataclasses import asdict, dataclass
 from typing import Any, Literal
 
+from moyai.core.options import checks_words
+
 Severity = Literal["information", "warning", "error"]
 
 
+@checks_words
 @dataclass(frozen=True)
 class Notice:
     """A statement about the range of validity of a result."""

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from moyai.core.arrays import Array
 from moyai.core.attachment import PointCarrier
 from moyai.core.errors import ConvergenceError, InputError
+from moyai.core.options import checks_words
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.coupled.bodies import Body, BodyHistory, BodyLog, BodyState, check_points
@@ -34,6 +35,7 @@ Status = Literal["converged", "not_converged", "interrupted"]
 TOLERANCE = 1e-4
 
 
+@checks_words
 @dataclass(frozen=True, eq=False)
 class CoupledHistory:
     """Bodies and their network through time; rows are the same for both."""

@@ -10,10 +10,12 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from moyai.core.errors import InputError
+from moyai.core.options import check_word, checks_words
 from moyai.core.validity import Notice
-from moyai.tables.design_codes import CodeRule, applicable_rule, code_rules
+from moyai.tables.design_codes import Analysis, CodeRule, Component, applicable_rule, available_codes, code_rules
 
 
+@checks_words
 @dataclass(frozen=True)
 class LineLoad:
     """Tension of a line in one condition."""
@@ -27,11 +29,12 @@ class LineLoad:
     #: Minimum breaking load of the new line [N].
     breaking_load: float
     #: ``chain``, ``rope``, ``wire``, ``knotted_rope``, ``shackle`` or ``used_chain``.
-    component: str
+    component: Component
     #: Name of the line that is lost, empty when intact.
     lost: str = ""
 
 
+@checks_words
 @dataclass(frozen=True)
 class DesignCode:
     """A code as it is applied: which analysis, which class, which of its values the user has confirmed."""
@@ -40,7 +43,7 @@ class DesignCode:
     name: str
     rules: tuple[CodeRule, ...]
     #: How the tensions were found: ``dynamic``, ``quasi_static`` or ``static``.
-    analysis: str
+    analysis: Analysis
     #: Class of the code, empty where it has none.
     consequence: str = ""
 
@@ -77,8 +80,9 @@ class LineCheck:
         return bool(self.utilisation <= 1.0)
 
 
+@checks_words
 def design_code(
-    name: str, *, analysis: str, consequence: str = "", confirmed: Iterable[str] = (), own: Sequence[CodeRule] = ()
+    name: str, *, analysis: Analysis, consequence: str = "", confirmed: Iterable[str] = (), own: Sequence[CodeRule] = ()
 ) -> DesignCode:
     """Return a code of the table, or the user's own.
 
@@ -98,15 +102,14 @@ def design_code(
     Raises
     ------
     InputError
-        For an unknown code, analysis or class.
+        For an unknown code, analysis or class, or a confirmed code or edition that does not exist.
     """
-    if analysis not in ("dynamic", "quasi_static", "static"):
-        raise InputError(
-            f"unknown analysis '{analysis}'", parameter="analysis", allowed="dynamic, quasi_static, static"
-        )
     rules = tuple(own) if own else code_rules(name)
     sure = set(confirmed)
     if sure:
+        known = (*rules, *(rule for code in available_codes() for rule in code_rules(code)))
+        for one in sorted(sure):
+            check_word(one, dict.fromkeys(word for rule in known for word in (rule.code, rule.edition)), "confirmed")
         rules = tuple(
             CodeRule(**{**rule.__dict__, "confirmed": rule.confirmed or bool(sure & {rule.code, rule.edition})})
             for rule in rules
@@ -114,6 +117,8 @@ def design_code(
     classes = sorted({rule.consequence for rule in rules} - {"any"})
     if classes and consequence not in classes:
         raise InputError(f"{name} needs a consequence class", parameter="consequence", allowed=", ".join(classes))
+    if consequence and not classes:
+        raise InputError(f"{name} has no consequence classes", parameter="consequence", remedy="leave it out")
     return DesignCode(name, rules, analysis, consequence)
 
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,8 +15,10 @@ from scipy.special import gamma
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 
 
+@checks_words
 @dataclass(frozen=True)
 class EnduranceCurve:
     """Cycles to failure ``N = capacity / range^exponent``."""
@@ -25,8 +28,9 @@ class EnduranceCurve:
     exponent: float
     #: Number of cycles at a range of one (ratio to the breaking load, or stress in ``unit``).
     capacity: float
-    #: ``1`` where ranges are ratios to the breaking load (T-N), ``MPa`` where they are stresses (S-N).
-    unit: str
+    #: ``1`` where ranges are ratios to the breaking load (T-N), ``MPa`` where they are stresses (S-N), ``N`` where they
+    #: are forces.
+    unit: Literal["1", "MPa", "N"]
     #: Whether the values were held against the standard itself.
     confirmed: bool
     source: str

@@ -19,6 +19,7 @@ from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.flexible.checks import whole_number
 from moyai.flexible.network import BOX, DRIVEN, FIXED, FREE, SPHERE, Bars, BarType, Bed, Network, Nodes, Strand
 from moyai.flexible.sheets import Sheets, sheet_grid
@@ -282,6 +283,7 @@ class NetworkBuilder:
         lengths = np.full(segments, length / segments)
         self._runs.append(_Run(name, start, end, between, lengths, self._kind(bar_type), flow_factor))
 
+    @checks_words
     def net(
         self,
         name: str,
@@ -322,10 +324,6 @@ class NetworkBuilder:
                 f"points of net {name!r} have shape {grid.shape}",
                 parameter=f"nets.{name}",
                 allowed="(rows, columns, 3), two or more each",
-            )
-        if top not in ("free", "fixed", "driven"):
-            raise InputError(
-                f"top of net {name!r} is {top!r}", parameter=f"nets.{name}.top", allowed="free, fixed, driven"
             )
         if np.shape(lengths) != (2,):
             raise InputError(
@@ -371,6 +369,7 @@ class NetworkBuilder:
                     )
                 )
 
+    @checks_words
     def sheet(
         self,
         name: str,
@@ -406,11 +405,6 @@ class NetworkBuilder:
                 parameter=f"sheets.{name}",
                 allowed="(rows, columns, 3)",
             )
-        if first_row not in ("free", "fixed", "driven"):
-            raise InputError(
-                f"first row of sheet {name!r} is {first_row!r}", parameter=f"sheets.{name}.first_row",
-                allowed="free, fixed, driven",
-            )  # fmt: skip
         labels = [[f"{name}[{i},{j}]" for j in range(grid.shape[1])] for i in range(grid.shape[0])]
         for i, row in enumerate(labels):
             for j, label in enumerate(row):

@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 
 from moyai.core.arrays import Array, IntArray
+from moyai.core.options import checks_words
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.flexible.network import Network
 
@@ -32,6 +33,7 @@ class State:
         return cls(time, np.array(network.nodes.position), np.zeros((len(network.nodes), 3)))
 
 
+@checks_words
 @dataclass(frozen=True, eq=False)
 class History:
     """The run of a network through time."""

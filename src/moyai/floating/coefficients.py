@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
+from moyai.core.options import check_word
 from moyai.floating.arrays import finite, increasing
 
 if TYPE_CHECKING:
@@ -202,6 +203,29 @@ class Hydrodynamics:
         return np.asarray((1.0 - weight)[:, None] * left_values + weight[:, None] * right_values, dtype=np.complex128)
 
     @classmethod
+    def of(cls, source: Hydrodynamics | RadiationDiffraction | xr.Dataset) -> Hydrodynamics:
+        """Return coefficients as they are, or take them from a solution or its dataset, per metre.
+
+        Parameters
+        ----------
+        source : Hydrodynamics, RadiationDiffraction or xarray.Dataset
+
+        Raises
+        ------
+        InputError
+            For anything else.
+        """
+        if isinstance(source, Hydrodynamics):
+            return source
+        dataset: Any = getattr(source, "dataset", source)
+        if not hasattr(dataset, "influenced_dof"):
+            raise InputError(
+                f"{type(source).__name__} holds no radiation and diffraction", parameter="hydrodynamics",
+                allowed="Hydrodynamics, a solution of moyai.potential.solve, or its dataset",
+            )  # fmt: skip
+        return cls.from_dataset(dataset)
+
+    @classmethod
     def from_section(cls, solution: RadiationDiffraction) -> Hydrodynamics:
         """Take the solution of a section at its first heading, per metre, as :meth:`from_dataset` does its dataset.
 
@@ -239,8 +263,15 @@ class Hydrodynamics:
             Modes in the wanted order; ``None`` takes those of ``influenced_dof``.
         length : float
             Length that the dataset's forces refer to [m].
+
+        Raises
+        ------
+        InputError
+            When a mode is not in the dataset.
         """
         names = tuple(str(item) for item in (dataset.influenced_dof.values if modes is None else modes))
+        for name in names:
+            check_word(name, map(str, dataset.influenced_dof.values), "modes")
         data = dataset.sortby("omega").sel(influenced_dof=list(names), radiating_dof=list(names))
 
         def values(name: str, *dims: str) -> Any:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array, ComplexArray
+from moyai.core.options import checks_words
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
 from moyai.floating.coefficients import Hydrodynamics
@@ -19,6 +20,7 @@ from moyai.floating.offset import MeanOffset, Mooring, Status, mean_offset
 from moyai.sea.water import Water
 
 
+@checks_words
 @dataclass(frozen=True)
 class DriftedMotions:
     """Motions about the mean offset that their own drift causes."""

@@ -173,6 +173,7 @@ class IrregularForcing:
             finite(getattr(self, name), name)
 
     @classmethod
+    @checks_words
     def of_sea(
         cls,
         sea: WaveComponents,

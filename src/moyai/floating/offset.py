@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array
+from moyai.core.options import checks_words
 from moyai.floating.arrays import square_matrix
 
 Status = Literal["converged", "not_converged", "interrupted"]
@@ -39,6 +40,7 @@ class LinearMooring:
         return self.matrix
 
 
+@checks_words
 @dataclass(frozen=True)
 class MeanOffset:
     """Position under a steady force."""

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
 from moyai.floating import kernel
@@ -53,6 +54,12 @@ class CumminsModel:
         eigenvalues = np.linalg.eigvalsh(0.5 * (self.inertia + np.transpose(self.inertia)))
         if eigenvalues[0] <= 0.0:
             raise InputError("inertia with infinite-frequency added mass is not positive definite", parameter="inertia")
+        if not isinstance(self.memory, StateSpaceMemory | ConvolutionMemory):
+            raise InputError(
+                f"{type(self.memory).__name__} is no memory", parameter="memory",
+                allowed="StateSpaceMemory or ConvolutionMemory",
+                remedy="take a solution through moyai.potential.memory_functions and fit_memory",
+            )  # fmt: skip
         if self.memory.size != size:
             raise InputError(f"the memory has {self.memory.size} modes", parameter="memory", allowed=f"{size}")
         if self.mooring is not None and size < 3:
@@ -62,6 +69,7 @@ class CumminsModel:
 Status = Literal["converged", "diverged", "interrupted"]
 
 
+@checks_words
 @dataclass(frozen=True)
 class Simulation:
     """A simulated motion. Rows are instants."""

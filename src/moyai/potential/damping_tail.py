@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array
+from moyai.core.options import checks_words
 from moyai.potential.oscillatory import power_tail
 from moyai.sea.water import Water
 
@@ -21,6 +22,7 @@ _TRUST = 0.05
 _STEEPEST = 24.0
 
 
+@checks_words
 @dataclass(frozen=True)
 class Tail:
     """Damping beyond the last frequency: sum of coefficient (start/omega)^exponent, [eq:memory-tail-series]."""

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 
 #: Displacement (n, 2) of the boundary points (n, 2) for unit amplitude of a mode
 DisplacementField = Callable[[Array], Array]
+RigidKind = Literal["sway", "heave", "roll"]
 
 
 @dataclass(frozen=True)
@@ -81,11 +84,13 @@ class Modes:
         return out
 
 
+@checks_words
 @dataclass(frozen=True)
 class Rigid:
     """Unit translation or rotation; a small callable class, so that modes can be sent to other processes."""
 
-    kind: str
+    #: Of "sway", "heave", "roll".
+    kind: RigidKind
     x: float = 0.0
     z: float = 0.0
 
@@ -112,7 +117,7 @@ def rigid_modes(centre: tuple[float, float], *, body: int | None = None, prefix:
     x, z = float(centre[0]), float(centre[1])
     if not (np.isfinite(x) and np.isfinite(z)):
         raise InputError(f"centre is ({x:g}, {z:g})", parameter="centre", allowed="finite numbers")
-    kinds = ("sway", "heave", "roll")
+    kinds: tuple[RigidKind, ...] = ("sway", "heave", "roll")
     moved = None if body is None else (body,)
     return Modes(
         names=tuple(prefix + kind for kind in kinds),

@@ -9,6 +9,7 @@ import numpy as np
 
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.core.results import DIRECTION_CONVENTION, TIME_CONVENTION, Status
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.potential.heading import HeadingSolution
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
+@checks_words
 @dataclass(frozen=True, eq=False)
 class RadiationDiffraction:
     """Coefficients, potentials and identities of one section; everything per metre of structure."""

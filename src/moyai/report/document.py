@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
 from moyai.core.arrays import Array
+from moyai.core.options import checks_words
 from moyai.core.validity import IdentityCheck, Notice
 
 Style = Literal["line", "points", "line+points", "bar"]
@@ -47,6 +48,7 @@ class Panel:
     from_zero: bool = False
 
 
+@checks_words
 @dataclass(frozen=True)
 class Series:
     """A curve, points or bars."""
@@ -181,6 +183,7 @@ class Table:
         return len(self.columns[0].values) if self.columns else 0
 
 
+@checks_words
 @dataclass(frozen=True)
 class KeyFigure:
     """One governing number: what, how much, where, and how it stands against its limit."""
@@ -345,6 +348,7 @@ class Section:
     blocks: tuple[Block, ...]
 
 
+@checks_words
 @dataclass(frozen=True)
 class Badge:
     """What a reader sees before all numbers: whether they were computed, and whether the design holds."""

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.arrays import Array
+from moyai.core.options import checks_words
 from moyai.language import said
 from moyai.report.document import Cell, Column, Figure, Series, Table
 from moyai.report.formatting import DisplayUnit, axis_label, display_unit, plain_number
@@ -69,6 +70,7 @@ def encode_array(values: ArrayLike) -> list[float | None] | dict[str, str]:
     return {"f4": base64.b64encode(array.astype("<f4").tobytes()).decode("ascii")}
 
 
+@checks_words
 def encode_quantised(values: NDArray[np.float64], bits: Literal[8, 16] = 16) -> dict[str, Any]:
     """Encode a matrix as small integers per column, with offset and step of each column.
 

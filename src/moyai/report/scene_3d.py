@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.arrays import Array, IntArray
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.report.decimate import envelope_indices
 from moyai.report.document import Animation
 from moyai.report.encoding import encode_array, encode_quantised
@@ -29,6 +30,7 @@ BYTES_OF_MOTION, FEWEST_FRAMES, MOST_FRAMES, POINTS_OF_A_TRACE = 4_000_000, 40, 
 MOST_COMPONENTS, MOST_TRACES = 60, 6
 
 
+@checks_words
 @dataclass(frozen=True, eq=False)
 class Faces:
     """Faces between nodes: a skirt, a membrane, net panels."""
@@ -44,6 +46,7 @@ class Faces:
     load_unit: str = "N/m"
 
 
+@checks_words
 @dataclass(frozen=True)
 class Marker:
     """A named node that is drawn."""

@@ -8,12 +8,14 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from moyai.core.arrays import Array
+from moyai.core.options import checks_words
 from moyai.report.document import Abscissa, Drawing, Figure, Panel, Series
 
 if TYPE_CHECKING:
     from moyai.core.results import Result
 
 
+@checks_words
 def curve(
     label: str,
     x: Mapping[str, Array],

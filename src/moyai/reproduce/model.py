@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Literal
 
+from moyai.core.options import checks_words
 from moyai.core.progress import Progress
 from moyai.report.document import Drawing, Figure
 
@@ -30,6 +31,7 @@ class Equation:
     note: str = ""
 
 
+@checks_words
 @dataclass(frozen=True)
 class Finding:
     """What the runs say about a statement."""

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.compiled import njit
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.sea import kinematics
 from moyai.sea.kinematics import Stretching
 from moyai.sea.time_sum import sum_over_time
@@ -155,6 +156,7 @@ class WaveComponents:
             raise InputError("the components know no water", parameter="water", remedy="give water=Water(depth, ...)")
         return self.water
 
+    @checks_words
     def kinematics(
         self, time: float, x: ArrayLike, y: ArrayLike, z: ArrayLike, stretching: Stretching
     ) -> tuple[Array, Array, Array]:
@@ -217,6 +219,7 @@ class WaveComponents:
             ]
         )  # fmt: skip
 
+    @checks_words
     def transfer_functions(
         self, x: ArrayLike, y: ArrayLike, z: ArrayLike, stretching: Stretching = "constant"
     ) -> tuple[ComplexArray, ComplexArray]:
@@ -261,12 +264,14 @@ class WaveComponents:
         values = [self.kinematics(float(t), x, y, z, stretching)[which] for t in times.reshape(-1)]
         return np.asarray(values).reshape((*times.shape, *values[0].shape))
 
+    @checks_words
     def velocity(
         self, time: ArrayLike, x: ArrayLike, y: ArrayLike, z: ArrayLike, stretching: Stretching = "constant"
     ) -> Array:
         """Return the water velocity [m/s] at all times at all points, shape (*time.shape, *points.shape, 3)."""
         return self._over_time(time, x, y, z, stretching, 1)
 
+    @checks_words
     def acceleration(
         self, time: ArrayLike, x: ArrayLike, y: ArrayLike, z: ArrayLike, stretching: Stretching = "constant"
     ) -> Array:

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.arrays import Array
 from moyai.core.compiled import njit
-from moyai.core.errors import InputError
+from moyai.core.options import check_word
 from moyai.sea.vector_kernel import CONTRACT, REORDER, falling_exponential, sine_and_cosine
 
 Stretching = Literal["constant", "linear", "wheeler"]
@@ -35,10 +35,7 @@ def stretching_code(stretching: str) -> int:
     InputError
         When the name is unknown.
     """
-    if stretching not in STRETCHING_CODES:
-        raise InputError(
-            f"unknown stretching {stretching!r}", parameter="stretching", allowed=", ".join(sorted(STRETCHING_CODES))
-        )
+    check_word(stretching, STRETCHING_CODES, "stretching")
     return STRETCHING_CODES[stretching]
 
 

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array
 from moyai.core.compiled import njit
+from moyai.core.options import checks_words
 from moyai.core.validity import Notice
 from moyai.sea.water import Water
 
@@ -52,6 +53,7 @@ def fourier_wave_kernel(
         out[0, n], out[1, n], out[2, n], out[3, n] = u, w, slope_x, slope_z
 
 
+@checks_words
 @dataclass(frozen=True, eq=False)
 class NonlinearWave:
     """A wave of permanent form, crest at x = y = 0 when t = 0; made by :func:`nonlinear_wave`."""

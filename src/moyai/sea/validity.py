@@ -55,6 +55,7 @@ NEAR_BREAKING = 0.8
 REALISED_HEIGHT = 0.95
 
 
+@checks_words
 @dataclass(frozen=True)
 class TheoryAdvice:
     """The lowest wave theory that serves a regular wave."""

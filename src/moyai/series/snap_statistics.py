@@ -30,6 +30,7 @@ _LAW_WORDS = {"weibull": "Weibull distribution", "pareto": "Pareto distribution"
 _FAMILY: dict[str, Family] = {"weibull": "weibull", "pareto": "generalised_pareto"}
 
 
+@checks_words
 @dataclass(frozen=True, eq=False)
 class SnapFit:
     """Law of the peaks above a threshold."""

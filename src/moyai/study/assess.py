@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -94,9 +94,13 @@ def _names(study: Study) -> tuple[str, ...]:
 def _codes(wanted: schema.LineChecks) -> list[DesignCode]:
     codes = []
     for one in wanted.codes:
+        factors: dict[Literal["intact", "one_lost"], float | None] = {
+            "intact": one.safety_factor_intact,
+            "one_lost": one.safety_factor_one_lost,
+        }
         own = [
             CodeRule(one.name, "own", condition, "any", "any", "any", "safety_factor", value, True, "study file")
-            for condition, value in (("intact", one.safety_factor_intact), ("one_lost", one.safety_factor_one_lost))
+            for condition, value in factors.items()
             if value is not None
         ]
         confirmed = [one.name] if one.confirmed else []

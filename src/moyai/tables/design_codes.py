@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from typing import Any, Literal
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.tables.reader import Record, read_table
 
 _CODES, _CURVES, _ANCHORS = "design_codes.csv", "endurance_curves.csv", "anchor_friction.csv"
 _FACTORS = "anchor_factors.csv"
 
+Component = Literal["chain", "rope", "wire", "knotted_rope", "shackle", "used_chain"]
+Analysis = Literal["dynamic", "quasi_static", "static"]
 
+
+@checks_words
 @dataclass(frozen=True)
 class CodeRule:
     """One value of a design code."""
@@ -21,15 +27,15 @@ class CodeRule:
     #: ``code``, ``edition``: Name and edition.
     edition: str
     #: ``intact``, ``one_lost`` or ``any``.
-    condition: str
+    condition: Literal["intact", "one_lost", "any"]
     #: ``dynamic``, ``quasi_static``, ``static`` or ``any``.
-    analysis: str
+    analysis: Literal["dynamic", "quasi_static", "static", "any"]
     #: Class of the code, or ``any``.
     consequence: str
-    #: ``chain``, ``rope``, ... or ``any``.
-    component: str
+    #: What a line is made of, or ``any``.
+    component: Literal["chain", "rope", "wire", "knotted_rope", "shackle", "used_chain", "any"]
     #: ``safety_factor``, ``partial_mean``, ``partial_dynamic``, ``load_factor``, ``material_factor`` or ``share``.
-    rule: str
+    rule: Literal["safety_factor", "partial_mean", "partial_dynamic", "load_factor", "material_factor", "share"]
     value: float
     #: Whether it was held against the standard itself.
     confirmed: bool
@@ -118,10 +124,8 @@ def applicable_rule(
 
 
 def _rule(record: Record) -> CodeRule:
-    return CodeRule(
-        record["code"], record["edition"], record["condition"], record["analysis"], record["consequence"],
-        record["component"], record["rule"], float(record["value"]), record["confirmed"] == "yes", record["source"],
-    )  # fmt: skip
+    values: dict[str, Any] = {name: record[name] for name in (field.name for field in fields(CodeRule))}
+    return CodeRule(**{**values, "value": float(values["value"]), "confirmed": values["confirmed"] == "yes"})
 
 
 def available_endurance_curves() -> tuple[str, ...]:

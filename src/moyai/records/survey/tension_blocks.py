@@ -87,6 +87,7 @@ class Blocks:
     def __len__(self) -> int:
         return int(self.start.size)
 
+    @checks_words
     def averaged(self, name: Literal["steady", "maximum", "tenth", "third", "mean"]) -> Array:
         """Return a column averaged over the lines, as the paper averages its two anchors [N]."""
         return np.asarray(getattr(self, name).mean(axis=1))

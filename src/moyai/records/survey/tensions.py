@@ -25,6 +25,7 @@ SteadyRule = Literal["median", "mean", "low_pass"]
 _DOUBLE = 0.7
 
 
+@checks_words
 @dataclass(frozen=True, eq=False)
 class SplitTension:
     """A tension as steady plus fluctuating part."""

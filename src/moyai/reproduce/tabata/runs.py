@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from moyai.core.arrays import Array
+from moyai.core.options import checks_words
 from moyai.core.progress import Progress, silent
 from moyai.records.survey.tension_blocks import Blocks
 from moyai.reproduce.inputs import problem_of, run_problem
@@ -105,6 +106,7 @@ class Runs:
         """M of single waves and its interval."""
         return self.by_wave.energy_factor(CONVENTIONAL.float_mass, CONVENTIONAL.rope_stiffness)
 
+    @checks_words
     def paper_factor(self, rule: FittingRule = "mean_zero") -> tuple[float, float, float]:
         """Return M of the paper's maxima and its interval by a rule of fitting."""
         fit = calibrate(*self.observed, 0.0, line_factor=1.0, rule=rule)

@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from moyai.core.options import checks_words
 from moyai.sea.spectra import goda_peak_period
 from moyai.sea.states import IrregularSea, RegularSea, SeaState
 from moyai.structures.curtain.seas.squared_velocity import DirectionRule, effective_height
@@ -26,6 +27,7 @@ class DesignWave:
     #: Whether the highest wave of the sea counts, ratio times H_1/3.
     irregular: bool
 
+    @checks_words
     def effective_height(self, rule: DirectionRule, height_ratio: float) -> float:
         """Return the height that acts on the curtain [m]: of the highest wave of an irregular sea."""
         ratio = height_ratio if self.irregular else 1.0

@@ -11,6 +11,7 @@ from typing import Any, Literal
 import numpy as np
 
 from moyai.core.arrays import Array, ComplexArray
+from moyai.core.options import checks_words
 from moyai.core.progress import Progress, silent
 from moyai.mooring.system import LineSystem
 from moyai.mooring.table import compile_lines
@@ -240,6 +241,7 @@ def _driven(advance: Any, steps: int, step: float, progress: Progress, name: str
     return done, "converged", ""
 
 
+@checks_words
 @dataclass(frozen=True, eq=False)
 class RowRun:
     """Motions and loads over time.
