@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,6 +14,11 @@ from moyai.core.validity import IdentityCheck, Notice
 from moyai.floating.arrays import square_matrix
 from moyai.floating.coefficients import Hydrodynamics
 from moyai.floating.damping import EquivalentDamping, LinearDamping, QuadraticDamping
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from moyai.potential.solution import RadiationDiffraction
 
 SINGULAR = 1e13
 """Condition number of the scaled dynamic stiffness above which an answer has no correct digit left to trust."""
@@ -96,7 +102,7 @@ def solve_scaled(matrix: ComplexArray, right: ComplexArray) -> tuple[ComplexArra
 
 
 def solve_motions(
-    hydrodynamics: Hydrodynamics,
+    hydrodynamics: Hydrodynamics | RadiationDiffraction | xr.Dataset,
     inertia: ArrayLike,
     stiffness: ArrayLike,
     *,
@@ -113,8 +119,9 @@ def solve_motions(
 
     Parameters
     ----------
-    hydrodynamics : Hydrodynamics
-        Coefficients of the whole unit (see :meth:`Hydrodynamics.scaled_to`).
+    hydrodynamics : Hydrodynamics, RadiationDiffraction or xarray.Dataset
+        Coefficients of the whole unit (see :meth:`Hydrodynamics.scaled_to`). A solution or its dataset is taken as it
+        is, per metre: inertia, stiffness and damping are then per metre too.
     inertia : array_like (m, m)
         M.
     stiffness : array_like (m, m)
@@ -161,6 +168,7 @@ def solve_motions(
     >>> round(float(abs(motions.displacement[0, 0, 1])), 2)          # long waves lift the body by their amplitude
     1.0
     """
+    hydrodynamics = Hydrodynamics.of(hydrodynamics)
     size, count, headings = hydrodynamics.size, len(hydrodynamics.omega), len(hydrodynamics.heading)
     inertia = square_matrix(inertia, size, "inertia")
     stiffness = square_matrix(stiffness, size, "stiffness")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 import scipy
@@ -16,6 +17,11 @@ from moyai.core.store import key_of
 from moyai.core.validity import Notice
 from moyai.floating.arrays import square_matrix
 from moyai.floating.coefficients import Hydrodynamics
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from moyai.potential.solution import RadiationDiffraction
 
 _KNOWN: Remembered[NaturalModes] = Remembered(16)
 
@@ -38,7 +44,7 @@ class NaturalModes:
 
 
 def natural_modes(
-    hydrodynamics: Hydrodynamics,
+    hydrodynamics: Hydrodynamics | RadiationDiffraction | xr.Dataset,
     inertia: ArrayLike,
     stiffness: ArrayLike,
     *,
@@ -48,9 +54,10 @@ def natural_modes(
 
     Parameters
     ----------
-    hydrodynamics : Hydrodynamics
-        Coefficients of the whole unit. Below and above the computed frequencies the end values are held, above with the
-        infinite-frequency added mass when it is known; a notice says when a mode lies there.
+    hydrodynamics : Hydrodynamics, RadiationDiffraction or xarray.Dataset
+        Coefficients of the whole unit; a solution or its dataset is taken per metre. Below and above the computed
+        frequencies the end values are held, above with the infinite-frequency added mass when it is known; a notice
+        says when a mode lies there.
     inertia, stiffness : array_like (m, m)
         M and K_H + K_M; the free body has K_M = 0.
     damping : array_like (m, m) or None
@@ -72,16 +79,16 @@ def natural_modes(
     crossing of each is bracketed on the grid of the coefficients and found by Brent's method. So modes do not change
     places, and the added mass may even be negative, as it is near a gap resonance.
     """
-    size = hydrodynamics.size
+    hydro = Hydrodynamics.of(hydrodynamics)
+    size = hydro.size
     inertia = square_matrix(inertia, size, "inertia")
     stiffness = square_matrix(stiffness, size, "stiffness")
     if np.any(np.diag(inertia) <= 0.0):
         raise InputError("a mode has no inertia", parameter="inertia", allowed="a positive diagonal")
     extra = np.zeros((size, size)) if damping is None else square_matrix(damping, size, "damping")
-    hydro = hydrodynamics
     known = (hydro.modes, hydro.omega, hydro.added_mass, hydro.radiation_damping, hydro.infinite_frequency_added_mass)
     return _KNOWN.of(
-        key_of(*known, inertia, stiffness, extra), lambda: _natural_modes(hydrodynamics, inertia, stiffness, extra)
+        key_of(*known, inertia, stiffness, extra), lambda: _natural_modes(hydro, inertia, stiffness, extra)
     )
 
 
