@@ -48,7 +48,8 @@ def peak_notices(
 def fronts_told(network: Network, run: Run) -> tuple[Notice, ...]:
     """Return reports of wave fronts; at the pace of the wave they are exact but for nodes that land on a bed."""
     paced = _at_wave_pace(run)
-    return front_notices(network, [one for one in run.watch.fronts(network) if one.fall > 0.0 or not paced])
+    fronts = [one for one in run.watch.fronts(network) if one.fall > 0.0 or not paced]
+    return front_notices(network, fronts, explicit=isinstance(run, ExplicitRun))
 
 
 def beyond_curves(network: Network, bars: NDArray[np.int64], peaks: Array) -> tuple[Notice, ...]:

@@ -65,13 +65,13 @@ SILENT = {
     "places turned over": (lambda: _line(shape=np.zeros((3, 3)).T[:2].T), r"shape \(3, 2\)"),
     "places in a row": (lambda: _line(shape=np.arange(9.0)), r"shape \(9,\)"),
     "misspelt top of a net": (
-        lambda: _builder().net("n", np.zeros((2, 2, 3)), KIND, lengths=(1.0, 1.0), top="fix"), "top of net 'n'",
+        lambda: _builder().net("n", np.zeros((2, 2, 3)), KIND, lengths=(1.0, 1.0), top="fix"), "top: .*fixed",
     ),
     "three lengths of a net": (
         lambda: _builder().net("n", np.zeros((2, 2, 3)), KIND, lengths=(1.0, 1.0, 2.0)), "lengths of net",
     ),
     "misspelt row of a sheet": (
-        lambda: _builder().sheet("s", np.zeros((2, 2, 3)), warp=[0, 1], weft=[0, 1], first_row="fix"), "first row",
+        lambda: _builder().sheet("s", np.zeros((2, 2, 3)), warp=[0, 1], weft=[0, 1], first_row="fix"), "row: .*fixed",
     ),
     "two held components": (lambda: _builder().free("c", (0, 0, -1), mass=1.0, held=(True, True)), "held of 'c'"),
     "half a form": (lambda: _builder().free("c", (0, 0, -1), mass=1.0, form=0.5), "form of 'c' is 0.5"),
