@@ -7,15 +7,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import gamma
 
-from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
+from moyai.core.single import plain
 
 
 @checks_words
@@ -35,11 +35,11 @@ class EnduranceCurve:
     confirmed: bool
     source: str
 
-    def cycles_to_failure(self, ranges: ArrayLike) -> Array:
+    def cycles_to_failure(self, ranges: ArrayLike) -> Any:
         """Return the number of cycles to failure; infinite at zero range [eq:fatigue-curve]."""
         r = np.asarray(ranges, dtype=float)
         with np.errstate(divide="ignore"):
-            return np.asarray(self.capacity / r**self.exponent)
+            return plain(self.capacity / r**self.exponent)
 
 
 def damage(ranges: ArrayLike, counts: ArrayLike, curve: EnduranceCurve) -> float:

@@ -40,7 +40,7 @@ class CatenarySolution:
     #: Largest error of the end position that the forces give back, over the line length.
     residual: Array
     #: Codes of :mod:`moyai.mooring.kernels`, in words from :attr:`regime_names`.
-    regime: IntArray
+    regime: IntArray | int
 
     @property
     def tension_fairlead(self) -> Any:
@@ -169,5 +169,5 @@ def solve_catenary(
         grounded_length=columns[4],
         stiffness=out[:, 5:9].reshape(*shape, 2, 2),
         residual=columns[9],
-        regime=regime.reshape(shape),
+        regime=regime.reshape(shape) if shape else int(regime[0]),
     )

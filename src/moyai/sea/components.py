@@ -14,6 +14,7 @@ from moyai.core.arrays import Array, ComplexArray
 from moyai.core.compiled import njit
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
+from moyai.core.single import plain
 from moyai.sea import kinematics
 from moyai.sea.kinematics import Stretching
 from moyai.sea.time_sum import sum_over_time
@@ -89,7 +90,7 @@ class WaveComponents:
         along = px[..., None] * np.cos(self.heading) + py[..., None] * np.sin(self.heading)
         return np.asarray(np.exp(1j * (self.wave_number * along)))
 
-    def elevation(self, time: ArrayLike, x: ArrayLike = 0.0, y: ArrayLike = 0.0) -> Array:
+    def elevation(self, time: ArrayLike, x: ArrayLike = 0.0, y: ArrayLike = 0.0) -> Any:
         """Return the surface elevation at all times at all points.
 
         Parameters
@@ -102,14 +103,14 @@ class WaveComponents:
 
         Returns
         -------
-        ndarray, shape (*time.shape, *points.shape)
-            Elevation above still water [m].
+        float or ndarray, shape (*time.shape, *points.shape)
+            Elevation above still water [m]; a float for one instant at one point.
 
         See Also
         --------
         elevation_along : one point for each time.
         """
-        return self.respond(self.travel(x, y), time)
+        return plain(self.respond(self.travel(x, y), time))
 
     def elevation_along(self, time: ArrayLike, x: ArrayLike, y: ArrayLike) -> Array:
         """Return the elevation [m] along a track: time [s], x and y [m] broadcast together point by point."""

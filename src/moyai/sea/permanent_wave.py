@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 from moyai.core.arrays import Array
 from moyai.core.compiled import njit
 from moyai.core.options import checks_words
+from moyai.core.single import plain
 from moyai.core.validity import Notice
 from moyai.sea.water import Water
 
@@ -114,11 +115,14 @@ class NonlinearWave:
         turn = self.wave_number * along.reshape(-1)[None, :] - self.omega * t.reshape(-1)[:, None]
         return turn, (*t.shape, *px.shape)
 
-    def elevation(self, time: ArrayLike, x: ArrayLike = 0.0, y: ArrayLike = 0.0) -> Array:
-        """Return the surface elevation [m] at all times [s] at all points [m], shape (*time.shape, *points.shape)."""
+    def elevation(self, time: ArrayLike, x: ArrayLike = 0.0, y: ArrayLike = 0.0) -> Any:
+        """Return the surface elevation [m] at all times [s] at all points [m], shape (*time.shape, *points.shape).
+
+        A single instant at a single point gives a float.
+        """
         angle, shape = self._angle(time, x, y)
         order = np.arange(1, self.elevation_harmonics.size + 1)
-        return (np.cos(angle[..., None] * order) @ self.elevation_harmonics).reshape(shape)
+        return plain((np.cos(angle[..., None] * order) @ self.elevation_harmonics).reshape(shape))
 
     def _fields(self, time: ArrayLike, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> tuple[Array, tuple[int, ...]]:
         px, py, pz = np.broadcast_arrays(*(np.asarray(item, dtype=np.float64) for item in (x, y, z)))
@@ -181,7 +185,8 @@ class NonlinearWave:
         return 0.5 * ((u - self.relative_celerity) ** 2 + w**2) + self.water.gravity * eta
 
     def _along_crest_line(self, along: Array) -> Array:
-        return self.elevation(0.0, along * math.cos(self.heading), along * math.sin(self.heading))
+        height = self.elevation(0.0, along * math.cos(self.heading), along * math.sin(self.heading))
+        return np.asarray(height, dtype=np.float64)
 
     def _at_surface(self, along: Array, eta: Array) -> tuple[Array, Array]:
         out = np.empty((4, along.size))

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.sea import dispersion
 from moyai.sea.components import WaveComponents
@@ -121,6 +121,6 @@ class RegularWave:
             intrinsic_omega=np.array([self.intrinsic_omega]),
         )
 
-    def elevation(self, time: ArrayLike, x: ArrayLike = 0.0, y: ArrayLike = 0.0) -> Array:
+    def elevation(self, time: ArrayLike, x: ArrayLike = 0.0, y: ArrayLike = 0.0) -> Any:
         """Return the surface elevation [m]; see :meth:`WaveComponents.elevation`."""
         return self.components().elevation(time, x, y)

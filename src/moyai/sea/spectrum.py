@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
+from moyai.core.single import plain
 from moyai.sea import dispersion
 from moyai.sea import spectral_integrals as integrals
 from moyai.sea.spectrum_file import spectrum_table
@@ -55,18 +56,18 @@ class WindSeaShape:
         return np.where(omega > 0.0, density, 0.0)
 
 
-def depth_function(omega: ArrayLike, water_depth: float, gravity: float) -> Array:
+def depth_function(omega: ArrayLike, water_depth: float, gravity: float) -> Any:
     """Return Kitaigorodskii's depth function phi [-], tanh^2 kh / (1 + 2kh/sinh 2kh) [eq:sea-tma].
 
     1 in deep water, omega^2 h / (2 g) in shallow water.
     """
     frequency = np.asarray(omega, dtype=np.float64)
     if math.isinf(water_depth):
-        return np.ones_like(frequency)
+        return plain(np.ones_like(frequency))
     kh = np.asarray(dispersion.wave_number(frequency, water_depth, gravity)) * water_depth
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         ratio = np.where(kh > 0.0, 4.0 * kh * np.exp(-2.0 * kh) / -np.expm1(-4.0 * kh), 1.0)
-    return np.asarray(np.tanh(kh) ** 2 / (1.0 + ratio))
+    return plain(np.tanh(kh) ** 2 / (1.0 + ratio))
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,14 +112,14 @@ class Spectrum:
         values = (np.array(self.omega), np.array(self.density), self.name, dict(self.parameters))
         return Spectrum, (*values, self.shapes, self.lower, self.upper)
 
-    def density_at(self, omega: ArrayLike) -> Array:
+    def density_at(self, omega: ArrayLike) -> Any:
         """Return the density [m2 s/rad] at any frequencies [rad/s]: the formula, or the table interpolated linearly."""
         frequency = np.asarray(omega, dtype=np.float64)
         if self.shapes:
             value = sum((shape(frequency) for shape in self.shapes), np.zeros_like(frequency))
         else:
             value = np.interp(frequency, self.omega, self.density, left=0.0, right=0.0)
-        return np.where((frequency >= self.lower) & (frequency <= self.upper), value, 0.0)
+        return plain(np.where((frequency >= self.lower) & (frequency <= self.upper), value, 0.0))
 
     def _edges(self, lower: float, upper: float) -> Array:
         peaks = tuple(shape.peak_omega for shape in self.shapes)
@@ -164,10 +165,10 @@ class Spectrum:
             )
         return self._integral(order, 1, lower, upper)
 
-    def energy_below(self, omega: ArrayLike) -> Array:
+    def energy_below(self, omega: ArrayLike) -> Any:
         """Return the variance [m2] of the frequencies below ``omega`` [rad/s]."""
         frequency = np.asarray(omega, dtype=np.float64)
-        return self._energy_below()(np.ravel(frequency)).reshape(frequency.shape)
+        return plain(self._energy_below()(np.ravel(frequency)).reshape(frequency.shape))
 
     def _energy_below(self) -> integrals.Density:
         """Return the variance below frequencies, shape (n,), as a function of these: what it integrates stands."""
@@ -179,7 +180,7 @@ class Spectrum:
             nothing = float(cumulative(np.array([self.lower]))[0])
         return lambda omega: cumulative(np.clip(omega, self.lower, self.upper)) - nothing
 
-    def quantile(self, fraction: ArrayLike) -> Array:
+    def quantile(self, fraction: ArrayLike) -> Any:
         """Return the frequency [rad/s] below which ``fraction`` (between 0 and 1) of the variance lies."""
         wanted = np.asarray(fraction, dtype=np.float64)
         if ((wanted < 0.0) | (wanted > 1.0) | np.isnan(wanted)).any():
@@ -192,7 +193,7 @@ class Spectrum:
             low, high = max(self.lower, float(self.omega[0])), min(self.upper, float(self.omega[-1]))
         below = self._energy_below()
         target = np.ravel(wanted) * float(below(np.array([high]))[0])
-        return integrals.invert_cumulative(below, self.density_at, target, low, high).reshape(wanted.shape)
+        return plain(integrals.invert_cumulative(below, self.density_at, target, low, high).reshape(wanted.shape))
 
     @property
     def variance(self) -> float:

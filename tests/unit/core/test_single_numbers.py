@@ -5,8 +5,9 @@ import pytest
 
 from moyai.core.single import plain
 from moyai.core.validity import IdentityCheck
+from moyai.design import EnduranceCurve
 from moyai.mooring import solve_catenary
-from moyai.sea import current
+from moyai.sea import Water, current, group_velocity, nonlinear_wave, spectra, synthesise, wave_number
 from moyai.series import fit
 
 
@@ -32,3 +33,34 @@ def test_other_numbers_are_floats():
     assert type(IdentityCheck("any", np.float64(1.0), 1.0).value) is float
     fitted = fit(np.random.default_rng(1).gumbel(100.0, 10.0, 50), "gumbel")
     assert {type(getattr(fitted, name)) for name in ("location", "scale", "shape", "log_likelihood")} == {float}
+
+
+WATER = Water(10.0, 1025.0, 9.81)
+SPECTRUM = spectra.jonswap(significant_height=2.0, peak_period=7.0, peak_enhancement=3.3)
+CURVE = EnduranceCurve("own", exponent=3.0, capacity=1000.0, unit="1", confirmed=True, source="own tests")
+WAVE = nonlinear_wave("stream_function", height=2.0, water=WATER, period=6.0)
+SEA = synthesise(SPECTRUM, WATER, duration=600.0, seed=1)
+CALLS = {
+    "elevation of a nonlinear wave": lambda value: WAVE.elevation(value, 0.0),
+    "elevation of a sea": lambda value: SEA.elevation(value, 0.0, 0.0),
+    "energy of a spectrum": SPECTRUM.energy_below,
+    "quantile of a spectrum": SPECTRUM.quantile,
+    "density of a spectrum": SPECTRUM.density_at,
+    "depth function": lambda value: spectra.depth_function(value, 10.0, 9.81),
+    "depth function in deep water": lambda value: spectra.depth_function(value, np.inf, 9.81),
+    "wave number": lambda value: wave_number(value, 10.0, 9.81),
+    "group velocity": lambda value: group_velocity(value, 10.0, 9.81),
+    "cycles to failure": CURVE.cycles_to_failure,
+}
+
+
+@pytest.mark.parametrize("call", CALLS.values(), ids=CALLS)
+@pytest.mark.parametrize("value", [0.5, np.float64(0.5), np.array(0.5)])
+def test_a_call_gives_a_float_for_one_value(call, value):
+    assert type(call(value)) is float
+    assert call([0.5]).shape == (1,) and call([0.5])[0] == pytest.approx(call(value), rel=1e-12)
+
+
+def test_the_regime_of_one_line_is_a_whole_number():
+    assert type(solve_catenary(50.0, 10.0, 55.0, 5e8, 1000.0).regime) is int
+    assert solve_catenary([50.0], 10.0, 55.0, 5e8, 1000.0).regime.shape == (1,)
