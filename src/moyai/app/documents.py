@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from moyai.app.folder import CASE_ENDINGS, Folder
-from moyai.app.pins import Pin
+from moyai.app.messages import Pin
 from moyai.case.templates import template
 from moyai.case.yaml_text import decode, encode_like
 from moyai.core.errors import InputError, MoyaiError

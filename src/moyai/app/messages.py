@@ -7,13 +7,20 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from moyai.app.pins import Pin
-
 VERSION = 1
 """Version of the messages between server and page (docs/tutorial/app.md)."""
 END = b""
 """Follows the last answer to a wish."""
 STALE = b'{"version":1,"message":"stale"}\n'
+
+
+@dataclass(frozen=True)
+class Pin:
+    """A state of a case that is kept to compare with."""
+
+    key: str
+    name: str
+    text: str
 
 
 @dataclass(frozen=True)

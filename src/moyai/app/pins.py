@@ -5,11 +5,12 @@ from __future__ import annotations
 import hashlib
 import secrets
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from moyai.app.folder import refuse_foreign_files
+from moyai.app.messages import Pin, Wish
 from moyai.app.stages import stages_of
 from moyai.case.reader import case_of
 from moyai.case.yaml_reader import Document, parse_yaml
@@ -17,7 +18,6 @@ from moyai.core.errors import InputError, MoyaiError
 from moyai.core.progress import Progress
 
 if TYPE_CHECKING:
-    from moyai.app.messages import Wish
     from moyai.core.results import Result
     from moyai.report.differences import Other
 
@@ -25,15 +25,6 @@ MOST = 6
 _LONGEST = 40
 
 Run = Callable[..., "Result"]
-
-
-@dataclass(frozen=True)
-class Pin:
-    """A state of a case that is kept to compare with."""
-
-    key: str
-    name: str
-    text: str
 
 
 def with_pin(pins: tuple[Pin, ...], name: str, text: str) -> tuple[Pin, ...]:

@@ -20,8 +20,8 @@ from numpy.typing import ArrayLike
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
-from moyai.flexible.checks import whole_number
 from moyai.flexible.network import BOX, DRIVEN, FIXED, FREE, SPHERE, Bars, BarType, Bed, Network, Nodes, Strand
+from moyai.flexible.numbers import whole_number
 from moyai.flexible.sheets import Sheets, sheet_grid
 from moyai.mooring.lines import Line, LineType, Segment
 from moyai.mooring.shape import line_shape

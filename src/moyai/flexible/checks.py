@@ -9,52 +9,7 @@ import numpy as np
 from moyai.core.errors import InputError
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
-
     from moyai.flexible.network import Network
-
-
-def whole_numbers(values: ArrayLike, path: str) -> NDArray[np.int64]:
-    """Return integers; refuse what an array of integers would cut or take for something else.
-
-    Raises
-    ------
-    InputError
-        For fractions, values that are not finite, masks of true and false, and what is no number.
-    """
-    try:
-        given = np.asarray(values)
-    except ValueError:
-        raise InputError(f"{path} holds rows of unequal length", parameter=path, allowed="whole numbers") from None
-    if given.dtype.kind in "iu" or given.size == 0:
-        return given.astype(np.int64)
-    if given.dtype.kind == "b":
-        raise InputError(
-            f"{path} holds true and false",
-            parameter=path,
-            allowed="whole numbers",
-            remedy="numpy.flatnonzero of a mask",
-        )
-    if given.dtype.kind != "f":
-        raise InputError(f"{path} holds what is no number", parameter=path, allowed="whole numbers")
-    wrong = ~(np.isfinite(given) & (given == np.floor(given)))
-    if wrong.any():
-        raise InputError(f"{path} holds {given[wrong].flat[0]:g}", parameter=path, allowed="whole numbers")
-    return given.astype(np.int64)
-
-
-def whole_number(value: float, path: str, *, least: int) -> int:
-    """Return one integer, ``least`` or more.
-
-    Raises
-    ------
-    InputError
-        For anything else.
-    """
-    given = whole_numbers(value, path)
-    if given.shape != () or given < least:
-        raise InputError(f"{path} is {value!r}", parameter=path, allowed=f"a whole number, {least} or more")
-    return int(given)
 
 
 def name_of_node(network: Network, node: int) -> str:
@@ -231,19 +186,3 @@ def _check_nets(network: Network) -> None:
                 parameter=f"rings.{ring.name}.nodes",
                 allowed=f"nodes 0 to {count - 1}",
             )
-
-
-def numbers_of(values: ArrayLike, path: str) -> NDArray[np.float64]:
-    """Return an array of numbers.
-
-    Raises
-    ------
-    InputError
-        For words, and for rows of unequal length.
-    """
-    try:
-        return np.array(values, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise InputError(
-            f"{path} holds what is no number, or rows of unequal length", parameter=path, allowed="numbers"
-        ) from None

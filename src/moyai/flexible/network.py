@@ -17,8 +17,8 @@ from numpy.typing import ArrayLike, NDArray
 from moyai.core.arrays import Array, BoolArray, IntArray
 from moyai.core.errors import InputError
 from moyai.flexible.bed import Bed as Bed
-from moyai.flexible.checks import whole_numbers
 from moyai.flexible.mass_blocks import MassBlocks
+from moyai.flexible.numbers import whole_numbers
 from moyai.flexible.panels import NetPanels
 from moyai.flexible.rings import Ring
 from moyai.flexible.sheets import Sheets

@@ -10,7 +10,7 @@ import numpy as np
 
 from moyai.core.arrays import Array, IntArray
 from moyai.core.errors import InputError
-from moyai.flexible.checks import numbers_of, whole_numbers
+from moyai.flexible.numbers import numbers_of, whole_numbers
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,10 +13,10 @@ from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
 from moyai.core.wording import spoken
-from moyai.flexible.checks import whole_number
 from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import Network
+from moyai.flexible.numbers import whole_number
 from moyai.flexible.refine import more_viscous, refined, with_viscosity
 from moyai.flexible.result import State
 from moyai.flexible.simulation import simulate

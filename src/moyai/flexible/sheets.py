@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from moyai.core.arrays import Array, IntArray
 from moyai.core.errors import InputError
 from moyai.flexible import sheet_kernel as kernel
-from moyai.flexible.checks import numbers_of, whole_numbers
+from moyai.flexible.numbers import numbers_of, whole_numbers
 from moyai.sea.water import Water
 
 _POSITIVE_OR_ZERO = (

@@ -9,16 +9,13 @@ from __future__ import annotations
 import math
 import warnings
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from moyai.core.errors import InputError
 from moyai.sea.direction_widths import direction_widths
-
-if TYPE_CHECKING:
-    from moyai.sea.spectrum_archives import SpectrumArchive
-
+from moyai.sea.spectrum_archive import SpectrumArchive, mean_direction
 
 _TEXT = ("octopus", "awac", "funwave", "obscape", "xwaves", "datawell", "triaxys", "spotter", "json")
 #: Variables of NetCDF files of other programs, and the reader of each. Readers of wavespectra take each other's files
@@ -104,7 +101,6 @@ def archive_of(data: Any, name: str) -> SpectrumArchive:
     InputError
         Where it holds no sensible spectra.
     """
-    from moyai.sea.spectrum_archives import SpectrumArchive, mean_direction
 
     spread = data["efth"]
     turned = "dir" in spread.dims and spread.sizes["dir"] > 1

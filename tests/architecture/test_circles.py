@@ -1,0 +1,106 @@
+"""No module imports itself by way of others, names that only a type checker reads included."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Mapping
+
+from source_files import FILES, SOURCE
+
+# Circles of names that only a type checker reads and that a type moved down would open. This list may only shrink.
+KNOWN = {
+    "app": {"answers", "case_addresses", "job_addresses", "server"},
+    "mooring": {"planar", "system"},
+    "structures.breakwater": {"frequency.model", "viscous_damping"},
+    "structures.network": {"bodies", "coefficients", "model", "runs", "start_up"},
+    "structures.network ": {"dynamics", "run_notices", "summary"},
+}
+
+
+def module_of(path) -> str:
+    parts = path.relative_to(SOURCE.parent).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+MODULES = {module_of(path): path for path in FILES}
+
+
+def statements(node: ast.AST) -> Iterator[ast.Import | ast.ImportFrom]:
+    """Give the imports of a module that are not inside functions."""
+    for child in ast.iter_child_nodes(node):
+        if isinstance(child, ast.Import | ast.ImportFrom):
+            yield child
+        elif not isinstance(child, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda):
+            yield from statements(child)
+
+
+def imports_of(module: str, text: str, package: bool = False) -> set[str]:
+    """Return the modules of the product that one imports."""
+    found = set()
+    for one in statements(ast.parse(text)):
+        if isinstance(one, ast.Import):
+            names = [alias.name for alias in one.names]
+        else:
+            own = module.split(".") if package else module.split(".")[:-1]
+            base = own[: len(own) - one.level + 1] if one.level else []
+            stem = ".".join([*base, *([one.module] if one.module else [])])
+            names = [f"{stem}.{alias.name}" for alias in one.names]
+        for name in names:
+            while name and name not in MODULES:
+                name = name.rpartition(".")[0]
+            found |= {name} - {"", module}
+    return found
+
+
+def circles(imports: Mapping[str, set[str]]) -> list[set[str]]:
+    """Return the groups of modules each of which reaches every other (Kosaraju)."""
+    order: list[str] = []
+    seen: set[str] = set()
+    for start in imports:
+        if start in seen:
+            continue
+        seen.add(start)
+        path = [(start, iter(sorted(imports[start])))]
+        while path:
+            module, further = path[-1]
+            following = next((one for one in further if one not in seen), None)
+            if following is None:
+                order.append(module)
+                path.pop()
+            else:
+                seen.add(following)
+                path.append((following, iter(sorted(imports.get(following, set())))))
+    back: dict[str, set[str]] = {}
+    for module, targets in imports.items():
+        for target in targets:
+            back.setdefault(target, set()).add(module)
+    found, taken = [], set()
+    for module in reversed(order):
+        group, open_ones = set(), [module]
+        while open_ones:
+            one = open_ones.pop()
+            if one not in taken:
+                taken.add(one)
+                group.add(one)
+                open_ones += back.get(one, set())
+        if len(group) > 1:
+            found.append(group)
+    return found
+
+
+def test_no_circle_but_those_that_are_known() -> None:
+    imports = {
+        module: imports_of(module, path.read_text(encoding="utf-8"), path.name == "__init__.py")
+        for module, path in MODULES.items()
+    }
+    known = [{f"moyai.{package.strip()}.{name}" for name in names} for package, names in KNOWN.items()]
+    found = circles(imports)
+    assert [sorted(group) for group in found if group not in known] == [], "new circles, or circles that have changed"
+    assert [sorted(group) for group in known if group not in found] == [], "opened: take them off the list"
+
+
+def test_the_check_sees_a_circle() -> None:
+    text = "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    from moyai.sea.water import Water\n"
+    assert imports_of("moyai.sea.imaginary", text) == {"moyai.sea.water"}
+    assert imports_of("moyai.sea.imaginary", "def late():\n    import moyai.sea.water\n") == set()
+    assert circles({"a": {"b"}, "b": {"c"}, "c": {"b"}}) == [{"b", "c"}]
