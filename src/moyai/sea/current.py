@@ -273,7 +273,7 @@ def power_law(surface_speed: float, exponent: float, heading: float, water: Wate
 
 
 def table(z: ArrayLike, speed: ArrayLike, heading: ArrayLike) -> CurrentProfile:
-    """Return a current that is linear between given heights [eq:current-field].
+    """Return a current that is linear between given heights.
 
     Parameters
     ----------
