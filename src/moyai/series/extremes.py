@@ -265,6 +265,7 @@ def maximum_interval(
     Parameters
     ----------
     fitted : Fit
+        From :func:`fit`.
     count : float
         Number of values whose maximum is meant: peaks in the storm, or 1 block for a quantile of block maxima.
     seed : int
@@ -272,14 +273,20 @@ def maximum_interval(
     probability : float, optional
         Give the level that the maximum stays below with this probability, instead of its mode.
     confidence : float
-        Of the interval.
+        Of the interval [-].
     repetitions : int
         Fits to samples drawn from ``fitted``.
 
     Returns
     -------
     Interval
-        Basic bootstrap of the logarithmic distance from the location, so that it never falls below the location.
+        Level with its lower and upper bound, in the unit of the data [eq:identification-bootstrap]: basic bootstrap of
+        the logarithmic distance from the location, so that it never falls below the location.
+
+    Raises
+    ------
+    InputError
+        For a probability outside 0 to 1.
 
     Examples
     --------

@@ -240,6 +240,16 @@ def find_waves(time: ArrayLike, values: ArrayLike, options: WaveOptions, *, gap:
     ------
     InputError
         Lengths that differ, instants that do not increase, fewer than three samples, or none that is a number.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.series import find_waves
+    >>> from moyai.series.zero_crossing import WaveOptions
+    >>> time = np.arange(0.0, 61.0, 0.1)
+    >>> waves = find_waves(time, 0.5 * np.sin(2.0 * np.pi / 6.0 * (time - 1.0)), WaveOptions())
+    >>> len(waves), waves.height.round(2).max().item(), waves.period.round(2).max().item()   # [m], [s]
+    (9, 1.0, 6.0)
     """
     t = np.ascontiguousarray(time, dtype=np.float64)
     v = np.ascontiguousarray(values, dtype=np.float64)
