@@ -135,7 +135,9 @@ def check_line(load: LineLoad, code: DesignCode, *, corrosion: float = 0.0, diam
     Parameters
     ----------
     load : LineLoad
+        Tensions [N] and what the line is made of.
     code : DesignCode
+        From :func:`design_code`.
     corrosion : float
         Loss of diameter over the life [m]: rate times years.
     diameter : float

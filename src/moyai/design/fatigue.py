@@ -48,6 +48,7 @@ def damage(ranges: ArrayLike, counts: ArrayLike, curve: EnduranceCurve) -> float
     counts : array_like (n,)
         Numbers of cycles.
     curve : EnduranceCurve
+        Cycles to failure against range.
 
     Returns
     -------

@@ -68,15 +68,25 @@ def return_level(
     duration: float,
     bracket: tuple[float, float],
 ) -> float:
-    """Return the level whose mean return period is ``years``.
+    """Return the level of a mean return period [eq:extremes-long-term].
 
     Parameters
     ----------
     years : float
-    probability, short_term, duration
-        As of :func:`long_term_exceedance`.
+        Mean return period [years].
+    probability : array_like (n,)
+        Share of the time of every sea state; sums to one.
+    short_term : sequence of callable
+        Of every sea state, the probability that the maximum within it exceeds a level.
+    duration : float
+        Of a sea state [s].
     bracket : tuple of float
         Levels between which it lies.
+
+    Returns
+    -------
+    float
+        In the unit of the levels.
 
     Raises
     ------

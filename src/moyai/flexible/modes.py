@@ -33,7 +33,7 @@ class Modes:
 
 
 def natural_modes(network: Network, state: State, *, count: int = 6, flow: Flow | None = None) -> Modes:
-    """Solve K q = omega^2 M q with the tangent stiffness at a state, added mass included.
+    """Solve K q = omega^2 M q with the tangent stiffness at a state, added mass included [eq:flexible-morison].
 
     Parameters
     ----------

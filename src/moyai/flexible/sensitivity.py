@@ -134,7 +134,7 @@ def peak_sensitivity(
     progress: Progress = silent,
     **options: Any,
 ) -> PeakSensitivity:
-    """Run a network five times and compare the highest tension of one bar.
+    """Run a network five times and compare the highest tension of one bar [eq:flexible-bar].
 
     Parameters
     ----------

@@ -126,7 +126,7 @@ def simulate(
     counted_from: float = 0.0,
     progress: Progress = silent,
 ) -> History:
-    """Run a network through time.
+    """Run a network through time [eq:flexible-leapfrog] [eq:flexible-dirk].
 
     Parameters
     ----------
@@ -140,8 +140,8 @@ def simulate(
     flow : Flow, optional
         Motion of the water; still water when left out.
     start : State, optional
-        Where to start; as built and at rest when left out (:func:`moyai.flexible.statics.solve_equilibrium` gives the
-        state at rest).
+        Where to start; as built, without speed, when left out (:func:`moyai.flexible.statics.solve_equilibrium`
+        gives the equilibrium).
     method : {"explicit", "tr_bdf2", "esdirk4"}
         Central differences at the pace of the elastic wave, or an implicit method of second or fourth order whose steps
         follow its error.
@@ -167,7 +167,7 @@ def simulate(
     counted_from : float
         Time since the start before which fronts and falls on the bed are not reported [s].
     progress : Progress
-        Told the simulated time.
+        Called with the simulated time.
 
     Returns
     -------
@@ -189,8 +189,8 @@ def simulate(
     >>> builder.fixed("right", (20.0, 0.0, -2.0))
     >>> builder.line("span", "left", "right", rope, length=21.0, segments=20)
     >>> network = builder.build()
-    >>> rest = solve_equilibrium(network)
-    >>> history = simulate(network, {}, duration=0.5, output_step=0.1, start=rest.state)
+    >>> found = solve_equilibrium(network)
+    >>> history = simulate(network, {}, duration=0.5, output_step=0.1, start=found.state)
     >>> history.tension.shape                                        # instants, bars [N]
     (6, 20)
     """

@@ -69,7 +69,7 @@ def natural_modes(
     Notes
     -----
     A mode is a frequency at which the symmetric matrix K - w^2 (M + A(w)) is singular. Its sorted eigenvalues (modes
-    scaled by their inertia) fall from those of K at rest, one through zero at each natural frequency; the first
+    scaled by their inertia) start as those of K and fall, one through zero at each natural frequency; the first
     crossing of each is bracketed on the grid of the coefficients and found by Brent's method. So modes do not change
     places, and the added mass may even be negative, as it is near a gap resonance.
 

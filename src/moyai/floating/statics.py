@@ -120,10 +120,10 @@ def hydrostatics(
     >>> from moyai.floating import hydrostatics
     >>> from moyai.potential import shapes
     >>> section = shapes.rectangle(beam=4.0, height=2.0).immersed(draught=1.0)
-    >>> rest = hydrostatics(
+    >>> still = hydrostatics(
     ...     section, mass=82000.0, centre_of_gravity=(0.0, -0.2), length=20.0, density=1025.0, gravity=9.81
     ... )
-    >>> round(rest.metacentric_height, 3)                            # KB + BM - KG = 0.5 + 4^2 / 12 - 0.8 [m]
+    >>> round(still.metacentric_height, 3)                           # KB + BM - KG = 0.5 + 4^2 / 12 - 0.8 [m]
     1.033
     """
     positive(mass, "mass")

@@ -93,16 +93,19 @@ class Simulation:
 def choose_time_step(
     model: CumminsModel, forcing: Forcing, expected_motion: ArrayLike | None = None
 ) -> tuple[float, Notice]:
-    """Choose the time step and say why.
+    """Choose the time step of [eq:floating-etd] and say why.
 
     The method is of fourth order with a memory of states. A convolution is of second order: its step is a third of it.
 
     Parameters
     ----------
     model : CumminsModel
+        The body.
     forcing : Forcing
+        Waves, drift and steady loads; a regular wave sets steps that divide its period.
     expected_motion : array_like (m,) or None
-        Amplitudes at which the lines' stiffness is looked up, next to rest; for instance twice the linear motion.
+        Amplitudes at which the lines' stiffness is looked up, next to the undisturbed position [m, rad]; for instance
+        twice the linear motion.
 
     Returns
     -------
@@ -110,6 +113,11 @@ def choose_time_step(
         [s], already fitted to the forcing.
     notice : Notice
         Which of wave periods, stiffest natural period, damping and memory decides.
+
+    Raises
+    ------
+    InputError
+        When neither wave nor restoring sets a time scale.
 
     Examples
     --------

@@ -71,6 +71,11 @@ def net_law(name: str, **options: object) -> NetLaw:
     **options
         Fields of that law, such as ``cap`` of ``matsubara``.
 
+    Returns
+    -------
+    NetLaw
+        For :func:`panel_force`; says its source and range.
+
     Raises
     ------
     InputError

@@ -31,7 +31,9 @@ def surface_elevation(
     motions: ArrayLike | None = None,
     amplitude: complex = 1.0,
 ) -> ComplexArray:
-    """Return the complex elevation [m] at places x [m] (not under the section) at frequency number ``index``.
+    """Return the complex elevation [m] at places x [m] at one frequency [eq:potential-outer-modes].
+
+    The places do not lie under the section.
 
     Parameters
     ----------

@@ -35,7 +35,7 @@ class FrequencyPlan:
 def recommend_frequencies(
     water: Water, *, breadth: float, wall_height: float, accuracy: float = _REFERENCE
 ) -> FrequencyPlan:
-    """Return the frequencies that a memory function of the given accuracy needs.
+    """Return the frequencies that a memory function of the given accuracy needs [eq:memory-tail].
 
     Parameters
     ----------

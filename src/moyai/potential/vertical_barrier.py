@@ -40,7 +40,7 @@ class VerticalBarrier:
 def solve_vertical_barrier(
     draught: float, water: Water, omega: ArrayLike, *, polynomials: int = 14, evanescent_modes: int = 4000
 ) -> VerticalBarrier:
-    """Solve a vertical barrier in water of finite depth.
+    """Solve a vertical barrier in water of finite depth [eq:plate-gap].
 
     Parameters
     ----------

@@ -119,6 +119,7 @@ def fit(values: ArrayLike, family: Family, *, location: float | None = None, thr
     Returns
     -------
     Fit
+        The distribution, its levels in the unit of the data, and how well it fits.
 
     Raises
     ------

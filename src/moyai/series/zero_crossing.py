@@ -229,12 +229,14 @@ def find_waves(time: ArrayLike, values: ArrayLike, options: WaveOptions, *, gap:
     values : array_like
         Surface elevation or any other oscillating quantity; NaN where missing.
     options : WaveOptions
+        Crossing, detrending, dead band, shortest and longest wave.
     gap : float, optional
         Longer steps are gaps [s]; 1.5 median steps by default.
 
     Returns
     -------
     Waves
+        Start [s], period [s], height, crest and trough (unit of ``values``) of each wave, and notices.
 
     Raises
     ------

@@ -56,7 +56,7 @@ def water_properties(name: str) -> WaterProperties:
     Returns
     -------
     WaterProperties
-        Density [kg/m3], viscosity [m2/s] and the rest of its row.
+        Density [kg/m3], viscosity [m2/s], surface tension [N/m] and their source.
 
     Raises
     ------
