@@ -55,7 +55,10 @@ _SAME_LAWS = "the same net laws as for the volume"
 
 @dataclass(frozen=True, eq=False)
 class _State:
-    """The equilibrium in the current of the site at one water level."""
+    """The equilibrium in the current of the site at one water level.
+
+    Without ``statics`` there is only what the laws of nets change in it, which numbers of a sea carry.
+    """
 
     level: str
     speed: float
@@ -145,8 +148,9 @@ def flexible_headlines(problem: FlexibleCageProblem, groups: Groups) -> tuple[He
         What was run, by its place in the result.
     """
     levels = [path[1:] for path in groups if path.count("/") == 1]
-    states = [state for level in levels if (state := _state(level, groups)) is not None]
-    runs = [item for level in levels for item in _runs(level, groups)]
+    known = [_state(level, groups) for level in levels]
+    runs = [item for state in known for item in _runs(state, groups)]
+    states = [state for state in known if state.row >= 0]
     factors = _mesh_factors(groups)
     tension, utilisation = _tension(states, runs, factors)
     items = [
@@ -214,25 +218,25 @@ def _with_mesh(item: Headline, factors: Factors) -> Headline:
     return replace(item, band=replace(band, low=band.low * less, high=band.high * more, of=words))
 
 
-def _state(level: str, groups: Groups) -> _State | None:
-    """Return the equilibrium in the current of the site, not the fastest of the sweep."""
-    statics = groups.get(f"/{level}/statics")
-    if statics is None:
-        return None
+def _state(level: str, groups: Groups) -> _State:
+    """Return the equilibrium in the current of the site, not the fastest of the sweep; row -1 where it was not run."""
+    import xarray as xr
+
     speed = float(groups[f"/{level}"].attrs["current"])
-    speeds = statics.variables["current_speed"].values
-    row = int(np.argmin(np.abs(speeds - speed)))
-    if abs(float(speeds[row]) - speed) > 1e-6 * max(1.0, speed):
-        return None
-    return _State(level, speed, row, groups[f"/{level}/cage"], statics, groups.get(f"/{level}/laws"))
+    statics, laws, none = groups.get(f"/{level}/statics"), groups.get(f"/{level}/laws"), xr.Dataset()
+    row = -1
+    if statics is not None:
+        speeds = statics.variables["current_speed"].values
+        at = int(np.argmin(np.abs(speeds - speed)))
+        row = at if abs(float(speeds[at]) - speed) <= 1e-6 * max(1.0, speed) else -1
+    return _State(level, speed, row, groups.get(f"/{level}/cage", none), none if statics is None else statics, laws)
 
 
-def _runs(level: str, groups: Groups) -> Iterator[tuple[str, str, xr.Dataset]]:
-    """Yield level, words and series of every run through time."""
-    current = float(groups[f"/{level}"].attrs["current"])
+def _runs(state: _State, groups: Groups) -> Iterator[Run]:
+    """Yield water level, words and series of every run through time."""
     for at, name, run in runs_of(groups):
-        if at == level:
-            yield level, f"{sea_words(name, run, current)}, {level}", run
+        if at == state.level:
+            yield state, f"{sea_words(name, run, state.speed)}, {state.level}", run
 
 
 def volume_text(volume: float) -> str:
@@ -240,7 +244,9 @@ def volume_text(volume: float) -> str:
     return f"{volume:.0f} m³" if volume >= 1000.0 else f"{volume:.3g} m³"
 
 
-Runs = list[tuple[str, str, "xr.Dataset"]]
+#: The water level of a run through time, its sea in words, its series.
+Run = tuple[_State, str, "xr.Dataset"]
+Runs = list[Run]
 
 
 def _volume(states: list[_State], runs: Runs, factors: Factors = NO_MESH) -> list[Headline]:
@@ -255,13 +261,13 @@ def _volume(states: list[_State], runs: Runs, factors: Factors = NO_MESH) -> lis
         found.append(
             Headline("volume_left", "volume left", value, "1", state.where, STATICS, band, detail=detail)
         )  # fmt: skip
-    by_level, moments = {state.level: state for state in states}, []
-    for level, where, run in runs:
+    moments = []
+    for state, where, run in runs:
         series = run["volume_share"].values.min(axis=1)
         least = float(series[run["time"].values >= float(run.attrs["ramp"])].min())
         # the largest loss has the scatter of a maximum
         low, high, seed = chance(run, 1.0 - least, 1.0 - series)
-        band = _band_with_laws(by_level.get(level), "volume_share", 1.0 - high, 1.0 - low, seed)
+        band = _band_with_laws(state, "volume_share", 1.0 - high, 1.0 - low, seed)
         moments.append(Headline("volume_left", "volume left for moments", least, "1", where, DYNAMIC, band))
     worst, words = judged_seas(moments, "at least", factors), ""
     if worst:
@@ -285,12 +291,12 @@ def _drag(states: list[_State], runs: Runs, factors: Factors = NO_MESH) -> list[
         detail = ", ".join(f"{part} {100.0 * share / value:.0f} %" for part, share in shares)
         band = state.band("drag")
         found.append(Headline("drag", "drag in the current", value, "N", state.where, STATICS, band, detail=detail))
-    by_level, moments = {state.level: state for state in states}, []
-    for level, where, run in runs:
+    moments = []
+    for state, where, run in runs:
         series = np.linalg.norm(run["drag"].values.sum(axis=1), axis=1)
         value = float(series.max())
         low, high, seed = chance(run, value, series, run["drag_time"].values)
-        band = _band_with_laws(by_level.get(level), "drag", low, high, seed)
+        band = _band_with_laws(state, "drag", low, high, seed)
         moments.append(Headline("drag", "drag for moments", value, "N", where, DYNAMIC, band))
     worst, words = judged_seas(moments, factors=factors), ""
     if worst:
@@ -328,11 +334,10 @@ def _tension(states: list[_State], runs: Runs, factors: Factors = NO_MESH) -> tu
         )  # fmt: skip
         tensions[item.where] = item
 
-    by_level = {state.level: state for state in states}
-    for level, where, run in runs:
+    for state, where, run in runs:
         if "utilisation" in run:
             for line, share in enumerate(run["utilisation"].values):
-                add(_dynamic_tension(run, line, where, by_level.get(level)), float(share))
+                add(_dynamic_tension(run, line, where, state), float(share))
     for state in [] if tensions else states:
         for line, name in enumerate(state.statics.variables["line"].values):
             add(
@@ -382,8 +387,8 @@ def _offset(states: list[_State], runs: Runs, factors: Factors = NO_MESH) -> lis
         calm = state.statics.variables["collar_place"].values[0]
         away = state.statics.variables["collar_place"].values[state.row] - calm
         found.append((float(np.linalg.norm(away[:, :2], axis=1).max()), state.where, STATICS, state.band("offset")))
-        for level, where, run in runs:
-            if level != state.level:
+        for at, where, run in runs:
+            if at.level != state.level:
                 continue
             late = run["time"].values >= float(run.attrs["ramp"])
             moved = np.linalg.norm((run["collar_place"].values - calm)[..., :2], axis=-1)
@@ -403,8 +408,7 @@ def _offset(states: list[_State], runs: Runs, factors: Factors = NO_MESH) -> lis
 
 def _anchor(states: list[_State], runs: Runs, factors: Factors = NO_MESH) -> list[Headline]:
     found: list[tuple[float, str, str, str, Band | None]] = []
-    by_level = {state.level: state for state in states}
-    for level, where, run in runs:
+    for state, where, run in runs:
         if "line_tension_maximum_lower" not in run:
             continue
         names = [str(name) for name in run["line"].values]
@@ -413,7 +417,6 @@ def _anchor(states: list[_State], runs: Runs, factors: Factors = NO_MESH) -> lis
             lower = run["line_tension_maximum_lower"].values
             up = float(run["line_uplift_lower"].values[anchors].max())
             detail = f"upwards {up / 1e3:.3g} kN at most, of all anchors"
-            state = by_level.get(level)
             for line in anchors:
                 pull = float(lower[line])
                 # the lower end has no series of its own: the chance is that of the line's largest tension
@@ -443,12 +446,11 @@ def _anchor(states: list[_State], runs: Runs, factors: Factors = NO_MESH) -> lis
 def _net(states: list[_State], runs: Runs, factors: Factors = NO_MESH) -> list[Headline]:
     """Return the largest tension of the net over its width: of the seas where they were run, else of the current."""
     found: list[tuple[float, str, str, Band | None]] = []
-    by_level = {state.level: state for state in states}
-    for level, where, run in runs:
+    for state, where, run in runs:
         late = run["time"].values >= float(run.attrs["ramp"])
         series = run["net_tension_peak_since_row"].values.max(axis=1)
         value = float(series[late].max())
-        found.append((value, where, DYNAMIC, _band_in_sea(by_level.get(level), "net_tension", run, value, series)))
+        found.append((value, where, DYNAMIC, _band_in_sea(state, "net_tension", run, value, series)))
     for state in [] if found else states:
         value = float(state.statics.variables["net_tension"].values[state.row].max())
         found.append((value, state.where, STATICS, state.band("net_tension")))
@@ -466,18 +468,17 @@ def _net(states: list[_State], runs: Runs, factors: Factors = NO_MESH) -> list[H
 
 def _stress(states: list[_State], runs: Runs, factors: Factors = NO_MESH) -> list[Headline]:
     found: list[tuple[float, str, str, Band | None]] = []
-    by_level = {state.level: state for state in states}
     for state in states:
         if "collar_stress_largest" in state.statics:
             value = float(state.statics.variables["collar_stress_largest"].values[state.row].max())
             found.append((value, state.where, STATICS, state.band("collar_stress")))
-    for level, where, run in runs:
+    for state, where, run in runs:
         if "collar_stress_largest" in run:
             late = run["time"].values >= float(run.attrs["ramp"])
             stress = run["collar_stress_largest"].values
             series = stress.reshape(stress.shape[0], -1).max(axis=1)
             value = float(series[late].max())
-            band = _band_in_sea(by_level.get(level), "collar_stress", run, value, series)
+            band = _band_in_sea(state, "collar_stress", run, value, series)
             found.append((value, where, DYNAMIC, band))
     if not found:
         return []

@@ -124,6 +124,7 @@ def _steps(problem: FlexibleCageProblem, collected: Collected, progress: Progres
         )
         collected.groups[f"{root}/cage"] = cage_dataset(model, built)
         rest: CageRest | None = None
+        laws_wanted = speed > 0.0 and problem.settings.other_laws
         if "statics" in problem.settings.analyses:
             rests: list[CageRest] = []
             speeds = _speeds(problem, speed)
@@ -147,7 +148,7 @@ def _steps(problem: FlexibleCageProblem, collected: Collected, progress: Progres
             collected.notices.extend(rest_notices(name, model, statics, speed))
             close = [rest for rest, value in zip(rests, speeds, strict=True) if abs(value - speed) < 1e-9]
             rest = close[0] if close else None
-            if rest is not None and speed > 0.0 and problem.settings.other_laws:
+            if rest is not None and laws_wanted:
                 collected.groups[f"{root}/laws"] = laws_dataset(model, rest, rests[0], speed, heading, progress)
                 yield
                 if not waved:
@@ -155,7 +156,13 @@ def _steps(problem: FlexibleCageProblem, collected: Collected, progress: Progres
                     collected.groups[f"{root}/sensitivity/{REST}"] = rest_mesh_dataset(model, rest)
                     yield
         if waved:
-            rest = rest or solve_rest(model, built, profile)
+            if rest is None:
+                rest = solve_rest(model, built, profile)
+                if laws_wanted and "time" in problem.settings.analyses:
+                    # numbers of a sea carry what the laws change, also where the current alone is not asked for
+                    calm = _STILL.of(key, partial(solve_rest, model, built, None))
+                    collected.groups[f"{root}/laws"] = laws_dataset(model, rest, calm, speed, heading, progress)
+                    yield
             for sea in problem.seas:
                 yield from _sea_steps(problem, model, rest, sea, collected, root, progress)
     progress("water levels", len(levels), len(levels))
