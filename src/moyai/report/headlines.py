@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Literal
 
-from moyai.core.headline import Criterion, Headline, Judgement
+from moyai.core.headline import Criterion, Headline, Judgement, unfavourable
 from moyai.core.results import Result
 from moyai.report.document import KeyFigure, KeyFigures
 from moyai.report.first_page import largest_by_unit, limit_and_found
@@ -62,15 +62,43 @@ def headline_text(headline: Headline, like: float = 0.0) -> str:
     return f"{headline.bound} {text}" if headline.bound else text
 
 
-def band_text(headline: Headline, like: float = 0.0) -> str:
-    """Return the band of a headline in words, empty where it has none; in the unit of its number."""
+def band_text(headline: Headline, like: float = 0.0, *, with_judged: bool = True) -> str:
+    """Return the band of a headline in words, empty where it has none; in the unit of its number.
+
+    It reaches to what is judged, and names that where it is not the end of the band itself.
+
+    Parameters
+    ----------
+    headline : Headline
+    like : float
+        See :func:`headline_text`.
+    with_judged : bool
+        Whether the value that is judged is named; not where a limit next to it does.
+    """
     band = headline.band
     if band is None:
         return ""
     like = max(like, abs(headline.value)) if math.isfinite(headline.value) else like
-    ends = (band.low, headline.value, band.high)
-    low, own, high = (_quantity(end, headline.unit, like, headline.digits) for end in ends)
-    return f"the same to {headline.digits} digits ({band.of})" if low == own == high else f"{low} to {high} ({band.of})"
+
+    def said(value: float) -> str:
+        return _quantity(value, headline.unit, like, headline.digits)
+
+    end = _judged_end(headline)
+    low, own, high, judged = map(said, (band.low, headline.value, max(band.high, end), end))
+    if low == own == high:
+        return f"the same to {headline.digits} digits ({band.of})"
+    if band.decides or not with_judged or judged == own:
+        return f"{low} to {high} ({band.of})"
+    return f"{low} to {high}, judged {judged} ({band.of})"
+
+
+def _judged_end(headline: Headline) -> float:
+    """Return the value that a limit from above is held against, or something bought for; that shown where unknown."""
+    band = headline.band
+    # what a growth that goes on comes to is said with its words
+    if band is None or band.decides or band.judged is None or band.beyond_bound or math.isnan(headline.value):
+        return headline.value
+    return unfavourable(headline)
 
 
 def _quantity(value: float, unit: str, like: float, digits: int) -> str:
@@ -89,7 +117,10 @@ def _figure(headline: Headline, judged: list[Judgement], scale: Mapping[str, flo
     like = scale.get(headline.unit, 0.0)
     worst = max(judged, key=lambda item: (_severity(item), _use(item)), default=None)
     remark = words_in_system(headline.detail)
-    detail = "; ".join(part for part in (band_text(headline, like), remark, headline.where, headline.model) if part)
+    # a limit that is not one of a factor says itself where it is judged
+    alone = worst is None or worst.criterion.as_factor or worst.value != _judged_end(headline)
+    band = band_text(headline, like, with_judged=alone)
+    detail = "; ".join(part for part in (band, remark, headline.where, headline.model) if part)
     if worst is None:
         return KeyFigure(headline.label, headline_text(headline, like), detail)
     judgement: Literal["", "good", "caution", "bad"] = {

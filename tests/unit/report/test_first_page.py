@@ -8,12 +8,12 @@ from dataclasses import replace
 import openpyxl
 import synthetic_result
 
-from moyai.core.headline import UNCONFIRMED, Criterion, Headline, Verdict, judge
+from moyai.core.headline import UNCONFIRMED, Band, Criterion, Headline, Verdict, judge
 from moyai.core.results import Result
 from moyai.core.validity import Notice
 from moyai.report.document import KeyFigures, NoticeBlock, Paragraph, Table
 from moyai.report.first_page import badges
-from moyai.report.headlines import headline_figures
+from moyai.report.headlines import band_text, headline_figures
 from moyai.report.html import least_width, render_html
 from moyai.report.input_line import input_line
 from moyai.report.notices import first_page_notices, grouped
@@ -167,3 +167,22 @@ current: {speed: 0.8 m/s, heading_deg: 0}
     )
     tree.attrs["case_text"] = "site: ["
     assert input_line(replace(result, tree=tree)) == ""
+
+
+def test_what_is_bought_for_the_judged_end_prints_it_beside_its_number() -> None:
+    """49.4 kN, five realisations up to 55.0, judged at 76.2: piles bought for 55 would be too weak."""
+    band = Band(38.5e3, 55.0e3, "5 realisations", decides=False, judged=(30e3, 76.2e3), realisations=5)
+    pull = Headline("anchor_horizontal_load", "Pull", 49.4e3, "N", "storm, line a", band=band)
+    assert band_text(pull) == "38.5 kN to 76.2 kN, judged 76.2 kN (5 realisations)"
+    # an end within the band is named, the number itself is not
+    within = replace(pull, band=replace(band, judged=(45e3, 52e3)))
+    assert band_text(within) == "38.5 kN to 55.0 kN, judged 52.0 kN (5 realisations)"
+    plain = "38.5 kN to 55.0 kN (5 realisations)"
+    assert band_text(replace(pull, band=replace(band, judged=(45e3, 49.4e3)))) == plain
+    assert band_text(replace(pull, band=replace(band, decides=True, judged=None))) == plain
+    result = synthetic_result.build(duration=60.0)
+    for limit, words in ((None, "judged 76.2 kN"), (60e3, "judged at 76.2 kN")):
+        asked = [] if limit is None else [Criterion("pull", pull.name, limit, "at most", "case file", unit="N")]
+        verdict = judge([pull], asked, computed=True)
+        (figure,) = headline_figures(replace(result, headlines=(pull,), verdict=verdict)).items
+        assert "38.5 kN to 76.2 kN" in figure.detail and figure.detail.count("judged") == 1 and words in figure.detail
