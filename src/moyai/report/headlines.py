@@ -129,7 +129,9 @@ def _figure(headline: Headline, judged: list[Judgement], scale: Mapping[str, flo
         "not judged": "caution",
     }[worst.outcome]  # type: ignore[assignment]
     share = _share(worst.criterion, worst.value)
-    detail = "; ".join(part for part in (detail, _asked(headline, worst, like)) if part)
+    known = max((item for item in judged if item.outcome == "holds"), key=_nearness, default=None)
+    words = [_asked(headline, worst, like), _known(headline, worst, known, like) if judgement == "caution" else ""]
+    detail = "; ".join(part for part in (detail, *words) if part)
     return KeyFigure(headline.label, headline_text(headline, like), detail, share, judgement)
 
 
@@ -155,6 +157,24 @@ def _asked(headline: Headline, item: Judgement, like: float) -> str:
         )
         return f"factor of safety {found}{here}, asked {limit}"
     return f"limit {limit}" if plain else f"limit {limit}, judged at {found.removeprefix(f'{item.bound} ')}{place}"
+
+
+def _known(headline: Headline, open_one: Judgement, item: Judgement | None, like: float) -> str:
+    """Return the worst value that is known, with its place, beside one that leaves the limit open."""
+    if item is None or not item.value:
+        return ""
+    limit, found = limit_and_found(item, like)
+    what = "factor of safety " if item.criterion.as_factor else ""
+    place = f" at {item.reason}" if item.reason not in ("", headline.where) else ""
+    # a code asks another factor of each analysis
+    asked = f", asked {limit}" if item.criterion != open_one.criterion else ""
+    return f"worst known: {what}{found}{place}{asked}"
+
+
+def _nearness(item: Judgement) -> float:
+    """Return how near a value comes to its limit, of criteria of one sense."""
+    share = _share(item.criterion, item.value)
+    return _use(item) if math.isnan(share) else share
 
 
 def _severity(item: Judgement) -> int:

@@ -186,3 +186,29 @@ def test_what_is_bought_for_the_judged_end_prints_it_beside_its_number() -> None
         verdict = judge([pull], asked, computed=True)
         (figure,) = headline_figures(replace(result, headlines=(pull,), verdict=verdict)).items
         assert "38.5 kN to 76.2 kN" in figure.detail and figure.detail.count("judged") == 1 and words in figure.detail
+
+
+def test_beside_what_is_not_judged_stands_the_worst_that_is_known() -> None:
+    """One sea is known as a bound alone, of the others the longest gives a factor of 2.14."""
+    short = Headline("line_utilisation", "Use", 1 / 3.26, "1", "SWL, short", bound="at least")
+    long = replace(short, value=1 / 2.14, where="SWL, long", bound="", shown=False)
+    mild = replace(long, value=1 / 5.0, where="SWL, mild")
+    numbers = (replace(short, shown=False), replace(long, shown=True), mild)
+    result = synthetic_result.build(duration=60.0)
+
+    def tile(items: tuple[Headline, ...], *criteria: Criterion) -> str:
+        verdict = judge(items, criteria, computed=True)
+        (figure,) = headline_figures(replace(result, headlines=items, verdict=verdict)).items
+        assert figure.judgement == "caution"
+        return figure.detail
+
+    open_one = "asked at least 2.00; not judged at SWL, short: factor of safety at most 3.26; worst known: "
+    assert tile(numbers, FACTOR).endswith(open_one + "factor of safety 2.14")
+    shown = (replace(mild, shown=True), replace(long, shown=False), numbers[0])
+    assert tile(shown, FACTOR).endswith(open_one + "factor of safety 2.14 at SWL, long")
+    # a code asks another factor of lines at rest: that one says its own
+    moving, still = (replace(FACTOR, limit=limit, analysis=name) for limit, name in ((0.6, "dynamic"), (0.5, "static")))
+    mixed = (replace(numbers[0], analysis="dynamic"), replace(long, shown=True, analysis="static"))
+    assert tile(mixed, moving, still).endswith("worst known: factor of safety 2.14, asked at least 2.00")
+    pull = [replace(item, name="anchor_uplift", value=item.value * 1e4, unit="N") for item in numbers]
+    assert tile(tuple(pull), UPLIFT).endswith("not judged at SWL, short: at least 3.07 kN; worst known: 4.67 kN")
