@@ -136,10 +136,12 @@ def _figure(headline: Headline, judged: list[Judgement], scale: Mapping[str, flo
 
 
 def _asked(headline: Headline, item: Judgement, like: float) -> str:
-    """Return limit and judged value, with the value shown next to it where that is another one; empty where unknown."""
-    if not math.isfinite(item.value):
-        return ""
+    """Return limit and judged value, with the value shown next to it where that is another one; why it is not known."""
     limit, found = limit_and_found(item, like)
+    if math.isnan(item.value):
+        # the verdict says what to do about it
+        reason = "" if item.reason == headline.text else f": {item.reason.partition('; ')[0]}"
+        return f"asked {limit}; not judged{reason}"
     _, own = limit_and_found(replace(item, value=headline.value), like)
     plain = own == found or not math.isfinite(headline.value) or item.criterion.mean_weight != 1.0
     place = f" ({item.reason})" if item.outcome != "not judged" and item.reason not in ("", headline.where) else ""

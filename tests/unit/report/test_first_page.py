@@ -212,3 +212,21 @@ def test_beside_what_is_not_judged_stands_the_worst_that_is_known() -> None:
     assert tile(mixed, moving, still).endswith("worst known: factor of safety 2.14, asked at least 2.00")
     pull = [replace(item, name="anchor_uplift", value=item.value * 1e4, unit="N") for item in numbers]
     assert tile(tuple(pull), UPLIFT).endswith("not judged at SWL, short: at least 3.07 kN; worst known: 4.67 kN")
+
+
+def test_a_tile_that_is_not_judged_for_want_of_a_number_says_why() -> None:
+    use = Headline("line_utilisation", "Use", 0.3, "1", "SWL, storm, rope")
+    bare = replace(use, value=float("nan"), where="", text="breaking load not given of chain", shown=False)
+    beyond = replace(bare, text="SWL, T = 7 s: not known, beyond its range; run the time domain")
+    result = synthetic_result.build(duration=60.0)
+    said = []
+    for items in ((use, bare), (use, beyond), (replace(bare, text="not known", detail="why", shown=True),)):
+        verdict = judge(items, [FACTOR], computed=True)
+        (figure,) = headline_figures(replace(result, headlines=items, verdict=verdict)).items
+        assert figure.judgement == "caution"
+        said.append(figure.detail.partition("asked ")[2])
+    assert said == [
+        "at least 2.00; not judged: breaking load not given of chain; worst known: factor of safety 3.33",
+        "at least 2.00; not judged: SWL, T = 7 s: not known, beyond its range; worst known: factor of safety 3.33",
+        "at least 2.00; not judged",
+    ]
