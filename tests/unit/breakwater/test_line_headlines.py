@@ -160,3 +160,23 @@ def test_capacity_and_tension_are_the_largest_of_unlike_lines():
     assert headline(numbers, "line_tension").value == 500e3
     capacity = headline(numbers, "anchor_capacity_required")
     assert capacity.value == pytest.approx(1.6 * 480e3) and "line chain, 1.6 times its pull" in capacity.where
+
+
+def test_a_known_failure_wins_over_a_highest_line_that_is_not_known():
+    """The line of the highest tension is beyond its range; another one breaks the limits of use, pull and uplift."""
+    highest = replace(OTHER, tension=600e3, mean=40e3, horizontal=590e3, scatter=2.0 * SCATTER, bound=2.0 * SCATTER)
+    weak = replace(
+        GOVERNS, breaking_load=700e3, horizontal=350e3, vertical=20e3, vertical_scatter=20e3 + 0.0 * SCATTER,
+    )  # fmt: skip
+    highest = replace(highest, breaking_load=500e3)
+    pull = Criterion("pull", "anchor_horizontal_load", 300e3, "at most", "case", unit="N")
+    for criterion in (FACTOR, UPLIFT, pull):
+        alone = judge(page(highest), (criterion,), computed=True)
+        assert alone.outcome == "not judged"
+        verdict = judge(page(weak, highest), (criterion,), computed=True)
+        assert verdict.outcome == "does not hold", criterion.name
+        # what is known keeps a wider limit, what is not leaves it open
+        wide = replace(criterion, limit=10e6)
+        assert judge(page(weak, highest), (wide,), computed=True).outcome == "not judged"
+    numbers = page(weak, highest)
+    assert headline(numbers, "line_utilisation").text == headline(numbers, "anchor_uplift").text == "not known"
