@@ -180,3 +180,20 @@ def test_a_known_failure_wins_over_a_highest_line_that_is_not_known():
         assert judge(page(weak, highest), (wide,), computed=True).outcome == "not judged"
     numbers = page(weak, highest)
     assert headline(numbers, "line_utilisation").text == headline(numbers, "anchor_uplift").text == "not known"
+
+
+def test_a_bound_behind_a_larger_known_number_leaves_its_limit_open():
+    """A sea without its slow drift pulls less than a regular wave: with it, it may pull more."""
+    known = replace(GOVERNS, vertical=50e3, vertical_scatter=0.1 * SCATTER)
+    less = replace(
+        known, sea="swell", tension=200e3, horizontal=190e3, scatter=0.5 * SCATTER, bound=0.5 * SCATTER, vertical=5e3,
+        horizontal_scatter=0.48 * SCATTER, vertical_scatter=0.01 * SCATTER, without_drift=True,
+    )  # fmt: skip
+    lying = replace(less, vertical=-5e3, vertical_scatter=-SCATTER)
+    pull = Criterion("pull", "anchor_horizontal_load", 600e3, "at most", "case", unit="N")
+    for criterion in (FACTOR, replace(UPLIFT, limit=100e3), pull):
+        assert judge(page(known), (criterion,), computed=True).outcome == "holds"
+        for other in (less, lying):
+            numbers = page(known, other)
+            assert judge(numbers, (criterion,), computed=True).outcome == "not judged", criterion.name
+            assert [item.where for item in numbers if item.name == criterion.headline and item.shown] == [known.where]

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from moyai.core.arrays import Array
-from moyai.core.headline import Band, Bound, Headline, governing, unfavourable
+from moyai.core.headline import Band, Bound, Headline, all_judged, unfavourable
 from moyai.core.wording import kilonewton
 from moyai.design.anchor_needs import anchor_need, judged_end, sinker_weight
 from moyai.series.intervals import student_quantile
@@ -196,11 +196,11 @@ def line_headlines(peaks: list[LinePeak]) -> list[Headline]:
     highest = max(peaks, key=lambda peak: peak.rank)
     also = _other_level(highest, peaks)
     known = [peak for peak in peaks if peak.known]
-    tensions = governing(_tension(peak, also if peak is highest else "") for peak in known)
+    tensions = all_judged(_tension(peak, also if peak is highest else "") for peak in known)
     # Codes ask another factor of each analysis: the highest of the other one is judged too
     strong = [peak for peak in known if peak.breaking_load > 0.0]
-    same = governing(_utilisation(peak) for peak in strong if peak.analysis == highest.analysis)
-    others = governing(_utilisation(peak) for peak in strong if peak.analysis != highest.analysis)
+    same = all_judged(_utilisation(peak) for peak in strong if peak.analysis == highest.analysis)
+    others = all_judged(_utilisation(peak) for peak in strong if peak.analysis != highest.analysis)
     hidden = [replace(item, shown=False) for item in others]
     shown: list[Headline] = []
     if not highest.known:
@@ -315,8 +315,8 @@ def anchor_headlines(groups: Mapping[str, xr.Dataset], levels: list[str], peaks:
     # where no anchor is lifted, the line that leaves least on the bed comes nearest to it
     lifted = max(pulled, key=lambda peak: (max(peak.vertical, 0.0), -peak.grounded))
     hardest = max(pulled, key=lambda peak: peak.horizontal + max(peak.vertical, 0.0))
-    pulls = governing(_pull(peak) for peak in known)
-    lifts = [_uplift(peak) for peak in known if peak.vertical > 0.0 and peak is not lifted]
+    pulls = all_judged(_pull(peak) for peak in known)
+    lifts = [_uplift(peak) for peak in known if peak is not lifted]
     if not (hardest.known and lifted.known):
         worst = lifted if hardest.known else hardest
         shown = [
@@ -327,19 +327,22 @@ def anchor_headlines(groups: Mapping[str, xr.Dataset], levels: list[str], peaks:
                 ("anchor_uplift", "Uplift at an anchor"),
             )
         ]  # fmt: skip
-        lifts += [_uplift(lifted)] if lifted.known and lifted.vertical > 0.0 else []
-        hidden = [replace(item, shown=False) for item in (*pulls, *governing(lifts))]
+        hidden = [replace(item, shown=False) for item in (*pulls, *all_judged(map(_uplift, known)))]
         return [*shown, *hidden, *_unknown_anchors(pulled, worst)]
     # a sinker is bought for the end at which criteria are judged, not for the mean of a few realisations
     weight, heaviest = max(((_sinker(peak), peak) for peak in known), key=lambda pair: pair[0])
-    capacities = governing(_capacity(peak, weight, heaviest, len(known) < len(pulled)) for peak in known)
+    capacities = all_judged(_capacity(peak, weight, heaviest, len(known) < len(pulled)) for peak in known)
     none = lifted.vertical <= 0.0
     least = min(peak.grounded for peak in pulled)
     kept = f"{least:.3g} m of line stays on the bed" if least > 0.0 else "the line leaves the bed"
     said = "; ".join(part for part in (kept if none else "", _bare_lines(groups, levels)) if part)
     uplift = replace(_uplift(lifted), detail=said)
-    widest = [replace(item, shown=False) for item in lifts if unfavourable(item) > unfavourable(uplift)]
-    return [*capacities, *pulls, uplift, *widest, *_unknown_anchors(pulled, None)]
+    others = [
+        replace(item, shown=False)
+        for item in all_judged(lifts)
+        if unfavourable(item) > unfavourable(uplift) or item.bound != uplift.bound
+    ]
+    return [*capacities, *pulls, uplift, *others, *_unknown_anchors(pulled, None)]
 
 
 def _pull(peak: LinePeak) -> Headline:
