@@ -11,6 +11,7 @@ from moyai.core.headline import Criterion, judge, unfavourable
 from moyai.structures.cage.flexible import run as flexible_run
 from moyai.structures.cage.flexible.sensitivity import tension_of
 from moyai.structures.cage.headlines import _anchor, _State, _tension, flexible_headlines
+from moyai.structures.cage.rigid.headlines import _rigid_rest
 
 TIME = np.arange(0.0, 400.0, 0.5)
 
@@ -105,3 +106,14 @@ def test_without_a_current_a_warning_says_that_the_laws_are_in_no_band():
         problem = build(moyai.load_case(given))
         codes.append([notice.code for notice in flexible_run.problem_notices(problem)])
     assert "net-laws-not-varied" not in codes[0] and "net-laws-not-varied" in codes[1]
+
+
+def test_a_rigid_cage_takes_the_largest_tension_at_rest_of_all_water_levels():
+    groups = {}
+    for level, tension, share in (("LWL", 30.0, 0.4), ("HWL", 80.0, 0.9), ("MWL", 50.0, 0.6)):
+        groups[f"/{level}/statics"] = xr.Dataset(
+            {"tension_at_rest": ("line", [0.9 * tension, tension]), "immersion": ("situation", [0.3, share])},
+            coords={"situation": ["floating freely", "moored"]},
+        )
+    found = {item.name: (item.value, item.where) for item in _rigid_rest(groups)}
+    assert found == {"tension_at_rest": (80.0, "HWL"), "floats_immersed": (0.9, "HWL")}

@@ -183,19 +183,19 @@ def _rigid_motions(seas: Seas, groups: Groups) -> list[Headline]:
 
 
 def _rigid_rest(groups: Groups) -> list[Headline]:
+    """Return the largest tension at rest and the largest share of the floats in water, of all water levels."""
+    tensions, immersed = [], []
     for path, statics in groups.items():
         parts = path.strip("/").split("/")
         if len(parts) != 2 or parts[1] != "statics":
             continue
-        items = []
         tension = statics["tension_at_rest"].values
         if tension.size:
-            items.append(Headline("tension_at_rest", "tension at rest", float(tension.max()), "N", parts[0], "rest"))
+            tensions.append(Headline("tension_at_rest", "tension at rest", float(tension.max()), "N", parts[0], "rest"))
         share = float(statics["immersion"].sel(situation="moored"))
-        items.append(
+        immersed.append(
             Headline(
                 "floats_immersed", "floats in water at rest", share, "1", parts[0], "rest", text=f"{100 * share:.3g} %"
             )
         )
-        return items
-    return []
+    return [max(items, key=lambda item: item.value) for items in (tensions, immersed) if items]
