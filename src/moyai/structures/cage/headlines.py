@@ -31,6 +31,7 @@ from moyai.structures.cage.flexible.sensitivity import (
     VOLUME_IN_CURRENT,
     tension_of,
 )
+from moyai.structures.cage.settling import by_period, is_settled, scatters
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -50,6 +51,7 @@ _OTHER_DIRECTIONS = replace(
     "left: run both headings",
 )  # fmt: skip
 TOO_SHORT = "one seed, too short to tell the scatter of its maximum"
+UNSETTLED = "regular waves whose periods do not repeat yet"
 _SAME_LAWS = "the same net laws as for the volume"
 
 
@@ -103,10 +105,16 @@ class _State:
 
 
 def _band_in_sea(
-    state: _State | None, name: str, run: xr.Dataset, value: float, series: Array, line: int | None = None
+    state: _State | None,
+    name: str,
+    run: xr.Dataset,
+    value: float,
+    series: Array,
+    line: int | None = None,
+    scale: float | None = None,
 ) -> Band | None:
     """Return the band of a number found in the sea: chance of its seed, and the laws of the net."""
-    return _band_with_laws(state, name, *chance(run, value, series), line)
+    return _band_with_laws(state, name, *reach(run, value, series, scale=scale), line)
 
 
 def _band_with_laws(
@@ -131,6 +139,31 @@ def chance(run: xr.Dataset, value: float, series: Array, time: Array | None = No
         return value, value, TOO_SHORT
     low, high = found.range
     words = f"90 of 100 seeds, estimated from {found.blocks} blocks of the record of one"
+    return max(min(value, low), 0.0), max(value, high), words
+
+
+def reach(
+    run: xr.Dataset, value: float, series: Array, time: Array | None = None, scale: float | None = None
+) -> tuple[float, float, str]:
+    """Return a range of the largest value with its words: over other seeds, of regular waves as far as they repeat.
+
+    Periods that repeat have no range, those that never do one of records as long; the words begin with ``UNSETTLED``
+    where more periods bring more. ``scale`` is what a rise is a part of, the value itself by default.
+    """
+    if not int(run.attrs["regular"]):
+        return chance(run, value, series, time)
+    times = run["time"].values if time is None else time
+    period, ramp = float(run.attrs["period"]), float(run.attrs["ramp"])
+    highest = by_period(times, series, period, ramp)
+    scale = abs(value) if scale is None else scale
+    if is_settled(highest, scale):
+        return value, value, ""
+    late = times >= ramp
+    found = maximum_of(times[late], series[late], period) if scatters(highest, scale) else None
+    if found is None:
+        return value, value, UNSETTLED
+    low, high = found.range
+    words = f"90 of 100 records as long, estimated from {found.blocks} parts of a motion that does not repeat"
     return max(min(value, low), 0.0), max(value, high), words
 
 
@@ -177,8 +210,11 @@ def judged_seas(items: Iterable[Headline], sense: Sense = "at most", factors: Fa
 
 
 def alone(item: Headline) -> Headline:
-    """Return a number of one seed too short to tell its scatter as a bound: other seeds give more, of a volume less."""
-    if item.band is None or not item.band.of.startswith(TOO_SHORT):
+    """Return a number of one seed too short to tell its scatter, or of waves that have not settled, as a bound.
+
+    More is to come, of a volume less.
+    """
+    if item.band is None or not item.band.of.startswith((TOO_SHORT, UNSETTLED)):
         return item
     return replace(item, bound="at most" if item.name == "volume_left" else "at least")
 
@@ -266,7 +302,7 @@ def _volume(states: list[_State], runs: Runs, factors: Factors = NO_MESH) -> lis
         series = run["volume_share"].values.min(axis=1)
         least = float(series[run["time"].values >= float(run.attrs["ramp"])].min())
         # the largest loss has the scatter of a maximum
-        low, high, seed = chance(run, 1.0 - least, 1.0 - series)
+        low, high, seed = reach(run, 1.0 - least, 1.0 - series, scale=least)
         band = _band_with_laws(state, "volume_share", 1.0 - high, 1.0 - low, seed)
         moments.append(Headline("volume_left", "volume left for moments", least, "1", where, DYNAMIC, band))
     worst, words = judged_seas(moments, "at least", factors), ""
@@ -295,7 +331,7 @@ def _drag(states: list[_State], runs: Runs, factors: Factors = NO_MESH) -> list[
     for state, where, run in runs:
         series = np.linalg.norm(run["drag"].values.sum(axis=1), axis=1)
         value = float(series.max())
-        low, high, seed = chance(run, value, series, run["drag_time"].values)
+        low, high, seed = reach(run, value, series, run["drag_time"].values)
         band = _band_with_laws(state, "drag", low, high, seed)
         moments.append(Headline("drag", "drag for moments", value, "N", where, DYNAMIC, band))
     worst, words = judged_seas(moments, factors=factors), ""
@@ -373,7 +409,10 @@ def _dynamic_tension(run: xr.Dataset, line: int, where: str, state: _State | Non
         details.append(f"slack for {100.0 * slack:.2g} % of the time" + (f", {snaps} snaps" if snaps else ""))
     series = run["line_tension_peak_since_row"].values[:, line]
     name = str(run["line"].values[line])
-    band = _band_in_sea(state, "line_tension_maximum", run, value, series, line)
+    # what a line that bears little still rises by counts against the one nearest to its breaking load
+    share = run["utilisation"].values
+    scale = value * float(share.max()) / max(float(share[line]), 1e-300)
+    band = _band_in_sea(state, "line_tension_maximum", run, value, series, line, scale)
     return Headline(
         "line_tension", "tension of the governing line", value, "N", f"{name}, {where}",
         f"{DYNAMIC}, {run.attrs['theory']}", band, detail="; ".join(details),
@@ -422,7 +461,7 @@ def _anchor(states: list[_State], runs: Runs, factors: Factors = NO_MESH) -> lis
                 # the lower end has no series of its own: the chance is that of the line's largest tension
                 share = pull / max(float(run["line_tension_maximum"].values[line]), 1e-300)
                 series = share * run["line_tension_peak_since_row"].values[:, line]
-                band = _band_in_sea(state, "anchor_pull", run, pull, series, line)
+                band = _band_in_sea(state, "anchor_pull", run, pull, series, line, float(lower[anchors].max()))
                 found.append((pull, f"lower end of {names[line]}, {where}", DYNAMIC, detail, band))
     for state in [] if found else states:
         if "anchor_pull" in state.statics and state.statics["anchor_pull"].size:

@@ -24,7 +24,14 @@ from moyai.sea.states import IrregularSea
 from moyai.sea.water import Water
 from moyai.structures.cage.conditions import height_notices
 from moyai.structures.cage.flexible.build import build_cage
-from moyai.structures.cage.flexible.checks import problem_notices, rest_checks, rest_notices, run_checks, run_notices
+from moyai.structures.cage.flexible.checks import (
+    problem_notices,
+    rest_checks,
+    rest_notices,
+    run_checks,
+    run_notices,
+    settling_notices,
+)
 from moyai.structures.cage.flexible.equilibrium import CageRest, solve_rest
 from moyai.structures.cage.flexible.laws import laws_dataset
 from moyai.structures.cage.flexible.model import FlexibleCage
@@ -188,11 +195,13 @@ def _sea_steps(
         progress(f"time, {sea.name}", number, len(waves))
         label = f"wave {number + 1}" if wave.regular else "sea"
         if "time" in problem.settings.analyses:
-            found = run_cage(model, rest, wave, problem.settings, progress=progress)
+            found = run_cage(model, rest, wave, problem.settings, settle=True, progress=progress)
             series = time_dataset(model, found, problem.settings)
             collected.groups[f"{root}/time/{sea.name}/{label}"] = series
             collected.checks.extend(run_checks(sea.name, found))
             collected.notices.extend(run_notices(sea.name, found, problem.settings))
+            if found.history.status == "converged":
+                collected.notices.extend(settling_notices(sea.name, series))
             if found.history.status == "interrupted":
                 raise KeyboardInterrupt
             if found.history.status == "not_converged":
