@@ -186,7 +186,7 @@ def test_a_net_law_of_one_net_does_not_widen_the_band():
 @pytest.mark.slow  # a run of some forty seconds through waves
 def test_the_tension_of_the_sea_governs():
     """The dynamic tension in the design sea stands first, not that at rest."""
-    text = GRID.replace("height: 1.5 m ", "height: 2 m ").replace("periods: 8", "periods: 3")
+    text = GRID.replace("height: 1.5 m ", "height: 2 m ").replace("periods: 8", "periods: 3, most_periods: 3")
     found = result_of(text)
     tension = headline(found, "line_tension")
     rest = float(found.tree["SWL/statics"].to_dataset()["utilisation"].values.max())
@@ -220,19 +220,37 @@ def test_a_model_cage_on_taut_lines():
     assert "loland" not in found.tree["SWL/laws"].to_dataset()["law"].values
 
 
-@pytest.mark.slow  # three runs of ten seconds
-def test_the_band_in_the_sea_is_what_runs_under_the_extreme_laws_give():
-    """The band adds what the laws change in the current alone; runs through waves under these laws are the proof."""
-    text = template("cage")
-    governing = kept_run(text)
+HIGHER_WAVES = (
+    template("cage")
+    .replace("{around: 32, down: 6, bottom: 4}", "{around: 16, down: 4, bottom: 2}")
+    .replace("height: 1.5 m ", "height: 3 m ")
+    .replace("speed: 0.5 m/s", "speed: 0.3 m/s")
+    .replace("current_speeds: [0.25 m/s, 0.75 m/s], ", "")
+)
+STILL = HIGHER_WAVES.replace("current: {speed: 0.3 m/s, heading_deg: 0}", "")
+
+
+@pytest.mark.slow  # three runs of half a minute each
+@pytest.mark.parametrize("text", [template("cage"), HIGHER_WAVES, STILL], ids=["current", "waves", "no current"])
+def test_the_band_in_the_sea_is_what_runs_under_the_extreme_laws_give(text):
+    """The band takes the ratio of the laws in the governing wave on a coarser mesh; runs of the case are the proof."""
+    governing = kept_run(text) if text == template("cage") else result_of(text)
     soft, stiff = (result_of(text.replace("law: loland", f"law: {law}")) for law in ("balash", "milne"))
-    # 8 %: the waves share in the drag, so that the change in the current alone is a little too small; most for the
-    # stress of the collar
+    # 8 %: the ratio is that of a coarser mesh
     for name in ("anchor_load", "offset", "collar_stress", "line_tension"):
-        band = headline(governing, name).band
+        found = [
+            item for item in governing.headlines if item.name == name and item.model.startswith("run through time")
+        ]
+        if not found:
+            continue
+        band = found[0].band
         mesh = float(re.search(r"mesh ±([\d.]+) %", band.of)[1]) / 100.0
-        assert band.low / (1.0 - mesh) == pytest.approx(headline(soft, name).value, rel=0.08)
-        assert band.high / (1.0 + mesh) == pytest.approx(headline(stiff, name).value, rel=0.08)
+        assert band.low / (1.0 - mesh) == pytest.approx(headline(soft, name).value, rel=0.08), name
+        assert band.high / (1.0 + mesh) == pytest.approx(headline(stiff, name).value, rel=0.08), name
+    drag, volume = ([item for item in governing.headlines if item.name == name][-1] for name in ("drag", "volume_left"))
+    own = [[item for item in stiff.headlines if item.name == name][-1] for name in ("drag", "volume_left")]
+    # the end that is judged holds the other law's own value, but for a fiftieth
+    assert drag.band.high > 0.98 * own[0].value and volume.band.low < 1.02 * own[1].value
 
 
 def test_numbers_without_a_limit_are_named():
@@ -289,7 +307,7 @@ def test_a_rigid_cage_is_judged_on_offset_and_anchors():
 def test_drag_and_volume_are_judged_for_moments_in_the_sea_too():
     """A limit that the current alone keeps and the sea breaks does not hold."""
     text = template("cage").replace("{around: 32, down: 6, bottom: 4}", "{around: 16, down: 3, bottom: 2}")
-    text = text.replace("periods: 8", "periods: 3")
+    text = text.replace("periods: 8", "periods: 3, most_periods: 3")
     found = result_of(text)
     drag, moment = [item for item in found.headlines if item.name == "drag"]
     still, least = [item for item in found.headlines if item.name == "volume_left"]

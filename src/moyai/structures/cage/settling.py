@@ -35,7 +35,8 @@ def by_period(time: Array, series: Array, period: float, begin: float) -> Array:
         return np.zeros(0)
     out = np.full(last, -np.inf)
     np.maximum.at(out, number[inside], series[inside])
-    return out[np.isfinite(out)]
+    known: Array = out[np.isfinite(out)]
+    return known
 
 
 def still_to_come(values: Array) -> float:

@@ -153,16 +153,6 @@ def problem_notices(problem: FlexibleCageProblem) -> tuple[Notice, ...]:
     design = design_speed(problem)
     choice = law_choice(net.law, net.net, design, model.kinematic_viscosity, metal=net.density > METAL)
     notices.append(choice_notice(choice, net.net))
-    still = current is None or not np.asarray(current.velocity(np.zeros(1))).any()
-    if still and problem.seas and "time" in problem.settings.analyses and choice.others:
-        notices.append(
-            Notice(
-                "net-laws-not-varied",
-                "without a current the other laws of nets change nothing at rest: no band of a number in the sea holds "
-                "them, limits are judged as if the law of the case were known",
-                remedy="give the current of the site, or run the case under the other laws too ('structure.net.law')",
-            )
-        )
     if model.mesh.around < 16 or model.mesh.down < 4:
         notices.append(
             Notice(

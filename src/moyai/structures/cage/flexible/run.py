@@ -25,6 +25,7 @@ from moyai.sea.water import Water
 from moyai.structures.cage.conditions import height_notices
 from moyai.structures.cage.flexible.build import build_cage
 from moyai.structures.cage.flexible.checks import (
+    design_speed,
     problem_notices,
     rest_checks,
     rest_notices,
@@ -33,13 +34,14 @@ from moyai.structures.cage.flexible.checks import (
     settling_notices,
 )
 from moyai.structures.cage.flexible.equilibrium import CageRest, solve_rest
-from moyai.structures.cage.flexible.laws import laws_dataset
+from moyai.structures.cage.flexible.law_runs import Governing, WaveCase, laws_in_wave
+from moyai.structures.cage.flexible.laws import choice_of, laws_dataset
 from moyai.structures.cage.flexible.model import FlexibleCage
 from moyai.structures.cage.flexible.parts import CageNetwork
 from moyai.structures.cage.flexible.problem import FlexibleCageProblem
 from moyai.structures.cage.flexible.sensitivity import REST, mesh_dataset, rest_mesh_dataset, sensitivity_dataset
 from moyai.structures.cage.flexible.statics import cage_dataset, statics_dataset
-from moyai.structures.cage.flexible.time import CageRun, run_cage, time_dataset
+from moyai.structures.cage.flexible.time import run_cage, time_dataset
 from moyai.structures.cage.flexible.variables import VOCABULARY
 from moyai.structures.cage.flexible.wake import ScaledCurrent
 from moyai.structures.cage.headlines import flexible_headlines
@@ -115,6 +117,7 @@ def _steps(problem: FlexibleCageProblem, collected: Collected, progress: Progres
     import xarray as xr
 
     levels = problem.environment.water_levels
+    worst = Governing()
     waved = bool(problem.seas) and bool({"time", "sensitivity"} & set(problem.settings.analyses))
     collected.notices.extend(problem_notices(problem))
     for index, (name, level) in enumerate(levels):
@@ -171,7 +174,9 @@ def _steps(problem: FlexibleCageProblem, collected: Collected, progress: Progres
                     collected.groups[f"{root}/laws"] = laws_dataset(model, rest, calm, speed, heading, progress)
                     yield
             for sea in problem.seas:
-                yield from _sea_steps(problem, model, rest, sea, collected, root, progress)
+                yield from _sea_steps(problem, model, rest, sea, collected, root, worst, progress)
+    if problem.settings.other_laws:
+        yield from _law_steps(problem, worst, collected, progress)
     progress("water levels", len(levels), len(levels))
 
 
@@ -187,10 +192,11 @@ def _sea_steps(
     sea: RegularWaves | IrregularSea,
     collected: Collected,
     root: str,
+    worst: Governing,
     progress: Progress,
 ) -> Iterator[None]:
     waves = waves_of(problem, sea, model.water)
-    governing: tuple[float, CageRun] | None = None
+    governing: tuple[float, WaveCase] | None = None
     for number, wave in enumerate(waves):
         progress(f"time, {sea.name}", number, len(waves))
         label = f"wave {number + 1}" if wave.regular else "sea"
@@ -209,8 +215,11 @@ def _sea_steps(
             collected.notices.extend(height_notices(sea.name, series))
             collected.notices.extend(theory_limit(wave, _AUTOMATIC))
             used = float(series["utilisation"].max()) if "utilisation" in series else 0.0
-            if found.history.status == "converged" and (governing is None or used > governing[0]):
-                governing = used, found
+            if found.history.status == "converged":
+                case = WaveCase(root, sea.name, label, model, found)
+                worst.add(case, series)
+                if governing is None or used > governing[0]:
+                    governing = used, case
             yield
         if "sensitivity" in problem.settings.analyses and number == 0:
             collected.groups[f"{root}/sensitivity/{sea.name}"] = sensitivity_dataset(
@@ -219,7 +228,7 @@ def _sea_steps(
             yield
     if governing is not None and "sensitivity" not in problem.settings.analyses:
         try:
-            changed = mesh_dataset(model, governing[1], problem.settings, progress)
+            changed, governing[1].coarse = mesh_dataset(model, governing[1].run, problem.settings, progress)
         except (ConvergenceError, InputError) as error:
             words = f"{sea.name}: the coarser mesh that is run to check the mesh fails: {error.fault.message}"
             collected.notices.append(Notice("mesh-not-checked", words, severity="warning"))
@@ -227,6 +236,22 @@ def _sea_steps(
             collected.groups[f"{root}/sensitivity/{sea.name}"] = changed
         yield
     progress(f"time, {sea.name}", len(waves), len(waves))
+
+
+def _law_steps(
+    problem: FlexibleCageProblem, worst: Governing, collected: Collected, progress: Progress
+) -> Iterator[None]:
+    """Run the governing waves of all numbers under every valid law of nets."""
+    speed = design_speed(problem)
+    for case in worst.cases:
+        if not choice_of(case.model, speed).others:
+            return
+        collected.groups[case.path], missing = laws_in_wave(case, speed, problem.settings, progress)
+        if missing:
+            words = f"{case.sea}, {case.run.wave.name}: the run under other laws of nets fails ({', '.join(missing)})"
+            remedy = "run the case under the other laws too ('structure.net.law')"
+            collected.notices.append(Notice("laws-not-run", words, severity="warning", remedy=remedy))
+        yield
 
 
 def _result(problem: FlexibleCageProblem, collected: Collected) -> Result:

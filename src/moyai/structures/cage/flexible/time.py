@@ -91,11 +91,39 @@ def run_cage(
     return CageRun(wave, rest, flow, ramp, history)
 
 
+def go_on(rest: CageRest, before: CageRun, settings: FlexibleSettings) -> CageRun:
+    """Run the wave of another run with a cage that differs a little, of the same mesh, under another law for instance.
+
+    Regular waves go on from the end of that run until their periods repeat, a sea begins again.
+
+    Parameters
+    ----------
+    rest : CageRest
+        Of the other cage.
+    before : CageRun
+    settings : FlexibleSettings
+    """
+    wave, period = before.wave, before.wave.period
+    if not wave.regular:
+        flow, start = replace(before.flow, current=rest.current), rest.state
+        duration, settling = before.ramp + wave.duration, None
+    else:
+        flow, start = replace(before.flow, current=rest.current), before.history.final
+        duration = settings.most_periods * period
+        settling = _Settling(rest, replace(wave, duration=0.0), start.time, either_way=True)
+    history = simulate(
+        rest.network, duration=duration, output_step=period / settings.rows_per_period, flow=flow, start=start,
+        enough=settling,
+    )  # fmt: skip
+    return CageRun(wave, rest, flow, before.ramp, history)
+
+
 class _Settling:
     """Whether no number of the first page will rise any more in a run through regular waves."""
 
-    def __init__(self, rest: CageRest, wave: Wave, ramp: float) -> None:
+    def __init__(self, rest: CageRest, wave: Wave, ramp: float, *, either_way: bool = False) -> None:
         built = rest.built
+        self._either_way = either_way
         self._built, self._ramp = built, ramp
         self._period, self._least = wave.period, ramp + wave.duration
         self._strands = [rest.network.strands[part.strand].bars for part in built.lines]
@@ -141,7 +169,7 @@ class _Settling:
                 scales.append(float(columns[-1][-1]))
         left = [still_to_come(column) for column in columns]
         return all(
-            more <= ENOUGH * scale and not scatters(column, scale)
+            (abs(more) if self._either_way else more) <= ENOUGH * scale and not scatters(column, scale)
             for more, scale, column in zip(left, scales, columns, strict=True)
         )
 
@@ -180,7 +208,7 @@ def unsettled(run: xr.Dataset) -> dict[str, float]:
     return out
 
 
-def _drag_rows(run: CageRun, rows: NDArray[np.int64]) -> Array:
+def drag_rows(run: CageRun, rows: NDArray[np.int64]) -> Array:
     """Return the split of the drag at some rows, (rows, parts, 2) [N]."""
     history = run.history
     last = len(history.time) - 1
@@ -212,7 +240,7 @@ def time_dataset(model: FlexibleCage, run: CageRun, settings: FlexibleSettings) 
     volume = np.stack([cage.volume(history.position) / cage.rest_volume for cage in built.cages], axis=1)
     stride = max(1, min(settings.rows_per_period // _ROWS_PER_PERIOD, int(steady.sum()) // _DRAG_ROWS))
     rows = np.arange(int(np.argmax(steady)), len(time), stride)
-    drag = _drag_rows(run, rows)
+    drag = drag_rows(run, rows)
     lines = _line_series(run, settings, steady)
     governing = _governing_row(lines, volume, steady)
     kept = picture_rows(len(time), governing, settings.frames, settings.rows_per_period)

@@ -10,8 +10,9 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.headline import Band, Headline
+from moyai.structures.cage.bands import alone, chance, laws_text
 from moyai.structures.cage.conditions import condition_headlines, sea_words
-from moyai.structures.cage.headlines import NOT_JUDGED, Groups, alone, chance, judged_seas, laws_text
+from moyai.structures.cage.headlines import NOT_JUDGED, Groups, judged_seas
 
 if TYPE_CHECKING:
     import xarray as xr
