@@ -303,6 +303,31 @@ def test_a_rigid_cage_is_judged_on_offset_and_anchors():
         assert headline(turned, name).value == pytest.approx(headline(found, name).value, rel=1e-6)
 
 
+OWN_LINES = (
+    RIGID[: RIGID.index("  mooring:")]
+    + """  mooring:
+    kind: lines
+    lines:
+      - {name: west, attachment: {x: -3, z: -2}, anchor: {x: -10}, pretension: 4e3, stiffness: 6e4, breaking_load: 3e5}
+      - {name: east, attachment: {x: 3, z: -2}, anchor: {x: 10}, pretension: 4 kN, stiffness: 6e4, breaking_load: 8000}
+analyses: [statics, time]
+criteria: {greatest_anchor_load: 60 kN}
+settings: {rigid: {periods: 12, settled_periods: 4}}
+"""
+)
+
+
+def test_own_lines_with_a_strength_are_judged_by_the_default_code():
+    """The line bears more than its breaking load: no factor is given, yet the design does not hold."""
+    found = result_of(OWN_LINES)
+    assert headline(found, "line_utilisation").value > 1.0
+    judged = {item.criterion.headline: item for item in found.verdict.judgements}
+    assert judged["line_utilisation"].criterion.assumed and found.verdict.outcome == "does not hold"
+    assert "factor of safety of the lines" in found.verdict.message
+    notice = next(item for item in found.notices if item.code == "cage-line-breaks")
+    assert notice.severity == "warning" and "'east'" in notice.message
+
+
 @pytest.mark.slow
 def test_drag_and_volume_are_judged_for_moments_in_the_sea_too():
     """A limit that the current alone keeps and the sea breaks does not hold."""

@@ -165,7 +165,7 @@ def _sea_steps(
         series = time_dataset(problem, found, lines)
         collected.groups[f"{root}/time/{sea.name}/{label}"] = series
         collected.groups[f"{root}/waves/{sea.name}"] = sea_dataset(problem, water, runs, lines)
-        reported.extend(run_notices(problem, found))
+        reported.extend(run_notices(problem, found, lines))
         collected.checks.extend(run_checks(sea.name, problem, found, lines))
         if found.march.status == "interrupted":
             collected.interrupted = STOPPED
