@@ -16,7 +16,7 @@ from moyai.core.headline import Band, Headline
 from moyai.series.block_maxima import maximum_of
 from moyai.structures.cage.flexible.law_runs import line_quantity
 from moyai.structures.cage.flexible.sensitivity import DRAG, LEAST_VOLUME, NET_TENSION, OFFSET, STRESS
-from moyai.structures.cage.settling import by_period, is_settled, scatters
+from moyai.structures.cage.settling import by_period, is_settled, scatters, still_to_come
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -201,7 +201,10 @@ def reach(
     highest = by_period(times, series, period, ramp)
     scale = abs(value) if scale is None else scale
     if is_settled(highest, scale):
-        return value, value, ""
+        more = max(float(highest[-1]) + still_to_come(highest) - value, 0.0)
+        # what rounding and the rows of a period hide is not told
+        known = more > 2e-3 * scale
+        return value, value + more, f"periods still to come {100.0 * more / scale:.2g} %" if known else ""
     late = times >= ramp
     found = maximum_of(times[late], series[late], period) if scatters(highest, scale) else None
     if found is None:

@@ -11,11 +11,13 @@ from moyai.core.arrays import Array
 #: Periods of a block, and blocks that are compared.
 BLOCK, BLOCKS = 3, 3
 #: Part that a number may still rise by when a run ends, and beyond which it is called a bound.
-ENOUGH, OPEN = 0.01, 0.02
+ENOUGH, OPEN = 0.03, 0.05
 #: Part by which the periods of a motion that repeats may differ about their trend.
 SCATTER = 0.05
 #: Largest ratio of two changes that is believed: it leaves nineteen times the last one.
 _SLOWEST = 0.95
+#: The same of blocks of which each has but one value: it leaves four times the last change.
+_SLOWEST_BLOCK = 0.8
 
 
 def by_period(time: Array, series: Array, period: float, begin: float) -> Array:
@@ -62,8 +64,23 @@ def still_to_come(values: Array) -> float:
     return left if left * change > 0.0 else 0.0
 
 
+def limit_of(blocks: Array) -> Array:
+    """Return where three rows of numbers lead whose changes shrink at one ratio; the last where they do not.
+
+    Parameters
+    ----------
+    blocks : ndarray, shape (3, n)
+        Largest values of three blocks of periods, one after the other.
+    """
+    before, change = blocks[1] - blocks[0], blocks[2] - blocks[1]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ratio = np.where(before * change > 0.0, np.minimum(change / before, _SLOWEST_BLOCK), 0.0)
+    found: Array = blocks[2] + change * ratio / (1.0 - ratio)
+    return found
+
+
 def is_settled(values: Array, scale: float) -> bool:
-    """Return whether the largest values of periods repeat and rise by no more than a fiftieth of ``scale``."""
+    """Return whether the largest values of periods repeat and rise by no more than a twentieth of ``scale``."""
     return bool(still_to_come(values) <= OPEN * scale) and not scatters(values, scale)
 
 

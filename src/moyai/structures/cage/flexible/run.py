@@ -241,11 +241,15 @@ def _sea_steps(
 def _law_steps(
     problem: FlexibleCageProblem, worst: Governing, collected: Collected, progress: Progress
 ) -> Iterator[None]:
-    """Run the governing waves of all numbers under every valid law of nets."""
+    """Run the governing waves of all numbers under the lowest and the highest valid law of nets."""
     speed = design_speed(problem)
     for case in worst.cases:
         if not choice_of(case.model, speed).others:
             return
+        laws = collected.groups.get(f"{case.root}/laws")
+        if laws is not None:
+            names, drags = (laws.variables[name].values for name in ("law", "law_drag"))
+            case.drag_by_law = {str(name): float(drag) for name, drag in zip(names, drags, strict=True)}
         collected.groups[case.path], missing = laws_in_wave(case, speed, problem.settings, progress)
         if missing:
             words = f"{case.sea}, {case.run.wave.name}: the run under other laws of nets fails ({', '.join(missing)})"

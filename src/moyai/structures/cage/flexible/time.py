@@ -21,7 +21,16 @@ from moyai.structures.cage.flexible.model import FlexibleCage
 from moyai.structures.cage.flexible.problem import FlexibleSettings
 from moyai.structures.cage.flexible.variables import described
 from moyai.structures.cage.rigid.waves import Wave
-from moyai.structures.cage.settling import ENOUGH, by_period, change_per_period, is_settled, scatters, still_to_come
+from moyai.structures.cage.settling import (
+    BLOCK,
+    BLOCKS,
+    ENOUGH,
+    by_period,
+    change_per_period,
+    is_settled,
+    scatters,
+    still_to_come,
+)
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -94,7 +103,7 @@ def run_cage(
 def go_on(rest: CageRest, before: CageRun, settings: FlexibleSettings) -> CageRun:
     """Run the wave of another run with a cage that differs a little, of the same mesh, under another law for instance.
 
-    Regular waves go on from the end of that run until their periods repeat, a sea begins again.
+    Regular waves go on from the end of that run for nine periods, a sea begins again.
 
     Parameters
     ----------
@@ -106,14 +115,12 @@ def go_on(rest: CageRest, before: CageRun, settings: FlexibleSettings) -> CageRu
     wave, period = before.wave, before.wave.period
     if not wave.regular:
         flow, start = replace(before.flow, current=rest.current), rest.state
-        duration, settling = before.ramp + wave.duration, None
+        duration = before.ramp + wave.duration
     else:
         flow, start = replace(before.flow, current=rest.current), before.history.final
-        duration = settings.most_periods * period
-        settling = _Settling(rest, replace(wave, duration=0.0), start.time, either_way=True)
+        duration = BLOCK * BLOCKS * period
     history = simulate(
-        rest.network, duration=duration, output_step=period / settings.rows_per_period, flow=flow, start=start,
-        enough=settling,
+        rest.network, duration=duration, output_step=period / settings.rows_per_period, flow=flow, start=start
     )  # fmt: skip
     return CageRun(wave, rest, flow, before.ramp, history)
 
@@ -121,9 +128,8 @@ def go_on(rest: CageRest, before: CageRun, settings: FlexibleSettings) -> CageRu
 class _Settling:
     """Whether no number of the first page will rise any more in a run through regular waves."""
 
-    def __init__(self, rest: CageRest, wave: Wave, ramp: float, *, either_way: bool = False) -> None:
+    def __init__(self, rest: CageRest, wave: Wave, ramp: float) -> None:
         built = rest.built
-        self._either_way = either_way
         self._built, self._ramp = built, ramp
         self._period, self._least = wave.period, ramp + wave.duration
         self._strands = [rest.network.strands[part.strand].bars for part in built.lines]
@@ -169,7 +175,7 @@ class _Settling:
                 scales.append(float(columns[-1][-1]))
         left = [still_to_come(column) for column in columns]
         return all(
-            (abs(more) if self._either_way else more) <= ENOUGH * scale and not scatters(column, scale)
+            more <= ENOUGH * scale and not scatters(column, scale)
             for more, scale, column in zip(left, scales, columns, strict=True)
         )
 
