@@ -21,7 +21,7 @@ from moyai.case.builder import build
 from moyai.case.reader import case_of
 from moyai.case.templates import template
 from moyai.case.yaml_reader import parse_yaml
-from moyai.core.headline import judge
+from moyai.core.headline import Criterion, judge
 from moyai.structures.cage.run import run
 
 
@@ -326,6 +326,34 @@ def test_own_lines_with_a_strength_are_judged_by_the_default_code():
     assert "factor of safety of the lines" in found.verdict.message
     notice = next(item for item in found.notices if item.code == "cage-line-breaks")
     assert notice.severity == "warning" and "'east'" in notice.message
+
+
+THREE_WAVES = (
+    OWN_LINES.replace("speed: 0.4 m/s", "speed: 0.6 m/s")
+    .replace(
+        "waves: {name: storm, kind: regular, height: 1.0 m, period: 5 s, heading_deg: 0}",
+        """waves:
+  - {name: high, kind: regular, height: 1.2 m, period: 4 s, heading_deg: 0}
+  - {name: back, kind: regular, height: 1.0 m, period: 5 s, heading_deg: 180}
+  - {name: long, kind: regular, height: 0.3 m, period: 7 s, heading_deg: 0}""",
+    )
+    .replace("breaking_load: 8000", "breaking_load: 60 kN")
+)
+
+
+@pytest.mark.slow
+def test_each_number_of_a_rigid_cage_takes_the_laws_in_its_own_wave():
+    """The wave of the offset is another one than that of the tension; matsubara ends below its Reynolds number."""
+    found = result_of(THREE_WAVES)
+    other = result_of(THREE_WAVES.replace("law: matsubara", "law: kristiansen_faltinsen"))
+    offset, own = headline(found, "offset"), headline(other, "offset")
+    assert "back" in offset.where and "high" in headline(found, "line_tension").where
+    assert own.value > 1.05 * offset.value
+    # the run under the valid law is the end of the band, but for a wave that governs there and not here
+    assert offset.band.high == pytest.approx(own.value, rel=0.005)
+    limit = 0.5 * (offset.value + own.value)
+    asked = Criterion("greatest_offset", "offset", limit, "at most", "case file")
+    assert judge(found.headlines, [asked], computed=True).outcome == "does not hold"
 
 
 @pytest.mark.slow

@@ -13,6 +13,7 @@ from moyai.core.headline import Band, Headline
 from moyai.structures.cage.bands import alone, chance, laws_text
 from moyai.structures.cage.conditions import condition_headlines, sea_words
 from moyai.structures.cage.headlines import NOT_JUDGED, Groups, judged_seas
+from moyai.structures.cage.rigid.laws import IN_WAVES
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -57,9 +58,8 @@ def _rigid_tension(seas: Seas, groups: Groups) -> list[Headline]:
             value = float(values[wave].max())
             where = f"{title}, {_rigid_where(level, name, sea, wave, groups)}"
             run = _run_of(level, name, sea, wave, groups)
-            band, said = _rigid_band(
-                groups.get(f"/{level}/laws"), run, value, run["line_tension_peak_since_row"].values[:, line]
-            )
+            laws = _laws_of(level, name, sea, wave, groups)
+            band, said = _rigid_band(laws, run, value, run["line_tension_peak_since_row"].values[:, line], line)
             model = f"{RIGID}, {run.attrs['theory']}"
             tensions.append(
                 Headline("line_tension", "highest line tension", value, "N", where, model, band, detail=said)
@@ -96,9 +96,8 @@ def _rigid_anchor(seas: Seas, groups: Groups) -> list[Headline]:
             run = _run_of(level, name, sea, wave, groups)
             # the lower end has no series of its peaks: the chance is that of the line's largest tension
             share = value / max(float(sea["line_tension_maximum"].values[wave, line].max()), 1e-300)
-            band, _ = _rigid_band(
-                groups.get(f"/{level}/laws"), run, value, share * run["line_tension_peak_since_row"].values[:, line]
-            )
+            laws = _laws_of(level, name, sea, wave, groups)
+            band, _ = _rigid_band(laws, run, value, share * run["line_tension_peak_since_row"].values[:, line], line)
             where = f"lower end of {title}, {_rigid_where(level, name, sea, wave, groups)}"
             model = f"{RIGID}, {run.attrs['theory']}"
             found.append(Headline("anchor_load", "largest pull on an anchor", value, "N", where, model, band))
@@ -122,9 +121,8 @@ def _rigid_offset(seas: Seas, groups: Groups) -> list[Headline]:
         at_rest, offsets = rigid_offsets(groups[f"/{level}/statics"], sea)
         wave = int(np.argmax(offsets))
         value, run = float(offsets[wave]), _run_of(level, name, sea, wave, groups)
-        band, said = _rigid_band(
-            groups.get(f"/{level}/laws"), run, value, np.abs(at_rest + run["sway"].values), "law_offset"
-        )
+        laws = _laws_of(level, name, sea, wave, groups)
+        band, said = _rigid_band(laws, run, value, np.abs(at_rest + run["sway"].values))
         where = _rigid_where(level, name, sea, wave, groups)
         found.append(
             Headline(
@@ -135,26 +133,44 @@ def _rigid_offset(seas: Seas, groups: Groups) -> list[Headline]:
     return judged_seas(found)
 
 
+def _laws_of(level: str, name: str, sea: xr.Dataset, wave: int, groups: Groups) -> list[xr.Dataset]:
+    """Return the runs of a wave under the valid laws; where it was not run so those of every wave of its level."""
+    own = groups.get(f"/{level}/{IN_WAVES}/{name}/{_label(sea, wave)}")
+    if own is not None:
+        return [own]
+    return [group for path, group in groups.items() if path.startswith(f"/{level}/{IN_WAVES}/")]
+
+
 def _rigid_band(
-    laws: xr.Dataset | None, run: xr.Dataset, value: float, series: Array, name: str = "law_line_tension_maximum"
+    laws: list[xr.Dataset], run: xr.Dataset, value: float, series: Array, line: int | None = None
 ) -> tuple[Band | None, str]:
-    """Return what other seeds and the laws valid for this net make of a number, and what is to be said of it."""
+    """Return what other seeds and the laws valid for this net make of a number, and what is to be said of it.
+
+    The number is the tension of a line where one is named, else the offset.
+    """
     low, high, seed = chance(run, value, series)
     words, said = [seed] if seed else [], ""
-    if laws is not None and laws.sizes["law"] > 1:
-        # the laws were run in the wave of the highest tension: their ratio holds for the others
-        ratio = laws[name].values / float(laws[name].values[0])
-        low, high = low * min(float(ratio.min()), 1.0), high * max(float(ratio.max()), 1.0)
-        words.append(laws_text(laws))
-    elif laws is not None:
+    several = [one for one in laws if one.sizes["law"] > 1]
+    least, most = 1.0, 1.0
+    for one in several:
+        values = one["law_offset"].values if line is None else one["law_line_tension"].values[:, line]
+        if values[0] > 0.0:
+            least, most = min(least, float(values.min() / values[0])), max(most, float(values.max() / values[0]))
+    if several:
+        low, high = low * least, high * most
+        words.append(laws_text(several[0]))
+    elif laws:
         said = "no second net law is valid for this net"
     return (Band(low, high, "; ".join(words)) if words else None), said
 
 
+def _label(sea: xr.Dataset, wave: int) -> str:
+    return f"wave {wave + 1}" if sea.attrs["kind"] == "regular" else "sea"
+
+
 def _run_of(level: str, name: str, sea: xr.Dataset, wave: int, groups: Groups) -> xr.Dataset:
     """Return the series of one wave, or of the sea."""
-    label = f"wave {wave + 1}" if sea.attrs["kind"] == "regular" else "sea"
-    return groups[f"/{level}/time/{name}/{label}"]
+    return groups[f"/{level}/time/{name}/{_label(sea, wave)}"]
 
 
 def _rigid_where(level: str, name: str, sea: xr.Dataset, wave: int, groups: Groups) -> str:
