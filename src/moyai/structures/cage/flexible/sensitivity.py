@@ -33,6 +33,10 @@ VOLUME_IN_CURRENT, DRAG_IN_CURRENT = "volume share in the current [-]", "drag in
 NET_TENSION, NET_TENSION_IN_CURRENT = "highest tension of the net [N/m]", "tension of the net in the current [N/m]"
 
 
+#: Kinds of line.
+KINDS = ("anchor", "bridle", "frame", "buoy")
+
+
 def coarser(mesh: CageMesh) -> CageMesh:
     """Return a mesh that is coarser by a third."""
     around = max(8, 4 * round(mesh.around * 2.0 / 3.0 / 4.0))
@@ -59,7 +63,7 @@ def largest_numbers(model: FlexibleCage, run: CageRun) -> dict[str, float]:
     history, built = run.history, run.rest.built
     steady = history.time >= run.ramp - 1e-9
     out = {}
-    for kind in ("anchor", "bridle", "frame", "buoy"):
+    for kind in KINDS:
         bars = [built.network.strands[part.strand].bars for part in built.lines if part.kind == kind]
         if bars:
             out[tension_of(kind)] = float(history.tension_peak[steady][:, np.concatenate(bars)].max())
@@ -107,7 +111,7 @@ def _in_current(rest: CageRest) -> dict[str, float]:
 
 
 def rest_mesh_dataset(model: FlexibleCage, rest: CageRest) -> xr.Dataset:
-    """Return volume and drag at rest on the mesh of the case and on one that is coarser by a third.
+    """Return the numbers at rest on the mesh of the case and on one that is coarser by a third.
 
     Parameters
     ----------
@@ -115,9 +119,26 @@ def rest_mesh_dataset(model: FlexibleCage, rest: CageRest) -> xr.Dataset:
     rest : CageRest
         As the case gives it.
     """
-    other = replace(model, mesh=coarser(model.mesh))
+    other = coarse_model(model)
     again = solve_rest(other, build_cage(other), rest.current)
-    return _dataset((VARIANTS[0], COARSER), [_in_current(rest), _in_current(again)])
+    return _dataset((VARIANTS[0], COARSER), [_at_rest(model, rest), _at_rest(other, again)])
+
+
+def _at_rest(model: FlexibleCage, rest: CageRest) -> dict[str, float]:
+    """Return volume, drag, net, the highest tension of each kind of line, offset and stress at rest in a current."""
+    place, built = rest.state.position, rest.built
+    out = _in_current(rest)
+    for kind in KINDS:
+        bars = [built.network.strands[part.strand].bars for part in built.lines if part.kind == kind]
+        if bars:
+            out[tension_of(kind)] = float(rest.tension[np.concatenate(bars)].max())
+    calm = built.network.nodes.position
+    rings = [cage.collar[0] for cage in built.cages]
+    out[OFFSET] = max(float(np.linalg.norm((place[own] - calm[own]).mean(axis=0)[:2])) for own in rings)
+    if built.cages[0].collar_bars and not model.design.collar.rigid:
+        forces = collar_forces(model, rest, place, rest.tension)
+        out[STRESS] = max(float(ring["stress"].max()) for rings in forces for ring in rings)
+    return out
 
 
 def sensitivity_dataset(
