@@ -12,7 +12,7 @@ from moyai.structures.cage.flexible.problem import FlexibleSettings
 from moyai.structures.cage.flexible.time import run_cage
 from moyai.structures.cage.headlines import _anchor, _volume
 from moyai.structures.cage.rigid.waves import wave_of
-from moyai.structures.cage.settling import by_period, is_settled, scatters, still_to_come
+from moyai.structures.cage.settling import by_period, is_settled, limit_of, scatters, still_to_come
 
 PERIOD = 5.0
 
@@ -26,6 +26,12 @@ def test_what_is_still_to_come_of_an_exponential_approach_is_known(slow):
         assert still_to_come(whole[:count]) == pytest.approx(left, rel=0.02)
     assert np.isnan(still_to_come(whole[:8])) and not is_settled(whole[:8], 60.0)
     assert still_to_come(-whole[:15]) == pytest.approx(-still_to_come(whole[:15]))
+
+
+def test_blocks_tell_where_they_lead():
+    blocks = np.array([[90.0, 50.0, 70.0, 10.0], [95.0, 51.0, 80.0, 30.0], [97.5, 51.0, 75.0, 50.0]])
+    # the third turns about, the last leads nowhere near
+    assert limit_of(blocks) == pytest.approx([100.0, 51.0, 75.0, 52.5])
 
 
 def test_periods_are_told_apart():

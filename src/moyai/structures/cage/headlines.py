@@ -318,7 +318,7 @@ def _offset(states: list[State], runs: Runs, factors: Factors = NO_MESH) -> list
             moved = np.linalg.norm((run["collar_place"].values - calm)[..., :2], axis=-1)
             series = moved.reshape(moved.shape[0], -1).max(axis=1)
             value = float(series[late].max())
-            found.append((value, where, DYNAMIC, band_in_sea(state, "offset", run, value, series)))
+            found.append((value, where, DYNAMIC, band_in_sea(at, "offset", run, value, series)))
     if not found or max(item[0] for item in found) < 1e-9:
         return []
     return judged_seas(

@@ -67,6 +67,8 @@ def still_to_come(values: Array) -> float:
 def limit_of(blocks: Array) -> Array:
     """Return where three rows of numbers lead whose changes shrink at one ratio; the last where they do not.
 
+    A twentieth away at most: what leads further is not told by nine periods.
+
     Parameters
     ----------
     blocks : ndarray, shape (3, n)
@@ -75,7 +77,8 @@ def limit_of(blocks: Array) -> Array:
     before, change = blocks[1] - blocks[0], blocks[2] - blocks[1]
     with np.errstate(divide="ignore", invalid="ignore"):
         ratio = np.where(before * change > 0.0, np.minimum(change / before, _SLOWEST_BLOCK), 0.0)
-    found: Array = blocks[2] + change * ratio / (1.0 - ratio)
+    most = OPEN * np.abs(blocks[2])
+    found: Array = blocks[2] + np.clip(change * ratio / (1.0 - ratio), -most, most)
     return found
 
 
