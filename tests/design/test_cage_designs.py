@@ -318,6 +318,18 @@ def test_a_rigid_cage_is_judged_on_offset_and_anchors():
         assert headline(turned, name).value == pytest.approx(headline(found, name).value, rel=1e-6)
 
 
+def test_codes_that_weigh_the_mean_judge_a_rigid_cage_by_the_mean_of_its_run():
+    found = result_of(RIGID)
+    used, tension = headline(found, "line_utilisation"), headline(found, "line_tension")
+    pulls = found.tree["SWL/waves/storm"].to_dataset()["line_tension_mean"].values
+    assert used.mean == pytest.approx(tension.mean / 250e3) and tension.mean in pulls
+    limit = 0.9 * used.band.high
+    weighed = Criterion("code", "line_utilisation", limit, "at most", "a code", as_factor=True, mean_weight=0.5)
+    (judged,) = judge([used], [weighed], computed=True).judgements
+    assert judged.outcome == ("holds" if used.band.high - 0.5 * used.mean <= limit else "does not hold")
+    assert judge([replace(used, mean=None)], [weighed], computed=True).outcome == "not judged"
+
+
 OWN_LINES = (
     RIGID[: RIGID.index("  mooring:")]
     + """  mooring:

@@ -52,35 +52,43 @@ def _rigid_tension(seas: Seas, groups: Groups) -> list[Headline]:
     tensions, utilisations = [], []
     bare: dict[str, None] = {}
     for level, name, sea in seas:
-        for line, title in enumerate(sea["line"].values):
-            values = sea["line_tension_maximum"].values.reshape(sea.sizes["wave"], sea.sizes["line"], -1)[:, line]
-            wave = int(np.argmax(values.max(axis=1)))
-            value = float(values[wave].max())
-            where = f"{title}, {_rigid_where(level, name, sea, wave, groups)}"
-            run = _run_of(level, name, sea, wave, groups)
-            laws = _laws_of(level, name, sea, wave, groups)
-            band, said = _rigid_band(laws, run, value, run["line_tension_peak_since_row"].values[:, line], line)
-            model = f"{RIGID}, {run.attrs['theory']}"
-            tensions.append(
-                Headline("line_tension", "highest line tension", value, "N", where, model, band, detail=said)
-            )
-            breaking = float(groups[f"/{level}/statics"]["breaking_load"].values[line])
-            if not math.isfinite(breaking):
-                bare[str(title)] = None
-            else:
-                scaled = None if band is None else replace(band, low=band.low / breaking, high=band.high / breaking)
-                utilisations.append(
-                    Headline(
-                        "line_utilisation", "tension over breaking load", value / breaking, "1", where, model, scaled,
-                        detail=f"breaking load {breaking / 1e3:.4g} kN, without a safety factor",
-                    )
-                )  # fmt: skip
+        breaking = groups[f"/{level}/statics"]["breaking_load"].values if sea.sizes["line"] else np.zeros(0)
+        for wave, line in np.ndindex(sea.sizes["wave"], sea.sizes["line"]):
+            item = _tension_of(level, name, sea, wave, line, groups)
+            tensions.append(item)
+            strength = float(breaking[line])
+            if not math.isfinite(strength):
+                bare[str(sea["line"].values[line])] = None
+                continue
+            band = item.band
+            utilisations.append(
+                replace(
+                    item, name="line_utilisation", label="Tension over breaking load", value=item.value / strength,
+                    unit="1", band=None if band is None else band.scaled(1.0 / strength),
+                    mean=None if item.mean is None else item.mean / strength,
+                    detail=f"breaking load {strength / 1e3:.4g} kN, without a safety factor",
+                )
+            )  # fmt: skip
     if bare and utilisations:
         # next to lines that have a strength
         text = f"breaking load not given of {', '.join(bare)}"
         open_one = Headline("line_utilisation", "tension over breaking load", math.nan, "1", text=text, shown=False)
         return [*judged_seas(tensions), *judged_seas(utilisations), open_one]
     return [*judged_seas(tensions), *judged_seas(utilisations)]
+
+
+def _tension_of(level: str, name: str, sea: xr.Dataset, wave: int, line: int, groups: Groups) -> Headline:
+    """Return the highest tension of a line in a wave, with its band and its mean at the same end."""
+    highest = sea["line_tension_maximum"].values[wave, line]
+    end = int(np.argmax(highest))
+    value, run = float(highest[end]), _run_of(level, name, sea, wave, groups)
+    laws = _laws_of(level, name, sea, wave, groups)
+    band, said = _rigid_band(laws, run, value, run["line_tension_peak_since_row"].values[:, line], line)
+    where = f"{sea['line'].values[line]}, {_rigid_where(level, name, sea, wave, groups)}"
+    return Headline(
+        "line_tension", "highest line tension", value, "N", where, f"{RIGID}, {run.attrs['theory']}", band, detail=said,
+        mean=float(sea["line_tension_mean"].values[wave, line, end]),
+    )  # fmt: skip
 
 
 def _rigid_anchor(seas: Seas, groups: Groups) -> list[Headline]:
@@ -90,9 +98,8 @@ def _rigid_anchor(seas: Seas, groups: Groups) -> list[Headline]:
         if not sea.sizes["line"]:
             continue
         pulls = sea["line_tension_maximum"].sel(end="anchor").values
-        for line, title in enumerate(sea["line"].values):
-            wave = int(np.argmax(pulls[:, line]))
-            value = float(pulls[wave, line])
+        for wave, line in np.ndindex(*pulls.shape):
+            title, value = sea["line"].values[line], float(pulls[wave, line])
             run = _run_of(level, name, sea, wave, groups)
             # the lower end has no series of its peaks: the chance is that of the line's largest tension
             share = value / max(float(sea["line_tension_maximum"].values[wave, line].max()), 1e-300)
@@ -119,17 +126,17 @@ def _rigid_offset(seas: Seas, groups: Groups) -> list[Headline]:
         if not sea.sizes["line"]:
             continue
         at_rest, offsets = rigid_offsets(groups[f"/{level}/statics"], sea)
-        wave = int(np.argmax(offsets))
-        value, run = float(offsets[wave]), _run_of(level, name, sea, wave, groups)
-        laws = _laws_of(level, name, sea, wave, groups)
-        band, said = _rigid_band(laws, run, value, np.abs(at_rest + run["sway"].values))
-        where = _rigid_where(level, name, sea, wave, groups)
-        found.append(
-            Headline(
-                "offset", "largest offset from where it floats freely", value, "m", where,
-                f"{RIGID}, {run.attrs['theory']}", band, detail=said,
-            )
-        )  # fmt: skip
+        for wave, value in enumerate(offsets):
+            run = _run_of(level, name, sea, wave, groups)
+            laws = _laws_of(level, name, sea, wave, groups)
+            band, said = _rigid_band(laws, run, float(value), np.abs(at_rest + run["sway"].values))
+            where = _rigid_where(level, name, sea, wave, groups)
+            found.append(
+                Headline(
+                    "offset", "largest offset from where it floats freely", float(value), "m", where,
+                    f"{RIGID}, {run.attrs['theory']}", band, detail=said,
+                )
+            )  # fmt: skip
     return judged_seas(found)
 
 
