@@ -132,6 +132,8 @@ def test_the_laws_are_in_the_band_by_runs_through_the_governing_wave():
     assert verdict.outcome == "does not hold"
     assert pulls[0].band.high == pytest.approx(1.1 * 61e3) and pulls[0].band.low == pytest.approx(61e3)
     assert pulls[0].band.of == "net laws run in this wave: milne"
+    # the upward part is that of one run: no bound
+    assert "without a band" in pulls[0].detail and "at most" not in pulls[0].detail
 
 
 def test_a_wave_that_was_not_run_under_the_laws_takes_their_largest_ratio():

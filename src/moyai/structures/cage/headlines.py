@@ -252,6 +252,7 @@ def _tension(states: list[State], runs: Runs, factors: Factors = NO_MESH) -> tup
             "line_utilisation", "tension over breaking load", share, "1", item.where, item.model,
             None if band is None else replace(band, low=band.low * factor, high=band.high * factor),
             detail=f"breaking load of new rope {1e-3 / factor:.4g} kN, without a safety factor",
+            mean=None if item.mean is None else item.mean * factor,
         )  # fmt: skip
         tensions[item.where] = item
 
@@ -289,6 +290,7 @@ def _dynamic_tension(run: xr.Dataset, line: int, where: str, state: State | None
     if float(everything.max()) > 1.01 * value:
         name, most = str(run["line"].values[int(np.argmax(everything))]), float(everything.max()) / 1e3
         details.append(f"nearest to its breaking load; the largest tension of all is {most:.3g} kN, in {name}")
+    mean = float(run["line_tension_mean"].values[line]) if "line_tension_mean" in run else None
     slack, snaps = float(run["slack_share"].values[line]), int(run["snaps"].values[line])
     if slack > 0.0:
         details.append(f"slack for {100.0 * slack:.2g} % of the time" + (f", {snaps} snaps" if snaps else ""))
@@ -300,7 +302,7 @@ def _dynamic_tension(run: xr.Dataset, line: int, where: str, state: State | None
     band = band_in_sea(state, "line_tension_maximum", run, value, series, line, scale)
     return Headline(
         "line_tension", "tension of the governing line", value, "N", f"{name}, {where}",
-        f"{DYNAMIC}, {run.attrs['theory']}", band, detail="; ".join(details),
+        f"{DYNAMIC}, {run.attrs['theory']}", band, detail="; ".join(details), mean=mean,
     )  # fmt: skip
 
 
@@ -340,7 +342,7 @@ def _anchor(states: list[State], runs: Runs, factors: Factors = NO_MESH) -> list
         if anchors:
             lower = run["line_tension_maximum_lower"].values
             up = float(run["line_uplift_lower"].values[anchors].max())
-            detail = f"upwards {up / 1e3:.3g} kN at most, of all anchors"
+            detail = f"upwards {up / 1e3:.3g} kN, the largest of all anchors in this run, without a band"
             for line in anchors:
                 pull = float(lower[line])
                 # the lower end has no series of its own: the chance is that of the line's largest tension
