@@ -320,9 +320,9 @@ def test_a_rigid_cage_is_judged_on_offset_and_anchors():
 
 def test_codes_that_weigh_the_mean_judge_a_rigid_cage_by_the_mean_of_its_run():
     found = result_of(RIGID)
-    used, tension = headline(found, "line_utilisation"), headline(found, "line_tension")
+    used = headline(found, "line_utilisation")
     pulls = found.tree["SWL/waves/storm"].to_dataset()["line_tension_mean"].values
-    assert used.mean == pytest.approx(tension.mean / 250e3) and tension.mean in pulls
+    assert np.isclose(used.mean, pulls / 250e3, rtol=1e-9).any()
     limit = 0.9 * used.band.high
     weighed = Criterion("code", "line_utilisation", limit, "at most", "a code", as_factor=True, mean_weight=0.5)
     (judged,) = judge([used], [weighed], computed=True).judgements

@@ -269,7 +269,9 @@ def _tension(states: list[State], runs: Runs, factors: Factors = NO_MESH) -> tup
     if not used:
         return [], []
     utilisations = judged_seas(used.values(), factors=factors)
-    own = [replace(alone(_with_mesh(tensions[item.where], factors)), shown=item.shown) for item in utilisations]
+    own = [
+        replace(alone(_with_mesh(tensions[item.where], factors)), shown=item.shown, mean=None) for item in utilisations
+    ]
     return own, utilisations
 
 

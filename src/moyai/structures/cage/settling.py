@@ -10,6 +10,8 @@ from moyai.core.arrays import Array
 
 #: Periods of a block, and blocks that are compared.
 BLOCK, BLOCKS = 3, 3
+#: The same of runs that go on under another law of nets.
+LAW_BLOCK = 2
 #: Part that a number may still rise by when a run ends, and beyond which it is called a bound.
 ENOUGH, OPEN = 0.03, 0.05
 #: Part by which the periods of a motion that repeats may differ about their trend.
@@ -67,7 +69,7 @@ def still_to_come(values: Array) -> float:
 def limit_of(blocks: Array) -> Array:
     """Return where three rows of numbers lead whose changes shrink at one ratio; the last where they do not.
 
-    A twentieth away at most: what leads further is not told by nine periods.
+    A twentieth away at most: what leads further is not told by so few periods.
 
     Parameters
     ----------

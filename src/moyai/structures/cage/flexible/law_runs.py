@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
@@ -10,17 +11,19 @@ import numpy as np
 
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.progress import Progress, silent
+from moyai.flexible.flow import Current
 from moyai.morison.net_law_base import NetLaw
 from moyai.morison.net_law_choice import LawChoice
-from moyai.structures.cage.flexible.build import build_cage, panel_law
-from moyai.structures.cage.flexible.equilibrium import solve_rest
+from moyai.sea.current import uniform
+from moyai.structures.cage.flexible.build import build_cage
+from moyai.structures.cage.flexible.equilibrium import horizontal_balance, solve_rest
 from moyai.structures.cage.flexible.laws import choice_of
 from moyai.structures.cage.flexible.model import FlexibleCage
 from moyai.structures.cage.flexible.problem import FlexibleSettings
 from moyai.structures.cage.flexible.sensitivity import coarse_model, coarse_run, largest_numbers
-from moyai.structures.cage.flexible.time import CageRun, drag_rows, go_on
+from moyai.structures.cage.flexible.time import CageRun, go_on
 from moyai.structures.cage.flexible.variables import described
-from moyai.structures.cage.settling import BLOCK, BLOCKS, limit_of
+from moyai.structures.cage.settling import BLOCKS, LAW_BLOCK, limit_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -29,7 +32,7 @@ if TYPE_CHECKING:
 IN_WAVES = "laws_in_waves"
 
 
-@dataclass(eq=False)
+@dataclass(frozen=True, eq=False)
 class WaveCase:
     """A wave that was run: enough to run it again."""
 
@@ -39,10 +42,6 @@ class WaveCase:
     label: str
     model: FlexibleCage
     run: CageRun
-    #: On the coarser mesh, where it was run already.
-    coarse: CageRun | None = None
-    #: In the current of the site, where there is one [N].
-    drag_by_law: Mapping[str, float] | None = None
 
     @property
     def path(self) -> str:
@@ -55,12 +54,23 @@ class Governing:
 
     def __init__(self) -> None:
         self._worst: dict[str, tuple[float, WaveCase]] = {}
+        self._coarse: dict[str, CageRun] = {}
 
     def add(self, case: WaveCase, series: xr.Dataset) -> None:
         """Take a wave up where a number of it is the worst so far."""
         for name, value in worst_values(series, case.run).items():
             if name not in self._worst or value > self._worst[name][0]:
                 self._worst[name] = value, case
+
+    def keep(self, case: WaveCase, coarse: CageRun) -> None:
+        """Keep the run of a wave on the coarser mesh as long as the wave governs."""
+        self._coarse[case.path] = coarse
+        paths = {one.path for one in self.cases}
+        self._coarse = {path: run for path, run in self._coarse.items() if path in paths}
+
+    def coarse_of(self, case: WaveCase) -> CageRun | None:
+        """Return the run of a wave on the coarser mesh, where there was one."""
+        return self._coarse.get(case.path)
 
     @property
     def cases(self) -> tuple[WaveCase, ...]:
@@ -91,11 +101,16 @@ def worst_values(series: xr.Dataset, run: CageRun) -> dict[str, float]:
 
 
 def laws_in_wave(
-    case: WaveCase, speed: float, settings: FlexibleSettings, progress: Progress = silent
+    case: WaveCase,
+    speed: float,
+    settings: FlexibleSettings,
+    coarse: CageRun | None = None,
+    drag_by_law: Mapping[str, float] | None = None,
+    progress: Progress = silent,
 ) -> tuple[xr.Dataset, list[str]]:
     """Return the numbers of a wave under the law of the case, the lowest and the highest, and which of them failed.
 
-    Runs in regular waves go on from the end of that under the law of the case for nine periods, which tell their limit;
+    Runs in regular waves go on from the end of that under the law of the case for six periods, which tell their limit;
     a sea is run again over the six periods about its governing moment, from the rest under each law. All on the coarser
     mesh: what counts is the ratio.
 
@@ -105,16 +120,20 @@ def laws_in_wave(
     speed : float
         At which laws are valid or not [m/s].
     settings : FlexibleSettings
+    coarse : CageRun, optional
+        Of the wave on the coarser mesh, where it was run already.
+    drag_by_law : mapping of str to float, optional
+        In the current of the site, where there is one [N].
     progress : Progress
     """
     choice = choice_of(case.model, speed)
     names, missing = [choice.chosen.name], [law.name for law in choice.others]
-    base = _base(case, settings)
-    if base is None:
+    base = coarse or _base(case, settings)
+    if base is None or base.history.status != "converged":
         return _dataset(case, names, [_settled_numbers(case.model, case.run)], choice, missing), missing
     model, missing = coarse_model(case.model), []
     numbers = [_settled_numbers(model, base)]
-    wanted = extreme_laws(case, model, base, choice)
+    wanted = extreme_laws(model, base, choice, drag_by_law)
     for number, law in enumerate(wanted):
         progress(f"laws of nets, {case.sea}", number, len(wanted))
         other = under(model, law)
@@ -137,12 +156,10 @@ def laws_in_wave(
 
 def _base(case: WaveCase, settings: FlexibleSettings) -> CageRun | None:
     """Return the wave on the coarser mesh under the law of the case; None where that fails."""
-    if case.coarse is None:
-        try:
-            case.coarse = coarse_run(case.model, case.run, settings)
-        except (ConvergenceError, InputError):
-            return None
-    return case.coarse if case.coarse.history.status == "converged" else None
+    try:
+        return coarse_run(case.model, case.run, settings)
+    except (ConvergenceError, InputError):
+        return None
 
 
 def _dataset(
@@ -167,8 +184,10 @@ def _settled_numbers(model: FlexibleCage, run: CageRun) -> dict[str, float]:
     if not run.wave.regular:
         return _numbers(model, run)
     end, whole = float(run.history.time[-1]), run.wave.period
+    if end - max(run.ramp, float(run.history.time[0])) < (BLOCKS * LAW_BLOCK - 0.5) * whole:
+        return _numbers(model, run)
     parts = [
-        _numbers(model, part_of(run, end - (number + 1) * BLOCK * whole, end - number * BLOCK * whole))
+        _numbers(model, part_of(run, end - (number + 1) * LAW_BLOCK * whole, end - number * LAW_BLOCK * whole))
         for number in reversed(range(BLOCKS))
     ]
     led = limit_of(np.array([list(part.values()) for part in parts]))
@@ -182,7 +201,8 @@ def _numbers(model: FlexibleCage, run: CageRun) -> dict[str, float]:
         line_quantity(part.name): float(history.tension_peak[late][:, run.rest.network.strands[part.strand].bars].max())
         for part in built.lines
     }
-    return {**largest_numbers(model, run), **lines}
+    # the stress at twelve rows a period, or the hundred of a short sea
+    return {**largest_numbers(model, run, 12 * LAW_BLOCK if run.wave.regular else 100), **lines}
 
 
 def part_of(run: CageRun, begin: float, end: float) -> CageRun:
@@ -196,39 +216,43 @@ def part_of(run: CageRun, begin: float, end: float) -> CageRun:
     return replace(run, history=history, ramp=float(time[rows][0]))
 
 
-def extreme_laws(case: WaveCase, model: FlexibleCage, base: CageRun, choice: LawChoice) -> list[NetLaw]:
-    """Return the laws other than that of the case that give least and most drag.
+def extreme_laws(
+    model: FlexibleCage, base: CageRun, choice: LawChoice, known: Mapping[str, float] | None
+) -> list[NetLaw]:
+    """Return the laws other than that of the case that give least and most drag on a net that gives way.
 
-    At rest in the current of the site, which a net that gives way tells best; without a current on the net as it moves
-    under the law of the case.
+    At rest in the current of the site; without one in a current of half the speed of the water in the wave.
 
     Parameters
     ----------
-    case : WaveCase
     model : FlexibleCage
         On the coarser mesh.
     base : CageRun
         Of that, under the law of the case.
     choice : LawChoice
+    known : mapping of str to float, optional
+        Drag by the name of the law in the current of the site [N].
     """
     if len(choice.others) < 3:
         return list(choice.others)
-    laws, rest = (choice.chosen, *choice.others), base.rest
-    if case.drag_by_law is not None:
-        drags = [case.drag_by_law[law.name] for law in laws]
+    laws = (choice.chosen, *choice.others)
+    if known is not None:
+        drags = [known[law.name] for law in laws]
     else:
-        own = rest.network.panels
-        assert own is not None
-        drags, history = [], base.history
-        begin = float(history.time[-1]) - 6.0 * base.wave.period
-        rows = np.flatnonzero(history.time >= begin)[:: max(1, round(base.wave.period / 12.0 / history.time[1]))]
-        for law in laws:
-            # the panels of the other law in the shelter of the one of the case
-            panels = replace(own, laws=(panel_law(under(model, law)),))
-            moved = replace(base, rest=replace(rest, network=replace(rest.network, panels=panels)))
-            drags.append(float(np.linalg.norm(drag_rows(moved, rows).sum(axis=1), axis=1).max()))
+        wave = base.wave
+        flow = uniform(0.5 * math.pi * wave.height / wave.period, float(wave.components.heading[0]))
+        try:
+            drags = [_drag_at_rest(under(model, law), flow, base) for law in laws]
+        except ConvergenceError:
+            by_law = dict(zip(choice.laws, choice.drags, strict=True))
+            drags = [by_law.get(law, choice.drag) for law in laws]
     ends = dict.fromkeys((int(np.argmin(drags)), int(np.argmax(drags))))
     return [laws[number] for number in ends if number]
+
+
+def _drag_at_rest(model: FlexibleCage, flow: Current, base: CageRun) -> float:
+    rest = solve_rest(model, build_cage(model), flow, start=base.rest.state)
+    return float(np.linalg.norm(horizontal_balance(rest)[0].sum(axis=0)[:2]))
 
 
 def line_quantity(name: str) -> str:

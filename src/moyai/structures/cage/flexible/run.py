@@ -228,12 +228,13 @@ def _sea_steps(
             yield
     if governing is not None and "sensitivity" not in problem.settings.analyses:
         try:
-            changed, governing[1].coarse = mesh_dataset(model, governing[1].run, problem.settings, progress)
+            changed, coarse = mesh_dataset(model, governing[1].run, problem.settings, progress)
         except (ConvergenceError, InputError) as error:
             words = f"{sea.name}: the coarser mesh that is run to check the mesh fails: {error.fault.message}"
             collected.notices.append(Notice("mesh-not-checked", words, severity="warning"))
         else:
             collected.groups[f"{root}/sensitivity/{sea.name}"] = changed
+            worst.keep(governing[1], coarse)
         yield
     progress(f"time, {sea.name}", len(waves), len(waves))
 
@@ -246,11 +247,12 @@ def _law_steps(
     for case in worst.cases:
         if not choice_of(case.model, speed).others:
             return
-        laws = collected.groups.get(f"{case.root}/laws")
+        laws, drags = collected.groups.get(f"{case.root}/laws"), None
         if laws is not None:
-            names, drags = (laws.variables[name].values for name in ("law", "law_drag"))
-            case.drag_by_law = {str(name): float(drag) for name, drag in zip(names, drags, strict=True)}
-        collected.groups[case.path], missing = laws_in_wave(case, speed, problem.settings, progress)
+            names, values = (laws.variables[name].values for name in ("law", "law_drag"))
+            drags = {str(name): float(drag) for name, drag in zip(names, values, strict=True)}
+        found, missing = laws_in_wave(case, speed, problem.settings, worst.coarse_of(case), drags, progress)
+        collected.groups[case.path] = found
         if missing:
             words = f"{case.sea}, {case.run.wave.name}: the run under other laws of nets fails ({', '.join(missing)})"
             remedy = "run the case under the other laws too ('structure.net.law')"

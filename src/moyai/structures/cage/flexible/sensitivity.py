@@ -58,7 +58,7 @@ def tension_of(kind: str) -> str:
     return f"highest tension, {kind} [N]"
 
 
-def largest_numbers(model: FlexibleCage, run: CageRun) -> dict[str, float]:
+def largest_numbers(model: FlexibleCage, run: CageRun, most_rows: int = 100) -> dict[str, float]:
     """Return the highest tension of each kind of line, the smallest volume and the highest stress."""
     history, built = run.history, run.rest.built
     steady = history.time >= run.ramp - 1e-9
@@ -79,7 +79,7 @@ def largest_numbers(model: FlexibleCage, run: CageRun) -> dict[str, float]:
     out |= _in_current(run.rest)
     out[DRAG] = _largest_drag(run)
     if built.cages[0].collar_bars and not model.design.collar.rigid:
-        rows = np.flatnonzero(steady)[:: max(1, int(steady.sum()) // 100)]
+        rows = np.flatnonzero(steady)[:: max(1, int(steady.sum()) // most_rows)]
         out[STRESS] = float(
             max(
                 ring["stress"].max()
@@ -96,7 +96,7 @@ def _largest_drag(run: CageRun) -> float:
     time, period = run.history.time, run.wave.period
     begin = max(run.ramp, float(time[-1]) - BLOCK * period) if run.wave.regular else run.ramp
     rows = np.flatnonzero(time >= min(begin, float(time[-1])) - 1e-9)
-    rows = rows[:: max(1, round(period / (12.0 * float(time[1] - time[0]))))]
+    rows = rows[:: max(1, round(period / 12.0 * (time.size - 1) / max(float(np.ptp(time)), 1e-9)))]
     return float(np.linalg.norm(drag_rows(run, rows).sum(axis=1), axis=1).max())
 
 

@@ -22,9 +22,9 @@ from moyai.structures.cage.flexible.problem import FlexibleSettings
 from moyai.structures.cage.flexible.variables import described
 from moyai.structures.cage.rigid.waves import Wave
 from moyai.structures.cage.settling import (
-    BLOCK,
     BLOCKS,
     ENOUGH,
+    LAW_BLOCK,
     by_period,
     change_per_period,
     is_settled,
@@ -103,7 +103,7 @@ def run_cage(
 def go_on(rest: CageRest, before: CageRun, settings: FlexibleSettings) -> CageRun:
     """Run the wave of another run with a cage that differs a little, of the same mesh, under another law for instance.
 
-    Regular waves go on from the end of that run for nine periods, a sea begins again.
+    Regular waves go on from the end of that run for six periods, a sea begins again.
 
     Parameters
     ----------
@@ -118,7 +118,7 @@ def go_on(rest: CageRest, before: CageRun, settings: FlexibleSettings) -> CageRu
         duration = before.ramp + wave.duration
     else:
         flow, start = replace(before.flow, current=rest.current), before.history.final
-        duration = BLOCK * BLOCKS * period
+        duration = LAW_BLOCK * BLOCKS * period
     history = simulate(
         rest.network, duration=duration, output_step=period / settings.rows_per_period, flow=flow, start=start
     )  # fmt: skip

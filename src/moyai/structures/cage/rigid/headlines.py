@@ -55,7 +55,8 @@ def _rigid_tension(seas: Seas, groups: Groups) -> list[Headline]:
         breaking = groups[f"/{level}/statics"]["breaking_load"].values if sea.sizes["line"] else np.zeros(0)
         for wave, line in np.ndindex(sea.sizes["wave"], sea.sizes["line"]):
             item = _tension_of(level, name, sea, wave, line, groups)
-            tensions.append(item)
+            # a tension is judged as it is, the share of the breaking load by its parts too
+            tensions.append(replace(item, mean=None))
             strength = float(breaking[line])
             if not math.isfinite(strength):
                 bare[str(sea["line"].values[line])] = None
