@@ -6,6 +6,9 @@ from moyai.core.exports import exports
 
 if TYPE_CHECKING:
     from moyai.flexible.build import NetworkBuilder as NetworkBuilder
+    from moyai.flexible.ensemble import Ensemble as Ensemble
+    from moyai.flexible.ensemble import Member as Member
+    from moyai.flexible.ensemble import simulate_together as simulate_together
     from moyai.flexible.flow import Current as Current
     from moyai.flexible.flow import Flow as Flow
     from moyai.flexible.modes import Modes as Modes
@@ -26,6 +29,7 @@ else:
         __name__,
         {
             "build": "NetworkBuilder",
+            "ensemble": "Ensemble Member simulate_together",
             "flow": "Current Flow",
             "modes": "Modes natural_modes",
             "motion": "Motion",

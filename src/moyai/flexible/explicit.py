@@ -13,7 +13,7 @@ from moyai.flexible.arrays import kernel_arrays, kernel_bed
 from moyai.flexible.explicit_kernel import march, survey
 from moyai.flexible.explicit_motion import drive, kick_and_drift
 from moyai.flexible.explicit_parts import kick_sections
-from moyai.flexible.explicit_rows import LEDGER, LENGTH, SPRING, VISCOUS, WU, U, X
+from moyai.flexible.explicit_rows import FASTEST, FASTEST_ATTACHED, LEDGER, LENGTH, SPRING, VISCOUS, WU, U, X
 from moyai.flexible.failures import Failing
 from moyai.flexible.flow import Flow
 from moyai.flexible.mass_blocks import pack_blocks
@@ -24,7 +24,7 @@ from moyai.flexible.panels import PanelArrays
 from moyai.flexible.result import State
 from moyai.flexible.rings import RingArrays
 from moyai.flexible.stability import step_limit
-from moyai.flexible.watch import watch_of
+from moyai.flexible.watch import Watch, watch_of
 from moyai.flexible.worn_rope import slow_parts
 
 #: Part of the stable step that is used unless another is given.
@@ -73,6 +73,8 @@ class ExplicitRun:
     """The state of one run; :func:`moyai.flexible.simulation.simulate` makes it and asks it to advance."""
 
     name = "explicit"
+    #: Whether work and impulse of driven points are booked.
+    booked = True
 
     def __init__(
         self,
@@ -99,11 +101,11 @@ class ExplicitRun:
         self.taken, self.parted, self.stable = 0, False, math.inf
         #: Distance over which a node and the surface may approach each other within a chunk [m].
         self.reach = 1.0 + (2.0 * float(np.sum(flow.waves.amplitude)) if flow.waves is not None else 0.0)
-        self.watch = watch_of(network, self.packed.place)
+        self.watch = self.watch_of_run()
         self.fastest_drive = float(np.max(np.linalg.norm(self.driving[2][:, :, 3:], axis=2), initial=0.0))
         # 0 work of loads, 1 work at driven points, 2 turn of the added mass, 4 loads known, 5 velocity half a step
         # behind
-        self.ledger = np.zeros(LEDGER + 6 * len(self.driving[0]))
+        self.ledger = np.zeros(LEDGER + (6 * len(self.driving[0]) if self.booked else 0))
         self.place[:], self.speed[:] = start.position.T, start.velocity.T
         self.speed[:, network.nodes.kind != 0] = 0.0
         drive(self.packed.memory, *self.driving, self.time, 0.0)
@@ -200,8 +202,16 @@ class ExplicitRun:
             np.array([water.density, water.gravity]),
             (not self.flow.steady, surface, self.water, rate, self.time), self.driving, self.bed,
             (self.time, *choice, rows, first, before), self.ledger, (*kept, packed.place[bars]), self.parts,
-            (*self.watch.system, DRAG_SHARE, bear),
+            (*self.watch.system, *self.bounds_of_drag(bear)),
         ))  # fmt: skip
+
+    def watch_of_run(self) -> Watch:
+        """Return what is watched at every step."""
+        return watch_of(self.network, self.packed.place)
+
+    def bounds_of_drag(self, bear: float) -> tuple[float, float]:
+        """Return what the rate of drag times the load interval, and times the step, may be in a march."""
+        return DRAG_SHARE, bear
 
     def _survey(self, ahead: float = 0.0) -> tuple[float, bool, Array]:
         """Return the rate that bounds the load interval, whether the surface is near, and inverse masses for the step.
@@ -231,7 +241,16 @@ class ExplicitRun:
 
     def limit(self) -> tuple[float, int]:
         """Return the largest stable step now and the node that sets it; what may fall dry counts without added mass."""
-        return self._bound(self._survey()[2])
+        return self._bound(self.inverse_masses())
+
+    def drag_rate(self) -> float:
+        """Return the highest rate at which drag damped any part so far [1/s]."""
+        bars = np.max(self.packed.bar_row(FASTEST), initial=0.0)
+        return float(max(bars, np.max(self.packed.node_rows(FASTEST_ATTACHED, 1), initial=0.0)))
+
+    def inverse_masses(self) -> Array:
+        """Return the inverse mass blocks for the step (6, n): what may fall dry counts without added mass."""
+        return self._survey()[2]
 
     def _bound(self, inverse: Array) -> tuple[float, int]:
         sheets = None if self.parts[2] is None else self.parts[2][:2]

@@ -306,7 +306,9 @@ def march(
             energy[first_row, 2] = 0.0
         return 0
     push_of_pressure = first_push(A, count, sheets)
-    moved, drawn, keep = np.zeros((driven.shape[0], 3)), np.zeros((driven.shape[0], 3)), np.empty((3, count))
+    # without room for their impulses no work of driven points is booked
+    booked = driven[: (ledger.size - LEDGER) // 6]
+    moved, drawn, keep = np.zeros((booked.shape[0], 3)), np.zeros((booked.shape[0], 3)), np.empty((3, count))
     total = per_row * per_load
     rate = rate_of_drag(A, spine, runs, attached, sheets)
     for row in range(rows):
@@ -351,8 +353,8 @@ def march(
                 read_gauges(A, gauge_bars, gauges)
                 # half a step of the bars at both ends of a row
                 share = (0.5 if done + inner == 0 else 1.0) * step
-                book_driven(A, ledger, driven, moved, drawn, step, share, before + (index + inner) * step)
-                path_of_driven(A, driven, moved)
+                book_driven(A, ledger, booked, moved, drawn, step, share, before + (index + inner) * step)
+                path_of_driven(A, booked, moved)
                 push = step
                 if ledger[5] == 0.0:
                     push = 0.5 * step
@@ -367,7 +369,7 @@ def march(
                 else:
                     kick_and_drift(A, count, push, step)
                 drive(A, driven, rest, tables, table_start, table_step, start + (index + inner + 1) * step, step)
-                path_of_driven(A, driven, moved)
+                path_of_driven(A, booked, moved)
                 ledger[0] += screen_work(A, panels, push)
             ledger[0] += load_work(A, count) + pressure_work(A, count, sheets, push_of_pressure)
             done += size
@@ -375,7 +377,7 @@ def march(
             return -(row + 1)
         # the state at the time of the row: forces here, half a kick
         bar_forces(A, sizes, runs, curves, hinges, bending, parts)
-        book_driven(A, ledger, driven, moved, drawn, 0.0, 0.5 * step, before + (row * total + done) * step)
+        book_driven(A, ledger, booked, moved, drawn, 0.0, 0.5 * step, before + (row * total + done) * step)
         if broken[0] > 0:
             return -(row + 1)
         out, energy = first_row + row, saved[3]

@@ -31,6 +31,8 @@ from moyai.flexible.explicit_rows import (
     EY,
     EZ,
     FAST,
+    FASTEST,
+    FASTEST_ATTACHED,
     FIRST_END,
     FORM,
     FREE_X,
@@ -111,8 +113,8 @@ def bar_loads(A: Any, a0: int, b0: int, k0: int, count: int, waves: bool, ahead:
 
     Normal and tangential drag of the relative velocity at each end, buoyancy, and the inertia of the water
     [eq:flexible-morison]; ``RATE`` is the rate at which drag damps the lighter end, or at which the added mass turns
-    [1/s]. Where the rate of drag times the interval ``ahead`` comes near 1, drag is held back so that its continuation
-    stays stable [eq:flexible-drag-limit].
+    [1/s], ``FASTEST`` its highest value so far. Where the rate of drag times the interval ``ahead`` comes near 1, drag
+    is held back so that its continuation stays stable [eq:flexible-drag-limit].
     """
     for i in range(count):
         a, b, k = a0 + i, b0 + i, k0 + i
@@ -162,7 +164,9 @@ def bar_loads(A: Any, a0: int, b0: int, k0: int, count: int, waves: bool, ahead:
         square = du * du + dv * dv + dw * dw - along * along
         turn = math.sqrt(square if square > 0.0 else 0.0) * inverse * 3.0 * abs(more) * light
         drag = fast if fast > faster else faster
-        A[RATE + k] = drag if drag > turn else turn
+        drag = drag if drag > turn else turn
+        A[RATE + k] = drag
+        A[FASTEST + k] = A[FASTEST + k] if A[FASTEST + k] > drag else drag
     if waves:
         for i in range(count):
             a, b, k = a0 + i, b0 + i, k0 + i
@@ -231,7 +235,9 @@ def attached_loads(A: Any, attached: Any, rho: float, gravity: float, ahead: flo
                 part = part * part * (3.0 - 2.0 * part)
         ux, uy, uz = A[WU + i] - A[U + i], A[WV + i] - A[V + i], A[WW + i] - A[W + i]
         size = part * A[DRAG + i] * math.sqrt(ux * ux + uy * uy + uz * uz)
-        quick = 2.0 * ahead * size / (A[MASS + i] + part * A[ADDED + i])
+        rate = 2.0 * size / (A[MASS + i] + part * A[ADDED + i])
+        A[FASTEST_ATTACHED + i] = max(A[FASTEST_ATTACHED + i], rate)
+        quick = ahead * rate
         size /= 1.0 + 0.4 * quick * quick * quick * quick
         inertia = part * (A[ADDED + i] + rho * A[VOLUME + i])
         A[QX + i] += size * ux + inertia * A[WA + i]

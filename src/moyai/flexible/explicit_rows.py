@@ -41,7 +41,9 @@ AX, AY, AZ, EX, EY, EZ = (row * ROW for row in range(69, 75))
 DXX, DXY, DXZ, DYY, DYZ, DZZ = (row * ROW for row in range(75, 81))
 #: Difference of the lifts of both ends of a bar that crosses the surface, over the whole.
 LEAN = 81 * ROW
-ROWS_OF_NODES, ROWS = 49, 82
+#: Highest ``RATE`` of a bar since the start of the run, and the same of what is attached to a node.
+FASTEST, FASTEST_ATTACHED = 82 * ROW, 83 * ROW
+ROWS_OF_NODES, ROWS = 49, 84
 #: Length of the ledger of a run; behind it stand, for each driven point, the impulse of the network on it (three
 #: numbers, N s) and the moment of that impulse about the start of the call (three numbers, N s2).
 LEDGER = 6

@@ -14,7 +14,7 @@ from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.sea.components import WaveComponents
 from moyai.sea.current_field import CurrentField
-from moyai.sea.kinematics import Stretching, linear_velocity_acceleration, stretching_code
+from moyai.sea.kinematics import Stretching, stretching_code, sum_orbits
 from moyai.sea.permanent_wave import NonlinearWave
 
 
@@ -159,8 +159,10 @@ class Flow:
             return self.steep.orbital_motion(time, *position)
         count = position.shape[1]
         elevation, velocity, acceleration = np.empty(count), np.empty((count, 3)), np.empty((count, 3))
-        linear_velocity_acceleration(
-            *sea.kernel_arguments(),
+        water = sea.water
+        sum_orbits(
+            *sea.orbit_rows,
+            math.inf if water is None else float(water.depth),
             *(np.ascontiguousarray(row) for row in position),
             time,
             stretching_code(self.stretching),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -74,6 +75,8 @@ class History:
     checks: tuple[IdentityCheck, ...] = ()
     #: ``checks``, ``notices``: Identities of the run; where it leaves its range.
     notices: tuple[Notice, ...] = field(default=())
+    #: Highest rate at which drag damped any part [1/s]; NaN where the method does not watch it.
+    drag_rate: float = math.nan
 
     @property
     def energy_balance(self) -> Array:

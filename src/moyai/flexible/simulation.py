@@ -37,7 +37,8 @@ ENERGY_TOLERANCE, ENERGY_STOP = 0.02, 0.25
 LONGEST_LOOK = 1.0
 
 
-def _rows(duration: float, output_step: float) -> tuple[int, float]:
+def rows_of(duration: float, output_step: float) -> tuple[int, float]:
+    """Return the number of rows of a result and their spacing [s], moved a little so that they fill the run."""
     if not (math.isfinite(duration) and duration > 0.0):
         raise InputError(f"duration is {duration:g} s", parameter="duration", allowed="greater than 0")
     if not (math.isfinite(output_step) and output_step > 0.0):
@@ -46,7 +47,8 @@ def _rows(duration: float, output_step: float) -> tuple[int, float]:
     return rows, duration / rows
 
 
-def _check_motions(network: Network, motions: Mapping[str, Motion], start: float, end: float) -> None:
+def check_motions(network: Network, motions: Mapping[str, Motion], start: float, end: float) -> None:
+    """Refuse motions that are missing, unknown or too short."""
     for name in network.motion_names:
         if name not in motions:
             raise InputError(
@@ -72,7 +74,8 @@ def _check_motions(network: Network, motions: Mapping[str, Motion], start: float
             )
 
 
-def _check_start(network: Network, start: State) -> None:
+def check_start(network: Network, start: State) -> None:
+    """Refuse a state that is not one of the network."""
     if not math.isfinite(start.time):
         raise InputError(f"time of the start is {start.time:g} s", parameter="start.time", allowed="a finite time")
     for name in ("position", "velocity"):
@@ -92,7 +95,8 @@ def _check_start(network: Network, start: State) -> None:
             )
 
 
-def _kept(given: ArrayLike | None, count: int, path: str) -> np.ndarray:
+def kept_numbers(given: ArrayLike | None, count: int, path: str) -> np.ndarray:
+    """Return the numbers of the nodes or bars that a result keeps, all of them when nothing was given."""
     if given is None:
         return np.arange(count)
     kept = np.atleast_1d(whole_numbers(given, path))
@@ -199,9 +203,9 @@ def simulate(
     """
     flow = flow or Flow()
     start = start or State.at_rest(network)
-    rows, interval = _rows(duration, output_step)
-    _check_start(network, start)
-    _check_motions(network, motions or {}, start.time, start.time + duration)
+    rows, interval = rows_of(duration, output_step)
+    check_start(network, start)
+    check_motions(network, motions or {}, start.time, start.time + duration)
     if not 0.0 < tolerance < 1.0:
         raise InputError(f"tolerance is {tolerance:g}", parameter="tolerance", allowed="above 0, below 1")
     if step is not None and not 0.0 < step < math.inf:
@@ -209,7 +213,8 @@ def simulate(
     if safety is not None and not 0.0 < safety <= 1.0:
         raise InputError(f"safety is {safety:g}", parameter="safety", allowed="above 0, at most 1")
     load_steps = whole_number(load_steps, "load_steps", least=1)
-    nodes, bars = _kept(keep_nodes, len(network.nodes), "keep_nodes"), _kept(keep_bars, len(network.bars), "keep_bars")
+    nodes = kept_numbers(keep_nodes, len(network.nodes), "keep_nodes")
+    bars = kept_numbers(keep_bars, len(network.bars), "keep_bars")
     run: ExplicitRun | ImplicitRun
     if method == "explicit":
         run = ExplicitRun(network, motions or {}, flow, start, safety=safety, load_steps=load_steps)
@@ -241,7 +246,7 @@ def simulate(
     )
     status: RunStatus = "converged"
     done, message, steps, smallest = 0, "", 0, math.inf
-    sound, fastest = start, _fastest(network, run)
+    sound, bound = start, fastest(network, run)
     # rounding must not count as energy: that of a strain of a millionth
     throughput = 1e-12 * float(np.sum(network.bars.of_type("axial_stiffness") * network.bars.length)) + 1e-12
     try:
@@ -250,7 +255,7 @@ def simulate(
             if done * interval <= counted_from < (done + count) * interval:
                 run.watch.forget()
             sound = run.state()
-            good = _advance(run, count, 1 + done, interval, parts, step, saved)
+            good = advance_rows(run, count, 1 + done, interval, parts, step, saved)
             steps = int(run.counts[2]) if isinstance(run, ImplicitRun) else run.steps
             smallest = min(smallest, run.step if isinstance(run, ImplicitRun) else run.smallest)
             energy = saved[3][: 1 + done + good]
@@ -258,7 +263,7 @@ def simulate(
             throughput = max(throughput, float(np.max(total)), float(np.max(np.abs(energy[:, 2]))))
             gain = total[-1] - total[0] - energy[-1, 2]
             done += good
-            wild = not float(np.max(np.abs(run.speed), initial=0.0)) < fastest
+            wild = not float(np.max(np.abs(run.speed), initial=0.0)) < bound
             if good < count or wild or not gain <= ENERGY_STOP * throughput:
                 status = "not_converged"
                 message = _failure(network, run, start.time + done * interval, good < count, wild, gain)
@@ -296,7 +301,7 @@ def simulate(
     )
 
 
-def _advance(
+def advance_rows(
     run: ExplicitRun | ImplicitRun,
     rows: int,
     first: int,
@@ -322,7 +327,7 @@ def _advance(
     return rows
 
 
-def _fastest(network: Network, run: ExplicitRun | ImplicitRun) -> float:
+def fastest(network: Network, run: ExplicitRun | ImplicitRun) -> float:
     """Return a speed that no node reaches: some times that of elastic waves [m/s]."""
     bars = network.bars
     if not len(bars) or network.sheets is not None:
@@ -400,4 +405,5 @@ def _history(
             *peak_notices(network, run, saved[5], saved[2][:last], check, status == "converged"),
             *(run.failing.notices if run.failing is not None else ()),
         ),
+        run.drag_rate() if isinstance(run, ExplicitRun) else math.nan,
     )

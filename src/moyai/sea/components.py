@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -203,6 +204,18 @@ class WaveComponents:
             self.wave_number,
             float(self._water().depth),
         )
+
+    @cached_property
+    def orbit_rows(self) -> Array:
+        """What :func:`moyai.sea.kinematics.sum_orbits` takes of the components, shape (9, components)."""
+        omega, sigma, amplitude, phase, heading, number, depth = self.kernel_arguments()
+        fall = -2.0 * number * depth
+        return np.stack(
+            [
+                omega, sigma, amplitude, phase, number, np.cos(heading), np.sin(heading), -1.0 / np.expm1(fall),
+                np.exp(fall),
+            ]
+        )  # fmt: skip
 
     def transfer_functions(
         self, x: ArrayLike, y: ArrayLike, z: ArrayLike, stretching: Stretching = "constant"

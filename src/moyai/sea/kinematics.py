@@ -161,10 +161,31 @@ def linear_velocity_acceleration(
         Water velocity [m/s] and acceleration following the mean current [m/s2] (the local acceleration in still
         water) [eq:sea-linear-kinematics].
     """
-    count = omega.size
     cosines, sines = np.cos(heading), np.sin(heading)
     # what belongs to the component, not to the node; e^{-2kh} is zero in infinite depth
     shares, back = -1.0 / np.expm1(-2.0 * wave_number * water_depth), np.exp(-2.0 * wave_number * water_depth)
+    sum_orbits(
+        omega, intrinsic_omega, amplitude, phase, wave_number, cosines, sines, shares, back, water_depth, x, y, z, time,
+        stretching, elevation, velocity, acceleration,
+    )  # fmt: skip
+
+
+@njit(cache=True, error_model="numpy")
+def sum_orbits(
+    omega: Array, intrinsic_omega: Array, amplitude: Array, phase: Array, wave_number: Array, cosines: Array,
+    sines: Array, shares: Array, back: Array, water_depth: float, x: Array, y: Array, z: Array, time: float,
+    stretching: int, elevation: Array, velocity: Array, acceleration: Array,
+) -> None:  # fmt: skip
+    """Do what :func:`linear_velocity_acceleration` does, with what belongs to the components found beforehand.
+
+    Parameters
+    ----------
+    cosines, sines : array, shape (components,)
+        Of the heading.
+    shares, back : array, shape (components,)
+        1 / (1 - e^{-2kh}) and e^{-2kh}.
+    """
+    count = omega.size
     begin = phase - omega * time
     surface, quarter, lift = np.empty(count), np.empty(count), np.empty(count)
     for node in range(x.size):
@@ -181,6 +202,25 @@ def linear_velocity_acceleration(
         elevation[node] = eta
         velocity[node, 0], velocity[node, 1], velocity[node, 2] = u, v, w
         acceleration[node, 0], acceleration[node, 1], acceleration[node, 2] = du, dv, dw
+
+
+@njit(cache=True, error_model="numpy")
+def sum_orbits_of_seas(
+    seas: NDArray[np.float64], water_depth: float, x: Array, y: Array, z: Array, time: float, stretching: int,
+    elevation: Array, velocity: Array, acceleration: Array,
+) -> None:  # fmt: skip
+    """Sum as many seas as ``seas`` (seas, 9, components) holds, each at its own part of the nodes, all of one length.
+
+    The nine rows are those of :func:`sum_orbits`.
+    """
+    size = x.size // seas.shape[0]
+    for number in range(seas.shape[0]):
+        sea, first, last = seas[number], number * size, (number + 1) * size
+        sum_orbits(
+            sea[0], sea[1], sea[2], sea[3], sea[4], sea[5], sea[6], sea[7], sea[8], water_depth, x[first:last],
+            y[first:last], z[first:last], time, stretching, elevation[first:last], velocity[first:last],
+            acceleration[first:last],
+        )  # fmt: skip
 
 
 @njit(cache=True, error_model="numpy")

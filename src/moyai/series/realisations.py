@@ -14,11 +14,11 @@ from moyai.series.intervals import reach_of_mean
 MORE = "settings.time.realisations"
 
 
-def seeds(scatter: Array, bound: Array | None = None) -> Band | None:
+def seeds(scatter: Array, bound: Array | None = None, more: str = MORE) -> Band | None:
     """Return the band of realisations: they scatter about their mean, which is the number.
 
     Criteria are judged at the end of the one-sided 95 % interval of that mean, since few realisations leave
-    it uncertain; with a bound on each realisation, of the mean of the bounds.
+    it uncertain; with a bound on each realisation, of the mean of the bounds. ``more`` is the key that asks for more.
     """
     if scatter.size < 2 or not np.isfinite(scatter).all():
         return None
@@ -27,7 +27,7 @@ def seeds(scatter: Array, bound: Array | None = None) -> Band | None:
     ends = (float(scatter.mean()) - reach_of_mean(scatter), float(upper.mean()) + reach_of_mean(upper))
     return Band(
         float(scatter.min()), float(scatter.max()), of, decides=False, judged=ends,
-        realisations=scatter.size, more=MORE, settled=float(upper.mean()),
+        realisations=scatter.size, more=more, settled=float(upper.mean()),
     )  # fmt: skip
 
 

@@ -19,8 +19,8 @@ from moyai.structures.member.supports import influence
 from moyai.structures.member.waves import Wave
 
 CAUSES = ("inertia", "drag", "magnus")
-#: Values of one array that are held at a time; longer records are worked off in blocks of strips
-_BLOCK = 400_000
+#: Values of one array that are held at a time; longer records are taken in blocks of strips.
+_BLOCK = 100_000
 
 
 @dataclass(frozen=True, eq=False)

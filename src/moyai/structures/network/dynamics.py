@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import IdentityCheck, Notice
@@ -19,6 +20,7 @@ from moyai.series.snaps import SnapRecord
 from moyai.structures.network.assembly import Assembly
 from moyai.structures.network.bodies import CoupledRun, coupled_sensitivity, run_coupled
 from moyai.structures.network.model import NetworkProblem
+from moyai.structures.network.realisations import Realisations, realisations_of
 from moyai.structures.network.refinement import (
     LANDING,
     affordable,
@@ -64,6 +66,8 @@ class Run:
     failure: str = ""
     #: Whether finer runs all give less, so that the peak is on the safe side.
     lowered: bool = False
+    #: Largest values of further realisations of its sea.
+    realisations: Realisations | None = None
 
 
 def options_of(problem: NetworkProblem, plan: RunPlan) -> dict[str, Any]:
@@ -90,6 +94,7 @@ def run(
     progress: Progress = silent,
     earlier: Earlier | None = None,
     hung: CoupledRest | None = None,
+    still: Array | None = None,
 ) -> Run:
     """Run a network through time and gather what is reported of it.
 
@@ -105,6 +110,8 @@ def run(
         Rows of the same run up to ``begin``.
     hung : CoupledRest, optional
         Bodies and network at rest, where a run with bodies starts; as built when left out.
+    still : ndarray, shape (points, 3), optional
+        Places of the points at rest in still water [m]; without them no further realisations are run.
 
     Raises
     ------
@@ -152,6 +159,14 @@ def run(
         problem, assembly, plan, (begin, hung), (history, coupled), (governing, worst, why), earlier, reported
     )
     notices += told_of_peak
+    others: Realisations | None = None
+    if earlier is None and still is not None:
+        try:
+            others = realisations_of(problem, assembly, plan, history, motions, (begin, still), bool(why), progress)
+        except KeyboardInterrupt:
+            message = "interrupted while further realisations were run; the run itself is complete"
+            history = replace(history, status="interrupted", message=message)
+    notices += [] if others is None else others.notices()
     failure, safe = "", False
     if sensitivity is not None:
         strand = assembly.lines.get(governing)
@@ -164,7 +179,7 @@ def run(
     return Run(
         plan, history, series, frames, snaps, sensitivity, governing,
         tuple(replace(notice, message=f"{prefix}{notice.message}") for notice in notices),
-        tuple(replace(check, name=f"{prefix}{check.name}") for check in history.checks), why, failure, safe,
+        tuple(replace(check, name=f"{prefix}{check.name}") for check in history.checks), why, failure, safe, others,
     )  # fmt: skip
 
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,6 +17,7 @@ from moyai.core.headline import Band, Bound, Headline, all_judged, unfavourable
 from moyai.core.wording import spoken
 from moyai.flexible.sensitivity import PeakSensitivity
 from moyai.series.block_maxima import PERIODS, Maximum, maximum_of
+from moyai.series.realisations import seeds
 from moyai.structures.network.held_rows import held_headlines
 from moyai.structures.network.model import NetworkProblem
 from moyai.structures.network.refinement import LANDING, band_of
@@ -41,6 +42,8 @@ _OTHER_DIRECTIONS = replace(
     detail="lines square to current and waves may bear several times what lines along them do: run both headings",
 )  # fmt: skip
 _ONE_SEED = "one seed: others may give more"
+#: Key that asks for more realisations.
+MORE = "settings.realisations"
 _MESH = "mesh: twice the segments, and their change continued"
 
 
@@ -54,6 +57,8 @@ class _Peak:
     run: str
     time: float
     model: str
+    #: Highest tensions of the realisations of its sea, whose mean is the value; of none where there is one run.
+    scatter: Array = field(default_factory=lambda: np.zeros(0))
 
 
 def headlines_of(problem: NetworkProblem, groups: Mapping[str, xr.Dataset]) -> tuple[Headline, ...]:
@@ -104,7 +109,7 @@ def _peaks(groups: Mapping[str, xr.Dataset]) -> Iterator[_Peak]:
                     float(summary[key].sel(run=run, line=line)) for key in ("line_tension_maximum", "peak_time")
                 )
                 if math.isfinite(value):
-                    yield _Peak(value, line, level, run, time, DYNAMIC)
+                    yield _peak_of(summary, ("line", line), (level, run), value, time)
             series = groups.get(f"/{level}/time/{run}")
             if series is None or "net_tension" not in series:
                 continue
@@ -113,7 +118,26 @@ def _peaks(groups: Mapping[str, xr.Dataset]) -> Iterator[_Peak]:
                 record = late["net_tension"].sel(net=net).values
                 if record.size and np.isfinite(record).any():
                     at = int(np.nanargmax(record))
-                    yield _Peak(float(record[at]), net, level, run, float(late["time"].values[at]), DYNAMIC)
+                    time = float(late["time"].values[at])
+                    yield _peak_of(summary, ("net", net), (level, run), float(record[at]), time)
+
+
+def _peak_of(summary: xr.Dataset, of: tuple[str, str], at: tuple[str, str], value: float, time: float) -> _Peak:
+    """Return the highest tension of a line or net in a run: the mean over the realisations of its sea, if there are."""
+    kind, name = of
+    scatter = scatter_of(summary, f"{kind}_tension_maximum_of_realisation", at[1], **{kind: name})
+    if scatter.size:
+        value, time = float(scatter.mean()), math.nan
+    return _Peak(value, name, *at, time, DYNAMIC, scatter)
+
+
+def scatter_of(summary: xr.Dataset, name: str, run: str, **of: str) -> Array:
+    """Return a largest value of the realisations of a run; none where fewer than two were run."""
+    if name not in summary:
+        return np.zeros(0)
+    found = np.asarray(summary[name].sel({"run": run, **of}).values)
+    found = found[np.isfinite(found)]
+    return found if found.size > 1 else np.zeros(0)
 
 
 def _rest_peaks(groups: Mapping[str, xr.Dataset]) -> Iterator[_Peak]:
@@ -156,7 +180,7 @@ def _tension(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peak: _P
     ]  # fmt: skip
     if "start_peak" in summary and peak.line in summary["line"].values:
         ends = [float(summary[key].sel(line=peak.line)) for key in ("start_peak", "end_peak")]
-        if peak.value > INSIDE * max(ends):
+        if float(summary["line_tension_maximum"].sel(line=peak.line)) > INSIDE * max(ends):
             at = "start" if ends[0] >= ends[1] else "end"
             items.append(
                 Headline(
@@ -219,7 +243,9 @@ def _numerical_band(summary: xr.Dataset, peak: _Peak) -> tuple[Band | None, list
         keys = ("sensitivity_peak", *finer)
         values = [float(summary[key]) for key in keys]
         if summary.attrs.get(f"governing {peak.run}") == peak.line:
-            band = _mesh_and_step(peak.value, [*values[:3], *values[5:]])
+            # what mesh and step change of one realisation, they change of the mean in proportion
+            share = peak.value / values[0] if peak.scatter.size else 1.0
+            band = _mesh_and_step(peak.value, [share * value for value in (*values[:3], *values[5:])])
             viscous = [value for value in values[3:5] if math.isfinite(value)]
             said = f"half and twice the viscosity: {min(viscous):.4g} to {max(viscous):.4g} N" if viscous else ""
             return band, [said]
@@ -286,7 +312,7 @@ def _utilisation(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peak
             Headline(
                 "line_utilisation", "highest tension over breaking load", item.value / load, "1",
                 _place(groups, item.level, item.line, item.run), item.model,
-                None if band is None else replace(band, low=band.low / load, high=band.high / load), bound,
+                None if band is None else band.scaled(1.0 / load), bound,
                 detail=f"breaking load {load / 1e3:.4g} kN, without a safety factor",
             )
         )  # fmt: skip
@@ -302,14 +328,15 @@ def _band(groups: Mapping[str, xr.Dataset], peak: _Peak) -> tuple[Band | None, l
         band = _rest_band(groups, peak)
         return band, [] if band else ["mesh not checked"], ""
     band, details = _numerical_band(groups[f"/{peak.level}/dynamic"].sel(run=peak.run), peak)
-    found, words = _chance(groups, peak)
+    band, alone = _with_seeds(peak.value, band, peak.scatter), False
+    found, words = (None, []) if peak.scatter.size else _chance(groups, peak)
     details += words
     doubt = str(groups[f"/{peak.level}/dynamic"].attrs.get(f"doubt {peak.run}", ""))
     # lumps that land pull harder than the line does: with finer segments it is less
     most: Bound = "at most" if band is None and LANDING in doubt else ""
     details += ["finer segments give less"] if most else []
     if found is None:
-        alone = _irregular(groups, peak.level, peak.run)
+        alone = not peak.scatter.size and _irregular(groups, peak.level, peak.run)
         return band, [*details, *([_ONE_SEED] if alone else [])], "at least" if alone else most
     return _with_chance(peak.value, band, found, _irregular(groups, peak.level, peak.run)), details, most
 
@@ -321,6 +348,15 @@ def _with_chance(value: float, band: Band | None, found: Maximum, irregular: boo
     return Band(
         max(min(low, least), 0.0), max(high, highest), "; ".join(filter(None, (of, _of_seeds(found, irregular))))
     )
+
+
+def _with_seeds(value: float, band: Band | None, scatter: Array) -> Band | None:
+    """Return the band of realisations, widened in proportion by that of mesh and step where there is one."""
+    found = seeds(scatter, more=MORE)
+    if found is None or band is None or not value > 0.0:
+        return found or band
+    wider = found.scaled(band.low / value, band.high / value)
+    return replace(wider, of=f"{band.of}; {found.of}")
 
 
 def _irregular(groups: Mapping[str, xr.Dataset], level: str, run: str) -> bool:
@@ -354,9 +390,15 @@ def _anchor(groups: Mapping[str, xr.Dataset], peaks: list[_Peak]) -> list[Headli
                 value = float(row["load_peak"])
                 if not math.isfinite(value):
                     continue
-                parts = (float(row["load_horizontal"]) / 1e3, float(row["load_upwards"]) / 1e3)
-                said = f"horizontal {parts[0]:.3g} kN, upwards {parts[1]:.3g} kN, each at its own largest"
-                own, bound = _band_of_pull(groups, (level, run, point), value, most)
+                parts = [float(row["load_horizontal"]), float(row["load_upwards"])]
+                scatter = scatter_of(summary, "load_of_realisation", run, point=point, measure="size")
+                own, bound = _band_of_pull(groups, (level, run, point), value, most, scatter)
+                if scatter.size:
+                    value, *parts = (
+                        float(scatter_of(summary, "load_of_realisation", run, point=point, measure=measure).mean())
+                        for measure in ("size", "horizontal", "upwards")
+                    )
+                said = f"horizontal {parts[0] / 1e3:.3g} kN, upwards {parts[1] / 1e3:.3g} kN, each at its own largest"
                 found.append(
                     Headline(
                         "anchor_load", "largest pull on a fixed point", value, "N", _place(groups, level, point, run),
@@ -367,7 +409,11 @@ def _anchor(groups: Mapping[str, xr.Dataset], peaks: list[_Peak]) -> list[Headli
 
 
 def _band_of_pull(
-    groups: Mapping[str, xr.Dataset], at: tuple[str, str, str], value: float, most: _Peak | None
+    groups: Mapping[str, xr.Dataset],
+    at: tuple[str, str, str],
+    value: float,
+    most: _Peak | None,
+    scatter: Array | None = None,
 ) -> tuple[Band | None, Bound]:
     """Return what mesh, step and chance do to the pull on a fixed point: ``at`` level, run and name.
 
@@ -384,6 +430,9 @@ def _band_of_pull(
     elif mesh is not None and most is not None and most.value > 0.0:
         low, high = (value * end / most.value for end in (mesh.low, mesh.high))
         own = Band(low, high, f"mesh and step: in proportion to the tension of {most.line}")
+    if scatter is not None and scatter.size:
+        mean = float(scatter.mean())
+        return _with_seeds(mean, None if own is None else own.scaled(mean / value), scatter), bound
     series = groups.get(f"/{level}/time/{run}")
     if series is None:
         return own, bound
@@ -437,6 +486,13 @@ def _offset(
     away = _away(groups, level, run, name, kind, axes)
     swinging = _swinging(groups, level, run, name, kind, anchors)
     value, said, away = swinging or (value, said, away)
+    scatter = np.zeros(0)
+    if kind == "point" and swinging is None:
+        scatter = scatter_of(groups[f"/{level}/dynamic"], "excursion_of_realisation", run, point=name)
+    if scatter.size:
+        value = float(scatter.mean())
+        found = _moved("offset", value, _place(groups, level, name, run), said, groups, level, run, None)
+        return replace(found, band=_with_seeds(value, None, scatter), bound="", detail=said)
     return _moved("offset", value, _place(groups, level, name, run), said, groups, level, run, away)
 
 

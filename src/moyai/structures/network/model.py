@@ -260,6 +260,7 @@ class Settings:
     sensitivity: bool = False
     mesh_check: Literal["auto", "off"] = "auto"
     peak_goal: float = 0.05
+    realisations: int | None = None
     slack_level: float = 0.0
     snap_threshold: float | None = None
     modes: int = 6

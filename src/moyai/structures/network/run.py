@@ -349,6 +349,7 @@ def _dynamic(
             progress,
             before,
             None if start == "as_built" else hung.get(condition),
+            origin,
         )
         runs.append(item)
         collected.groups[f"{root}/time/{plan.name}"] = item.series

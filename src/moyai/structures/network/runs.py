@@ -201,6 +201,15 @@ def _irregular(problem: NetworkProblem, sea: IrregularSea, water: Water) -> RunP
     )  # fmt: skip
 
 
+def flow_of_seed(problem: NetworkProblem, plan: RunPlan, water: Water, seed: int) -> Flow:
+    """Return the water of a run with the same sea from another seed."""
+    sea = next(sea for sea in problem.environment.sea_states if sea.name == plan.name)
+    if not isinstance(sea, IrregularSea):
+        raise TypeError(f"sea {plan.name!r} has no seed")
+    waves = components_of_run(replace(sea, seed=seed), water, mean_current(problem, water), COMPONENTS)
+    return replace(plan.flow, waves=waves)
+
+
 def _components(problem: NetworkProblem, sea: ComponentSea, water: Water) -> RunPlan:
     current = mean_current(problem, water)
     along = current[0] * np.cos(sea.headings) + current[1] * np.sin(sea.headings)

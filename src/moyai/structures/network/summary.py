@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from moyai.core.arrays import Array
 from moyai.structures.network.assembly import Assembly
-from moyai.structures.network.equilibrium import named_points
+from moyai.structures.network.equilibrium import MEASURES, named_points
 from moyai.structures.network.model import NetworkProblem
 from moyai.structures.network.noise import without_noise
 from moyai.structures.network.variables import labelled
@@ -27,6 +27,14 @@ LOADS = ("load_peak", "load_horizontal", "load_upwards", "load_downwards")
 LOADS_AGAIN = {
     "load_half_step": "half_step", "load_double_mesh": "double_mesh", "load_damped": "damped",
     "load_finest": "finest",
+}  # fmt: skip
+#: Largest values of realisations in the summary, by their names in :class:`Realisations`, and their dimensions.
+OF_REALISATIONS = {
+    "seeds": ("seed_of_realisation", ()),
+    "tension": ("line_tension_maximum_of_realisation", ("line",)),
+    "net_tension": ("net_tension_maximum_of_realisation", ("net",)),
+    "load": ("load_of_realisation", ("point", "measure")),
+    "excursion": ("excursion_of_realisation", ("point",)),
 }  # fmt: skip
 #: Motions of bodies in the summary.
 SOLID = ("offset", "mean_offset", "heave_range", "roll_range", "pitch_range", "yaw_range", "highest_lean")
@@ -79,6 +87,7 @@ def summary_dataset(
             pulls: list[dict[str, Any]] = [dict(item.sensitivity.pulls) if item.sensitivity else {} for item in runs]
             values = [[getattr(own.get(name), key, math.nan) for name in names] for own in pulls]
             out[label] = (("run", "point"), np.array(values))
+    out |= _of_realisations(runs)
     if rest is not None and names:
         out["still_place"] = (("point", "axis"), np.asarray(rest))
     if solids_at_rest is not None and solids:
@@ -86,10 +95,29 @@ def summary_dataset(
     coords: dict[str, Any] = {"run": [item.plan.name for item in runs], "line": lines, "point": names}
     if solids:
         coords["solid"] = solids
+    if "load_of_realisation" in out:
+        coords |= {"measure": MEASURES, "net": list(assembly.net_bars)}
     made = labelled(xr.Dataset(out, coords=coords))
     made.attrs |= {f"governing {item.plan.name}": item.governing for item in runs}
     made.attrs |= {f"doubt {item.plan.name}": item.doubt for item in runs}
     return made
+
+
+def _of_realisations(runs: list[Run]) -> dict[str, Any]:
+    """Return the largest values of the realisations of every sea; not a number where there are fewer."""
+    most = max((item.realisations.seeds.size for item in runs if item.realisations is not None), default=0)
+    if not most:
+        return {}
+    out: dict[str, Any] = {}
+    for key, (name, dims) in OF_REALISATIONS.items():
+        shape = next(getattr(item.realisations, key).shape[1:] for item in runs if item.realisations is not None)
+        values = np.full((len(runs), most, *shape), np.nan)
+        for row, item in enumerate(runs):
+            if item.realisations is not None:
+                values[row, : item.realisations.seeds.size] = getattr(item.realisations, key)
+        if values.size:
+            out[name] = (("run", "member", *dims), values)
+    return out
 
 
 def _counted(item: Run) -> NDArray[np.bool_]:

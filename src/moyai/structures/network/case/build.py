@@ -146,6 +146,7 @@ def _settings(case: NetworkCase, folder: Path) -> model.Settings:
         step=given.step, wave_front=given.wave_front, tolerance=given.tolerance, stretching=given.stretching,
         skip=given.skip, sensitivity=given.sensitivity,
         mesh_check="off" if case.structure.failures else given.mesh_check, peak_goal=given.peak_goal,
+        realisations=given.realisations,
         slack_level=given.slack_level,
         snap_threshold=given.snap_threshold, modes=given.modes, stiffness_step=given.stiffness_step,
     )  # fmt: skip

@@ -14,16 +14,20 @@ if TYPE_CHECKING:
 
 #: Node-steps per second of the explicit scheme on an ordinary machine, for the expected time of a run.
 _NODE_STEPS_PER_SECOND = 6e6
+#: Time of a run side by side with others over that of one alone.
+_SIDE_BY_SIDE = 0.4
 
 
 def derived_numbers(case: Case) -> tuple[Number, ...]:
     """Return counts, weights, wave speeds, the stable step and the expected time of a run, at every water level."""
     from moyai.case.builder import build
+    from moyai.flexible.ensemble import members_together
     from moyai.flexible.explicit import LOAD_STEPS, ExplicitRun
     from moyai.flexible.flow import Flow
     from moyai.flexible.motion import Motion
     from moyai.flexible.result import State
     from moyai.sea.dispersion import wave_number
+    from moyai.structures.network import realisations
     from moyai.structures.network.assembly import assemble
     from moyai.structures.network.refinement import DOUBTFUL_WORK, LADDER_WORK
     from moyai.structures.network.runs import run_plans
@@ -79,6 +83,12 @@ def derived_numbers(case: Case) -> tuple[Number, ...]:
                 if problem.settings.mesh_check == "auto" and not (problem.settings.sensitivity or problem.bodies):
                     further = min(10.0 * cost, (DOUBTFUL_WORK + LADDER_WORK) / _NODE_STEPS_PER_SECOND)
                     add(group, "with the checks of mesh and step, at most about", cost + further, "s", 2)
+                if plan.seed >= 0 and not (problem.bodies or problem.failures) and members_together(network):
+                    asked = problem.settings.realisations
+                    further = _SIDE_BY_SIDE * cost * ((asked or realisations.MOST) - 1)
+                    if asked is None:
+                        further = min(further, _SIDE_BY_SIDE * realisations.DOUBTFUL_WORK / _NODE_STEPS_PER_SECOND)
+                    add(group, "further realisations of the sea, at most about", further, "s", 2)
             if plan.waves is not None:
                 length = 2.0 * math.pi / wave_number(2.0 * math.pi / plan.period, water.depth, water.gravity)
                 add(group, "wave length", length, "m")

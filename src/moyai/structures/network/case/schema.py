@@ -214,6 +214,12 @@ class NetworkSettings(Block):
         description="Change of the highest tension with half the step or twice the segments above which a run is not "
         "converged. Default: 0.05.",
     )
+    realisations: Annotated[int, Field(strict=True, ge=1, le=100)] | None = Field(
+        default=None,
+        description="Realisations of each irregular sea, the first with its 'seed'; highest tensions, pulls and "
+        "offsets are means over them. Default: 4 to 20, as many as take little time, where lines alone are run; "
+        "else 1.",
+    )
     slack_level: Slack = Field(default=0.0, description="Tension at or below which a line is slack. Default: 0.")
     snap_threshold: PositiveForce | None = Field(
         default=None, description="Peak above which a contact is a snap; the mean of the taut tension when left out."

@@ -103,6 +103,8 @@ def _of_runs(level: NetworkLevel, governing: Governing | None) -> Sequence[Block
             tables.bodies_table(level, run),
             tables.peaks_table(level, run),
             tables.points_table(level, run),
+            tables.realisations_table(level, run),
+            figures.realisations_figure(level, run),
             figures.exceedance_figure(level, run),
             tables.contact_table(level, run),
             figures.energy_figure(level, run),
