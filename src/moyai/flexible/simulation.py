@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
 from typing import Literal
 
@@ -24,6 +24,9 @@ from moyai.flexible.network import Network
 from moyai.flexible.peak_notices import advice, peak_notices, stable_step
 from moyai.flexible.recovery import write_state
 from moyai.flexible.result import History, RunStatus, State
+
+#: Of the rows so far: times [s], places (k, nodes, 3) [m], highest tensions since the row before (k, bars) [N].
+Enough = Callable[[np.ndarray, np.ndarray, np.ndarray], bool]
 
 Method = Literal["explicit", "tr_bdf2", "esdirk4"]
 
@@ -124,6 +127,7 @@ def simulate(
     state_file: str | PathLike[str] | None = None,
     failures: Sequence[LineFailure] = (),
     counted_from: float = 0.0,
+    enough: Enough | None = None,
     progress: Progress = silent,
 ) -> History:
     """Run a network through time [eq:flexible-leapfrog] [eq:flexible-dirk].
@@ -166,6 +170,9 @@ def simulate(
         Lines that part in the course of the run.
     counted_from : float
         Time since the start before which fronts and falls on the bed are not reported [s].
+    enough : callable, optional
+        Told, after every part of the run, times, places of the kept nodes and highest tensions of the kept bars of all
+        rows so far; the run ends there, converged, where it returns True.
     progress : Progress
         Called with the simulated time.
 
@@ -265,6 +272,9 @@ def simulate(
                     sound = run.state()
                 break
             progress("network", done * interval, duration)
+            times = start.time + interval * np.arange(done + 1)
+            if enough is not None and enough(times, saved[0][: done + 1], saved[2][: done + 1]):
+                break
     except KeyboardInterrupt:
         status, message = "interrupted", f"interrupted at t = {start.time + done * interval:g} s"
         if abs(run.time - start.time - done * interval) < 1e-9 * max(1.0, abs(run.time)):
