@@ -85,7 +85,7 @@ def find_rest(
     flow: Flow | None = None,
     tolerance: float = TOLERANCE,
 ) -> CoupledRest:
-    """Find the poses in which bodies and network are in equilibrium [eq:coupled-rest].
+    """Find the poses in which bodies and network are in equilibrium [eq:coupled-newton-euler].
 
     Weight, buoyancy, pulls and steady current act. Newton's method on the poses, the network in equilibrium for each,
     and down the energy where it is no bowl, so that a balance on a tip is left; a body alone that nothing holds in a

@@ -246,7 +246,8 @@ def simulate_together(
     Returns
     -------
     Ensemble
-        Tensions and peaks [N], shape (members, instants, bars), positions [m] and the status of every member.
+        Tensions and peaks [N], shape (members, instants, bars), and positions [m], with NaN for members that
+        could not be run.
 
     Raises
     ------

@@ -416,7 +416,7 @@ def righting_curve(
     Returns
     -------
     RightingCurve
-        Heel [rad], lever GZ [m] and draught [m]; NaN where the hull cannot displace the area.
+        Heel [rad], lever GZ [m] and draught [m]; lever and draught are NaN where the hull cannot displace the area.
 
     Raises
     ------

@@ -81,11 +81,6 @@ def check_sinker(sinker: Sinker, horizontal: float, uplift: float) -> AnchorChec
     AnchorCheck
         Utilisation against sliding and lifting; the uplift is taken off the weight on the bed.
 
-    Raises
-    ------
-    InputError
-        For a sinker whose numbers are not positive, when it is made.
-
     Examples
     --------
     >>> from moyai.mooring import check_sinker
@@ -116,11 +111,6 @@ def check_drag_anchor(anchor: DragAnchor, horizontal: float, uplift: float) -> A
     -------
     AnchorCheck
         Utilisation against sliding; that against lifting is infinite with any uplift.
-
-    Raises
-    ------
-    InputError
-        For an anchor whose numbers are not positive, when it is made.
 
     Examples
     --------

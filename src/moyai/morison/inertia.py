@@ -76,7 +76,7 @@ def inertia_coefficients(contour: Contour, *, accuracy: float = 1e-7) -> Inertia
     Returns
     -------
     InertiaCoefficients
-        Tensor C_M [-], shape (2, 2), and what it comes from.
+        Tensor C_M [-], shape (2, 2), its error and the check of its symmetry.
 
     Raises
     ------

@@ -33,8 +33,6 @@ def surface_elevation(
 ) -> ComplexArray:
     """Return the complex elevation [m] at places x [m] at one frequency [eq:potential-outer-modes].
 
-    The places do not lie under the section.
-
     Parameters
     ----------
     solution : RadiationDiffraction

@@ -138,7 +138,7 @@ class MemoryPlan:
 
 
 def recommend_memory(model: DampingModel, *, tolerance: float = _REFERENCE) -> MemoryPlan:
-    """Return how long K has to be kept and how finely it has to be sampled [eq:memory-step].
+    """Return how long K has to be kept and how finely it has to be sampled [eq:memory-velocity-kernel].
 
     Parameters
     ----------

@@ -234,7 +234,7 @@ def acer_interval(tail: AcerFit, count: float, probability: float, *, confidence
     Raises
     ------
     InputError
-        For a probability outside 0 to 1, or a tail of fewer than six levels.
+        When the number of peaks is too small for the tail, or too few levels are left to fit it again.
 
     References
     ----------

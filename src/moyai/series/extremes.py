@@ -119,7 +119,7 @@ def fit(values: ArrayLike, family: Family, *, location: float | None = None, thr
     Returns
     -------
     Fit
-        The distribution, its levels in the unit of the data, and how well it fits.
+        The distribution, its parameters in the unit of the data, and its log-likelihood.
 
     Raises
     ------
@@ -281,13 +281,17 @@ def maximum_interval(
     Returns
     -------
     Interval
-        Level with its lower and upper bound, in the unit of the data [eq:identification-bootstrap]: basic bootstrap of
-        the logarithmic distance from the location, so that it never falls below the location.
+        Level with its lower and upper bound, in the unit of the data: basic bootstrap of the logarithmic distance from
+        the location, so that it never falls below the location.
 
     Raises
     ------
     InputError
         For a probability outside 0 to 1.
+
+    References
+    ----------
+    A. C. Davison and D. V. Hinkley (1997), Bootstrap Methods and their Application, Cambridge University Press, ch. 5.
 
     Examples
     --------
