@@ -171,8 +171,8 @@ def simulate(
     counted_from : float
         Time since the start before which fronts and falls on the bed are not reported [s].
     enough : callable, optional
-        Told, after every part of the run, times, places of the kept nodes and highest tensions of the kept bars of all
-        rows so far; the run ends there, converged, where it returns True.
+        Called, after every part of the run, with times, places of the kept nodes and highest tensions of the kept bars
+        of all rows so far; the run ends there, converged, where it returns True.
     progress : Progress
         Called with the simulated time.
 
