@@ -21,7 +21,7 @@ from moyai.case.builder import build
 from moyai.case.reader import case_of
 from moyai.case.templates import template
 from moyai.case.yaml_reader import parse_yaml
-from moyai.core.headline import judge
+from moyai.core.headline import Criterion, judge
 from moyai.structures.cage.run import run
 
 
@@ -186,7 +186,7 @@ def test_a_net_law_of_one_net_does_not_widen_the_band():
 @pytest.mark.slow  # a run of some forty seconds through waves
 def test_the_tension_of_the_sea_governs():
     """The dynamic tension in the design sea stands first, not that at rest."""
-    text = GRID.replace("height: 1.5 m ", "height: 2 m ").replace("periods: 8", "periods: 3")
+    text = GRID.replace("height: 1.5 m ", "height: 2 m ").replace("periods: 8", "periods: 3, most_periods: 3")
     found = result_of(text)
     tension = headline(found, "line_tension")
     rest = float(found.tree["SWL/statics"].to_dataset()["utilisation"].values.max())
@@ -220,19 +220,55 @@ def test_a_model_cage_on_taut_lines():
     assert "loland" not in found.tree["SWL/laws"].to_dataset()["law"].values
 
 
-@pytest.mark.slow  # three runs of ten seconds
-def test_the_band_in_the_sea_is_what_runs_under_the_extreme_laws_give():
-    """The band adds what the laws change in the current alone; runs through waves under these laws are the proof."""
-    text = template("cage")
-    governing = kept_run(text)
+HIGHER_WAVES = (
+    template("cage")
+    .replace("{around: 32, down: 6, bottom: 4}", "{around: 16, down: 4, bottom: 2}")
+    .replace("height: 1.5 m ", "height: 3 m ")
+    .replace("speed: 0.5 m/s", "speed: 0.3 m/s")
+    .replace("current_speeds: [0.25 m/s, 0.75 m/s], ", "")
+)
+STILL = HIGHER_WAVES.replace("current: {speed: 0.3 m/s, heading_deg: 0}", "")
+
+
+@pytest.mark.slow  # three runs of half a minute each
+@pytest.mark.parametrize("text", [template("cage"), HIGHER_WAVES, STILL], ids=["current", "waves", "no current"])
+def test_the_band_in_the_sea_is_what_runs_under_the_extreme_laws_give(text):
+    """The band takes the ratio of the laws in the governing wave on a coarser mesh; runs of the case are the proof."""
+    governing = kept_run(text) if text == template("cage") else result_of(text)
     soft, stiff = (result_of(text.replace("law: loland", f"law: {law}")) for law in ("balash", "milne"))
-    # 8 %: the waves share in the drag, so that the change in the current alone is a little too small; most for the
-    # stress of the collar
+    # 8 %: the ratio is that of a coarser mesh
     for name in ("anchor_load", "offset", "collar_stress", "line_tension"):
-        band = headline(governing, name).band
+        found = [
+            item for item in governing.headlines if item.name == name and item.model.startswith("run through time")
+        ]
+        if not found:
+            continue
+        band = found[0].band
         mesh = float(re.search(r"mesh ±([\d.]+) %", band.of)[1]) / 100.0
-        assert band.low / (1.0 - mesh) == pytest.approx(headline(soft, name).value, rel=0.08)
-        assert band.high / (1.0 + mesh) == pytest.approx(headline(stiff, name).value, rel=0.08)
+        # without a current a net takes longer than six periods to drift back: the low end, which no limit of a load is
+        # judged at, stays higher
+        if text != STILL:
+            assert band.low / (1.0 - mesh) == pytest.approx(headline(soft, name).value, rel=0.08), name
+        assert band.high / (1.0 + mesh) == pytest.approx(headline(stiff, name).value, rel=0.08), name
+    drag, volume = ([item for item in governing.headlines if item.name == name][-1] for name in ("drag", "volume_left"))
+    own = [[item for item in stiff.headlines if item.name == name][-1] for name in ("drag", "volume_left")]
+    # the end that is judged holds the other law's own value, but for a fiftieth
+    assert drag.band.high > 0.98 * own[0].value and volume.band.low < 1.02 * own[1].value
+
+
+def test_at_rest_the_mesh_is_in_lines_anchors_offset_and_stress_too():
+    """24 knots around tie the bridles 15 degrees off the diagonal: a finer mesh gives a tenth more at a bridle."""
+    text = (
+        template("cage")
+        .replace("analyses: [statics, time]", "analyses: [statics]")
+        .replace("current_speeds: [0.25 m/s, 0.75 m/s], ", "")
+    )
+    mesh = "{around: 32, down: 6, bottom: 4}"
+    coarse, fine = (result_of(text.replace(mesh, given)) for given in ("{around: 24, down: 5, bottom: 3}", mesh))
+    for name in ("line_tension", "line_utilisation", "anchor_load", "offset", "collar_stress", "volume_left", "drag"):
+        band = headline(coarse, name).band
+        assert "mesh ±" in band.of, name
+        assert band.low <= headline(fine, name).value <= band.high, name
 
 
 def test_numbers_without_a_limit_are_named():
@@ -285,11 +321,76 @@ def test_a_rigid_cage_is_judged_on_offset_and_anchors():
         assert headline(turned, name).value == pytest.approx(headline(found, name).value, rel=1e-6)
 
 
+def test_codes_that_weigh_the_mean_judge_a_rigid_cage_by_the_mean_of_its_run():
+    found = result_of(RIGID)
+    used = headline(found, "line_utilisation")
+    pulls = found.tree["SWL/waves/storm"].to_dataset()["line_tension_mean"].values
+    assert np.isclose(used.mean, pulls / 250e3, rtol=1e-9).any()
+    limit = 0.9 * used.band.high
+    weighed = Criterion("code", "line_utilisation", limit, "at most", "a code", as_factor=True, mean_weight=0.5)
+    (judged,) = judge([used], [weighed], computed=True).judgements
+    assert judged.outcome == ("holds" if used.band.high - 0.5 * used.mean <= limit else "does not hold")
+    assert judge([replace(used, mean=None)], [weighed], computed=True).outcome == "not judged"
+
+
+OWN_LINES = (
+    RIGID[: RIGID.index("  mooring:")]
+    + """  mooring:
+    kind: lines
+    lines:
+      - {name: west, attachment: {x: -3, z: -2}, anchor: {x: -10}, pretension: 4e3, stiffness: 6e4, breaking_load: 3e5}
+      - {name: east, attachment: {x: 3, z: -2}, anchor: {x: 10}, pretension: 4 kN, stiffness: 6e4, breaking_load: 8000}
+analyses: [statics, time]
+criteria: {greatest_anchor_load: 60 kN}
+settings: {rigid: {periods: 12, settled_periods: 4}}
+"""
+)
+
+
+def test_own_lines_with_a_strength_are_judged_by_the_default_code():
+    """The line bears more than its breaking load: no factor is given, yet the design does not hold."""
+    found = result_of(OWN_LINES)
+    assert headline(found, "line_utilisation").value > 1.0
+    judged = {item.criterion.headline: item for item in found.verdict.judgements}
+    assert judged["line_utilisation"].criterion.assumed and found.verdict.outcome == "does not hold"
+    assert "factor of safety of the lines" in found.verdict.message
+    notice = next(item for item in found.notices if item.code == "cage-line-breaks")
+    assert notice.severity == "warning" and "'east'" in notice.message
+
+
+THREE_WAVES = (
+    OWN_LINES.replace("speed: 0.4 m/s", "speed: 0.6 m/s")
+    .replace(
+        "waves: {name: storm, kind: regular, height: 1.0 m, period: 5 s, heading_deg: 0}",
+        """waves:
+  - {name: high, kind: regular, height: 1.2 m, period: 4 s, heading_deg: 0}
+  - {name: back, kind: regular, height: 1.0 m, period: 5 s, heading_deg: 180}
+  - {name: long, kind: regular, height: 0.3 m, period: 7 s, heading_deg: 0}""",
+    )
+    .replace("breaking_load: 8000", "breaking_load: 60 kN")
+)
+
+
+@pytest.mark.slow
+def test_each_number_of_a_rigid_cage_takes_the_laws_in_its_own_wave():
+    """The wave of the offset is another one than that of the tension; matsubara ends below its Reynolds number."""
+    found = result_of(THREE_WAVES)
+    other = result_of(THREE_WAVES.replace("law: matsubara", "law: kristiansen_faltinsen"))
+    offset, own = headline(found, "offset"), headline(other, "offset")
+    assert "back" in offset.where and "high" in headline(found, "line_tension").where
+    assert own.value > 1.05 * offset.value
+    # the run under the valid law is the end of the band, but for a wave that governs there and not here
+    assert offset.band.high == pytest.approx(own.value, rel=0.005)
+    limit = 0.5 * (offset.value + own.value)
+    asked = Criterion("greatest_offset", "offset", limit, "at most", "case file")
+    assert judge(found.headlines, [asked], computed=True).outcome == "does not hold"
+
+
 @pytest.mark.slow
 def test_drag_and_volume_are_judged_for_moments_in_the_sea_too():
     """A limit that the current alone keeps and the sea breaks does not hold."""
     text = template("cage").replace("{around: 32, down: 6, bottom: 4}", "{around: 16, down: 3, bottom: 2}")
-    text = text.replace("periods: 8", "periods: 3")
+    text = text.replace("periods: 8", "periods: 3, most_periods: 3")
     found = result_of(text)
     drag, moment = [item for item in found.headlines if item.name == "drag"]
     still, least = [item for item in found.headlines if item.name == "volume_left"]

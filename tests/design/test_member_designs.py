@@ -235,6 +235,17 @@ def test_a_limit_on_the_force_of_a_storm_is_judged_beyond_the_mean():
         assert judge(found.headlines, criteria, computed=found.status == "converged").outcome == outcome
 
 
+def test_one_realisation_stays_open_behind_a_higher_regular_wave():
+    """A storm of one realisation proves no limit alone, nor beside a regular wave of six times its height."""
+    one = storm("settings: {realisations: 1}\ncriteria: {greatest_force: 10 MN}\n")
+    wave = "{name: wave, kind: regular, height: 6, period: 8, heading_deg: 0}"
+    sea = one[one.index("waves: ") :].partition("\n")[0]
+    both = one.replace(sea, f"waves: [{wave}, {sea.removeprefix('waves: ').replace('height: 2', 'height: 1')}]")
+    for text, outcome in ((one.replace(sea, f"waves: {wave}"), "holds"), (one, "not judged"), (both, "not judged")):
+        assert result_of(text).verdict.outcome == outcome
+    assert headline(result_of(both), "peak_force").where.startswith("wave")
+
+
 def test_a_free_standing_pile_bends_at_the_bed():
     """Pile of 1.2 m fixed in the bed at 12 m: force and moment by Morison's equation up to still water, linear wave.
 

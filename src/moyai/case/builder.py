@@ -16,9 +16,21 @@ def build(case: Case) -> Any:
     case : Case
         From :func:`moyai.case.reader.load_case`.
 
+    Returns
+    -------
+    object
+        The problem in SI units, that the analyses of its structure take.
+
     Raises
     ------
     InputError
         When a file that the case names has changed or become unreadable since it was checked.
+
+    Examples
+    --------
+    >>> import moyai
+    >>> from moyai.case import build
+    >>> type(build(moyai.load_case(moyai.template("member")))).__name__
+    'MemberProblem'
     """
     return structure_kind(case.kind).build(case.model, case.folder, case_text=case.text, case_hash=case.case_hash)

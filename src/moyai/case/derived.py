@@ -57,6 +57,24 @@ def derived_numbers(case: Case) -> tuple[Number, ...]:
     ----------
     case : Case
         From :func:`moyai.case.reader.load_case`.
+
+    Returns
+    -------
+    tuple of Number
+        Each with its value in SI units, and the unit that it is shown in.
+
+    Raises
+    ------
+    InputError
+        When a file that the case names has changed or become unreadable since it was checked.
+
+    Examples
+    --------
+    >>> import moyai
+    >>> from moyai.case import derived_numbers
+    >>> numbers = derived_numbers(moyai.load_case(moyai.template("member")))
+    >>> numbers[0].label, numbers[0].value, numbers[0].unit
+    ('length', 20.0, 'm')
     """
     numbers: tuple[Number, ...] = structure_kind(case.kind).derived(case)
     return numbers

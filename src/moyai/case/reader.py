@@ -127,11 +127,12 @@ def load_case(source: str | os.PathLike[str] | Mapping[str, Any]) -> Case:
     Returns
     -------
     Case
+        Checked; its warnings are kept with it.
 
     Raises
     ------
     CaseError
-        With every fault of the file at once, each with line and column.
+        With every error of the file at once, each with line and column.
     InputError
         For content that no file can hold.
 
@@ -175,7 +176,33 @@ def _plain(content: Any) -> Any:
 
 
 def case_of(document: Document, path: Path) -> Case:
-    """Return the case of a document that was read already; see :func:`load_case`."""
+    """Return the case of a document that was read already; see :func:`load_case`.
+
+    Parameters
+    ----------
+    document : Document
+        Content of the file with the place of every value, from :func:`moyai.case.yaml_reader.parse_yaml`.
+    path : Path
+        The file; other files are named from its folder.
+
+    Returns
+    -------
+    Case
+        Checked; its warnings are kept with it.
+
+    Raises
+    ------
+    CaseError
+        With every error of the file at once, each with line and column.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from moyai.case import case_of, template
+    >>> from moyai.case.yaml_reader import parse_yaml
+    >>> case_of(parse_yaml(template("member"), "case"), Path("case.yaml")).kind
+    'member'
+    """
     from moyai.case.checks import check
 
     empty = _empty_values(document.data, (), document)

@@ -18,10 +18,26 @@ _DRAFT = "http://json-schema.org/draft-07/schema#"
 def root_schema(kind: str) -> type[Block]:
     """Return the root schema of a structure's case files.
 
+    Parameters
+    ----------
+    kind : str
+        Name of a kind of structure, for instance ``breakwater``.
+
+    Returns
+    -------
+    type of Block
+        The pydantic model of the whole file.
+
     Raises
     ------
     InputError
-        When there is no such kind of structure.
+        For an unknown kind, or a kind of another package that cannot be loaded.
+
+    Examples
+    --------
+    >>> from moyai.case import root_schema
+    >>> root_schema("member").__name__
+    'MemberCase'
     """
     check_word(kind, structure_kinds(), "kind")
     schema: type[Block] = structure_kind(kind).schema()
@@ -32,6 +48,17 @@ def json_schema() -> dict[str, Any]:
     """Return the JSON Schema (draft 7) of all case files, for completion and checks in an editor.
 
     The root is chosen by ``structure.kind``, so that messages speak of that structure only.
+
+    Returns
+    -------
+    dict
+        For :func:`json.dumps`.
+
+    Examples
+    --------
+    >>> from moyai.case import json_schema
+    >>> json_schema()["required"]
+    ['moyai', 'structure']
     """
     definitions: dict[str, Any] = {}
     choices = []

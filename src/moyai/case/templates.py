@@ -26,10 +26,26 @@ def _first_comment(text: str) -> str:
 def template(name: str) -> str:
     """Return the commented case file of a kind of structure, or the file of another command.
 
+    Parameters
+    ----------
+    name : str
+        Kind of structure, for instance ``breakwater``, or name of another command's file, for instance ``study``.
+
+    Returns
+    -------
+    str
+        Text of a YAML file that runs as it stands.
+
     Raises
     ------
     InputError
         For an unknown kind, or one of another package that cannot be loaded.
+
+    Examples
+    --------
+    >>> from moyai.case import template
+    >>> "kind: member" in template("member")
+    True
     """
     return kind_of_file(name).template(name)
 

@@ -356,7 +356,7 @@ def judge(
     if open_ones:
         reasons: dict[str, list[str]] = {}
         for item in open_ones:
-            reasons.setdefault(item.reason, []).append(item.criterion.words)
+            reasons.setdefault(_open_reason(item), []).append(item.criterion.words)
         message = "; ".join(f"{', '.join(dict.fromkeys(names))}: {reason}" for reason, names in reasons.items())
         return Verdict("not judged", message, judgements)
     return Verdict("holds", _holding([item.criterion for item in found]) + _narrow(found), judgements)
@@ -422,8 +422,16 @@ def said(item: Judgement) -> str:
     relation = ("at most" if upward else "at least") if holds else ("above" if upward else "below")
     size = max(abs(value) if math.isfinite(value) else 0.0 for value in (item.value, criterion.limit))
     found, limit = (_spoken(criterion, value, size) for value in (item.value, criterion.limit))
-    remedy = f" ({item.remedy})" if item.remedy else ""
-    return f"{criterion.words} {found} is {relation} {limit}{remedy}"
+    # by a code that weighs the mean another line than the one shown may be the worst
+    place = item.reason if criterion.mean_weight != 1.0 else ""
+    words = ", ".join(filter(None, (place, item.remedy)))
+    return f"{criterion.words} {found} is {relation} {limit}" + (f" ({words})" if words else "")
+
+
+def _open_reason(item: Judgement) -> str:
+    """Return why a criterion is not judged, by a code that weighs the mean with the line that leaves it open."""
+    weighed = item.criterion.mean_weight != 1.0 and item.judged_on
+    return f"{item.reason} ({item.judged_on})" if weighed else item.reason
 
 
 def _judged_by(criterion: Criterion, numbers: tuple[Headline, ...]) -> list[Headline]:
@@ -502,12 +510,17 @@ def _judge_parts(criterion: Criterion, headline: Headline, value: float) -> Judg
     weight, limit = criterion.mean_weight, criterion.limit
     means = (0.0, value) if headline.mean is None else (headline.mean,)
     weighed = [value + (weight - 1.0) * mean for mean in means]
+    where = headline.where
+    if headline.bound == "at least" and min(weight, 1.0) * value > limit:
+        # whatever the mean, and more than this makes it worse
+        return Judgement(criterion, max(weighed), "does not hold", where)
     if headline.bound == "at least" or (min(weighed) <= limit < max(weighed)):
         known = "only a bound is known" if headline.bound else "the mean tension is not known"
-        return Judgement(criterion, max(weighed), "not judged", known)
+        return Judgement(criterion, max(weighed), "not judged", known, judged_on=where)
     if headline.bound == "at most" and max(weighed) > limit:
-        return Judgement(criterion, max(weighed), "not judged", "only a bound is known (at most this value)")
-    return Judgement(criterion, max(weighed), "holds" if max(weighed) <= limit else "does not hold", headline.where)
+        known = "only a bound is known (at most this value)"
+        return Judgement(criterion, max(weighed), "not judged", known, judged_on=where)
+    return Judgement(criterion, max(weighed), "holds" if max(weighed) <= limit else "does not hold", where)
 
 
 def _spoken(criterion: Criterion, value: float, size: float) -> str:

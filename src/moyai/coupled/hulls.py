@@ -120,7 +120,7 @@ def box_hull(
     density: float = 0.0,
     layers: int = 1,
 ) -> Lumps:
-    """Return a box as upright columns at Gauss points of its water plane.
+    """Return a box as upright columns at Gauss points of its water plane [eq:coupled-lumps].
 
     With Gauss points two columns a side already give the exact water plane and metacentre of an upright box; more
     follow a large heel and the slope of a short wave.
@@ -132,7 +132,7 @@ def box_hull(
     bottom : float
         Height of its bottom over the body's origin [m]; the box is centred in x and y.
     columns : (int, int)
-        Along x and y.
+        Number along x and y.
     drag : array_like (3,)
         Drag coefficients of the faces across x, y (on what is wet) and z [-].
     added_mass : array_like (3,)
@@ -142,10 +142,22 @@ def box_hull(
     layers : int
         Cuts of each column over its height; one is exact for buoyancy, more follow the wave over the depth.
 
+    Returns
+    -------
+    Lumps
+        Places [m], volumes [m3], drag areas [m2] and added mass [kg] of the parts, in body axes.
+
     Raises
     ------
     InputError
-        For sizes that are not positive, and added mass without a density.
+        For sizes that are not positive, less than one column or layer, and added mass without a density.
+
+    Examples
+    --------
+    >>> from moyai.coupled import box_hull
+    >>> hull = box_hull((4.0, 3.0, 2.0), bottom=-1.0)
+    >>> hull.place.shape, round(float(hull.volume.sum()), 6)             # 16 columns, 4 x 3 x 2 [m3]
+    ((16, 3), 24.0)
     """
     length, width, height = (float(item) for item in np.asarray(size, dtype=float).reshape(3))
     _positive({"length": length, "width": width, "height": height})
@@ -183,7 +195,7 @@ def cylinder_hull(
     density: float = 0.0,
     layers: int = 1,
 ) -> Lumps:
-    """Return an upright cylinder as columns at Gauss points of its water plane.
+    """Return an upright cylinder as columns at Gauss points of its water plane [eq:coupled-lumps].
 
     Parameters
     ----------
@@ -199,12 +211,26 @@ def cylinder_hull(
     density : float
         Of the water, for the added mass [kg/m3].
     layers : int
-        Cuts over the height.
+        Cuts of each column over the height.
+
+    Returns
+    -------
+    Lumps
+        Places [m], volumes [m3], drag areas [m2] and added mass [kg] of the parts, in body axes.
 
     Raises
     ------
     InputError
-        As :func:`box_hull`.
+        For sizes that are not positive, less than one ring, three spokes or one layer, and added mass without a
+        density.
+
+    Examples
+    --------
+    >>> import math
+    >>> from moyai.coupled import cylinder_hull
+    >>> hull = cylinder_hull(2.0, 3.0, bottom=-1.5)
+    >>> hull.place.shape, round(float(hull.volume.sum()) / math.pi, 6)   # 24 columns, 3 pi [m3]
+    ((24, 3), 3.0)
     """
     _positive({"diameter": diameter, "height": height})
     if max(added_mass) > 0.0 and not density > 0.0:

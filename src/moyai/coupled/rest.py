@@ -85,27 +85,51 @@ def find_rest(
     flow: Flow | None = None,
     tolerance: float = TOLERANCE,
 ) -> CoupledRest:
-    """Find the poses in which bodies and network rest under weight, buoyancy, pulls and steady current.
+    """Find the poses in which bodies and network are in equilibrium [eq:coupled-newton-euler].
 
-    Newton's method on the poses, the network at rest for each, and down the energy where it is no bowl, so that a
-    balance on a tip is left; a body alone that nothing holds in a direction stays where it is in that direction.
+    Weight, buoyancy, pulls and steady current act. Newton's method on the poses, the network in equilibrium for each,
+    and down the energy where it is no bowl, so that a balance on a tip is left; a body alone that nothing holds in a
+    direction stays where it is in that direction.
 
     Parameters
     ----------
     network : Network
         Carried points at the places that the bodies give them.
     bodies : mapping of str to RigidBody
+        By the names that results give them.
     flow : Flow, optional
         Its steady current acts, waves are left out.
     tolerance : float
         Force left over the largest force at work.
 
+    Returns
+    -------
+    CoupledRest
+        The bodies and the network in equilibrium, tensions [N], shape (m,), and what is left of the balance.
+
     Raises
     ------
     InputError
-        For a planar body, whose rest is known already.
+        For a planar body, whose equilibrium is known already.
     ConvergenceError
-        When no rest is found; names the body and what is left.
+        When no equilibrium is found; names the body and what is left.
+
+    Examples
+    --------
+    >>> from moyai.coupled import RigidBody, box_hull, find_rest
+    >>> from moyai.flexible import BarType, NetworkBuilder
+    >>> from moyai.sea import Water
+    >>> hull = box_hull((4.0, 4.0, 2.0), bottom=-1.0, columns=(2, 2))
+    >>> eye = {"eye": (0.0, 0.0, -1.0)}
+    >>> body = RigidBody("float", 16400.0, (3e4, 3e4, 5e4), (0.0, 0.0, -0.3), points=eye, lumps=hull)
+    >>> builder = NetworkBuilder(Water(depth=10.0, density=1025.0, gravity=9.81))
+    >>> builder.fixed("anchor", (0.0, 0.0, -10.0))
+    >>> builder.driven("eye", body.points_at_start["eye"])
+    >>> rope = BarType("rope", mass_per_length=1.0, axial_stiffness=1e6, diameter=0.03)
+    >>> builder.line("line", "anchor", "eye", rope, length=8.9, segments=4)
+    >>> found = find_rest(builder.build(), {"float": body})
+    >>> found.residual < 1e-6, round(float(found.tension.max()) / 1000.0, 1)   # [kN]
+    (True, 6.6)
     """
     for name, body in bodies.items():
         if not isinstance(body, RigidBody):

@@ -82,13 +82,14 @@ def simulate_coupled(
     carriers: Mapping[str, PointCarrier] | None = None,
     progress: Progress = silent,
 ) -> CoupledHistory:
-    """Run bodies on a network.
+    """Run bodies on a network through time [eq:coupled-newton-euler].
 
     Parameters
     ----------
     network : Network
         Its points that bodies carry are driven points of the same names, at the places that the bodies give them.
     bodies : mapping of str to RigidBody or PlanarBody
+        By the names that results give them.
     duration, output_step : float
         Length of the run and spacing of its rows [s]; peaks of tension are taken at every small step all the same.
     flow : Flow, optional
@@ -109,6 +110,7 @@ def simulate_coupled(
     carriers : mapping of str to PointCarrier, optional
         Bodies that move already (a run that goes on, a velocity at the start), in place of fresh ones.
     progress : Progress
+        Called with the simulated time.
 
     Returns
     -------
@@ -119,6 +121,22 @@ def simulate_coupled(
     ------
     InputError
         For points that do not fit, motions that are missing, and numbers out of range.
+
+    Examples
+    --------
+    >>> from moyai.coupled import RigidBody, simulate_coupled
+    >>> from moyai.flexible import BarType, NetworkBuilder
+    >>> from moyai.sea import Water
+    >>> eye = {"eye": (0.0, 0.0, 0.0)}
+    >>> body = RigidBody("weight", 500.0, (50.0, 50.0, 50.0), position=(0.0, 0.0, -5.0), points=eye)
+    >>> builder = NetworkBuilder(Water(depth=10.0, density=1025.0, gravity=9.81))
+    >>> builder.fixed("top", (0.0, 0.0, 0.0))
+    >>> builder.driven("eye", body.points_at_start["eye"])
+    >>> rope = BarType("rope", mass_per_length=1.0, axial_stiffness=1e6, diameter=0.03)
+    >>> builder.line("line", "top", "eye", rope, length=5.0, segments=4)
+    >>> found = simulate_coupled(builder.build(), {"weight": body}, duration=0.2, output_step=0.05)
+    >>> found.status, found.bodies["weight"].position.shape              # rows, axes [m]
+    ('converged', (5, 3))
     """
     for name, value in (("duration", duration), ("output_step", output_step)):
         if not (math.isfinite(value) and value > 0.0):

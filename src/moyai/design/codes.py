@@ -84,14 +84,14 @@ class LineCheck:
 def design_code(
     name: str, *, analysis: Analysis, consequence: str = "", confirmed: Iterable[str] = (), own: Sequence[CodeRule] = ()
 ) -> DesignCode:
-    """Return a code of the table, or the user's own.
+    """Return a code of the table, or the user's own [eq:checks-factor].
 
     Parameters
     ----------
     name : str
         Name in the table, or any name when ``own`` is given.
     analysis : str
-        ``dynamic``, ``quasi_static`` or ``static``.
+        ``dynamic``, ``quasi_static`` or ``static``: how the tensions were found.
     consequence : str
         Class, for codes that have classes.
     confirmed : iterable of str
@@ -99,10 +99,22 @@ def design_code(
     own : sequence of CodeRule
         Values of the user's own in place of the table's.
 
+    Returns
+    -------
+    DesignCode
+        For :func:`check_line`; its factors by ``value``.
+
     Raises
     ------
     InputError
         For an unknown code, analysis or class, or a confirmed code or edition that does not exist.
+
+    Examples
+    --------
+    >>> from moyai.design import design_code
+    >>> code = design_code("ISO 19901-7", analysis="dynamic")
+    >>> code.name, code.analysis
+    ('ISO 19901-7', 'dynamic')
     """
     rules = tuple(own) if own else code_rules(name)
     sure = set(confirmed)
@@ -128,7 +140,9 @@ def check_line(load: LineLoad, code: DesignCode, *, corrosion: float = 0.0, diam
     Parameters
     ----------
     load : LineLoad
+        Tensions [N] and what the line is made of.
     code : DesignCode
+        From :func:`design_code`.
     corrosion : float
         Loss of diameter over the life [m]: rate times years.
     diameter : float

@@ -52,6 +52,7 @@ def damage(ranges: ArrayLike, counts: ArrayLike, curve: EnduranceCurve) -> float
     counts : array_like (n,)
         Numbers of cycles.
     curve : EnduranceCurve
+        Cycles to failure against range.
 
     Returns
     -------
@@ -77,7 +78,35 @@ def damage(ranges: ArrayLike, counts: ArrayLike, curve: EnduranceCurve) -> float
 
 
 def equivalent_range(ranges: ArrayLike, counts: ArrayLike, exponent: float, cycles: float) -> float:
-    """Return the constant range that does the same damage in ``cycles`` cycles [eq:fatigue-equivalent]."""
+    """Return the constant range that does the same damage in a number of cycles [eq:fatigue-equivalent].
+
+    Parameters
+    ----------
+    ranges : array_like (n,)
+        Any unit.
+    counts : array_like (n,)
+        Cycles of each range.
+    exponent : float
+        Of the endurance curve.
+    cycles : float
+        Number of equal cycles, above 0.
+
+    Returns
+    -------
+    float
+        In the unit of ``ranges``.
+
+    Raises
+    ------
+    InputError
+        For cycles that are not above zero.
+
+    Examples
+    --------
+    >>> from moyai.design import equivalent_range
+    >>> round(equivalent_range([1.0, 2.0], [7.0, 1.0], exponent=3.0, cycles=15.0), 6)   # (7 + 8) / 15
+    1.0
+    """
     if not cycles > 0.0:
         raise InputError(f"{cycles:g} cycles", parameter="cycles", allowed="above 0")
     r, n = np.asarray(ranges, dtype=float), np.asarray(counts, dtype=float)
@@ -112,14 +141,41 @@ def dirlik_damage(moments: ArrayLike, duration: float, curve: EnduranceCurve) ->
     Parameters
     ----------
     moments : array_like (5,)
-        Spectral moments m0 to m4 in frequency [unit^2 Hz^n]; m3 is not used.
+        Spectral moments m0 to m4 in frequency [unit^2 Hz^n], unit that of the curve; m3 is not used.
     duration : float
         [s].
     curve : EnduranceCurve
+        Cycles to failure against range.
+
+    Returns
+    -------
+    float
+        Sum of Palmgren and Miner [-].
+
+    Raises
+    ------
+    InputError
+        For moments that are not above zero.
 
     Notes
     -----
     Dirlik (1985); fitted to spectra with irregularity between 0.16 and 0.99.
+
+    References
+    ----------
+    T. Dirlik (1985), Application of computers in fatigue analysis, PhD thesis, University of Warwick.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.design import EnduranceCurve, dirlik_damage
+    >>> curve = EnduranceCurve("own", exponent=3.0, capacity=1000.0, unit="1", confirmed=True, source="own tests")
+    >>> frequency = np.linspace(0.05, 0.5, 200)                          # [Hz]
+    >>> density = np.exp(-(((frequency - 0.15) / 0.05) ** 2)) * 1e-2     # of the tension over the breaking load [1/Hz]
+    >>> moments = [float(np.sum(frequency**n * density) * (frequency[1] - frequency[0])) for n in range(5)]
+    >>> one, two = (dirlik_damage(moments, hours * 3600.0, curve) for hours in (3.0, 6.0))
+    >>> round(two / one, 6), one > 0.0                                   # twice the time, twice the damage
+    (2.0, True)
     """
     m0, m1, m2, _, m4 = np.asarray(moments, dtype=float)
     if min(m0, m1, m2, m4) <= 0.0:
@@ -140,7 +196,7 @@ def dirlik_damage(moments: ArrayLike, duration: float, curve: EnduranceCurve) ->
 
 
 def life(damage_of_states: ArrayLike, probability: ArrayLike, duration: float) -> float:
-    """Return the fatigue life over a scatter diagram [years].
+    """Return the fatigue life over a scatter diagram [eq:fatigue-miner].
 
     Parameters
     ----------
@@ -149,12 +205,24 @@ def life(damage_of_states: ArrayLike, probability: ArrayLike, duration: float) -
     probability : array_like (n,)
         Share of the time of every sea state; sums to one.
     duration : float
-        [s].
+        Of a sea state [s].
 
     Returns
     -------
     float
-        Years until the sum of Palmgren and Miner reaches one; divide by the safety factor of the code.
+        Years until the sum of Palmgren and Miner reaches one, infinite without damage; divide by the safety factor of
+        the code.
+
+    Raises
+    ------
+    InputError
+        When the probabilities do not sum to one.
+
+    Examples
+    --------
+    >>> from moyai.design import life
+    >>> round(life([1e-6, 1e-4], [0.9, 0.1], duration=3600.0), 2)        # 1 / 1.09e-5 hours, in years
+    10.47
     """
     share = np.asarray(probability, dtype=float)
     if abs(share.sum() - 1.0) > 1e-3:

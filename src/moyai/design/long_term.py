@@ -68,20 +68,39 @@ def return_level(
     duration: float,
     bracket: tuple[float, float],
 ) -> float:
-    """Return the level whose mean return period is ``years``.
+    """Return the level of a mean return period [eq:extremes-long-term].
 
     Parameters
     ----------
     years : float
-    probability, short_term, duration
-        As of :func:`long_term_exceedance`.
+        Mean return period [years].
+    probability : array_like (n,)
+        Share of the time of every sea state; sums to one.
+    short_term : sequence of callable
+        Of every sea state, the probability that the maximum within it exceeds a level.
+    duration : float
+        Of a sea state [s].
     bracket : tuple of float
         Levels between which it lies.
+
+    Returns
+    -------
+    float
+        In the unit of the levels.
 
     Raises
     ------
     InputError
-        When the bracket does not hold it.
+        For years that are not positive, probabilities that do not sum to one, and a bracket that does not hold the
+        level.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.design import return_level
+    >>> calm, storm = (lambda level, scale=scale: -np.expm1(-np.exp(5.0 - level / scale)) for scale in (10.0, 20.0))
+    >>> round(return_level(50.0, [0.99, 0.01], [calm, storm], duration=10800.0, bracket=(50.0, 1000.0)))   # [kN]
+    246
     """
     if not years > 0.0:
         raise InputError(f"a return period of {years:g} years", parameter="years", allowed="above 0")
@@ -127,13 +146,14 @@ class JointSea:
 
 
 def environmental_contour(sea: JointSea, years: float, duration: float, count: int = 180) -> tuple[Array, Array]:
-    """Return the contour of significant height and period of a return period (inverse first-order reliability).
+    """Return the contour of significant height and period of a return period [eq:extremes-contour].
 
     Parameters
     ----------
     sea : JointSea
+        From :func:`fit_joint_sea`.
     years : float
-        Return period.
+        Return period [years].
     duration : float
         Of a sea state [s].
     count : int
@@ -142,7 +162,29 @@ def environmental_contour(sea: JointSea, years: float, duration: float, count: i
     Returns
     -------
     significant_height, period : ndarray (count,)
-        [m], [s]; closed when the first point is appended [eq:extremes-contour].
+        [m], [s]; closed when the first point is appended.
+
+    Raises
+    ------
+    InputError
+        For times that are not positive, and a return period of two sea states or less.
+
+    References
+    ----------
+    S. R. Winterstein and others (1993), Environmental parameters for extreme response: inverse FORM with omission
+    factors, ICOSSAR, Innsbruck.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.design import environmental_contour, fit_joint_sea
+    >>> generator = np.random.default_rng(1)
+    >>> height = 0.5 + generator.weibull(1.5, 5000)
+    >>> period = np.exp(1.5 + 0.3 * np.sqrt(height) + 0.1 * generator.normal(size=5000))
+    >>> sea = fit_joint_sea(height, period, lower_end=0.5)
+    >>> heights, periods = environmental_contour(sea, years=50.0, duration=3600.0)
+    >>> heights.shape, bool(height.max() < heights.max() < 8.0)          # [m]
+    ((180,), True)
     """
     beta = reliability_index(years, duration)
     angle = np.linspace(0.0, 2.0 * math.pi, count, endpoint=False)
@@ -165,7 +207,7 @@ def reliability_index(years: float, duration: float) -> float:
 
 
 def fit_joint_sea(significant_height: ArrayLike, period: ArrayLike, *, lower_end: float, classes: int = 12) -> JointSea:
-    """Fit the joint distribution to pairs of significant height and period.
+    """Fit the joint distribution to pairs of significant height and period [eq:extremes-joint].
 
     Parameters
     ----------
@@ -176,10 +218,27 @@ def fit_joint_sea(significant_height: ArrayLike, period: ArrayLike, *, lower_end
     classes : int
         Classes of equal number by height, within which the period's mean and deviation are found.
 
+    Returns
+    -------
+    JointSea
+        Weibull distribution of the height [m] and lognormal one of the period [s] that depends on it.
+
     Raises
     ------
     InputError
         For fewer than 30 values a class, or periods that are not positive.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.design import fit_joint_sea
+    >>> generator = np.random.default_rng(1)
+    >>> height = 0.5 + generator.weibull(1.5, 5000)
+    >>> period = np.exp(1.5 + 0.3 * np.sqrt(height) + 0.1 * generator.normal(size=5000))
+    >>> sea = fit_joint_sea(height, period, lower_end=0.5)
+    >>> median = float(sea.period(np.array([1.0]), np.array([0.0]))[0])
+    >>> bool(abs(median / np.exp(1.8) - 1.0) < 0.02)                     # of the periods at a height of 1 m
+    True
     """
     height, value = (np.asarray(one, dtype=float).ravel() for one in (significant_height, period))
     if height.size != value.size or height.size < 30 * classes:

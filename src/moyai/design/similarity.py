@@ -204,5 +204,27 @@ def check_model(scale: Scale, *, period: float, water_depth: float, reynolds: fl
 
 
 def scale_water(water: Water, scale: Scale) -> Water:
-    """Return the model's water of a prototype's water."""
+    """Return the model's water of a prototype's water [eq:similarity-ratio].
+
+    Parameters
+    ----------
+    water : Water
+        Of the prototype: depth [m], density [kg/m3], gravity [m/s2].
+    scale : Scale
+        Prototype over model.
+
+    Returns
+    -------
+    Water
+        Of the model.
+
+    Examples
+    --------
+    >>> from moyai.design import Scale, scale_water
+    >>> from moyai.sea import Water
+    >>> scale = Scale(length=25.0, density=1.025, gravity=1.0)
+    >>> model = scale_water(Water(depth=10.0, density=1025.0, gravity=9.81), scale)
+    >>> model.depth, round(model.density, 6), model.gravity
+    (0.4, 1000.0, 9.81)
+    """
     return Water(water.depth / scale.length, water.density / scale.density, water.gravity / scale.gravity)

@@ -216,7 +216,8 @@ def simulate_together(
 ) -> Ensemble:
     """Run a network through time many times over, in many waters or with many motions, by central differences.
 
-    The runs of a member are the same to the last bit whatever the others are, and in whatever order they stand.
+    All members march as one network of separate parts [eq:flexible-ensemble]. The runs of a member
+    are the same to the last bit whatever the others are, and in whatever order they stand.
 
     Parameters
     ----------
@@ -230,7 +231,7 @@ def simulate_together(
         Time between two evaluations of the water [s]; what each member asks for when left out. Members that share it
         are marched together.
     start : State, optional
-        Where all start; as built and at rest when left out.
+        Where all start; as built, without speed, when left out.
     step, safety, load_steps : float, float, int
         As in :func:`moyai.flexible.simulation.simulate`. A member whose drag asks for a shorter load interval is run
         again with loads at every step, and one that asks for a shorter step by itself.
@@ -240,11 +241,13 @@ def simulate_together(
     keep_nodes, keep_bars : array_like of int, optional
         Which to keep in the result; all when left out.
     progress : Progress
-        Told the members that are done.
+        Called with the number of members that are done.
 
     Returns
     -------
     Ensemble
+        Tensions and peaks [N], shape (members, instants, bars), and positions [m], with NaN for members that
+        could not be run.
 
     Raises
     ------

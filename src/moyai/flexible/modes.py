@@ -33,21 +33,44 @@ class Modes:
 
 
 def natural_modes(network: Network, state: State, *, count: int = 6, flow: Flow | None = None) -> Modes:
-    """Solve K q = omega^2 M q with the tangent stiffness at a state, added mass included.
+    """Solve K q = omega^2 M q with the tangent stiffness at a state, added mass included [eq:flexible-morison].
 
     Parameters
     ----------
-    network, state
+    network : Network
+        The network.
+    state : State
         As from :func:`moyai.flexible.statics.solve_equilibrium`.
     count : int
         How many of the lowest.
     flow : Flow, optional
-        Steady current.
+        Steady current; still water when left out.
+
+    Returns
+    -------
+    Modes
+        Angular frequencies [rad/s], rising, shape (k,), and shapes (k, nodes, 3) in site axes, largest component 1.
 
     Raises
     ------
     InputError
         When nothing can move.
+
+    Examples
+    --------
+    >>> from moyai.flexible import BarType, NetworkBuilder, natural_modes, solve_equilibrium
+    >>> from moyai.sea import Water
+    >>> builder = NetworkBuilder(Water(depth=10.0, density=1025.0, gravity=9.81))
+    >>> rope = BarType("rope", mass_per_length=10.0, axial_stiffness=1e7, diameter=0.05)
+    >>> builder.fixed("left", (0.0, 0.0, -2.0))
+    >>> builder.fixed("right", (20.0, 0.0, -2.0))
+    >>> builder.line("span", "left", "right", rope, length=21.0, segments=20)
+    >>> network = builder.build()
+    >>> modes = natural_modes(network, solve_equilibrium(network).state, count=3)
+    >>> modes.omega.shape, modes.shape.shape                             # modes; modes, nodes, axes
+    ((3,), (3, 21, 3))
+    >>> round(float(modes.omega[0]), 2), round(float(abs(modes.shape[0, :, 1]).max()), 6)   # [rad/s], across the span
+    (1.86, 1.0)
     """
     arrays = kernel_arrays(network)
     place = np.array(state.position)

@@ -20,11 +20,40 @@ def refined(network: Network, factor: int, state: State | None = None) -> tuple[
     them. Middles of a border whose ends both stay, or follow the same motion, do so too. Nodes are numbered anew, along
     the bars; named points and strands keep their names, attached masses their nodes.
 
+    Parameters
+    ----------
+    network : Network
+        Of bars and sheets.
+    factor : int
+        Bars in place of one; with sheets 1, 2, 4, 8 ...
+    state : State, optional
+        As built, without speed, when left out.
+
+    Returns
+    -------
+    network : Network
+        The finer one.
+    state : State
+        At its nodes: position [m] and velocity [m/s] in site axes.
+
     Raises
     ------
     InputError
         For a factor below 1, or with sheets one that is no power of two, and for a network with net panels, rings or
         sections of added mass, which a builder has to mesh.
+
+    Examples
+    --------
+    >>> from moyai.flexible import BarType, NetworkBuilder, refined
+    >>> from moyai.sea import Water
+    >>> builder = NetworkBuilder(Water(depth=10.0, density=1025.0, gravity=9.81))
+    >>> rope = BarType("rope", mass_per_length=10.0, axial_stiffness=1e7, diameter=0.05)
+    >>> builder.fixed("left", (0.0, 0.0, -2.0))
+    >>> builder.fixed("right", (20.0, 0.0, -2.0))
+    >>> builder.line("span", "left", "right", rope, length=21.0, segments=10)
+    >>> finer, state = refined(builder.build(), 2)
+    >>> len(finer.bars), state.position.shape                            # bars; nodes, axes
+    (20, (21, 3))
     """
     factor = whole_number(factor, "factor", least=1)
     if network.blocks is not None or network.panels is not None or network.rings:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
 from typing import Literal
 
@@ -25,6 +25,9 @@ from moyai.flexible.numbers import whole_number, whole_numbers
 from moyai.flexible.peak_notices import advice, peak_notices, stable_step
 from moyai.flexible.recovery import write_state
 from moyai.flexible.result import History, RunStatus, State
+
+#: Of the rows so far: times [s], places (k, nodes, 3) [m], highest tensions since the row before (k, bars) [N].
+Enough = Callable[[np.ndarray, np.ndarray, np.ndarray], bool]
 
 Method = Literal["explicit", "tr_bdf2", "esdirk4"]
 
@@ -125,9 +128,10 @@ def simulate(
     state_file: str | PathLike[str] | None = None,
     failures: Sequence[LineFailure] = (),
     counted_from: float = 0.0,
+    enough: Enough | None = None,
     progress: Progress = silent,
 ) -> History:
-    """Run a network through time.
+    """Run a network through time [eq:flexible-leapfrog] [eq:flexible-dirk].
 
     Parameters
     ----------
@@ -141,8 +145,8 @@ def simulate(
     flow : Flow, optional
         Motion of the water; still water when left out.
     start : State, optional
-        Where to start; as built and at rest when left out (:func:`moyai.flexible.statics.solve_equilibrium` gives the
-        state at rest).
+        Where to start; as built, without speed, when left out (:func:`moyai.flexible.statics.solve_equilibrium`
+        gives the equilibrium).
     method : {"explicit", "tr_bdf2", "esdirk4"}
         Central differences at the pace of the elastic wave, or an implicit method of second or fourth order whose steps
         follow its error.
@@ -167,8 +171,11 @@ def simulate(
         Lines that part in the course of the run.
     counted_from : float
         Time since the start before which fronts and falls on the bed are not reported [s].
+    enough : callable, optional
+        Called, after every part of the run, with times, places of the kept nodes and highest tensions of the kept bars
+        of all rows so far; the run ends there, converged, where it returns True.
     progress : Progress
-        Told the simulated time.
+        Called with the simulated time.
 
     Returns
     -------
@@ -190,8 +197,8 @@ def simulate(
     >>> builder.fixed("right", (20.0, 0.0, -2.0))
     >>> builder.line("span", "left", "right", rope, length=21.0, segments=20)
     >>> network = builder.build()
-    >>> rest = solve_equilibrium(network)
-    >>> history = simulate(network, {}, duration=0.5, output_step=0.1, start=rest.state)
+    >>> found = solve_equilibrium(network)
+    >>> history = simulate(network, {}, duration=0.5, output_step=0.1, start=found.state)
     >>> history.tension.shape                                        # instants, bars [N]
     (6, 20)
     """
@@ -266,6 +273,9 @@ def simulate(
                     sound = run.state()
                 break
             progress("network", done * interval, duration)
+            times = start.time + interval * np.arange(done + 1)
+            if enough is not None and enough(times, saved[0][: done + 1], saved[2][: done + 1]):
+                break
     except KeyboardInterrupt:
         status, message = "interrupted", f"interrupted at t = {start.time + done * interval:g} s"
         if abs(run.time - start.time - done * interval) < 1e-9 * max(1.0, abs(run.time)):

@@ -86,7 +86,7 @@ def solve_equilibrium(
     most_steps: int | None = None,
     state_file: str | PathLike[str] | None = None,
 ) -> Equilibrium:
-    """Find the network at rest.
+    """Find the equilibrium of a network.
 
     Newton's method on places and tensions together in pseudo-time steps [eq:flexible-relaxation]; where it fails, again
     with smaller turns, with a stiffness of sheets or a current that rises from nothing, led by dynamic relaxation
@@ -113,6 +113,7 @@ def solve_equilibrium(
     Returns
     -------
     Equilibrium
+        State, tensions [N], shape (bars,), and what is left of the balance.
 
     Raises
     ------

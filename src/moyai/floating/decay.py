@@ -42,21 +42,37 @@ def fit_decay(
     time, position : array_like (n,)
         Evenly spaced record [s], [m or rad].
     mean : float
-        Position at rest.
+        Position where the motion ends, in the unit of ``position``.
     smallest : float
         Extremes below this part of the first are left out.
     quadratic : bool
         Fit both parts (True), or the linear part alone.
 
+    Returns
+    -------
+    Decay
+        Period [s], damping ratio [-], quadratic part over the inertia [1/m or 1/rad], and the extremes that they come
+        from.
+
     Raises
     ------
     InputError
-        With fewer than three extremes.
+        With fewer than three extremes, or fewer than three above the smallest.
 
     Notes
     -----
     Each half cycle gives zeta_i from its logarithmic decrement; equal work over the cycle makes it linear in the mean
     amplitude, zeta_i = zeta + 4/(3 pi) (b2/M) a_i.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.floating import fit_decay
+    >>> time = np.arange(0.0, 60.0, 0.05)
+    >>> heave = 0.5 * np.exp(-0.05 * 1.2 * time) * np.cos(1.2 * time)    # 5 % of critical damping
+    >>> decay = fit_decay(time, heave, quadratic=False)
+    >>> round(decay.period, 2), round(decay.damping_ratio, 3)            # [s], [-]
+    (5.24, 0.05)
     """
     instants, motion = np.asarray(time, dtype=float), np.asarray(position, dtype=float) - mean
     inner = motion[1:-1]

@@ -141,6 +141,7 @@ def solve_motions(
     tolerance : float
         Relative change of the velocities at which the iteration ends.
     maximum_iterations : int
+        Rounds of the linearisation at most.
 
     Returns
     -------
@@ -159,12 +160,12 @@ def solve_motions(
     >>> from moyai.potential import rigid_modes, shapes, solve
     >>> from moyai.sea import Water
     >>> section = shapes.rectangle(beam=4.0, height=2.0).immersed(draught=1.0)
-    >>> rest = hydrostatics(
+    >>> still = hydrostatics(
     ...     section, mass=82000.0, centre_of_gravity=(0.0, -0.2), length=20.0, density=1025.0, gravity=9.81
     ... )
     >>> found = solve(section, Water(10.0, 1025.0, 9.81), [0.3], modes=rigid_modes((0.0, -0.2)))
     >>> coefficients = Hydrodynamics.from_dataset(found.dataset).scaled_to(20.0)
-    >>> motions = solve_motions(coefficients, inertia_matrix(82000.0, roll_gyradius=1.3), rest.stiffness)
+    >>> motions = solve_motions(coefficients, inertia_matrix(82000.0, roll_gyradius=1.3), still.stiffness)
     >>> round(float(abs(motions.displacement[0, 0, 1])), 2)          # long waves lift the body by their amplitude
     1.0
     """

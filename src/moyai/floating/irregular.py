@@ -57,7 +57,7 @@ class ResponseStatistics:
 
 
 def response_statistics(omega: ArrayLike, transfer: ArrayLike, density: ArrayLike) -> ResponseStatistics:
-    """Return spectra and statistics of linear responses.
+    """Return spectra and statistics of linear responses [eq:floating-response].
 
     Parameters
     ----------
@@ -68,6 +68,27 @@ def response_statistics(omega: ArrayLike, transfer: ArrayLike, density: ArrayLik
     density : array_like (n,) or (n, h)
         Wave spectrum [m2 s/rad]; with headings, the part of each of them (already times its angle), so that the sum
         over headings is the frequency spectrum.
+
+    Returns
+    -------
+    ResponseStatistics
+        Spectra (n, ...), moments (4, ...), standard deviations, significant double amplitudes and mean periods (...),
+        in units of the response and s.
+
+    Raises
+    ------
+    InputError
+        For fewer than two frequencies.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.floating import response_statistics
+    >>> omega = np.linspace(0.2, 3.0, 141)
+    >>> spectrum = np.exp(-(((omega - 1.0) / 0.1) ** 2))                 # m0 = 0.1 sqrt(pi) [m2 s/rad]
+    >>> found = response_statistics(omega, 2.0 * np.ones(141), spectrum)   # 2 m of motion for 1 m of wave
+    >>> round(float(found.standard_deviation), 3)                        # 2 sqrt(0.1 sqrt(pi)) [m]
+    0.842
     """
     grid = np.asarray(omega, dtype=float)
     power = np.abs(np.asarray(transfer)) ** 2
@@ -92,9 +113,28 @@ def energy_transmission(omega: ArrayLike, transmission: ArrayLike, density: Arra
     Parameters
     ----------
     omega : array_like (n,)
+        [rad/s].
     transmission : array_like (n,) or (n, h)
+        Transmission coefficient, complex or its absolute value [-].
     density : array_like (n,) or (n, h)
-        As in :func:`response_statistics`.
+        Wave spectrum [m2 s/rad], as in :func:`response_statistics`.
+
+    Returns
+    -------
+    float
+        Transmitted over incident significant height [-].
+
+    Raises
+    ------
+    InputError
+        For fewer than two frequencies, and a spectrum without energy.
+
+    Examples
+    --------
+    >>> from moyai.floating import energy_transmission
+    >>> share = energy_transmission([0.5, 1.0, 1.5], [1.0, 0.8, 0.4], [0.0, 2.0, 1.0])
+    >>> round(share**2, 4)                                               # (0.64 x 2 + 0.16 x 0.5) / 2.5
+    0.544
     """
     weights = integration_weights(omega)
     wave = np.asarray(density, dtype=float)
@@ -232,7 +272,7 @@ def linearised_in_sea(
         Several where the radiation is another for each heading, as along a unit in oblique waves; in the order of the
         headings of ``density``, all at the same frequencies.
     inertia, stiffness, damping
-        As in :func:`moyai.floating.frequency.solve_motions`.
+        As in :func:`moyai.floating.frequency.solve_motions`, of the whole unit.
     density : array_like (n,) or (n, h)
         Wave spectrum at the frequencies of the coefficients, as in :func:`response_statistics`.
     quadratic : QuadraticDamping or None
@@ -247,6 +287,34 @@ def linearised_in_sea(
     tolerance : float
         Relative change of the standard deviations.
     maximum_iterations : int
+        Rounds of the linearisation at most.
+
+    Returns
+    -------
+    SeaMotions
+        Motions per unit wave amplitude [m/m, rad/m], the equivalent damping of the quadratic terms, standard deviations
+        of their velocities, and whether the iteration converged.
+
+    Raises
+    ------
+    InputError
+        When the headings of spectrum and coefficients differ, or matrices have another shape.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.floating import Hydrodynamics, QuadraticDamping, linearised_in_sea
+    >>> omega = np.linspace(0.5, 2.0, 31)
+    >>> one = np.ones((31, 1, 1))
+    >>> heave = Hydrodynamics(omega, 1e5 * one, 5e3 * one, 5e5 * one.astype(complex), np.zeros(1), ("heave",))
+    >>> drag = QuadraticDamping(directions=np.eye(1), coefficients=np.array([4e4]))
+    >>> spectrum = np.exp(-(((omega - 1.2) / 0.2) ** 2))                 # [m2 s/rad]
+    >>> found = linearised_in_sea(heave, [[2e5]], [[4e5]], spectrum, quadratic=drag)
+    >>> found.converged, found.motions.displacement.shape                # frequency, heading, mode
+    (True, (31, 1, 1))
+    >>> deviation = found.measure_deviation[0]                           # of the heave velocity [m/s]
+    >>> round(float(found.equivalent_damping[0, 0] / (np.sqrt(8.0 / np.pi) * deviation * 4e4)), 6)
+    1.0
     """
     parts = [hydrodynamics] if isinstance(hydrodynamics, Hydrodynamics) else list(hydrodynamics)
     omega, size = parts[0].omega, parts[0].size

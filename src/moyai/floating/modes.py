@@ -59,25 +59,37 @@ def natural_modes(
         frequencies the end values are held, above with the infinite-frequency added mass when it is known; a notice
         says when a mode lies there.
     inertia, stiffness : array_like (m, m)
-        M and K_H + K_M; the free body has K_M = 0.
+        M and K_H + K_M, in kg, m and s per radian; the free body has K_M = 0.
     damping : array_like (m, m) or None
         Linear damping beyond radiation, for the damping ratios.
 
     Returns
     -------
     NaturalModes
+        Periods [s], frequencies [rad/s], shapes and damping ratios [-], one row a mode, and notices.
 
     Raises
     ------
     InputError
-        When the inertia has no positive diagonal.
+        When a matrix has another shape or is not finite, or the inertia has no positive diagonal.
 
     Notes
     -----
     A mode is a frequency at which the symmetric matrix K - w^2 (M + A(w)) is singular. Its sorted eigenvalues (modes
-    scaled by their inertia) fall from those of K at rest, one through zero at each natural frequency; the first
+    scaled by their inertia) start as those of K and fall, one through zero at each natural frequency; the first
     crossing of each is bracketed on the grid of the coefficients and found by Brent's method. So modes do not change
     places, and the added mass may even be negative, as it is near a gap resonance.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.floating import Hydrodynamics, natural_modes
+    >>> omega = np.linspace(0.5, 2.0, 4)
+    >>> one = np.ones((4, 1, 1))
+    >>> heave = Hydrodynamics(omega, 1e5 * one, 5e3 * one, one.astype(complex), np.zeros(1), ("heave",))
+    >>> found = natural_modes(heave, [[2e5]], [[4e5]])
+    >>> found.modes, round(float(found.period[0]), 3)                    # 2 pi sqrt(3e5 / 4e5) [s]
+    (('heave',), 5.441)
     """
     hydro = Hydrodynamics.of(hydrodynamics)
     size = hydro.size

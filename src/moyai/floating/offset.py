@@ -68,19 +68,36 @@ def mean_offset(
     Parameters
     ----------
     mooring : Mooring
+        Lines or springs.
     hydrostatic_stiffness : array_like (m, m)
+        K_H [N/m, N, N m].
     steady_force : array_like (m,)
         Drift, wind, current [N, N, N m].
     start : array_like (m,) or None
-        First guess; ``None`` starts at rest.
+        First guess; ``None`` starts at the undisturbed position.
     tolerance : float
         On the Newton correction relative to the offset, and on the residual relative to the force.
     maximum_iterations : int
+        Steps of Newton's method at most.
 
     Returns
     -------
     MeanOffset
-        With status ``not_converged`` when there is nothing to hold the body or the search stalls.
+        Position [m, m, rad], residual and status; status ``not_converged`` when there is nothing to hold the body or
+        the search stalls.
+
+    Raises
+    ------
+    InputError
+        For a stiffness of another shape, or one that is not finite.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.floating import LinearMooring, mean_offset
+    >>> found = mean_offset(LinearMooring(np.diag([2e4, 0.0, 0.0])), np.diag([0.0, 8e5, 3e6]), [1e4, 0.0, 3e4])
+    >>> found.status, found.position.round(3).tolist()                   # [m], [m], [rad]
+    ('converged', [0.5, 0.0, 0.01])
     """
     load = np.asarray(steady_force, dtype=float)
     restoring = square_matrix(hydrostatic_stiffness, len(load), "hydrostatic_stiffness")

@@ -104,6 +104,11 @@ def hydrostatics(
     Hydrostatics
         Totals of the unit.
 
+    Raises
+    ------
+    InputError
+        For a mass or length that is not positive.
+
     Notes
     -----
     Implements [eq:floating-hydrostatic] and [eq:floating-metacentre]. Buoyancy, not weight, carries the lever of the
@@ -115,10 +120,10 @@ def hydrostatics(
     >>> from moyai.floating import hydrostatics
     >>> from moyai.potential import shapes
     >>> section = shapes.rectangle(beam=4.0, height=2.0).immersed(draught=1.0)
-    >>> rest = hydrostatics(
+    >>> still = hydrostatics(
     ...     section, mass=82000.0, centre_of_gravity=(0.0, -0.2), length=20.0, density=1025.0, gravity=9.81
     ... )
-    >>> round(rest.metacentric_height, 3)                            # KB + BM - KG = 0.5 + 4^2 / 12 - 0.8 [m]
+    >>> round(still.metacentric_height, 3)                           # KB + BM - KG = 0.5 + 4^2 / 12 - 0.8 [m]
     1.033
     """
     positive(mass, "mass")
@@ -159,6 +164,22 @@ def inertia_matrix(
         Radius of gyration about the centre of gravity [m].
     additional_mass : tuple of float
         Mass that moves in one mode only, for instance the rig of a model test [kg, kg, kg m2].
+
+    Returns
+    -------
+    ndarray, shape (3, 3)
+        Sway, heave, roll on the diagonal [kg, kg, kg m2].
+
+    Raises
+    ------
+    InputError
+        For a mass or gyradius that is not positive.
+
+    Examples
+    --------
+    >>> from moyai.floating import inertia_matrix
+    >>> inertia_matrix(82000.0, roll_gyradius=1.3).diagonal().round().tolist()   # [kg], [kg], [kg m2]
+    [82000.0, 82000.0, 138580.0]
     """
     positive(mass, "mass")
     positive(roll_gyradius, "roll_gyradius")
@@ -204,7 +225,7 @@ def find_equilibrium(
     tolerance: float = 1e-11,
     maximum_iterations: int = 80,
 ) -> Equilibrium:
-    """Find draught, heel and (with lines) offset at which weight, buoyancy and lines balance.
+    """Find draught, heel and (with lines) offset where weight, buoyancy and lines balance [eq:floating-equilibrium].
 
     Parameters
     ----------
@@ -225,20 +246,35 @@ def find_equilibrium(
     tolerance : float
         On the residual in parts of the displacement.
     maximum_iterations : int
+        Steps of Newton's method at most.
 
     Returns
     -------
     Equilibrium
+        Draught [m], heel [rad], offset [m], the immersed section and what is left of the balance.
 
     Raises
     ------
+    InputError
+        For a mass that is not positive, and a hull that is not in the water at its first draught.
     ConvergenceError
         When no position balances, with the residual; for instance a body heavier than its hull can displace.
 
     Notes
     -----
-    Newton's method on the exact immersed geometry with a tangent by central differences, mended by Broyden's rule as
-    long as the residual falls tenfold, and a step that is halved until it falls; solves [eq:floating-equilibrium].
+    Newton's method on the exact immersed geometry with a tangent by central differences, updated by Broyden's rule as
+    long as the residual falls tenfold, and a step that is halved until it falls.
+
+    Examples
+    --------
+    >>> from moyai.floating import find_equilibrium
+    >>> from moyai.potential import shapes
+    >>> found = find_equilibrium(
+    ...     shapes.rectangle(beam=4.0, height=2.0), mass=82000.0, centre_of_gravity=(0.0, 0.8), length=20.0,
+    ...     density=1025.0, gravity=9.81, draught_start=0.8,
+    ... )
+    >>> round(found.draught, 6), abs(found.heel) < 1e-9                  # [m], upright
+    (1.0, True)
     """
     positive(mass, "mass")
     weight = mass * gravity
@@ -376,6 +412,26 @@ def righting_curve(
         Draught of the upright body [m].
     tolerance : float
         On the displaced area, relative.
+
+    Returns
+    -------
+    RightingCurve
+        Heel [rad], lever GZ [m] and draught [m]; lever and draught are NaN where the hull cannot displace the area.
+
+    Raises
+    ------
+    InputError
+        For a hull that is not in the water at its first draught.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.floating import righting_curve
+    >>> from moyai.potential import shapes
+    >>> hull = shapes.rectangle(beam=4.0, height=2.0)
+    >>> curve = righting_curve(hull, np.array([0.0, 0.1]), area=4.0, centre_of_gravity=(0.0, 0.8), draught_start=1.0)
+    >>> curve.lever.round(4).tolist()                                    # near GM sin(heel), GM = 1.033 m [m]
+    [0.0, 0.1038]
     """
     angles = np.atleast_1d(np.asarray(heel, dtype=float))
     lever, draughts = np.full(angles.shape, np.nan), np.full(angles.shape, np.nan)

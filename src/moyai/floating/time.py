@@ -101,16 +101,19 @@ class Simulation:
 def choose_time_step(
     model: CumminsModel, forcing: Forcing, expected_motion: ArrayLike | None = None
 ) -> tuple[float, Notice]:
-    """Choose the time step and say why.
+    """Choose the time step of [eq:floating-etd] and say why.
 
     The method is of fourth order with a memory of states. A convolution is of second order: its step is a third of it.
 
     Parameters
     ----------
     model : CumminsModel
+        The body.
     forcing : Forcing
+        Waves, drift and steady loads; a regular wave sets steps that divide its period.
     expected_motion : array_like (m,) or None
-        Amplitudes at which the lines' stiffness is looked up, next to rest; for instance twice the linear motion.
+        Amplitudes at which the lines' stiffness is looked up, next to the undisturbed position [m, rad]; for instance
+        twice the linear motion.
 
     Returns
     -------
@@ -118,6 +121,23 @@ def choose_time_step(
         [s], already fitted to the forcing.
     notice : Notice
         Which of wave periods, stiffest natural period, damping and memory decides.
+
+    Raises
+    ------
+    InputError
+        When neither wave nor restoring sets a time scale.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.floating import CumminsModel, RegularForcing, choose_time_step
+    >>> from moyai.floating.memory import StateSpaceMemory
+    >>> one = np.eye(1)
+    >>> heave = CumminsModel(2e5 * one, 8e5 * one, 4e5 * one, StateSpaceMemory.none(1), modes=("heave",))
+    >>> wave = RegularForcing(1.0, 0.5, np.array([4e5 + 0j]), np.zeros(1), np.zeros(1))
+    >>> step, notice = choose_time_step(heave, wave)
+    >>> round(2.0 * np.pi / step), notice.code                           # steps a wave period
+    (48, 'time-step')
     """
     limits: dict[str, float] = {}
     if math.isfinite(forcing.longest_step):
@@ -201,11 +221,12 @@ def simulate(
     motion_limit: ArrayLike | None = None,
     progress: Progress = silent,
 ) -> Simulation:
-    """Integrate the motion of a floating body.
+    """Integrate the motion of a floating body [eq:floating-cummins].
 
     Parameters
     ----------
     model : CumminsModel
+        Inertia, restoring, damping, memory and lines of the body.
     forcing : Forcing
         Waves, drift and steady loads.
     duration : float
@@ -215,23 +236,37 @@ def simulate(
     save_interval : float or None
         Output every so many seconds, rounded to whole steps; ``None`` for every step.
     initial_position, initial_velocity : array_like (m,) or None
-        Rest by default; the memory starts empty.
+        Zero by default [m, rad; per second]; the memory starts empty.
     expected_motion : array_like (m,) or None
-        For the choice of the time step.
+        For the choice of the time step [m, rad].
     motion_limit : array_like (m,) or None
         A larger motion counts as diverged; by default a thousand times the span of the lines, or none without lines.
     progress : Progress
-        Told now and then; may raise KeyboardInterrupt.
+        Called now and then with the simulated time; may raise KeyboardInterrupt.
 
     Returns
     -------
     Simulation
-        Never raises on divergence or interruption: the status tells, and what was computed is there.
+        Never raises on divergence or interruption: the status says so, and what was computed is there.
 
     Raises
     ------
     InputError
         When an argument is out of range.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.floating import CumminsModel, RegularForcing, simulate
+    >>> from moyai.floating.memory import StateSpaceMemory
+    >>> one = np.eye(1)
+    >>> heave = CumminsModel(2e5 * one, 8e5 * one, 4e5 * one, StateSpaceMemory.none(1), modes=("heave",))
+    >>> wave = RegularForcing(1.0, 0.5, np.array([4e5 + 0j]), np.zeros(1), np.zeros(1), ramp=6.0)
+    >>> run = simulate(heave, wave, duration=60.0)
+    >>> run.status, run.position.shape[1]
+    ('converged', 1)
+    >>> round(float(run.position[-200:].max()), 2)                       # 2e5 / |8e5 - 2e5 - 4e5 i| [m]
+    0.28
     """
     size = len(model.modes)
     if not duration > 0.0 or not math.isfinite(duration):

@@ -50,12 +50,33 @@ def read_aqwa(
     Returns
     -------
     xarray.Dataset
-        See :mod:`moyai.interop.coefficients`.
+        Added mass [kg, kg m, kg m2], damping, forces per unit wave amplitude [N/m, N m/m] about ``reference_point``;
+        see :mod:`moyai.interop.coefficients`.
 
     Raises
     ------
     InputError
         Not such a file, no such structure, a centre of gravity off the origin without ``phase_at``.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import mkdtemp
+    >>> import numpy as np
+    >>> from moyai.interop import read_aqwa
+    >>> def rows(diagonal):
+    ...     text = [" ".join(map(str, row)) for row in np.diag(diagonal)]
+    ...     return [f"1 1 1 {text[0]}", *text[1:]]
+    ...
+    >>> lines = ["* one structure, one heading, one frequency", "1 1 1 0.0", "1.0"]
+    >>> lines += ["GENERAL", "1 30.0 1025.0 9.81 0 0", "COG", "1 0.0 0.0 -0.5"]
+    >>> lines += ["ADDEDMASS", *rows([9e4, 9e4, 1e5, 2e5, 2e5, 2e5]), "DAMPING", *rows([1e3] * 6)]
+    >>> lines += ["FORCERAO", "1 1 1 1e5 0 2e5 0 1e4 0", "0 0 0 0 0 0"]
+    >>> file = Path(mkdtemp()) / "barge.AH1"
+    >>> np.savetxt(file, lines, fmt="%s")
+    >>> barge = read_aqwa(file)
+    >>> float(barge.added_mass.sel(omega=1.0, influenced_dof="Heave", radiating_dof="Heave"))   # [kg]
+    100000.0
     """
     file = Path(path)
     sections = _read_sections(file)

@@ -39,7 +39,7 @@ def read_bemio(
         HDF5 file.
     reference_point : sequence of three float
         Point that the program behind the file took moments about [m], one for each of several bodies; the file does
-        not tell.
+        not say.
     body : int or str, optional
         One of several bodies, by number from 1 or by its name; all of them when absent. Three numbers as reference
         point are then those of this body.
@@ -47,12 +47,28 @@ def read_bemio(
     Returns
     -------
     xarray.Dataset
-        See :mod:`moyai.interop.coefficients`.
+        Added mass [kg, kg m, kg m2], damping, forces per unit wave amplitude [N/m, N m/m] about ``reference_point``;
+        see :mod:`moyai.interop.coefficients`.
 
     Raises
     ------
     InputError
         Not such a file, no such body, modes beyond those of rigid bodies.
+
+    Examples
+    --------
+    >>> from tempfile import mkdtemp
+    >>> import numpy as np
+    >>> from moyai.interop import from_planar, read_bemio, write_coefficients
+    >>> from moyai.potential import rigid_modes, shapes, solve
+    >>> from moyai.sea import Water
+    >>> section = shapes.rectangle(beam=4.0, height=2.0).immersed(draught=1.0)
+    >>> found = solve(section, Water(10.0, 1025.0, 9.81), [0.5, 1.0], modes=rigid_modes((0.0, -0.2)))
+    >>> unit = from_planar(found.dataset, length=20.0, centre_of_gravity=(0.0, -0.2))
+    >>> [file] = write_coefficients("bemio", unit, mkdtemp())
+    >>> again = read_bemio(file, reference_point=(0.0, 0.0, -0.2))
+    >>> bool(np.allclose(again.added_mass.sel(radiating_dof="Heave", influenced_dof="Heave"), unit.added_mass[:, 1, 1]))
+    True
     """
     file = Path(path)
     if not file.is_file():

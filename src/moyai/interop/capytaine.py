@@ -41,12 +41,32 @@ def read_capytaine(
     Returns
     -------
     xarray.Dataset
-        See :mod:`moyai.interop.coefficients`.
+        Added mass [kg, kg m, kg m2], damping, forces per unit wave amplitude [N/m, N m/m] about ``reference_point``;
+        see :mod:`moyai.interop.coefficients`.
 
     Raises
     ------
     InputError
         Not such a file; no such body; forward speed; missing reference point.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import mkdtemp
+    >>> import xarray as xr
+    >>> from moyai.interop import from_planar, read_capytaine
+    >>> from moyai.potential import rigid_modes, shapes, solve
+    >>> from moyai.sea import Water
+    >>> section = shapes.rectangle(beam=4.0, height=2.0).immersed(draught=1.0)
+    >>> found = solve(section, Water(10.0, 1025.0, 9.81), [0.5, 1.0], modes=rigid_modes((0.0, -0.2)))
+    >>> unit = from_planar(found.dataset, length=20.0, centre_of_gravity=(0.0, -0.2))
+    >>> forces = unit[["Froude_Krylov_force", "diffraction_force"]]
+    >>> parts = xr.concat([forces.real, forces.imag], dim="complex").assign_coords(complex=["re", "im"])
+    >>> file = Path(mkdtemp()) / "box.nc"
+    >>> xr.merge([unit[["added_mass", "radiation_damping"]], parts]).to_netcdf(file, engine="scipy")
+    >>> again = read_capytaine(file, reference_point=(0.0, 0.0, -0.2))
+    >>> float(abs(again.excitation_force - unit.excitation_force).max()) < 1e-6   # [N/m]
+    True
     """
     file = Path(path)
     if not file.is_file():

@@ -60,12 +60,27 @@ def read_nemoh(folder: str | Path, *, body: int | str | None = None) -> xr.Datas
     Returns
     -------
     xarray.Dataset
-        See :mod:`moyai.interop.coefficients`.
+        Added mass [kg, kg m, kg m2], damping, forces per unit wave amplitude [N/m, N m/m] about ``reference_point``;
+        see :mod:`moyai.interop.coefficients`.
 
     Raises
     ------
     InputError
         Missing files, no such body, degrees of freedom that are not rigid motions about one point of each body.
+
+    Examples
+    --------
+    >>> from tempfile import mkdtemp
+    >>> from moyai.interop import from_planar, read_nemoh, write_coefficients
+    >>> from moyai.potential import rigid_modes, shapes, solve
+    >>> from moyai.sea import Water
+    >>> section = shapes.rectangle(beam=4.0, height=2.0).immersed(draught=1.0)
+    >>> found = solve(section, Water(10.0, 1025.0, 9.81), [0.5, 1.0], modes=rigid_modes((0.0, -0.2)))
+    >>> unit = from_planar(found.dataset, length=20.0, centre_of_gravity=(0.0, -0.2))
+    >>> folder = mkdtemp()
+    >>> _ = write_coefficients("nemoh", unit, folder)
+    >>> float(abs(read_nemoh(folder).added_mass - unit.added_mass).max()) < 1.0   # [kg]
+    True
     """
     place = Path(folder)
     place = place.parent if place.is_file() else place

@@ -27,7 +27,7 @@ _READERS: dict[str, Callable[..., xr.Dataset]] = {
 
 
 def read_coefficients(program: str, path: str | Path, options: Mapping[str, Any] | None = None) -> xr.Dataset:
-    """Read hydrodynamic coefficients of one or several three-dimensional bodies.
+    """Read hydrodynamic coefficients of one or several three-dimensional bodies [eq:interop-kramers-kronig].
 
     Where the file has no infinite-frequency added mass it is found from the damping (:mod:`moyai.interop.limits`), if
     the frequencies are enough.
@@ -41,10 +41,31 @@ def read_coefficients(program: str, path: str | Path, options: Mapping[str, Any]
     options : mapping, optional
         Arguments of the program's reader, for instance ``density`` and ``reference_point``.
 
+    Returns
+    -------
+    xarray.Dataset
+        Added mass [kg, kg m, kg m2], damping, forces per unit wave amplitude [N/m, N m/m] about ``reference_point``;
+        see :mod:`moyai.interop.coefficients`.
+
     Raises
     ------
     InputError
         Unknown program or option; everything that the readers refuse.
+
+    Examples
+    --------
+    >>> from tempfile import mkdtemp
+    >>> from moyai.interop import from_planar, read_coefficients, write_coefficients
+    >>> from moyai.potential import rigid_modes, shapes, solve
+    >>> from moyai.sea import Water
+    >>> section = shapes.rectangle(beam=4.0, height=2.0).immersed(draught=1.0)
+    >>> found = solve(section, Water(10.0, 1025.0, 9.81), [0.5, 1.0], modes=rigid_modes((0.0, -0.2)))
+    >>> unit = from_planar(found.dataset, length=20.0, centre_of_gravity=(0.0, -0.2))
+    >>> folder = mkdtemp()
+    >>> _ = write_coefficients("nemoh", unit, folder)
+    >>> again = read_coefficients("nemoh", folder)
+    >>> float(abs(again.excitation_force / unit.excitation_force - 1.0).max()) < 1e-6
+    True
     """
     if program not in _READERS:
         raise InputError(f"unknown program {program!r}", path="program", allowed=", ".join(_READERS))

@@ -102,12 +102,27 @@ def read_wamit(
     Returns
     -------
     xarray.Dataset
-        See :mod:`moyai.interop.coefficients`.
+        Added mass [kg, kg m, kg m2], damping, forces per unit wave amplitude [N/m, N m/m] about ``reference_point``;
+        see :mod:`moyai.interop.coefficients`.
 
     Raises
     ------
     InputError
         Missing files or facts, incomplete tables, an ambiguous first column, no such body.
+
+    Examples
+    --------
+    >>> from tempfile import mkdtemp
+    >>> from moyai.interop import from_planar, read_wamit, write_coefficients
+    >>> from moyai.potential import rigid_modes, shapes, solve
+    >>> from moyai.sea import Water
+    >>> section = shapes.rectangle(beam=4.0, height=2.0).immersed(draught=1.0)
+    >>> found = solve(section, Water(10.0, 1025.0, 9.81), [0.5, 1.0], modes=rigid_modes((0.0, -0.2)))
+    >>> unit = from_planar(found.dataset, length=20.0, centre_of_gravity=(0.0, -0.2))
+    >>> files = write_coefficients("wamit", unit, mkdtemp())
+    >>> again = read_wamit(files[0], density=1025.0)
+    >>> again.radiating_dof.values.tolist()
+    ['Surge', 'Sway', 'Heave', 'Roll', 'Pitch', 'Yaw']
     """
     file = Path(path)
     first = find_companion(file, ".1")

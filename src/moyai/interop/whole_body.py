@@ -50,7 +50,28 @@ def from_planar(
     Returns
     -------
     xarray.Dataset
-        See :mod:`moyai.interop.coefficients`.
+        Added mass [kg, kg m, kg m2], damping, forces per unit wave amplitude [N/m, N m/m] about ``reference_point``;
+        see :mod:`moyai.interop.coefficients`.
+
+    Raises
+    ------
+    InputError
+        For another ``sea``.
+    KeyError
+        For coefficients without sway, heave and roll.
+
+    Examples
+    --------
+    >>> from moyai.interop import from_planar
+    >>> from moyai.potential import rigid_modes, shapes, solve
+    >>> from moyai.sea import Water
+    >>> section = shapes.rectangle(beam=4.0, height=2.0).immersed(draught=1.0)
+    >>> found = solve(section, Water(10.0, 1025.0, 9.81), [0.5, 1.0], modes=rigid_modes((0.0, -0.2)))
+    >>> unit = from_planar(found.dataset, length=20.0, centre_of_gravity=(0.0, -0.2))
+    >>> unit.radiating_dof.values.tolist()
+    ['Sway', 'Heave', 'Roll']
+    >>> round(float(unit.added_mass[1, 1, 1] / found.added_mass[1, 1, 1]), 6)   # heave, of 20 m and of 1 m
+    20.0
     """
     frame, along = FRAMES[sea]
     signs = np.array([sign for _, sign in frame])
@@ -113,15 +134,48 @@ def coefficients_of_result(result: Result, *, water_level: str | None = None, se
     Parameters
     ----------
     result : Result
+        Of a floating breakwater or a row of units, with the analysis frequency or time.
+        Of a floating breakwater or a row of units, with the analysis frequency or time.
     water_level : str, optional
         The first level when left out.
     sea : {"beam", "head"}
         See :func:`from_planar`; of a section alone.
 
+    Returns
+    -------
+    xarray.Dataset
+        Added mass [kg, kg m, kg m2], damping, forces per unit wave amplitude [N/m, N m/m]; see
+        :mod:`moyai.interop.coefficients`.
+
     Raises
     ------
     InputError
         When the result holds none, or not at this level.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import xarray as xr
+    >>> from moyai.core import Result
+    >>> from moyai.interop import coefficients_of_result
+    >>> from moyai.potential import rigid_modes, shapes, solve
+    >>> from moyai.sea import Water
+    >>> section = shapes.rectangle(beam=4.0, height=2.0).immersed(draught=1.0)
+    >>> found = solve(section, Water(10.0, 1025.0, 9.81), [0.5, 1.0], modes=rigid_modes((0.0, -0.2))).dataset
+    >>> names = found.radiating_dof.values
+    >>> statics = xr.Dataset(
+    ...     dict(
+    ...         hydrostatic_stiffness=(("influenced_dof", "radiating_dof"), np.diag([0.0, 8e5, 8e5])),
+    ...         unit_length=20.0, centre_of_gravity_x=0.0, centre_of_gravity_z=-0.2,
+    ...     ),
+    ...     coords=dict(influenced_dof=names, radiating_dof=names),
+    ... )
+    >>> result = Result(xr.DataTree.from_dict({"/HWL/statics": statics, "/HWL/hydrodynamics": found}))
+    >>> unit = coefficients_of_result(result, water_level="HWL")
+    >>> unit.radiating_dof.values.tolist()
+    ['Sway', 'Heave', 'Roll']
+    >>> bool(np.allclose(unit.added_mass[:, 1, 1], 20.0 * found.added_mass[:, 1, 1]))
+    True
     """
     level = level_of_result(result, water_level)
     group = result.tree.children[level].children

@@ -28,6 +28,8 @@ def write_coefficients(program: str, dataset: xr.Dataset, folder: str | Path, *,
     Parameters
     ----------
     program : {"bemio", "nemoh", "wamit"}
+        Program whose files are written.
+        Program whose files are written.
     dataset : xarray.Dataset
         See :mod:`moyai.interop.coefficients`.
     folder : path
@@ -38,11 +40,24 @@ def write_coefficients(program: str, dataset: xr.Dataset, folder: str | Path, *,
     Returns
     -------
     list of Path
+        The files written.
 
     Raises
     ------
     InputError
         Unknown program, a file that exists, or what the format needs and the coefficients lack.
+
+    Examples
+    --------
+    >>> from tempfile import mkdtemp
+    >>> from moyai.interop import from_planar, write_coefficients
+    >>> from moyai.potential import rigid_modes, shapes, solve
+    >>> from moyai.sea import Water
+    >>> section = shapes.rectangle(beam=4.0, height=2.0).immersed(draught=1.0)
+    >>> found = solve(section, Water(10.0, 1025.0, 9.81), [0.5, 1.0], modes=rigid_modes((0.0, -0.2)))
+    >>> unit = from_planar(found.dataset, length=20.0, centre_of_gravity=(0.0, -0.2))
+    >>> [file.name for file in write_coefficients("wamit", unit, mkdtemp())]
+    ['unit.gdf', 'unit.pot', 'unit.1', 'unit.3']
     """
     if program not in _WRITERS:
         raise InputError(

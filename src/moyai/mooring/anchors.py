@@ -67,18 +67,27 @@ class AnchorCheck:
 
 
 def check_sinker(sinker: Sinker, horizontal: float, uplift: float) -> AnchorCheck:
-    """Hold a sinker against the pull of its line.
+    """Hold a sinker against the pull of its line [eq:checks-sinker].
 
     Parameters
     ----------
     sinker : Sinker
+        Weight in water [N], friction on the bed and safety factor [-].
     horizontal, uplift : float
         Parts of the pull at the anchor [N].
 
     Returns
     -------
     AnchorCheck
-        [eq:checks-sinker]; the uplift is taken off the weight on the bed.
+        Utilisation against sliding and lifting; the uplift is taken off the weight on the bed.
+
+    Examples
+    --------
+    >>> from moyai.mooring import check_sinker
+    >>> from moyai.mooring.anchors import Sinker
+    >>> found = check_sinker(Sinker(submerged_weight=1e5, friction=0.5, safety_factor=1.2), horizontal=2e4, uplift=1e4)
+    >>> round(found.sliding, 3), round(found.lifting, 2), found.passed   # 1.2 x 2e4 / (0.5 x 8.8e4)
+    (0.545, 0.12, True)
     """
     factor, up = sinker.safety_factor, max(uplift, 0.0)
     resting = sinker.submerged_weight - factor * up
@@ -89,7 +98,27 @@ def check_sinker(sinker: Sinker, horizontal: float, uplift: float) -> AnchorChec
 def check_drag_anchor(anchor: DragAnchor, horizontal: float, uplift: float) -> AnchorCheck:
     """Hold a drag anchor against the pull of its line [eq:checks-drag-anchor].
 
-    Notices tell of any uplift: such anchors are not made for it.
+    Notices report any uplift: such anchors are not made for it.
+
+    Parameters
+    ----------
+    anchor : DragAnchor
+        Weight in air [N], holding power and safety factor [-].
+    horizontal, uplift : float
+        Parts of the pull at the anchor [N].
+
+    Returns
+    -------
+    AnchorCheck
+        Utilisation against sliding; that against lifting is infinite with any uplift.
+
+    Examples
+    --------
+    >>> from moyai.mooring import DragAnchor, check_drag_anchor
+    >>> anchor = DragAnchor(weight=2e4, holding_power=5.0, safety_factor=1.5)
+    >>> found = check_drag_anchor(anchor, horizontal=4e4, uplift=0.0)
+    >>> round(found.utilisation, 3), found.passed                        # 1.5 x 4e4 / (5 x 2e4)
+    (0.6, True)
     """
     sliding = anchor.safety_factor * abs(horizontal) / (anchor.weight * anchor.holding_power)
     notices: tuple[Notice, ...] = ()

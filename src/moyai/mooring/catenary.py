@@ -108,6 +108,7 @@ def solve_catenary(
     Returns
     -------
     CatenarySolution
+        Forces [N] at both ends, the length on the bed [m] and the regime, in the shape of the arguments together.
 
     Raises
     ------

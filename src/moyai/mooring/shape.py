@@ -75,7 +75,7 @@ def _on_bed(
 
 
 def line_shape(line: Line, fairlead: ArrayLike, water_depth: float, points: int = 60) -> LineShape:
-    """Draw a line for one position of its fairlead.
+    """Draw a line for one position of its fairlead [eq:mooring-piece].
 
     Parameters
     ----------
@@ -84,14 +84,31 @@ def line_shape(line: Line, fairlead: ArrayLike, water_depth: float, points: int 
     fairlead : array_like (3,)
         Position of the fairlead [m], site axes.
     water_depth : float
-        [m].
+        Depth of the bed below still water [m].
     points : int
         About how many points; ends, touchdown and junctions are always among them.
 
     Returns
     -------
     LineShape
-        The part on the bed is drawn straight, also where a slack line has more length there than distance.
+        Positions [m], lengths from the anchor [m] and tensions [N] of n points. The part on the bed is drawn straight,
+        also where a slack line has more length there than distance.
+
+    Raises
+    ------
+    InputError
+        For an anchor under the bed.
+
+    Examples
+    --------
+    >>> from moyai.mooring import Line, LineType, Segment, line_shape
+    >>> chain = Segment(LineType("chain", submerged_weight=1000.0, axial_stiffness=5e8), length=55.0)
+    >>> line = Line("left", anchor=(-50.0, 0.0, -10.0), fairlead=(0.0, 0.0, 0.0), segments=[chain])
+    >>> shape = line_shape(line, fairlead=(0.0, 0.0, 0.0), water_depth=10.0, points=20)
+    >>> shape.points[0].tolist()                                         # the anchor [m]
+    [-50.0, 0.0, -10.0]
+    >>> round(float(shape.tension[-1]) / 1000.0, 2)                      # at the fairlead [kN]
+    16.04
     """
     end = np.asarray(fairlead, dtype=float)
     span = end - np.asarray(line.anchor)

@@ -66,10 +66,26 @@ def strip_forces(
     form : {"component", "vector"}
         Drag u |u| along each axis by itself, or u |U| with the common speed [eq:morison-vector].
 
+    Returns
+    -------
+    StripForces
+        Inertia, drag and Magnus's force, shape (..., 2), and their ``total`` [N/m].
+
     Raises
     ------
     InputError
         For an unknown form.
+
+    Examples
+    --------
+    >>> import math
+    >>> from moyai.morison import strip_forces
+    >>> force = strip_forces(
+    ...     velocity=[2.0, 0.0], acceleration=[0.0, 0.0], density=1025.0, area=0.25 * math.pi,
+    ...     inertia=[2.0, 2.0], drag=[1.0, 1.0], drag_widths=[1.0, 1.0],
+    ... )
+    >>> force.drag.tolist()                                              # 0.5 x 1025 x 1 x 1 x 2^2 [N/m]
+    [2050.0, 0.0]
     """
     water, rate = np.asarray(velocity, dtype=float), np.asarray(acceleration, dtype=float)
     body_rate = np.asarray(body_acceleration, dtype=float)

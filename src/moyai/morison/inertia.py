@@ -63,7 +63,7 @@ class InertiaCoefficients:
 
 
 def inertia_coefficients(contour: Contour, *, accuracy: float = 1e-7) -> InertiaCoefficients:
-    """Return the ideal inertia coefficients of any closed contour.
+    """Return the ideal inertia coefficients of any closed contour [eq:morison-inertia-integral].
 
     Parameters
     ----------
@@ -71,11 +71,12 @@ def inertia_coefficients(contour: Contour, *, accuracy: float = 1e-7) -> Inertia
         Straight and circular edges, any corners, any slenderness.
     accuracy : float
         Aim relative to the largest coefficient; contours of many corners stop where the matrix would grow too large,
-        which ``error`` tells.
+        which ``error`` shows.
 
     Returns
     -------
     InertiaCoefficients
+        Tensor C_M [-], shape (2, 2), its error and the check of its symmetry.
 
     Raises
     ------

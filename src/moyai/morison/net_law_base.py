@@ -154,7 +154,9 @@ def panel_force(
     Parameters
     ----------
     law : NetLaw
+        From :func:`net_law`.
     net : Net
+        Twine and mesh [m].
     normal : array_like, shape (3,)
         Unit normal of the panel, either side.
     velocity : array_like, shape (..., 3)

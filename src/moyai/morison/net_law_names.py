@@ -39,7 +39,19 @@ _LAWS: dict[str, type[NetLaw]] = {
 
 
 def available_net_laws() -> tuple[str, ...]:
-    """Return the names of all laws; a power law of one's own is written out, ``11.4 Re^-0.40``."""
+    """Return the names of all laws; a power law of one's own is written out, ``11.4 Re^-0.40``.
+
+    Returns
+    -------
+    tuple of str
+        Names that :func:`net_law` takes.
+
+    Examples
+    --------
+    >>> from moyai.morison import available_net_laws
+    >>> available_net_laws()[:3]
+    ('matsubara', 'loland', 'aarsnes')
+    """
     return tuple(_LAWS)
 
 
@@ -59,10 +71,23 @@ def net_law(name: str, **options: object) -> NetLaw:
     **options
         Fields of that law, such as ``cap`` of ``matsubara``.
 
+    Returns
+    -------
+    NetLaw
+        For :func:`panel_force`; says its source and range.
+
     Raises
     ------
     InputError
         For an unknown name or option.
+
+    Examples
+    --------
+    >>> from moyai.morison import net_law
+    >>> net_law("loland").name
+    'loland'
+    >>> net_law("11.4 Re^-0.40 from 120 to 1100").reynolds_range         # a power law of a fit [eq:net-power-law]
+    (120.0, 1100.0)
     """
     numbers = read_power_law(name)
     if numbers is None and name not in _LAWS:

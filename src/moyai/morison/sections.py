@@ -69,14 +69,58 @@ def _positive(**lengths: float) -> None:
 
 
 def circle(diameter: float) -> MemberSection:
-    """Return a circular section."""
+    """Return a circular section.
+
+    Parameters
+    ----------
+    diameter : float
+        [m].
+
+    Returns
+    -------
+    MemberSection
+        Its axis at the origin.
+
+    Raises
+    ------
+    InputError
+        For a diameter that is not positive.
+
+    Examples
+    --------
+    >>> from moyai.morison import sections
+    >>> round(sections.circle(1.0).area, 4)                              # pi / 4 [m2]
+    0.7854
+    """
     _positive(diameter=diameter)
     half = 0.5 * diameter
     return MemberSection(Contour(np.array([(-half, 0.0), (half, 0.0)]), np.array([1.0, 1.0])), "circle")
 
 
 def rectangle(width: float, height: float) -> MemberSection:
-    """Return a rectangle, ``width`` along the first axis, ``height`` along the second."""
+    """Return a rectangle, ``width`` along the first axis, ``height`` along the second.
+
+    Parameters
+    ----------
+    width, height : float
+        [m].
+
+    Returns
+    -------
+    MemberSection
+        Its middle at the origin.
+
+    Raises
+    ------
+    InputError
+        For a side that is not positive.
+
+    Examples
+    --------
+    >>> from moyai.morison import sections
+    >>> sections.rectangle(2.0, 1.0).drag_widths                         # met by flow along both axes [m]
+    (1.0, 2.0)
+    """
     _positive(width=width, height=height)
     b, h = 0.5 * width, 0.5 * height
     return MemberSection(
@@ -87,11 +131,29 @@ def rectangle(width: float, height: float) -> MemberSection:
 def rounded_rectangle(width: float, height: float, corner_radius: float) -> MemberSection:
     """Return a rectangle whose four corners are quarter circles.
 
+    Parameters
+    ----------
+    width, height : float
+        [m].
+    corner_radius : float
+        [m], less than half of the smaller side.
+
+    Returns
+    -------
+    MemberSection
+        Its middle at the origin.
+
     Raises
     ------
     InputError
-        When the radius reaches half of the smaller side (then it is a circle or a stadium: use slightly less, or arcs
-        through :func:`polygon`).
+        When a size is not positive, or the radius reaches half of the smaller side (then it is a circle or a stadium:
+        use slightly less, or arcs through :func:`polygon`).
+
+    Examples
+    --------
+    >>> from moyai.morison import sections
+    >>> round(sections.rounded_rectangle(2.0, 1.0, corner_radius=0.2).area, 4)   # 2 - (4 - pi) 0.2^2 [m2]
+    1.9657
     """
     _positive(width=width, height=height, corner_radius=corner_radius)
     b, h, r = 0.5 * width, 0.5 * height, corner_radius
@@ -103,6 +165,33 @@ def rounded_rectangle(width: float, height: float, corner_radius: float) -> Memb
 
 
 def polygon(points: ArrayLike, bulges: ArrayLike | None = None, name: str = "polygon") -> MemberSection:
-    """Return a section through ``points`` (n, 2), with arcs where ``bulges`` (tan(sweep / 4)) say so."""
+    """Return a section through ``points`` (n, 2), with arcs where ``bulges`` (tan(sweep / 4)) say so.
+
+    Parameters
+    ----------
+    points : array_like, shape (n, 2)
+        Corners (x, z) [m]: first axis across the member, second upwards.
+    bulges : array_like, shape (n,), optional
+        tan(sweep / 4) of the edge that leaves each corner.
+    name : str
+        Shape in words.
+
+    Returns
+    -------
+    MemberSection
+        In the axes of the points.
+
+    Raises
+    ------
+    InputError
+        For points that are no closed contour: NaN, fewer than three corners (two with arcs), corners that coincide, no
+        area, or edges that cross.
+
+    Examples
+    --------
+    >>> from moyai.morison import sections
+    >>> sections.polygon([(0.0, 0.0), (2.0, 0.0), (0.0, 1.0)], name="triangle").area   # [m2]
+    1.0
+    """
     given = None if bulges is None else np.asarray(bulges, dtype=float)
     return MemberSection(Contour(np.asarray(points, dtype=float), given), name)

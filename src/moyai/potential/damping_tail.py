@@ -90,6 +90,16 @@ def wall_sided_tails(water: Water, centre_height: float) -> tuple[TailTheory, ..
     -------
     tuple of TailTheory
         For modes in the order sway, heave, roll, per metre.
+
+    Examples
+    --------
+    >>> from moyai.potential import wall_sided_tails
+    >>> from moyai.sea import Water
+    >>> tails = wall_sided_tails(Water(depth=10.0, density=1025.0, gravity=9.81), centre_height=-0.2)
+    >>> [tail.entry for tail in tails]                                   # rows and columns of the damping matrix
+    [(0, 0), (0, 2), (2, 0), (2, 2)]
+    >>> tails[0].exponents, round(tails[0].coefficients[0])              # sway: 4 rho g^2 omega^-3 [kg/(m s4)]
+    ((3.0,), 394568)
     """
     rho, g, z = water.density, water.gravity, centre_height
     # Moment of exp(K z)(z - centre) over the wall: -(centre/K + 1/K^2)

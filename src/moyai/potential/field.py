@@ -31,7 +31,7 @@ def surface_elevation(
     motions: ArrayLike | None = None,
     amplitude: complex = 1.0,
 ) -> ComplexArray:
-    """Return the complex elevation [m] at places x [m] (not under the section) at frequency number ``index``.
+    """Return the complex elevation [m] at places x [m] at one frequency [eq:potential-outer-modes].
 
     Parameters
     ----------
@@ -45,6 +45,29 @@ def surface_elevation(
         Amplitudes of the modes [m, rad]; none is the section held fixed.
     amplitude : complex
         Amplitude of the incident wave [m]; 0 shows the radiated waves alone.
+
+    Returns
+    -------
+    ndarray of complex, shape (n,)
+        Amplitude and phase [m]; the elevation is its real part times exp(-i omega t).
+
+    Raises
+    ------
+    InputError
+        For motions of another shape or not finite.
+    IndexError
+        For a number of no frequency.
+
+    Examples
+    --------
+    >>> from moyai.potential import rigid_modes, shapes, solve, surface_elevation
+    >>> from moyai.sea import Water
+    >>> section = shapes.rectangle(beam=4.0, height=2.0).immersed(draught=1.0)
+    >>> water = Water(depth=10.0, density=1025.0, gravity=9.81)
+    >>> found = solve(section, water, [1.5], modes=rigid_modes(centre=(0.0, -0.2)))
+    >>> far = surface_elevation(found, [60.0], 0)                        # behind the section held fixed
+    >>> round(float(abs(far[0])), 2)                                     # its transmission coefficient [m]
+    0.73
     """
     places = np.atleast_1d(np.asarray(x, dtype=float))
     points = np.stack([places, np.zeros_like(places)], axis=1)

@@ -62,16 +62,16 @@ def memory_functions(
     tail_theory: Sequence[TailTheory] = (),
     added_mass: ArrayLike | None = None,
 ) -> MemoryFunctions:
-    """Return both memory functions of a body.
+    """Return both memory functions of a body [eq:memory-velocity-kernel] [eq:memory-acceleration-kernel].
 
     Parameters
     ----------
     omega : array_like (n,)
         Increasing, greater than 0 [rad/s]; see :func:`recommend_frequencies`.
     radiation_damping : array_like (n, m, m)
-        B.
+        B [kg/s, kg m/s, kg m2/s], or the same per metre.
     infinite_frequency_added_mass : array_like (m, m)
-        A_inf of the problem with phi = 0 on the surface.
+        A_inf of the problem with phi = 0 on the surface [kg, kg m, kg m2], or the same per metre.
     time : array_like (t,)
         Increasing from 0 [s].
     start : {"even", "zero"}
@@ -86,11 +86,24 @@ def memory_functions(
     Returns
     -------
     MemoryFunctions
+        Kernels of velocity and acceleration at ``time``, shape (t, m, m), the damping model behind them and the checks.
 
     Raises
     ------
     InputError
         When shapes disagree, or something is not finite or not increasing.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.potential import memory_functions
+    >>> omega = np.linspace(0.05, 20.0, 200)
+    >>> damping = (omega**2 * np.exp(-omega)).reshape(-1, 1, 1)
+    >>> memory = memory_functions(omega, damping, [[1.0]], np.linspace(0.0, 10.0, 201), start="zero")
+    >>> memory.velocity_kernel.shape
+    (201, 1, 1)
+    >>> round(float(memory.velocity_kernel[0, 0, 0]), 2)                 # 4 / pi in theory [kg/s2]
+    1.27
     """
     model = fit_damping(omega, radiation_damping, start=start, steady_damping=steady_damping, tail_theory=tail_theory)
     infinite = np.asarray(infinite_frequency_added_mass, dtype=float)

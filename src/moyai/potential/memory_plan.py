@@ -35,7 +35,7 @@ class FrequencyPlan:
 def recommend_frequencies(
     water: Water, *, breadth: float, wall_height: float, accuracy: float = _REFERENCE
 ) -> FrequencyPlan:
-    """Return the frequencies that a memory function of the given accuracy needs.
+    """Return the frequencies that a memory function of the given accuracy needs [eq:memory-tail].
 
     Parameters
     ----------
@@ -49,6 +49,11 @@ def recommend_frequencies(
     accuracy : float
         Error of K over its largest value, from 1e-6 to 1e-2.
 
+    Returns
+    -------
+    FrequencyPlan
+        Frequencies ``omega`` [rad/s], shape (n,), and the ``reason`` for them.
+
     Raises
     ------
     InputError
@@ -58,6 +63,15 @@ def recommend_frequencies(
     -----
     Evenly spaced near zero, then evenly in the logarithm: omega = c sinh(j step). Sharp resonances (the water between
     twin hulls) need more: solve, then ask :func:`refine_frequencies`.
+
+    Examples
+    --------
+    >>> from moyai.potential import recommend_frequencies
+    >>> from moyai.sea import Water
+    >>> water = Water(depth=10.0, density=1025.0, gravity=9.81)
+    >>> plan = recommend_frequencies(water, breadth=4.0, wall_height=1.0, accuracy=1e-3)
+    >>> len(plan.omega), round(float(plan.omega[0]), 3), round(float(plan.omega[-1]), 1)   # [rad/s]
+    (42, 0.03, 9.9)
     """
     for name, value in (("breadth", breadth), ("wall_height", wall_height)):
         if not (math.isfinite(value) and value > 0.0):
@@ -124,7 +138,7 @@ class MemoryPlan:
 
 
 def recommend_memory(model: DampingModel, *, tolerance: float = _REFERENCE) -> MemoryPlan:
-    """Return how long K has to be kept and how finely it has to be sampled.
+    """Return how long K has to be kept and how finely it has to be sampled [eq:memory-velocity-kernel].
 
     Parameters
     ----------
@@ -133,10 +147,26 @@ def recommend_memory(model: DampingModel, *, tolerance: float = _REFERENCE) -> M
     tolerance : float
         Share of the largest values that may be lost.
 
+    Returns
+    -------
+    MemoryPlan
+        ``length`` and ``time_step`` [s], whether the memory has decayed by then, and the reason.
+
     Notes
     -----
     Length: after it both K and what is left of its integral (lambda - D(0)) stay below ``tolerance``. Step: the
     trapezoidal rule for the convolution errs by dt^2 K''/12 at the start of the kernel.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.potential import memory_functions, recommend_memory
+    >>> omega = np.linspace(0.05, 20.0, 60)
+    >>> damping = (omega**2 * np.exp(-omega)).reshape(-1, 1, 1)
+    >>> memory = memory_functions(omega, damping, [[1.0]], np.linspace(0.0, 10.0, 101), start="zero")
+    >>> plan = recommend_memory(memory.model, tolerance=1e-2)
+    >>> plan.reached, round(plan.length), round(plan.time_step, 1)       # [s]
+    (True, 7, 0.1)
     """
     slowest = model.knots[1]
     horizon = 60.0 / slowest

@@ -113,6 +113,24 @@ def rigid_modes(centre: tuple[float, float], *, body: int | None = None, prefix:
         Number of the outline that moves; by default all move together.
     prefix : str
         Put before the three names, for instance ``"left "`` in an array of bodies.
+
+    Returns
+    -------
+    Modes
+        Three modes with their names and the outlines that they move.
+
+    Raises
+    ------
+    InputError
+        For a centre that is not finite.
+
+    Examples
+    --------
+    >>> from moyai.potential import rigid_modes
+    >>> rigid_modes(centre=(0.0, -0.2)).names
+    ('sway', 'heave', 'roll')
+    >>> rigid_modes(centre=(-6.0, -0.2), body=0, prefix="left ").names
+    ('left sway', 'left heave', 'left roll')
     """
     x, z = float(centre[0]), float(centre[1])
     if not (np.isfinite(x) and np.isfinite(z)):

@@ -161,7 +161,7 @@ def solve_rectangle(
     pairs: int | None = None,
     progress: Progress = silent,
 ) -> RectangleSolution:
-    """Solve radiation and diffraction of a surface-piercing rectangle in water of constant depth.
+    """Solve radiation and diffraction of a surface-piercing rectangle in water of constant depth [eq:reference-system].
 
     Parameters
     ----------
@@ -183,6 +183,8 @@ def solve_rectangle(
     Returns
     -------
     RectangleSolution
+        Coefficients and forces per metre of structure about ``centre``, modes in the order sway, heave, roll, with the
+        checks of the identities.
 
     Raises
     ------
@@ -193,6 +195,15 @@ def solve_rectangle(
     -----
     Infinite depth is not covered, since the gap below the body is the unknown of the method; depths of hundreds of
     draughts are.
+
+    Examples
+    --------
+    >>> from moyai.potential import solve_rectangle
+    >>> from moyai.sea import Water
+    >>> water = Water(depth=10.0, density=1025.0, gravity=9.81)
+    >>> found = solve_rectangle(4.0, 1.0, water, [1.5], centre=(0.0, -0.2))
+    >>> found.added_mass.shape, round(float(abs(found.transmission[0, 0])), 4)   # [kg/m], [-]
+    ((1, 3, 3), 0.7253)
     """
     frequencies, headings = _checked(beam, draught, water, omega, centre, heading)
     gap = water.depth - draught

@@ -49,7 +49,7 @@ def solve(
     accuracy: float = 1e-3,
     progress: Progress = silent,
 ) -> RadiationDiffraction:
-    """Solve radiation of all modes and diffraction of all headings.
+    """Solve radiation of all modes and diffraction of all headings [eq:potential-green].
 
     Parameters
     ----------

@@ -118,13 +118,45 @@ def _response(poles: ComplexArray, inputs: ComplexArray, outputs: ComplexArray, 
 def fit_memory(
     memory: MemoryFunctions | DampingModel, *, tolerance: float = 1e-3, highest_order: int = 24
 ) -> StateSpace:
-    """Fit the memory of :func:`moyai.potential.memory.memory_functions` over all frequencies.
+    """Fit the memory over all frequencies by a state space [eq:memory-state-space].
 
     Parameters
     ----------
     memory : MemoryFunctions or DampingModel
-    tolerance, highest_order
-        See :func:`fit_state_space`.
+        From :func:`memory_functions`, or its ``model``: damping of m modes at every frequency [kg/s, kg m/s, kg m2/s].
+    tolerance : float
+        Error of the frequency response at which the order stops rising, over the largest response of the pair of modes.
+    highest_order : int
+        Poles at most.
+
+    Returns
+    -------
+    StateSpace
+        Poles [1/s], inputs and outputs of the model, its error and the checks of accuracy and passivity; ``order`` real
+        states.
+
+    Raises
+    ------
+    InputError
+        For a tolerance outside 1e-8 to 0.2.
+    ConvergenceError
+        When the highest order does not fit the memory.
+
+    References
+    ----------
+    B. Gustavsen and A. Semlyen (1999), Rational approximation of frequency domain responses by vector fitting, IEEE
+    Trans. Power Delivery 14(3), 1052-1061 [eq:memory-vector-fitting].
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.potential import fit_memory, memory_functions
+    >>> omega = np.linspace(0.05, 20.0, 60)
+    >>> damping = (omega**2 * np.exp(-omega)).reshape(-1, 1, 1)
+    >>> memory = memory_functions(omega, damping, [[1.0]], np.linspace(0.0, 10.0, 101), start="zero")
+    >>> fitted = fit_memory(memory, tolerance=1e-2)
+    >>> fitted.size, fitted.error < 0.02, bool(fitted.poles.real.max() < 0.0)
+    (1, True, True)
     """
     model = memory.model if isinstance(memory, MemoryFunctions) else memory
     low, high = model.knots[1], model.knots[-1]

@@ -169,6 +169,8 @@ def solve_plate_limit(
 ) -> PlateLimit:
     """Solve a thin plate at infinite frequency (impulsive motion, phi = 0 at z = 0) or at zero frequency.
 
+    Images in surface and bed take the place of the waves [eq:potential-limit-infinite] [eq:potential-limit-zero].
+
     Parameters
     ----------
     plate : Plate

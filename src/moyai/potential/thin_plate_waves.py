@@ -211,7 +211,7 @@ def solve_plate_waves(
     modes: Modes | None = None,
     accuracy: float = 1e-4,
 ) -> PlateWaves:
-    """Solve radiation and diffraction by thin plates alone, waves of either side.
+    """Solve radiation and diffraction by thin plates alone, waves of either side [eq:plate-waves].
 
     Parameters
     ----------
@@ -226,10 +226,24 @@ def solve_plate_waves(
     accuracy : float
         See :func:`moyai.potential.solver.solve`.
 
+    Returns
+    -------
+    PlateWaves
+        The solution for waves along +x and that for waves along -x (of the mirrored plates), per metre of structure.
+
     Raises
     ------
     InputError
         For plates without length, that cross, or that are deeper than the water.
+
+    Examples
+    --------
+    >>> from moyai.potential import Plate, solve_plate_waves
+    >>> from moyai.sea import Water
+    >>> water = Water(depth=10.0, density=1025.0, gravity=9.81)
+    >>> found = solve_plate_waves(Plate(start=(0.0, 0.0), end=(0.0, -2.0)), water, [1.5])
+    >>> round(float(abs(found.solution.transmission_coefficient[0, 0])), 2)   # of the plate held fixed [-]
+    0.93
     """
     group = plates if isinstance(plates, tuple) else (plates,)
     section = plate_section(*group)

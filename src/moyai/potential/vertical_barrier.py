@@ -40,7 +40,7 @@ class VerticalBarrier:
 def solve_vertical_barrier(
     draught: float, water: Water, omega: ArrayLike, *, polynomials: int = 14, evanescent_modes: int = 4000
 ) -> VerticalBarrier:
-    """Solve a vertical barrier in water of finite depth.
+    """Solve a vertical barrier in water of finite depth [eq:plate-gap].
 
     Parameters
     ----------
@@ -53,10 +53,26 @@ def solve_vertical_barrier(
     polynomials, evanescent_modes : int
         Chebyshev polynomials in the gap and evanescent modes; the sum beyond the last mode is added in the mean.
 
+    Returns
+    -------
+    VerticalBarrier
+        Added mass [kg/m] and damping [kg/(m s)] of sway, reflection and transmission [-]; each of shape (n,).
+
     Raises
     ------
     InputError
         For infinite depth, or a draught that is not between 0 and the depth.
+
+    Examples
+    --------
+    >>> from moyai.potential import solve_vertical_barrier
+    >>> from moyai.sea import Water
+    >>> water = Water(depth=10.0, density=1025.0, gravity=9.81)
+    >>> found = solve_vertical_barrier(2.0, water, [1.5])
+    >>> round(float(abs(found.transmission[0])), 3)
+    0.933
+    >>> round(float(abs(found.transmission[0]) ** 2 + abs(found.reflection[0]) ** 2), 6)   # energy
+    1.0
     """
     depth = water.depth
     if not math.isfinite(depth):

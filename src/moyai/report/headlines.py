@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Literal
 
-from moyai.core.headline import Criterion, Headline, Judgement
+from moyai.core.headline import Criterion, Headline, Judgement, unfavourable
 from moyai.core.results import Result
 from moyai.report.document import KeyFigure, KeyFigures
 from moyai.report.first_page import largest_by_unit, limit_and_found
@@ -62,15 +62,43 @@ def headline_text(headline: Headline, like: float = 0.0) -> str:
     return f"{headline.bound} {text}" if headline.bound else text
 
 
-def band_text(headline: Headline, like: float = 0.0) -> str:
-    """Return the band of a headline in words, empty where it has none; in the unit of its number."""
+def band_text(headline: Headline, like: float = 0.0, *, with_judged: bool = True) -> str:
+    """Return the band of a headline in words, empty where it has none; in the unit of its number.
+
+    It reaches to what is judged, and names that where it is not the end of the band itself.
+
+    Parameters
+    ----------
+    headline : Headline
+    like : float
+        See :func:`headline_text`.
+    with_judged : bool
+        Whether the value that is judged is named; not where a limit next to it does.
+    """
     band = headline.band
     if band is None:
         return ""
     like = max(like, abs(headline.value)) if math.isfinite(headline.value) else like
-    ends = (band.low, headline.value, band.high)
-    low, own, high = (_quantity(end, headline.unit, like, headline.digits) for end in ends)
-    return f"the same to {headline.digits} digits ({band.of})" if low == own == high else f"{low} to {high} ({band.of})"
+
+    def said(value: float) -> str:
+        return _quantity(value, headline.unit, like, headline.digits)
+
+    end = _judged_end(headline)
+    low, own, high, judged = map(said, (band.low, headline.value, max(band.high, end), end))
+    if low == own == high:
+        return f"the same to {headline.digits} digits ({band.of})"
+    if band.decides or not with_judged or judged == own:
+        return f"{low} to {high} ({band.of})"
+    return f"{low} to {high}, judged {judged} ({band.of})"
+
+
+def _judged_end(headline: Headline) -> float:
+    """Return the value that a limit from above is held against, or something bought for; that shown where unknown."""
+    band = headline.band
+    # what a growth that goes on comes to is said with its words
+    if band is None or band.decides or band.judged is None or band.beyond_bound or math.isnan(headline.value):
+        return headline.value
+    return unfavourable(headline)
 
 
 def _quantity(value: float, unit: str, like: float, digits: int) -> str:
@@ -89,7 +117,10 @@ def _figure(headline: Headline, judged: list[Judgement], scale: Mapping[str, flo
     like = scale.get(headline.unit, 0.0)
     worst = max(judged, key=lambda item: (_severity(item), _use(item)), default=None)
     remark = words_in_system(headline.detail)
-    detail = "; ".join(part for part in (band_text(headline, like), remark, headline.where, headline.model) if part)
+    # a limit that is not one of a factor says itself where it is judged
+    alone = worst is None or worst.criterion.as_factor or worst.value != _judged_end(headline)
+    band = band_text(headline, like, with_judged=alone)
+    detail = "; ".join(part for part in (band, remark, headline.where, headline.model) if part)
     if worst is None:
         return KeyFigure(headline.label, headline_text(headline, like), detail)
     judgement: Literal["", "good", "caution", "bad"] = {
@@ -98,15 +129,19 @@ def _figure(headline: Headline, judged: list[Judgement], scale: Mapping[str, flo
         "not judged": "caution",
     }[worst.outcome]  # type: ignore[assignment]
     share = _share(worst.criterion, worst.value)
-    detail = "; ".join(part for part in (detail, _asked(headline, worst, like)) if part)
+    known = max((item for item in judged if item.outcome == "holds"), key=_nearness, default=None)
+    words = [_asked(headline, worst, like), _known(headline, worst, known, like) if judgement == "caution" else ""]
+    detail = "; ".join(part for part in (detail, *words) if part)
     return KeyFigure(headline.label, headline_text(headline, like), detail, share, judgement)
 
 
 def _asked(headline: Headline, item: Judgement, like: float) -> str:
-    """Return limit and judged value, with the value shown next to it where that is another one; empty where unknown."""
-    if not math.isfinite(item.value):
-        return ""
+    """Return limit and judged value, with the value shown next to it where that is another one; why it is not known."""
     limit, found = limit_and_found(item, like)
+    if math.isnan(item.value):
+        # the verdict says what to do about it
+        reason = "" if item.reason == headline.text else f": {item.reason.partition('; ')[0]}"
+        return f"asked {limit}; not judged{reason}"
     _, own = limit_and_found(replace(item, value=headline.value), like)
     plain = own == found or not math.isfinite(headline.value) or item.criterion.mean_weight != 1.0
     place = f" ({item.reason})" if item.outcome != "not judged" and item.reason not in ("", headline.where) else ""
@@ -124,6 +159,24 @@ def _asked(headline: Headline, item: Judgement, like: float) -> str:
         )
         return f"factor of safety {found}{here}, asked {limit}"
     return f"limit {limit}" if plain else f"limit {limit}, judged at {found.removeprefix(f'{item.bound} ')}{place}"
+
+
+def _known(headline: Headline, open_one: Judgement, item: Judgement | None, like: float) -> str:
+    """Return the worst value that is known, with its place, beside one that leaves the limit open."""
+    if item is None or not item.value:
+        return ""
+    limit, found = limit_and_found(item, like)
+    what = "factor of safety " if item.criterion.as_factor else ""
+    place = f" at {item.reason}" if item.reason not in ("", headline.where) else ""
+    # a code asks another factor of each analysis
+    asked = f", asked {limit}" if item.criterion != open_one.criterion else ""
+    return f"worst known: {what}{found}{place}{asked}"
+
+
+def _nearness(item: Judgement) -> float:
+    """Return how near a value comes to its limit, of criteria of one sense."""
+    share = _share(item.criterion, item.value)
+    return _use(item) if math.isnan(share) else share
 
 
 def _severity(item: Judgement) -> int:

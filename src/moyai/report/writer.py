@@ -31,6 +31,7 @@ def compose_document(
     Parameters
     ----------
     result : Result
+        Of any kind and status.
     units : {"SI", "tf"}, optional
         System of units of the document; that of the case when left out, else SI.
     language : {"en", "ja"}, optional
@@ -47,6 +48,17 @@ def compose_document(
     ------
     InputError
         For units or a language of another name.
+
+    Examples
+    --------
+    >>> import xarray as xr
+    >>> from moyai.core import Result
+    >>> from moyai.report import compose_document
+    >>> tension = xr.DataArray([1.0, 2.0], dims="time", attrs=dict(units="N", long_name="tension"))
+    >>> result = Result(xr.DataTree.from_dict({"/line": xr.Dataset(dict(tension=tension), dict(time=[0.0, 1.0]))}))
+    >>> document = compose_document(result, units="SI", language="en")
+    >>> [section.key for section in document.sections]
+    ['summary', 'group-/line', 'checks']
     """
     if units is not None:
         result = replace(result, provenance={**result.provenance, "display_units": units})
@@ -131,6 +143,17 @@ def write_report(
         (a package or font is missing, the template or unit is none): after everything else is written.
     CaseError
         When this holds for several of them.
+
+    Examples
+    --------
+    >>> from tempfile import mkdtemp
+    >>> import xarray as xr
+    >>> from moyai.core import Result
+    >>> from moyai.report import write_report
+    >>> tension = xr.DataArray([1.0, 2.0], dims="time", attrs=dict(units="N", long_name="tension"))
+    >>> result = Result(xr.DataTree.from_dict({"/line": xr.Dataset(dict(tension=tension), dict(time=[0.0, 1.0]))}))
+    >>> [file.name for file in write_report(result, mkdtemp())]
+    ['report.html', 'report.xlsx', 'provenance.csv']
     """
     if not name or name in {".", ".."} or re.search(r'[\\/:*?"<>|\x00-\x1f]', name):
         raise InputError(f"{name!r} is no file name", path="name", remedy="leave out slashes and the like")

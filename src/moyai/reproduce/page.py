@@ -35,12 +35,25 @@ def compose(found: Reproduction, result: Result) -> Document:
     Parameters
     ----------
     found : Reproduction
+        From :func:`reproduce`.
     result : Result
         The same as numbers, for its provenance.
 
     Returns
     -------
     Document
+        Summary, statements, figures, equations, what the paper leaves out, and the case files.
+
+    Examples
+    --------
+    >>> from moyai.reproduce import Reproduction, as_result, compose, paper
+    >>> from moyai.reproduce.model import Finding
+    >>> from moyai.reproduce.reproduction import Row
+    >>> tabata = paper("tabata")
+    >>> row = Row(tabata.statements[0], Finding("as the paper says", "agrees"))
+    >>> found = Reproduction(tabata, True, (row,), (), ())
+    >>> [section.key for section in compose(found, as_result(found)).sections][:3]
+    ['summary', 'statements', 'figures']
     """
     paper = found.paper
     sections = (

@@ -61,10 +61,26 @@ class Reproduction:
 def paper(name: str) -> Paper:
     """Return a paper by its key.
 
+    Parameters
+    ----------
+    name : str
+        Key of the paper: ``nakamura``, ``tabata``, ``arai``, ``sawaragi`` or ``matsubara``.
+
+    Returns
+    -------
+    Paper
+        Title, equations, statements, and the functions that compute it.
+
     Raises
     ------
     InputError
-        With the papers that exist.
+        For another key; names the papers that exist.
+
+    Examples
+    --------
+    >>> from moyai.reproduce import paper
+    >>> paper("tabata").key
+    'tabata'
     """
     if name not in NAMES:
         raise InputError(f"no paper '{name}'", path="PAPER", allowed=", ".join(NAMES))
@@ -73,7 +89,19 @@ def paper(name: str) -> Paper:
 
 
 def papers() -> tuple[Paper, ...]:
-    """Return all papers."""
+    """Return all papers.
+
+    Returns
+    -------
+    tuple of Paper
+        In the order in which they are listed.
+
+    Examples
+    --------
+    >>> from moyai.reproduce import papers
+    >>> [paper.key for paper in papers()]
+    ['nakamura', 'tabata', 'arai', 'sawaragi', 'matsubara']
+    """
     return tuple(paper(name) for name in NAMES)
 
 
@@ -96,6 +124,12 @@ def reproduce(
     points : tuple of str
         ``FIG=file.csv`` each.
     progress : Progress
+        Listener.
+
+    Returns
+    -------
+    Reproduction
+        Statements with what was found, figures, and what was filled in.
 
     Raises
     ------
@@ -123,6 +157,23 @@ def as_result(found: Reproduction) -> Result:
     Parameters
     ----------
     found : Reproduction
+        With one statement or more.
+
+    Returns
+    -------
+    Result
+        Groups ``statements``, ``figure_<number>`` with the curves in the units of the page, and the page itself.
+
+    Examples
+    --------
+    >>> from moyai.reproduce import Reproduction, as_result, paper
+    >>> from moyai.reproduce.model import Finding
+    >>> from moyai.reproduce.reproduction import Row
+    >>> tabata = paper("tabata")
+    >>> row = Row(tabata.statements[0], Finding("as the paper says", "agrees"))
+    >>> result = as_result(Reproduction(tabata, True, (row,), (), ()))
+    >>> result.tree["statements"]["verdict"].values.tolist()
+    ['agrees']
     """
     import xarray as xr
 

@@ -55,7 +55,7 @@ def linear_wavelength(period: float, water: Water, current_along_wave: float = 0
 
 
 def breaking_limit(period: float, water: Water, current_along_wave: float = 0.0) -> BreakingLimit:
-    """Return the limiting height of a regular wave: Miche's or McCowan's, whichever is lower.
+    """Return the limiting height of a regular wave: the lower of [eq:sea-miche] and [eq:sea-mccowan].
 
     Parameters
     ----------

@@ -206,6 +206,24 @@ def uniform(speed: float, heading: float) -> CurrentProfile:
         [m/s]; negative means against ``heading``.
     heading : float
         Direction towards which it flows [rad].
+
+    Returns
+    -------
+    CurrentProfile
+        The same velocity [m/s] at all heights z.
+
+    Raises
+    ------
+    InputError
+        When speed or heading is not finite.
+
+    Examples
+    --------
+    >>> import math
+    >>> from moyai.sea import current
+    >>> tide = current.uniform(0.5, heading=math.pi / 2.0)
+    >>> tide.velocity(-3.0).round(6).tolist()                            # x, y [m/s]
+    [0.0, 0.5]
     """
     _check_finite(speed=speed, heading=heading)
     return UniformCurrent(float(speed), float(heading))
@@ -225,10 +243,22 @@ def power_law(surface_speed: float, exponent: float, heading: float, water: Wate
     water : Water
         Depth, finite.
 
+    Returns
+    -------
+    CurrentProfile
+        Velocities [m/s] at heights z, over the depth of ``water``.
+
     Raises
     ------
     InputError
-        When the depth is infinite or the exponent not positive.
+        When the depth is infinite, the exponent not positive, or speed or heading not finite.
+
+    Examples
+    --------
+    >>> from moyai.sea import Water, current
+    >>> tide = current.power_law(1.0, exponent=1.0 / 7.0, heading=0.0, water=Water(10.0, 1025.0, 9.81))
+    >>> round(tide.speed(-5.0), 4), tide.speed(0.0)                      # 0.5^(1/7), at mid-depth and surface [m/s]
+    (0.9057, 1.0)
     """
     _check_finite(surface_speed=surface_speed, heading=heading)
     if not (math.isfinite(exponent) and exponent > 0.0):
@@ -254,11 +284,23 @@ def table(z: ArrayLike, speed: ArrayLike, heading: ArrayLike) -> CurrentProfile:
     heading : float or array_like
         Directions towards which it flows [rad]; velocity components, not angles, are interpolated.
 
+    Returns
+    -------
+    CurrentProfile
+        Velocities [m/s] at heights z; above the highest and below the lowest height those of the end.
+
     Raises
     ------
     InputError
         When the table is empty, not monotonic, above still water, of unequal lengths or holds NaN; the message names
         the row (from 1).
+
+    Examples
+    --------
+    >>> from moyai.sea import current
+    >>> tide = current.table(z=[0.0, -10.0], speed=[1.0, 0.4], heading=0.0)
+    >>> round(tide.speed(-5.0), 3)                                       # [m/s]
+    0.7
     """
     level = np.atleast_1d(np.array(z, dtype=np.float64))
     size = np.atleast_1d(np.array(speed, dtype=np.float64))

@@ -259,12 +259,32 @@ def angular_frequency(wave_number: float, water_depth: float, gravity: float) ->
 @overload
 def angular_frequency(wave_number: ArrayLike, water_depth: ArrayLike, gravity: ArrayLike) -> Array: ...
 def angular_frequency(wave_number: ArrayLike, water_depth: ArrayLike, gravity: ArrayLike) -> Any:
-    """Return the angular frequency [rad/s] of waves of ``wave_number`` [1/m]: the inverse of :func:`wave_number`.
+    """Return the angular frequency of waves of a wave number: the inverse of :func:`wave_number` [eq:sea-dispersion].
+
+    Parameters
+    ----------
+    wave_number : array_like
+        k [1/m], 0 or more.
+    water_depth : array_like
+        [m], greater than 0; infinite is allowed.
+    gravity : array_like
+        [m/s2].
+
+    Returns
+    -------
+    float or ndarray
+        [rad/s], of the shape of the arguments together.
 
     Raises
     ------
     InputError
         When an argument is negative or NaN.
+
+    Examples
+    --------
+    >>> from moyai.sea import angular_frequency
+    >>> round(angular_frequency(0.1, water_depth=10.0, gravity=9.81), 4)   # sqrt(0.981 tanh 1) [rad/s]
+    0.8644
     """
     k = _check("wave_number", wave_number, zero=True)
     depth = _check("water_depth", water_depth, zero=False, infinite=True)
@@ -333,9 +353,34 @@ def evanescent_deficits(omega: ArrayLike, water_depth: float, gravity: float, co
 
 
 def phase_velocity(omega: ArrayLike, water_depth: ArrayLike, gravity: ArrayLike) -> Any:
-    """Return the phase velocity omega / k [m/s] in still water [eq:sea-phase-velocity].
+    """Return the phase velocity omega / k in still water [eq:sea-phase-velocity].
 
-    At zero frequency it is the shallow limit sqrt(g h). Arguments and errors as :func:`wave_number`.
+    At zero frequency it is the shallow limit sqrt(g h).
+
+    Parameters
+    ----------
+    omega : array_like
+        Angular frequency [rad/s], 0 or more.
+    water_depth : array_like
+        [m], greater than 0; infinite is allowed.
+    gravity : array_like
+        [m/s2].
+
+    Returns
+    -------
+    float or ndarray
+        [m/s], of the shape of the arguments together.
+
+    Raises
+    ------
+    InputError
+        When an argument is negative or NaN.
+
+    Examples
+    --------
+    >>> from moyai.sea import phase_velocity
+    >>> round(phase_velocity(1.0, water_depth=float("inf"), gravity=9.81), 3)   # g / omega in deep water [m/s]
+    9.81
     """
     k = np.asarray(wave_number(omega, water_depth, gravity))
     frequency, depth, g, k = np.broadcast_arrays(np.asarray(omega, float), water_depth, gravity, k)
@@ -396,6 +441,13 @@ def wave_number_in_current(
     ------
     InputError
         When an opposing current blocks the wave: its group velocity cannot overcome the current.
+
+    Examples
+    --------
+    >>> from moyai.sea import wave_number_in_current
+    >>> k = [wave_number_in_current(1.0, float("inf"), 9.81, speed) for speed in (0.0, 1.0, -1.0)]
+    >>> [round(value, 4) for value in k]                                 # less with the current, more against it [1/m]
+    [0.1019, 0.0853, 0.1302]
     """
     frequency = _check("omega", omega, zero=True)
     depth = _check("water_depth", water_depth, zero=False, infinite=True)

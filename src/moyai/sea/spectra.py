@@ -142,10 +142,21 @@ def goda_factor(peak_enhancement: float, *, zero_crossing: bool) -> float:
     Parameters
     ----------
     peak_enhancement : float
-        gamma [-].
+        gamma [-], 1 or more.
     zero_crossing : bool
         Whether the factor goes with H_1/3 of the zero-crossing analysis (beta_J of Goda, Random Seas and Design of
         Maritime Structures) or with H_m0.
+
+    Returns
+    -------
+    float
+        Factor of the spectrum [-].
+
+    Examples
+    --------
+    >>> from moyai.sea import spectra
+    >>> round(spectra.goda_factor(3.3, zero_crossing=False), 4), round(spectra.goda_factor(3.3, zero_crossing=True), 4)
+    (0.2044, 0.2189)
     """
     gamma = peak_enhancement
     base = 0.0624 / (0.230 + 0.0336 * gamma - 0.185 / (1.9 + gamma))
@@ -153,7 +164,31 @@ def goda_factor(peak_enhancement: float, *, zero_crossing: bool) -> float:
 
 
 def goda_peak_period(significant_period: float, peak_enhancement: float) -> float:
-    """Return T_p = T_1/3 / (1 - 0.132 (gamma + 0.2)^-0.559) [s] of Goda (1988) [eq:sea-goda-period]."""
+    """Return T_p = T_1/3 / (1 - 0.132 (gamma + 0.2)^-0.559) of Goda (1988) [eq:sea-goda-period].
+
+    Parameters
+    ----------
+    significant_period : float
+        T_1/3 of the zero-crossing analysis [s].
+    peak_enhancement : float
+        gamma [-], 1 or more.
+
+    Returns
+    -------
+    float
+        T_p [s].
+
+    Raises
+    ------
+    InputError
+        When the period is not positive.
+
+    Examples
+    --------
+    >>> from moyai.sea import spectra
+    >>> round(spectra.goda_peak_period(6.0, 3.3), 3)                     # [s]
+    6.421
+    """
     _positive("significant_period", significant_period)
     return float(significant_period / (1.0 - 0.132 * (peak_enhancement + 0.2) ** -0.559))
 
@@ -162,6 +197,32 @@ def pierson_moskowitz(significant_height: float, peak_period: float, omega: Arra
     """Return the two-parameter Pierson-Moskowitz (ISSC) spectrum of H_m0 [m] and T_p [s] [eq:sea-pierson-moskowitz].
 
     Its moments are closed: m_0 = H^2/16, T_m01 = 0.7718 T_p, T_m02 = 0.7104 T_p, T_e = 0.8572 T_p.
+
+    Parameters
+    ----------
+    significant_height : float
+        H_m0 [m].
+    peak_period : float
+        T_p [s].
+    omega : array_like, optional
+        Frequencies of the table [rad/s].
+
+    Returns
+    -------
+    Spectrum
+        Density [m2 s] over angular frequency [rad/s], one-sided.
+
+    Raises
+    ------
+    InputError
+        When height or period is not positive.
+
+    Examples
+    --------
+    >>> from moyai.sea import spectra
+    >>> spectrum = spectra.pierson_moskowitz(significant_height=2.0, peak_period=7.0)
+    >>> round(spectrum.variance, 4), round(spectrum.mean_period / 7.0, 4)   # H^2 / 16 [m2], 0.7718
+    (0.25, 0.7718)
     """
     _positive("significant_height", significant_height)
     peak = 2.0 * math.pi / _positive("peak_period", peak_period)
@@ -172,7 +233,7 @@ def pierson_moskowitz(significant_height: float, peak_period: float, omega: Arra
 
 
 def pierson_moskowitz_of_wind(wind_speed: float, gravity: float, omega: ArrayLike | None = None) -> Spectrum:
-    """Return the fully developed sea of Pierson and Moskowitz (1964) under a wind.
+    """Return the fully developed sea of Pierson and Moskowitz (1964) under a wind [eq:sea-pierson-moskowitz].
 
     Parameters
     ----------
@@ -183,9 +244,25 @@ def pierson_moskowitz_of_wind(wind_speed: float, gravity: float, omega: ArrayLik
     omega : array_like, optional
         Frequencies of the table [rad/s].
 
+    Returns
+    -------
+    Spectrum
+        Density [m2 s] over angular frequency [rad/s], one-sided.
+
+    Raises
+    ------
+    InputError
+        When wind speed or gravity is not positive.
+
     Notes
     -----
     alpha = 0.0081, beta = 0.74 in alpha g^2 omega^-5 exp(-beta (g / (U omega))^4).
+
+    Examples
+    --------
+    >>> from moyai.sea import spectra
+    >>> round(spectra.pierson_moskowitz_of_wind(10.0, 9.81).significant_height, 2)   # [m]
+    2.13
     """
     speed, g = _positive("wind_speed", wind_speed), _positive("gravity", gravity)
     shape = WindSeaShape(0.0081 * g * g, (0.8 * 0.74) ** 0.25 * g / speed)
@@ -211,6 +288,23 @@ def bretschneider_mitsuyasu(
     coefficients : {"mitsuyasu", "goda"}
         0.257 and 1.03 of Mitsuyasu (1970), giving T_p = 1.0496 T_1/3 and H_m0 = 0.999 H_1/3; or 0.205 and 0.75 of
         Goda's modification (1988).
+
+    Returns
+    -------
+    Spectrum
+        Density [m2 s] over angular frequency [rad/s], one-sided.
+
+    Raises
+    ------
+    InputError
+        When height or period is not positive, and for other ``coefficients``.
+
+    Examples
+    --------
+    >>> from moyai.sea import spectra
+    >>> spectrum = spectra.bretschneider_mitsuyasu(significant_height=2.0, significant_period=6.0)
+    >>> round(spectrum.significant_height, 3), round(spectrum.peak_period / 6.0, 4)   # [m], 1.0496
+    (1.998, 1.0496)
     """
     _positive("significant_height", significant_height)
     _positive("significant_period", significant_period)
@@ -256,6 +350,26 @@ def tma(
         Frequencies of the table [rad/s].
     height_at : {"site", "deep water"}
         Whether ``significant_height`` is that of the TMA spectrum or of the JONSWAP spectrum under it.
+
+    Returns
+    -------
+    Spectrum
+        Density [m2 s] over angular frequency [rad/s], one-sided.
+
+    Raises
+    ------
+    InputError
+        When a value is not positive, gamma is below 1, and for another ``height_at``.
+
+    Examples
+    --------
+    >>> from moyai.sea import Water, spectra
+    >>> water = Water(depth=8.0, density=1025.0, gravity=9.81)
+    >>> round(spectra.tma(2.0, 8.0, 3.3, water).significant_height, 4)   # [m]
+    2.0
+    >>> offshore = spectra.tma(2.0, 8.0, 3.3, water, height_at="deep water")
+    >>> round(offshore.significant_height, 2)                            # less in shallow water [m]
+    1.19
     """
     if height_at not in ("site", "deep water"):
         raise InputError(f"unknown height_at {height_at!r}", parameter="height_at", allowed="site, deep water")
@@ -279,10 +393,28 @@ def tma(
 def superpose(*spectra: Spectrum) -> Spectrum:
     """Return the sum of several spectra, for instance swell and wind sea.
 
+    Parameters
+    ----------
+    *spectra : Spectrum
+        One or more, all of formulas or all of tables, over the same band.
+
+    Returns
+    -------
+    Spectrum
+        Density [m2 s] over angular frequency [rad/s]: the sum.
+
     Raises
     ------
     InputError
         When none is given, or formulas and tables (or band limits) are mixed.
+
+    Examples
+    --------
+    >>> from moyai.sea import spectra
+    >>> swell = spectra.jonswap(significant_height=1.5, peak_period=12.0, peak_enhancement=5.0)
+    >>> wind_sea = spectra.jonswap(significant_height=2.0, peak_period=6.0, peak_enhancement=3.3)
+    >>> round(spectra.superpose(swell, wind_sea).significant_height, 4)  # sqrt(1.5^2 + 2^2) [m]
+    2.5
     """
     if not spectra:
         raise InputError("no spectrum to superpose", parameter="spectra")
@@ -312,10 +444,21 @@ def from_table(frequency: ArrayLike, density: ArrayLike, name: str = "table") ->
     name : str
         Name of the spectrum.
 
+    Returns
+    -------
+    Spectrum
+        Density [m2 s] over angular frequency [rad/s], one-sided.
+
     Raises
     ------
     InputError
         When the table is empty, unsorted, negative or holds NaN; the message names the row (from 1).
+
+    Examples
+    --------
+    >>> from moyai.sea import spectra
+    >>> round(spectra.from_table([0.05, 0.10, 0.20], [0.0, 4.0, 0.0]).variance, 4)   # area of the triangle [m2]
+    0.3
     """
     hertz, values = spectrum_table(frequency, density, what="frequency", unit="Hz")
     turn = 2.0 * math.pi
@@ -333,10 +476,26 @@ def from_file(path: Any, *, frequency_column: int | str = 1, density_column: int
     frequency_column, density_column : int or str
         Column of the frequency [Hz] and of the density [m2/Hz]: number from 1, or name in the header.
 
+    Returns
+    -------
+    Spectrum
+        Density [m2 s] over angular frequency [rad/s], one-sided.
+
     Raises
     ------
     InputError
-        When the file cannot be read or its table is faulty; the message names the row of the file.
+        When the file cannot be read or its table is wrong; the message names the row of the file.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import mkdtemp
+    >>> import numpy as np
+    >>> from moyai.sea import spectra
+    >>> file = Path(mkdtemp()) / "buoy.txt"
+    >>> np.savetxt(file, [[0.05, 0.0], [0.10, 4.0], [0.20, 0.0]])        # [Hz], [m2/Hz]
+    >>> round(spectra.from_file(file).variance, 4)                       # area of the triangle [m2]
+    0.3
     """
     first, second, rows = read_spectrum_file(path, frequency_column, density_column)
     hertz, values = spectrum_table(first, second, what="frequency", unit="Hz", rows=rows, path=str(path))

@@ -60,6 +60,31 @@ def depth_function(omega: ArrayLike, water_depth: float, gravity: float) -> Any:
     """Return Kitaigorodskii's depth function phi [-], tanh^2 kh / (1 + 2kh/sinh 2kh) [eq:sea-tma].
 
     1 in deep water, omega^2 h / (2 g) in shallow water.
+
+    Parameters
+    ----------
+    omega : array_like
+        Angular frequency [rad/s], 0 or more.
+    water_depth : float
+        [m], greater than 0; infinite is allowed.
+    gravity : float
+        [m/s2].
+
+    Returns
+    -------
+    ndarray
+        phi [-], of the shape of ``omega``.
+
+    Raises
+    ------
+    InputError
+        When an argument is negative or NaN.
+
+    Examples
+    --------
+    >>> from moyai.sea import spectra
+    >>> spectra.depth_function([0.1, 3.0], water_depth=10.0, gravity=9.81).round(4).tolist()   # shallow, deep
+    [0.0051, 1.0]
     """
     frequency = np.asarray(omega, dtype=np.float64)
     if math.isinf(water_depth):

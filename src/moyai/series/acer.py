@@ -70,12 +70,12 @@ def _level_of(tail: AcerFit, rate: float) -> float:
 
 
 def exceedance_rates(realisations: list[ArrayLike], *, order: int, levels: int = 60) -> ExceedanceRates:
-    """Return the average conditional exceedance rates of peaks.
+    """Return the average conditional exceedance rates of peaks [eq:extremes-acer].
 
     Parameters
     ----------
     realisations : list of array_like
-        The peaks of each realisation (seed), in the order of time.
+        The peaks of each realisation (seed), in the order of time; any unit.
     order : int
         1 counts every exceedance; 2 only those whose peak before did not exceed; higher orders span more.
     levels : int
@@ -84,15 +84,23 @@ def exceedance_rates(realisations: list[ArrayLike], *, order: int, levels: int =
     Returns
     -------
     ExceedanceRates
+        Levels, rates and their deviations, shape (levels,).
 
     Raises
     ------
     InputError
         For fewer than 20 peaks or an order below 1.
 
-    Notes
-    -----
-    [eq:extremes-acer]
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.series import exceedance_rates
+    >>> generator = np.random.default_rng(1)
+    >>> rates = exceedance_rates([generator.rayleigh(100.0, 2000) for _ in range(5)], order=2)
+    >>> rates.level.shape, rates.count
+    ((60,), 10000)
+    >>> bool(0.4 < rates.rate[0] < 0.6)                                  # at the median
+    True
     """
     series = [np.asarray(one, dtype=float).ravel() for one in realisations]
     if order < 1:
@@ -126,18 +134,35 @@ def exceedance_rates(realisations: list[ArrayLike], *, order: int, levels: int =
 
 
 def fit_tail(rates: ExceedanceRates, *, tail_from: float | None = None) -> AcerFit:
-    """Fit the tail of exceedance rates by weighted least squares of their logarithm.
+    """Fit the tail of exceedance rates by weighted least squares of their logarithm [eq:extremes-acer-tail].
 
     Parameters
     ----------
     rates : ExceedanceRates
+        From :func:`exceedance_rates`.
     tail_from : float, optional
         Level above which the rates are fitted; where a tenth of the peaks exceed when absent.
+
+    Returns
+    -------
+    AcerFit
+        The tail and its levels, in the unit of the peaks.
 
     Raises
     ------
     InputError
         When fewer than six levels are left.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.series import exceedance_rates, fit_tail
+    >>> generator = np.random.default_rng(1)
+    >>> rates = exceedance_rates([generator.rayleigh(100.0, 2000) for _ in range(5)], order=1)
+    >>> tail = fit_tail(rates)
+    >>> exact = 100.0 * np.sqrt(2.0 * np.log(2000.0))                    # most probable largest of 2000 peaks
+    >>> bool(abs(tail.most_probable_maximum(2000.0) / exact - 1.0) < 0.1)
+    True
     """
     start = tail_from
     if start is None:
@@ -186,9 +211,47 @@ def _fit(rates: ExceedanceRates, rate: Array, start: float) -> AcerFit:
 
 
 def acer_interval(tail: AcerFit, count: float, probability: float, *, confidence: float = 0.9) -> Interval:
-    """Return the level of :meth:`AcerFit.maximum_level` with its confidence interval.
+    """Return the level of :meth:`AcerFit.maximum_level` with its confidence interval [eq:extremes-acer-tail].
 
     The tail is fitted again to the lower and upper bounds of the rates, as Naess and Gaidai propose.
+
+    Parameters
+    ----------
+    tail : AcerFit
+        From :func:`fit_tail`.
+    count : float
+        Number of peaks whose maximum is meant.
+    probability : float
+        With which the maximum stays below the level, between 0 and 1.
+    confidence : float
+        Of the interval.
+
+    Returns
+    -------
+    Interval
+        Level with its lower and upper bound, in the unit of the peaks.
+
+    Raises
+    ------
+    InputError
+        When the number of peaks is too small for the tail, or too few levels are left to fit it again.
+
+    References
+    ----------
+    A. Naess and O. Gaidai (2009), Estimation of extreme values from sampled time series, Structural Safety 31, 325-334.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.series import acer_interval, exceedance_rates, fit_tail
+    >>> generator = np.random.default_rng(1)
+    >>> peaks = [generator.rayleigh(100.0, 2000) for _ in range(5)]      # five records, tension peaks [kN]
+    >>> found = acer_interval(fit_tail(exceedance_rates(peaks, order=1)), count=2000.0, probability=0.5)
+    >>> bool(found.lower < found.value < found.upper)
+    True
+    >>> exact = 100.0 * np.sqrt(2.0 * np.log(2000.0 / np.log(2.0)))      # median of the largest of 2000
+    >>> bool(abs(found.value / exact - 1.0) < 0.1)
+    True
     """
     value = tail.maximum_level(count, probability)
     reach = float(ndtri(0.5 + confidence / 2.0)) * tail.rates.deviation

@@ -119,6 +119,7 @@ def fit(values: ArrayLike, family: Family, *, location: float | None = None, thr
     Returns
     -------
     Fit
+        The distribution, its parameters in the unit of the data, and its log-likelihood.
 
     Raises
     ------
@@ -265,6 +266,7 @@ def maximum_interval(
     Parameters
     ----------
     fitted : Fit
+        From :func:`fit`.
     count : float
         Number of values whose maximum is meant: peaks in the storm, or 1 block for a quantile of block maxima.
     seed : int
@@ -272,14 +274,24 @@ def maximum_interval(
     probability : float, optional
         Give the level that the maximum stays below with this probability, instead of its mode.
     confidence : float
-        Of the interval.
+        Of the interval [-].
     repetitions : int
         Fits to samples drawn from ``fitted``.
 
     Returns
     -------
     Interval
-        Basic bootstrap of the logarithmic distance from the location, so that it never falls below the location.
+        Level with its lower and upper bound, in the unit of the data: basic bootstrap of the logarithmic distance from
+        the location, so that it never falls below the location.
+
+    Raises
+    ------
+    InputError
+        For a probability outside 0 to 1.
+
+    References
+    ----------
+    A. C. Davison and D. V. Hinkley (1997), Bootstrap Methods and their Application, Cambridge University Press, ch. 5.
 
     Examples
     --------

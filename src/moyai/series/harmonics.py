@@ -51,9 +51,9 @@ def fit_harmonics(
     start: float | None = None,
     end: float | None = None,
 ) -> Harmonics:
-    """Fit mean and ``count`` harmonics over as many whole periods as fit between ``start`` and ``end``.
+    """Fit mean and ``count`` harmonics over as many whole periods as fit into the window [eq:harmonic-model].
 
-    Equation [eq:harmonic-model]. Whole periods keep the mean and the harmonics nearly orthogonal, so that a slow drift
+    Whole periods keep the mean and the harmonics nearly orthogonal, so that a slow drift
     of the record disturbs them least; least squares, and not a discrete Fourier transform, because a period is seldom
     a whole number of samples.
 
@@ -73,11 +73,21 @@ def fit_harmonics(
     Returns
     -------
     Harmonics
+        Mean, complex amplitudes (count, ...) of ``Re(a exp(-i n omega t))`` and residual, in the unit of ``values``.
 
     Raises
     ------
     InputError
         When the window holds less than one whole period, too few samples, or values that are not finite.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.series import fit_harmonics
+    >>> time = np.arange(0.0, 40.0, 0.1)
+    >>> found = fit_harmonics(time, 2.0 + 3.0 * np.cos(time) + 0.5 * np.cos(2.0 * time), omega=1.0, count=2)
+    >>> round(float(found.mean), 3), np.abs(found.amplitude).round(3).tolist(), found.periods
+    (2.0, [3.0, 0.5], 6)
     """
     instants, channels = _checked(time, values, omega, count)
     step = float(np.median(np.diff(instants)))

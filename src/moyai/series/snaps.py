@@ -101,10 +101,25 @@ def find_snaps(
         Highest tension since the row before (:attr:`moyai.flexible.result.History.tension_peak`), so that no peak is
         lost between rows: one that stands over both is put in their middle, also when the line is slack at both.
 
+    Returns
+    -------
+    SnapRecord
+        Slack intervals [s], shape (k, 2), and contacts with their peaks [N] and rise times [s]; ``snaps`` are those
+        above the threshold.
+
     Raises
     ------
     InputError
         For records of different lengths, values that are not finite, times that do not rise, or a negative level.
+
+    Examples
+    --------
+    >>> from moyai.series import find_snaps
+    >>> time = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0]                       # [s]
+    >>> tension = [500.0, 0.0, 0.0, 900.0, 300.0, 0.0, 200.0]            # [N]
+    >>> found = find_snaps(time, tension, slack_level=10.0, threshold=600.0)
+    >>> [(snap.peak, snap.peak_time) for snap in found.snaps], len(found.contacts)   # [N], [s]
+    ([(900.0, 3.0)], 2)
     """
     t, pull = np.asarray(time, dtype=np.float64), np.asarray(tension, dtype=np.float64)
     most = pull if peaks is None else np.asarray(peaks, dtype=np.float64)

@@ -45,10 +45,30 @@ def rayleigh_significant(fraction: float) -> float:
 
 
 def rayleigh_expected_maximum(count: int) -> float:
-    """Return the expected largest of ``count`` independent Rayleigh heights over their significant value [-].
+    """Return the expected largest of independent Rayleigh heights over their significant value [eq:sea-rayleigh].
 
-    The integral of 1 - (1 - exp(-x^2))^N over x by Gauss panels; 1.5974, 1.7030, 1.9259 for N = 100, 200, 1000
-    [eq:sea-rayleigh].
+    The integral of 1 - (1 - exp(-x^2))^N over x by Gauss panels; 1.5974, 1.7030, 1.9259 for N = 100, 200, 1000.
+
+    Parameters
+    ----------
+    count : int
+        Number N of heights, 1 or more.
+
+    Returns
+    -------
+    float
+        [-].
+
+    Raises
+    ------
+    InputError
+        For a count below 1.
+
+    Examples
+    --------
+    >>> from moyai.series import rayleigh_expected_maximum
+    >>> [round(rayleigh_expected_maximum(count), 3) for count in (100, 1000)]
+    [1.597, 1.926]
     """
     if count < 1:
         raise InputError(f"count is {count}", parameter="count", allowed="at least 1")

@@ -229,17 +229,29 @@ def find_waves(time: ArrayLike, values: ArrayLike, options: WaveOptions, *, gap:
     values : array_like
         Surface elevation or any other oscillating quantity; NaN where missing.
     options : WaveOptions
+        Crossing, detrending, dead band, shortest and longest wave.
     gap : float, optional
         Longer steps are gaps [s]; 1.5 median steps by default.
 
     Returns
     -------
     Waves
+        Start [s], period [s], height, crest and trough (unit of ``values``) of each wave, and notices.
 
     Raises
     ------
     InputError
         Lengths that differ, instants that do not increase, fewer than three samples, or none that is a number.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.series import find_waves
+    >>> from moyai.series.zero_crossing import WaveOptions
+    >>> time = np.arange(0.0, 61.0, 0.1)
+    >>> waves = find_waves(time, 0.5 * np.sin(2.0 * np.pi / 6.0 * (time - 1.0)), WaveOptions())
+    >>> len(waves), waves.height.round(2).max().item(), waves.period.round(2).max().item()   # [m], [s]
+    (9, 1.0, 6.0)
     """
     t = np.ascontiguousarray(time, dtype=np.float64)
     v = np.ascontiguousarray(values, dtype=np.float64)

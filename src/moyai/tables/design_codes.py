@@ -82,7 +82,19 @@ class AnchorFactor:
 
 
 def available_codes() -> tuple[str, ...]:
-    """Return the names of the design codes."""
+    """Return the names of the design codes.
+
+    Returns
+    -------
+    tuple of str
+        Names that :func:`moyai.design.design_code` takes.
+
+    Examples
+    --------
+    >>> from moyai.tables import available_codes
+    >>> "ISO 19901-7" in available_codes()
+    True
+    """
     return tuple(dict.fromkeys(record["code"] for record in read_table(_CODES)))
 
 

@@ -59,7 +59,19 @@ class LineProperties:
 
 
 def available_line_types() -> tuple[str, ...]:
-    """Return the names of the catalogue."""
+    """Return the names of the catalogue.
+
+    Returns
+    -------
+    tuple of str
+        Names that :func:`line_type` takes.
+
+    Examples
+    --------
+    >>> from moyai.tables import available_line_types
+    >>> "studless_chain_R3" in available_line_types()
+    True
+    """
     return tuple(record["name"] for record in read_table(_FILE))
 
 

@@ -131,17 +131,46 @@ class NetMaterial:
 
 
 def available_net_materials() -> tuple[str, ...]:
-    """Return the names of the materials."""
+    """Return the names of the materials.
+
+    Returns
+    -------
+    tuple of str
+        Names that :func:`net_material` takes.
+
+    Examples
+    --------
+    >>> from moyai.tables import available_net_materials
+    >>> available_net_materials()[:2]
+    ('nylon', 'polyester')
+    """
     return tuple(record["name"] for record in read_table(_MATERIALS))
 
 
 def net_material(name: str) -> NetMaterial:
     """Return a material of twine by its name.
 
+    Parameters
+    ----------
+    name : str
+        One of :func:`available_net_materials`.
+
+    Returns
+    -------
+    NetMaterial
+        Density [kg/m3], ranges of modulus and strength [Pa], source, and whether it is confirmed.
+
     Raises
     ------
     InputError
         For an unknown name.
+
+    Examples
+    --------
+    >>> from moyai.tables import available_net_materials, net_material
+    >>> material = net_material(available_net_materials()[0])
+    >>> material.name, material.density                                  # [kg/m3]
+    ('nylon', 1140.0)
     """
     record = _named(_MATERIALS, name, "net material")
     return NetMaterial(

@@ -29,7 +29,19 @@ class WaterProperties:
 
 
 def available_waters() -> tuple[str, ...]:
-    """Return the names of the table."""
+    """Return the names of the table.
+
+    Returns
+    -------
+    tuple of str
+        Names that :func:`water_properties` takes.
+
+    Examples
+    --------
+    >>> from moyai.tables import available_waters
+    >>> available_waters()[:2]
+    ('fresh', 'sea')
+    """
     return tuple(record["name"] for record in read_table(_FILE))
 
 
@@ -41,10 +53,22 @@ def water_properties(name: str) -> WaterProperties:
     name : str
         One of :func:`available_waters`.
 
+    Returns
+    -------
+    WaterProperties
+        Density [kg/m3], viscosity [m2/s], surface tension [N/m] and their source.
+
     Raises
     ------
     InputError
         For an unknown name.
+
+    Examples
+    --------
+    >>> from moyai.tables import available_waters, water_properties
+    >>> water = water_properties(available_waters()[0])
+    >>> water.name, round(water.density)                                 # [kg/m3]
+    ('fresh', 998)
     """
     for record in read_table(_FILE):
         if record["name"] == name:

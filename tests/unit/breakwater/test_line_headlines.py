@@ -160,3 +160,40 @@ def test_capacity_and_tension_are_the_largest_of_unlike_lines():
     assert headline(numbers, "line_tension").value == 500e3
     capacity = headline(numbers, "anchor_capacity_required")
     assert capacity.value == pytest.approx(1.6 * 480e3) and "line chain, 1.6 times its pull" in capacity.where
+
+
+def test_a_known_failure_wins_over_a_highest_line_that_is_not_known():
+    """The line of the highest tension is beyond its range; another one breaks the limits of use, pull and uplift."""
+    highest = replace(OTHER, tension=600e3, mean=40e3, horizontal=590e3, scatter=2.0 * SCATTER, bound=2.0 * SCATTER)
+    weak = replace(
+        GOVERNS, breaking_load=700e3, horizontal=350e3, vertical=20e3, vertical_scatter=20e3 + 0.0 * SCATTER,
+    )  # fmt: skip
+    highest = replace(highest, breaking_load=500e3)
+    pull = Criterion("pull", "anchor_horizontal_load", 300e3, "at most", "case", unit="N")
+    for criterion in (FACTOR, UPLIFT, pull):
+        alone = judge(page(highest), (criterion,), computed=True)
+        assert alone.outcome == "not judged"
+        verdict = judge(page(weak, highest), (criterion,), computed=True)
+        assert verdict.outcome == "does not hold", criterion.name
+        # what is known keeps a wider limit, what is not leaves it open
+        wide = replace(criterion, limit=10e6)
+        assert judge(page(weak, highest), (wide,), computed=True).outcome == "not judged"
+    numbers = page(weak, highest)
+    assert headline(numbers, "line_utilisation").text == headline(numbers, "anchor_uplift").text == "not known"
+
+
+def test_a_bound_behind_a_larger_known_number_leaves_its_limit_open():
+    """A sea without its slow drift pulls less than a regular wave: with it, it may pull more."""
+    known = replace(GOVERNS, vertical=50e3, vertical_scatter=0.1 * SCATTER)
+    less = replace(
+        known, sea="swell", tension=200e3, horizontal=190e3, scatter=0.5 * SCATTER, bound=0.5 * SCATTER, vertical=5e3,
+        horizontal_scatter=0.48 * SCATTER, vertical_scatter=0.01 * SCATTER, without_drift=True,
+    )  # fmt: skip
+    lying = replace(less, vertical=-5e3, vertical_scatter=-SCATTER)
+    pull = Criterion("pull", "anchor_horizontal_load", 600e3, "at most", "case", unit="N")
+    for criterion in (FACTOR, replace(UPLIFT, limit=100e3), pull):
+        assert judge(page(known), (criterion,), computed=True).outcome == "holds"
+        for other in (less, lying):
+            numbers = page(known, other)
+            assert judge(numbers, (criterion,), computed=True).outcome == "not judged", criterion.name
+            assert [item.where for item in numbers if item.name == criterion.headline and item.shown] == [known.where]

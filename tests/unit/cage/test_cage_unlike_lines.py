@@ -4,9 +4,14 @@ import numpy as np
 import pytest
 import xarray as xr
 
+import moyai
+from moyai.case.templates import template
 from moyai.core.headline import Criterion, judge, unfavourable
+from moyai.structures.cage.bands import State
+from moyai.structures.cage.flexible import run as flexible_run
+from moyai.structures.cage.flexible.law_runs import line_quantity
 from moyai.structures.cage.flexible.sensitivity import tension_of
-from moyai.structures.cage.headlines import _anchor, _tension
+from moyai.structures.cage.headlines import _anchor, _tension, flexible_headlines
 
 TIME = np.arange(0.0, 400.0, 0.5)
 
@@ -21,7 +26,7 @@ def sea(peaks, names, regular):
     }  # fmt: skip
     attrs = {"regular": regular, "ramp": 0.0, "period": 5.0, "theory": "linear", "seed": 1, "wave": "H"}
     run = xr.Dataset(data, coords={"time": TIME, "line": names}, attrs=attrs)
-    return [("SWL", "storm, SWL", run)]
+    return [(State("SWL", 0.5, -1, xr.Dataset(), xr.Dataset(), None), "storm, SWL", run)]
 
 
 def test_an_anchor_of_a_smaller_pull_and_a_wider_band_is_judged():
@@ -48,3 +53,97 @@ def test_the_mesh_of_its_kind_of_line_is_counted_before_the_worst_is_chosen():
         _, used = _tension([], sea(peaks, ["anchor 1", "bridle 1a"], 1), given)
         outcomes.append(judge(used, [limit], computed=True).outcome)
     assert outcomes == ["holds", "does not hold"]
+
+
+def test_numbers_of_a_sea_carry_the_laws_of_nets_where_the_current_alone_was_not_asked_for():
+    """Under another valid law an anchor bears 4 kN more at rest: 61 kN in the wave break a limit of 64 kN."""
+    ((_, _, run),) = sea(np.full((TIME.size, 1), 61e3), ["anchor 1"], 1)
+    still = {"net_tension_peak_since_row": (("time", "cage"), np.ones((TIME.size, 1))),
+             "volume_share": (("time", "cage"), np.ones((TIME.size, 1))),
+             "drag": (("time", "part", "horizontal"), np.ones((TIME.size, 1, 2))),
+             "surface_elevation": ("time", np.sin(TIME)), "drag_time": ("time", TIME)}  # fmt: skip
+    run = run.assign(still)
+    names = ("volume_share", "drag", "line_tension_maximum", "anchor_pull", "net_tension")
+    laws = xr.Dataset(
+        {
+            **{f"law_{name}": ("law", [1.0, 1.0]) for name in names},
+            "law_anchor_pull": ("law", [40e3, 44e3]),
+            "law_line_tension": (("law", "line"), [[40e3], [44e3]]),
+        },
+        coords={"law": ["loland", "milne"], "line": ["anchor 1"]},
+        attrs={"valid": "milne"},
+    )
+    level = xr.Dataset(attrs={"current": 0.5})
+    limit = Criterion("limit", "anchor_load", 64e3, "at most", "case", unit="N")
+    outcomes = []
+    for given in ({}, {"/SWL/laws": laws}):
+        groups = {"/SWL": level, "/SWL/cage": xr.Dataset(), **given, "/SWL/time/storm/wave 1": run}
+        items = flexible_headlines(None, groups)
+        outcomes.append(judge(items, [limit], computed=True).outcome)
+    assert outcomes == ["holds", "does not hold"]
+
+
+def test_a_cage_run_through_a_sea_alone_is_found_under_every_valid_law(monkeypatch):
+    text = template("cage").replace("{around: 32, down: 6, bottom: 4}", "{around: 16, down: 3, bottom: 2}")
+    text = text.replace("analyses: [statics, time]", "analyses: [time]").replace(
+        "current_speeds: [0.25 m/s, 0.75 m/s]", "current_speeds: []"
+    )
+    monkeypatch.setattr(flexible_run, "_sea_steps", lambda *given: iter(()))
+    laws = moyai.run(moyai.load_case(text)).tree["SWL/laws"].to_dataset()
+    assert laws.sizes["law"] > 1 and laws["law"].values[0] == "loland"
+    assert np.isfinite(laws["law_offset"].values).all() and float(laws["law_offset"].values[0]) > 0.0
+
+
+def law_runs(anchor, missing="", regular=1):
+    """Return the runs of a wave under two laws by the tension of its anchor."""
+    return xr.Dataset(
+        {"value": (("law", "quantity"), np.array([anchor]).T)},
+        coords={"law": ["balash", "milne"][: len(anchor)], "quantity": [line_quantity("anchor 1")]},
+        attrs={"regular": regular, "missing": missing, "valid": "balash, milne", "wave": "H", "reynolds": 1e3},
+    )
+
+
+def in_waves(groups, limit):
+    """Return the pull on the anchor at a limit [N] where the current is none."""
+    level, cage = xr.Dataset(attrs={"current": 0.0}), xr.Dataset(coords={"line": ["anchor 1"]})
+    given = {"/SWL": level, "/SWL/cage": cage, **groups}
+    runs = flexible_headlines(
+        None, {**given, **{f"/SWL/time/{name}/wave 1": waves(61e3) for name in ("storm", "swell")}}
+    )
+    asked = Criterion("greatest_anchor_load", "anchor_load", limit, "at most", "case", unit="N")
+    pulls = [item for item in runs if item.name == "anchor_load"]
+    return pulls, judge(pulls, [asked], computed=True)
+
+
+def waves(pull):
+    ((_, _, run),) = sea(np.full((TIME.size, 1), pull), ["anchor 1"], 1)
+    more = {"net_tension_peak_since_row": (("time", "cage"), np.ones((TIME.size, 1))),
+            "volume_share": (("time", "cage"), np.ones((TIME.size, 1))),
+            "drag": (("drag_time", "part", "horizontal"), np.ones((TIME.size, 1, 2)))}  # fmt: skip
+    return run.assign(more).assign_coords(drag_time=TIME)
+
+
+def test_the_laws_are_in_the_band_by_runs_through_the_governing_wave():
+    """By the law of the case 61 kN hold 65 kN, by another one the wave gives a tenth more: no current is needed."""
+    groups = {"/SWL/laws_in_waves/storm/wave 1": law_runs([40e3, 44e3])}
+    pulls, verdict = in_waves({}, 65e3)
+    assert verdict.outcome == "holds"
+    pulls, verdict = in_waves(groups, 65e3)
+    assert verdict.outcome == "does not hold"
+    assert pulls[0].band.high == pytest.approx(1.1 * 61e3) and pulls[0].band.low == pytest.approx(61e3)
+    assert pulls[0].band.of == "net laws run in this wave: milne"
+    # the upward part is that of one run: no bound
+    assert "without a band" in pulls[0].detail and "at most" not in pulls[0].detail
+
+
+def test_a_wave_that_was_not_run_under_the_laws_takes_their_largest_ratio():
+    groups = {"/SWL/laws_in_waves/other/wave 1": law_runs([40e3, 44e3]),
+              "/SWL/laws_in_waves/third/wave 2": law_runs([40e3, 30e3])}  # fmt: skip
+    pulls, _ = in_waves(groups, 65e3)
+    assert pulls[0].band.high == pytest.approx(1.1 * 61e3) and pulls[0].band.low == pytest.approx(0.75 * 61e3)
+    assert pulls[0].band.of == "net laws run in the governing waves, by their ratio: milne"
+
+
+def test_a_law_whose_run_fails_leaves_a_bound():
+    pulls, verdict = in_waves({"/SWL/laws_in_waves/storm/wave 1": law_runs([40e3], "milne")}, 65e3)
+    assert verdict.outcome == "not judged" and any(item.bound == "at least" for item in pulls)

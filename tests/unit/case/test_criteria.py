@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import pytest
 from case_files import CASE, faults, read
@@ -90,6 +91,21 @@ def test_partial_factors_without_the_mean_are_judged_only_where_every_mean_agree
         for used in (0.6, 0.7, 0.9)
     ]
     assert outcomes == ["holds", "not judged", "does not hold"]
+
+
+def test_a_code_that_weighs_the_mean_names_the_line_that_decides():
+    """The line with the largest tension keeps the limit, another one with a smaller mean does not."""
+    criterion = criteria("criteria: {code: {name: DNV-OS-E301, consequence: 1, analysis: dynamic}}\n")["code"]
+    steady = Headline("line_utilisation", "Lines", 0.78, "1", "storm, line a", mean=0.75)
+    varying = Headline("line_utilisation", "Lines", 0.77, "1", "storm, line b", mean=0.10, shown=False)
+    verdict = judge([steady, varying], [criterion], computed=True)
+    assert verdict.message.endswith(" is below 1.58 (storm, line b)") and "line a" not in verdict.message
+    unknown = judge([steady, replace(varying, value=0.7, mean=None)], [criterion], computed=True)
+    assert unknown.message == f"{criterion.words}: the mean tension is not known (storm, line b)"
+    # a bound beyond the limit whatever the mean is fails
+    beyond = replace(varying, value=0.95, bound="at least")
+    assert judge([beyond], [criterion], computed=True).outcome == "does not hold"
+    assert judge([replace(beyond, value=0.7)], [criterion], computed=True).outcome == "not judged"
 
 
 def test_a_curtain_with_two_metres_of_four_does_not_hold(tmp_path):

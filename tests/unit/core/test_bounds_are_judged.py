@@ -3,7 +3,8 @@
 from dataclasses import replace
 
 from moyai.core.headline import Band, Criterion, Headline, all_judged, governing, judge
-from moyai.structures.cage.headlines import TOO_SHORT, judged_seas
+from moyai.structures.cage.bands import TOO_SHORT
+from moyai.structures.cage.headlines import judged_seas
 
 LIMIT = Criterion("limit", "line_utilisation", 0.5, "at most", "case")
 KNOWN = Headline("line_utilisation", "use", 0.30, "1", "regular wave")

@@ -30,7 +30,8 @@ def test_keys_that_are_commented_out_are_copied(kind: str) -> None:
 def test_a_sentence_with_a_force_reads_in_tonnes_as_in_kilonewtons() -> None:
     text = translator("ja").text
     for unit in ("kN", "tf", "kgf"):
-        assert text(f"upwards 0.428 {unit} at most, of all anchors") == f"全アンカーの上向き力は最大 0.428 {unit}"
+        said = text(f"upwards 0.428 {unit}, the largest of all anchors in this run, without a band")
+        assert said == f"上向き力 0.428 {unit}（この計算での全アンカーの最大、幅なし）"
 
 
 def test_what_stands_behind_a_colon_is_read_by_itself() -> None:

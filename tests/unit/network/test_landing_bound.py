@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import math
+from types import SimpleNamespace
 
 import pytest
 import xarray as xr
 
 from moyai.core.collected import Collected
-from moyai.core.headline import Criterion, Headline
+from moyai.core.headline import Criterion, Headline, judge
 from moyai.core.validity import IdentityCheck
 from moyai.core.vocabulary import Vocabulary
 from moyai.flexible.sensitivity import PeakSensitivity
-from moyai.structures.network.headlines import DYNAMIC, _band, _Peak
+from moyai.structures.network import headlines
+from moyai.structures.network.headlines import DYNAMIC, _band, _Peak, _utilisation
 from moyai.structures.network.refinement import LANDING, lowered
 
 
@@ -49,3 +51,17 @@ def test_a_design_is_judged_on_the_safe_side_alone() -> None:
     assert close("peak") == "holds"
     assert close("peak", "another") == "not judged"
     assert close("peak", broken=True) == "not judged"
+
+
+def test_one_seed_too_short_stays_open_behind_a_higher_regular_wave(monkeypatch: pytest.MonkeyPatch) -> None:
+    peaks = [_Peak(value, "chain", "SWL", run, 12.0, DYNAMIC) for value, run in ((9e3, "wave"), (6e3, "sea"))]
+    problem = SimpleNamespace(lines=[SimpleNamespace(name="chain", breaking_load=30e3)])
+    monkeypatch.setattr(headlines, "_place", lambda groups, level, *words: ", ".join(words))
+    limit = Criterion("factor", "line_utilisation", 0.5, "at most", "case")
+    outcomes = []
+    for bound in ("", "at least"):
+        monkeypatch.setattr(headlines, "_band", lambda groups, peak, of=bound: (None, [], of * (peak.run == "sea")))
+        found = _utilisation(problem, {}, peaks)
+        assert [item.where for item in found if item.shown] == ["chain, wave"]
+        outcomes.append(judge(found, [limit], computed=True).outcome)
+    assert outcomes == ["holds", "not judged"]

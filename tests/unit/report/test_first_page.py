@@ -8,12 +8,12 @@ from dataclasses import replace
 import openpyxl
 import synthetic_result
 
-from moyai.core.headline import UNCONFIRMED, Criterion, Headline, Verdict, judge
+from moyai.core.headline import UNCONFIRMED, Band, Criterion, Headline, Verdict, judge
 from moyai.core.results import Result
 from moyai.core.validity import Notice
 from moyai.report.document import KeyFigures, NoticeBlock, Paragraph, Table
 from moyai.report.first_page import badges
-from moyai.report.headlines import headline_figures
+from moyai.report.headlines import band_text, headline_figures
 from moyai.report.html import least_width, render_html
 from moyai.report.input_line import input_line
 from moyai.report.notices import first_page_notices, grouped
@@ -167,3 +167,66 @@ current: {speed: 0.8 m/s, heading_deg: 0}
     )
     tree.attrs["case_text"] = "site: ["
     assert input_line(replace(result, tree=tree)) == ""
+
+
+def test_what_is_bought_for_the_judged_end_prints_it_beside_its_number() -> None:
+    """49.4 kN, five realisations up to 55.0, judged at 76.2: piles bought for 55 would be too weak."""
+    band = Band(38.5e3, 55.0e3, "5 realisations", decides=False, judged=(30e3, 76.2e3), realisations=5)
+    pull = Headline("anchor_horizontal_load", "Pull", 49.4e3, "N", "storm, line a", band=band)
+    assert band_text(pull) == "38.5 kN to 76.2 kN, judged 76.2 kN (5 realisations)"
+    # an end within the band is named, the number itself is not
+    within = replace(pull, band=replace(band, judged=(45e3, 52e3)))
+    assert band_text(within) == "38.5 kN to 55.0 kN, judged 52.0 kN (5 realisations)"
+    plain = "38.5 kN to 55.0 kN (5 realisations)"
+    assert band_text(replace(pull, band=replace(band, judged=(45e3, 49.4e3)))) == plain
+    assert band_text(replace(pull, band=replace(band, decides=True, judged=None))) == plain
+    result = synthetic_result.build(duration=60.0)
+    for limit, words in ((None, "judged 76.2 kN"), (60e3, "judged at 76.2 kN")):
+        asked = [] if limit is None else [Criterion("pull", pull.name, limit, "at most", "case file", unit="N")]
+        verdict = judge([pull], asked, computed=True)
+        (figure,) = headline_figures(replace(result, headlines=(pull,), verdict=verdict)).items
+        assert "38.5 kN to 76.2 kN" in figure.detail and figure.detail.count("judged") == 1 and words in figure.detail
+
+
+def test_beside_what_is_not_judged_stands_the_worst_that_is_known() -> None:
+    """One sea is known as a bound alone, of the others the longest gives a factor of 2.14."""
+    short = Headline("line_utilisation", "Use", 1 / 3.26, "1", "SWL, short", bound="at least")
+    long = replace(short, value=1 / 2.14, where="SWL, long", bound="", shown=False)
+    mild = replace(long, value=1 / 5.0, where="SWL, mild")
+    numbers = (replace(short, shown=False), replace(long, shown=True), mild)
+    result = synthetic_result.build(duration=60.0)
+
+    def tile(items: tuple[Headline, ...], *criteria: Criterion) -> str:
+        verdict = judge(items, criteria, computed=True)
+        (figure,) = headline_figures(replace(result, headlines=items, verdict=verdict)).items
+        assert figure.judgement == "caution"
+        return figure.detail
+
+    open_one = "asked at least 2.00; not judged at SWL, short: factor of safety at most 3.26; worst known: "
+    assert tile(numbers, FACTOR).endswith(open_one + "factor of safety 2.14")
+    shown = (replace(mild, shown=True), replace(long, shown=False), numbers[0])
+    assert tile(shown, FACTOR).endswith(open_one + "factor of safety 2.14 at SWL, long")
+    # a code asks another factor of lines at rest: that one says its own
+    moving, still = (replace(FACTOR, limit=limit, analysis=name) for limit, name in ((0.6, "dynamic"), (0.5, "static")))
+    mixed = (replace(numbers[0], analysis="dynamic"), replace(long, shown=True, analysis="static"))
+    assert tile(mixed, moving, still).endswith("worst known: factor of safety 2.14, asked at least 2.00")
+    pull = [replace(item, name="anchor_uplift", value=item.value * 1e4, unit="N") for item in numbers]
+    assert tile(tuple(pull), UPLIFT).endswith("not judged at SWL, short: at least 3.07 kN; worst known: 4.67 kN")
+
+
+def test_a_tile_that_is_not_judged_for_want_of_a_number_says_why() -> None:
+    use = Headline("line_utilisation", "Use", 0.3, "1", "SWL, storm, rope")
+    bare = replace(use, value=float("nan"), where="", text="breaking load not given of chain", shown=False)
+    beyond = replace(bare, text="SWL, T = 7 s: not known, beyond its range; run the time domain")
+    result = synthetic_result.build(duration=60.0)
+    said = []
+    for items in ((use, bare), (use, beyond), (replace(bare, text="not known", detail="why", shown=True),)):
+        verdict = judge(items, [FACTOR], computed=True)
+        (figure,) = headline_figures(replace(result, headlines=items, verdict=verdict)).items
+        assert figure.judgement == "caution"
+        said.append(figure.detail.partition("asked ")[2])
+    assert said == [
+        "at least 2.00; not judged: breaking load not given of chain; worst known: factor of safety 3.33",
+        "at least 2.00; not judged: SWL, T = 7 s: not known, beyond its range; worst known: factor of safety 3.33",
+        "at least 2.00; not judged",
+    ]

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from moyai.core.headline import Band, Headline, governing, unfavourable
+from moyai.core.headline import Band, Headline, all_judged, unfavourable
 from moyai.core.wording import kilonewton
 from moyai.series.realisations import ALONE, alone, seeds, storms
 from moyai.structures.breakwater.largest_motion import LargestOfPeriods
@@ -216,7 +216,7 @@ def _motion_headlines(groups: Mapping[str, xr.Dataset], levels: list[str]) -> li
             elif chosen is not None:
                 offsets += _offset(*chosen, level, sea, frequency)
                 rolls += _roll(*chosen, level, sea, frequency)
-    found = [*governing(offsets), *governing(rolls)]
+    found = [*all_judged(offsets), *all_judged(rolls)]
     if not found and (rest := _steady_offset(groups, levels)) is not None:
         found = [rest]
     return found

@@ -8,20 +8,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from moyai.core.arrays import Array
 from moyai.core.headline import Band, Headline, Sense, all_judged
 from moyai.core.options import checks_words
-from moyai.series.block_maxima import maximum_of
-from moyai.structures.cage.conditions import condition_headlines, runs_of, sea_words
+from moyai.structures.cage.bands import AllRuns, LawRuns, State, alone, band_in_sea, band_with_laws, reach
+from moyai.structures.cage.conditions import condition_headlines, sea_words
+from moyai.structures.cage.flexible.law_runs import IN_WAVES
 from moyai.structures.cage.flexible.problem import FlexibleCageProblem
 from moyai.structures.cage.flexible.sensitivity import (
     COARSER,
+    DRAG,
     DRAG_IN_CURRENT,
     LEAST_VOLUME,
     NET_TENSION,
@@ -49,90 +50,6 @@ _OTHER_DIRECTIONS = replace(
     detail="along the diagonal of a frame an anchor may bear half as much again as along its side, and less volume is "
     "left: run both headings",
 )  # fmt: skip
-TOO_SHORT = "one seed, too short to tell the scatter of its maximum"
-_SAME_LAWS = "the same net laws as for the volume"
-
-
-@dataclass(frozen=True, eq=False)
-class _State:
-    """The equilibrium in the current of the site at one water level."""
-
-    level: str
-    speed: float
-    row: int
-    cage: xr.Dataset
-    statics: xr.Dataset
-    laws: xr.Dataset | None
-
-    @property
-    def where(self) -> str:
-        """Current and level."""
-        return f"current {self.speed:.3g} m/s, {self.level}"
-
-    def _by_law(self, name: str, line: int | None) -> Array | None:
-        """Return a number, that of one line where it is named, under every valid law; None without a second one."""
-        if self.laws is None or self.laws.sizes["law"] < 2:
-            return None
-        if line is not None:
-            return np.asarray(self.laws["law_line_tension"].values[:, line])
-        return np.asarray(self.laws[f"law_{name}"].values)
-
-    def band(self, name: str, line: int | None = None) -> Band | None:
-        """Return the range of a number, of one line where it is named, over the laws valid for this net."""
-        values = self._by_law(name, line)
-        if values is None or self.laws is None:
-            return None
-        words = laws_text(self.laws) if name == "volume_share" else _SAME_LAWS
-        return Band(float(np.min(values)), float(np.max(values)), words)
-
-    def moved(self, name: str, low: float, high: float, line: int | None = None) -> tuple[float, float, str]:
-        """Return a range in the sea with what the laws change in the current alone added.
-
-        The sea moves the cage about its place in the current. The words are empty where no second law is valid or the
-        number is not known in the current alone.
-        """
-        values = self._by_law(name, line)
-        if values is None or not np.isfinite(values).all():
-            return low, high, ""
-        change = values - float(values[0])
-        words = f"{_SAME_LAWS}, by their change in the current alone"
-        return max(low + float(change.min()), 0.0), high + float(change.max()), words
-
-
-def _band_in_sea(
-    state: _State | None, name: str, run: xr.Dataset, value: float, series: Array, line: int | None = None
-) -> Band | None:
-    """Return the band of a number found in the sea: chance of its seed, and the laws of the net."""
-    return _band_with_laws(state, name, *chance(run, value, series), line)
-
-
-def _band_with_laws(
-    state: _State | None, name: str, low: float, high: float, seed: str, line: int | None = None
-) -> Band | None:
-    """Return a range over seeds with what the laws of the net add; None where neither is known."""
-    words = [seed] if seed else []
-    if state is not None:
-        low, high, text = state.moved(name, low, high, line)
-        words += [text] if text else []
-    return Band(max(low, 0.0), high, "; ".join(words)) if words else None
-
-
-def chance(run: xr.Dataset, value: float, series: Array, time: Array | None = None) -> tuple[float, float, str]:
-    """Return a range of the largest value over other seeds, with its words; none in regular waves or short records."""
-    if int(run.attrs["regular"]):
-        return value, value, ""
-    times = run["time"].values if time is None else time
-    late = times >= float(run.attrs["ramp"])
-    found = maximum_of(times[late], series[late], float(run.attrs["period"]))
-    if found is None:
-        return value, value, TOO_SHORT
-    low, high = found.range
-    words = f"90 of 100 seeds, estimated from {found.blocks} blocks of the record of one"
-    return max(min(value, low), 0.0), max(value, high), words
-
-
-def laws_text(laws: xr.Dataset) -> str:
-    return f"law of the case and those valid for this net: {laws.attrs['valid']}"
 
 
 def flexible_headlines(problem: FlexibleCageProblem, groups: Groups) -> tuple[Headline, ...]:
@@ -145,8 +62,10 @@ def flexible_headlines(problem: FlexibleCageProblem, groups: Groups) -> tuple[He
         What was run, by its place in the result.
     """
     levels = [path[1:] for path in groups if path.count("/") == 1]
-    states = [state for level in levels if (state := _state(level, groups)) is not None]
-    runs = [item for level in levels for item in _runs(level, groups)]
+    known = [_state(level, groups) for level in levels]
+    laws = _law_runs(groups)
+    runs = [item for state in known for item in _runs(state, groups, laws)]
+    states = [state for state in known if state.row >= 0]
     factors = _mesh_factors(groups)
     tension, utilisation = _tension(states, runs, factors)
     items = [
@@ -172,13 +91,6 @@ def judged_seas(items: Iterable[Headline], sense: Sense = "at most", factors: Fa
     return all_judged((alone(_with_mesh(item, factors)) for item in items), sense)
 
 
-def alone(item: Headline) -> Headline:
-    """Return a number of one seed too short to tell its scatter as a bound: other seeds give more, of a volume less."""
-    if item.band is None or not item.band.of.startswith(TOO_SHORT):
-        return item
-    return replace(item, bound="at most" if item.name == "volume_left" else "at least")
-
-
 def _mesh_factors(groups: Groups) -> Factors:
     """Return by which factors a finer mesh may move each number: what a coarser one changed, either way."""
     found: dict[str, tuple[float, float]] = {}
@@ -200,7 +112,7 @@ def _with_mesh(item: Headline, factors: Factors) -> Headline:
     line = next((kind for kind in kinds if item.where.removeprefix("lower end of ").startswith(kind)), "")
     steady = item.model == STATICS
     quantity = {
-        "volume_left": VOLUME_IN_CURRENT if steady else LEAST_VOLUME, "drag": DRAG_IN_CURRENT,
+        "volume_left": VOLUME_IN_CURRENT if steady else LEAST_VOLUME, "drag": DRAG_IN_CURRENT if steady else DRAG,
         "line_tension": tension_of(line), "line_utilisation": tension_of(line), "offset": OFFSET,
         "anchor_load": tension_of("anchor"),
         "collar_stress": STRESS, "net_tension": NET_TENSION_IN_CURRENT if steady else NET_TENSION,
@@ -214,25 +126,38 @@ def _with_mesh(item: Headline, factors: Factors) -> Headline:
     return replace(item, band=replace(band, low=band.low * less, high=band.high * more, of=words))
 
 
-def _state(level: str, groups: Groups) -> _State | None:
-    """Return the equilibrium in the current of the site, not the fastest of the sweep."""
-    statics = groups.get(f"/{level}/statics")
-    if statics is None:
-        return None
+def _state(level: str, groups: Groups) -> State:
+    """Return the equilibrium in the current of the site, not the fastest of the sweep; row -1 where it was not run."""
+    import xarray as xr
+
     speed = float(groups[f"/{level}"].attrs["current"])
-    speeds = statics.variables["current_speed"].values
-    row = int(np.argmin(np.abs(speeds - speed)))
-    if abs(float(speeds[row]) - speed) > 1e-6 * max(1.0, speed):
-        return None
-    return _State(level, speed, row, groups[f"/{level}/cage"], statics, groups.get(f"/{level}/laws"))
+    statics, laws, none = groups.get(f"/{level}/statics"), groups.get(f"/{level}/laws"), xr.Dataset()
+    row = -1
+    if statics is not None:
+        speeds = statics.variables["current_speed"].values
+        at = int(np.argmin(np.abs(speeds - speed)))
+        row = at if abs(float(speeds[at]) - speed) <= 1e-6 * max(1.0, speed) else -1
+    return State(level, speed, row, groups.get(f"/{level}/cage", none), none if statics is None else statics, laws)
 
 
-def _runs(level: str, groups: Groups) -> Iterator[tuple[str, str, xr.Dataset]]:
-    """Yield level, words and series of every run through time."""
-    current = float(groups[f"/{level}"].attrs["current"])
-    for at, name, run in runs_of(groups):
-        if at == level:
-            yield level, f"{sea_words(name, run, current)}, {level}", run
+def _law_runs(groups: Groups) -> AllRuns:
+    """Return what the other laws change in the waves that were run under them, by their places as runs."""
+    found = {}
+    for path, group in groups.items():
+        parts = path.strip("/").split("/")
+        if len(parts) == 4 and parts[1] == IN_WAVES:
+            found["/".join((parts[0], *parts[2:]))] = LawRuns.of(group)
+    return found
+
+
+def _runs(state: State, groups: Groups, laws: AllRuns) -> Iterator[Run]:
+    """Yield water level, words and series of every run through time."""
+    for path, run in groups.items():
+        parts = path.strip("/").split("/")
+        if len(parts) == 4 and parts[1] == "time" and parts[0] == state.level:
+            place = "/".join((parts[0], *parts[2:]))
+            words = f"{sea_words(parts[2], run, state.speed)}, {state.level}"
+            yield replace(state, law_runs=laws, wave=place), words, run
 
 
 def volume_text(volume: float) -> str:
@@ -240,10 +165,12 @@ def volume_text(volume: float) -> str:
     return f"{volume:.0f} m³" if volume >= 1000.0 else f"{volume:.3g} m³"
 
 
-Runs = list[tuple[str, str, "xr.Dataset"]]
+#: The water level of a run through time, its sea in words, its series.
+Run = tuple[State, str, "xr.Dataset"]
+Runs = list[Run]
 
 
-def _volume(states: list[_State], runs: Runs, factors: Factors = NO_MESH) -> list[Headline]:
+def _volume(states: list[State], runs: Runs, factors: Factors = NO_MESH) -> list[Headline]:
     """Return the least volume in the current of the site and, judged with it, what the sea leaves for moments."""
     found = []
     for state in states:
@@ -255,13 +182,13 @@ def _volume(states: list[_State], runs: Runs, factors: Factors = NO_MESH) -> lis
         found.append(
             Headline("volume_left", "volume left", value, "1", state.where, STATICS, band, detail=detail)
         )  # fmt: skip
-    by_level, moments = {state.level: state for state in states}, []
-    for level, where, run in runs:
+    moments = []
+    for state, where, run in runs:
         series = run["volume_share"].values.min(axis=1)
         least = float(series[run["time"].values >= float(run.attrs["ramp"])].min())
         # the largest loss has the scatter of a maximum
-        low, high, seed = chance(run, 1.0 - least, 1.0 - series)
-        band = _band_with_laws(by_level.get(level), "volume_share", 1.0 - high, 1.0 - low, seed)
+        low, high, seed = reach(run, 1.0 - least, 1.0 - series, scale=least)
+        band = band_with_laws(state, "volume_share", 1.0 - high, 1.0 - low, seed)
         moments.append(Headline("volume_left", "volume left for moments", least, "1", where, DYNAMIC, band))
     worst, words = judged_seas(moments, "at least", factors), ""
     if worst:
@@ -271,7 +198,7 @@ def _volume(states: list[_State], runs: Runs, factors: Factors = NO_MESH) -> lis
     return _with_moments(judged_seas(found, "at least", factors), worst, words)
 
 
-def _drag(states: list[_State], runs: Runs, factors: Factors = NO_MESH) -> list[Headline]:
+def _drag(states: list[State], runs: Runs, factors: Factors = NO_MESH) -> list[Headline]:
     """Return the largest drag in the current of the site and, judged with it, what the sea brings for moments."""
     found = []
     for state in states:
@@ -285,12 +212,12 @@ def _drag(states: list[_State], runs: Runs, factors: Factors = NO_MESH) -> list[
         detail = ", ".join(f"{part} {100.0 * share / value:.0f} %" for part, share in shares)
         band = state.band("drag")
         found.append(Headline("drag", "drag in the current", value, "N", state.where, STATICS, band, detail=detail))
-    by_level, moments = {state.level: state for state in states}, []
-    for level, where, run in runs:
+    moments = []
+    for state, where, run in runs:
         series = np.linalg.norm(run["drag"].values.sum(axis=1), axis=1)
         value = float(series.max())
-        low, high, seed = chance(run, value, series, run["drag_time"].values)
-        band = _band_with_laws(by_level.get(level), "drag", low, high, seed)
+        low, high, seed = reach(run, value, series, run["drag_time"].values)
+        band = band_with_laws(state, "drag", low, high, seed)
         moments.append(Headline("drag", "drag for moments", value, "N", where, DYNAMIC, band))
     worst, words = judged_seas(moments, factors=factors), ""
     if worst:
@@ -308,7 +235,7 @@ def _with_moments(steady: list[Headline], moments: list[Headline], words: str) -
     return [*steady, *(replace(item, shown=False) for item in moments)]
 
 
-def _tension(states: list[_State], runs: Runs, factors: Factors = NO_MESH) -> tuple[list[Headline], list[Headline]]:
+def _tension(states: list[State], runs: Runs, factors: Factors = NO_MESH) -> tuple[list[Headline], list[Headline]]:
     """Return the governing tension and its utilisation: of the seas where they were run, else of the current.
 
     Each line carries its own band; the one whose judged end is nearest to its breaking load is judged.
@@ -325,14 +252,14 @@ def _tension(states: list[_State], runs: Runs, factors: Factors = NO_MESH) -> tu
             "line_utilisation", "tension over breaking load", share, "1", item.where, item.model,
             None if band is None else replace(band, low=band.low * factor, high=band.high * factor),
             detail=f"breaking load of new rope {1e-3 / factor:.4g} kN, without a safety factor",
+            mean=None if item.mean is None else item.mean * factor,
         )  # fmt: skip
         tensions[item.where] = item
 
-    by_level = {state.level: state for state in states}
-    for level, where, run in runs:
+    for state, where, run in runs:
         if "utilisation" in run:
             for line, share in enumerate(run["utilisation"].values):
-                add(_dynamic_tension(run, line, where, by_level.get(level)), float(share))
+                add(_dynamic_tension(run, line, where, state), float(share))
     for state in [] if tensions else states:
         for line, name in enumerate(state.statics.variables["line"].values):
             add(
@@ -342,11 +269,13 @@ def _tension(states: list[_State], runs: Runs, factors: Factors = NO_MESH) -> tu
     if not used:
         return [], []
     utilisations = judged_seas(used.values(), factors=factors)
-    own = [replace(alone(_with_mesh(tensions[item.where], factors)), shown=item.shown) for item in utilisations]
+    own = [
+        replace(alone(_with_mesh(tensions[item.where], factors)), shown=item.shown, mean=None) for item in utilisations
+    ]
     return own, utilisations
 
 
-def _static_tension(state: _State, line: int, name: str) -> Headline:
+def _static_tension(state: State, line: int, name: str) -> Headline:
     """Return the tension of a line in the current of the site with the band of the law of the net."""
     value = float(state.statics.variables["line_tension_maximum"].values[state.row, line])
     return Headline(
@@ -355,7 +284,7 @@ def _static_tension(state: _State, line: int, name: str) -> Headline:
     )  # fmt: skip
 
 
-def _dynamic_tension(run: xr.Dataset, line: int, where: str, state: _State | None) -> Headline:
+def _dynamic_tension(run: xr.Dataset, line: int, where: str, state: State | None) -> Headline:
     """Return the highest tension of a run with its band: chance of the seed, and the law of the net."""
     value = float(run["line_tension_maximum"].values[line])
     details = []
@@ -363,33 +292,37 @@ def _dynamic_tension(run: xr.Dataset, line: int, where: str, state: _State | Non
     if float(everything.max()) > 1.01 * value:
         name, most = str(run["line"].values[int(np.argmax(everything))]), float(everything.max()) / 1e3
         details.append(f"nearest to its breaking load; the largest tension of all is {most:.3g} kN, in {name}")
+    mean = float(run["line_tension_mean"].values[line]) if "line_tension_mean" in run else None
     slack, snaps = float(run["slack_share"].values[line]), int(run["snaps"].values[line])
     if slack > 0.0:
         details.append(f"slack for {100.0 * slack:.2g} % of the time" + (f", {snaps} snaps" if snaps else ""))
     series = run["line_tension_peak_since_row"].values[:, line]
     name = str(run["line"].values[line])
-    band = _band_in_sea(state, "line_tension_maximum", run, value, series, line)
+    # what a line that bears little still rises by counts against the one nearest to its breaking load
+    share = run["utilisation"].values
+    scale = value * float(share.max()) / max(float(share[line]), 1e-300)
+    band = band_in_sea(state, "line_tension_maximum", run, value, series, line, scale)
     return Headline(
         "line_tension", "tension of the governing line", value, "N", f"{name}, {where}",
-        f"{DYNAMIC}, {run.attrs['theory']}", band, detail="; ".join(details),
+        f"{DYNAMIC}, {run.attrs['theory']}", band, detail="; ".join(details), mean=mean,
     )  # fmt: skip
 
 
-def _offset(states: list[_State], runs: Runs, factors: Factors = NO_MESH) -> list[Headline]:
+def _offset(states: list[State], runs: Runs, factors: Factors = NO_MESH) -> list[Headline]:
     """Return the largest way of a collar from its place in still water."""
     found: list[tuple[float, str, str, Band | None]] = []
     for state in states:
         calm = state.statics.variables["collar_place"].values[0]
         away = state.statics.variables["collar_place"].values[state.row] - calm
         found.append((float(np.linalg.norm(away[:, :2], axis=1).max()), state.where, STATICS, state.band("offset")))
-        for level, where, run in runs:
-            if level != state.level:
+        for at, where, run in runs:
+            if at.level != state.level:
                 continue
             late = run["time"].values >= float(run.attrs["ramp"])
             moved = np.linalg.norm((run["collar_place"].values - calm)[..., :2], axis=-1)
             series = moved.reshape(moved.shape[0], -1).max(axis=1)
             value = float(series[late].max())
-            found.append((value, where, DYNAMIC, _band_in_sea(state, "offset", run, value, series)))
+            found.append((value, where, DYNAMIC, band_in_sea(at, "offset", run, value, series)))
     if not found or max(item[0] for item in found) < 1e-9:
         return []
     return judged_seas(
@@ -401,10 +334,9 @@ def _offset(states: list[_State], runs: Runs, factors: Factors = NO_MESH) -> lis
     )
 
 
-def _anchor(states: list[_State], runs: Runs, factors: Factors = NO_MESH) -> list[Headline]:
+def _anchor(states: list[State], runs: Runs, factors: Factors = NO_MESH) -> list[Headline]:
     found: list[tuple[float, str, str, str, Band | None]] = []
-    by_level = {state.level: state for state in states}
-    for level, where, run in runs:
+    for state, where, run in runs:
         if "line_tension_maximum_lower" not in run:
             continue
         names = [str(name) for name in run["line"].values]
@@ -412,14 +344,13 @@ def _anchor(states: list[_State], runs: Runs, factors: Factors = NO_MESH) -> lis
         if anchors:
             lower = run["line_tension_maximum_lower"].values
             up = float(run["line_uplift_lower"].values[anchors].max())
-            detail = f"upwards {up / 1e3:.3g} kN at most, of all anchors"
-            state = by_level.get(level)
+            detail = f"upwards {up / 1e3:.3g} kN, the largest of all anchors in this run, without a band"
             for line in anchors:
                 pull = float(lower[line])
                 # the lower end has no series of its own: the chance is that of the line's largest tension
                 share = pull / max(float(run["line_tension_maximum"].values[line]), 1e-300)
                 series = share * run["line_tension_peak_since_row"].values[:, line]
-                band = _band_in_sea(state, "anchor_pull", run, pull, series, line)
+                band = band_in_sea(state, "anchor_pull", run, pull, series, line, float(lower[anchors].max()))
                 found.append((pull, f"lower end of {names[line]}, {where}", DYNAMIC, detail, band))
     for state in [] if found else states:
         if "anchor_pull" in state.statics and state.statics["anchor_pull"].size:
@@ -440,15 +371,14 @@ def _anchor(states: list[_State], runs: Runs, factors: Factors = NO_MESH) -> lis
     )
 
 
-def _net(states: list[_State], runs: Runs, factors: Factors = NO_MESH) -> list[Headline]:
+def _net(states: list[State], runs: Runs, factors: Factors = NO_MESH) -> list[Headline]:
     """Return the largest tension of the net over its width: of the seas where they were run, else of the current."""
     found: list[tuple[float, str, str, Band | None]] = []
-    by_level = {state.level: state for state in states}
-    for level, where, run in runs:
+    for state, where, run in runs:
         late = run["time"].values >= float(run.attrs["ramp"])
         series = run["net_tension_peak_since_row"].values.max(axis=1)
         value = float(series[late].max())
-        found.append((value, where, DYNAMIC, _band_in_sea(by_level.get(level), "net_tension", run, value, series)))
+        found.append((value, where, DYNAMIC, band_in_sea(state, "net_tension", run, value, series)))
     for state in [] if found else states:
         value = float(state.statics.variables["net_tension"].values[state.row].max())
         found.append((value, state.where, STATICS, state.band("net_tension")))
@@ -464,20 +394,19 @@ def _net(states: list[_State], runs: Runs, factors: Factors = NO_MESH) -> list[H
     )  # fmt: skip
 
 
-def _stress(states: list[_State], runs: Runs, factors: Factors = NO_MESH) -> list[Headline]:
+def _stress(states: list[State], runs: Runs, factors: Factors = NO_MESH) -> list[Headline]:
     found: list[tuple[float, str, str, Band | None]] = []
-    by_level = {state.level: state for state in states}
     for state in states:
         if "collar_stress_largest" in state.statics:
             value = float(state.statics.variables["collar_stress_largest"].values[state.row].max())
             found.append((value, state.where, STATICS, state.band("collar_stress")))
-    for level, where, run in runs:
+    for state, where, run in runs:
         if "collar_stress_largest" in run:
             late = run["time"].values >= float(run.attrs["ramp"])
             stress = run["collar_stress_largest"].values
             series = stress.reshape(stress.shape[0], -1).max(axis=1)
             value = float(series[late].max())
-            band = _band_in_sea(by_level.get(level), "collar_stress", run, value, series)
+            band = band_in_sea(state, "collar_stress", run, value, series)
             found.append((value, where, DYNAMIC, band))
     if not found:
         return []

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from moyai.core.arrays import Array
-from moyai.core.headline import Band, Bound, Headline, governing
+from moyai.core.headline import Band, Bound, Headline, all_judged
 from moyai.core.validity import Notice
 from moyai.core.wording import spoken
 from moyai.morison.coefficient_ranges import CIRCULATION, MeasuredRange, drag_range, inertia_range
@@ -264,7 +264,7 @@ def _with_the_others(
         for item in _all(groups, kind)
         if item.where != shown.where
     ]
-    return governing([shown, *others])
+    return all_judged([shown, *others])
 
 
 def _shares(found: _Largest) -> tuple[float, float, float]:

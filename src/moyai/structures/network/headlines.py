@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from moyai.core.arrays import Array
-from moyai.core.headline import Band, Bound, Headline, governing, unfavourable
+from moyai.core.headline import Band, Bound, Headline, all_judged, unfavourable
 from moyai.core.wording import spoken
 from moyai.flexible.sensitivity import PeakSensitivity
 from moyai.series.block_maxima import PERIODS, Maximum, maximum_of
@@ -77,8 +77,9 @@ def headlines_of(problem: NetworkProblem, groups: Mapping[str, xr.Dataset]) -> t
     if peak is not None:
         items += _tension(problem, groups, peak)
         # a smaller tension with a wider band may pass a limit that the highest one keeps
-        worst = governing(_tension(problem, groups, one)[0] for one in peaks)[1:]
-        items += [item for item in worst if unfavourable(item) > unfavourable(items[0])]
+        others = all_judged(_tension(problem, groups, one)[0] for one in peaks)[1:]
+        first = items[0]
+        items += [one for one in others if unfavourable(one) > unfavourable(first) or one.bound != first.bound]
         items += _start_up(groups, peak)
         items += _utilisation(problem, groups, peaks)
     items += _anchor(groups, peaks)
@@ -315,7 +316,7 @@ def _utilisation(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peak
                 detail=f"breaking load {load / 1e3:.4g} kN, without a safety factor",
             )
         )  # fmt: skip
-    return governing(items)
+    return all_judged(items)
 
 
 def _band(groups: Mapping[str, xr.Dataset], peak: _Peak) -> tuple[Band | None, list[str], Bound]:
@@ -404,7 +405,7 @@ def _anchor(groups: Mapping[str, xr.Dataset], peaks: list[_Peak]) -> list[Headli
                         DYNAMIC, own, bound, detail=said,
                     )
                 )  # fmt: skip
-    return governing(found)
+    return all_judged(found)
 
 
 def _band_of_pull(
@@ -472,7 +473,7 @@ def _offsets(groups: Mapping[str, xr.Dataset], anchors: Mapping[str, str]) -> li
     return [
         item
         for found in (offsets, leans)
-        for item in governing(one for one in found if math.isfinite(one.value))
+        for item in all_judged(one for one in found if math.isfinite(one.value))
     ]  # fmt: skip
 
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from moyai.core.arrays import Array
-from moyai.core.headline import Band, Bound, Headline, governing, unfavourable
+from moyai.core.headline import Band, Bound, Headline, all_judged, unfavourable
 from moyai.core.wording import kilonewton
 from moyai.design.anchor_needs import anchor_need, judged_end, sinker_weight
 from moyai.series.intervals import student_quantile
@@ -28,6 +28,11 @@ FIRST_ORDER = "frequency domain, regular waves"
 STILL = "at rest, no waves run"
 #: What is said of a line whose tension is known and whose strength is not, next to lines that have one.
 NO_STRENGTH = "breaking load not given of"
+#: Label and unit of the numbers of a line.
+_LINE_NUMBERS = {
+    "line_tension": ("Largest line tension", "N"),
+    "line_utilisation": ("Utilisation of the breaking load", "1"),
+}
 STORM_DURATION = 10800.0  # [s], for which the largest values of a sea state are usually asked
 
 
@@ -184,45 +189,46 @@ def _line_peak(
 
 
 def line_headlines(peaks: list[LinePeak]) -> list[Headline]:
+    """Return the largest tension and its share of the breaking load, and what else is judged of lines.
+
+    Where the highest is not known it stands on the page; the others are judged, as one of them may break a limit.
+    """
     highest = max(peaks, key=lambda peak: peak.rank)
-    if not highest.known:
-        return [
-            Headline(name, label, math.nan, unit, highest.where, highest.model, detail=_beyond(highest),
-                     text="not known", analysis=highest.analysis)
-            for name, label, unit in (
-                ("line_tension", "Largest line tension", "N"),
-                ("line_utilisation", "Utilisation of the breaking load", "1"),
-            )
-        ]  # fmt: skip
     also = _other_level(highest, peaks)
-    tensions = governing(_tension(peak, also if peak is highest else "") for peak in peaks if peak.known)
-    tension = tensions[0]
-    load = highest.breaking_load
-    unknown = [
-        Headline(item.name, item.label, math.nan, item.unit, peak.where, peak.model, text=f"{peak.where}: not known, "
-                 + _beyond(peak), shown=False, analysis=peak.analysis)
-        for peak in _farthest_beyond(peaks)
-        for item in (tension, replace(tension, name="line_utilisation", label="Utilisation of the breaking load",
-                                      unit="1"))
-    ]  # fmt: skip
-    if not load > 0.0:
-        return [
-            *tensions,
-            Headline("line_utilisation", "Utilisation of the breaking load", math.nan, "1", highest.where,
-                     highest.model, detail="breaking load not given in the case"),
-            *unknown,
-        ]  # fmt: skip
+    known = [peak for peak in peaks if peak.known]
+    tensions = all_judged(_tension(peak, also if peak is highest else "") for peak in known)
     # Codes ask another factor of each analysis: the highest of the other one is judged too
-    strong = [peak for peak in peaks if peak.known and peak.breaking_load > 0.0]
-    same = [_utilisation(peak) for peak in strong if peak.analysis == highest.analysis]
-    others = [_utilisation(peak) for peak in strong if peak.analysis != highest.analysis]
-    hidden = [replace(item, shown=False) for item in governing(others)]
+    strong = [peak for peak in known if peak.breaking_load > 0.0]
+    same = all_judged(_utilisation(peak) for peak in strong if peak.analysis == highest.analysis)
+    others = all_judged(_utilisation(peak) for peak in strong if peak.analysis != highest.analysis)
+    hidden = [replace(item, shown=False) for item in others]
+    shown: list[Headline] = []
+    if not highest.known:
+        shown = [
+            _line_number(name, highest, detail=_beyond(highest), text="not known", analysis=highest.analysis)
+            for name in _LINE_NUMBERS
+        ]
+        hidden = [replace(item, shown=False) for item in (*tensions, *same, *others)]
+        tensions, same = [], []
+    elif not highest.breaking_load > 0.0:
+        shown = [_line_number("line_utilisation", highest, detail="breaking load not given in the case")]
+    unknown = [
+        _line_number(name, peak, text=f"{peak.where}: not known, {_beyond(peak)}", shown=False, analysis=peak.analysis)
+        for peak in _farthest_beyond(peaks)
+        for name in _LINE_NUMBERS
+        if highest.known or (peak.level, peak.sea, peak.line) != (highest.level, highest.sea, highest.line)
+    ]
     bare = ", ".join(dict.fromkeys(peak.line for peak in peaks if peak.chain and not peak.breaking_load > 0.0))
-    without = [
-        Headline("line_utilisation", "Utilisation of the breaking load", math.nan, "1", text=f"{NO_STRENGTH} {bare}",
-                 shown=False)
-    ]  # fmt: skip
-    return [*tensions, *governing(same), *hidden, *unknown, *(without if bare else [])]
+    if bare and strong:
+        text = f"{NO_STRENGTH} {bare}"
+        unknown.append(replace(_line_number("line_utilisation", highest, text=text, shown=False), where="", model=""))
+    return [*tensions, *same, *shown, *hidden, *unknown]
+
+
+def _line_number(name: str, peak: LinePeak, **words: Any) -> Headline:
+    """Return a number of a line that is not known, with what is said of it."""
+    label, unit = _LINE_NUMBERS[name]
+    return Headline(name, label, math.nan, unit, peak.where, peak.model, **words)
 
 
 def _tension(peak: LinePeak, also: str) -> Headline:
@@ -298,62 +304,74 @@ def _other_level(highest: LinePeak, peaks: list[LinePeak]) -> str:
 
 
 def anchor_headlines(groups: Mapping[str, xr.Dataset], levels: list[str], peaks: list[LinePeak]) -> list[Headline]:
-    """Return what an anchor must hold: of the line that pulls hardest, and the uplift wherever it is highest."""
+    """Return what an anchor must hold: of the line that pulls hardest, and the uplift wherever it is highest.
+
+    Where one of them is not known the others are judged all the same.
+    """
     pulled = [peak for peak in peaks if math.isfinite(peak.horizontal)]
     if not pulled:
         return []
-    bare = _bare_lines(groups, levels)
+    known = [peak for peak in pulled if peak.known]
     # where no anchor is lifted, the line that leaves least on the bed comes nearest to it
     lifted = max(pulled, key=lambda peak: (max(peak.vertical, 0.0), -peak.grounded))
     hardest = max(pulled, key=lambda peak: peak.horizontal + max(peak.vertical, 0.0))
+    pulls = all_judged(_pull(peak) for peak in known)
+    lifts = [_uplift(peak) for peak in known if peak is not lifted]
     if not (hardest.known and lifted.known):
-        text = "not known"
-        detail = "the largest tension is not known"
-        return [
-            Headline(name, label, math.nan, "N", hardest.where, hardest.model, detail=detail, text=text)
+        worst = lifted if hardest.known else hardest
+        shown = [
+            Headline(name, label, math.nan, "N", worst.where, worst.model, detail="the largest tension is not known",
+                     text="not known")
             for name, label in (
                 ("anchor_capacity_required", "Holding capacity that an anchor needs"),
                 ("anchor_uplift", "Uplift at an anchor"),
             )
-        ]
+        ]  # fmt: skip
+        hidden = [replace(item, shown=False) for item in (*pulls, *all_judged(map(_uplift, known)))]
+        return [*shown, *hidden, *_unknown_anchors(pulled, worst)]
     # a sinker is bought for the end at which criteria are judged, not for the mean of a few realisations
-    weight, heaviest = max(((_sinker(peak), peak) for peak in pulled if peak.known), key=lambda pair: pair[0])
-    open_ones = any(not peak.known for peak in pulled)
-    capacities = governing(_capacity(peak, weight, heaviest, open_ones) for peak in pulled if peak.known)
-    pull = [
-        Headline(
-            "anchor_horizontal_load", "Horizontal pull on an anchor", peak.horizontal, "N", peak.where, peak.model,
-            band=peak.band(peak.horizontal, peak.horizontal_scatter), bound=peak.proves,
-        )
-        for peak in pulled
-        if peak.known
-    ]  # fmt: skip
-    unknown = [
-        Headline(name, label, math.nan, "N", peak.where, peak.model, text=f"{peak.where}: not known, {_beyond(peak)}",
-                 shown=False)
-        for peak in _farthest_beyond(pulled)
-        for name, label in (("anchor_uplift", "Uplift at an anchor"),
-                            ("anchor_horizontal_load", "Horizontal pull on an anchor"))
-    ]  # fmt: skip
+    weight, heaviest = max(((_sinker(peak), peak) for peak in known), key=lambda pair: pair[0])
+    capacities = all_judged(_capacity(peak, weight, heaviest, len(known) < len(pulled)) for peak in known)
     none = lifted.vertical <= 0.0
     least = min(peak.grounded for peak in pulled)
     kept = f"{least:.3g} m of line stays on the bed" if least > 0.0 else "the line leaves the bed"
-    said = "; ".join(part for part in (kept if none else "", bare) if part)
-    uplift = Headline(
-        "anchor_uplift", "Uplift at an anchor", max(lifted.vertical, 0.0), "N", lifted.where, lifted.model,
-        band=None if none else lifted.band(lifted.vertical, np.maximum(lifted.vertical_scatter, 0.0)), detail=said,
-        text="none" if none else "", bound=lifted.proves,
+    said = "; ".join(part for part in (kept if none else "", _bare_lines(groups, levels)) if part)
+    uplift = replace(_uplift(lifted), detail=said)
+    others = [
+        replace(item, shown=False)
+        for item in all_judged(lifts)
+        if unfavourable(item) > unfavourable(uplift) or item.bound != uplift.bound
+    ]
+    return [*capacities, *pulls, uplift, *others, *_unknown_anchors(pulled, None)]
+
+
+def _pull(peak: LinePeak) -> Headline:
+    return Headline(
+        "anchor_horizontal_load", "Horizontal pull on an anchor", peak.horizontal, "N", peak.where, peak.model,
+        band=peak.band(peak.horizontal, peak.horizontal_scatter), bound=peak.proves,
     )  # fmt: skip
-    lifts = [
-        replace(
-            uplift, value=peak.vertical, where=peak.where, model=peak.model, text="", detail="",
-            band=peak.band(peak.vertical, np.maximum(peak.vertical_scatter, 0.0)), bound=peak.proves, shown=False,
-        )
-        for peak in pulled
-        if peak.known and peak.vertical > 0.0 and peak is not lifted
+
+
+def _uplift(peak: LinePeak) -> Headline:
+    none = peak.vertical <= 0.0
+    return Headline(
+        "anchor_uplift", "Uplift at an anchor", max(peak.vertical, 0.0), "N", peak.where, peak.model,
+        band=None if none else peak.band(peak.vertical, np.maximum(peak.vertical_scatter, 0.0)),
+        text="none" if none else "", bound=peak.proves,
+    )  # fmt: skip
+
+
+def _unknown_anchors(pulled: list[LinePeak], shown: LinePeak | None) -> list[Headline]:
+    """Return, not shown, the loads of anchors that are not known, without the uplift of the line that is shown."""
+    names = {"anchor_uplift": "Uplift at an anchor", "anchor_horizontal_load": "Horizontal pull on an anchor"}
+    own = None if shown is None else (shown.level, shown.sea, shown.line)
+    return [
+        Headline(name, label, math.nan, "N", peak.where, peak.model, text=f"{peak.where}: not known, {_beyond(peak)}",
+                 shown=False)
+        for peak in _farthest_beyond(pulled)
+        for name, label in names.items()
+        if name != "anchor_uplift" or (peak.level, peak.sea, peak.line) != own
     ]  # fmt: skip
-    widest = [item for item in lifts if unfavourable(item) > unfavourable(uplift)]
-    return [*capacities, *governing(pull), uplift, *widest, *unknown]
 
 
 def _capacity(peak: LinePeak, weight: float, heaviest: LinePeak, more: bool) -> Headline:

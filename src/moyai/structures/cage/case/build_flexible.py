@@ -95,6 +95,7 @@ def build_problem(
             analyses=model.analyses,
             current_speeds=settings.current_speeds,
             periods=settings.periods,
+            most_periods=settings.most_periods,
             ramp_periods=settings.ramp_periods,
             rows_per_period=settings.rows_per_period,
             frames=settings.frames,

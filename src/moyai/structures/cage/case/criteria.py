@@ -49,14 +49,18 @@ def criteria(model: Any, given: Any) -> Iterator[Criterion]:
     """Yield what the headlines are judged against: the block of the case, else the defaults with their source."""
     mooring = model.structure.mooring
     ropes: list[Any] = []
+    own = getattr(mooring, "kind", "") == "lines"
     if getattr(mooring, "kind", "") == "grid":
         ropes = [mooring.frame_rope, mooring.bridle, *mooring.anchor_line]
+    elif own:
+        ropes = [line for line in mooring.lines if line.breaking_load is not None]
     elif getattr(mooring, "breaking_load", None) is not None:
         ropes = [mooring]
     yield from line_criteria(
         given,
         CAGE_CODE if ropes else "",
         "dynamic" if "time" in model.analyses else "static",
-        [getattr(rope, "catalogue", None) or "rope" for rope in ropes],
+        # a line of its own does not say what it is made of: the strictest factor
+        [None if own else getattr(rope, "catalogue", None) or "rope" for rope in ropes],
     )
     yield from given_criteria(given)

@@ -257,7 +257,13 @@ class FlexibleCageSettings(Block):
         default=(), description="Speeds at the surface for `statics`: the current's profile is scaled to each."
     )
     periods: Annotated[int, Field(strict=True, ge=1, le=1000)] = Field(
-        default=8, description="Wave periods run in regular waves after the ramp. Default: 8."
+        default=8,
+        description="Wave periods run in regular waves after the ramp, at least; more until they repeat. Default: 8.",
+    )
+    most_periods: Annotated[int, Field(strict=True, ge=1, le=1000)] = Field(
+        default=40,
+        description="Wave periods after the ramp at which a run in regular waves ends, whether they repeat or not; no "
+        "fewer than 'periods'. Default: 40.",
     )
     ramp_periods: NonNegativeNumber = Field(
         default=3.0, description="Periods over which the waves grow from nothing. Default: 3."

@@ -265,6 +265,26 @@ def run_checks(sea: str, run: CageRun) -> tuple[IdentityCheck, ...]:
     )
 
 
+def settling_notices(sea: str, series: xr.Dataset) -> tuple[Notice, ...]:
+    """Tell what still moves at the end of a run through regular waves."""
+    from moyai.structures.cage.flexible.time import unsettled
+
+    moving = unsettled(series)
+    if not moving:
+        return ()
+    name = max(moving, key=lambda key: abs(moving[key]))
+    periods = (float(series["time"].values[-1]) - float(series.attrs["ramp"])) / float(series.attrs["period"])
+    change = 100.0 * abs(moving[name])
+    return (
+        Notice(
+            "cage-not-settled",
+            f"{sea}, {series.attrs['wave']}: after {periods:.3g} periods {name} still changes by {change:.2g} % a "
+            "period: what has not settled is a bound",
+            change, severity="warning", remedy="give more 'settings.flexible.most_periods'",
+        ),
+    )  # fmt: skip
+
+
 def run_notices(sea: str, run: CageRun, settings: FlexibleSettings) -> tuple[Notice, ...]:
     """Tell which lines snap and which break."""
     built, history = run.rest.built, run.history

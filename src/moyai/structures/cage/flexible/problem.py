@@ -30,8 +30,10 @@ class FlexibleSettings:
     other_laws: bool = True
     #: For a draft: a rest goes on from one before that is near, to a thousandth of the largest tension.
     nominal: bool = False
-    #: Wave periods that are run in regular waves after the ramp.
+    #: Wave periods that are run in regular waves after the ramp, at least; more until they repeat.
     periods: int = 8
+    #: Wave periods after the ramp at which a run in regular waves ends, whether they repeat or not.
+    most_periods: int = 40
     #: Periods over which the waves grow.
     ramp_periods: float = 3.0
     #: Rows of the result in a wave period (the peak period of a spectrum).

@@ -24,15 +24,24 @@ from moyai.sea.states import IrregularSea
 from moyai.sea.water import Water
 from moyai.structures.cage.conditions import height_notices
 from moyai.structures.cage.flexible.build import build_cage
-from moyai.structures.cage.flexible.checks import problem_notices, rest_checks, rest_notices, run_checks, run_notices
+from moyai.structures.cage.flexible.checks import (
+    design_speed,
+    problem_notices,
+    rest_checks,
+    rest_notices,
+    run_checks,
+    run_notices,
+    settling_notices,
+)
 from moyai.structures.cage.flexible.equilibrium import CageRest, solve_rest
-from moyai.structures.cage.flexible.laws import laws_dataset
+from moyai.structures.cage.flexible.law_runs import Governing, WaveCase, laws_in_wave
+from moyai.structures.cage.flexible.laws import choice_of, laws_dataset
 from moyai.structures.cage.flexible.model import FlexibleCage
 from moyai.structures.cage.flexible.parts import CageNetwork
 from moyai.structures.cage.flexible.problem import FlexibleCageProblem
 from moyai.structures.cage.flexible.sensitivity import REST, mesh_dataset, rest_mesh_dataset, sensitivity_dataset
 from moyai.structures.cage.flexible.statics import cage_dataset, statics_dataset
-from moyai.structures.cage.flexible.time import CageRun, run_cage, time_dataset
+from moyai.structures.cage.flexible.time import run_cage, time_dataset
 from moyai.structures.cage.flexible.variables import VOCABULARY
 from moyai.structures.cage.flexible.wake import ScaledCurrent
 from moyai.structures.cage.headlines import flexible_headlines
@@ -108,6 +117,7 @@ def _steps(problem: FlexibleCageProblem, collected: Collected, progress: Progres
     import xarray as xr
 
     levels = problem.environment.water_levels
+    worst = Governing()
     waved = bool(problem.seas) and bool({"time", "sensitivity"} & set(problem.settings.analyses))
     collected.notices.extend(problem_notices(problem))
     for index, (name, level) in enumerate(levels):
@@ -124,6 +134,7 @@ def _steps(problem: FlexibleCageProblem, collected: Collected, progress: Progres
         )
         collected.groups[f"{root}/cage"] = cage_dataset(model, built)
         rest: CageRest | None = None
+        laws_wanted = speed > 0.0 and problem.settings.other_laws
         if "statics" in problem.settings.analyses:
             rests: list[CageRest] = []
             speeds = _speeds(problem, speed)
@@ -147,7 +158,7 @@ def _steps(problem: FlexibleCageProblem, collected: Collected, progress: Progres
             collected.notices.extend(rest_notices(name, model, statics, speed))
             close = [rest for rest, value in zip(rests, speeds, strict=True) if abs(value - speed) < 1e-9]
             rest = close[0] if close else None
-            if rest is not None and speed > 0.0 and problem.settings.other_laws:
+            if rest is not None and laws_wanted:
                 collected.groups[f"{root}/laws"] = laws_dataset(model, rest, rests[0], speed, heading, progress)
                 yield
                 if not waved:
@@ -155,9 +166,17 @@ def _steps(problem: FlexibleCageProblem, collected: Collected, progress: Progres
                     collected.groups[f"{root}/sensitivity/{REST}"] = rest_mesh_dataset(model, rest)
                     yield
         if waved:
-            rest = rest or solve_rest(model, built, profile)
+            if rest is None:
+                rest = solve_rest(model, built, profile)
+                if laws_wanted and "time" in problem.settings.analyses:
+                    # numbers of a sea carry what the laws change, also where the current alone is not asked for
+                    calm = _STILL.of(key, partial(solve_rest, model, built, None))
+                    collected.groups[f"{root}/laws"] = laws_dataset(model, rest, calm, speed, heading, progress)
+                    yield
             for sea in problem.seas:
-                yield from _sea_steps(problem, model, rest, sea, collected, root, progress)
+                yield from _sea_steps(problem, model, rest, sea, collected, root, worst, progress)
+    if problem.settings.other_laws:
+        yield from _law_steps(problem, worst, collected, progress)
     progress("water levels", len(levels), len(levels))
 
 
@@ -173,19 +192,22 @@ def _sea_steps(
     sea: RegularWaves | IrregularSea,
     collected: Collected,
     root: str,
+    worst: Governing,
     progress: Progress,
 ) -> Iterator[None]:
     waves = waves_of(problem, sea, model.water)
-    governing: tuple[float, CageRun] | None = None
+    governing: tuple[float, WaveCase] | None = None
     for number, wave in enumerate(waves):
         progress(f"time, {sea.name}", number, len(waves))
         label = f"wave {number + 1}" if wave.regular else "sea"
         if "time" in problem.settings.analyses:
-            found = run_cage(model, rest, wave, problem.settings, progress=progress)
+            found = run_cage(model, rest, wave, problem.settings, settle=True, progress=progress)
             series = time_dataset(model, found, problem.settings)
             collected.groups[f"{root}/time/{sea.name}/{label}"] = series
             collected.checks.extend(run_checks(sea.name, found))
             collected.notices.extend(run_notices(sea.name, found, problem.settings))
+            if found.history.status == "converged":
+                collected.notices.extend(settling_notices(sea.name, series))
             if found.history.status == "interrupted":
                 raise KeyboardInterrupt
             if found.history.status == "not_converged":
@@ -193,8 +215,11 @@ def _sea_steps(
             collected.notices.extend(height_notices(sea.name, series))
             collected.notices.extend(theory_limit(wave, _AUTOMATIC))
             used = float(series["utilisation"].max()) if "utilisation" in series else 0.0
-            if found.history.status == "converged" and (governing is None or used > governing[0]):
-                governing = used, found
+            if found.history.status == "converged":
+                case = WaveCase(root, sea.name, label, model, found)
+                worst.add(case, series)
+                if governing is None or used > governing[0]:
+                    governing = used, case
             yield
         if "sensitivity" in problem.settings.analyses and number == 0:
             collected.groups[f"{root}/sensitivity/{sea.name}"] = sensitivity_dataset(
@@ -203,14 +228,36 @@ def _sea_steps(
             yield
     if governing is not None and "sensitivity" not in problem.settings.analyses:
         try:
-            changed = mesh_dataset(model, governing[1], problem.settings, progress)
+            changed, coarse = mesh_dataset(model, governing[1].run, problem.settings, progress)
         except (ConvergenceError, InputError) as error:
             words = f"{sea.name}: the coarser mesh that is run to check the mesh fails: {error.fault.message}"
             collected.notices.append(Notice("mesh-not-checked", words, severity="warning"))
         else:
             collected.groups[f"{root}/sensitivity/{sea.name}"] = changed
+            worst.keep(governing[1], coarse)
         yield
     progress(f"time, {sea.name}", len(waves), len(waves))
+
+
+def _law_steps(
+    problem: FlexibleCageProblem, worst: Governing, collected: Collected, progress: Progress
+) -> Iterator[None]:
+    """Run the governing waves of all numbers under the lowest and the highest valid law of nets."""
+    speed = design_speed(problem)
+    for case in worst.cases:
+        if not choice_of(case.model, speed).others:
+            return
+        laws, drags = collected.groups.get(f"{case.root}/laws"), None
+        if laws is not None:
+            names, values = (laws.variables[name].values for name in ("law", "law_drag"))
+            drags = {str(name): float(drag) for name, drag in zip(names, values, strict=True)}
+        found, missing = laws_in_wave(case, speed, problem.settings, worst.coarse_of(case), drags, progress)
+        collected.groups[case.path] = found
+        if missing:
+            words = f"{case.sea}, {case.run.wave.name}: the run under other laws of nets fails ({', '.join(missing)})"
+            remedy = "run the case under the other laws too ('structure.net.law')"
+            collected.notices.append(Notice("laws-not-run", words, severity="warning", remedy=remedy))
+        yield
 
 
 def _result(problem: FlexibleCageProblem, collected: Collected) -> Result:

@@ -12,8 +12,9 @@ from moyai.structures.cage.flexible.build import build_cage
 from moyai.structures.cage.flexible.equilibrium import CageRest, collar_forces, horizontal_balance, solve_rest
 from moyai.structures.cage.flexible.model import CageMesh, FlexibleCage, GridMooring
 from moyai.structures.cage.flexible.problem import FlexibleSettings
-from moyai.structures.cage.flexible.time import CageRun, run_cage
+from moyai.structures.cage.flexible.time import CageRun, drag_rows, run_cage
 from moyai.structures.cage.rigid.waves import Wave
+from moyai.structures.cage.settling import BLOCK
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -24,14 +25,20 @@ REST = "at rest"
 COARSER = "coarser mesh"
 VARIANTS = ("as given", "half the step", COARSER, "twice the damping of the mesh")
 #: Quantities that the first page moves with the mesh; tensions are those of each kind of line.
-OFFSET, LEAST_VOLUME, STRESS = (
+OFFSET, LEAST_VOLUME, STRESS, DRAG = (
     "largest offset of a collar [m]", "smallest volume share [-]", "highest stress of the collar [Pa]",
+    "largest drag [N]",
 )  # fmt: skip
 VOLUME_IN_CURRENT, DRAG_IN_CURRENT = "volume share in the current [-]", "drag in the current [N]"
 NET_TENSION, NET_TENSION_IN_CURRENT = "highest tension of the net [N/m]", "tension of the net in the current [N/m]"
 
 
-def _coarser(mesh: CageMesh) -> CageMesh:
+#: Kinds of line.
+KINDS = ("anchor", "bridle", "frame", "buoy")
+
+
+def coarser(mesh: CageMesh) -> CageMesh:
+    """Return a mesh that is coarser by a third."""
     around = max(8, 4 * round(mesh.around * 2.0 / 3.0 / 4.0))
     return CageMesh(
         around, max(1, round(mesh.down * 2 / 3)), max(1, round(mesh.bottom * 2 / 3)), 1.5 * mesh.rope_length
@@ -51,12 +58,12 @@ def tension_of(kind: str) -> str:
     return f"highest tension, {kind} [N]"
 
 
-def _numbers(model: FlexibleCage, run: CageRun) -> dict[str, float]:
+def largest_numbers(model: FlexibleCage, run: CageRun, most_rows: int = 100) -> dict[str, float]:
     """Return the highest tension of each kind of line, the smallest volume and the highest stress."""
     history, built = run.history, run.rest.built
     steady = history.time >= run.ramp - 1e-9
     out = {}
-    for kind in ("anchor", "bridle", "frame", "buoy"):
+    for kind in KINDS:
         bars = [built.network.strands[part.strand].bars for part in built.lines if part.kind == kind]
         if bars:
             out[tension_of(kind)] = float(history.tension_peak[steady][:, np.concatenate(bars)].max())
@@ -70,8 +77,9 @@ def _numbers(model: FlexibleCage, run: CageRun) -> dict[str, float]:
     out[OFFSET] = float(np.max(moved))
     out[NET_TENSION] = float(built.net_tension(history.tension_peak[steady]).max())
     out |= _in_current(run.rest)
+    out[DRAG] = _largest_drag(run)
     if built.cages[0].collar_bars and not model.design.collar.rigid:
-        rows = np.flatnonzero(steady)[:: max(1, int(steady.sum()) // 100)]
+        rows = np.flatnonzero(steady)[:: max(1, int(steady.sum()) // most_rows)]
         out[STRESS] = float(
             max(
                 ring["stress"].max()
@@ -81,6 +89,15 @@ def _numbers(model: FlexibleCage, run: CageRun) -> dict[str, float]:
             )
         )
     return out
+
+
+def _largest_drag(run: CageRun) -> float:
+    """Return the largest drag of all parts, of regular waves in the last periods [N]."""
+    time, period = run.history.time, run.wave.period
+    begin = max(run.ramp, float(time[-1]) - BLOCK * period) if run.wave.regular else run.ramp
+    rows = np.flatnonzero(time >= min(begin, float(time[-1])) - 1e-9)
+    rows = rows[:: max(1, round(period / 12.0 * (time.size - 1) / max(float(np.ptp(time)), 1e-9)))]
+    return float(np.linalg.norm(drag_rows(run, rows).sum(axis=1), axis=1).max())
 
 
 def _in_current(rest: CageRest) -> dict[str, float]:
@@ -94,7 +111,7 @@ def _in_current(rest: CageRest) -> dict[str, float]:
 
 
 def rest_mesh_dataset(model: FlexibleCage, rest: CageRest) -> xr.Dataset:
-    """Return volume and drag at rest on the mesh of the case and on one that is coarser by a third.
+    """Return the numbers at rest on the mesh of the case and on one that is coarser by a third.
 
     Parameters
     ----------
@@ -102,9 +119,26 @@ def rest_mesh_dataset(model: FlexibleCage, rest: CageRest) -> xr.Dataset:
     rest : CageRest
         As the case gives it.
     """
-    other = replace(model, mesh=_coarser(model.mesh))
+    other = coarse_model(model)
     again = solve_rest(other, build_cage(other), rest.current)
-    return _dataset((VARIANTS[0], COARSER), [_in_current(rest), _in_current(again)])
+    return _dataset((VARIANTS[0], COARSER), [_at_rest(model, rest), _at_rest(other, again)])
+
+
+def _at_rest(model: FlexibleCage, rest: CageRest) -> dict[str, float]:
+    """Return volume, drag, net, the highest tension of each kind of line, offset and stress at rest in a current."""
+    place, built = rest.state.position, rest.built
+    out = _in_current(rest)
+    for kind in KINDS:
+        bars = [built.network.strands[part.strand].bars for part in built.lines if part.kind == kind]
+        if bars:
+            out[tension_of(kind)] = float(rest.tension[np.concatenate(bars)].max())
+    calm = built.network.nodes.position
+    rings = [cage.collar[0] for cage in built.cages]
+    out[OFFSET] = max(float(np.linalg.norm((place[own] - calm[own]).mean(axis=0)[:2])) for own in rings)
+    if built.cages[0].collar_bars and not model.design.collar.rigid:
+        forces = collar_forces(model, rest, place, rest.tension)
+        out[STRESS] = max(float(ring["stress"].max()) for rings in forces for ring in rings)
+    return out
 
 
 def sensitivity_dataset(
@@ -124,23 +158,68 @@ def sensitivity_dataset(
     short = replace(settings, ramp_periods=min(settings.ramp_periods, 2.0))
     found: list[dict[str, float]] = []
     first = run_cage(model, rest, wave, short)
-    found.append(_numbers(model, first))
+    found.append(largest_numbers(model, first))
     progress("sensitivity", 1, len(VARIANTS))
-    found.append(_numbers(model, run_cage(model, rest, wave, short, step=0.5 * first.history.step)))
-    for number, other in enumerate((replace(model, mesh=_coarser(model.mesh)), _damped(model))):
+    found.append(largest_numbers(model, run_cage(model, rest, wave, short, step=0.5 * first.history.step)))
+    for number, other in enumerate((replace(model, mesh=coarser(model.mesh)), _damped(model))):
         progress("sensitivity", 2 + number, len(VARIANTS))
         start = solve_rest(other, build_cage(other), rest.current)
-        found.append(_numbers(other, run_cage(other, start, wave, short)))
+        found.append(largest_numbers(other, run_cage(other, start, wave, short)))
     progress("sensitivity", len(VARIANTS), len(VARIANTS))
     return _dataset(VARIANTS, found, first)
 
 
+def coarse_model(model: FlexibleCage) -> FlexibleCage:
+    """Return a cage on a mesh that is coarser by a third."""
+    return replace(model, mesh=coarser(model.mesh))
+
+
+def coarse_run(model: FlexibleCage, run: CageRun, settings: FlexibleSettings) -> CageRun:
+    """Return the run of a cage on the coarser mesh through the wave of another run, as long as that.
+
+    Parameters
+    ----------
+    model : FlexibleCage
+        As the case gives it.
+    run : CageRun
+        Of a sea the first six periods are run, or those that its wave is (:func:`governing_part`).
+    settings : FlexibleSettings
+    """
+    other = coarse_model(model)
+    wave = run.wave if run.wave.regular else governing_part(run)
+    return run_cage(other, solve_rest(other, build_cage(other), run.rest.current), wave, settings)
+
+
+def governing_part(run: CageRun) -> Wave:
+    """Return the six periods of a sea about the highest use of a line, as a wave that begins with them.
+
+    Without lines those about the highest surface over the middle; a sea of six periods is returned as it is.
+    """
+    wave, history, built = run.wave, run.history, run.rest.built
+    length = 6.0 * wave.period
+    if wave.duration <= length * (1.0 + 1e-9):
+        return wave
+    late = history.time >= run.ramp - 1e-9
+    if built.lines:
+        used = [
+            history.tension_peak[late][:, run.rest.network.strands[part.strand].bars].max(axis=1) / part.breaking_load
+            for part in built.lines
+        ]
+        measure = np.max(used, axis=0)
+    else:
+        measure = np.asarray(wave.components.elevation(history.time[late]))
+    moment = float(history.time[late][int(np.argmax(measure))])
+    shift = min(max(moment - run.ramp - 5.0 * wave.period, 0.0), wave.duration - length)
+    parts = wave.components
+    return replace(wave, components=replace(parts, phase=parts.phase - parts.omega * shift), duration=length)
+
+
 def mesh_dataset(
     model: FlexibleCage, run: CageRun, settings: FlexibleSettings, progress: Progress = silent
-) -> xr.Dataset:
-    """Run the wave of a run on a mesh that is coarser by a third; return the numbers of both.
+) -> tuple[xr.Dataset, CageRun]:
+    """Run the wave of a run on a mesh that is coarser by a third; return the numbers of both, and that run.
 
-    Of an irregular sea both are run over its first six periods.
+    Of an irregular sea both are run over the six periods about its governing moment.
 
     Parameters
     ----------
@@ -150,15 +229,13 @@ def mesh_dataset(
     settings : FlexibleSettings
     progress : Progress
     """
-    wave = run.wave
-    if not wave.regular:
-        wave = replace(wave, duration=min(wave.duration, 6.0 * wave.period))
-        run = run_cage(model, run.rest, wave, settings)
+    if not run.wave.regular:
+        run = run_cage(model, run.rest, governing_part(run), settings)
     progress("coarser mesh", 0.5, 1.0)
-    other = replace(model, mesh=_coarser(model.mesh))
-    again = run_cage(other, solve_rest(other, build_cage(other), run.rest.current), wave, settings)
+    again = coarse_run(model, run, settings)
     progress("coarser mesh", 1.0, 1.0)
-    return _dataset((VARIANTS[0], COARSER), [_numbers(model, run), _numbers(other, again)], run)
+    numbers = [largest_numbers(model, run), largest_numbers(coarse_model(model), again)]
+    return _dataset((VARIANTS[0], COARSER), numbers, run), again
 
 
 def _dataset(variants: tuple[str, ...], found: list[dict[str, float]], first: CageRun | None = None) -> xr.Dataset:

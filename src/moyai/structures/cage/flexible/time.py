@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,6 +13,7 @@ from moyai.core.progress import Progress, silent
 from moyai.flexible.flow import Flow
 from moyai.flexible.result import History
 from moyai.flexible.simulation import simulate
+from moyai.series.block_maxima import LEAST_BLOCKS, PERIODS
 from moyai.series.snaps import find_snaps
 from moyai.structures.cage.flexible.equilibrium import CageRest, collar_forces, ring_shape
 from moyai.structures.cage.flexible.loads import PARTS, drag_split
@@ -20,6 +21,16 @@ from moyai.structures.cage.flexible.model import FlexibleCage
 from moyai.structures.cage.flexible.problem import FlexibleSettings
 from moyai.structures.cage.flexible.variables import described
 from moyai.structures.cage.rigid.waves import Wave
+from moyai.structures.cage.settling import (
+    BLOCKS,
+    ENOUGH,
+    LAW_BLOCK,
+    by_period,
+    change_per_period,
+    is_settled,
+    scatters,
+    still_to_come,
+)
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -49,6 +60,7 @@ def run_cage(
     settings: FlexibleSettings,
     *,
     step: float | None = None,
+    settle: bool = False,
     progress: Progress = silent,
 ) -> CageRun:
     """Run a cage from its rest in the current through waves that grow.
@@ -61,9 +73,14 @@ def run_cage(
     settings : FlexibleSettings
     step : float, optional
         Time step, at most [s].
+    settle : bool
+        Whether regular waves go on until their periods repeat, or as long as the settings allow.
     progress : Progress
     """
     ramp = settings.ramp_periods * wave.period
+    settling = _Settling(rest, wave, ramp) if settle and wave.regular else None
+    if settling is not None:
+        wave = replace(wave, duration=max(wave.duration, settings.most_periods * wave.period))
     flow = Flow(
         current=rest.current, waves=wave.components, stretching=settings.stretching, wave_ramp=ramp, steep=wave.steep
     )
@@ -75,12 +92,129 @@ def run_cage(
         start=rest.state,
         step=step,
         counted_from=ramp,
+        enough=settling,
         progress=progress,
     )
+    if settling is not None:
+        wave = replace(wave, duration=float(history.time[-1]) - ramp)
     return CageRun(wave, rest, flow, ramp, history)
 
 
-def _drag_rows(run: CageRun, rows: NDArray[np.int64]) -> Array:
+def go_on(rest: CageRest, before: CageRun, settings: FlexibleSettings) -> CageRun:
+    """Run the wave of another run with a cage that differs a little, of the same mesh, under another law for instance.
+
+    Regular waves go on from the end of that run for six periods, a sea begins again.
+
+    Parameters
+    ----------
+    rest : CageRest
+        Of the other cage.
+    before : CageRun
+    settings : FlexibleSettings
+    """
+    wave, period = before.wave, before.wave.period
+    if not wave.regular:
+        flow, start = replace(before.flow, current=rest.current), rest.state
+        duration = before.ramp + wave.duration
+    else:
+        flow, start = replace(before.flow, current=rest.current), before.history.final
+        duration = LAW_BLOCK * BLOCKS * period
+    history = simulate(
+        rest.network, duration=duration, output_step=period / settings.rows_per_period, flow=flow, start=start
+    )  # fmt: skip
+    return CageRun(wave, rest, flow, before.ramp, history)
+
+
+class _Settling:
+    """Whether no number of the first page will rise any more in a run through regular waves."""
+
+    def __init__(self, rest: CageRest, wave: Wave, ramp: float) -> None:
+        built = rest.built
+        self._built, self._ramp = built, ramp
+        self._period, self._least = wave.period, ramp + wave.duration
+        self._strands = [rest.network.strands[part.strand].bars for part in built.lines]
+        self._broken = np.array([part.breaking_load for part in built.lines])
+        self._anchors = np.array([part.kind == "anchor" for part in built.lines], dtype=bool)
+        self._calm = built.network.nodes.position
+        self._highest: list[Array] = []
+
+    def __call__(self, time: Array, position: Array, peak: Array) -> bool:
+        done = int((float(time[-1]) - self._ramp) / self._period + 1e-6)
+        if done <= len(self._highest):
+            return False
+        for number in range(len(self._highest), done):
+            begin = self._ramp + number * self._period
+            rows = (time > begin - 1e-9) & (time < begin + self._period - 1e-9)
+            self._highest.append(self._numbers(position[rows], peak[rows]))
+        return bool(time[-1] >= self._least - 1e-9) and self._repeats()
+
+    def _numbers(self, position: Array, peak: Array) -> Array:
+        """Return the largest of one period: volume lost, offset, tension of the net, of each line."""
+        cages = self._built.cages
+        least = min(float((cage.volume(position) / cage.rest_volume).min()) for cage in cages)
+        moved = max(
+            float(np.linalg.norm((position[:, own] - self._calm[own]).mean(axis=1)[:, :2], axis=1).max())
+            for own in (cage.collar[0] for cage in cages)
+        )
+        net = float(self._built.net_tension(peak).max())
+        return np.array([-least, moved, net, *(float(peak[:, own].max()) for own in self._strands)])
+
+    def _repeats(self) -> bool:
+        """Return whether volume, offset, net, anchors and lines have settled, lines against the one that bears most."""
+        table = np.array(self._highest)
+        columns = [table[:, 0], table[:, 1], table[:, 2]]
+        # an offset within a hundredth of the cage is that of a held collar
+        size = float(np.ptp(self._calm[self._built.cages[0].collar[0], 0]))
+        scales = [abs(table[-1, 0]), max(table[-1, 1], 0.01 * size), table[-1, 2]]
+        lines = table[:, 3:]
+        if lines.shape[1]:
+            columns += list(lines.T)
+            scales += list(float((lines[-1] / self._broken).max()) * self._broken)
+            if self._anchors.any():
+                columns.append(lines[:, self._anchors].max(axis=1))
+                scales.append(float(columns[-1][-1]))
+        left = [still_to_come(column) for column in columns]
+        return all(
+            more <= ENOUGH * scale and not scatters(column, scale)
+            for more, scale, column in zip(left, scales, columns, strict=True)
+        )
+
+
+def unsettled(run: xr.Dataset) -> dict[str, float]:
+    """Return what of a cage in regular waves still moves to the worse at the end of its run, by its change in a period.
+
+    Parameters
+    ----------
+    run : xarray.Dataset
+        As :func:`time_dataset` gives it.
+
+    Returns
+    -------
+    dict of str to float
+        By name: part of the number itself.
+    """
+    if not int(run.attrs["regular"]):
+        return {}
+    time, ramp, period = run["time"].values, float(run.attrs["ramp"]), float(run.attrs["period"])
+    volume = run["volume_share"].values.min(axis=1)
+    found = {"volume left": (-volume, float(volume[-1]), time)}
+    drag = np.linalg.norm(run["drag"].values.sum(axis=1), axis=1)
+    found["drag"] = (drag, float(drag.max()), run["drag_time"].values)
+    if "utilisation" in run:
+        line = int(np.argmax(run["utilisation"].values))
+        tension = run["line_tension_peak_since_row"].values[:, line]
+        found["tension of the governing line"] = (tension, float(tension.max()), time)
+    out = {}
+    for name, (series, scale, when) in found.items():
+        values = by_period(when, series, period, ramp)
+        # one that never repeats is a chance, if its record is long enough to tell it
+        known = scatters(values, scale) and values.size >= PERIODS * LEAST_BLOCKS
+        if not is_settled(values, scale) and not known:
+            out[name] = change_per_period(values) / max(scale, 1e-300)
+    return out
+
+
+def drag_rows(run: CageRun, rows: NDArray[np.int64]) -> Array:
     """Return the split of the drag at some rows, (rows, parts, 2) [N]."""
     history = run.history
     last = len(history.time) - 1
@@ -112,7 +246,7 @@ def time_dataset(model: FlexibleCage, run: CageRun, settings: FlexibleSettings) 
     volume = np.stack([cage.volume(history.position) / cage.rest_volume for cage in built.cages], axis=1)
     stride = max(1, min(settings.rows_per_period // _ROWS_PER_PERIOD, int(steady.sum()) // _DRAG_ROWS))
     rows = np.arange(int(np.argmax(steady)), len(time), stride)
-    drag = _drag_rows(run, rows)
+    drag = drag_rows(run, rows)
     lines = _line_series(run, settings, steady)
     governing = _governing_row(lines, volume, steady)
     kept = picture_rows(len(time), governing, settings.frames, settings.rows_per_period)

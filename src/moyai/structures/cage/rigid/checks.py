@@ -158,7 +158,7 @@ def run_checks(
     return tuple(found)
 
 
-def run_notices(problem: RigidCageProblem, run: Run) -> tuple[Notice, ...]:
+def run_notices(problem: RigidCageProblem, run: Run, lines: tuple[CageLine, ...] = ()) -> tuple[Notice, ...]:
     """Hold a run against the range of its net law, the size of the cage, the bed, and breaking loads."""
     cage, wave = problem.cage, run.wave
     found = list(_law_notices(problem, run))
@@ -174,6 +174,17 @@ def run_notices(problem: RigidCageProblem, run: Run) -> tuple[Notice, ...]:
                 remedy="the motion is computed from water speeds at every part, but the wave is taken as undisturbed",
             )
         )
+    for n, line in enumerate(lines):
+        highest = float(np.max(run.numbers.line_tension_maximum[n]))
+        if line.breaking_load is not None and highest > line.breaking_load:
+            found.append(
+                Notice(
+                    "cage-line-breaks",
+                    f"{wave.name}: {line.name!r} reaches {highest:.4g} N, its breaking load is "
+                    f"{line.breaking_load:.4g} N",
+                    highest, line.breaking_load, "warning", "a stronger line or a softer mooring",
+                )
+            )  # fmt: skip
     roll = float(np.abs(run.march.state[:, 2]).max())
     if roll > math.radians(60.0):
         found.append(

@@ -10,8 +10,10 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.headline import Band, Headline
+from moyai.structures.cage.bands import alone, chance, laws_text
 from moyai.structures.cage.conditions import condition_headlines, sea_words
-from moyai.structures.cage.headlines import NOT_JUDGED, Groups, alone, chance, judged_seas, laws_text
+from moyai.structures.cage.headlines import NOT_JUDGED, Groups, judged_seas
+from moyai.structures.cage.rigid.laws import IN_WAVES
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -50,36 +52,44 @@ def _rigid_tension(seas: Seas, groups: Groups) -> list[Headline]:
     tensions, utilisations = [], []
     bare: dict[str, None] = {}
     for level, name, sea in seas:
-        for line, title in enumerate(sea["line"].values):
-            values = sea["line_tension_maximum"].values.reshape(sea.sizes["wave"], sea.sizes["line"], -1)[:, line]
-            wave = int(np.argmax(values.max(axis=1)))
-            value = float(values[wave].max())
-            where = f"{title}, {_rigid_where(level, name, sea, wave, groups)}"
-            run = _run_of(level, name, sea, wave, groups)
-            band, said = _rigid_band(
-                groups.get(f"/{level}/laws"), run, value, run["line_tension_peak_since_row"].values[:, line]
-            )
-            model = f"{RIGID}, {run.attrs['theory']}"
-            tensions.append(
-                Headline("line_tension", "highest line tension", value, "N", where, model, band, detail=said)
-            )
-            breaking = float(groups[f"/{level}/statics"]["breaking_load"].values[line])
-            if not math.isfinite(breaking):
-                bare[str(title)] = None
-            else:
-                scaled = None if band is None else replace(band, low=band.low / breaking, high=band.high / breaking)
-                utilisations.append(
-                    Headline(
-                        "line_utilisation", "tension over breaking load", value / breaking, "1", where, model, scaled,
-                        detail=f"breaking load {breaking / 1e3:.4g} kN, without a safety factor",
-                    )
-                )  # fmt: skip
+        breaking = groups[f"/{level}/statics"]["breaking_load"].values if sea.sizes["line"] else np.zeros(0)
+        for wave, line in np.ndindex(sea.sizes["wave"], sea.sizes["line"]):
+            item = _tension_of(level, name, sea, wave, line, groups)
+            # a tension is judged as it is, the share of the breaking load by its parts too
+            tensions.append(replace(item, mean=None))
+            strength = float(breaking[line])
+            if not math.isfinite(strength):
+                bare[str(sea["line"].values[line])] = None
+                continue
+            band = item.band
+            utilisations.append(
+                replace(
+                    item, name="line_utilisation", label="Tension over breaking load", value=item.value / strength,
+                    unit="1", band=None if band is None else band.scaled(1.0 / strength),
+                    mean=None if item.mean is None else item.mean / strength,
+                    detail=f"breaking load {strength / 1e3:.4g} kN, without a safety factor",
+                )
+            )  # fmt: skip
     if bare and utilisations:
         # next to lines that have a strength
         text = f"breaking load not given of {', '.join(bare)}"
         open_one = Headline("line_utilisation", "tension over breaking load", math.nan, "1", text=text, shown=False)
         return [*judged_seas(tensions), *judged_seas(utilisations), open_one]
     return [*judged_seas(tensions), *judged_seas(utilisations)]
+
+
+def _tension_of(level: str, name: str, sea: xr.Dataset, wave: int, line: int, groups: Groups) -> Headline:
+    """Return the highest tension of a line in a wave, with its band and its mean at the same end."""
+    highest = sea["line_tension_maximum"].values[wave, line]
+    end = int(np.argmax(highest))
+    value, run = float(highest[end]), _run_of(level, name, sea, wave, groups)
+    laws = _laws_of(level, name, sea, wave, groups)
+    band, said = _rigid_band(laws, run, value, run["line_tension_peak_since_row"].values[:, line], line)
+    where = f"{sea['line'].values[line]}, {_rigid_where(level, name, sea, wave, groups)}"
+    return Headline(
+        "line_tension", "highest line tension", value, "N", where, f"{RIGID}, {run.attrs['theory']}", band, detail=said,
+        mean=float(sea["line_tension_mean"].values[wave, line, end]),
+    )  # fmt: skip
 
 
 def _rigid_anchor(seas: Seas, groups: Groups) -> list[Headline]:
@@ -89,15 +99,13 @@ def _rigid_anchor(seas: Seas, groups: Groups) -> list[Headline]:
         if not sea.sizes["line"]:
             continue
         pulls = sea["line_tension_maximum"].sel(end="anchor").values
-        for line, title in enumerate(sea["line"].values):
-            wave = int(np.argmax(pulls[:, line]))
-            value = float(pulls[wave, line])
+        for wave, line in np.ndindex(*pulls.shape):
+            title, value = sea["line"].values[line], float(pulls[wave, line])
             run = _run_of(level, name, sea, wave, groups)
             # the lower end has no series of its peaks: the chance is that of the line's largest tension
             share = value / max(float(sea["line_tension_maximum"].values[wave, line].max()), 1e-300)
-            band, _ = _rigid_band(
-                groups.get(f"/{level}/laws"), run, value, share * run["line_tension_peak_since_row"].values[:, line]
-            )
+            laws = _laws_of(level, name, sea, wave, groups)
+            band, _ = _rigid_band(laws, run, value, share * run["line_tension_peak_since_row"].values[:, line], line)
             where = f"lower end of {title}, {_rigid_where(level, name, sea, wave, groups)}"
             model = f"{RIGID}, {run.attrs['theory']}"
             found.append(Headline("anchor_load", "largest pull on an anchor", value, "N", where, model, band))
@@ -119,41 +127,58 @@ def _rigid_offset(seas: Seas, groups: Groups) -> list[Headline]:
         if not sea.sizes["line"]:
             continue
         at_rest, offsets = rigid_offsets(groups[f"/{level}/statics"], sea)
-        wave = int(np.argmax(offsets))
-        value, run = float(offsets[wave]), _run_of(level, name, sea, wave, groups)
-        band, said = _rigid_band(
-            groups.get(f"/{level}/laws"), run, value, np.abs(at_rest + run["sway"].values), "law_offset"
-        )
-        where = _rigid_where(level, name, sea, wave, groups)
-        found.append(
-            Headline(
-                "offset", "largest offset from where it floats freely", value, "m", where,
-                f"{RIGID}, {run.attrs['theory']}", band, detail=said,
-            )
-        )  # fmt: skip
+        for wave, value in enumerate(offsets):
+            run = _run_of(level, name, sea, wave, groups)
+            laws = _laws_of(level, name, sea, wave, groups)
+            band, said = _rigid_band(laws, run, float(value), np.abs(at_rest + run["sway"].values))
+            where = _rigid_where(level, name, sea, wave, groups)
+            found.append(
+                Headline(
+                    "offset", "largest offset from where it floats freely", float(value), "m", where,
+                    f"{RIGID}, {run.attrs['theory']}", band, detail=said,
+                )
+            )  # fmt: skip
     return judged_seas(found)
 
 
+def _laws_of(level: str, name: str, sea: xr.Dataset, wave: int, groups: Groups) -> list[xr.Dataset]:
+    """Return the runs of a wave under the valid laws; where it was not run so those of every wave of its level."""
+    own = groups.get(f"/{level}/{IN_WAVES}/{name}/{_label(sea, wave)}")
+    if own is not None:
+        return [own]
+    return [group for path, group in groups.items() if path.startswith(f"/{level}/{IN_WAVES}/")]
+
+
 def _rigid_band(
-    laws: xr.Dataset | None, run: xr.Dataset, value: float, series: Array, name: str = "law_line_tension_maximum"
+    laws: list[xr.Dataset], run: xr.Dataset, value: float, series: Array, line: int | None = None
 ) -> tuple[Band | None, str]:
-    """Return what other seeds and the laws valid for this net make of a number, and what is to be said of it."""
+    """Return what other seeds and the laws valid for this net make of a number, and what is to be said of it.
+
+    The number is the tension of a line where one is named, else the offset.
+    """
     low, high, seed = chance(run, value, series)
     words, said = [seed] if seed else [], ""
-    if laws is not None and laws.sizes["law"] > 1:
-        # the laws were run in the wave of the highest tension: their ratio holds for the others
-        ratio = laws[name].values / float(laws[name].values[0])
-        low, high = low * min(float(ratio.min()), 1.0), high * max(float(ratio.max()), 1.0)
-        words.append(laws_text(laws))
-    elif laws is not None:
+    several = [one for one in laws if one.sizes["law"] > 1]
+    least, most = 1.0, 1.0
+    for one in several:
+        values = one["law_offset"].values if line is None else one["law_line_tension"].values[:, line]
+        if values[0] > 0.0:
+            least, most = min(least, float(values.min() / values[0])), max(most, float(values.max() / values[0]))
+    if several:
+        low, high = low * least, high * most
+        words.append(laws_text(several[0]))
+    elif laws:
         said = "no second net law is valid for this net"
     return (Band(low, high, "; ".join(words)) if words else None), said
 
 
+def _label(sea: xr.Dataset, wave: int) -> str:
+    return f"wave {wave + 1}" if sea.attrs["kind"] == "regular" else "sea"
+
+
 def _run_of(level: str, name: str, sea: xr.Dataset, wave: int, groups: Groups) -> xr.Dataset:
     """Return the series of one wave, or of the sea."""
-    label = f"wave {wave + 1}" if sea.attrs["kind"] == "regular" else "sea"
-    return groups[f"/{level}/time/{name}/{label}"]
+    return groups[f"/{level}/time/{name}/{_label(sea, wave)}"]
 
 
 def _rigid_where(level: str, name: str, sea: xr.Dataset, wave: int, groups: Groups) -> str:
@@ -183,19 +208,19 @@ def _rigid_motions(seas: Seas, groups: Groups) -> list[Headline]:
 
 
 def _rigid_rest(groups: Groups) -> list[Headline]:
+    """Return the largest tension at rest and the largest share of the floats in water, of all water levels."""
+    tensions, immersed = [], []
     for path, statics in groups.items():
         parts = path.strip("/").split("/")
         if len(parts) != 2 or parts[1] != "statics":
             continue
-        items = []
         tension = statics["tension_at_rest"].values
         if tension.size:
-            items.append(Headline("tension_at_rest", "tension at rest", float(tension.max()), "N", parts[0], "rest"))
+            tensions.append(Headline("tension_at_rest", "tension at rest", float(tension.max()), "N", parts[0], "rest"))
         share = float(statics["immersion"].sel(situation="moored"))
-        items.append(
+        immersed.append(
             Headline(
                 "floats_immersed", "floats in water at rest", share, "1", parts[0], "rest", text=f"{100 * share:.3g} %"
             )
         )
-        return items
-    return []
+    return [max(items, key=lambda item: item.value) for items in (tensions, immersed) if items]

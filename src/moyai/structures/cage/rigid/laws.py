@@ -1,4 +1,4 @@
-"""The governing wave of a rigid cage under the laws of nets that were measured on nets like its own."""
+"""The governing waves of a rigid cage under the laws of nets that were measured on nets like its own."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from moyai.core.arrays import Array
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
 from moyai.morison.net_law_base import NetLaw
@@ -24,6 +25,10 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
+#: Name of the groups of the governing waves.
+IN_WAVES = "laws_in_waves"
+
+
 def is_metal(problem: RigidCageProblem) -> bool:
     """Whether the twines of the net are of metal, by their mass over their volume."""
     cage = problem.cage
@@ -36,10 +41,10 @@ def laws_dataset(
     rest: Rest,
     water: Water,
     wave: Wave,
-    known: tuple[float, float, float],
+    known: tuple[Array, float, float],
     progress: Progress = silent,
 ) -> tuple[xr.Dataset, Notice]:
-    """Return the highest tension and the offset of one wave under the law of the case and under every other valid one.
+    """Return the highest tensions and the offset of one wave under the law of the case and under every other valid one.
 
     Parameters
     ----------
@@ -50,9 +55,9 @@ def laws_dataset(
         Under the law of the case.
     water : Water
     wave : Wave
-    known : tuple of float
-        Under the law of the case: highest tension [N], place of rest against where the cage floats freely [m], largest
-        offset from there [m].
+    known : tuple
+        Under the law of the case: highest tension of each line [N], place of rest against where the cage floats freely
+        [m], largest offset from there [m].
     progress : Progress
     """
     import xarray as xr
@@ -61,8 +66,8 @@ def laws_dataset(
     speed = math.pi * wave.height / wave.period + abs(current_along(problem, water))
     choice = law_choice(cage.law, cage.net, speed, problem.kinematic_viscosity, metal=is_metal(problem))
     laws: tuple[NetLaw, ...] = (choice.chosen, *choice.others)
-    peak, at_rest, offset = known
-    peaks, offsets = [peak], [offset]
+    highest, at_rest, offset = known
+    peaks, offsets = [np.asarray(highest)], [offset]
     for number, law in enumerate(laws[1:], start=1):
         progress("laws of nets", number, len(laws))
         other = replace(problem, cage=replace(cage, law=law))
@@ -72,7 +77,7 @@ def laws_dataset(
                 other.cage, lines, water, problem.kinematic_viscosity, problem.environment.current
             )  # fmt: skip
         numbers = run_wave(other, lines, begin, water, wave).numbers
-        peaks.append(float(np.max(numbers.line_tension_maximum)))
+        peaks.append(numbers.line_tension_maximum.reshape(len(lines), -1).max(axis=1))
         offsets.append(numbers.largest_offset(at_rest + begin.x - rest.x))
     progress("laws of nets", len(laws), len(laws))
     coefficients = [float(law.coefficients(0.0, speed, cage.net, problem.kinematic_viscosity)[0]) for law in laws]
@@ -80,10 +85,11 @@ def laws_dataset(
         xr.Dataset(
             {
                 "normal_drag_coefficient": ("law", np.array(coefficients)),
-                "law_line_tension_maximum": ("law", np.array(peaks)),
+                "law_line_tension_maximum": ("law", np.array(peaks).max(axis=1)),
+                "law_line_tension": (("law", "line"), np.array(peaks)),
                 "law_offset": ("law", np.array(offsets)),
             },
-            coords={"law": [law.name for law in laws]},
+            coords={"law": [law.name for law in laws], "line": [line.name for line in lines]},
             attrs={"wave": wave.name, "speed": speed, "valid": choice.named, "reynolds": choice.reynolds},
         )
     )

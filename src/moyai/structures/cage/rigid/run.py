@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from moyai.core.arrays import Array
 from moyai.core.collected import STOPPED, Collected, most_severe
 from moyai.core.headline import SEAS_LEFT_OUT
 from moyai.core.progress import Progress, silent
@@ -26,7 +27,7 @@ from moyai.structures.cage.rigid.checks import (
 )
 from moyai.structures.cage.rigid.datasets import cage_dataset, sea_dataset, statics_dataset, time_dataset
 from moyai.structures.cage.rigid.headlines import rigid_headlines, rigid_offsets
-from moyai.structures.cage.rigid.laws import laws_dataset
+from moyai.structures.cage.rigid.laws import IN_WAVES, laws_dataset
 from moyai.structures.cage.rigid.lines import CageLine
 from moyai.structures.cage.rigid.model import CageSea, RegularWaves, RigidCageProblem
 from moyai.structures.cage.rigid.modes import natural_modes
@@ -39,7 +40,7 @@ from moyai.structures.cage.rigid.variables import VOCABULARY
 from moyai.structures.cage.rigid.waves import current_along, waves_of
 
 if TYPE_CHECKING:
-    pass
+    import xarray as xr
 
 
 def run(problem: RigidCageProblem, progress: Progress = silent) -> Result:
@@ -119,29 +120,47 @@ def _law_steps(
     root: str,
     progress: Progress,
 ) -> Iterator[None]:
-    """Run the wave of the highest tension under every law of nets that is valid for this net."""
-    best: tuple[float, CageSea, int] | None = None
+    """Run the waves that give the highest tension of a line or the largest offset under every valid law of nets."""
+    worst: dict[str, tuple[float, CageSea, int]] = {}
     for sea in problem.seas:
         known = collected.groups.get(f"{root}/waves/{sea.name}")
         if known is None or not known["line_tension_maximum"].size:
             continue
-        peaks = known["line_tension_maximum"].values.reshape(known.sizes["wave"], -1).max(axis=1)
-        if best is None or float(peaks.max()) > best[0]:
-            best = (float(peaks.max()), sea, int(np.argmax(peaks)))
-    if best is None:
-        return
-    peak, sea, number = best
-    wave = waves_of(problem, sea, water)[number]
-    at_rest, offsets = rigid_offsets(collected.groups[f"{root}/statics"], collected.groups[f"{root}/waves/{sea.name}"])
-    case = (peak, at_rest, float(offsets[number]))
-    found, notice = laws_dataset(problem, lines, rest, water, wave, case, progress)
-    found.attrs["sea"] = sea.name
-    collected.groups[f"{root}/laws"] = found
-    if notice.severity == "warning":
-        # it says more than that the Reynolds number is out of the range of the law
-        collected.notices[:] = [one for one in collected.notices if one.code != "net-reynolds-range"]
-    collected.notices.append(replace(notice, message=f"{sea.name}: {notice.message}"))
-    yield
+        peaks = _peaks(known)
+        _, offsets = rigid_offsets(collected.groups[f"{root}/statics"], known)
+        for number in range(known.sizes["wave"]):
+            each = {f"line {line}": float(peak) for line, peak in enumerate(peaks[number])}
+            values = {"tension": float(peaks[number].max()), "offset": float(offsets[number]), **each}
+            for name, value in values.items():
+                if name not in worst or value > worst[name][0]:
+                    worst[name] = value, sea, number
+    done: set[tuple[str, int]] = set()
+    # the wave of the highest tension comes first
+    for _, sea, number in worst.values():
+        if (sea.name, number) in done:
+            continue
+        known = collected.groups[f"{root}/waves/{sea.name}"]
+        at_rest, offsets = rigid_offsets(collected.groups[f"{root}/statics"], known)
+        case = (_peaks(known)[number], at_rest, float(offsets[number]))
+        wave = waves_of(problem, sea, water)[number]
+        found, notice = laws_dataset(problem, lines, rest, water, wave, case, progress)
+        label = f"wave {number + 1}" if wave.regular else "sea"
+        found.attrs["sea"] = sea.name
+        collected.groups[f"{root}/{IN_WAVES}/{sea.name}/{label}"] = found
+        if not done:
+            collected.groups[f"{root}/laws"] = found
+            if notice.severity == "warning":
+                # it says more than that the Reynolds number is out of the range of the law
+                collected.notices[:] = [one for one in collected.notices if one.code != "net-reynolds-range"]
+            collected.notices.append(replace(notice, message=f"{sea.name}: {notice.message}"))
+        done.add((sea.name, number))
+        yield
+
+
+def _peaks(sea: xr.Dataset) -> Array:
+    """Return the highest tension of each line in each wave, (waves, lines) [N]."""
+    found: Array = sea["line_tension_maximum"].values.reshape(sea.sizes["wave"], sea.sizes["line"], -1).max(axis=2)
+    return found
 
 
 def _sea_steps(
@@ -165,7 +184,7 @@ def _sea_steps(
         series = time_dataset(problem, found, lines)
         collected.groups[f"{root}/time/{sea.name}/{label}"] = series
         collected.groups[f"{root}/waves/{sea.name}"] = sea_dataset(problem, water, runs, lines)
-        reported.extend(run_notices(problem, found))
+        reported.extend(run_notices(problem, found, lines))
         collected.checks.extend(run_checks(sea.name, problem, found, lines))
         if found.march.status == "interrupted":
             collected.interrupted = STOPPED

@@ -68,8 +68,9 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "tension": ("N", "tension of the line at either end"),
     "line_tension_peak_since_row": ("N", "largest tension around the row, at the cage"),
     "normal_drag_coefficient": ("1", "drag coefficient of the net at normal flow, on its outline area"),
-    "law_line_tension_maximum": ("N", "largest tension of all lines in the wave of the highest tension"),
-    "law_offset": ("m", "largest way from where the cage floats freely, in the wave of the highest tension"),
+    "law_line_tension_maximum": ("N", "largest tension of all lines in the governing wave"),
+    "law_line_tension": ("N", "largest tension of each line in the governing wave"),
+    "law_offset": ("m", "largest way from where the cage floats freely, in the governing wave"),
     "varied_stiffness": ("N/m", "stiffness of the lines"),
 }
 

@@ -1,0 +1,148 @@
+"""Every function that a package hands out says what it takes, gives and raises, and has an example that runs."""
+
+import ast
+import doctest
+import inspect
+import pkgutil
+import re
+import textwrap
+from importlib import import_module
+from types import ModuleType
+
+import pytest
+
+import moyai
+
+#: Not complete yet. The list may only become shorter: a name of it that is complete fails the test.
+INCOMPLETE = {
+    "moyai.reproduce.reproduce",  # no example: the shortest paper takes some seconds
+}
+
+SECTIONS = ("Parameters", "Returns", "Yields", "Raises", "Notes", "References", "Examples")
+
+
+def handed_out():
+    """Functions by their public name; those of a module that a package hands out as a whole among them."""
+    found = {}
+    for package in pkgutil.iter_modules(moyai.__path__, "moyai."):
+        module = import_module(package.name)
+        for name in getattr(module, "__all__", ()) if package.ispkg else ():
+            thing = getattr(module, name)
+            inside = isinstance(thing, ModuleType)
+            members = {f"{name}.{key}": getattr(thing, key) for key in public_names(thing)} if inside else {name: thing}
+            found |= {f"{package.name}.{key}": one for key, one in members.items() if inspect.isroutine(one)}
+    return found
+
+
+def public_names(module):
+    """Names that a module defines itself."""
+    own = [key for key, one in vars(module).items() if getattr(one, "__module__", "") == module.__name__]
+    return [key for key in own if not key.startswith("_")]
+
+
+def sections_of(text):
+    """Text of every section by its title."""
+    parts = re.split(rf"^({'|'.join(SECTIONS)})\n-+\n", text, flags=re.MULTILINE)
+    return dict(zip(parts[1::2], parts[2::2]))
+
+
+def entries_of(sections, title):
+    """Words below every entry of a section, by the line of the entry."""
+    found = {}
+    for line in sections.get(title, "").splitlines():
+        if line and not line.startswith(" "):
+            found[entry := line] = ""
+        elif line:
+            found[entry] += line.strip()
+    return found
+
+
+def raises_input_error(function):
+    """Whether the body, or what it calls in its own module, raises an InputError."""
+    tree = ast.parse(inspect.getsource(inspect.getmodule(function)))
+    bodies = {node.name: [node] for node in tree.body if isinstance(node, ast.FunctionDef)}
+    for record in (node for node in tree.body if isinstance(node, ast.ClassDef)):
+        bodies[record.name] = [one for one in record.body if getattr(one, "name", "") in ("__init__", "__post_init__")]
+    waiting, seen = [function.__name__], set()
+    while waiting:
+        name = waiting.pop()
+        if name in seen or name not in bodies:
+            continue
+        seen.add(name)
+        for node in (inner for body in bodies[name] for inner in ast.walk(body)):
+            if isinstance(node, ast.Raise) and "InputError" in ast.dump(node):
+                return True
+            if isinstance(node, ast.Name) and node.id == "checks_words":  # the decorator refuses unknown words
+                return True
+            if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
+                waiting.append(node.func.id)
+    return False
+
+
+def missing_from(function):
+    """What the docstring of a function lacks."""
+    text = inspect.getdoc(function) or ""
+    sections = sections_of(text)
+    signature = inspect.signature(function)
+    lacks = [] if re.match(r"\S.*\.(?:\n\n|$)", text) else ["one line of what it does"]
+    entries = entries_of(sections, "Parameters")
+    named = {name.strip(" *") for entry in entries for name in entry.split(" : ")[0].split(",")}
+    lacks += [f"parameter {name}" for name in signature.parameters if name not in named]
+    for title in ("Parameters", "Returns", "Raises"):
+        lacks += [f"words for {entry}" for entry, words in entries_of(sections, title).items() if not words]
+    if signature.return_annotation not in ("None", None) and not {"Returns", "Yields"} & set(sections):
+        lacks.append("Returns")
+    # what takes nothing has nothing to refuse
+    refuses = bool(signature.parameters) and raises_input_error(inspect.unwrap(function))
+    if refuses and not re.search("InputError|CaseError", sections.get("Raises", "")):
+        lacks.append("Raises")
+    if not doctest.DocTestParser().get_examples(sections.get("Examples", "")):
+        lacks.append("Examples")
+    return lacks
+
+
+CALLS = handed_out()
+
+
+def test_the_packages_hand_out_their_functions():
+    assert len(CALLS) > 120 and {"moyai.sea.wave_number", "moyai.potential.shapes.circle"} <= set(CALLS)
+    assert set(CALLS) >= INCOMPLETE
+
+
+def test_what_raises_is_found_through_calls():
+    def of(name):
+        return inspect.unwrap(CALLS[name])
+
+    assert raises_input_error(of("moyai.potential.shapes.circle"))  # through _positive
+    assert not raises_input_error(of("moyai.tables.available_codes"))
+
+
+def test_a_docstring_without_its_parts_is_noticed():
+    def drawn(width, height):
+        """Draw it.
+
+        Parameters
+        ----------
+        width : float
+            [m].
+        """
+        return width * height
+
+    assert missing_from(drawn) == ["parameter height", "Returns", "Examples"]
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_a_function_says_what_it_takes_gives_and_raises(name):
+    lacks = missing_from(CALLS[name])
+    if name in INCOMPLETE:
+        assert lacks, f"{name} is complete: take it off the list"
+    else:
+        assert not lacks, f"{name} lacks {', '.join(lacks)}"
+
+
+@pytest.mark.parametrize("name", [name for name in CALLS if name not in INCOMPLETE])
+def test_the_example_of_a_function_runs(name):
+    text = textwrap.dedent(inspect.getdoc(CALLS[name]) or "")
+    examples = doctest.DocTestParser().get_doctest(text, {}, name, None, 0)
+    assert examples.examples
+    assert doctest.DocTestRunner().run(examples).failed == 0
