@@ -25,12 +25,14 @@ from moyai.flexible.explicit_rows import FASTEST, FASTEST_ATTACHED
 from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import Bars, Network, Nodes, Strand
+from moyai.flexible.numbers import whole_number
 from moyai.flexible.result import State
 from moyai.flexible.simulation import (
     LONGEST_LOOK,
     advance_rows,
     check_motions,
     check_start,
+    check_step,
     fastest,
     kept_numbers,
     rows_of,
@@ -274,6 +276,12 @@ def simulate_together(
     start = start or State.at_rest(network)
     rows, spacing = rows_of(duration, output_step)
     check_start(network, start)
+    check_step(step, safety)
+    load_steps = whole_number(load_steps, "load_steps", least=1)
+    if interval is not None and not interval > 0.0:
+        raise InputError(f"interval is {interval:g} s", parameter="interval", allowed="greater than 0")
+    if not drag_rate >= 0.0:
+        raise InputError(f"drag_rate is {drag_rate:g} 1/s", parameter="drag_rate", allowed="0 or more")
     for member in members:
         check_motions(network, member.motions, start.time, start.time + duration)
     if not members:

@@ -96,6 +96,14 @@ def check_start(network: Network, start: State) -> None:
             )
 
 
+def check_step(step: float | None, safety: float | None) -> None:
+    """Refuse a step, or a part of the stable one, out of range."""
+    if step is not None and not 0.0 < step < math.inf:
+        raise InputError(f"step is {step:g} s", parameter="step", allowed="greater than 0")
+    if safety is not None and not 0.0 < safety <= 1.0:
+        raise InputError(f"safety is {safety:g}", parameter="safety", allowed="above 0, at most 1")
+
+
 def kept_numbers(given: ArrayLike | None, count: int, path: str) -> np.ndarray:
     """Return the numbers of the nodes or bars that a result keeps, all of them when nothing was given."""
     if given is None:
@@ -209,10 +217,7 @@ def simulate(
     check_motions(network, motions or {}, start.time, start.time + duration)
     if not 0.0 < tolerance < 1.0:
         raise InputError(f"tolerance is {tolerance:g}", parameter="tolerance", allowed="above 0, below 1")
-    if step is not None and not 0.0 < step < math.inf:
-        raise InputError(f"step is {step:g} s", parameter="step", allowed="greater than 0")
-    if safety is not None and not 0.0 < safety <= 1.0:
-        raise InputError(f"safety is {safety:g}", parameter="safety", allowed="above 0, at most 1")
+    check_step(step, safety)
     load_steps = whole_number(load_steps, "load_steps", least=1)
     nodes = kept_numbers(keep_nodes, len(network.nodes), "keep_nodes")
     bars = kept_numbers(keep_bars, len(network.bars), "keep_bars")

@@ -134,6 +134,9 @@ def test_a_member_whose_drag_outruns_the_step_is_run_by_itself() -> None:
 def test_faults_are_refused(rope: Network, buoy: tuple[Network, State]) -> None:
     with pytest.raises(InputError, match="follow the motion 'fairlead'"):
         simulate_together(rope, [Member()], duration=1.0, output_step=0.1)
+    for wrong in ({"safety": 2.0}, {"step": -1.0}, {"interval": 0.0}, {"load_steps": 0}, {"drag_rate": float("nan")}):
+        with pytest.raises(InputError, match=next(iter(wrong))):
+            simulate_together(buoy[0], [Member()], duration=1.0, output_step=0.1, **wrong)
     with pytest.raises(InputError, match="without members"):
         simulate_together(buoy[0], [], duration=1.0, output_step=0.1)
     builder = NetworkBuilder(DEEP)

@@ -20,7 +20,7 @@ from moyai.series.snaps import SnapRecord
 from moyai.structures.network.assembly import Assembly
 from moyai.structures.network.bodies import CoupledRun, coupled_sensitivity, run_coupled
 from moyai.structures.network.model import NetworkProblem
-from moyai.structures.network.realisations import Realisations, realisations_of
+from moyai.structures.network.realisations import Realisations, left_out, realisations_of
 from moyai.structures.network.refinement import (
     LANDING,
     affordable,
@@ -166,7 +166,7 @@ def run(
         except KeyboardInterrupt:
             message = "interrupted while further realisations were run; the run itself is complete"
             history = replace(history, status="interrupted", message=message)
-    notices += [] if others is None else others.notices()
+    notices += left_out(problem, plan, history) if others is None else others.notices()
     failure, safe = "", False
     if sensitivity is not None:
         strand = assembly.lines.get(governing)

@@ -53,6 +53,21 @@ class Realisations:
         ]  # fmt: skip
 
 
+def left_out(problem: NetworkProblem, plan: RunPlan, history: History) -> list[Notice]:
+    """Say that realisations were asked for and are not run, where that is so."""
+    asked = problem.settings.realisations or 1
+    if asked < 2 or history.status != "converged" or not isinstance(_sea(problem, plan), IrregularSea):
+        return []
+    return [
+        Notice(
+            "realisations-left-out",
+            f"of {asked} realisations one was run: bodies, nets with panels, sheets, slow ropes, lines that part, "
+            "implicit methods and runs that go on from earlier ones have no others",
+            1, asked, remedy="run the case with other seeds, one by one",
+        )
+    ]  # fmt: skip
+
+
 def _wanted(problem: NetworkProblem, plan: RunPlan, history: History, doubtful: bool) -> int:
     """Return how many realisations the case asks for, or fit into what may be spent; 1 is the run of the case alone."""
     network, asked = history.network, problem.settings.realisations
