@@ -17,7 +17,7 @@ from moyai.sea.environment import Environment
 from moyai.sea.spectra import jonswap
 from moyai.sea.states import IrregularSea
 from moyai.structures.cage.rigid.matsubara import VISCOSITY, WATER, model_cage, taut_lines
-from moyai.structures.cage.rigid.model import RigidCageProblem, Settings
+from moyai.structures.cage.rigid.model import RigidCageProblem, RigidCageSettings
 from moyai.structures.cage.rigid.pack import pack
 from moyai.structures.cage.rigid.statics import rest_with_lines
 from moyai.structures.cage.rigid.time import march, march_fixed
@@ -69,7 +69,7 @@ def irregular(periods: int) -> dict[str, object]:
     cage = model_cage()
     lines = taut_lines(cage)
     sea = IrregularSea("sea", jonswap(0.02, 1.2, 3.3), duration=periods * 1.2, seed=1)
-    problem = RigidCageProblem("", cage, (), VISCOSITY, Environment(WATER), settings=Settings())
+    problem = RigidCageProblem("", cage, (), VISCOSITY, Environment(WATER), settings=RigidCageSettings())
     (wave,) = waves_of(problem, sea, WATER)
     packed = pack(cage, lines, WATER, VISCOSITY, waves=wave.components, ramp=6.0)
     direct = packed._replace(summed=np.zeros((16, 10, 0)))

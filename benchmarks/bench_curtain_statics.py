@@ -17,7 +17,7 @@ from scipy.optimize import brentq
 
 from moyai.sea.current import power_law
 from moyai.sea.water import Water
-from moyai.structures.curtain.limits.utilisation import Requirements, Site, Strength, WaveLoad, operating_limits
+from moyai.structures.curtain.limits.utilisation import CurtainSite, Requirements, Strength, WaveLoad, operating_limits
 from moyai.structures.curtain.seas.anchor_energy import EnergyModel
 from moyai.structures.curtain.statics.closed_forms import cable_shape_number
 from moyai.structures.curtain.statics.drag import constant_drag, gap_speed_drag
@@ -80,7 +80,7 @@ def whole() -> None:
             20.0, 23.0, SKIRT, FloatLine(980.0, 100.0, 100.0), 3e6, 2e6, toe, 0.35,
             constant_drag(1.4, (0.8, 1.3), "benchmark"), "normal_velocity",
         )  # fmt: skip
-        site = Site(WATER, lambda speed: power_law(speed, 1 / 7, 0.2, WATER), 0.2, 0.0, 1.0)
+        site = CurtainSite(WATER, lambda speed: power_law(speed, 1 / 7, 0.2, WATER), 0.2, 0.0, 1.0)
         required = Requirements(strength, strength, strength, strength, Strength(15e3, 1.5), 0.2, 3.0)
         waves = WaveLoad(EnergyModel(0.2, 300.0, 2e5, 2.0, 1.0, 1.0), lambda h: 3.86 * math.sqrt(h), 0.3, "normal", 1.8)
         one = seconds(lambda: site.statics(curtain, 0.3), 5)  # noqa: B023

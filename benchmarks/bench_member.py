@@ -23,7 +23,7 @@ from moyai.sea.environment import Environment
 from moyai.sea.states import IrregularSea
 from moyai.sea.water import Water
 from moyai.structures.member.march import march
-from moyai.structures.member.model import MemberProblem, RegularWaves, Settings
+from moyai.structures.member.model import MemberProblem, MemberSettings, MemberWaves
 from moyai.structures.member.waves import waves_of
 
 
@@ -52,7 +52,7 @@ def brace() -> dict[str, float]:
     sea = IrregularSea("storm", spectra.jonswap(4.0, 9.0, 3.3), 0.3, None, 10800.0, 1)
     problem = MemberProblem(
         "brace", member, CoefficientRule("dnv_c205", "dnv_c205"), 1.19e-6, Environment(water), (sea,),
-        CirculationLaw(purpose="response"), settings=Settings(("forces",), 40),
+        CirculationLaw(purpose="response"), settings=MemberSettings(("forces",), 40),
     )  # fmt: skip
     (wave,) = waves_of(problem, sea, water)
     start = time.perf_counter()
@@ -65,7 +65,7 @@ def convergence() -> dict[str, float]:
     """Order of the strip rule on an inclined member: error of 10 over that of 20 strips."""
     water = Water(20.0, 1025.0, 9.81)
     member = StraightMember((-4, -2, -15), (3, 1, -2), sections.circle(0.7))
-    seas = (RegularWaves("a", (3.0,), (7.0,), 0.5),)
+    seas = (MemberWaves("a", (3.0,), (7.0,), 0.5),)
     sums = {}
     for count in (10, 20, 640):
         problem = MemberProblem(
@@ -75,7 +75,7 @@ def convergence() -> dict[str, float]:
             1e-6,
             Environment(water),
             seas,
-            settings=Settings(("forces",), count),
+            settings=MemberSettings(("forces",), count),
         )
         (wave,) = waves_of(problem, seas[0], water)
         sums[count] = march(problem, member, wave).force.sum(axis=0)

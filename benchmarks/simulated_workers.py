@@ -30,7 +30,7 @@ from distributed.protocol import to_serialize
 from distributed.versions import get_versions
 
 from moyai.study import on_dask
-from moyai.study.ledger import Record
+from moyai.study.ledger import LedgerRecord
 
 SETTINGS = {"distributed.comm.timeouts.connect": "120s", "distributed.comm.timeouts.tcp": "300s"}
 """A machine that simulates a thousand others is slow to answer; nothing else differs from a cluster as installed."""
@@ -50,7 +50,7 @@ class SimulatedWorker:
         What all workers of the process share; ``seconds`` is how long a case lasts.
     """
 
-    def __init__(self, scheduler: str, name: str, record: Record, crew: dict[str, float]) -> None:
+    def __init__(self, scheduler: str, name: str, record: LedgerRecord, crew: dict[str, float]) -> None:
         self.scheduler, self.name, self.record, self.crew = scheduler, name, record, crew
         self.stream = BatchedSend(interval="2ms")
         self.waiting: deque[dict[str, Any]] = deque()
@@ -216,10 +216,10 @@ class SimulatedWorker:
 
 
 VERSIONS = get_versions()
-TYPE = pickle.dumps(Record)
+TYPE = pickle.dumps(LedgerRecord)
 
 
-async def crew_of(scheduler: str, count: int, record: Record) -> None:
+async def crew_of(scheduler: str, count: int, record: LedgerRecord) -> None:
     """Be so many workers until standard input ends."""
     crew = {"seconds": 0.0}
     workers = [SimulatedWorker(scheduler, f"{os.getpid()}-{number}", record, crew) for number in range(count)]
@@ -242,5 +242,7 @@ async def crew_of(scheduler: str, count: int, record: Record) -> None:
 if __name__ == "__main__":
     with dask.config.set(SETTINGS):
         asyncio.run(
-            crew_of(sys.argv[1], int(sys.argv[2]), Record(**json.loads(Path(sys.argv[3]).read_text(encoding="utf-8"))))
+            crew_of(
+                sys.argv[1], int(sys.argv[2]), LedgerRecord(**json.loads(Path(sys.argv[3]).read_text(encoding="utf-8")))
+            )
         )

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from moyai.sea.water import Water
 from moyai.structures.curtain.seas.anchor_energy import (
     FITTING_RULES,
-    Calibration,
+    EnergyCalibration,
     EnergyModel,
     calibrate,
     error_against_product,
@@ -72,7 +72,7 @@ def campaign(seed: int, count: int) -> tuple[Array, Array]:
     return MODEL.fluctuating_tension(speed, 0.0) * (1.0 + 0.15 * rng.standard_normal(count)), speed
 
 
-def fits(observed: Array, speed: Array) -> tuple[Calibration, ...]:
+def fits(observed: Array, speed: Array) -> tuple[EnergyCalibration, ...]:
     """Return the calibration by each rule."""
     return tuple(calibrate(observed, speed, 0.0, line_factor=1.0, rule=rule) for rule in FITTING_RULES)
 

@@ -21,7 +21,7 @@ from moyai.reproduce.tabata.campaign import (
     CONVENTIONAL,
     CURTAIN_DEPTH,
     WATER,
-    Campaign,
+    FieldCampaign,
     block_maxima,
     by_wave,
     campaign,
@@ -36,7 +36,7 @@ from moyai.structures.curtain.seas.squared_velocity import effective_height, fit
 MAXIMA = {"T_max over H_max": block_maxima, "1.7 T_1/10 over 1.8 H_1/3 (rule of the paper)": paper_maxima}
 
 
-def draw(path: Path, data: Campaign) -> None:
+def draw(path: Path, data: FieldCampaign) -> None:
     """Draw regressions, directions, types and the residuals of the calibration."""
     import matplotlib
 
@@ -92,7 +92,7 @@ def draw(path: Path, data: Campaign) -> None:
     plt.close(figure)
 
 
-def report(data: Campaign) -> list[str]:
+def report(data: FieldCampaign) -> list[str]:
     """Return the fits in lines."""
     new, old = process(data), process(data, conventional=True)
     tenth, top = new.averaged("tenth"), new.averaged("maximum")

@@ -23,7 +23,7 @@ from moyai.structures.curtain.impact.cable import Impact, edge_impact
 from moyai.structures.curtain.impact.compare import compare_models
 from moyai.structures.curtain.impact.record import RecordComparison, compare_record, model_series
 from moyai.structures.curtain.impact.release import slack_phase, snap_in_current
-from moyai.structures.curtain.impact.skirt import Skirt
+from moyai.structures.curtain.impact.skirt import BulgedSkirt
 
 Array = NDArray[np.float64]
 
@@ -32,7 +32,7 @@ CURRENT, DRAG, RELEASE = 0.3, 1.2, 2.0
 IMPACT = Impact(
     span=0.7, length=0.8, draught=0.15, upper_stiffness=750.0, lower_stiffness=750.0, speed=CURRENT, water=WATER
 )
-SKIRT = Skirt(length=0.15, chord=0.135, stiffness=5e4)
+SKIRT = BulgedSkirt(length=0.15, chord=0.135, stiffness=5e4)
 UNLOADED = ((0.0, 1.9), (22.0, 23.0))
 
 

@@ -23,7 +23,7 @@ from moyai.structures.curtain.impact.cable import (
 )
 from moyai.structures.curtain.impact.march import iterate_first_step, march_impact
 from moyai.structures.curtain.impact.release import slack_phase, snap_in_current
-from moyai.structures.curtain.impact.skirt import Skirt, Variant, cable_and_skirt_impact, skirt_impact
+from moyai.structures.curtain.impact.skirt import BulgedSkirt, Variant, cable_and_skirt_impact, skirt_impact
 from moyai.structures.curtain.statics.closed_forms import solve_cable
 
 FREQUENCY = 6.0511
@@ -245,7 +245,7 @@ def test_cables_apart(upper, lower, tensions):
 )
 def test_stretching_skirt(chord, stiffness, rows):
     for variant, (load, tension) in zip(("literal", "energy_mid", "energy_proj"), rows):
-        found = skirt_impact(flume(), Skirt(0.15, chord, stiffness), variant)
+        found = skirt_impact(flume(), BulgedSkirt(0.15, chord, stiffness), variant)
         assert found.edge_load == pytest.approx(load, abs=0.1)
         assert found.tension == pytest.approx(tension, abs=0.1)
 
@@ -262,7 +262,7 @@ def test_stretching_skirt(chord, stiffness, rows):
     ],
 )
 def test_cable_and_skirt_together(cable, skirt, tension):
-    found = cable_and_skirt_impact(flume(stiffness=float(cable)), Skirt(0.15, 0.135, skirt))
+    found = cable_and_skirt_impact(flume(stiffness=float(cable)), BulgedSkirt(0.15, 0.135, skirt))
     assert found.tension == pytest.approx(tension, rel=6e-4)
 
 
@@ -272,7 +272,9 @@ def test_cable_and_skirt_together(cable, skirt, tension):
 )
 def test_stretching_skirt_against_section_finite_elements(chord, stiffness, elements):
     """Bars with the dense added mass of panels, ends held, uniform start: energy_mid within 5 %, the others as told."""
-    loads = {name: skirt_impact(flume(), Skirt(0.15, chord, stiffness), name).edge_load for name in get_args(Variant)}
+    loads = {
+        name: skirt_impact(flume(), BulgedSkirt(0.15, chord, stiffness), name).edge_load for name in get_args(Variant)
+    }
     assert loads["energy_mid"] == pytest.approx(elements, rel=0.05)
     assert 1.15 < loads["energy_proj"] / elements < 1.25
     assert 1.6 < elements / loads["literal"] < 8.0
@@ -280,7 +282,7 @@ def test_stretching_skirt_against_section_finite_elements(chord, stiffness, elem
 
 def test_powers_of_the_stretching_skirt():
     def tension(speed, stiffness):
-        return skirt_impact(flume(speed=speed), Skirt(0.15, 0.135, stiffness)).tension
+        return skirt_impact(flume(speed=speed), BulgedSkirt(0.15, 0.135, stiffness)).tension
 
     assert math.log(tension(0.33, 5e4) / tension(0.27, 5e4)) / math.log(0.33 / 0.27) == pytest.approx(1.04, abs=0.01)
     assert math.log(tension(0.3, 5.5e4) / tension(0.3, 4.5e4)) / math.log(5.5 / 4.5) == pytest.approx(0.48, abs=0.01)

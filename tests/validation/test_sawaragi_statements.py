@@ -19,7 +19,7 @@ from kept_runs import kept_value
 
 from moyai.design.similarity import Scale, scale_water
 from moyai.reproduce.inputs import problem_of
-from moyai.reproduce.sawaragi.runs import Runs, span_of
+from moyai.reproduce.sawaragi.runs import SawaragiRuns, span_of
 from moyai.sea.water import Water
 from moyai.structures.curtain.impact.cable import closed_form, edge_impact, impact_numbers, peak_by_energy
 from moyai.structures.curtain.impact.cycles import slack_taut_motion
@@ -233,7 +233,7 @@ def test_statement_12_scale_law_of_the_cube(length):
 def test_the_whole_span_let_go_slack_comes_to_the_level_of_drag():
     """One spike, whose height and instant stand on a finer mesh; the steady level is the catenary's 2.92 N."""
     case = problem_of("sawaragi", "flume")
-    runs = Runs(span_of(case), case, 5)
+    runs = SawaragiRuns(span_of(case), case, 5)
     coarse = kept_value(f"whole span of the flume, {runs.cells} cells", lambda: runs.whole_line)
     assert coarse.plateau == pytest.approx(2.92, rel=0.08)
     assert coarse.spikes() == 1

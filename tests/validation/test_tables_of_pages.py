@@ -27,7 +27,7 @@ from moyai.flexible.flow import Flow
 from moyai.flexible.statics import solve_equilibrium
 from moyai.interop.read import read_coefficients
 from moyai.reproduce.inputs import problem_of
-from moyai.reproduce.sawaragi.runs import Runs, span_of
+from moyai.reproduce.sawaragi.runs import SawaragiRuns, span_of
 from moyai.sea.water import Water
 from moyai.structures.cage.rigid.literal import literal_pack
 from moyai.structures.cage.rigid.pack import pack
@@ -38,7 +38,7 @@ from moyai.structures.cage.rigid.waves import wave_of
 from moyai.structures.curtain.impact.cable import Impact, peak_by_energy
 from moyai.structures.curtain.impact.compare import compare_models
 from moyai.structures.curtain.impact.memory import impact_with_memory
-from moyai.structures.curtain.impact.skirt import Skirt
+from moyai.structures.curtain.impact.skirt import BulgedSkirt
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 
@@ -183,7 +183,7 @@ def measured_records():
 
 def snap_on_meshes():
     module = example("curtain/dynamic_tables")
-    skirt = Skirt(0.15, 0.135, 2e4)
+    skirt = BulgedSkirt(0.15, 0.135, 2e4)
     for stiffness, prototype in ((module.SOFT, (8.92, 11.17)), (module.STEEL, (107.3, 140.1))):
         models = {one.model: one.tension for one in compare_models(module.model(stiffness), skirt, memory=False).models}
         for profile, other in zip(("sag", "uniform"), prototype, strict=True):
@@ -338,7 +338,7 @@ def strong_current():
 def released_skirt():
     case = problem_of("sawaragi", "flume")
     for cells in ((12, 4), (24, 8)):
-        runs = Runs(span_of(case), case, 21, cells)
+        runs = SawaragiRuns(span_of(case), case, 21, cells)
         record = kept_value(f"whole span of the flume, {cells} cells", lambda runs=runs: runs.whole_line)
         yield [record.spike, record.spike_time, record.plateau]
 

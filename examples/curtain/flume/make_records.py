@@ -18,15 +18,15 @@ import numpy as np
 from moyai.case.reader import read_block
 from moyai.case.yaml_reader import read_yaml
 from moyai.records.snaps.case.schema import SnapRunsFile
-from moyai.records.snaps.synthesis import Logger, made_record
+from moyai.records.snaps.synthesis import SnapLogger, made_record
 from moyai.sea.water import Water
 from moyai.structures.curtain.impact.cable import Impact
 
 HERE = Path(__file__).parent
 FACTOR, SCATTER = 0.9, 0.05
 LOGGERS = {
-    "fishing line": Logger(rate=200.0, noise=0.03, drift=0.3),
-    "steel wire": Logger(rate=1000.0, noise=0.3, drift=2.0),
+    "fishing line": SnapLogger(rate=200.0, noise=0.03, drift=0.3),
+    "steel wire": SnapLogger(rate=1000.0, noise=0.3, drift=2.0),
 }
 
 

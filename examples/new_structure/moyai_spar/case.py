@@ -9,7 +9,7 @@ from moyai.case.build_sea import current_of
 from moyai.case.criteria import criteria_of
 from moyai.case.headings import heading_of
 from moyai.case.schema_criteria import GreatestLength, LineCriteria
-from moyai.case.schema_environment import Current, Site
+from moyai.case.schema_environment import SiteCurrentKeys, SiteKeys
 from moyai.case.schema_lines import OwnSegment
 from moyai.case.schema_types import Block, Mass, Name, PositiveLength, PositiveNumber
 from moyai.mooring import LineType, Segment
@@ -39,8 +39,8 @@ class SparCase(Block):
 
     moyai: Literal[1] = Field(description="Version of the case file format.")
     title: Name = Field(description="Title of the report.")
-    site: Site = Field(description="The water of the site.")
-    current: Current = Field(description="Steady current.")
+    site: SiteKeys = Field(description="The water of the site.")
+    current: SiteCurrentKeys = Field(description="Steady current.")
     structure: Spar = Field(description="The spar.")
     criteria: SparCriteria = Field(default_factory=SparCriteria, description="What the design has to keep.")
 

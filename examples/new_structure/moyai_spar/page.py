@@ -1,7 +1,7 @@
 """The report: numbers of the first page, a table over the water levels."""
 
 from moyai.core.results import Result
-from moyai.report.document import Column, Document, Section, Table
+from moyai.report.document import Chapter, Column, Document, Table
 from moyai.report.general_page import case_listing, closing_section, notice_blocks, provenance, report_title
 from moyai.report.headlines import headline_figures
 from moyai.report.reading import Group
@@ -15,9 +15,9 @@ def compose(result: Result) -> Document:
                for name, (unit, label) in VARIABLES.items()]  # fmt: skip
     table = Table("levels", "Equilibrium", (Column("Water level", [level.name for level in root.children()]), *columns))
     sections = (
-        Section("summary", "Summary", (*([] if numbers is None else [numbers]), *notice_blocks(result))),
-        Section("statics", "Statics", (table,)),
-        Section("input", "Input", (case_listing(root),)),
+        Chapter("summary", "Summary", (*([] if numbers is None else [numbers]), *notice_blocks(result))),
+        Chapter("statics", "Statics", (table,)),
+        Chapter("input", "Input", (case_listing(root),)),
         closing_section(result),
     )
     return Document(report_title(result), "Spar", result.status, result.message, sections, provenance(result))

@@ -18,7 +18,7 @@ from moyai.app.messages import STALE, Wish
 from moyai.app.pins import renamed, with_pin
 from moyai.case.form import form_of
 from moyai.case.text_changes import with_key, with_scalar, without_key
-from moyai.case.yaml_reader import Document, parse_yaml
+from moyai.case.yaml_reader import CaseDocument, parse_yaml
 from moyai.core.errors import InputError
 from moyai.core.kinds import kind_named
 
@@ -103,7 +103,7 @@ async def _change(app: App, request: Request) -> Response:
     return json_answer(document.record())
 
 
-def _changed(document: Document, wish: dict[str, Any]) -> Document:
+def _changed(document: CaseDocument, wish: dict[str, Any]) -> CaseDocument:
     """Return the document after a change that the page asks for.
 
     Parameters

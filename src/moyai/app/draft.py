@@ -17,7 +17,7 @@ from moyai.case.builder import build
 from moyai.case.reader import case_of, like_checked
 from moyai.case.sliders import sliders_of
 from moyai.case.text_numbers import with_number
-from moyai.case.yaml_reader import Document, parse_yaml
+from moyai.case.yaml_reader import CaseDocument, parse_yaml
 from moyai.core.errors import CaseError, Fault, MoyaiError
 from moyai.core.kinds import kind_named, structure_kind
 from moyai.core.progress import Progress
@@ -53,7 +53,7 @@ class Drafts:
         self._keep = keep
         self._rest = rest
         self._pinned = Pinned(run, keep)
-        self._last: Document | None = None
+        self._last: CaseDocument | None = None
         self._lacking: dict[str, set[str]] = {}
         self._complete: dict[str, set[str]] = {}
 
@@ -61,7 +61,7 @@ class Drafts:
         """Yield the case as read and checked, then its draft where it has no errors."""
         started = time.perf_counter()
         text, checked = wish.text, False
-        document: Document | None = None
+        document: CaseDocument | None = None
         try:
             if len(text) > _TEXT_LIMIT:
                 raise CaseError([Fault(f"the text is longer than {_TEXT_LIMIT // 1_000_000} million characters")])
@@ -92,7 +92,7 @@ class Drafts:
             else:
                 yield {"message": "not drawn", "faults": [asdict(spoken_fault(fault)) for fault in faults]}
 
-    def _stages(self, drafts: list[Document], whole: Case, wish: Wish) -> Iterator[_Stage]:
+    def _stages(self, drafts: list[CaseDocument], whole: Case, wish: Wish) -> Iterator[_DraftStage]:
         """Yield what is drawn one after the other: a draft of what is on the screen, at last the whole answer."""
         first = next(
             (one for one in drafts if not self._lacking.get(_key_of(one), set()) & set(wish.shown)), drafts[-1]
@@ -106,12 +106,12 @@ class Drafts:
             alone = kind.at_level(problem if nominal is None else nominal, wish.level)
             if alone is not None or nominal is not None:
                 words = ONE_LEVEL if nominal is None else NOMINAL
-                yield _Stage(draft, case, drafts[-1], nominal if alone is None else alone, words)
+                yield _DraftStage(draft, case, drafts[-1], nominal if alone is None else alone, words)
             elif not last:
-                yield _Stage(draft, case, drafts[-1])
-        yield _Stage(draft, case, draft, last=True)
+                yield _DraftStage(draft, case, drafts[-1])
+        yield _DraftStage(draft, case, draft, last=True)
 
-    def _drawn(self, stage: _Stage, whole: Document, wish: Wish, progress: Progress) -> dict[str, Any]:
+    def _drawn(self, stage: _DraftStage, whole: CaseDocument, wish: Wish, progress: Progress) -> dict[str, Any]:
         from moyai.report.differences import with_pinned
         from moyai.report.encoding import slug
         from moyai.report.html import render_parts
@@ -160,13 +160,13 @@ class Drafts:
 
 
 @dataclass(frozen=True)
-class _Stage:
+class _DraftStage:
     """What is run and drawn at once."""
 
-    document: Document
+    document: CaseDocument
     case: Case
     #: With the analyses of the whole answer.
-    whole: Document
+    whole: CaseDocument
     #: None for that of the case.
     problem: Any = None
     #: What is said of a problem that leaves something out.
@@ -175,7 +175,7 @@ class _Stage:
     last: bool = False
 
 
-def _key_of(document: Document) -> str:
+def _key_of(document: CaseDocument) -> str:
     return f"{document.data['structure']['kind']} {document.data['analyses']}"
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from moyai.case.reader import named_files
-from moyai.case.yaml_reader import Document, KeyPath
+from moyai.case.yaml_reader import CaseDocument, KeyPath
 from moyai.core.errors import CaseError, InputError
 
 CASE_ENDINGS = (".yaml", ".yml")
@@ -94,7 +94,7 @@ def within(root: Path, path: Path, shown: str) -> Path:
     return target
 
 
-def refuse_foreign_files(root: Path, folder: Path, document: Document) -> None:
+def refuse_foreign_files(root: Path, folder: Path, document: CaseDocument) -> None:
     """Refuse a case that names files outside the chosen folder.
 
     Parameters
@@ -124,7 +124,7 @@ def refuse_foreign_files(root: Path, folder: Path, document: Document) -> None:
             ) from None
 
 
-def _at(document: Document, path: KeyPath) -> Any:
+def _at(document: CaseDocument, path: KeyPath) -> Any:
     found = document.data
     with contextlib.suppress(KeyError, IndexError, TypeError):
         for step in path:

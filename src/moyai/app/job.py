@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from moyai.app.job_process import Order
-from moyai.app.job_records import ENDED, Kept, keep
+from moyai.app.job_records import ENDED, KeptJob, keep
 from moyai.language import said
 from moyai.report.on_demand import makeable
 
@@ -34,7 +34,7 @@ class Job:
         killed from outside, or the app ended before it).
     """
 
-    def __init__(self, key: str, order: Order, kept: Kept | None = None) -> None:
+    def __init__(self, key: str, order: Order, kept: KeptJob | None = None) -> None:
         self.key = key
         self.order = order
         self.state = "waiting" if kept is None else kept.state

@@ -26,7 +26,7 @@ _LARGEST = 5_000_000
 
 
 @dataclass(frozen=True)
-class Kept:
+class KeptJob:
     """A job of an app that has ended."""
 
     order: Order
@@ -55,12 +55,12 @@ def keep(order: Order, state: str, words: str, seconds: float, ordered: float) -
         write_whole(order.folder / NAME, json.dumps(content).encode())
 
 
-def kept_jobs(folder: Folder) -> list[Kept]:
+def kept_jobs(folder: Folder) -> list[KeptJob]:
     """Return the jobs whose results lie in the output folder, in the order in which they were ordered.
 
     One at which another app is at work is left out. One that had not ended when its app did is told as lost.
     """
-    found: list[Kept] = []
+    found: list[KeptJob] = []
     with contextlib.suppress(OSError):
         for place in sorted(folder.output.iterdir())[:_MOST_FOLDERS]:
             path = place / NAME
@@ -72,7 +72,7 @@ def kept_jobs(folder: Folder) -> list[Kept]:
     return sorted(found, key=lambda one: one.ordered)
 
 
-def _read(folder: Folder, place: Path, content: dict[str, Any]) -> Kept | None:
+def _read(folder: Folder, place: Path, content: dict[str, Any]) -> KeptJob | None:
     """Return a job as it was kept; nothing that it names lies outside the folder of the app."""
     kind, state, words = content["kind"], str(content["state"]), str(content["words"])
     if content["moyai_job"] != 1 or kind not in _KINDS:
@@ -90,4 +90,4 @@ def _read(folder: Folder, place: Path, content: dict[str, Any]) -> Kept | None:
         str(content["text"]), content["saved"] is True, "ja" if content["language"] == "ja" else "en",
     )  # fmt: skip
     ordered = float(content["ordered"])
-    return Kept(order, state, words, float(content["seconds"]), ordered if ordered < time.time() else time.time())
+    return KeptJob(order, state, words, float(content["seconds"]), ordered if ordered < time.time() else time.time())

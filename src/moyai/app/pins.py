@@ -13,7 +13,7 @@ from moyai.app.folder import refuse_foreign_files
 from moyai.app.messages import Pin, Wish
 from moyai.app.stages import stages_of
 from moyai.case.reader import case_of
-from moyai.case.yaml_reader import Document, parse_yaml
+from moyai.case.yaml_reader import CaseDocument, parse_yaml
 from moyai.core.errors import InputError, MoyaiError
 from moyai.core.progress import Progress
 
@@ -71,7 +71,7 @@ class Pinned:
         self._keep = keep
         self._known: dict[str, Other | None] = {}
 
-    def of(self, pins: Iterable[Pin], wish: Wish, shown: Document, progress: Progress | None) -> list[Other]:
+    def of(self, pins: Iterable[Pin], wish: Wish, shown: CaseDocument, progress: Progress | None) -> list[Other]:
         """Return the results of pins, those that cannot be run left out.
 
         Parameters
@@ -95,7 +95,7 @@ class Pinned:
                 found.append(replace(other, name=pin.name))
         return found
 
-    def _made(self, pin: Pin, wish: Wish, shown: Document, progress: Progress) -> Other | None:
+    def _made(self, pin: Pin, wish: Wish, shown: CaseDocument, progress: Progress) -> Other | None:
         from moyai.report.differences import Other
         from moyai.report.writer import compose_document
 

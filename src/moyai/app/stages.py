@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from moyai.case.yaml_reader import Document
+from moyai.case.yaml_reader import CaseDocument
 from moyai.core.kinds import structure_kind
 
 
-def stages_of(document: Document, kind: str) -> list[Document]:
+def stages_of(document: CaseDocument, kind: str) -> list[CaseDocument]:
     """Return a case with its own cheap analyses, stage by stage; where it has none, with the first of its kind.
 
     Parameters

@@ -60,7 +60,7 @@ def sea_state_of(
     path = f"waves[{index}]"
     name = surroundings.sea_names(states)[index]
     heading = heading_of(state, bearing, path)
-    if isinstance(state, surroundings.RegularWaves):
+    if isinstance(state, surroundings.RegularWavesKeys):
         return RegularSea(name, state.height, state.all_periods(), heading, state.theory)
     spectrum = spectrum_of(state, water, folder, path)
     spreading: directional.Spreading | None = None
@@ -114,17 +114,17 @@ def _spreading_of_file(state: surroundings.SpectrumFile, folder: Path, path: str
 
 
 def _spreading(entry: Any, spectrum: spectra.Spectrum) -> directional.Spreading:
-    if isinstance(entry, surroundings.CosineTwoS):
+    if isinstance(entry, surroundings.CosineTwoSKeys):
         return directional.CosineTwoS(entry.exponent)
     if isinstance(entry, surroundings.MitsuyasuSpreading):
         return directional.Mitsuyasu(entry.maximum_exponent, 2.0 * math.pi / spectrum.peak_period)
-    if isinstance(entry, surroundings.CosinePower):
+    if isinstance(entry, surroundings.CosinePowerKeys):
         return directional.CosinePower(entry.exponent)
     return directional.WrappedNormal(math.radians(entry.standard_deviation_deg))
 
 
 def current_of(
-    entry: surroundings.Current | None, water: Water, bearing: float | None
+    entry: surroundings.SiteCurrentKeys | None, water: Water, bearing: float | None
 ) -> currents.CurrentProfile | None:
     """Return the current of a case, ``None`` where it gives none."""
     if entry is None:
@@ -135,7 +135,7 @@ def current_of(
         if isinstance(entry.profile, surroundings.SpeedTable):
             heights, speeds = zip(*entry.profile.table)
             return currents.table(heights, speeds, heading)
-        if isinstance(entry.profile, surroundings.PowerLaw):
+        if isinstance(entry.profile, surroundings.PowerLawKeys):
             return currents.power_law(speed, entry.profile.power_law, heading, water)
     except InputError as error:
         raise error.at("current.profile") from None

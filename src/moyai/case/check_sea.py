@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from moyai.case.faults import did_you_mean
 from moyai.case.findings import Findings, duplicates
-from moyai.case.schema_environment import PowerLaw, RegularWaves, SpectrumFile, SpeedTable, Tma, sea_names
+from moyai.case.schema_environment import PowerLawKeys, RegularWavesKeys, SpectrumFile, SpeedTable, Tma, sea_names
 from moyai.case.yaml_reader import KeyPath
 
 if TYPE_CHECKING:
@@ -175,7 +175,7 @@ def _check_current(model: Any, findings: Findings) -> None:
     current = model.current
     if current is None:
         return
-    if isinstance(current.profile, PowerLaw) and math.isinf(model.site.water_depth):
+    if isinstance(current.profile, PowerLawKeys) and math.isinf(model.site.water_depth):
         findings.fault(
             ("current", "profile"), "a power law needs a finite water depth", remedy="use 'uniform' or a table"
         )
@@ -250,7 +250,7 @@ def check_waves(
         said: set[str] = set()
         for name, level in environment.water_levels:
             water = environment.water_at(level)
-            if isinstance(state, RegularWaves):
+            if isinstance(state, RegularWavesKeys):
                 pairs = [("height", _of_theory(sea, period, water)) for period in sea.periods]
             elif isinstance(sea, ComponentSea):
                 judge = check_wave if sea.omega.size == 1 else check_sea_state

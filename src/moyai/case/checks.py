@@ -14,12 +14,12 @@ from moyai.case.measured import measured_sets, read_pairs
 from moyai.case.plausibility import check_plausibility
 from moyai.case.schema_app import check_sliders
 from moyai.case.schema_environment import sea_names
-from moyai.case.yaml_reader import Document, KeyPath, dotted
+from moyai.case.yaml_reader import CaseDocument, KeyPath, dotted
 from moyai.core.errors import Fault, InputError
 from moyai.core.kinds import structure_kind
 
 
-def check(model: Any, document: Document, folder: Path) -> Findings:
+def check(model: Any, document: CaseDocument, folder: Path) -> Findings:
     """Return every fault and warning of a case whose keys are sound.
 
     Parameters

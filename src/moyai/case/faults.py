@@ -12,7 +12,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from moyai.case.schema_types import Block, Notes, QuantityOf
-from moyai.case.yaml_reader import Document, KeyPath, dotted
+from moyai.case.yaml_reader import CaseDocument, KeyPath, dotted
 from moyai.core.errors import Fault
 from moyai.core.units import plain_text
 
@@ -84,10 +84,10 @@ def value_at(data: Any, path: KeyPath) -> Any:
     return data
 
 
-class Translator:
+class FaultTranslator:
     """Turns the errors of one validation into faults, and corrects the data so that later checks can still run."""
 
-    def __init__(self, document: Document, notes: Notes, root: type[Block]) -> None:
+    def __init__(self, document: CaseDocument, notes: Notes, root: type[Block]) -> None:
         self.document = document
         self.notes = notes
         self.root = root

@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from moyai.case.yaml_reader import Document, KeyPath, dotted
+from moyai.case.yaml_reader import CaseDocument, KeyPath, dotted
 from moyai.core.errors import Fault, InputError
 
 _STEP = re.compile(r"([^.\[\]]+)|\[(\d+)\]")
@@ -23,7 +23,7 @@ KEYS = {
 class Findings:
     """Collects faults and warnings on one document."""
 
-    def __init__(self, document: Document, keys: Mapping[str, str] | None = None) -> None:
+    def __init__(self, document: CaseDocument, keys: Mapping[str, str] | None = None) -> None:
         self.document = document
         self.keys = {**KEYS, **(keys or {})}
         self.faults: list[Fault] = []

@@ -16,12 +16,12 @@ import numpy as np
 from moyai.case.yaml_text import decode
 from moyai.core.errors import CaseError, InputError
 from moyai.core.foreign_files import reads
-from moyai.core.quantities import Kind
+from moyai.core.quantities import QuantityKind
 from moyai.core.units import Unit, parse_unit
 from moyai.core.vocabulary import MEASURED_GROUP
 
 if TYPE_CHECKING:
-    from moyai.case.schema_measured import MeasuredPoints
+    from moyai.case.schema_measured import MeasuredPointsKeys
     from moyai.core.results import Result
 
 _HEADING = re.compile(r"^\s*(?P<name>.*?)\s*(?:\[(?P<unit>[^\]]*)\])?\s*$")
@@ -30,7 +30,7 @@ _NAME = re.compile(r"[A-Za-z]\w*")
 
 @reads("a table of points")
 def read_points(
-    path: Path, columns: Mapping[str, str], key: str, kinds: Mapping[str, Kind] | None = None
+    path: Path, columns: Mapping[str, str], key: str, kinds: Mapping[str, QuantityKind] | None = None
 ) -> dict[str, tuple[float, ...]]:
     """Read the columns of a CSV in SI units.
 
@@ -133,7 +133,7 @@ def read_pairs(path: Path, key: str) -> Pairs:
     return Pairs(first, second, units[0], units[1] if len(units) > 1 else "")
 
 
-def measured_sets(model: Any) -> Iterator[tuple[int, MeasuredPoints]]:
+def measured_sets(model: Any) -> Iterator[tuple[int, MeasuredPointsKeys]]:
     """Yield the sets of points of a case that are laid over figures, with their place in its list."""
     given = getattr(model, "measured", None)
     yield from enumerate(given if isinstance(given, tuple) else ())
@@ -224,7 +224,7 @@ def _heading(cell: str, path: Path, key: str) -> tuple[str, Unit | None]:
         ) from None
 
 
-def _check_kind(name: str, unit: Unit | None, kind: Kind | None, path: Path, key: str) -> None:
+def _check_kind(name: str, unit: Unit | None, kind: QuantityKind | None, path: Path, key: str) -> None:
     if kind is None or unit is None or unit.dimension == kind.dimension:
         return
     raise InputError(

@@ -17,7 +17,7 @@ from moyai.case.faults import value_at
 from moyai.case.findings import Findings
 from moyai.case.plausible_sizes import derived_sizes
 from moyai.case.schema_types import Block
-from moyai.case.yaml_reader import Document, KeyPath
+from moyai.case.yaml_reader import CaseDocument, KeyPath
 from moyai.core.errors import InputError
 from moyai.core.quantities import parse_quantity
 from moyai.tables.plausible_ranges import Factor, PlausibleRange, plausible_ranges, range_sources
@@ -29,7 +29,7 @@ _MOST_KEYS = 5
 
 
 @dataclass(frozen=True)
-class Entry:
+class CheckedNumber:
     """A number of a case."""
 
     #: In the unit of plain numbers.
@@ -46,7 +46,7 @@ class Odd:
 
     row: PlausibleRange
     paths: list[KeyPath]
-    entries: list[Entry]
+    entries: list[CheckedNumber]
     value: float
 
 
@@ -55,10 +55,10 @@ def check_plausibility(model: Block, findings: Findings) -> None:
 
     A case that says ``plausibility: warn`` is only warned.
     """
-    numbers = {path: Entry(value, place_of(path, findings.document)) for path, value in _numbers(model, ())}
+    numbers = {path: CheckedNumber(value, place_of(path, findings.document)) for path, value in _numbers(model, ())}
     kind = str(model.structure.kind)  # type: ignore[attr-defined]
     for path, (value, of) in derived_sizes(model).items():
-        numbers[path] = Entry(value, None, of)
+        numbers[path] = CheckedNumber(value, None, of)
     ends: dict[str | int, list[KeyPath]] = {}
     for path in numbers:
         last = next((step for step in reversed(path) if isinstance(step, str)), "")
@@ -80,7 +80,7 @@ def check_plausibility(model: Block, findings: Findings) -> None:
     _tell_radians(numbers, told, findings)
 
 
-def place_of(path: KeyPath, document: Document) -> KeyPath | None:
+def place_of(path: KeyPath, document: CaseDocument) -> KeyPath | None:
     """Return a path of the model as a path of the file, ``None`` where the file does not hold it.
 
     A single block may stand for a list of one.
@@ -140,11 +140,11 @@ def _path_of(factor: Factor, first: KeyPath, captured: tuple[str | int, ...]) ->
 
 
 def _odd(
-    row: PlausibleRange, first: KeyPath, captured: tuple[str | int, ...], numbers: dict[KeyPath, Entry]
+    row: PlausibleRange, first: KeyPath, captured: tuple[str | int, ...], numbers: dict[KeyPath, CheckedNumber]
 ) -> Odd | None:
     """Return the quantity of a row where it leaves its usual range; ``None`` where it keeps it or is not there."""
     paths = [first, *(_path_of(factor, first, captured) for factor in row.factors[1:])]
-    entries: list[Entry] = []
+    entries: list[CheckedNumber] = []
     value = 1.0
     for factor, path in zip(row.factors, paths):
         entry = numbers.get(path)
@@ -168,7 +168,7 @@ def _tell(
     odd: Odd,
     shared: Counter[KeyPath],
     told: dict[KeyPath, bool],
-    numbers: dict[KeyPath, Entry],
+    numbers: dict[KeyPath, CheckedNumber],
     findings: Findings,
     *,
     lenient: bool,
@@ -217,7 +217,7 @@ def _overlap(one: KeyPath, other: KeyPath) -> bool:
 
 
 def _blamed(
-    odd: Odd, shared: Counter[KeyPath], told: dict[KeyPath, bool], document: Document
+    odd: Odd, shared: Counter[KeyPath], told: dict[KeyPath, bool], document: CaseDocument
 ) -> tuple[KeyPath, KeyPath, bool] | None:
     """Return path in the model and place in the file of the number to tell of, and whether it is a factor itself.
 
@@ -237,7 +237,9 @@ def _blamed(
     return max(choices, key=lambda choice: shared[choice[0]]) if _near(odd.row, odd.value) else choices[0]
 
 
-def _written(paths: list[KeyPath], entries: list[Entry], numbers: dict[KeyPath, Entry], document: Document) -> str:
+def _written(
+    paths: list[KeyPath], entries: list[CheckedNumber], numbers: dict[KeyPath, CheckedNumber], document: CaseDocument
+) -> str:
     """Return the numbers of a ratio as the file writes them."""
     said = []
     for path, entry in zip(paths, entries):
@@ -302,7 +304,7 @@ def _remedy(row: PlausibleRange, value: float, power: int, place: KeyPath, findi
     return "check the number and its unit"
 
 
-def _tell_radians(numbers: dict[KeyPath, Entry], told: dict[KeyPath, bool], findings: Findings) -> None:
+def _tell_radians(numbers: dict[KeyPath, CheckedNumber], told: dict[KeyPath, bool], findings: Findings) -> None:
     """Warn of an angle in degrees whose decimals are those of a round angle in radians: 0.7854, 1.5708."""
     for path, entry in numbers.items():
         if entry.place is None or path in told or not str(path[-1]).endswith("_deg"):

@@ -14,13 +14,13 @@ from typing import Any
 import numpy as np
 from pydantic import ValidationError
 
-from moyai.case.faults import Translator, did_you_mean, nearest
+from moyai.case.faults import FaultTranslator, did_you_mean, nearest
 from moyai.case.findings import Findings
 from moyai.case.paths import assign, resolve
 from moyai.case.schema import root_schema
 from moyai.case.schema_types import Block, Notes
 from moyai.case.templates import kind_by_keys, next_command
-from moyai.case.yaml_reader import Document, KeyPath, dotted, parse_yaml, read_yaml
+from moyai.case.yaml_reader import CaseDocument, KeyPath, dotted, parse_yaml, read_yaml
 from moyai.core.errors import CaseError, Fault, InputError
 from moyai.core.kinds import structure_kind, structure_kinds
 from moyai.core.units import plain_text
@@ -33,7 +33,7 @@ class Case:
     #: The content by the schema of its structure; SI units, headings in degrees.
     model: Any
     #: The file with the place of every key.
-    document: Document
+    document: CaseDocument
     #: The file.
     path: Path
     #: What is allowed but odd, with its place.
@@ -175,7 +175,7 @@ def _plain(content: Any) -> Any:
     return content.item() if isinstance(content, np.generic) else content
 
 
-def case_of(document: Document, path: Path) -> Case:
+def case_of(document: CaseDocument, path: Path) -> Case:
     """Return the case of a document that was read already; see :func:`load_case`.
 
     Parameters
@@ -218,7 +218,7 @@ def case_of(document: Document, path: Path) -> Case:
     return Case(model, document, path, tuple(_in_order(found.warnings)), case_hash(model, path.parent))
 
 
-def like_checked(case: Case, document: Document) -> Case:
+def like_checked(case: Case, document: CaseDocument) -> Case:
     """Return the case of a document that has fewer analyses or seas than that of a checked one, and no other values.
 
     It is not checked again.
@@ -229,7 +229,7 @@ def like_checked(case: Case, document: Document) -> Case:
     return Case(model, document, case.path, case.warnings, case_hash(model, case.folder))
 
 
-def read_block(document: Document, root: type[Block]) -> Any:
+def read_block(document: CaseDocument, root: type[Block]) -> Any:
     """Return the content of a file by a schema that is not that of a case: of a study, of measurements.
 
     Parameters
@@ -264,7 +264,7 @@ def _in_order(faults: list[Fault]) -> list[Fault]:
     return sorted(dict.fromkeys(faults), key=lambda fault: (fault.line, fault.column))
 
 
-def _empty_values(data: Any, path: KeyPath, document: Document) -> list[Fault]:
+def _empty_values(data: Any, path: KeyPath, document: CaseDocument) -> list[Fault]:
     """Return a fault for every key without a value: nothing in a case file means 'nothing' on purpose."""
     if data is None and path:
         torn = _decimal_comma(path, document)
@@ -286,7 +286,7 @@ def _without_value(data: Any, path: KeyPath) -> set[str]:
     return {found for key, value in entries for found in _without_value(value, (*path, key))}
 
 
-def _decimal_comma(path: KeyPath, document: Document) -> Fault | None:
+def _decimal_comma(path: KeyPath, document: CaseDocument) -> Fault | None:
     """Return a fault where braces tore ``3,6 m`` apart: into the value 3 and a key ``6 m`` without a value."""
     block: Any = document.data
     for step in path[:-1]:
@@ -309,7 +309,7 @@ def _decimal_comma(path: KeyPath, document: Document) -> Fault | None:
     )
 
 
-def _choose_root(document: Document, faults: list[Fault]) -> type[Block]:
+def _choose_root(document: CaseDocument, faults: list[Fault]) -> type[Block]:
     """Return the schema that ``structure.kind`` asks for, or raise what stands in the way."""
     data = document.data
     if not isinstance(data, dict):
@@ -347,7 +347,7 @@ def _choose_root(document: Document, faults: list[Fault]) -> type[Block]:
     raise CaseError(_in_order([*(fault for fault in faults if fault.path != found.path), found]))
 
 
-def _validate(document: Document, root: type[Block]) -> tuple[Any, list[Fault], Any]:
+def _validate(document: CaseDocument, root: type[Block]) -> tuple[Any, list[Fault], Any]:
     """Return the model (or ``None``), the faults, and a model of corrected data on which checks can still run."""
     notes = Notes()
     error: ValidationError | None = None
@@ -356,7 +356,7 @@ def _validate(document: Document, root: type[Block]) -> tuple[Any, list[Fault], 
         model = root.model_validate(document.data, context=notes)
     except ValidationError as found:
         error = found
-    translator = Translator(document, notes, root)
+    translator = FaultTranslator(document, notes, root)
     faults = translator.translate(error)
     if not faults:
         return model, [], None

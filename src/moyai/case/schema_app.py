@@ -19,7 +19,7 @@ _PATHS = "keys joined by dots, entries of a list by number or name in brackets: 
 Path = Annotated[str, Field(min_length=1, max_length=200)]
 
 
-class App(Block):
+class AppKeys(Block):
     """What the page of `moyai app` shows of the case."""
 
     sliders: Annotated[tuple[Path, ...], Field(min_length=1, max_length=20), AfterValidator(once_each)] | None = Field(

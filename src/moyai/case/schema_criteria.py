@@ -40,7 +40,7 @@ def _known_code(name: str) -> str:
 CodeName = Annotated[str, Field(min_length=1, max_length=80), AfterValidator(_known_code)]
 
 
-class LineCode(Block):
+class LineCodeKeys(Block):
     """A design code of mooring lines with what it needs to know."""
 
     name: CodeName = Field(description="Name of the code in the tables.", examples=["DNV-OS-E301"])
@@ -75,7 +75,7 @@ class LineCriteria(Block):
         default=None, description="Breaking load over the largest tension, at least" + OFF + "."
     )
     code: Annotated[
-        Annotated[CodeName, Tag("<word>")] | Annotated[LineCode, Tag("<block>")], Discriminator(word_or_block)
+        Annotated[CodeName, Tag("<word>")] | Annotated[LineCodeKeys, Tag("<block>")], Discriminator(word_or_block)
     ] = Field(
         default="",
         description="Design code of the lines in place of a factor: its name, or a block.",

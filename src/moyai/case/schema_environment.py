@@ -34,7 +34,7 @@ from moyai.case.schema_types import (
 _WATER_LEVELS_EXAMPLE = {"HWL": "1.2 m", "LWL": "0 m"}
 
 
-class Site(Block):
+class SiteKeys(Block):
     """The water of the site."""
 
     water_depth: Depth = Field(description="Water depth at datum, or 'infinite'.")
@@ -107,7 +107,7 @@ class _SeaState(_FromBearing):
     name: Name | None = Field(default=None, description="Label of the sea state in results; made up when absent.")
 
 
-class RegularWaves(_SeaState):
+class RegularWavesKeys(_SeaState):
     """Regular waves of one height and one or more periods."""
 
     exactly_one: ClassVar[KeyGroups] = (*_FromBearing.exactly_one, ("period", "periods"))
@@ -127,10 +127,10 @@ class RegularWaves(_SeaState):
         return self.periods.values() if isinstance(self.periods, PeriodRange) else tuple(self.periods or ())
 
 
-class RegularWavesOfHeights(RegularWaves):
+class RegularWavesOfHeights(RegularWavesKeys):
     """Regular waves: every height with every period."""
 
-    exactly_one: ClassVar[KeyGroups] = (*RegularWaves.exactly_one, ("height", "heights"))
+    exactly_one: ClassVar[KeyGroups] = (*RegularWavesKeys.exactly_one, ("height", "heights"))
 
     height: PositiveLength | None = Field(default=None, description="Wave height H, crest to trough.")  # type: ignore[assignment]
     heights: Annotated[tuple[PositiveLength, ...], Field(min_length=1, max_length=1000), AfterValidator(once_each)] = (
@@ -154,13 +154,13 @@ STEEP_THEORY = (
 )
 
 
-class SteepRegularWaves(RegularWaves):
+class SteepRegularWaves(RegularWavesKeys):
     """Regular waves for structures whose loads know waves of finite height."""
 
     theory: SteepTheory = Field(default="automatic", description=STEEP_THEORY)  # type: ignore[assignment]
 
 
-class CosineTwoS(Block):
+class CosineTwoSKeys(Block):
     """cos^(2s) spreading, the same at every frequency."""
 
     kind: Literal["cosine_2s"] = Field(description="cos^(2s) of half the angle from the mean direction.")
@@ -176,21 +176,23 @@ class MitsuyasuSpreading(Block):
     )
 
 
-class CosinePower(Block):
+class CosinePowerKeys(Block):
     """cos^n spreading."""
 
     kind: Literal["cosine_power"] = Field(description="cos^n of the angle from the mean direction, zero beyond 90.")
     exponent: PositiveNumber = Field(description="Exponent n.")
 
 
-class WrappedNormal(Block):
+class WrappedNormalKeys(Block):
     """Normal distribution of directions."""
 
     kind: Literal["wrapped_normal"] = Field(description="Normal distribution around the mean direction.")
     standard_deviation_deg: SpreadAngle = Field(description="Standard deviation of the direction.")
 
 
-Spreading = Annotated[CosineTwoS | MitsuyasuSpreading | CosinePower | WrappedNormal, Field(discriminator="kind")]
+Spreading = Annotated[
+    CosineTwoSKeys | MitsuyasuSpreading | CosinePowerKeys | WrappedNormalKeys, Field(discriminator="kind")
+]
 
 
 class _Irregular(_SeaState):
@@ -252,7 +254,8 @@ class FileSpreading(Block):
 
 
 SpreadingOfFile = Annotated[
-    CosineTwoS | MitsuyasuSpreading | CosinePower | WrappedNormal | FileSpreading, Field(discriminator="kind")
+    CosineTwoSKeys | MitsuyasuSpreading | CosinePowerKeys | WrappedNormalKeys | FileSpreading,
+    Field(discriminator="kind"),
 ]
 
 
@@ -278,19 +281,19 @@ class SpectrumFile(_Irregular):
 
 
 SeaState = Annotated[
-    RegularWaves | Jonswap | PiersonMoskowitz | BretschneiderMitsuyasu | Tma | SpectrumFile,
+    RegularWavesKeys | Jonswap | PiersonMoskowitz | BretschneiderMitsuyasu | Tma | SpectrumFile,
     Field(discriminator="kind"),
 ]
 
 
-class Wind(_FromBearing):
+class WindKeys(_FromBearing):
     """Steady wind on the part above water."""
 
     speed: Speed = Field(description="Wind speed.")
     density: Density = Field(description="Density of the air, 1.225 kg/m3 at 15 degrees Celsius.")
 
 
-class PowerLaw(Block):
+class PowerLawKeys(Block):
     """Current that falls with depth by a power law."""
 
     power_law: PositiveNumber = Field(description="Exponent of ((z + h)/h)^exponent; 1/7 = 0.143 is common.")
@@ -322,18 +325,18 @@ def _profile_form(value: Any) -> str:
         return "<table>" if holds_key(value, "table") and not holds_key(value, "power_law") else "<power_law>"
     if isinstance(value, SpeedTable):
         return "<table>"
-    return "<power_law>" if isinstance(value, PowerLaw) else "<word>"
+    return "<power_law>" if isinstance(value, PowerLawKeys) else "<word>"
 
 
 Profile = Annotated[
     Annotated[Literal["uniform"], Tag("<word>")]
-    | Annotated[PowerLaw, Tag("<power_law>")]
+    | Annotated[PowerLawKeys, Tag("<power_law>")]
     | Annotated[SpeedTable, Tag("<table>")],
     Discriminator(_profile_form),
 ]
 
 
-class Current(Block):
+class SiteCurrentKeys(Block):
     """Steady current."""
 
     exactly_one: ClassVar[KeyGroups] = (("heading_deg", "from_bearing_deg", "to_bearing_deg"),)
@@ -347,7 +350,7 @@ class Current(Block):
     )
 
     @model_validator(mode="after")
-    def _speed_or_table(self) -> Current:
+    def _speed_or_table(self) -> SiteCurrentKeys:
         if isinstance(self.profile, SpeedTable):
             if self.speed is not None:
                 raise refuse("'speed' and a table of speeds exclude each other", remedy="keep one")

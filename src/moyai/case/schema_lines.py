@@ -102,7 +102,7 @@ class OwnSegment(Block):
     name: Name | None = Field(default=None, description="Name of the material in reports.")
 
 
-class Clump(Block):
+class ClumpKeys(Block):
     """A weight or buoy between two segments."""
 
     mass: AddedMass = Field(description="Mass in air.")
@@ -112,7 +112,7 @@ class Clump(Block):
 class ClumpEntry(Block):
     """A weight or buoy between two segments."""
 
-    clump: Clump = Field(description="Weight or buoy between the segments before and after it.")
+    clump: ClumpKeys = Field(description="Weight or buoy between the segments before and after it.")
 
 
 def _segment_form(value: Any) -> str:
@@ -172,7 +172,7 @@ class CatenaryLine(Block):
     )
 
 
-class SpringLine(Block):
+class SpringLineKeys(Block):
     """Identical linear springs between a fixed point and the body."""
 
     kind: Literal["spring"] = Field(description="Linear spring, as in laboratory moorings.")
@@ -187,9 +187,9 @@ class SpringLine(Block):
 def _line_form(value: Any) -> str:
     if isinstance(value, dict):
         return f"<{value.get('kind', 'catenary')}>"
-    return "<spring>" if isinstance(value, SpringLine) else "<catenary>"
+    return "<spring>" if isinstance(value, SpringLineKeys) else "<catenary>"
 
 
 LineEntry = Annotated[
-    Annotated[CatenaryLine, Tag("<catenary>")] | Annotated[SpringLine, Tag("<spring>")], Discriminator(_line_form)
+    Annotated[CatenaryLine, Tag("<catenary>")] | Annotated[SpringLineKeys, Tag("<spring>")], Discriminator(_line_form)
 ]

@@ -11,7 +11,7 @@ from moyai.case.schema_types import Block, FileName, Name, OneOrMany, Whole
 MEASURED = "Measured points to lay over figures of the report: one set, or a list of them."
 
 
-class MeasuredPoints(Block):
+class MeasuredPointsKeys(Block):
     """Measured points x, y over one figure of the report."""
 
     file: FileName = Field(
@@ -24,4 +24,4 @@ class MeasuredPoints(Block):
     label: Name | None = Field(default=None, description="Name in the legend; that of the file when absent.")
 
 
-MeasuredSets = Annotated[tuple[MeasuredPoints, ...], OneOrMany(), Field(max_length=100)]
+MeasuredSets = Annotated[tuple[MeasuredPointsKeys, ...], OneOrMany(), Field(max_length=100)]

@@ -25,7 +25,7 @@ from pydantic_core import PydanticCustomError, core_schema
 
 from moyai.core import quantities
 from moyai.core.errors import InputError
-from moyai.core.quantities import Kind, to_si
+from moyai.core.quantities import QuantityKind, to_si
 from moyai.tables.plausible_ranges import kind_bounds
 
 
@@ -40,7 +40,7 @@ class QuantityOf:
     """Annotation of a ``float`` field that takes a number or a text with a unit."""
 
     #: What is expected.
-    kind: Kind
+    kind: QuantityKind
     #: ``above``, ``least``, ``below``, ``most``: Open and closed limits, in the unit of plain numbers.
     above: float = -math.inf
     #: ``above``, ``least``, ``below``, ``most``: Open and closed limits, in the unit of plain numbers.

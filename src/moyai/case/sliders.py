@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from moyai.case.text_numbers import number_at
-from moyai.case.yaml_reader import Document
+from moyai.case.yaml_reader import CaseDocument
 from moyai.core.kinds import structure_kind, structure_kinds
 from moyai.language import said
 
@@ -51,7 +51,7 @@ COMMON = (*_CURRENT, *_SITE, *_SEAS)
 """Paths and names of the numbers that any structure may have."""
 
 
-def sliders_of(document: Document, kind: str, drawn: Any = None) -> list[dict[str, Any]]:
+def sliders_of(document: CaseDocument, kind: str, drawn: Any = None) -> list[dict[str, Any]]:
     """Return the sliders of a case: those that it names itself, else those that matter for its structure.
 
     Parameters

@@ -15,7 +15,7 @@ from typing import Any
 import yaml
 
 from moyai.case.paths import assign, remove, value_of
-from moyai.case.yaml_reader import Document, KeyPath, core_scalar, dotted, parse_yaml
+from moyai.case.yaml_reader import CaseDocument, KeyPath, core_scalar, dotted, parse_yaml
 from moyai.core.errors import CaseError, InputError
 
 _Loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
@@ -23,7 +23,7 @@ _IN_TEXT = "change it in the text"
 
 
 @dataclass(frozen=True)
-class Entry:
+class WrittenEntry:
     """A value as it is written, with its key."""
 
     #: Mapping or list that holds it.
@@ -35,7 +35,7 @@ class Entry:
     place: int
 
 
-def with_scalar(document: Document, path: KeyPath, words: str, *, as_text: bool = False) -> Document:
+def with_scalar(document: CaseDocument, path: KeyPath, words: str, *, as_text: bool = False) -> CaseDocument:
     """Return the document with another scalar at a path; quotes stay where there were some and still fit.
 
     Parameters
@@ -72,7 +72,7 @@ def with_scalar(document: Document, path: KeyPath, words: str, *, as_text: bool 
     return _first_that_reads(document, path, texts, wanted)
 
 
-def without_key(document: Document, path: KeyPath) -> Document:
+def without_key(document: CaseDocument, path: KeyPath) -> CaseDocument:
     """Return the document without a key or an entry and what stands below it.
 
     Raises
@@ -104,7 +104,7 @@ def without_key(document: Document, path: KeyPath) -> Document:
     return _first_that_reads(document, path, [text[:first] + text[following:]], wanted)
 
 
-def with_key(document: Document, path: KeyPath, value: Any, *, after: str = "") -> Document:
+def with_key(document: CaseDocument, path: KeyPath, value: Any, *, after: str = "") -> CaseDocument:
     """Return the document with a key that was absent, behind the last one of its block or behind another.
 
     Parameters
@@ -170,7 +170,7 @@ def _scalar_forms(value: Any, words: str) -> Iterator[str]:
         yield json.dumps(words, ensure_ascii=False)
 
 
-def _first_that_reads(document: Document, path: KeyPath, texts: list[str], wanted: Any) -> Document:
+def _first_that_reads(document: CaseDocument, path: KeyPath, texts: list[str], wanted: Any) -> CaseDocument:
     for text in texts:
         try:
             changed = parse_yaml(text, document.file)
@@ -198,26 +198,26 @@ def _is_there(data: Any, path: KeyPath) -> bool:
     return True
 
 
-def _node(document: Document, path: KeyPath) -> yaml.Node:
+def _node(document: CaseDocument, path: KeyPath) -> yaml.Node:
     return _entry(document, path).value if path else _root(document)
 
 
-def _root(document: Document) -> yaml.Node:
+def _root(document: CaseDocument) -> yaml.Node:
     node = yaml.compose(document.text, Loader=_Loader)
     assert node is not None  # the text was read before
     return node
 
 
-def _entry(document: Document, path: KeyPath) -> Entry:
+def _entry(document: CaseDocument, path: KeyPath) -> WrittenEntry:
     node, found = _root(document), None
     for step in path:
         found = None
         if isinstance(node, yaml.MappingNode):
             for place, (key, value) in enumerate(node.value):
                 if isinstance(key, yaml.ScalarNode) and key.value == step:
-                    found = Entry(node, key, value, place)
+                    found = WrittenEntry(node, key, value, place)
         elif isinstance(node, yaml.SequenceNode) and isinstance(step, int) and 0 <= step < len(node.value):
-            found = Entry(node, None, node.value[step], step)
+            found = WrittenEntry(node, None, node.value[step], step)
         if found is None:
             raise InputError("this is not written here", path=dotted(path), remedy=_IN_TEXT)
         node = found.value

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from moyai.case.paths import assign, resolve, value_of
-from moyai.case.yaml_reader import Document, core_scalar, parse_yaml
+from moyai.case.yaml_reader import CaseDocument, core_scalar, parse_yaml
 from moyai.core.errors import InputError
 
 _TOKEN = re.compile(
@@ -35,7 +35,7 @@ class Written:
     end: int
 
 
-def number_at(document: Document, path: str) -> Written | None:
+def number_at(document: CaseDocument, path: str) -> Written | None:
     """Return the number that stands at a path, ``None`` where there is none or it cannot be changed alone.
 
     Parameters
@@ -63,7 +63,7 @@ def number_at(document: Document, path: str) -> Written | None:
     return Written(float(found["number"]), (found["unit"] or "").strip(), *found.span("number"))
 
 
-def with_number(document: Document, path: str, number: str) -> Document:
+def with_number(document: CaseDocument, path: str, number: str) -> CaseDocument:
     """Return the document with another number at a path, in the unit as written.
 
     Parameters
@@ -91,7 +91,7 @@ def with_number(document: Document, path: str, number: str) -> Document:
     return changed
 
 
-def _assigned(document: Document, path: str, number: str, found: Written) -> Any:
+def _assigned(document: CaseDocument, path: str, number: str, found: Written) -> Any:
     data = copy.deepcopy(document.data)
     place = resolve(data, path)[0]
     old = value_of(data, place)

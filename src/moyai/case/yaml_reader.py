@@ -46,7 +46,7 @@ class Place:
 
 
 @dataclass(frozen=True)
-class Document:
+class CaseDocument:
     """A YAML file as plain data with places."""
 
     #: Mappings, lists, text, numbers, truth values, ``None``.
@@ -85,7 +85,7 @@ def dotted(path: KeyPath) -> str:
     return text
 
 
-def read_yaml(path: str | os.PathLike[str]) -> Document:
+def read_yaml(path: str | os.PathLike[str]) -> CaseDocument:
     """Read a YAML file.
 
     Parameters
@@ -95,7 +95,7 @@ def read_yaml(path: str | os.PathLike[str]) -> Document:
 
     Returns
     -------
-    Document
+    CaseDocument
 
     Raises
     ------
@@ -133,7 +133,7 @@ def _similar_file(file: str) -> str:
     return f"did you mean '{folder / close[0]}'?" if close else ""
 
 
-def parse_yaml(text: str, file: str = "<text>") -> Document:
+def parse_yaml(text: str, file: str = "<text>") -> CaseDocument:
     """Parse YAML text; see :func:`read_yaml`."""
     refuse_odd_characters(text, file)
     refuse_wide_signs(text, file)
@@ -171,7 +171,7 @@ class _Builder:
         self.values: dict[KeyPath, Place] = {}
         self.entries = 0
 
-    def document(self) -> Document:
+    def document(self) -> CaseDocument:
         root: _Recorded | None = None
         while self.loader.check_event():
             event = self.loader.get_event()
@@ -184,7 +184,7 @@ class _Builder:
         data = self._build(root, ())
         if self.faults:
             raise CaseError(self.faults)
-        return Document(data, self.text, self.file, self.keys, self.values)
+        return CaseDocument(data, self.text, self.file, self.keys, self.values)
 
     def _place(self, event: Any) -> Place:
         return Place(event.start_mark.line + 1, event.start_mark.column + 1)

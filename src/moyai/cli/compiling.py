@@ -98,7 +98,7 @@ def recorded_kernels(cases: Sequence[Path]) -> list[str]:
     found: dict[str, float] = {}
     running: list[list[float]] = []
 
-    class Clock(event.Listener):  # type: ignore[misc]
+    class CompileClock(event.Listener):  # type: ignore[misc]
         def on_start(self, event: Any) -> None:
             running.append([time.process_time(), 0.0])
 
@@ -114,7 +114,7 @@ def recorded_kernels(cases: Sequence[Path]) -> list[str]:
                     text = signature_text(event.data["args"])
                     found.setdefault(f"{function.__module__} {function.__name__} {text}", took - inner)
 
-    with event.install_listener("numba:compile", Clock()), TemporaryDirectory() as folder:
+    with event.install_listener("numba:compile", CompileClock()), TemporaryDirectory() as folder:
         for path in cases:
             compose_document(run(load_case(path), keep=Path(folder)))
     return [f"{seconds:.2f} {line}\n" for line, seconds in found.items()]

@@ -12,7 +12,7 @@ from moyai.core.errors import InputError
 from moyai.core.quantities import DENSITY, LENGTH, SPEED, TIME, parse_quantity, to_si
 from moyai.core.validity import Notice
 from moyai.design.model_needs import Need, model_need
-from moyai.design.model_numbers import ModelNumber, Motion, check_numbers, model_numbers
+from moyai.design.model_numbers import ModelNumber, WaterMotion, check_numbers, model_numbers
 from moyai.design.similarity import Scale, ScaledQuantity, scale_quantities
 from moyai.tables.waters import water_of_density
 
@@ -182,13 +182,13 @@ def _figures(items: tuple[str, ...]) -> dict[str, tuple[float, str]]:
     return found
 
 
-def _motion(request: Request) -> Motion | None:
+def _motion(request: Request) -> WaterMotion | None:
     if request.speed is None and request.across is None:
         return None
     if request.speed is None or request.across is None:
         missing = "speed" if request.speed is None else "across"
         raise InputError(f"'--{missing}' is missing", path=missing, remedy="Reynolds and Weber need speed and size")
-    return Motion(
+    return WaterMotion(
         to_si(_number_or_text(request.speed), SPEED, "speed"),
         to_si(_number_or_text(request.across), LENGTH, "across"),
         math.inf if request.period is None else to_si(_number_or_text(request.period), TIME, "period"),
@@ -197,7 +197,7 @@ def _motion(request: Request) -> Motion | None:
 
 
 def _judge(
-    scale: Scale, motions: dict[str, Motion], density: float, gravity: float
+    scale: Scale, motions: dict[str, WaterMotion], density: float, gravity: float
 ) -> tuple[dict[str, tuple[ModelNumber, ...]], tuple[Notice, ...], tuple[str, str]]:
     prototype, model = water_of_density(density), water_of_density(density / scale.density)
     numbers: dict[str, tuple[ModelNumber, ...]] = {}

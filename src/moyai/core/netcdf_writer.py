@@ -42,10 +42,10 @@ def write_tree(tree: xr.DataTree, path: Path) -> None:
     """
     # Creation order is part of the NetCDF 4 format; it also makes HDF5 guard the header of the root by a checksum
     with h5py.File(path, "w", track_order=True) as file:
-        _Writer(file).write(tree)
+        _NetcdfWriter(file).write(tree)
 
 
-class _Writer:
+class _NetcdfWriter:
     """The file, and the dimensions that it has so far."""
 
     def __init__(self, file: h5py.File) -> None:

@@ -23,7 +23,7 @@ _NOT_FINITE = re.compile(r"[+-]?\.?(?:inf(?:inity)?|nan)\b", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
-class Kind:
+class QuantityKind:
     """A kind of quantity: what is expected where."""
 
     #: With its article, as it stands in a message: ``a length``.
@@ -49,36 +49,36 @@ class Kind:
         return f"expected {self.name}, for instance '{self.example}' or a number in {self.plain}"
 
 
-LENGTH = Kind("a length", "m", "metres", "1.05 m")
-AREA = Kind("an area", "m2", "square metres", "30 m2")
-VOLUME = Kind("a volume", "m3", "cubic metres", "0.25 m3")
-MASS = Kind("a mass", "kg", "kilograms", "618.6 t")
-TIME = Kind("a time", "s", "seconds", "5 s")
-ANGLE = Kind("an angle", "rad", "radians", "12 deg", angle_matters=True)
-ANGLE_DEGREES = Kind("an angle", "deg", "degrees", "12 deg", angle_matters=True)
-ANGULAR_FREQUENCY = Kind("an angular frequency", "rad/s", "radians per second", "1.2 rad/s", angle_matters=True)
-FREQUENCY = Kind("a frequency", "Hz", "hertz", "0.2 Hz", angle_matters=True)
-ANGULAR_VELOCITY = Kind("an angular velocity", "rad/s", "radians per second", "3 deg/s", angle_matters=True)
-SPEED = Kind("a speed", "m/s", "metres per second", "0.3 m/s")
-ACCELERATION = Kind("an acceleration", "m/s2", "metres per second squared", "9.81 m/s2")
-DENSITY = Kind("a density", "kg/m3", "kilograms per cubic metre", "1025 kg/m3")
-VISCOSITY = Kind("a kinematic viscosity", "m2/s", "square metres per second", "1.14e-6 m2/s")
-FORCE = Kind("a force", "N", "newtons", "3.4 MN")
-MOMENT = Kind("a moment", "N m", "newton metres", "12 kN*m")
-FORCE_PER_LENGTH = Kind("a force per length", "N/m", "newtons per metre", "777 N/m")
-MASS_PER_LENGTH = Kind("a mass per length", "kg/m", "kilograms per metre", "79.2 kg/m")
-MASS_PER_AREA = Kind("a mass per area", "kg/m2", "kilograms per square metre", "0.98 kg/m2")
-STIFFNESS = Kind("a stiffness", "N/m", "newtons per metre", "30 N/m")
-ROTATIONAL_STIFFNESS = Kind("a rotational stiffness", "N m/rad", "newton metres per radian", "32 N m/rad")
-BENDING_STIFFNESS = Kind("a bending stiffness", "N m2", "newton metres squared", "1.2e5 N m2")
-PRESSURE = Kind("a pressure or modulus", "Pa", "pascals", "2.1 GPa")
-INERTIA = Kind("a moment of inertia", "kg m2", "kilogram metres squared", "4.41e3 t m2")
-DAMPING = Kind("a damping coefficient", "N s/m", "newton seconds per metre", "8.7 N s/m")
-ROTATIONAL_DAMPING = Kind("a rotational damping coefficient", "N m s", "newton metre seconds", "2.5 kN*m*s")
-ROTATIONAL_QUADRATIC_DAMPING = Kind(
+LENGTH = QuantityKind("a length", "m", "metres", "1.05 m")
+AREA = QuantityKind("an area", "m2", "square metres", "30 m2")
+VOLUME = QuantityKind("a volume", "m3", "cubic metres", "0.25 m3")
+MASS = QuantityKind("a mass", "kg", "kilograms", "618.6 t")
+TIME = QuantityKind("a time", "s", "seconds", "5 s")
+ANGLE = QuantityKind("an angle", "rad", "radians", "12 deg", angle_matters=True)
+ANGLE_DEGREES = QuantityKind("an angle", "deg", "degrees", "12 deg", angle_matters=True)
+ANGULAR_FREQUENCY = QuantityKind("an angular frequency", "rad/s", "radians per second", "1.2 rad/s", angle_matters=True)
+FREQUENCY = QuantityKind("a frequency", "Hz", "hertz", "0.2 Hz", angle_matters=True)
+ANGULAR_VELOCITY = QuantityKind("an angular velocity", "rad/s", "radians per second", "3 deg/s", angle_matters=True)
+SPEED = QuantityKind("a speed", "m/s", "metres per second", "0.3 m/s")
+ACCELERATION = QuantityKind("an acceleration", "m/s2", "metres per second squared", "9.81 m/s2")
+DENSITY = QuantityKind("a density", "kg/m3", "kilograms per cubic metre", "1025 kg/m3")
+VISCOSITY = QuantityKind("a kinematic viscosity", "m2/s", "square metres per second", "1.14e-6 m2/s")
+FORCE = QuantityKind("a force", "N", "newtons", "3.4 MN")
+MOMENT = QuantityKind("a moment", "N m", "newton metres", "12 kN*m")
+FORCE_PER_LENGTH = QuantityKind("a force per length", "N/m", "newtons per metre", "777 N/m")
+MASS_PER_LENGTH = QuantityKind("a mass per length", "kg/m", "kilograms per metre", "79.2 kg/m")
+MASS_PER_AREA = QuantityKind("a mass per area", "kg/m2", "kilograms per square metre", "0.98 kg/m2")
+STIFFNESS = QuantityKind("a stiffness", "N/m", "newtons per metre", "30 N/m")
+ROTATIONAL_STIFFNESS = QuantityKind("a rotational stiffness", "N m/rad", "newton metres per radian", "32 N m/rad")
+BENDING_STIFFNESS = QuantityKind("a bending stiffness", "N m2", "newton metres squared", "1.2e5 N m2")
+PRESSURE = QuantityKind("a pressure or modulus", "Pa", "pascals", "2.1 GPa")
+INERTIA = QuantityKind("a moment of inertia", "kg m2", "kilogram metres squared", "4.41e3 t m2")
+DAMPING = QuantityKind("a damping coefficient", "N s/m", "newton seconds per metre", "8.7 N s/m")
+ROTATIONAL_DAMPING = QuantityKind("a rotational damping coefficient", "N m s", "newton metre seconds", "2.5 kN*m*s")
+ROTATIONAL_QUADRATIC_DAMPING = QuantityKind(
     "a quadratic rotational damping coefficient", "N m s2", "newton metre seconds squared", "40 kN m s2"
 )
-NUMBER = Kind("a number", "", "", "0.15")
+NUMBER = QuantityKind("a number", "", "", "0.15")
 
 
 @dataclass(frozen=True)
@@ -156,7 +156,7 @@ def exact_number(text: str, shown: str = "") -> Fraction:
     return Fraction(Decimal(text))
 
 
-def to_si(value: Any, kind: Kind, path: str = "") -> float:
+def to_si(value: Any, kind: QuantityKind, path: str = "") -> float:
     """Return ``value`` in the unit of ``kind``, SI unless the kind is in degrees.
 
     Parameters
@@ -216,7 +216,7 @@ def from_si(value: float, unit: str) -> float:
     return parse_unit(unit).from_si(value)
 
 
-def _finite(value: float, kind: Kind, path: str) -> float:
+def _finite(value: float, kind: QuantityKind, path: str) -> float:
     try:
         number = float(value)
     except OverflowError:
@@ -226,7 +226,7 @@ def _finite(value: float, kind: Kind, path: str) -> float:
     return number
 
 
-def _case_slip(symbol: str, kind: Kind) -> str:
+def _case_slip(symbol: str, kind: QuantityKind) -> str:
     """Return a remedy where a rate lacks its angle, or where a unit fits in another case of letters (3 kn for 3 kN)."""
     if kind in (FREQUENCY, ANGULAR_FREQUENCY) and parse_unit(symbol).dimension == Dimension(time=-1):
         return "say which rate is meant: 'Hz' (cycles per second) or 'rad/s'"

@@ -137,11 +137,11 @@ def find_rest(
                 f"body {name!r} is planar: its rest is known", parameter=f"bodies.{name}", allowed="rigid bodies"
             )
     calm = Flow() if flow is None else Flow(flow.velocity, flow.current)
-    search = _Search(network, {name: body for name, body in bodies.items() if isinstance(body, RigidBody)}, calm)
+    search = _NewtonSearch(network, {name: body for name, body in bodies.items() if isinstance(body, RigidBody)}, calm)
     return search.run(tolerance)
 
 
-class _Search:
+class _NewtonSearch:
     """Newton's method with a line search; sizes and signs in one place."""
 
     def __init__(self, network: Network, bodies: dict[str, RigidBody], calm: Flow) -> None:

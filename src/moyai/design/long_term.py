@@ -16,7 +16,7 @@ from scipy.special import ndtr, ndtri
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
-from moyai.series.extremes import Fit, fit
+from moyai.series.extremes import ExtremeFit, fit
 
 YEAR = 365.25 * 86400.0
 """Seconds of a year."""
@@ -129,7 +129,7 @@ class JointSea:
     """
 
     #: Weibull of the significant height [m].
-    height: Fit
+    height: ExtremeFit
     #: ``a0 + a1 h^a2``, mean of the logarithm of the period.
     mean_log: tuple[float, float, float]
     #: ``b0 + b1 exp(b2 h)``, standard deviation of the logarithm of the period.

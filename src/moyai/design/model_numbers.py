@@ -12,7 +12,7 @@ from moyai.tables.waters import WaterProperties
 
 
 @dataclass(frozen=True)
-class Motion:
+class WaterMotion:
     """How water passes the member whose loads matter, in the prototype."""
 
     #: Largest speed of the water past it [m/s].
@@ -49,7 +49,7 @@ class ModelNumber:
 
 
 def model_numbers(
-    scale: Scale, motion: Motion, *, gravity: float, prototype: WaterProperties, model: WaterProperties
+    scale: Scale, motion: WaterMotion, *, gravity: float, prototype: WaterProperties, model: WaterProperties
 ) -> tuple[ModelNumber, ...]:
     """Return the numbers of both sizes, the kept ones first [eq:similarity-numbers].
 
@@ -136,7 +136,7 @@ def model_numbers(
 
 def check_numbers(
     scale: Scale,
-    motion: Motion,
+    motion: WaterMotion,
     numbers: tuple[ModelNumber, ...],
     *,
     gravity: float,

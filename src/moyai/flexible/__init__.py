@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from moyai.flexible.ensemble import simulate_together as simulate_together
     from moyai.flexible.flow import Current as Current
     from moyai.flexible.flow import Flow as Flow
-    from moyai.flexible.modes import Modes as Modes
+    from moyai.flexible.modes import NetworkModes as NetworkModes
     from moyai.flexible.modes import natural_modes as natural_modes
     from moyai.flexible.motion import Motion as Motion
     from moyai.flexible.network import BarType as BarType
@@ -31,7 +31,7 @@ else:
             "build": "NetworkBuilder",
             "ensemble": "Ensemble Member simulate_together",
             "flow": "Current Flow",
-            "modes": "Modes natural_modes",
+            "modes": "NetworkModes natural_modes",
             "motion": "Motion",
             "network": "BarType Bed Network",
             "refine": "refined",

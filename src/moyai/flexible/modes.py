@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Modes:
+class NetworkModes:
     """Undamped modes about a state."""
 
     #: Angular frequencies, rising [rad/s]; 0 where the network may move freely or the state is not stable; shape (k,).
@@ -32,7 +32,7 @@ class Modes:
     shape: Array
 
 
-def natural_modes(network: Network, state: State, *, count: int = 6, flow: Flow | None = None) -> Modes:
+def natural_modes(network: Network, state: State, *, count: int = 6, flow: Flow | None = None) -> NetworkModes:
     """Solve K q = omega^2 M q with the tangent stiffness at a state, added mass included [eq:flexible-morison].
 
     Parameters
@@ -48,7 +48,7 @@ def natural_modes(network: Network, state: State, *, count: int = 6, flow: Flow 
 
     Returns
     -------
-    Modes
+    NetworkModes
         Angular frequencies [rad/s], rising, shape (k,), and shapes (k, nodes, 3) in site axes, largest component 1.
 
     Raises
@@ -87,7 +87,7 @@ def natural_modes(network: Network, state: State, *, count: int = 6, flow: Flow 
     largest = np.take_along_axis(
         ordered.reshape(values.size, -1), np.abs(ordered.reshape(values.size, -1)).argmax(axis=1)[:, None], axis=1
     )
-    return Modes(np.sqrt(np.maximum(values, 0.0)), ordered / largest[:, :, None])
+    return NetworkModes(np.sqrt(np.maximum(values, 0.0)), ordered / largest[:, :, None])
 
 
 def tangent_matrices(network: Network, place: Array, water: Array) -> tuple[csr_array, csr_array]:

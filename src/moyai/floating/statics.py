@@ -187,7 +187,7 @@ def inertia_matrix(
 
 
 @dataclass(frozen=True)
-class Equilibrium:
+class FloatingEquilibrium:
     """A position at rest: draught and heel of the hull, and what is left of the balance."""
 
     #: Depth of the origin of the body frame [m].
@@ -224,7 +224,7 @@ def find_equilibrium(
     free: tuple[bool, bool, bool] | None = None,
     tolerance: float = 1e-11,
     maximum_iterations: int = 80,
-) -> Equilibrium:
+) -> FloatingEquilibrium:
     """Find draught, heel and (with lines) offset where weight, buoyancy and lines balance [eq:floating-equilibrium].
 
     Parameters
@@ -250,7 +250,7 @@ def find_equilibrium(
 
     Returns
     -------
-    Equilibrium
+    FloatingEquilibrium
         Draught [m], heel [rad], offset [m], the immersed section and what is left of the balance.
 
     Raises
@@ -345,7 +345,7 @@ def find_equilibrium(
             remedy="compare the mass with the full displacement, and the centre of gravity with the metacentre",
         )
     offset, draught, heel = (float(item) for item in state)
-    return Equilibrium(
+    return FloatingEquilibrium(
         draught=draught,
         heel=heel,
         offset=offset,

@@ -24,7 +24,7 @@ PLATE_POINTS = 8
 
 
 @dataclass(frozen=True)
-class Face:
+class EdgeFace:
     """A face next to an edge, as far as it belongs to that edge."""
 
     #: End of it away from the edge (x, z) [m].
@@ -42,9 +42,9 @@ class CornerEdge:
     #: (x, z) [m], for a round bilge where the faces would meet.
     point: tuple[float, float]
     #: The faces on both sides.
-    before: Face
+    before: EdgeFace
     #: The faces on both sides.
-    after: Face
+    after: EdgeFace
     #: C_p, rounding and angle included; the same at every KC for a right angle [eq:viscous-exponent].
     pressure: float
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.validity import Notice
-from moyai.floating.viscous import CornerEdge, Face, PlateEdge, rounding_factor
+from moyai.floating.viscous import CornerEdge, EdgeFace, PlateEdge, rounding_factor
 from moyai.potential.edges import Edges
 from moyai.potential.sections import Chain, Section
 from moyai.tables.edge_damping import EdgeDampingNumbers, edge_damping_numbers
@@ -216,15 +216,15 @@ def _corner(before: _Break, here: _Break, after: _Break, numbers: EdgeDampingNum
     return CornerEdge((float(here.point[0]), float(here.point[1])), faces[0], faces[1], pressure)
 
 
-def _face(other: _Break, here: _Break, arrives: bool) -> Face:
+def _face(other: _Break, here: _Break, arrives: bool) -> EdgeFace:
     """Return the part of the face from ``other`` that belongs to the corner ``here``: half where both are corners."""
     far = 0.5 * (other.point + here.point) if other.kind == "corner" else other.point
     along = (here.point - far) if arrives else (far - here.point)
     length = float(np.hypot(*along))
     if length == 0.0:
-        return Face((float(far[0]), float(far[1])), 0.0, (0.0, 0.0))
+        return EdgeFace((float(far[0]), float(far[1])), 0.0, (0.0, 0.0))
     # The water lies on the right of the outline
-    return Face((float(far[0]), float(far[1])), length, (float(along[1]) / length, -float(along[0]) / length))
+    return EdgeFace((float(far[0]), float(far[1])), length, (float(along[1]) / length, -float(along[0]) / length))
 
 
 def _plate(root: Array, tip: Array, numbers: EdgeDampingNumbers) -> PlateEdge:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from moyai.core.options import checks_words
-from moyai.interop.moordyn_rows import Faults, Row
+from moyai.interop.moordyn_rows import DeckRow, Faults
 from moyai.interop.textfiles import parse_number
 
 Triple = tuple[float, float, float]
@@ -122,7 +122,9 @@ class DeckRod:
     line: int = field(default=0, compare=False)
 
 
-def _several(row: Row, key: str, sizes: tuple[int, ...], faults: Faults, *, least: float | None = None) -> list[float]:
+def _several(
+    row: DeckRow, key: str, sizes: tuple[int, ...], faults: Faults, *, least: float | None = None
+) -> list[float]:
     """Return the numbers of an entry that may hold several, parted by |."""
     text = row.cells.get(key, "0")
     values = [parse_number(part) for part in text.split("|")]
@@ -151,7 +153,7 @@ def unnumbered(word: str) -> str:
     return re.sub(r"(?<=[a-z])\d+$", "", word.lower())
 
 
-def read_rod_types(rows: list[Row], faults: Faults) -> tuple[DeckRodType, ...]:
+def read_rod_types(rows: list[DeckRow], faults: Faults) -> tuple[DeckRodType, ...]:
     """Return the rows of ROD TYPES."""
     found: list[DeckRodType] = []
     for row in rows:
@@ -173,7 +175,7 @@ def read_rod_types(rows: list[Row], faults: Faults) -> tuple[DeckRodType, ...]:
     return tuple(found)
 
 
-def read_bodies(rows: list[Row], faults: Faults) -> tuple[DeckBody, ...]:
+def read_bodies(rows: list[DeckRow], faults: Faults) -> tuple[DeckBody, ...]:
     """Return the rows of BODIES."""
     found: list[DeckBody] = []
     for row in rows:
@@ -201,7 +203,7 @@ def read_bodies(rows: list[Row], faults: Faults) -> tuple[DeckBody, ...]:
 
 
 def read_rods(
-    rows: list[Row], kinds: tuple[DeckRodType, ...], bodies: tuple[DeckBody, ...], faults: Faults, notes: list[str]
+    rows: list[DeckRow], kinds: tuple[DeckRodType, ...], bodies: tuple[DeckBody, ...], faults: Faults, notes: list[str]
 ) -> tuple[DeckRod, ...]:
     """Return the rows of RODS."""
     found: list[DeckRod] = []

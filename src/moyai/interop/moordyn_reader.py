@@ -34,7 +34,7 @@ from moyai.interop.moordyn_bodies import (
 from moyai.interop.moordyn_currents import FIELD_FILES, read_current_field
 from moyai.interop.moordyn_deck import DeckLine, DeckLineType, DeckPoint, MoorDynDeck
 from moyai.interop.moordyn_records import CURRENT_FILE, DeckCurrentField, DeckFailure, DeckOption
-from moyai.interop.moordyn_rows import Faults, Row, file_of, read_current, read_seafloor, read_stiffness
+from moyai.interop.moordyn_rows import DeckRow, Faults, file_of, read_current, read_seafloor, read_stiffness
 from moyai.interop.moordyn_syrope import read_syrope, with_history
 from moyai.interop.moordyn_waterkin import read_waterkin
 from moyai.interop.moordyn_waves import read_waves
@@ -172,7 +172,7 @@ def _table(
     columns: Mapping[str, str],
     faults: Faults,
     notes: list[str],
-) -> tuple[list[str], list[Row]]:
+) -> tuple[list[str], list[DeckRow]]:
     """Return the columns and the rows of a section: names, units, then rows."""
     if section not in sections:
         if section not in ("line types", "points", "lines") or "rods" in sections or "bodies" in sections:
@@ -213,11 +213,11 @@ def _table(
         if not fewest <= len(cells) <= len(names):
             faults.add(number, f"{len(cells)} columns", f"{len(names)}: {' '.join(_tokens(head[1]))}", path=section)
             continue
-        rows.append(Row(number, dict(zip(names, cells, strict=False))))
+        rows.append(DeckRow(number, dict(zip(names, cells, strict=False))))
     return names, rows
 
 
-def _line_types(names: list[str], rows: list[Row], folder: Path, faults: Faults) -> tuple[DeckLineType, ...]:
+def _line_types(names: list[str], rows: list[DeckRow], folder: Path, faults: Faults) -> tuple[DeckLineType, ...]:
     found: list[DeckLineType] = []
     for row in rows:
         # without lift, range and centre of its frequencies have no meaning
@@ -280,7 +280,7 @@ def _with_slow_damping(
     return tuple(found)
 
 
-def _points(rows: list[Row], bodies: tuple[DeckBody, ...], faults: Faults) -> tuple[DeckPoint, ...]:
+def _points(rows: list[DeckRow], bodies: tuple[DeckBody, ...], faults: Faults) -> tuple[DeckPoint, ...]:
     found: list[DeckPoint] = []
     known = [body.number for body in bodies]
     for row in rows:
@@ -315,7 +315,7 @@ def _points(rows: list[Row], bodies: tuple[DeckBody, ...], faults: Faults) -> tu
 
 
 def _lines(
-    rows: list[Row],
+    rows: list[DeckRow],
     kinds: tuple[DeckLineType, ...],
     points: tuple[DeckPoint, ...],
     rods: tuple[DeckRod, ...],
@@ -356,7 +356,7 @@ def _lines(
     return tuple(found)
 
 
-def _failures(rows: list[Row], lines: tuple[DeckLine, ...], faults: Faults) -> tuple[DeckFailure, ...]:
+def _failures(rows: list[DeckRow], lines: tuple[DeckLine, ...], faults: Faults) -> tuple[DeckFailure, ...]:
     """Return the rows of FAILURE; one line a row, which hangs on the point that it names."""
     found: list[DeckFailure] = []
     for row in rows:

@@ -21,7 +21,7 @@ from moyai.interop.textfiles import parse_number, read_lines
 
 
 @dataclass(frozen=True)
-class Row:
+class DeckRow:
     """Entries of a row of a deck by column, and its line."""
 
     #: Line of the file.
@@ -41,7 +41,7 @@ class Faults:
         """Note a fault of a line."""
         self.found.append(Fault(message, path, allowed, remedy, self.file, line, 1 if line else 0))
 
-    def number(self, row: Row, key: str, *, least: float = -math.inf, above: float = -math.inf) -> float:
+    def number(self, row: DeckRow, key: str, *, least: float = -math.inf, above: float = -math.inf) -> float:
         """Return an entry as a number; NaN with a fault when it is none or out of range."""
         text = row.cells.get(key, "0")
         value = parse_number(text)
@@ -55,7 +55,7 @@ class Faults:
             return math.nan
         return value
 
-    def whole(self, row: Row, key: str) -> int:
+    def whole(self, row: DeckRow, key: str) -> int:
         """Return an entry as a whole number above 0; 0 with a fault when it is none."""
         value = parse_number(row.cells.get(key, ""))
         if value is None or value != int(value) or value < 1.0:
@@ -64,7 +64,7 @@ class Faults:
         return int(value)
 
 
-def read_stiffness(row: Row, folder: Path, faults: Faults) -> tuple[float | StiffnessTable, DeckSlowStretch | None]:
+def read_stiffness(row: DeckRow, folder: Path, faults: Faults) -> tuple[float | StiffnessTable, DeckSlowStretch | None]:
     """Return EA [N] of a row or the table of its file, and the slow stretch of a viscoelastic rope."""
     text = row.cells.get("stiffness", "")
     if parse_number(text) is not None:
@@ -74,7 +74,7 @@ def read_stiffness(row: Row, folder: Path, faults: Faults) -> tuple[float | Stif
     return _stiffness_table(row, text, folder, faults), None
 
 
-def _viscoelastic(row: Row, text: str, faults: Faults) -> tuple[float, DeckSlowStretch | None]:
+def _viscoelastic(row: DeckRow, text: str, faults: Faults) -> tuple[float, DeckSlowStretch | None]:
     """Return the dynamic stiffness and the rest of EA_s|EA_d or EA_s|EA_Dc|EA_D_Lm with BA_s|BA_d."""
     stiffness = [parse_number(part) for part in text.split("|")]
     damping = [parse_number(part) for part in row.cells.get("damping", "").split("|")]
@@ -95,7 +95,7 @@ def _viscoelastic(row: Row, text: str, faults: Faults) -> tuple[float, DeckSlowS
     return numbers[1], slow
 
 
-def _stiffness_table(row: Row, text: str, folder: Path, faults: Faults) -> float | StiffnessTable:
+def _stiffness_table(row: DeckRow, text: str, folder: Path, faults: Faults) -> float | StiffnessTable:
     place = folder / text
     if not place.is_file():
         faults.add(row.line, f"stiffness is {text!r}, neither a number nor a file next to the deck", path="stiffness")

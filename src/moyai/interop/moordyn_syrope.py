@@ -20,7 +20,7 @@ from moyai.core.options import checks_words
 from moyai.flexible.worn_law import Form, WornRope
 from moyai.interop.moordyn_deck import DeckLine, DeckLineType
 from moyai.interop.moordyn_records import DeckSyrope, StiffnessTable
-from moyai.interop.moordyn_rows import Faults, Row
+from moyai.interop.moordyn_rows import DeckRow, Faults
 from moyai.interop.textfiles import parse_number, read_lines
 
 DeckForm = Literal["LINEAR", "QUADRATIC", "EXP"]
@@ -76,7 +76,7 @@ def law_of(original: StiffnessTable, syrope: DeckSyrope) -> WornRope:
     )  # fmt: skip
 
 
-def read_syrope(row: Row, folder: Path, faults: Faults) -> tuple[float | StiffnessTable, DeckSyrope | None]:
+def read_syrope(row: DeckRow, folder: Path, faults: Faults) -> tuple[float | StiffnessTable, DeckSyrope | None]:
     """Return the original curve and the rest of ``SYROPE:file|alpha|beta`` with BA_s|BA_d."""
     text = row.cells.get("stiffness", "")
     name, *numbers = text.split(":", 1)[-1].strip('"').split("|")
@@ -130,7 +130,7 @@ def _table(settings: Path, name: str) -> StiffnessTable:
 
 
 def with_history(
-    kinds: tuple[DeckLineType, ...], lines: tuple[DeckLine, ...], rows: Sequence[Row], faults: Faults
+    kinds: tuple[DeckLineType, ...], lines: tuple[DeckLine, ...], rows: Sequence[DeckRow], faults: Faults
 ) -> tuple[tuple[DeckLineType, ...], tuple[DeckLine, ...]]:
     """Return line types and lines with the curves of what each line has borne, by the rows of SYROPE IC.
 

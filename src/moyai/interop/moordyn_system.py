@@ -79,7 +79,7 @@ def to_system(deck: MoorDynDeck, *, water: Water | None = None, segments: int | 
         No depth, bodies without mass or inertia, and what the network refuses.
     """
     site = water or water_of(deck)
-    return _Builder(deck, site).run(segments)
+    return _SystemBuilder(deck, site).run(segments)
 
 
 @dataclass(frozen=True, eq=False)
@@ -242,7 +242,7 @@ def end_name(deck: MoorDynDeck, end: int | str) -> str:
     return rod_name(rod.number, end[-1] if rod.segments else "")
 
 
-class _Builder:
+class _SystemBuilder:
     """Collects points and bodies of one deck."""
 
     def __init__(self, deck: MoorDynDeck, site: Water) -> None:

@@ -47,13 +47,13 @@ class _Surroundings:
     gravity: float | None = None
     length_scale: float | None = None
     water_depth: float | None = None
-    bodies: tuple[_Body, ...] = ()
+    bodies: tuple[_WamitBody, ...] = ()
     first_column: FirstColumn | None = None
     hams: bool = False
 
 
 @dataclass(frozen=True)
-class _Body:
+class _WamitBody:
     """Name of the .gdf file, origin of the body axes [m] and their angle about the vertical [rad]."""
 
     name: str
@@ -358,7 +358,7 @@ def _read_drift(
 
 def _read_surroundings(path: Path) -> _Surroundings:
     gravity = length_scale = water_depth = None
-    bodies: tuple[_Body, ...] = ()
+    bodies: tuple[_WamitBody, ...] = ()
     column: FirstColumn | None = None
     potential = find_companion(path, ".pot")
     if potential is not None:
@@ -397,7 +397,7 @@ def _read_surroundings(path: Path) -> _Surroundings:
     return _Surroundings(gravity, length_scale, water_depth, bodies, column, hams)
 
 
-def _read_potential_control(path: Path) -> tuple[float | None, tuple[_Body, ...]]:
+def _read_potential_control(path: Path) -> tuple[float | None, tuple[_WamitBody, ...]]:
     """Return depth and bodies of a .pot file in WAMIT's alternative form 2 (one number, HBOT, on its second line)."""
     lines = read_lines(path)
     if len(lines) < 2 or len(leading_numbers(lines[1])) != 1:
@@ -411,5 +411,5 @@ def _read_potential_control(path: Path) -> tuple[float | None, tuple[_Body, ...]
         numbers = leading_numbers(following)
         if word.lower().endswith(".gdf") and len(numbers) >= 4:
             stem = word.replace("\\", "/").split("/")[-1][:-4]
-            bodies.append(_Body(stem, (numbers[0], numbers[1], numbers[2]), math.radians(numbers[3])))
+            bodies.append(_WamitBody(stem, (numbers[0], numbers[1], numbers[2]), math.radians(numbers[3])))
     return water_depth, tuple(bodies)

@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from moyai.mooring.lines import SpringLine as SpringLine
     from moyai.mooring.shape import LineShape as LineShape
     from moyai.mooring.shape import line_shape as line_shape
-    from moyai.mooring.system import Equilibrium as Equilibrium
     from moyai.mooring.system import LineSystem as LineSystem
+    from moyai.mooring.system import MooringEquilibrium as MooringEquilibrium
     from moyai.mooring.system import RestoringCurve as RestoringCurve
 else:
     __getattr__, __dir__, __all__ = exports(
@@ -30,6 +30,6 @@ else:
             "catenary": "CatenarySolution solve_catenary",
             "lines": "Clump Line LineState LineType Segment SpringLine",
             "shape": "LineShape line_shape",
-            "system": "Equilibrium LineSystem RestoringCurve",
+            "system": "MooringEquilibrium LineSystem RestoringCurve",
         },
     )

@@ -15,8 +15,8 @@ from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.mooring.lines import LineState
 from moyai.mooring.system import (
-    Equilibrium,
     LineSystem,
+    MooringEquilibrium,
     RestoringCurve,
     direction_vector,
     newton_with_line_search,
@@ -75,7 +75,7 @@ class PlanarLineSystem:
         start: ArrayLike = (0.0, 0.0, 0.0),
         subtract_rest_force: bool = False,
         tolerance: float = 1e-10,
-    ) -> Equilibrium:
+    ) -> MooringEquilibrium:
         """Find where line force + load - hydrostatic stiffness x position vanishes; see :meth:`LineSystem.equilibrium`.
 
         Raises
@@ -106,7 +106,7 @@ class PlanarLineSystem:
             [0, 1, 2],
             tolerance,
         )
-        return Equilibrium(
+        return MooringEquilibrium(
             position, planar_force(position), self.tensions(position), planar_stiffness(position), residual, steps
         )
 

@@ -43,7 +43,7 @@ class RestoringCurve:
 
 
 @dataclass(frozen=True)
-class Equilibrium:
+class MooringEquilibrium:
     """A body at rest under its lines, an external load and linear hydrostatics."""
 
     #: Position found; shape (d,).
@@ -162,7 +162,7 @@ class LineSystem:
         subtract_rest_force: bool = False,
         free: Sequence[int] = range(6),
         tolerance: float = 1e-10,
-    ) -> Equilibrium:
+    ) -> MooringEquilibrium:
         """Find where line force + load - hydrostatic stiffness x position vanishes.
 
         Parameters
@@ -207,7 +207,7 @@ class LineSystem:
             imbalance, jacobian, first, self._load_scale(first, load), list(free), tolerance
         )
         force, stiffness = evaluate(position)
-        return Equilibrium(position, force, self.tensions(position), stiffness, residual, steps)
+        return MooringEquilibrium(position, force, self.tensions(position), stiffness, residual, steps)
 
     def evaluator(self) -> Callable[[Array], tuple[Array, Array]]:
         """Return a function of one position (6,) giving force (6,) and stiffness (6, 6) together; it keeps the last."""

@@ -31,7 +31,7 @@ class FlowSample:
     acceleration: Array
 
 
-class Flow(Protocol):
+class PointFlow(Protocol):
     """Waves that can be asked for their motion at fixed points."""
 
     def sample(self, time: Array, points: Array) -> FlowSample:

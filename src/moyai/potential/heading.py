@@ -14,7 +14,7 @@ from moyai.core.progress import Progress
 from moyai.potential.mesh import Layout
 from moyai.potential.modes import Modes
 from moyai.potential.panels import GAP, PLATE, Panels
-from moyai.potential.system import Block
+from moyai.potential.system import SymmetryBlock
 from moyai.potential.waves import depth_integral, far_field, incident_wave
 from moyai.sea.water import Water
 
@@ -154,7 +154,9 @@ def _whole(parts: dict[int, ComplexArray]) -> ComplexArray:
     return np.concatenate([left[:, ::-1], right], axis=1)
 
 
-def solve_states(problem: Problem, blocks: Sequence[Block], states: WaveStates, heading: float) -> HeadingSolution:
+def solve_states(
+    problem: Problem, blocks: Sequence[SymmetryBlock], states: WaveStates, heading: float
+) -> HeadingSolution:
     """Solve radiation of all modes and diffraction at frequencies that share the same blocks."""
     water, body, surface = problem.water, problem.body, problem.surface
     count = len(problem.displacement)
@@ -239,7 +241,7 @@ def solve_states(problem: Problem, blocks: Sequence[Block], states: WaveStates, 
 
 
 def solve_in_chunks(
-    prepare: Callable[[int], tuple[Problem, Sequence[Block]]],
+    prepare: Callable[[int], tuple[Problem, Sequence[SymmetryBlock]]],
     states: WaveStates,
     heading: float,
     chunk: int,

@@ -72,7 +72,7 @@ class Resolution:
 
 
 @dataclass(frozen=True, eq=False)
-class Run:
+class EdgeRun:
     """Edges one after the other, fluid on their right, with the places where the potential is singular."""
 
     #: The edges.
@@ -88,7 +88,7 @@ class Run:
     tips: tuple[bool, bool] = (False, False)
 
 
-def all_runs(section: Section, depth: float, axis: float | None) -> list[Run]:
+def all_runs(section: Section, depth: float, axis: float | None) -> list[EdgeRun]:
     """Return wetted boundary and plates as runs; only the part right of ``axis`` when it is given."""
     runs = body_runs(section, axis)
     joints = [
@@ -105,7 +105,7 @@ def all_runs(section: Section, depth: float, axis: float | None) -> list[Run]:
         ends = plate.edges.start[0, 1], plate.edges.end[-1, 1]
         # An edge on the bed is not free: the jump of the potential goes on in the mirror image
         tips = [not joined and z + depth > 1e-6 * -z for joined, z in zip(plate.joined, ends)]
-        runs.append(Run(plate.edges, corner, plate.body, PLATE, (tips[0], tips[1])))
+        runs.append(EdgeRun(plate.edges, corner, plate.body, PLATE, (tips[0], tips[1])))
     return runs
 
 
@@ -116,12 +116,12 @@ def _at_points(edges: Edges, points: Sequence[complex]) -> NDArray[np.bool_]:
     return np.asarray(near.any(axis=1))
 
 
-def body_runs(section: Section, axis: float | None) -> list[Run]:
+def body_runs(section: Section, axis: float | None) -> list[EdgeRun]:
     """Return the wetted boundary as runs; only the part right of ``axis`` when it is given."""
     if axis is None:
-        return [Run(chain.edges, _corners(chain.edges, chain.closed), chain.body) for chain in section.chains]
+        return [EdgeRun(chain.edges, _corners(chain.edges, chain.closed), chain.body) for chain in section.chains]
     size = max(section.bounds[1] - section.bounds[0], -section.bottom)
-    runs: list[Run] = []
+    runs: list[EdgeRun] = []
     for chain in section.chains:
         half = chain.edges.right_of(axis, 1e-9 * size)
         if len(half):
@@ -129,12 +129,12 @@ def body_runs(section: Section, axis: float | None) -> list[Run]:
     return runs
 
 
-def _half_runs(half: Edges, axis: float, chain: Chain, tolerance: float) -> list[Run]:
+def _half_runs(half: Edges, axis: float, chain: Chain, tolerance: float) -> list[EdgeRun]:
     """Split the right half of a chain where it is interrupted; on the axis only a kink is a corner."""
     start, end = as_complex(half.start), as_complex(half.end)
     broken = np.abs(np.roll(start, -1) - end) > tolerance
     if not broken.any():
-        return [Run(half, _corners(half, True), chain.body)]
+        return [EdgeRun(half, _corners(half, True), chain.body)]
     order = np.roll(np.arange(len(half)), -int(np.flatnonzero(broken)[0]) - 1)
     half, limits = half.taken(order), np.flatnonzero(broken[order]) + 1
     runs = []
@@ -146,7 +146,7 @@ def _half_runs(half: Edges, axis: float, chain: Chain, tolerance: float) -> list
             corner[0] = not level[0, 0]
         if abs(edges.end[-1, 0] - axis) < tolerance:
             corner[-1] = not level[-1, 1]
-        runs.append(Run(edges, corner, chain.body))
+        runs.append(EdgeRun(edges, corner, chain.body))
     return runs
 
 
@@ -168,7 +168,7 @@ class Surroundings:
     """What lies around a point: bed, still water, other edges and their mirror images; and how short the waves are."""
 
     def __init__(
-        self, runs: Sequence[Run], depth: float, axis: float | None, wave_number: float, longest: float = math.inf
+        self, runs: Sequence[EdgeRun], depth: float, axis: float | None, wave_number: float, longest: float = math.inf
     ) -> None:
         self.longest = longest
         self.depth = depth
@@ -248,7 +248,7 @@ class Surroundings:
         return max(1.0 / self._wave_number, -level / _SHADE)
 
 
-def _joined_edges(runs: Sequence[Run], tolerance: float) -> dict[tuple[int, int], list[tuple[int, int]]]:
+def _joined_edges(runs: Sequence[EdgeRun], tolerance: float) -> dict[tuple[int, int], list[tuple[int, int]]]:
     """Return the edges of other runs that share an end with an edge: plates on hulls and on plates."""
     if not any(run.kind == PLATE for run in runs):
         return {}
@@ -320,7 +320,7 @@ def too_many_panels() -> InputError:
     )
 
 
-def _body_pieces(runs: Sequence[Run], around: Surroundings, resolution: Resolution) -> list[Piece]:
+def _body_pieces(runs: Sequence[EdgeRun], around: Surroundings, resolution: Resolution) -> list[Piece]:
     """Cut the wetted boundary into panels."""
     pieces: list[Piece] = []
     for number, run in enumerate(runs):

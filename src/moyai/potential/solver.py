@@ -30,7 +30,7 @@ from moyai.potential.modes import Modes
 from moyai.potential.panels import gauss_rule
 from moyai.potential.sections import Section
 from moyai.potential.solution import RadiationDiffraction
-from moyai.potential.system import Block, reduce_blocks
+from moyai.potential.system import SymmetryBlock, reduce_blocks
 from moyai.sea.dispersion import wave_number as linear_wave_number
 from moyai.sea.water import Water
 
@@ -200,7 +200,7 @@ def _solve_oblique(
     widest = float(states.along.min()), float(wave_number.max())
     whole = lay_out(section, water.depth, widest, resolution, crest_wave_number=float(crest.max()))
 
-    def prepare(number: int) -> tuple[Problem, list[Block]]:
+    def prepare(number: int) -> tuple[Problem, list[SymmetryBlock]]:
         band = float(states.along[number]), float(wave_number[number])
         kappa = float(crest[number])
         layout = lay_out(section, water.depth, band, resolution, crest_wave_number=kappa, body=whole)

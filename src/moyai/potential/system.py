@@ -25,7 +25,7 @@ _STACK_BYTES = 6.0e7
 
 
 @dataclass(frozen=True, eq=False)
-class Block:
+class SymmetryBlock:
     """The problem of one symmetry with the body eliminated [eq:potential-reduced].
 
     phi_F solves (surface + K surface_rate) phi_F = flux q_B; then
@@ -129,7 +129,7 @@ def influence(
     return [(sign, single + sign * other_single, double + sign * other_double) for sign in (1, -1)]
 
 
-def reduce_blocks(layout: Layout, depth: float, lid: float, crest_wave_number: float = 0.0) -> list[Block]:
+def reduce_blocks(layout: Layout, depth: float, lid: float, crest_wave_number: float = 0.0) -> list[SymmetryBlock]:
     """Assemble the problem and eliminate the body; ``lid`` damps the enclosed free surface [eq:potential-lid]."""
     require_memory(layout)
     body = slice(0, layout.body_count)
@@ -150,7 +150,7 @@ def reduce_blocks(layout: Layout, depth: float, lid: float, crest_wave_number: f
         from_flux = left[:, 4 * count :]
         below = double[surface, body]
         blocks.append(
-            Block(
+            SymmetryBlock(
                 sign=sign,
                 body=eliminated[:, :count],
                 body_rate=eliminated[:, count:],

@@ -13,7 +13,7 @@ from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.headline import Headline
 from moyai.core.results import Result, read_result
-from moyai.report.document import Block, Cell, Column, Document, Paragraph, Section, Table
+from moyai.report.document import Block, Cell, Chapter, Column, Document, Paragraph, Table
 from moyai.report.encoding import slug
 from moyai.report.formatting import display_unit
 from moyai.report.overlay import Pair, figures_of, lay_over
@@ -80,7 +80,7 @@ def _with_differences(document: Document, blocks: Sequence[Block]) -> Document:
     if not blocks or not document.sections:
         return document
     first, *rest = document.sections
-    return replace(document, sections=(first, Section(DIFFERENCES, "Differences", tuple(blocks)), *rest))
+    return replace(document, sections=(first, Chapter(DIFFERENCES, "Differences", tuple(blocks)), *rest))
 
 
 def with_others(document: Document, result: Result, others: Sequence[Other]) -> Document:

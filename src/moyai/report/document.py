@@ -340,7 +340,7 @@ Block = Figure | Table | KeyFigures | Paragraph | Listing | Drawing | Animation 
 
 
 @dataclass(frozen=True)
-class Section:
+class Chapter:
     """A chapter of the report."""
 
     key: str
@@ -373,7 +373,7 @@ class Document:
     status: str
     #: ``status``, ``message``: Status of the result and the sentence behind it.
     message: str
-    sections: tuple[Section, ...]
+    sections: tuple[Chapter, ...]
     #: For the foot of the page.
     provenance: Mapping[str, Any] = field(default_factory=dict)
     #: At the head of the page; of the status alone where empty.

@@ -11,13 +11,13 @@ from moyai.core.results import Result
 from moyai.report.document import (
     Badge,
     Block,
+    Chapter,
     Choice,
     Column,
     Document,
     KeyFigures,
     NoticeBlock,
     Paragraph,
-    Section,
     Table,
     Tone,
     in_one_unit,
@@ -84,7 +84,7 @@ def with_first_page(document: Document, result: Result) -> Document:
     blocks: list[Block] = [*numbers, *said_of, *([] if table is None else [table]), *notices, *rest]
     if first.blocks and (said := UNITS_NOTES.get(units_of(result))):
         blocks.append(Paragraph(said, quiet=True))
-    ordered = (Section(first.key, first.title, tuple(blocks)), *others)
+    ordered = (Chapter(first.key, first.title, tuple(blocks)), *others)
     sections = tuple(replace(section, blocks=tuple(map(in_like_units, section.blocks))) for section in ordered)
     return replace(document, badges=document.badges or badges(result), sections=sections)
 

@@ -15,6 +15,7 @@ from moyai.report.decimate import envelope_indices
 from moyai.report.document import (
     Abscissa,
     Block,
+    Chapter,
     Column,
     Document,
     Figure,
@@ -22,7 +23,6 @@ from moyai.report.document import (
     NoticeBlock,
     Panel,
     Paragraph,
-    Section,
     Series,
     Table,
 )
@@ -47,15 +47,15 @@ def compose(result: Result) -> Document:
     Document
     """
     root = root_of(result)
-    sections = [Section("summary", "Summary", (*notice_blocks(result), case_listing(root)))]
+    sections = [Chapter("summary", "Summary", (*notice_blocks(result), case_listing(root)))]
     for path, group in [("/", root), *walk(root)]:
         blocks = group_blocks(group, path)
         if blocks:
-            sections.append(Section(f"group-{path}", path, blocks))
+            sections.append(Chapter(f"group-{path}", path, blocks))
     return page_of(result, str(root.attributes.get("structure", "")), sections)
 
 
-def page_of(result: Result, subtitle: str, sections: Iterable[Section]) -> Document:
+def page_of(result: Result, subtitle: str, sections: Iterable[Chapter]) -> Document:
     """Return the report of a result: its sections that have blocks, then its checks and provenance.
 
     Parameters
@@ -114,7 +114,7 @@ def case_listing(root: Group) -> Block:
     return Listing("Case file as it was run", text)
 
 
-def chapters(*parts: tuple[str, str, Callable[[], Iterable[Block]]]) -> tuple[Section, ...]:
+def chapters(*parts: tuple[str, str, Callable[[], Iterable[Block]]]) -> tuple[Chapter, ...]:
     """Return the sections of a report that have something to show.
 
     Parameters
@@ -123,7 +123,7 @@ def chapters(*parts: tuple[str, str, Callable[[], Iterable[Block]]]) -> tuple[Se
         Key, title and what gives the blocks. Under :func:`composing_only` no others are composed than those that it
         names; the first stays, empty.
     """
-    return _with_blocks([Section(key, title, tuple(blocks()) if _wanted(key) else ()) for key, title, blocks in parts])
+    return _with_blocks([Chapter(key, title, tuple(blocks()) if _wanted(key) else ()) for key, title, blocks in parts])
 
 
 def _wanted(key: str) -> bool:
@@ -131,7 +131,7 @@ def _wanted(key: str) -> bool:
     return only is None or key in only
 
 
-def _with_blocks(sections: Sequence[Section]) -> tuple[Section, ...]:
+def _with_blocks(sections: Sequence[Chapter]) -> tuple[Chapter, ...]:
     """Return the sections that hold something, and the first that a draft leaves empty."""
     return tuple(one for one in sections if one.blocks or (one is sections[0] and not _wanted(one.key)))
 
@@ -146,7 +146,7 @@ def composing_only(keys: Collection[str] | None) -> Iterator[None]:
         _ONLY.reset(token)
 
 
-def closing_section(result: Result) -> Section:
+def closing_section(result: Result) -> Chapter:
     """Return identity checks, all notices and the provenance."""
     blocks: list[Block] = (
         [checks_table(result)] if result.checks else [Paragraph("No identity check was carried out.", quiet=True)]
@@ -154,7 +154,7 @@ def closing_section(result: Result) -> Section:
     if result.notices:
         blocks.append(notices_table(result))
     blocks.append(provenance_table(result))
-    return Section("checks", "Checks and provenance", tuple(blocks))
+    return Chapter("checks", "Checks and provenance", tuple(blocks))
 
 
 def checks_table(result: Result) -> Table:

@@ -18,6 +18,7 @@ from moyai.report.document import (
     Badge,
     Block,
     Cell,
+    Chapter,
     Choice,
     Column,
     Document,
@@ -28,7 +29,6 @@ from moyai.report.document import (
     Listing,
     NoticeBlock,
     Paragraph,
-    Section,
     Table,
 )
 from moyai.report.encoding import column_unit, figure_specification, page_json, slug, table_csv
@@ -264,7 +264,7 @@ class _Page:
         self._used.add(name)
         return name
 
-    def section(self, section: Section) -> str:
+    def section(self, section: Chapter) -> str:
         blocks = "\n".join(self.block(block) for block in section.blocks)
         name = escape(slug(section.key))
         return f'<section id="{name}"><h2>{escape(section.title)}</h2>\n{blocks}\n</section>'

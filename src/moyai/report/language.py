@@ -14,6 +14,7 @@ from moyai.report.document import (
     Abscissa,
     Animation,
     Badge,
+    Chapter,
     Choice,
     Column,
     Distance,
@@ -26,7 +27,6 @@ from moyai.report.document import (
     Option,
     Panel,
     Paragraph,
-    Section,
     Series,
     Table,
     Words,
@@ -37,7 +37,7 @@ _T = TypeVar("_T")
 _R = TypeVar("_R")
 _TEXTS: dict[type, tuple[str, ...]] = {
     Document: ("subtitle", "message"),
-    Section: ("title",),
+    Chapter: ("title",),
     Badge: ("label", "word", "message"),
     Figure: ("title", "caption", "hint"),
     Abscissa: ("label",),

@@ -16,7 +16,7 @@ from moyai.core.results import Result
 from moyai.core.units import parse_unit
 from moyai.core.validity import Notice
 from moyai.core.vocabulary import MEASURED_GROUP
-from moyai.report.document import Block, Choice, Document, Figure, NoticeBlock, Panel, Section, Series
+from moyai.report.document import Block, Chapter, Choice, Document, Figure, NoticeBlock, Panel, Series
 
 _DASHES: tuple[Literal["dash", "dot", "dashdot"], ...] = ("dash", "dot", "dashdot")
 _POINT_TONE = 7
@@ -213,7 +213,7 @@ def with_measured_points(document: Document, result: Result) -> Document:
     if not faults:
         return document
     first, *rest = document.sections
-    first = Section(first.key, first.title, (*first.blocks, NoticeBlock(tuple(faults))))
+    first = Chapter(first.key, first.title, (*first.blocks, NoticeBlock(tuple(faults))))
     return replace(document, sections=(first, *rest))
 
 

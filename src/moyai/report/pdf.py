@@ -63,7 +63,7 @@ def render_pdf(document: Document) -> bytes:
 
     with tempfile.TemporaryDirectory(prefix="moyai-report-") as name:
         folder = Path(name)
-        writer = _Writer(folder)
+        writer = _PdfWriter(folder)
         sections = [
             {"title": section.title, "blocks": [item for block in section.blocks for item in writer.block(block)]}
             for section in document.sections
@@ -102,7 +102,7 @@ def _choose(wanted: tuple[str, ...], present: set[str]) -> list[str]:
     return [name for name in wanted if name in present] or ["Libertinus Serif"]
 
 
-class _Writer:
+class _PdfWriter:
     """Turns blocks into data for the template and writes the images next to it."""
 
     def __init__(self, folder: Path) -> None:

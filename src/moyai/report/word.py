@@ -84,13 +84,13 @@ def render_docx(document: Document, template: Path | None = None) -> bytes:
         raise InputError(f"{template} cannot be read as DOCX: {error}", path="--template") from None
     if template is None:
         _set_page(paper)
-    _Writer(paper).write(document)
+    _WordWriter(paper).write(document)
     stream = io.BytesIO()
     paper.save(stream)
     return stream.getvalue()
 
 
-class _Writer:
+class _WordWriter:
     """Writes blocks one below the other; counts figures and tables, from those of the template on."""
 
     def __init__(self, paper: Any) -> None:

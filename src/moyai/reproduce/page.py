@@ -11,6 +11,7 @@ from moyai.language import spoken_in
 from moyai.report.document import (
     Badge,
     Block,
+    Chapter,
     Column,
     Document,
     Figure,
@@ -18,13 +19,12 @@ from moyai.report.document import (
     KeyFigures,
     Listing,
     Paragraph,
-    Section,
     Table,
 )
 from moyai.report.encoding import figure_csv, slug, table_csv
 from moyai.report.language import in_the_language
 from moyai.reproduce.inputs import case_files
-from moyai.reproduce.reproduction import Reproduction, Row
+from moyai.reproduce.reproduction import Reproduction, StatementRow
 
 LOOPS = "the points are laid over; a path has no value at a place to hold them against"
 
@@ -50,19 +50,19 @@ def compose(found: Reproduction, result: Result) -> Document:
     >>> from moyai.reproduce.model import Finding
     >>> from moyai.reproduce.reproduction import Row
     >>> tabata = paper("tabata")
-    >>> row = Row(tabata.statements[0], Finding("as the paper says", "agrees"))
+    >>> row = StatementRow(tabata.statements[0], Finding("as the paper says", "agrees"))
     >>> found = Reproduction(tabata, True, (row,), (), ())
     >>> [section.key for section in compose(found, as_result(found)).sections][:3]
     ['summary', 'statements', 'figures']
     """
     paper = found.paper
     sections = (
-        Section("summary", "Summary", _summary(found)),
-        Section("statements", "Statements", (_statements(found.rows),)),
-        Section("figures", "Figures", _figures(found)),
-        Section("equations", "Equations", (_equations(found),)),
-        Section("filled", "What the paper leaves out", (_filled(found),)),
-        Section("inputs", "Case files", _inputs(paper.key)),
+        Chapter("summary", "Summary", _summary(found)),
+        Chapter("statements", "Statements", (_statements(found.rows),)),
+        Chapter("figures", "Figures", _figures(found)),
+        Chapter("equations", "Equations", (_equations(found),)),
+        Chapter("filled", "What the paper leaves out", (_filled(found),)),
+        Chapter("inputs", "Case files", _inputs(paper.key)),
     )
     agree, differ, open_ = (found.count(verdict) for verdict in ("agrees", "differs", "open"))
     badge = Badge(
@@ -104,7 +104,7 @@ def _summary(found: Reproduction) -> tuple[Block, ...]:
     )
 
 
-def _statements(rows: tuple[Row, ...]) -> Table:
+def _statements(rows: tuple[StatementRow, ...]) -> Table:
     verdicts = [
         row.finding.verdict + (f": {row.finding.why}" if row.finding.verdict != "agrees" and row.finding.why else "")
         for row in rows

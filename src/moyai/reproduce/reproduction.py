@@ -23,7 +23,7 @@ NAMES = ("nakamura", "tabata", "arai", "sawaragi", "matsubara")
 
 
 @dataclass(frozen=True)
-class Row:
+class StatementRow:
     """A statement with what was found."""
 
     statement: Statement
@@ -47,7 +47,7 @@ class Reproduction:
 
     paper: Paper
     quick: bool
-    rows: tuple[Row, ...]
+    rows: tuple[StatementRow, ...]
     #: With the points on them.
     figures: tuple[PaperFigure, ...]
     filled: tuple[FilledInput, ...]
@@ -105,9 +105,9 @@ def papers() -> tuple[Paper, ...]:
     return tuple(paper(name) for name in NAMES)
 
 
-def rows_of(wanted: Paper, runs: Any) -> tuple[Row, ...]:
+def rows_of(wanted: Paper, runs: Any) -> tuple[StatementRow, ...]:
     """Return every statement of a paper with what its runs say."""
-    return tuple(Row(statement, statement.judge(runs)) for statement in wanted.statements)
+    return tuple(StatementRow(statement, statement.judge(runs)) for statement in wanted.statements)
 
 
 def reproduce(
@@ -170,7 +170,7 @@ def as_result(found: Reproduction) -> Result:
     >>> from moyai.reproduce.model import Finding
     >>> from moyai.reproduce.reproduction import Row
     >>> tabata = paper("tabata")
-    >>> row = Row(tabata.statements[0], Finding("as the paper says", "agrees"))
+    >>> row = StatementRow(tabata.statements[0], Finding("as the paper says", "agrees"))
     >>> result = as_result(Reproduction(tabata, True, (row,), (), ()))
     >>> result.tree["statements"]["verdict"].values.tolist()
     ['agrees']

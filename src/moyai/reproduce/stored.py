@@ -13,7 +13,7 @@ from moyai.core.kinds import Kind
 from moyai.report.document import Abscissa, Disc, Distance, Drawing, Figure, Mark, Panel, Series, Stroke, Words
 from moyai.reproduce.model import FilledInput, Finding, PaperFigure, Statement
 from moyai.reproduce.points import Agreement, Points
-from moyai.reproduce.reproduction import Reproduction, Row, paper
+from moyai.reproduce.reproduction import Reproduction, StatementRow, paper
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -62,8 +62,8 @@ def read_page(result: Result) -> Reproduction:
     group = result.tree[GROUP]
     content = _read(json.loads(str(group["content"].item())), np.asarray(group["numbers"], dtype=float))
 
-    def row(key: str, place: str, text: str, finding: Finding) -> Row:
-        return Row(Statement(key, place, text, lambda _: finding), finding)
+    def row(key: str, place: str, text: str, finding: Finding) -> StatementRow:
+        return StatementRow(Statement(key, place, text, lambda _: finding), finding)
 
     return Reproduction(
         paper(str(result.tree.attrs["paper"])),

@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     from moyai.series.acer import acer_interval as acer_interval
     from moyai.series.acer import exceedance_rates as exceedance_rates
     from moyai.series.acer import fit_tail as fit_tail
-    from moyai.series.extremes import Fit as Fit
+    from moyai.series.extremes import ExtremeFit as ExtremeFit
     from moyai.series.extremes import fit as fit
     from moyai.series.extremes import maximum_interval as maximum_interval
     from moyai.series.harmonics import Harmonics as Harmonics
@@ -24,7 +24,7 @@ else:
         __name__,
         {
             "acer": "acer_interval exceedance_rates fit_tail",
-            "extremes": "Fit fit maximum_interval",
+            "extremes": "ExtremeFit fit maximum_interval",
             "harmonics": "Harmonics fit_harmonics",
             "intervals": "Interval",
             "rainflow": "count_cycles",

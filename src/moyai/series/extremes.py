@@ -27,7 +27,7 @@ _LEAST = {"gumbel": 5, "weibull": 5, "generalised_pareto": 10}
 
 @checks_words
 @dataclass(frozen=True)
-class Fit:
+class ExtremeFit:
     """A distribution of peaks or maxima."""
 
     #: ``gumbel`` (maxima of blocks), ``weibull`` (peaks above a location), ``generalised_pareto`` (peaks above a
@@ -101,7 +101,9 @@ class Fit:
 
 
 @checks_words
-def fit(values: ArrayLike, family: Family, *, location: float | None = None, threshold: float | None = None) -> Fit:
+def fit(
+    values: ArrayLike, family: Family, *, location: float | None = None, threshold: float | None = None
+) -> ExtremeFit:
     """Fit a distribution by maximum likelihood.
 
     Parameters
@@ -109,7 +111,7 @@ def fit(values: ArrayLike, family: Family, *, location: float | None = None, thr
     values : array_like (n,)
         Maxima of blocks (Gumbel), peaks (Weibull, generalised Pareto).
     family : str
-        See :class:`Fit`.
+        See :class:`ExtremeFit`.
     location : float
         Lower end of the Weibull (0 for peaks above a mean) or threshold of the Pareto; values below it are left out.
         Not for the Gumbel.
@@ -118,7 +120,7 @@ def fit(values: ArrayLike, family: Family, *, location: float | None = None, thr
 
     Returns
     -------
-    Fit
+    ExtremeFit
         The distribution, its parameters in the unit of the data, and its log-likelihood.
 
     Raises
@@ -183,7 +185,7 @@ def _require(data: Array, family: Family) -> None:
         raise InputError("all values are equal: there is nothing to fit", parameter="values")
 
 
-def _gumbel(data: Array) -> Fit:
+def _gumbel(data: Array) -> ExtremeFit:
     mean, spread = float(np.mean(data)), float(np.std(data))
     x = (data - mean) / spread
 
@@ -196,17 +198,17 @@ def _gumbel(data: Array) -> Fit:
     location = x.min() - scale * math.log(np.mean(np.exp(-(x - x.min()) / scale)))
     y = (x - location) / scale
     likelihood = float(-x.size * math.log(scale * spread) - np.sum(y) - np.sum(np.exp(-y)))
-    return Fit("gumbel", mean + spread * location, spread * scale, 0.0, data.size, likelihood)
+    return ExtremeFit("gumbel", mean + spread * location, spread * scale, 0.0, data.size, likelihood)
 
 
-def _weibull(data: Array, location: float) -> Fit:
+def _weibull(data: Array, location: float) -> ExtremeFit:
     shape, scale = weibull_likelihood(data - location)
     y = (data - location) / scale
     likelihood = float(data.size * math.log(shape / scale) + (shape - 1.0) * np.sum(np.log(y)) - np.sum(y**shape))
-    return Fit("weibull", location, scale, shape, data.size, likelihood)
+    return ExtremeFit("weibull", location, scale, shape, data.size, likelihood)
 
 
-def _weibull_tail(data: Array, location: float, threshold: float) -> Fit:
+def _weibull_tail(data: Array, location: float, threshold: float) -> ExtremeFit:
     unit = float(np.max(data)) - location
     log = np.log((data - location) / unit)
     start = (threshold - location) / unit
@@ -236,24 +238,24 @@ def _weibull_tail(data: Array, location: float, threshold: float) -> Fit:
     shape = math.exp(float(found.x))
     scale = power(shape) ** (1.0 / shape) * unit
     likelihood = -data.size * (float(found.fun) + math.log(unit))
-    return Fit("weibull", location, scale, shape, data.size, likelihood, threshold)
+    return ExtremeFit("weibull", location, scale, shape, data.size, likelihood, threshold)
 
 
-def _pareto(data: Array, location: float) -> Fit:
+def _pareto(data: Array, location: float) -> ExtremeFit:
     shape, scale = pareto_likelihood(data - location)
     # The mean of log(1 + shape y / scale) is the shape itself; the mean excess is the scale of the exponential
     likelihood = -data.size * (math.log(scale) + shape + 1.0)
-    return Fit("generalised_pareto", location, scale, shape, data.size, likelihood)
+    return ExtremeFit("generalised_pareto", location, scale, shape, data.size, likelihood)
 
 
-def refit(fitted: Fit, values: ArrayLike) -> Fit:
+def refit(fitted: ExtremeFit, values: ArrayLike) -> ExtremeFit:
     """Return the same kind of fit to other values: same family, lower end and threshold."""
     location = None if fitted.family == "gumbel" else fitted.location
     return fit(values, fitted.family, location=location, threshold=fitted.threshold)
 
 
 def maximum_interval(
-    fitted: Fit,
+    fitted: ExtremeFit,
     count: float,
     *,
     seed: int,
@@ -303,7 +305,7 @@ def maximum_interval(
     True
     """
 
-    def level(one: Fit) -> float:
+    def level(one: ExtremeFit) -> float:
         return one.most_probable_maximum(count) if probability is None else one.maximum_level(count, probability)
 
     generator = np.random.default_rng(seed)
@@ -320,7 +322,7 @@ def maximum_interval(
     return reflected_interval(value, found, confidence, base=base)
 
 
-def kolmogorov_distance(fitted: Fit, values: ArrayLike) -> float:
+def kolmogorov_distance(fitted: ExtremeFit, values: ArrayLike) -> float:
     """Return the largest difference of the empirical and the fitted distribution [-]."""
     data = np.sort(np.asarray(values, dtype=float).ravel())
     below = 1.0 - fitted.exceedance(data)
@@ -328,7 +330,7 @@ def kolmogorov_distance(fitted: Fit, values: ArrayLike) -> float:
     return float(max(np.max(steps[1:] - below), np.max(below - steps[:-1])))
 
 
-def check_fit(fitted: Fit, values: ArrayLike) -> tuple[Notice, ...]:
+def check_fit(fitted: ExtremeFit, values: ArrayLike) -> tuple[Notice, ...]:
     """Return notices about what a fit is worth: distance from the data, few values, heavy tail.
 
     The distance is that of Anderson and Darling, which weighs the tails; above 2.5 a fit is doubtful at the 5 % level

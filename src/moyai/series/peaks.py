@@ -15,7 +15,7 @@ from scipy.optimize import brentq
 
 from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
-from moyai.series.extremes import Fit, refit
+from moyai.series.extremes import ExtremeFit, refit
 from moyai.series.intervals import Interval, reflected_interval
 from moyai.series.zero_crossing import zero_crossing
 
@@ -62,16 +62,16 @@ def peaks_of(series: ArrayLike, *, slack_share: float = SLACK_SHARE) -> tuple[Ar
 
 
 @dataclass(frozen=True)
-class Kind:
+class PeakKind:
     """Peaks of one kind."""
 
     #: Distribution of those above its location.
-    fitted: Fit
+    fitted: ExtremeFit
     #: How many of them come in the time that the maximum is meant for.
     count: float
 
 
-def maximum_of_kinds(kinds: Sequence[Kind], probability: float) -> float:
+def maximum_of_kinds(kinds: Sequence[PeakKind], probability: float) -> float:
     """Return the level that the maximum of peaks of several kinds stays below with ``probability``.
 
     Parameters
@@ -103,7 +103,7 @@ def maximum_of_kinds(kinds: Sequence[Kind], probability: float) -> float:
     return _falling_root(excess, kinds)
 
 
-def most_probable_of_kinds(kinds: Sequence[Kind]) -> float:
+def most_probable_of_kinds(kinds: Sequence[PeakKind]) -> float:
     """Return the level that one peak exceeds on the average, of all kinds together."""
 
     def excess(level: float) -> float:
@@ -113,7 +113,7 @@ def most_probable_of_kinds(kinds: Sequence[Kind]) -> float:
     return _falling_root(excess, kinds)
 
 
-def _falling_root(excess: object, kinds: Sequence[Kind]) -> float:
+def _falling_root(excess: object, kinds: Sequence[PeakKind]) -> float:
     assert callable(excess)
     low = min(one.fitted.location if one.fitted.threshold is None else one.fitted.threshold for one in kinds)
     step = max(one.fitted.scale for one in kinds)
@@ -130,7 +130,7 @@ def _falling_root(excess: object, kinds: Sequence[Kind]) -> float:
 
 
 def interval_of_kinds(
-    kinds: Sequence[Kind], probability: float, *, seed: int, confidence: float = 0.9, repetitions: int = 200
+    kinds: Sequence[PeakKind], probability: float, *, seed: int, confidence: float = 0.9, repetitions: int = 200
 ) -> Interval:
     """Return :func:`maximum_of_kinds` with its confidence interval.
 
@@ -153,7 +153,7 @@ def interval_of_kinds(
         try:
             for one in kinds:
                 drawn = one.fitted.sample(one.fitted.count, generator)
-                again.append(Kind(refit(one.fitted, drawn), one.count))
+                again.append(PeakKind(refit(one.fitted, drawn), one.count))
             found.append(maximum_of_kinds(again, probability))
         except (InputError, ConvergenceError):
             continue

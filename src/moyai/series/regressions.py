@@ -37,7 +37,7 @@ class Estimate:
 
 
 @dataclass(frozen=True, eq=False)
-class Fit:
+class Regression:
     """A fitted relation of y to x."""
 
     #: In words.
@@ -78,7 +78,7 @@ def _result(
     predict: Callable[[ArrayLike], Array],
     fitted: Array,
     confidence: float,
-) -> Fit:
+) -> Regression:
     residual = y - fitted
     freedom = y.size - values.size
     variance = float(residual @ residual) / freedom
@@ -86,7 +86,7 @@ def _result(
     reach = student_quantile(confidence, freedom)
     errors = np.sqrt(np.diag(covariance))
     about = float(np.sum((y - y.mean()) ** 2))
-    return Fit(
+    return Regression(
         form,
         {
             name: Estimate(float(value), float(error), float(value - reach * error), float(value + reach * error))
@@ -100,7 +100,7 @@ def _result(
     )
 
 
-def fit_line(x: ArrayLike, y: ArrayLike, *, through_origin: bool = False, confidence: float = 0.95) -> Fit:
+def fit_line(x: ArrayLike, y: ArrayLike, *, through_origin: bool = False, confidence: float = 0.95) -> Regression:
     """Fit y = slope x (+ intercept); pairs with a NaN are left out.
 
     Parameters
@@ -132,7 +132,7 @@ def fit_line(x: ArrayLike, y: ArrayLike, *, through_origin: bool = False, confid
                    columns @ values, confidence)  # fmt: skip
 
 
-def fit_power(x: ArrayLike, y: ArrayLike, *, confidence: float = 0.95) -> Fit:
+def fit_power(x: ArrayLike, y: ArrayLike, *, confidence: float = 0.95) -> Regression:
     """Fit y = factor x^exponent by least squares in y [eq:regression-power].
 
     The error belongs to y itself: a floor of noise under small y, which bends a fit of logarithms, hardly counts.
@@ -148,7 +148,7 @@ def fit_power(x: ArrayLike, y: ArrayLike, *, confidence: float = 0.95) -> Fit:
     return _power("y = factor x^exponent", one, two, confidence, lambda at: np.asarray(at, dtype=np.float64))
 
 
-def fit_cosine(angle: ArrayLike, y: ArrayLike, *, confidence: float = 0.95) -> Fit:
+def fit_cosine(angle: ArrayLike, y: ArrayLike, *, confidence: float = 0.95) -> Regression:
     """Fit y = factor cos^exponent(angle) by least squares in y [eq:regression-power].
 
     Parameters
@@ -179,7 +179,7 @@ def fit_cosine(angle: ArrayLike, y: ArrayLike, *, confidence: float = 0.95) -> F
     return _power("y = factor cos^exponent(angle)", beta, two, confidence, cosine)
 
 
-def _power(form: str, x: Array, y: Array, confidence: float, base: Callable[[ArrayLike], Array]) -> Fit:
+def _power(form: str, x: Array, y: Array, confidence: float, base: Callable[[ArrayLike], Array]) -> Regression:
     logs = np.log(base(x))
     if float(np.ptp(logs)) == 0.0:
         raise InputError("x does not vary", parameter="x", allowed="values that differ")
@@ -212,7 +212,7 @@ def _power(form: str, x: Array, y: Array, confidence: float, base: Callable[[Arr
         for (name, item), s in zip(found.parameters.items(), size)
     }
     covariance = np.asarray(found.covariance / np.outer(size, size), dtype=np.float64)
-    return Fit(form, scaled, found.determination, found.deviation, found.residual, covariance, predict)
+    return Regression(form, scaled, found.determination, found.deviation, found.residual, covariance, predict)
 
 
 def correlation(x: ArrayLike, y: ArrayLike, *, confidence: float = 0.95) -> Estimate:
@@ -234,7 +234,7 @@ def correlation(x: ArrayLike, y: ArrayLike, *, confidence: float = 0.95) -> Esti
     return Estimate(r, (1.0 - r * r) / math.sqrt(one.size - 1), math.tanh(centre - reach), math.tanh(centre + reach))
 
 
-def type_ratio(reference: ArrayLike, other: ArrayLike, *, confidence: float = 0.95) -> tuple[Fit, Estimate]:
+def type_ratio(reference: ArrayLike, other: ArrayLike, *, confidence: float = 0.95) -> tuple[Regression, Estimate]:
     """Return how the loads of one type follow those of another measured next to it.
 
     Parameters
@@ -246,7 +246,7 @@ def type_ratio(reference: ArrayLike, other: ArrayLike, *, confidence: float = 0.
 
     Returns
     -------
-    Fit
+    Regression
         other = slope reference, by least squares: lowered by the scatter of the reference.
     Estimate
         Ratio of the means, which scatter on both sides leaves where it is; bounds by the jackknife.
@@ -273,7 +273,7 @@ class ClassFit:
     #: Observations.
     count: int
     #: Line of the class alone; None with fewer than three observations.
-    fit: Fit | None
+    fit: Regression | None
     #: Mean residual from the common line, as a share of the mean load; None with fewer than three observations.
     departure: Estimate | None
 
@@ -285,7 +285,7 @@ class ClassFit:
 
 def fit_by_direction(
     x: ArrayLike, y: ArrayLike, angle: ArrayLike, edges: ArrayLike, *, confidence: float = 0.95
-) -> tuple[Fit, tuple[ClassFit, ...]]:
+) -> tuple[Regression, tuple[ClassFit, ...]]:
     """Fit one line through the origin to all observations and tell which directions leave it.
 
     Parameters

@@ -18,7 +18,7 @@ from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.options import checks_words
 from moyai.core.validity import Notice
-from moyai.series.extremes import Family, Fit, kolmogorov_distance
+from moyai.series.extremes import ExtremeFit, Family, kolmogorov_distance
 from moyai.series.intervals import Interval, reflected_interval
 from moyai.series.likelihood import pareto_likelihood, weibull_likelihood
 
@@ -96,8 +96,8 @@ class SnapFit:
             lambda shape, scale, rate: _excess_at(self.law, min(lack / (rate * hours), 1.0), shape, scale)
         )
 
-    def _distribution(self, shape: float, scale: float) -> Fit:
-        return Fit(_FAMILY[self.law], self.threshold, scale, shape, self.peaks.size, math.nan)
+    def _distribution(self, shape: float, scale: float) -> ExtremeFit:
+        return ExtremeFit(_FAMILY[self.law], self.threshold, scale, shape, self.peaks.size, math.nan)
 
     def _interval(self, excess: Callable[[float, float, float], float]) -> Interval:
         values = self.threshold + np.array([excess(*row) for row in self.resampled])
@@ -114,7 +114,7 @@ def _excess_at(law: SnapLaw, probability: float, shape: float, scale: float) -> 
     """Return the excess that is exceeded with a probability."""
     if probability >= 1.0:
         return 0.0
-    return float(Fit(_FAMILY[law], 0.0, scale, shape, 0, math.nan).level(probability))
+    return float(ExtremeFit(_FAMILY[law], 0.0, scale, shape, 0, math.nan).level(probability))
 
 
 def _mode(law: SnapLaw, shape: float, scale: float, count: float) -> float:
@@ -193,7 +193,7 @@ def fit_snaps(
         )
     search = weibull_likelihood if law == "weibull" else pareto_likelihood
     shape, scale = search(chosen - threshold)
-    fitted = Fit(_FAMILY[law], threshold, scale, shape, chosen.size, math.nan)
+    fitted = ExtremeFit(_FAMILY[law], threshold, scale, shape, chosen.size, math.nan)
     rng = np.random.default_rng(seed)
     rows = []
     for count in np.maximum(rng.poisson(chosen.size, resamples), 5):

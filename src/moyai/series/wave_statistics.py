@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
-from moyai.series.extremes import Fit, fit, kolmogorov_distance
+from moyai.series.extremes import ExtremeFit, fit, kolmogorov_distance
 from moyai.series.zero_crossing import share_of
 
 
@@ -85,7 +85,7 @@ class HeightFit:
     """Weibull distribution ``1 - exp(-(x / scale)^shape)`` of heights, and its uncertainty [eq:records-weibull]."""
 
     #: The distribution; a shape of 2 is Rayleigh's.
-    fitted: Fit
+    fitted: ExtremeFit
     #: Standard errors by the observed information.
     scale_error: float
     #: Standard errors by the observed information.
@@ -110,7 +110,7 @@ def fit_rayleigh(heights: ArrayLike) -> HeightFit:
     scale = math.sqrt(float(np.mean(x**2)))
     ratio = x / scale
     likelihood = float(np.sum(math.log(2.0 / scale) + np.log(ratio) - ratio**2))
-    fitted = Fit("weibull", 0.0, scale, 2.0, int(x.size), likelihood)
+    fitted = ExtremeFit("weibull", 0.0, scale, 2.0, int(x.size), likelihood)
     return HeightFit(fitted, scale / (2.0 * math.sqrt(x.size)), 0.0, kolmogorov_distance(fitted, x))
 
 

@@ -303,7 +303,7 @@ def _short_term(maxima: Any, waves: float) -> Callable[[np.ndarray], np.ndarray]
     The mode ``m`` of the maximum of ``N`` Rayleigh peaks is the level that one of them exceeds, so that any level
     ``x`` is exceeded by ``N^(1 - (x/m)^2)`` of them in the mean [eq:extremes-weibull].
     """
-    from moyai.series.extremes import Fit
+    from moyai.series.extremes import ExtremeFit
 
     data = np.atleast_1d(np.asarray(maxima, dtype=float))
     if data.size == 1:
@@ -315,7 +315,7 @@ def _short_term(maxima: Any, waves: float) -> Callable[[np.ndarray], np.ndarray]
 
         return exceeds
     if np.ptp(data) <= 1e-12 * np.max(np.abs(data)):
-        fitted = Fit("gumbel", float(data[0]), 1e-6 * max(abs(float(data[0])), 1e-300), 0.0, data.size, math.nan)
+        fitted = ExtremeFit("gumbel", float(data[0]), 1e-6 * max(abs(float(data[0])), 1e-300), 0.0, data.size, math.nan)
     else:
         fitted = fit(data, "gumbel")
     return fitted.exceedance

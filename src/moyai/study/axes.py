@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from moyai.case.paths import assign, remove, resolve
-from moyai.case.yaml_reader import Document
+from moyai.case.yaml_reader import CaseDocument
 from moyai.core.errors import InputError
 from moyai.core.quantities import parse_quantity
 from moyai.core.units import Dimension
@@ -21,7 +21,7 @@ Assignments = tuple[tuple[str, Any], ...]
 
 
 @dataclass(frozen=True)
-class Ground:
+class StudyBase:
     """On what the variations of a study stand."""
 
     #: Content of the base case.
@@ -113,7 +113,7 @@ def combinations(axes: Sequence[Axis]) -> tuple[Combination, ...]:
     return tuple(found)
 
 
-def varied(base: Document, combination: Combination) -> Document:
+def varied(base: CaseDocument, combination: Combination) -> CaseDocument:
     """Return the base case with what a combination changes; places in the file stay those of the base case."""
     data = copy.deepcopy(base.data)
     for path, value in combination.assignments:

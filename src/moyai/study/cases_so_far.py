@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from moyai.case.paths import resolve
 from moyai.case.reader import written
 from moyai.case.text_changes import with_key, with_scalar, without_key
-from moyai.case.yaml_reader import Document, parse_yaml, read_yaml
+from moyai.case.yaml_reader import CaseDocument, parse_yaml, read_yaml
 from moyai.core.errors import InputError
 from moyai.core.files import write_whole
 from moyai.language import said
@@ -152,7 +152,7 @@ def case_text(folder: Path, root: Path, index: int) -> tuple[str, Path]:
     return document.text, base
 
 
-def _put(document: Document, place: Any, value: Any) -> Document:
+def _put(document: CaseDocument, place: Any, value: Any) -> CaseDocument:
     """Return the document with a value at a place: in place where it can be, else with the key written anew."""
     from moyai.case.paths import assign
 

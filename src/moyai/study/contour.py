@@ -11,7 +11,7 @@ from moyai.core.errors import InputError
 from moyai.study import schema
 
 
-def contour_seas(given: schema.Contour, folder: Path) -> tuple[Array, Array]:
+def contour_seas(given: schema.ContourKeys, folder: Path) -> tuple[Array, Array]:
     """Return significant heights [m] and periods [s] round a contour, calm points left out.
 
     Parameters
@@ -27,12 +27,12 @@ def contour_seas(given: schema.Contour, folder: Path) -> tuple[Array, Array]:
         For a distribution without sense, pairs that cannot be read, or a contour without points.
     """
     from moyai.design.long_term import JointSea, environmental_contour, fit_joint_sea
-    from moyai.series.extremes import Fit
+    from moyai.series.extremes import ExtremeFit
 
     if given.joint is not None:
         one = given.joint
         sea = JointSea(
-            Fit("weibull", one.location, one.scale, one.shape, 0, float("nan")), one.mean_log, one.deviation_log
+            ExtremeFit("weibull", one.location, one.scale, one.shape, 0, float("nan")), one.mean_log, one.deviation_log
         )
     else:
         assert given.pairs is not None

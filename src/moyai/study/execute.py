@@ -17,14 +17,14 @@ from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
 from moyai.study.axes import Combination
-from moyai.study.ledger import Ledger, Record
+from moyai.study.ledger import Ledger, LedgerRecord
 from moyai.study.local import run_here, run_processes
 from moyai.study.plan import RunCase, Study, with_search
 from moyai.study.table import study_result
 from moyai.study.tensions import response
 from moyai.study.work import Task
 
-Backend = Callable[[Task, tuple[Combination, ...]], Iterator[Record]]
+Backend = Callable[[Task, tuple[Combination, ...]], Iterator[LedgerRecord]]
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class Standing:
     #: ``largest``, ``smallest``: Of the watched response: value and number of the case.
     smallest: tuple[float, int] | None
     #: The case that ended last.
-    latest: Record | None = None
+    latest: LedgerRecord | None = None
     #: Of the watched response.
     unit: str = "1"
 
@@ -133,7 +133,7 @@ def run_study(
     return study_result(study, known.values(), interrupted=stopped)
 
 
-def _require_watched(study: Study, known: dict[int, Record]) -> bool:
+def _require_watched(study: Study, known: dict[int, LedgerRecord]) -> bool:
     """Require that cases which ended keep the response that is watched; False while none has kept any."""
     ended = [record for record in known.values() if record.values]
     if not study.watch or study.search is not None or not ended:
@@ -181,7 +181,7 @@ class _SoFar:
         self.study, self.path = study, folder / RESULTS
         self.next = time.monotonic() + _OFTEN
 
-    def keep(self, known: dict[int, Record]) -> None:
+    def keep(self, known: dict[int, LedgerRecord]) -> None:
         begun = time.monotonic()
         if begun < self.next or len(known) == len(self.study.cases):
             return
@@ -194,7 +194,7 @@ class _SoFar:
 class _Watching:
     """Counts, the time left, the largest and smallest watched response."""
 
-    def __init__(self, study: Study, known: dict[int, Record], watch: Watcher | None, progress: Progress) -> None:
+    def __init__(self, study: Study, known: dict[int, LedgerRecord], watch: Watcher | None, progress: Progress) -> None:
         self.study, self.watch, self.progress = study, watch, progress
         self.done, self.total = len(known), len(study.cases)
         self.failed = sum(record.status in ("failed", "refused") for record in known.values())
@@ -205,7 +205,7 @@ class _Watching:
         for record in known.values():
             self._look(record)
 
-    def _look(self, record: Record) -> None:
+    def _look(self, record: LedgerRecord) -> None:
         item = record.values.get(self.study.watch)
         if item is None:
             return
@@ -215,7 +215,7 @@ class _Watching:
             self.unit = str(item["units"])
             self.extremes = [min([*self.extremes, entry]), max([*self.extremes, entry])]
 
-    def tell(self, record: Record) -> None:
+    def tell(self, record: LedgerRecord) -> None:
         self.done += 1
         self.failed += record.status in ("failed", "refused")
         self._look(record)

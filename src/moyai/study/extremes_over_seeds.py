@@ -14,7 +14,7 @@ from moyai.core.results import Result
 from moyai.core.validity import Notice
 from moyai.series.acer import acer_interval, exceedance_rates, fit_tail
 from moyai.series.extremes import check_fit, fit, maximum_interval
-from moyai.series.peaks import Kind, interval_of_kinds, most_probable_of_kinds
+from moyai.series.peaks import PeakKind, interval_of_kinds, most_probable_of_kinds
 from moyai.study import schema
 from moyai.study.responses import Wanted, split_response
 from moyai.study.tensions import response as response_of
@@ -30,7 +30,7 @@ _NAMES = ("design_value", "lower", "upper", "most_probable_maximum", "location",
 
 
 @dataclass(frozen=True)
-class _Found:
+class _FoundValues:
     """What one place of the study gives; NaN where the family has no such parameter."""
 
     design_value: float
@@ -141,7 +141,7 @@ def require_axis(array: xr.DataArray, name: str, axes: tuple[str, ...]) -> None:
         raise InputError(f"the study has no axis '{name}'", path="assess", allowed=", ".join(axes))
 
 
-def _of_maxima(values: Array, wanted: schema.ExtremesOfSeeds) -> _Found | None:
+def _of_maxima(values: Array, wanted: schema.ExtremesOfSeeds) -> _FoundValues | None:
     data = values[np.isfinite(values)]
     if data.size == 0:
         return None
@@ -155,14 +155,14 @@ def _of_maxima(values: Array, wanted: schema.ExtremesOfSeeds) -> _Found | None:
     if np.ptp(data) <= 1e-12 * np.max(np.abs(data)):
         # The response does not depend on the seed here (slack line, no waves): its value is the answer
         one = float(data[0])
-        return _Found(one, one, one, one, one, 0.0)
+        return _FoundValues(one, one, one, one, one, 0.0)
     fitted = fit(data, "gumbel")
     interval = maximum_interval(
         fitted, wanted.times, seed=wanted.seed, probability=wanted.probability, confidence=wanted.confidence,
         repetitions=200,
     )  # fmt: skip
     mode = fitted.location + fitted.scale * math.log(wanted.times)
-    return _Found(
+    return _FoundValues(
         interval.value, interval.lower, interval.upper, mode, fitted.location, fitted.scale, math.nan,
         check_fit(fitted, data),
     )  # fmt: skip
@@ -186,7 +186,7 @@ def _gathered(
     return mean.isel({wanted.over: 0}, drop=True), kinds, mean.values
 
 
-def _of_peaks(rows: list[list[Array]], mean: float, wanted: schema.ExtremesOfSeeds) -> _Found:
+def _of_peaks(rows: list[list[Array]], mean: float, wanted: schema.ExtremesOfSeeds) -> _FoundValues:
     seas = max(1, max(len(kind) for kind in rows))
     if wanted.family == "acer":
         return _of_rates(rows[0], seas, wanted)
@@ -202,10 +202,10 @@ def _of_peaks(rows: list[list[Array]], mean: float, wanted: schema.ExtremesOfSee
         else:
             pooled = [kind for kind in pooled if kind.size]
     if not pooled or sum(kind.size for kind in pooled) < _LEAST:
-        return _Found(math.nan, math.nan, math.nan, math.nan)
+        return _FoundValues(math.nan, math.nan, math.nan, math.nan)
     if all(np.ptp(kind) <= 1e-12 * np.max(np.abs(kind)) for kind in pooled):
         one = max(float(kind[0]) for kind in pooled)
-        return _Found(one, one, one, one, one, 0.0, math.nan, tuple(notices))
+        return _FoundValues(one, one, one, one, one, 0.0, math.nan, tuple(notices))
     kinds = []
     for kind in pooled:
         lower_end, threshold = _lower_ends(kind, mean, wanted)
@@ -213,7 +213,7 @@ def _of_peaks(rows: list[list[Array]], mean: float, wanted: schema.ExtremesOfSee
             fitted = fit(kind, "weibull", location=lower_end, threshold=threshold)
         else:
             fitted = fit(kind, "generalised_pareto", location=lower_end)
-        kinds.append(Kind(fitted, wanted.times * fitted.count / seas))
+        kinds.append(PeakKind(fitted, wanted.times * fitted.count / seas))
         notices += check_fit(fitted, kind)
     try:
         interval = interval_of_kinds(kinds, wanted.probability, seed=wanted.seed, confidence=wanted.confidence)
@@ -221,7 +221,7 @@ def _of_peaks(rows: list[list[Array]], mean: float, wanted: schema.ExtremesOfSee
     except ConvergenceError as error:
         raise InputError(error.fault.message, path="assess.extremes", remedy="run more seeds") from None
     main = max(kinds, key=lambda one: one.fitted.level(1e-3)).fitted
-    return _Found(
+    return _FoundValues(
         interval.value, interval.lower, interval.upper, mode, main.location, main.scale, main.shape, tuple(notices)
     )
 
@@ -239,12 +239,12 @@ def _lower_ends(peaks: Array, mean: float, wanted: schema.ExtremesOfSeeds) -> tu
     return threshold, None
 
 
-def _of_rates(rows: list[Array], seas: int, wanted: schema.ExtremesOfSeeds) -> _Found:
+def _of_rates(rows: list[Array], seas: int, wanted: schema.ExtremesOfSeeds) -> _FoundValues:
     total = sum(row.size for row in rows)
     if total < 20:
-        return _Found(math.nan, math.nan, math.nan, math.nan)
+        return _FoundValues(math.nan, math.nan, math.nan, math.nan)
     rates = exceedance_rates([row for row in rows if row.size >= wanted.order], order=wanted.order)
     tail = fit_tail(rates)
     count = wanted.times * total / seas
     interval = acer_interval(tail, count, wanted.probability, confidence=wanted.confidence)
-    return _Found(interval.value, interval.lower, interval.upper, tail.most_probable_maximum(count), tail.b)
+    return _FoundValues(interval.value, interval.lower, interval.upper, tail.most_probable_maximum(count), tail.b)

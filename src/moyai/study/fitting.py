@@ -14,7 +14,7 @@ import numpy as np
 
 from moyai.case.paths import resolve, value_of
 from moyai.case.reader import case_of, read_block
-from moyai.case.yaml_reader import Document, KeyPath, read_yaml
+from moyai.case.yaml_reader import CaseDocument, KeyPath, read_yaml
 from moyai.core.arrays import Array
 from moyai.core.errors import CaseError, Fault, InputError
 from moyai.core.progress import Progress, silent
@@ -31,7 +31,7 @@ from moyai.study.variations_of_files import column_of, read_rows
 
 
 @dataclass(frozen=True)
-class Row:
+class ObservationRow:
     """One observation."""
 
     #: What it sets in the case.
@@ -45,16 +45,16 @@ class Row:
 
 
 @dataclass(frozen=True)
-class Fit:
+class StudyFit:
     """A fit that was read and found sound."""
 
     title: str
     #: With the changes that all rows share.
-    base: Document
+    base: CaseDocument
     base_path: Path
     #: By path, each with the unit in which it is written.
     parameters: tuple[tuple[Parameter, str], ...]
-    rows: tuple[Row, ...]
+    rows: tuple[ObservationRow, ...]
     response: str
     bootstrap: int
     seed: int
@@ -63,7 +63,7 @@ class Fit:
     source: str
 
 
-def load_fit(path: str | os.PathLike[str]) -> Fit:
+def load_fit(path: str | os.PathLike[str]) -> StudyFit:
     """Read a fit file and check that its cases can be built.
 
     Raises
@@ -96,7 +96,7 @@ def load_fit(path: str | os.PathLike[str]) -> Fit:
             parameters.append(_parameter(base.data, name, unknown))
         except InputError as error:
             tell(error, "parameters", name)
-    rows: tuple[Row, ...] = ()
+    rows: tuple[ObservationRow, ...] = ()
     try:
         rows = _rows(block.observations, base.data, folder, set(block.parameters))
     except InputError as error:
@@ -112,7 +112,7 @@ def load_fit(path: str | os.PathLike[str]) -> Fit:
         raise CaseError(faults)
     file = folder / block.observations.file
     digest = hashlib.sha256(file.read_bytes()).hexdigest()[:12]
-    fit = Fit(
+    fit = StudyFit(
         block.title, base, base_path, tuple(parameters), rows, block.observations.response, block.bootstrap,
         block.seed, block.step, f"{file.name} (sha256 {digest})",
     )  # fmt: skip
@@ -121,7 +121,7 @@ def load_fit(path: str | os.PathLike[str]) -> Fit:
     return fit
 
 
-def run_fit(fit: Fit, run: RunCase, progress: Progress = silent) -> tuple[Result, Calibration]:
+def run_fit(fit: StudyFit, run: RunCase, progress: Progress = silent) -> tuple[Result, Calibration]:
     """Fit and gather what was found.
 
     Parameters
@@ -180,7 +180,7 @@ def run_fit(fit: Fit, run: RunCase, progress: Progress = silent) -> tuple[Result
     return _result(fit, found, unit[0]), found
 
 
-def _predict(fit: Fit, run: RunCase, values: Array, row: Row) -> tuple[float, str]:
+def _predict(fit: StudyFit, run: RunCase, values: Array, row: ObservationRow) -> tuple[float, str]:
     """Return the response of a row with its unit."""
     try:
         result = run(case_of(_document(fit, values, row), fit.base_path), silent)
@@ -197,7 +197,7 @@ def _predict(fit: Fit, run: RunCase, values: Array, row: Row) -> tuple[float, st
     return read_response(result.tree, fit.response), unit
 
 
-def _one_level(base: Document, block: fit_schema.FitBlock) -> Document:
+def _one_level(base: CaseDocument, block: fit_schema.FitBlock) -> CaseDocument:
     """Return the base with the one water level that the response names: the others give nothing that is read."""
     site = base.data.get("site")
     levels = site.get("water_levels") if isinstance(site, dict) else None
@@ -208,7 +208,7 @@ def _one_level(base: Document, block: fit_schema.FitBlock) -> Document:
     return varied(base, Combination(-1, (), (("site.water_levels", {name: levels[name]}),)))
 
 
-def _document(fit: Fit, values: Array, row: Row) -> Document:
+def _document(fit: StudyFit, values: Array, row: ObservationRow) -> CaseDocument:
     changes = [(item.name, _written(float(value), unit)) for (item, unit), value in zip(fit.parameters, values)]
     return varied(fit.base, Combination(0, (), (*changes, *row.changes)))
 
@@ -237,7 +237,7 @@ def _parameter(data: Any, name: str, unknown: fit_schema.Unknown) -> tuple[Param
     return Parameter(name, guess, low, high, unit), unit
 
 
-def _rows(given: fit_schema.Observations, data: Any, folder: Path, unknown: set[str]) -> tuple[Row, ...]:
+def _rows(given: fit_schema.Observations, data: Any, folder: Path, unknown: set[str]) -> tuple[ObservationRow, ...]:
     from moyai.case.yaml_reader import core_scalar
 
     file = folder / given.file
@@ -262,7 +262,9 @@ def _rows(given: fit_schema.Observations, data: Any, folder: Path, unknown: set[
         if given.error and not error > 0.0:
             raise InputError(f"{file.name}, row {number}: the error {error:g} is not above zero")
         rows.append(
-            Row(tuple(changes), observed, error, (row[heads[given.group][0]] or "").strip() if given.group else "")
+            ObservationRow(
+                tuple(changes), observed, error, (row[heads[given.group][0]] or "").strip() if given.group else ""
+            )
         )
     return tuple(rows)
 
@@ -279,7 +281,7 @@ def _number(row: dict[str, str], head: tuple[str, str], file: Path, number: int)
     return value * parse_quantity(f"1 {head[1]}").si if head[1] else value
 
 
-def _result(fit: Fit, found: Calibration, unit: str) -> Result:
+def _result(fit: StudyFit, found: Calibration, unit: str) -> Result:
     import xarray as xr
 
     names = [item.name for item, _ in fit.parameters]
@@ -331,7 +333,7 @@ def _correlation(covariance: Array) -> Array:
         return np.asarray(covariance / np.outer(spread, spread))
 
 
-def fitted_text(fit: Fit, found: Calibration) -> str:
+def fitted_text(fit: StudyFit, found: Calibration) -> str:
     """Return the text of the case with the values that were found, comments and layout kept.
 
     Every value stands with as many digits as its standard error is worth; the heading tells where they come from.
@@ -359,7 +361,7 @@ def _rounded(value: float, error: float) -> str:
     return f"{value:.{min(digits, 15)}g}"
 
 
-def _replace(lines: list[str], document: Document, place: KeyPath, new: str) -> list[str]:
+def _replace(lines: list[str], document: CaseDocument, place: KeyPath, new: str) -> list[str]:
     """Return the lines with the scalar at a place replaced; a key that is not there is set in a block of its parent."""
     if place not in document.values:
         raise InputError(

@@ -29,7 +29,7 @@ _SYNC = 1.0
 
 
 @dataclass(frozen=True)
-class Record:
+class LedgerRecord:
     """What is known of one case."""
 
     #: Number of the case.
@@ -127,7 +127,7 @@ class Ledger:
             os.fsync(self._file.fileno())
             self._synced = time.monotonic()
 
-    def add(self, record: Record) -> None:
+    def add(self, record: LedgerRecord) -> None:
         """Append a finished case.
 
         Raises
@@ -175,9 +175,9 @@ class Ledger:
             self._lock.close()
             self._lock = None
 
-    def records(self) -> Iterator[Record]:
+    def records(self) -> Iterator[LedgerRecord]:
         """Return what was recorded so far, the last word on every case."""
-        latest: dict[int, Record] = {}
+        latest: dict[int, LedgerRecord] = {}
         for record in read_records(self.path):
             latest[record.index] = record
         return iter([latest[index] for index in sorted(latest)])
@@ -231,14 +231,14 @@ def read_heading(path: Path) -> dict[str, Any]:
     raise InputError(f"{path} is no diary of a study", path="output", remedy="choose another folder")
 
 
-def read_records(path: Path) -> Iterator[Record]:
+def read_records(path: Path) -> Iterator[LedgerRecord]:
     """Yield every record of a diary, in the order of writing; damaged lines are left out."""
     with path.open(encoding="utf-8") as file:
         next(file, None)
         for line in file:
             try:
                 item = json.loads(line)
-                yield Record(
+                yield LedgerRecord(
                     int(item["index"]), item["status"], item["message"], float(item["seconds"]), item["values"],
                     item.get("verdict", ""),
                 )  # fmt: skip

@@ -15,7 +15,7 @@ from moyai.core.errors import InputError
 from moyai.core.processes import collect_rarely, die_with_parent
 from moyai.core.progress import Progress, silent
 from moyai.study.axes import Combination
-from moyai.study.ledger import Record
+from moyai.study.ledger import LedgerRecord
 from moyai.study.work import Task, run_case
 
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
@@ -26,7 +26,7 @@ _GRACE = 3.0
 _STARTED = "started"
 
 
-def run_here(task: Task, cases: tuple[Combination, ...], progress: Progress = silent) -> Iterator[Record]:
+def run_here(task: Task, cases: tuple[Combination, ...], progress: Progress = silent) -> Iterator[LedgerRecord]:
     """Run the cases in this process, telling the steps of each."""
     for combination in cases:
         record = run_case(task, combination, progress=progress)
@@ -35,7 +35,7 @@ def run_here(task: Task, cases: tuple[Combination, ...], progress: Progress = si
         yield record
 
 
-def run_processes(task: Task, cases: tuple[Combination, ...], workers: int) -> Iterator[Record]:
+def run_processes(task: Task, cases: tuple[Combination, ...], workers: int) -> Iterator[LedgerRecord]:
     """Run the cases in worker processes; records come in the order in which they finish.
 
     A worker that dies (killed, out of memory) is replaced and its case tried once more; a case that kills two workers
@@ -87,7 +87,7 @@ def run_processes(task: Task, cases: tuple[Combination, ...], workers: int) -> I
                         )
                     if deaths + 1 >= _DEATHS:
                         message = f"the worker process died twice on this case (exit code {worker.exit_code()})"
-                        yield Record(combination.index, "failed", message, 0.0, {})
+                        yield LedgerRecord(combination.index, "failed", message, 0.0, {})
                     else:
                         waiting.append((combination, deaths + 1))
                     worker.end()

@@ -7,10 +7,10 @@ from typing import Any
 from moyai.case.paths import resolve, value_of
 from moyai.core.errors import InputError
 from moyai.study import schema
-from moyai.study.axes import Axis, Ground, Point
+from moyai.study.axes import Axis, Point, StudyBase
 
 
-def lines_lost(given: schema.LinesLost | bool, ground: Ground) -> tuple[Axis, ...]:
+def lines_lost(given: schema.LinesLost | bool, ground: StudyBase) -> tuple[Axis, ...]:
     """Return the axis of the intact structure and one line less of every group."""
     settings = schema.LinesLost() if given is True else given
     assert isinstance(settings, schema.LinesLost)

@@ -15,7 +15,7 @@ from typing import Any
 
 from moyai.core.errors import InputError
 from moyai.study.axes import Combination
-from moyai.study.ledger import Record
+from moyai.study.ledger import LedgerRecord
 from moyai.study.local import THREADS
 from moyai.study.work import Task, run_case
 
@@ -31,7 +31,7 @@ _POST = 100_000
 """Bytes of a record above which it is fetched from its worker instead of being posted by the scheduler."""
 
 
-def run_on_dask(task: Task, cases: tuple[Combination, ...], on: Any) -> Iterator[Record]:
+def run_on_dask(task: Task, cases: tuple[Combination, ...], on: Any) -> Iterator[LedgerRecord]:
     """Run the cases on a cluster; records come in the order in which they finish.
 
     Only a few cases a worker are in flight at a time, so that neither the scheduler nor this process ever holds the
@@ -122,7 +122,7 @@ def _task(packed: bytes) -> Task:
     return task
 
 
-def _records(client: Any, ended: list[tuple[Any, Combination]], posted: dict[int, bytes]) -> Iterator[Record]:
+def _records(client: Any, ended: list[tuple[Any, Combination]], posted: dict[int, bytes]) -> Iterator[LedgerRecord]:
     """Return the records of cases that ended: as posted, and what did not come by post from the workers themselves."""
     missing = [future for future, case in ended if future.status == "finished" and case.index not in posted]
     found = client.gather({future.key: future for future in missing}, errors="skip") if missing else {}
@@ -135,7 +135,7 @@ def _records(client: Any, ended: list[tuple[Any, Combination]], posted: dict[int
             # The case did not fail: whoever knew of it is gone. Without a record it is run again
             raise _lost_scheduler()
         elif future.status != "finished":
-            yield Record(combination.index, "failed", f"the cluster gave it up: {future.exception()}", 0.0, {})
+            yield LedgerRecord(combination.index, "failed", f"the cluster gave it up: {future.exception()}", 0.0, {})
     # All of them in the client's own thread: from here each would wake it up once
     client.loop.add_callback(_release, [future for future, _ in ended])
 
@@ -145,7 +145,7 @@ def _release(futures: list[Any]) -> None:
         future.release()
 
 
-def _run(study: _Study, combination: Combination) -> Record | None:
+def _run(study: _Study, combination: Combination) -> LedgerRecord | None:
     """Run one case on a worker of the cluster."""
     import os
 
@@ -158,7 +158,7 @@ def _run(study: _Study, combination: Combination) -> Record | None:
     return record
 
 
-def _post(name: str, record: Record) -> None:
+def _post(name: str, record: LedgerRecord) -> None:
     """Send a record on the stream that the worker has to the scheduler anyway, which hands it on at once.
 
     To fetch results from a thousand workers costs a connection to each of them; only what is too large for the post,
@@ -171,7 +171,7 @@ def _post(name: str, record: Record) -> None:
         get_worker().log_event(name, (record.index, letter))
 
 
-def _letter(record: Record) -> bytes:
+def _letter(record: LedgerRecord) -> bytes:
     """Return a record as it is posted: not compressed, since a thousand workers pack, but one process unpacks."""
     return pickle.dumps(record)
 

@@ -13,11 +13,11 @@ from typing import Any
 
 from moyai.case.paths import resolve
 from moyai.case.reader import Case, case_of, read_block
-from moyai.case.yaml_reader import Document, KeyPath, dotted, read_yaml
+from moyai.case.yaml_reader import CaseDocument, KeyPath, dotted, read_yaml
 from moyai.core.errors import CaseError, Fault, InputError
 from moyai.core.progress import Progress, silent
 from moyai.study import schema
-from moyai.study.axes import Axis, Combination, Ground, Point, combinations, varied, without
+from moyai.study.axes import Axis, Combination, Point, StudyBase, combinations, varied, without
 from moyai.study.plan_faults import check_kind, check_names, check_search, place_of, unknown_keys
 from moyai.study.responses import Wanted
 from moyai.study.variations import axes_of, wrong_paths
@@ -35,7 +35,7 @@ class Study:
     #: Title of the study.
     title: str
     #: The base case as read.
-    base: Document
+    base: CaseDocument
     #: Its file.
     base_path: Path
     #: Along which it is varied.
@@ -67,7 +67,7 @@ class Study:
         return tuple(len(axis.points) for axis in self.axes)
 
 
-def _one_realisation_a_seed(base: Document, axes: list[Axis]) -> Document:
+def _one_realisation_a_seed(base: CaseDocument, axes: list[Axis]) -> CaseDocument:
     """Return the base case of a breakwater with one realisation a case where the study itself varies seeds.
 
     The maxima over the seeds are then maxima, not means of several, unless the case asks for realisations itself.
@@ -121,7 +121,7 @@ def load_study(path: str | os.PathLike[str], progress: Progress = silent) -> Stu
         changed: KeyPath = ("study", "set", error.fault.path)
         faults.append(document.fault(changed, error.fault.message, remedy=error.fault.remedy, of_key=True))
     axes: list[Axis] = []
-    ground = Ground(base.data, folder, base_path.parent)
+    ground = StudyBase(base.data, folder, base_path.parent)
     wrong: list[str] = []
     for number, variation in enumerate(block.variations):
         where: KeyPath = ("study", "variations", number)
@@ -171,7 +171,7 @@ def load_study(path: str | os.PathLike[str], progress: Progress = silent) -> Stu
     return replace(study, key=_key(study, named), refused=refused)
 
 
-def _watched(document: Document, block: schema.StudyBlock, search: Any) -> str:
+def _watched(document: CaseDocument, block: schema.StudyBlock, search: Any) -> str:
     """Return the response that is shown on the way; a search is watched by what it finds."""
     if search is None:
         return block.watch
@@ -182,7 +182,7 @@ def _watched(document: Document, block: schema.StudyBlock, search: Any) -> str:
     return block.watch or found[0]
 
 
-def _wanted_of_assessment(document: Document, assess: schema.Assessment | None) -> list[Wanted]:
+def _wanted_of_assessment(document: CaseDocument, assess: schema.Assessment | None) -> list[Wanted]:
     """Return what every case must keep for the assessment; refuse settings that contradict each other."""
     from moyai.study.extremes_over_seeds import fault_of, wanted_of
     from moyai.study.fatigue_of_lines import curves_of
@@ -280,13 +280,13 @@ def _to_check(study: Study) -> list[int]:
 
 def with_search(study: Study, run: RunCase) -> RunCase:
     """Return what runs one case of the study: ``run`` itself, or a search around it."""
-    from moyai.study.search import Limit, LimitRun, OptimiseRun
+    from moyai.study.search import LimitRun, OptimiseRun, ResponseLimit
 
-    def limit(one: schema.Condition) -> Limit:
+    def limit(one: schema.Condition) -> ResponseLimit:
         if one.at_most is not None:
-            return Limit(one.response, one.at_most, 1)
+            return ResponseLimit(one.response, one.at_most, 1)
         assert one.at_least is not None
-        return Limit(one.response, one.at_least, -1)
+        return ResponseLimit(one.response, one.at_least, -1)
 
     search = study.search
     if isinstance(search, schema.LimitSearch):
@@ -306,7 +306,7 @@ def with_search(study: Study, run: RunCase) -> RunCase:
     return run
 
 
-def _read_base(document: Document, base_path: Path) -> Document:
+def _read_base(document: CaseDocument, base_path: Path) -> CaseDocument:
     """Read the base case; every fault of its own is reported with its own lines."""
     if not base_path.exists():
         raise CaseError([document.fault(("study", "base"), f"no such file: {base_path}", remedy="name the base case")])

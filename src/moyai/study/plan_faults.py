@@ -8,14 +8,14 @@ from typing import Any
 
 from moyai.case.paths import resolve
 from moyai.case.reader import case_of
-from moyai.case.yaml_reader import Document, KeyPath, dotted
+from moyai.case.yaml_reader import CaseDocument, KeyPath, dotted
 from moyai.core.errors import CaseError, Fault, InputError
 from moyai.study import schema
 from moyai.study.axes import Assignments, Axis, Combination, varied
 from moyai.study.variations import common_unit
 
 
-def check_kind(document: Document) -> None:
+def check_kind(document: CaseDocument) -> None:
     """Refuse a file that is a case or a fit with one sentence."""
     data = document.data
     if isinstance(data, dict) and "study" not in data:
@@ -26,7 +26,7 @@ def check_kind(document: Document) -> None:
             raise CaseError([document.fault((), "this is a fit, not a study", remedy="'moyai fit FILE' runs it")])
 
 
-def unknown_keys(axes: tuple[Axis, ...], base: Document, base_path: Path) -> list[Fault]:
+def unknown_keys(axes: tuple[Axis, ...], base: CaseDocument, base_path: Path) -> list[Fault]:
     """Return the faults of keys that the case does not know, each path of the axes tried once on its own.
 
     Told together with paths that lead nowhere, so that all slips of one kind are corrected in one go.
@@ -42,7 +42,7 @@ def unknown_keys(axes: tuple[Axis, ...], base: Document, base_path: Path) -> lis
     return found
 
 
-def faults_at(base: Document, base_path: Path, entries: Assignments) -> list[Fault]:
+def faults_at(base: CaseDocument, base_path: Path, entries: Assignments) -> list[Fault]:
     """Return the faults of the case with these values, of those that speak of one of their paths."""
     places = {dotted(place): path for path, _ in entries for place in resolve(base.data, path)}
     try:
@@ -53,7 +53,7 @@ def faults_at(base: Document, base_path: Path, entries: Assignments) -> list[Fau
 
 
 def check_search(
-    document: Document, base: Document, base_path: Path, search: schema.LimitSearch | schema.Optimisation | None
+    document: CaseDocument, base: CaseDocument, base_path: Path, search: schema.LimitSearch | schema.Optimisation | None
 ) -> None:
     """Check the paths and ranges of a search."""
     if search is None:
@@ -83,7 +83,7 @@ def check_search(
         raise CaseError(faults)
 
 
-def place_of(document: Document, where: KeyPath, path: str) -> KeyPath:
+def place_of(document: CaseDocument, where: KeyPath, path: str) -> KeyPath:
     """Return the place in the study file that speaks of ``path``, or the variation as a whole."""
     named = [place for place in document.keys if place[: len(where)] == where and path and str(place[-1]) == path]
     if named:
@@ -103,7 +103,7 @@ def _value(data: Any, place: KeyPath) -> Any:
     return data
 
 
-def check_names(document: Document, axes: list[Axis]) -> None:
+def check_names(document: CaseDocument, axes: list[Axis]) -> None:
     names = [axis.name for axis in axes]
     twice = sorted({name for name in names if names.count(name) > 1})
     if twice:

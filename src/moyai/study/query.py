@@ -39,7 +39,7 @@ _WORDS = ("status", "message", "verdict")
 
 
 @dataclass(frozen=True)
-class Column:
+class QueryColumn:
     """One column of the table of cases."""
 
     #: As asked for.
@@ -99,7 +99,7 @@ class StudyTable:
                     found["/".join(part for part in (node.path.strip("/"), str(name)) if part)] = variable
         return found
 
-    def column(self, text: str) -> Column:
+    def column(self, text: str) -> QueryColumn:
         """Return a column by name: an axis, ``case``, ``status``, ``message``, ``verdict``, or a response.
 
         A response may be named by the end of its name, where that is only one, and by labels:
@@ -119,11 +119,11 @@ class StudyTable:
             values = None
             if axis["values"] is not None:
                 values = np.asarray(axis["values"], dtype=float)[place[number]]
-            return Column(text, str(axis["unit"] or "1"), values, labels)
+            return QueryColumn(text, str(axis["unit"] or "1"), values, labels)
         if text == "case":
-            return Column(text, "1", np.arange(self.count, dtype=float), tuple(map(str, range(self.count))))
+            return QueryColumn(text, "1", np.arange(self.count, dtype=float), tuple(map(str, range(self.count))))
         if text in _WORDS:
-            return Column(text, "", None, tuple(getattr(self, text)))
+            return QueryColumn(text, "", None, tuple(getattr(self, text)))
         name, variable = self._response(text)
         variable = in_stated_unit(variable)
         dims = [dim for dim in self.names if dim in variable.dims]
@@ -132,7 +132,7 @@ class StudyTable:
         largest = np.full(self.count, math.nan)
         largest[known] = np.nanmax(np.where(np.isfinite(table[known]), table[known], -math.inf), axis=1)
         texts = tuple(f"{value:.6g}" if math.isfinite(value) else "" for value in largest)
-        return Column(name, str(variable.attrs.get("units", "1")), largest, texts)
+        return QueryColumn(name, str(variable.attrs.get("units", "1")), largest, texts)
 
     def _response(self, text: str) -> tuple[str, xr.DataArray]:
         group, last, labels = split_response(text)

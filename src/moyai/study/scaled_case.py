@@ -19,7 +19,7 @@ from moyai.case.schema_lines import CatalogueSegment
 from moyai.case.schema_types import Block, QuantityOf
 from moyai.case.yaml_reader import KeyPath, dotted, parse_yaml
 from moyai.core.errors import CaseError, InputError
-from moyai.core.quantities import VISCOSITY, Kind, parse_quantity
+from moyai.core.quantities import VISCOSITY, QuantityKind, parse_quantity
 from moyai.design.similarity import Scale, ScaledQuantity
 from moyai.study.scaled_files import scaled_files
 from moyai.study.scaled_materials import Figures, equivalents
@@ -52,7 +52,7 @@ class _Leaf:
     """A value of the file with its kind and its place in the text."""
 
     path: KeyPath
-    kind: Kind
+    kind: QuantityKind
     data: Any
     node: Any
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from moyai.case.reader import Case
 from moyai.core.units import parse_unit
-from moyai.design.model_numbers import Motion
+from moyai.design.model_numbers import WaterMotion
 from moyai.sea.dispersion import wave_number
 from moyai.study.scaled_case import ScaledCase
 
@@ -16,7 +16,7 @@ from moyai.study.scaled_case import ScaledCase
 _SIZES = ("draught", "skirt_length", "skirt_depth", "depth", "beam", "bottom_beam", "pontoon_beam", "radius")
 
 
-def motions_of(scaled: ScaledCase, case: Case) -> dict[str, Motion]:
+def motions_of(scaled: ScaledCase, case: Case) -> dict[str, WaterMotion]:
     """Return how fast the water passes the structure and its thinnest member, in the prototype.
 
     The speed is that of the current and of the largest wave at the surface by linear theory together; a member is
@@ -41,7 +41,7 @@ def motions_of(scaled: ScaledCase, case: Case) -> dict[str, Motion]:
         elif key.endswith("diameter"):
             sizes["thinnest member"] = min(size, sizes.get("thinnest member", math.inf))
     depth = float(prototype.model.site.water_depth)
-    return {name: Motion(speed, size, period, depth) for name, size in sizes.items()}
+    return {name: WaterMotion(speed, size, period, depth) for name, size in sizes.items()}
 
 
 def _fastest(case: Case) -> tuple[float, float]:

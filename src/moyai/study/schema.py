@@ -35,7 +35,7 @@ class Spread(Range):
     last: Annotated[Value, Field(alias="to", description="Last value.")]
 
 
-class Layout(Block):
+class NamedCaseKeys(Block):
     """One named case of a list."""
 
     label: Name
@@ -49,7 +49,7 @@ class ListOfCases(Block):
     """Named cases, each with what it changes."""
 
     name: Name = "layout"
-    cases: Annotated[tuple[Layout, ...], Field(min_length=1)]
+    cases: Annotated[tuple[NamedCaseKeys, ...], Field(min_length=1)]
 
 
 class TableOfCases(Block):
@@ -106,7 +106,7 @@ class PairsOfSeas(Block):
     location: Annotated[Number, Field(description="Smallest height of the Weibull distribution [m].")]
 
 
-class Contour(Block):
+class ContourKeys(Block):
     """Sea states round an environmental contour (inverse first-order reliability)."""
 
     name: Name = "contour"
@@ -146,7 +146,7 @@ class Distribution(Block):
     exactly_one: ClassVar[KeyGroups] = (("uniform", "normal", "lognormal"),)
 
 
-class Sample(Block):
+class SampleKeys(Block):
     """Cases drawn from distributions."""
 
     name: Name = "sample"
@@ -175,7 +175,7 @@ class LinesLost(Block):
     intact: Annotated[Truth, Field(description="Run the structure with all lines as well.")] = True
 
 
-class Variation(Block):
+class VariationKeys(Block):
     """One way of varying the case; the study is the product of all of them."""
 
     grid: Annotated[
@@ -186,9 +186,9 @@ class Variation(Block):
     table: TableOfCases | None = None
     return_periods: ReturnPeriods | None = None
     scatter: Scatter | None = None
-    contour: Contour | None = None
+    contour: ContourKeys | None = None
     spectra: SpectraOfFile | None = None
-    sample: Sample | None = None
+    sample: SampleKeys | None = None
     seeds: Seeds | None = None
     lines_lost: LinesLost | Truth | None = None
 
@@ -252,7 +252,7 @@ class Optimisation(Block):
     seed: Seed = 1
 
 
-class LineCode(Block):
+class LineCodeQuery(Block):
     """A design code that the lines are held against."""
 
     name: Annotated[str, Field(description="Code of the table, or a name for values of your own.")]
@@ -266,7 +266,7 @@ class LineCode(Block):
 class LineChecks(Block):
     """Lines of every case against design codes."""
 
-    codes: Annotated[tuple[LineCode, ...], OneOrMany(), Field(min_length=1)]
+    codes: Annotated[tuple[LineCodeQuery, ...], OneOrMany(), Field(min_length=1)]
     component: Annotated[
         dict[str, Literal["chain", "rope", "wire", "knotted_rope", "shackle", "used_chain"]],
         Field(default_factory=dict, description="Kind of each line, chain where not given."),
@@ -381,7 +381,7 @@ class StudyBlock(Block):
     title: str = "Study"
     base: Annotated[FileName, Field(description="The base case, relative to this file.")]
     set: Annotated[dict[str, Value], Field(default_factory=dict, description="Changes that all cases share.")]
-    variations: Annotated[tuple[Variation, ...], OneOrMany()] = ()
+    variations: Annotated[tuple[VariationKeys, ...], OneOrMany()] = ()
     responses: Annotated[tuple[Response, ...], OneOrMany()] = ()
     watch: Annotated[str, Field(description="Variable whose largest and smallest value is shown on the way.")] = ""
     assess: Assessment | None = None

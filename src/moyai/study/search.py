@@ -35,7 +35,7 @@ _GOVERNS = 0.02
 
 
 @dataclass(frozen=True)
-class Limit:
+class ResponseLimit:
     """A response that must stay on one side of a value."""
 
     #: Group and name in the result, perhaps with labels: ``SWL/time/storm/tension[line=seaward]``; its largest entry
@@ -72,7 +72,7 @@ class LimitRun:
     #: ``first``, ``last``: Range, as a case file holds it.
     last: Any
     #: What must hold.
-    limits: tuple[Limit, ...]
+    limits: tuple[ResponseLimit, ...]
     #: Share of the range.
     tolerance: float
 
@@ -131,7 +131,7 @@ class OptimiseRun:
     #: Response.
     minimise: str
     #: What must hold.
-    limits: tuple[Limit, ...]
+    limits: tuple[ResponseLimit, ...]
     #: Response whose limit comes with the case, empty when there is none.
     trade_off: str
     #: ``starts``, ``evaluations``, ``seed``: Effort; the starting points are a Latin hypercube.
@@ -154,7 +154,7 @@ class OptimiseRun:
         ranges = [(path, *common_unit(low, high, path)) for path, low, high in self.variables]
         limits = self.limits
         if self.trade_off:
-            limits = (*limits, Limit(self.trade_off, float(self.options["@at_most"]), 1))
+            limits = (*limits, ResponseLimit(self.trade_off, float(self.options["@at_most"]), 1))
         seen: dict[tuple[float, ...], tuple[float, Array]] = {}
         units = ["1"]
 
@@ -205,7 +205,7 @@ class OptimiseRun:
         self,
         ranges: Sequence[tuple[str, float, float, str]],
         seen: dict[tuple[float, ...], tuple[float, Array]],
-        limits: tuple[Limit, ...],
+        limits: tuple[ResponseLimit, ...],
         objective_unit: str,
         settled: bool,
     ) -> Result:
@@ -264,7 +264,7 @@ class OptimiseRun:
 
 
 def _excess(
-    run: RunCase, case: Case, limits: tuple[Limit, ...], change: dict[str, Any], progress: Progress
+    run: RunCase, case: Case, limits: tuple[ResponseLimit, ...], change: dict[str, Any], progress: Progress
 ) -> tuple[float, str]:
     tree = _tree(run, case, change, progress)
     return max((one.excess(tree), one.response) for one in limits)

@@ -13,14 +13,14 @@ import numpy as np
 from moyai.core.results import Result, Status, make_provenance
 from moyai.core.wording import counted
 from moyai.study.axes import Axis
-from moyai.study.ledger import Record
+from moyai.study.ledger import LedgerRecord
 from moyai.study.plan import Study
 
 if TYPE_CHECKING:
     import xarray as xr
 
 
-def study_result(study: Study, records: Iterable[Record], *, interrupted: bool = False) -> Result:
+def study_result(study: Study, records: Iterable[LedgerRecord], *, interrupted: bool = False) -> Result:
     """Gather the records of a study.
 
     Parameters
@@ -65,7 +65,7 @@ def _axis(axis: Axis) -> dict[str, Any]:
     return {"name": axis.name, "labels": [point.label for point in axis.points], "values": numbers, "unit": unit}
 
 
-def _status(study: Study, known: dict[int, Record], interrupted: bool) -> tuple[Status, str]:
+def _status(study: Study, known: dict[int, LedgerRecord], interrupted: bool) -> tuple[Status, str]:
     failed = sum(record.status == "failed" for record in known.values())
     refused = sum(record.status == "refused" for record in known.values())
     doubtful = sum(record.status not in ("converged", "failed", "refused") for record in known.values())
@@ -86,7 +86,7 @@ def _status(study: Study, known: dict[int, Record], interrupted: bool) -> tuple[
     return ("outside_validity" if spoilt else "converged"), message
 
 
-def _root(study: Study, known: dict[int, Record]) -> xr.Dataset:
+def _root(study: Study, known: dict[int, LedgerRecord]) -> xr.Dataset:
     import xarray as xr
 
     dims = tuple(axis.name for axis in study.axes)
@@ -134,7 +134,7 @@ def _coordinates(study: Study) -> dict[str, Any]:
     return coordinates
 
 
-def _groups(study: Study, known: dict[int, Record]) -> dict[str, xr.Dataset]:
+def _groups(study: Study, known: dict[int, LedgerRecord]) -> dict[str, xr.Dataset]:
     """Return the datasets by group; a label that some cases lack is NaN there."""
     import xarray as xr
 
@@ -182,7 +182,7 @@ def _dimension(dim: str, variable: str, axes: tuple[str, ...], labelled: bool) -
     return dim if labelled else f"{variable}_{dim}"
 
 
-def _length(known: dict[int, Record], name: str, place: int) -> int:
+def _length(known: dict[int, LedgerRecord], name: str, place: int) -> int:
     lengths = [0]
     for record in known.values():
         if name in record.values:

@@ -12,12 +12,12 @@ from moyai.case.paths import resolve
 from moyai.core.errors import InputError
 from moyai.core.quantities import parse_quantity
 from moyai.study import schema
-from moyai.study.axes import Axis, Ground, Point
+from moyai.study.axes import Axis, Point, StudyBase
 from moyai.study.lost_lines import lines_lost
 from moyai.study.variations_of_files import contour, scatter, spectra, table
 
 
-def axes_of(variation: schema.Variation, ground: Ground) -> tuple[Axis, ...]:
+def axes_of(variation: schema.VariationKeys, ground: StudyBase) -> tuple[Axis, ...]:
     """Return the axes that one variation gives; whether the case has their paths is not looked at.
 
     Parameters
@@ -52,7 +52,7 @@ def wrong_paths(axes: tuple[Axis, ...], base: Any) -> list[InputError]:
     return found
 
 
-def _grid(given: Mapping[str, Any], ground: Ground) -> tuple[Axis, ...]:
+def _grid(given: Mapping[str, Any], ground: StudyBase) -> tuple[Axis, ...]:
     axes = []
     names = _short_names(list(given))
     for path, values in given.items():
@@ -100,13 +100,13 @@ def common_unit(first: Any, last: Any, path: str) -> tuple[float, float, str]:
     return float(one.number), float(one.unit.from_si(two.unit.to_si(two.number))), one.unit.symbol
 
 
-def _list(given: schema.ListOfCases, ground: Ground) -> tuple[Axis, ...]:
+def _list(given: schema.ListOfCases, ground: StudyBase) -> tuple[Axis, ...]:
     return (
         Axis(given.name, tuple(Point(entry.label, tuple(entry.set.items()), entry.remove) for entry in given.cases)),
     )
 
 
-def _return_periods(given: schema.ReturnPeriods, ground: Ground) -> tuple[Axis, ...]:
+def _return_periods(given: schema.ReturnPeriods, ground: StudyBase) -> tuple[Axis, ...]:
     pairs = given.pairs
     if pairs == "automatic":
         waves = sorted(given.waves, key=_years)
@@ -145,7 +145,7 @@ def _years(label: str) -> float:
         ) from None
 
 
-def _sample(given: schema.Sample, ground: Ground) -> tuple[Axis, ...]:
+def _sample(given: schema.SampleKeys, ground: StudyBase) -> tuple[Axis, ...]:
     from scipy.stats import qmc
 
     dimension = len(given.variables)
@@ -188,7 +188,7 @@ def _positive(deviation: float, path: str) -> float:
     return deviation
 
 
-def _seeds(given: schema.Seeds, ground: Ground) -> tuple[Axis, ...]:
+def _seeds(given: schema.Seeds, ground: StudyBase) -> tuple[Axis, ...]:
     seeds = range(given.first, given.first + given.count)
     return (Axis(given.name, tuple(Point(str(seed), ((given.path, seed),)) for seed in seeds)),)
 
@@ -197,7 +197,7 @@ def _text(value: Any) -> str:
     return f"{value:g}" if isinstance(value, float) else str(value)
 
 
-_BUILDERS: dict[str, Callable[[Any, Ground], tuple[Axis, ...]]] = {
+_BUILDERS: dict[str, Callable[[Any, StudyBase], tuple[Axis, ...]]] = {
     "grid": _grid,
     "list": _list,
     "table": table,

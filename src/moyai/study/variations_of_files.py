@@ -12,14 +12,14 @@ from moyai.case.paths import resolve, value_of
 from moyai.core.errors import InputError
 from moyai.core.foreign_files import reads
 from moyai.study import schema
-from moyai.study.axes import Axis, Ground, Point
+from moyai.study.axes import Axis, Point, StudyBase
 from moyai.study.scatter import read_scatter
 
 _HEADING = re.compile(r"(.*?)\s*\[([^\]]*)\]")
 _OF_THE_SEA = ("name", "heading_deg", "from_bearing_deg", "spreading", "seed", "duration")
 
 
-def table(given: schema.TableOfCases, ground: Ground) -> tuple[Axis, ...]:
+def table(given: schema.TableOfCases, ground: StudyBase) -> tuple[Axis, ...]:
     """Return the axis of cases from the rows of a CSV file."""
     file = ground.folder / given.file
     rows = read_rows(file)
@@ -93,7 +93,7 @@ def _scalar(text: str) -> Any:
     return core_scalar(text)
 
 
-def scatter(given: schema.Scatter, ground: Ground) -> tuple[Axis, ...]:
+def scatter(given: schema.Scatter, ground: StudyBase) -> tuple[Axis, ...]:
     """Return the axis of the sea states of a scatter diagram with their probabilities."""
     cells = read_scatter(ground.folder / given.file, counts=given.counts)
     points = tuple(
@@ -107,7 +107,7 @@ def scatter(given: schema.Scatter, ground: Ground) -> tuple[Axis, ...]:
     return (Axis(given.name, points),)
 
 
-def contour(given: schema.Contour, ground: Ground) -> tuple[Axis, ...]:
+def contour(given: schema.ContourKeys, ground: StudyBase) -> tuple[Axis, ...]:
     """Return the axis of the sea states round an environmental contour."""
     from moyai.study.contour import contour_seas
 
@@ -121,7 +121,7 @@ def contour(given: schema.Contour, ground: Ground) -> tuple[Axis, ...]:
     return (Axis(given.name, points),)
 
 
-def spectra(given: schema.SpectraOfFile, ground: Ground) -> tuple[Axis, ...]:
+def spectra(given: schema.SpectraOfFile, ground: StudyBase) -> tuple[Axis, ...]:
     """Return the axis of the spectra of a file, one case a time."""
     from moyai.sea.spectrum_archives import read_archive
 

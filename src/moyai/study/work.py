@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from moyai.case.yaml_reader import Document
+from moyai.case.yaml_reader import CaseDocument
 from moyai.core.errors import CaseError, InputError, MoyaiError
 from moyai.core.progress import Progress, silent
 from moyai.study.axes import Combination, varied
-from moyai.study.ledger import Record
+from moyai.study.ledger import LedgerRecord
 from moyai.study.plan import RunCase
 from moyai.study.responses import Wanted, kept
 
@@ -24,7 +24,7 @@ class Task:
     """What all cases of a study have in common; small enough to be sent to a worker."""
 
     #: The base case.
-    base: Document
+    base: CaseDocument
     #: Its file, from which it names others.
     base_path: Path
     wanted: tuple[Wanted, ...]
@@ -39,7 +39,7 @@ def run_case(
     combination: Combination,
     cancelled: Callable[[], bool] | None = None,
     progress: Progress = silent,
-) -> Record | None:
+) -> LedgerRecord | None:
     """Run one case and return what is kept of it, ``None`` when it was cancelled.
 
     Whatever goes wrong in the case becomes its record; nothing is raised but what ends the process.
@@ -61,7 +61,7 @@ def run_case(
     except (CaseError, InputError) as error:
         faults = error.faults[:3] if isinstance(error, CaseError) else (error.fault,)
         message = "; ".join(str(replace(fault, file="", line=0, column=0)) for fault in faults)
-        return Record(combination.index, "refused", message, time.perf_counter() - started, {})
+        return LedgerRecord(combination.index, "refused", message, time.perf_counter() - started, {})
     try:
         options = dict(combination.options)
         run = task.run.bind(options) if options else task.run  # type: ignore[attr-defined]
@@ -85,7 +85,7 @@ def run_case(
     except Exception as error:
         # A fault of the program in one case must not cost the others
         status, message, values = "failed", f"internal error, {type(error).__name__}: {error}", {}
-    return Record(combination.index, status, message, time.perf_counter() - started, values, verdict)
+    return LedgerRecord(combination.index, status, message, time.perf_counter() - started, values, verdict)
 
 
 def _listener(cancelled: Callable[[], bool] | None, progress: Progress) -> Progress:

@@ -10,10 +10,10 @@ import numpy as np
 from moyai.core.validation import ValidationCase
 from moyai.sea.environment import Environment
 from moyai.structures.cage.rigid.matsubara import VISCOSITY, WATER, model_cage, taut_lines
-from moyai.structures.cage.rigid.model import RigidCageProblem, Settings
+from moyai.structures.cage.rigid.model import RigidCageProblem, RigidCageSettings
 from moyai.structures.cage.rigid.modes import natural_modes
 from moyai.structures.cage.rigid.pack import pack
-from moyai.structures.cage.rigid.runs import Run, run_wave
+from moyai.structures.cage.rigid.runs import RigidCageRun, run_wave
 from moyai.structures.cage.rigid.statics import free_floating, rest_with_lines
 from moyai.structures.cage.rigid.waves import wave_of
 
@@ -25,7 +25,7 @@ _GRAM = 9.81e-3
 @cache
 def _run(
     kind: str, period: float, height: float, reach: float = 0.3, stiffness: float = 2000.0, pull: float = 0.011
-) -> Run:
+) -> RigidCageRun:
     """Run the model cage; ``free`` without lines, ``bare`` without lines and drag."""
     cage = model_cage(drag=kind != "bare")
     moored = kind not in ("free", "bare")
@@ -35,7 +35,7 @@ def _run(
         if moored
         else ()
     )
-    settings = Settings(periods=24, settled_periods=8, tolerance=1e-5)
+    settings = RigidCageSettings(periods=24, settled_periods=8, tolerance=1e-5)
     problem = RigidCageProblem("", cage, (), VISCOSITY, Environment(WATER), settings=settings)
     rest = rest_with_lines(cage, lines, WATER, VISCOSITY) if lines else free_floating(cage, WATER, VISCOSITY)
     return run_wave(problem, lines, rest, WATER, wave_of("linear", height, period, 0.0, WATER, 0.0, settings.periods))

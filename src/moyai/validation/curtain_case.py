@@ -17,8 +17,8 @@ from moyai.structures.curtain.model import (
     AnchorLoadSettings,
     Curtain,
     CurtainProblem,
+    CurtainSettings,
     ImpactSettings,
-    Settings,
     Strengths,
 )
 from moyai.structures.curtain.run import run
@@ -61,7 +61,7 @@ def _flume() -> xr.Dataset:
         "flume",
         _curtain(Skirt(0.15, 0.0, 4.0, 5e4), 0.7, 0.8, 150.0, None),
         Environment(Water(0.4, 1000.0, 9.81), current=uniform(0.3, 0.0)),
-        Settings(analyses=("impact",), impact=ImpactSettings(chord=0.135)),
+        CurtainSettings(analyses=("impact",), impact=ImpactSettings(chord=0.135)),
     )
     return run(problem).tree["SWL/impact"].to_dataset()
 
@@ -80,7 +80,7 @@ def _airport() -> xr.Dataset:
             sea_states=(RegularSea("highest", 5.508, (7.0,), 0.0),),
             current=uniform(0.2, 0.0),
         ),
-        Settings(analyses=("anchor_loads",), anchor_loads=AnchorLoadSettings(0.2, 518.0)),
+        CurtainSettings(analyses=("anchor_loads",), anchor_loads=AnchorLoadSettings(0.2, 518.0)),
     )
     return run(problem).tree["SWL/anchor_loads"].to_dataset()
 

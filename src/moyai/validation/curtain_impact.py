@@ -16,10 +16,10 @@ from moyai.structures.curtain.impact.kernels import spring, taut_shape
 from moyai.structures.curtain.impact.march import march_impact
 from moyai.structures.curtain.impact.memory import impact_with_memory, memory_impact
 from moyai.structures.curtain.impact.release import slack_phase, snap_in_current
-from moyai.structures.curtain.impact.skirt import Skirt, cable_and_skirt_impact, skirt_impact
+from moyai.structures.curtain.impact.skirt import BulgedSkirt, cable_and_skirt_impact, skirt_impact
 
 _PROTOTYPE = "prototype of other construction for the case of Sawaragi, Aoki and Liu (1991)"
-_SKIRT = Skirt(0.15, 0.135, 5e4)
+_SKIRT = BulgedSkirt(0.15, 0.135, 5e4)
 
 
 def _flume(scale: float = 1.0, stiffness: float = 150.0) -> Impact:

@@ -9,17 +9,17 @@ from moyai.case.builder import build
 from moyai.case.derived import derived_numbers
 from moyai.case.headings import heading_of
 from moyai.case.reader import case_of
-from moyai.case.schema_environment import Wind
+from moyai.case.schema_environment import WindKeys
 from moyai.case.templates import template
 from moyai.case.yaml_reader import parse_yaml
 from moyai.core import quantities
-from moyai.core.quantities import Kind, to_si
+from moyai.core.quantities import QuantityKind, to_si
 from moyai.core.validation import ValidationCase
 
 _NIST = "NIST SP 811 (2008), appendix B, conversion factors"
 
 
-def _unit(text: str, kind: Kind, reference: float, source: str = _NIST) -> ValidationCase:
+def _unit(text: str, kind: QuantityKind, reference: float, source: str = _NIST) -> ValidationCase:
     return ValidationCase(
         f"foundation: {text} in {kind.unit or 'numbers'}", source, lambda: to_si(text, kind), reference, 5e-7, True,
         "printed to seven digits"
@@ -34,7 +34,7 @@ def _template_number(label: str) -> float:
 
 def _northing_of_travel() -> float:
     """Return the northward part of the travel of waves from 300 degrees, by the heading with +x at 240 degrees."""
-    wind = Wind.model_validate({"speed": 1.0, "density": 1.2, "from_bearing_deg": 300.0})
+    wind = WindKeys.model_validate({"speed": 1.0, "density": 1.2, "from_bearing_deg": 300.0})
     heading = heading_of(wind, 240.0, "wind")
     axis = math.radians(240.0)
     # +y lies a quarter turn to the left of +x, thus at bearing 150

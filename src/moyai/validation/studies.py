@@ -11,8 +11,8 @@ from moyai.core.validation import ValidationCase
 from moyai.design.codes import LineLoad, check_line, design_code
 from moyai.design.fatigue import EnduranceCurve, damage
 from moyai.design.long_term import YEAR, JointSea, environmental_contour, return_level
-from moyai.series.extremes import Fit, fit
-from moyai.series.peaks import Kind, maximum_of_kinds
+from moyai.series.extremes import ExtremeFit, fit
+from moyai.series.peaks import PeakKind, maximum_of_kinds
 from moyai.series.rainflow import count_cycles
 
 
@@ -33,14 +33,14 @@ def _weibull_tail() -> float:
 
 
 def _two_kinds() -> float:
-    ordinary = Kind(Fit("weibull", 0.0, 1.0, 2.0, 0, math.nan), 400.0)
-    snaps = Kind(Fit("generalised_pareto", 2.0, 0.5, 0.0, 0, math.nan), 20.0)
+    ordinary = PeakKind(ExtremeFit("weibull", 0.0, 1.0, 2.0, 0, math.nan), 400.0)
+    snaps = PeakKind(ExtremeFit("generalised_pareto", 2.0, 0.5, 0.0, 0, math.nan), 20.0)
     level = maximum_of_kinds([ordinary, snaps], 0.9)
     return float((1.0 - math.exp(-(level**2))) ** 400 * (1.0 - math.exp(-(level - 2.0) / 0.5)) ** 20)
 
 
 def _contour() -> float:
-    height = Fit("weibull", 0.3, 1.2, 1.3, 0, math.nan)
+    height = ExtremeFit("weibull", 0.3, 1.2, 1.3, 0, math.nan)
     sea = JointSea(height, (0.7, 0.4, 0.5), (0.05, 0.1, -0.4))
     significant, period = environmental_contour(sea, 50.0, 3600.0, 36)
     first = -ndtri(height.exceedance(significant))

@@ -21,7 +21,7 @@ from moyai.potential.shapes import rectangle
 from moyai.sea.environment import Environment
 from moyai.sea.water import Water
 from moyai.structures.units.assembly import RowAtLevel, assemble
-from moyai.structures.units.bem import Panels, elevation_at, given_flow, panels_of, solve_frequency
+from moyai.structures.units.bem import MeshPanels, elevation_at, given_flow, panels_of, solve_frequency
 from moyai.structures.units.field import height_ratio, line_transmission, map_points, wave_field
 from moyai.structures.units.hydrodynamics import RowHydrodynamics, solve_row
 from moyai.structures.units.mesh import PanelMesh, cuts, row_mesh, turned_round
@@ -219,7 +219,7 @@ def _upright(plan: Array, depth: float, layers: int) -> PanelMesh:
 def scattered(mesh: PanelMesh, water: Water, k: float, points: Array) -> Array:
     """Return K (p,) at points (p, 2) of waves along x on a fixed body."""
     omega = math.sqrt(water.gravity * k * math.tanh(k * water.depth))
-    panels: Panels = panels_of(mesh, np.zeros((1, 3)))
+    panels: MeshPanels = panels_of(mesh, np.zeros((1, 3)))
     heading = np.zeros(1)
     found = solve_frequency(panels, water, omega, heading)
     given = given_flow(panels, water, omega, k, heading)[:, 6:]

@@ -16,7 +16,7 @@ import numpy as np
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.validation import ValidationCase
 from moyai.structures.units.assembly import RowAtLevel
-from moyai.structures.units.bem import Panels, capytaine_mesh, panels_of
+from moyai.structures.units.bem import MeshPanels, capytaine_mesh, panels_of
 from moyai.structures.units.green import green_function
 from moyai.structures.units.hydrodynamics import RowHydrodynamics, solve_row
 from moyai.structures.units.mesh import HULL, row_mesh
@@ -40,7 +40,7 @@ def _free(*connectors: Connector) -> RowAtLevel:
 
 
 @cache
-def _panels(size: float = COARSE, lid: bool = False) -> tuple[RowAtLevel, Panels]:
+def _panels(size: float = COARSE, lid: bool = False) -> tuple[RowAtLevel, MeshPanels]:
     """Return two boxes; coarse panels are even, as those of Capytaine's own solver."""
     at = _free()
     mesh = row_mesh(at.section, at.row.length, at.row.placements, size, lid=lid, gap_lid=False)

@@ -14,7 +14,7 @@ from moyai.sea.states import IrregularSea, RegularSea
 from moyai.structures.breakwater.assembly import assemble
 from moyai.structures.breakwater.model import Damping, MooringSpring
 from moyai.structures.breakwater.run import run
-from moyai.structures.breakwater.settings import Settings, TimeSettings
+from moyai.structures.breakwater.settings import BreakwaterSettings, TimeSettings
 from moyai.structures.breakwater.viscous_damping import unit_drag_rows, viscous_notices
 
 CASE = """\
@@ -75,7 +75,7 @@ def springs():
 def changed(problem, damping, seas, analyses=("frequency",), **time):
     unit = replace(problem.breakwater, damping=damping, lines=springs(), mass=None)
     environment = replace(problem.environment, sea_states=seas)
-    settings = Settings(drift=False, time=TimeSettings(**time))
+    settings = BreakwaterSettings(drift=False, time=TimeSettings(**time))
     return replace(problem, breakwater=unit, environment=environment, analyses=analyses, settings=settings)
 
 

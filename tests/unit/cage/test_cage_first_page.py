@@ -9,7 +9,7 @@ import moyai
 from moyai.case.templates import template
 from moyai.core.headline import Band, Criterion, Headline, judge
 from moyai.series.block_maxima import maximum_of
-from moyai.structures.cage.bands import TOO_SHORT, State, alone, band_in_sea, chance
+from moyai.structures.cage.bands import TOO_SHORT, LevelState, alone, band_in_sea, chance
 from moyai.structures.cage.flexible.sensitivity import COARSER, STRESS, VOLUME_IN_CURRENT, tension_of
 from moyai.structures.cage.headlines import _mesh_factors, _tension, _with_mesh
 
@@ -105,7 +105,7 @@ def test_each_line_carries_the_band_of_its_own_tension():
         },
         coords={"law": ["own", "other"], "line": ["bridle", "anchor"]},
     )
-    state = State("SWL", 0.5, 0, xr.Dataset(), statics, laws)
+    state = LevelState("SWL", 0.5, 0, xr.Dataset(), statics, laws)
     tensions, used = _tension([state], [])
     assert (tensions[0].value, tensions[0].band.low, tensions[0].band.high) == (5.0e3, 4.0e3, 5.0e3)
     assert (used[0].value, used[0].band.low, used[0].band.high) == pytest.approx((0.05, 0.04, 0.05))

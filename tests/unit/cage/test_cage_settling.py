@@ -6,7 +6,7 @@ import xarray as xr
 from test_flexible_cages import at_sea
 
 from moyai.core.headline import Criterion, judge
-from moyai.structures.cage.bands import UNSETTLED, State, reach
+from moyai.structures.cage.bands import UNSETTLED, LevelState, reach
 from moyai.structures.cage.flexible.checks import settling_notices
 from moyai.structures.cage.flexible.problem import FlexibleSettings
 from moyai.structures.cage.flexible.time import run_cage
@@ -56,7 +56,7 @@ def waves(periods, slow, chaos=0.0):
     attrs = {"regular": 1, "ramp": 0.0, "period": PERIOD, "theory": "linear", "wave": "H 2 m, T 5 s"}
     coords = {"time": time, "drag_time": time, "line": ["anchor 1"]}
     run = xr.Dataset(data, coords=coords, attrs=attrs)
-    return [(State("SWL", 0.5, -1, xr.Dataset(), xr.Dataset(), None), "storm, SWL", run)]
+    return [(LevelState("SWL", 0.5, -1, xr.Dataset(), xr.Dataset(), None), "storm, SWL", run)]
 
 
 def test_waves_that_have_not_settled_prove_no_limit_and_say_so():

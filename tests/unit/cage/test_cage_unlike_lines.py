@@ -7,7 +7,7 @@ import xarray as xr
 import moyai
 from moyai.case.templates import template
 from moyai.core.headline import Criterion, judge, unfavourable
-from moyai.structures.cage.bands import State
+from moyai.structures.cage.bands import LevelState
 from moyai.structures.cage.flexible import run as flexible_run
 from moyai.structures.cage.flexible.law_runs import line_quantity
 from moyai.structures.cage.flexible.sensitivity import tension_of
@@ -26,7 +26,7 @@ def sea(peaks, names, regular):
     }  # fmt: skip
     attrs = {"regular": regular, "ramp": 0.0, "period": 5.0, "theory": "linear", "seed": 1, "wave": "H"}
     run = xr.Dataset(data, coords={"time": TIME, "line": names}, attrs=attrs)
-    return [(State("SWL", 0.5, -1, xr.Dataset(), xr.Dataset(), None), "storm, SWL", run)]
+    return [(LevelState("SWL", 0.5, -1, xr.Dataset(), xr.Dataset(), None), "storm, SWL", run)]
 
 
 def test_an_anchor_of_a_smaller_pull_and_a_wider_band_is_judged():

@@ -18,7 +18,7 @@ from typing import Any
 
 from moyai.case.reader import case_of
 from moyai.case.templates import template
-from moyai.case.yaml_reader import Document, dotted, parse_yaml
+from moyai.case.yaml_reader import CaseDocument, dotted, parse_yaml
 from moyai.core.errors import CaseError, InputError
 from moyai.core.quantities import parse_quantity
 
@@ -94,21 +94,21 @@ def slipped(value: Any, factor: float) -> Any:
     return value * factor
 
 
-def with_value(document: Document, path: tuple[str | int, ...], value: Any) -> Document:
+def with_value(document: CaseDocument, path: tuple[str | int, ...], value: Any) -> CaseDocument:
     """Return the document with another value at ``path``."""
     data = copy.deepcopy(document.data)
     block = data
     for key in path[:-1]:
         block = block[key]
     block[path[-1]] = value
-    return Document(data, document.text, document.file, document.keys, document.values)
+    return CaseDocument(data, document.text, document.file, document.keys, document.values)
 
 
 class _TooLong(BaseException):
     pass
 
 
-def outcome(document: Document, folder: Path, usual: frozenset[str], limit: int = 20) -> str:
+def outcome(document: CaseDocument, folder: Path, usual: frozenset[str], limit: int = 20) -> str:
     """Return what reading and checking say: stopped, warned, silent, hangs, or the name of a traceback."""
 
     def stop(*_: Any) -> None:

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from moyai.case.builder import build
 from moyai.case.headings import heading_of
 from moyai.case.reader import load_case
-from moyai.case.schema_environment import Current, Wind
+from moyai.case.schema_environment import SiteCurrentKeys, WindKeys
 from moyai.core.errors import InputError
 from moyai.structures.breakwater.model import IrregularSea, MooringLine, MooringSpring, RegularSea
 from moyai.tables.lines import line_type
@@ -112,16 +112,16 @@ def test_a_faulty_spectrum_file_is_told_with_its_row(tmp_path):
     ],
 )
 def test_bearings_become_headings(axis, bearing, heading):
-    wind = Wind.model_validate({"speed": 1.0, "density": 1.2, "from_bearing_deg": bearing})
+    wind = WindKeys.model_validate({"speed": 1.0, "density": 1.2, "from_bearing_deg": bearing})
     assert math.degrees(heading_of(wind, axis, "wind")) == pytest.approx(heading, abs=1e-12)
-    towards = Current.model_validate({"speed": 1.0, "to_bearing_deg": (bearing + 180.0) % 360.0})
+    towards = SiteCurrentKeys.model_validate({"speed": 1.0, "to_bearing_deg": (bearing + 180.0) % 360.0})
     assert math.degrees(heading_of(towards, axis, "current")) == pytest.approx(heading, abs=1e-12)
 
 
 @given(st.floats(-360.0, 360.0), st.floats(-360.0, 360.0))
 def test_a_heading_points_where_the_compass_says(axis, bearing):
     """The direction of travel as a vector in east and north, once by the bearing and once by axes and heading."""
-    wind = Wind.model_validate({"speed": 1.0, "density": 1.2, "from_bearing_deg": bearing})
+    wind = WindKeys.model_validate({"speed": 1.0, "density": 1.2, "from_bearing_deg": bearing})
     heading = heading_of(wind, axis, "wind")
     assert -math.pi < heading <= math.pi
     turn = math.radians(axis)
@@ -133,7 +133,7 @@ def test_a_heading_points_where_the_compass_says(axis, bearing):
 
 
 def test_a_bearing_needs_the_axis():
-    wind = Wind.model_validate({"speed": 1.0, "density": 1.2, "from_bearing_deg": 10.0})
+    wind = WindKeys.model_validate({"speed": 1.0, "density": 1.2, "from_bearing_deg": 10.0})
     with pytest.raises(InputError, match="x_axis_bearing_deg"):
         heading_of(wind, None, "wind")
 

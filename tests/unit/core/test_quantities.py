@@ -13,7 +13,7 @@ from moyai.core.errors import InputError
 from moyai.core.quantities import from_si, parse_quantity, to_si
 from moyai.core.units import parse_unit, unit_table
 
-KINDS = [value for value in vars(q).values() if isinstance(value, q.Kind)]
+KINDS = [value for value in vars(q).values() if isinstance(value, q.QuantityKind)]
 
 
 @pytest.mark.parametrize(

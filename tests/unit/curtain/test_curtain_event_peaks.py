@@ -15,7 +15,7 @@ from moyai.sea.water import Water
 from moyai.structures.curtain.analyses.dynamic import peaks_of_runs
 from moyai.structures.curtain.analyses.event_peaks import (
     COMPONENTS,
-    Sample,
+    EventSample,
     event_band,
     event_peak,
     event_variables,
@@ -34,12 +34,14 @@ COARSE, FINE = (8, 3), (12, 4)
 QUANTILE = 2.9888
 
 
-def sample(event: str, mesh: tuple[int, int], seed: int, upper: float, skirt: float = 0.0) -> Sample:
+def sample(event: str, mesh: tuple[int, int], seed: int, upper: float, skirt: float = 0.0) -> EventSample:
     name = event if mesh == COARSE else f"{event}, 12 by 4 cells"
-    return Sample(event, name, mesh, seed, {"upper cable": upper, "lower cable": 0.0, "skirt": skirt, "anchor line": 0})
+    return EventSample(
+        event, name, mesh, seed, {"upper cable": upper, "lower cable": 0.0, "skirt": skirt, "anchor line": 0}
+    )
 
 
-def storm(fine: tuple[float, ...] = (18e3, 22e3, 20e3), skirt: tuple[float, float] = (10e3, 11e3)) -> list[Sample]:
+def storm(fine: tuple[float, ...] = (18e3, 22e3, 20e3), skirt: tuple[float, float] = (10e3, 11e3)) -> list[EventSample]:
     coarse = (31e3, 33e3, 23e3, 27e3, 36e3)
     return [
         sample("calm", COARSE, 0, 12e3, 1e3),
@@ -93,7 +95,9 @@ def test_growth_of_a_sheet_is_continued_as_a_power_and_of_a_cable_at_first_order
 
 
 def test_meshes_that_differ_in_one_direction_alone_have_a_growth_too():
-    runs = [Sample("calm", f"calm, {down}", (2, down), 0, dict.fromkeys(COMPONENTS, 1e3 * down)) for down in (3, 4)]
+    runs = [
+        EventSample("calm", f"calm, {down}", (2, down), 0, dict.fromkeys(COMPONENTS, 1e3 * down)) for down in (3, 4)
+    ]
     peak = event_peak(runs, "calm", "skirt")
     assert peak.ceiling == pytest.approx(4e3 * 4.0)
     # a line that grows in proportion to the cells has no limit at first order but that of the next steps
@@ -118,7 +122,7 @@ def test_what_grows_with_the_cells_is_a_bound_and_warned_of():
     assert mesh_notices(governing_peaks(storm((30e3, 31e3, 28e3)))) == ()
 
 
-def groups_of(samples: list[Sample], capacity: float, bound: str) -> dict[str, xr.Dataset]:
+def groups_of(samples: list[EventSample], capacity: float, bound: str) -> dict[str, xr.Dataset]:
     data, coords = event_variables(samples)
     runs = list(dict.fromkeys(item.run for item in samples))
     events = {item.run: item.event for item in samples}

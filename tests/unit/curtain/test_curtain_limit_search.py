@@ -16,8 +16,8 @@ from moyai.structures.curtain.analyses.limits import CountedLimits
 from moyai.structures.curtain.limit_headlines import limit_headlines
 from moyai.structures.curtain.limits.search import NOT_REACHED, Limit, search
 from moyai.structures.curtain.limits.utilisation import (
+    CurtainSite,
     Requirements,
-    Site,
     Strength,
     anchor_spacing,
     fixed_failures,
@@ -31,7 +31,7 @@ from moyai.structures.curtain.statics.section import Skirt
 
 UNJUDGED = Strength(math.inf, 1.0)
 WATER = Water(12.0, 1025.0, 9.81)
-SITE = Site(WATER, lambda speed: uniform(speed, 0.0), 0.0, 0.0, 0.5)
+SITE = CurtainSite(WATER, lambda speed: uniform(speed, 0.0), 0.0, 0.0, 0.5)
 
 
 #: Random curtains of a test: two in the fast suite

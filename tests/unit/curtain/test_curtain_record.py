@@ -11,7 +11,7 @@ from moyai.structures.curtain.impact.cable import Impact, peak_by_energy
 from moyai.structures.curtain.impact.compare import check_skirt, compare_models
 from moyai.structures.curtain.impact.record import compare_record, model_series
 from moyai.structures.curtain.impact.release import snap_in_current
-from moyai.structures.curtain.impact.skirt import Skirt, cable_and_skirt_impact, curved_impact
+from moyai.structures.curtain.impact.skirt import BulgedSkirt, cable_and_skirt_impact, curved_impact
 
 
 def flume(stiffness=1500.0, **changed):
@@ -21,7 +21,7 @@ def flume(stiffness=1500.0, **changed):
 
 
 def test_ratios_are_model_over_record():
-    table = compare_models(flume(), Skirt(0.15, 0.135, 5e4))
+    table = compare_models(flume(), BulgedSkirt(0.15, 0.135, 5e4))
     found = compare_record(table, impact_tension=30.0, rise_time=0.08, upper_impact=14.0, lower_impact=16.0)
     assert [line.model for line in found.lines if line.model.startswith("A2")] == ["A2", "A2 upper", "A2 lower"]
     for line in found.lines:
@@ -67,7 +67,7 @@ def test_plateau_taken_off_explains_that_model_a_lies_above_records():
 def test_finite_depth_raises_all_masses():
     """At h/d = 1.05 the flat plate has 1.127 M0; every model but the paper's A follows."""
     deep, shallow = flume(draught=0.38, water=Water(9.0, 1000.0, 9.81)), flume(draught=0.38)
-    skirt = Skirt(0.41, 0.38, 5e4)
+    skirt = BulgedSkirt(0.41, 0.38, 5e4)
     one, two = (compare_models(item, skirt, memory=False) for item in (deep, shallow))
     assert two.tension("A") == one.tension("A")
     ratio = two.tension("A in this depth") / one.tension("A in this depth")
@@ -81,10 +81,10 @@ def test_stiff_skirts_cost_nothing_and_meet_the_rigid_limit():
     """From 1e2 to 1e12 N/m: monotone up to model A with the arc's mass; the rigid limit is told."""
     impact = flume(39000.0)
     stiffness = [3e3, 2e4, 1e5, 1e6, 1e7, 1e9, 1e12]
-    found = [cable_and_skirt_impact(impact, Skirt(0.15, 0.135, value)) for value in stiffness]
+    found = [cable_and_skirt_impact(impact, BulgedSkirt(0.15, 0.135, value)) for value in stiffness]
     tensions = [item.tension for item in found]
     assert all(np.diff(tensions) >= -1e-9 * tensions[0])
-    rigid = curved_impact(impact, Skirt(0.15, 0.135, 1e12)).tension
+    rigid = curved_impact(impact, BulgedSkirt(0.15, 0.135, 1e12)).tension
     assert tensions[-1] == rigid
     # the change falls with the square of the frequency ratio, that is with the stiffness
     assert (1.0 - tensions[4] / rigid) / (1.0 - tensions[3] / rigid) == pytest.approx(0.1, rel=0.1)
@@ -94,12 +94,12 @@ def test_stiff_skirts_cost_nothing_and_meet_the_rigid_limit():
 
 def test_skirt_notices():
     impact = flume(39000.0)
-    skirt = Skirt(0.15, 0.135, 2e3)
+    skirt = BulgedSkirt(0.15, 0.135, 2e3)
     both = cable_and_skirt_impact(impact, skirt)
     codes = {item.code for item in check_skirt(impact, skirt, both, 400.0)}
     assert codes == {"impact-soft-skirt", "impact-skirt-strain"}
     assert both.notices[0].code == "impact-frozen-mass"
-    stiff = Skirt(0.15, 0.135, 1e6)
+    stiff = BulgedSkirt(0.15, 0.135, 1e6)
     assert not check_skirt(flume(150.0), stiff, cable_and_skirt_impact(flume(150.0), stiff), 10.0)
 
 
@@ -109,7 +109,7 @@ def test_soft_skirt_leaves_no_false_alarm_below_two_percent():
     seen = 0
     for _ in range(60):
         impact = flume(10.0 ** rng.uniform(1.5, 4.5), speed=rng.uniform(0.1, 0.5))
-        skirt = Skirt(0.15, 0.15 * rng.choice([0.8, 0.9, 0.95]), 10.0 ** rng.uniform(3.5, 6.0))
+        skirt = BulgedSkirt(0.15, 0.15 * rng.choice([0.8, 0.9, 0.95]), 10.0 ** rng.uniform(3.5, 6.0))
         both = cable_and_skirt_impact(impact, skirt)
         if both.sagitta_increment < 0.02 * both.displacement:
             seen += 1
@@ -119,4 +119,4 @@ def test_soft_skirt_leaves_no_false_alarm_below_two_percent():
 
 def test_skirt_deeper_than_the_water_is_refused():
     with pytest.raises(InputError, match="clear of the bed"):
-        compare_models(flume(), Skirt(0.5, 0.45, 5e4), memory=False)
+        compare_models(flume(), BulgedSkirt(0.5, 0.45, 5e4), memory=False)

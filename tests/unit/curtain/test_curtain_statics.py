@@ -13,8 +13,8 @@ from moyai.sea.current import power_law, uniform
 from moyai.sea.water import Water
 from moyai.structures.curtain.checks import check_class, check_statics
 from moyai.structures.curtain.limits.utilisation import (
+    CurtainSite,
     Requirements,
-    Site,
     Strength,
     WaveLoad,
     anchor_spacing,
@@ -53,7 +53,7 @@ CURTAIN = HangingCurtain(
     drag=constant_drag(1.4, (0.8, 1.3), "test"),
     law="normal_velocity",
 )
-SITE = Site(WATER, lambda speed: power_law(speed, 1 / 7, 0.2, WATER), 0.2, 0.0, 1.0)
+SITE = CurtainSite(WATER, lambda speed: power_law(speed, 1 / 7, 0.2, WATER), 0.2, 0.0, 1.0)
 REQUIRED = Requirements(
     Strength(60e3, 3.0), Strength(60e3, 3.0), Strength(150e3, 4.0), Strength(80e3, 3.0), Strength(15e3, 1.5), 0.2, 3.0
 )
@@ -224,7 +224,7 @@ def test_checks_against_class_and_practice() -> None:
         (lambda: replace(REQUIRED, least_reserve=1.0), "least reserve"),
         (lambda: replace(CURTAIN, anchor_slope=1.6), "anchor slope"),
         (lambda: SITE.statics(CURTAIN, 0.0), "give a current"),
-        (lambda: Site(WATER, SITE.current, 0.2, 2.0, 1.0).statics(CURTAIN, 0.2), "less than 90"),
+        (lambda: CurtainSite(WATER, SITE.current, 0.2, 2.0, 1.0).statics(CURTAIN, 0.2), "less than 90"),
     ],
 )
 def test_refusals_of_the_statics(call, words) -> None:

@@ -10,7 +10,7 @@ import pytest
 
 from moyai.sea.current import uniform
 from moyai.sea.water import Water
-from moyai.structures.curtain.limits.utilisation import Site
+from moyai.structures.curtain.limits.utilisation import CurtainSite
 from moyai.structures.curtain.statics.closed_forms import solve_cable
 from moyai.structures.curtain.statics.drag import constant_drag, gap_speed_drag
 from moyai.structures.curtain.statics.hanging import FloatLine, HangingCurtain
@@ -44,7 +44,7 @@ def random_curtain(rng, toe="free"):
 
 
 def load_of(curtain, speed):
-    site = Site(WATER, lambda value: uniform(value, 0.0), 0.0, 0.0, 0.5)
+    site = CurtainSite(WATER, lambda value: uniform(value, 0.0), 0.0, 0.0, 0.5)
     return steady_load(
         curtain,
         lambda item: site.statics(item, speed),

@@ -24,7 +24,7 @@ from moyai.structures.curtain.impact.compare import compare_models
 from moyai.structures.curtain.impact.cycles import slack_taut_motion
 from moyai.structures.curtain.impact.kernels import spring, taut_shape
 from moyai.structures.curtain.impact.march import march_impact
-from moyai.structures.curtain.impact.skirt import Skirt, cable_and_skirt_impact, skirt_impact
+from moyai.structures.curtain.impact.skirt import BulgedSkirt, cable_and_skirt_impact, skirt_impact
 
 
 def random_impact(seed, **changed):
@@ -141,7 +141,7 @@ def test_edges_apart_keep_energy_and_bracket_model_a(seed):
 def test_stiff_skirt_leaves_model_a_with_the_mass_of_the_arc():
     impact = random_impact(5)
     chord = 0.3 * impact.water.depth
-    skirt = Skirt(chord / 0.97, chord, 300.0 * impact.stiffness / impact.span)
+    skirt = BulgedSkirt(chord / 0.97, chord, 300.0 * impact.stiffness / impact.span)
     mass = float(arc_skirt_mass(chord, Water(math.inf, impact.water.density, 9.81)).at(skirt.sagitta)[0])
     both = cable_and_skirt_impact(impact, skirt)
     assert both.tension == pytest.approx(peak_by_energy(impact, mass).tension, rel=0.01)
@@ -153,14 +153,14 @@ def test_energy_of_the_stretching_skirt(seed):
     rng = np.random.default_rng(seed)
     impact = random_impact(seed)
     chord = rng.uniform(0.2, 0.8) * impact.water.depth
-    skirt = Skirt(chord / rng.uniform(0.85, 0.97), chord, 1e4 * impact.water.density * impact.speed**2 * chord)
+    skirt = BulgedSkirt(chord / rng.uniform(0.85, 0.97), chord, 1e4 * impact.water.density * impact.speed**2 * chord)
     mass = float(arc_skirt_mass(chord, Water(math.inf, impact.water.density, 9.81)).at(skirt.sagitta)[2])
     strain = math.sqrt(mass * impact.speed**2 / (skirt.stiffness * skirt.length))
     assert skirt_impact(impact, skirt).skirt_tension == pytest.approx(skirt.stiffness * strain, rel=1e-6)
 
 
 def test_generalised_force_is_the_derivative_of_the_elastic_energy():
-    skirt = Skirt(0.15, 0.135, 5e4)
+    skirt = BulgedSkirt(0.15, 0.135, 5e4)
 
     def energy(f):
         return 0.5 * skirt.length * skirt.arc(f)[1] ** 2 / skirt.stiffness
@@ -193,7 +193,7 @@ def test_sweep_is_the_single_solution():
 
 def test_comparison_and_notices():
     impact = random_impact(2, draught=0.15, water=Water(0.4, 1000.0, 9.81), span=0.7, length=0.8)
-    table = compare_models(impact, Skirt(0.15, 0.135, 5e4))
+    table = compare_models(impact, BulgedSkirt(0.15, 0.135, 5e4))
     assert [line.model for line in table.models] == [
         "A marched", "A", "A closed form", "A in this depth", "A with memory", "A2", "A curved skirt", "B literal",
         "B energy_mid", "B energy_proj", "AB",
@@ -219,10 +219,10 @@ def test_mass_of_the_flat_skirt_in_depth():
         (lambda: sweep_peaks(1.0, 0.9, 1.0, 1.0, 1.0), "shorter"),
         (lambda: sweep_peaks(1.0, 1.1, 0.0, 1.0, 1.0), "stiffness"),
         (lambda: speed_factor(1.2), "span_ratio"),
-        (lambda: Skirt(0.15, 0.15, 5e4), "chord"),
-        (lambda: Skirt(0.15, 0.08, 5e4), "chord"),
-        (lambda: skirt_impact(random_impact(0), Skirt(0.15, 0.135, 5e4), "other"), "literal"),
-        (lambda: skirt_impact(random_impact(0, speed=5.0), Skirt(0.15, 0.135, 5.0)), "stiffer"),
+        (lambda: BulgedSkirt(0.15, 0.15, 5e4), "chord"),
+        (lambda: BulgedSkirt(0.15, 0.08, 5e4), "chord"),
+        (lambda: skirt_impact(random_impact(0), BulgedSkirt(0.15, 0.135, 5e4), "other"), "literal"),
+        (lambda: skirt_impact(random_impact(0, speed=5.0), BulgedSkirt(0.15, 0.135, 5.0)), "stiffer"),
         (lambda: impact_numbers(random_impact(0, water=Water(math.inf, 1000.0, 9.81)), 1.0), "infinite"),
     ],
 )
@@ -234,11 +234,11 @@ def test_bad_input_is_refused_in_words(make, word):
 def test_least_chord_is_the_one_that_is_told() -> None:
     """The allowed range of the message is where a skirt is accepted."""
     with pytest.raises(InputError) as caught:
-        Skirt(5.0, 3.0, 1e5)
+        BulgedSkirt(5.0, 3.0, 1e5)
     least = float(caught.value.fault.allowed.split()[1])
-    assert Skirt(5.0, least * (1.0 + 1e-4), 1e5).sagitta < 0.44 * least
+    assert BulgedSkirt(5.0, least * (1.0 + 1e-4), 1e5).sagitta < 0.44 * least
     with pytest.raises(InputError, match="chord"):
-        Skirt(5.0, least * (1.0 - 1e-4), 1e5)
+        BulgedSkirt(5.0, least * (1.0 - 1e-4), 1e5)
 
 
 @pytest.mark.parametrize(
@@ -285,8 +285,8 @@ def test_a_struck_skirt_stretches_until_its_edges_bear_the_load(slack):
     for _ in range(200):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if excess(middle) < 0.0 else (low, middle)
-    found = Skirt(length, chord, stiffness).edge_tension(load)
+    found = BulgedSkirt(length, chord, stiffness).edge_tension(load)
     assert found == pytest.approx(load / math.sin(low), rel=1e-9)
-    assert Skirt(length, chord, stiffness).edge_tension(4.0 * load) > found
+    assert BulgedSkirt(length, chord, stiffness).edge_tension(4.0 * load) > found
     # the arc would close: no tension carries it
-    assert Skirt(length, chord, 100.0).edge_tension(load) == math.inf
+    assert BulgedSkirt(length, chord, 100.0).edge_tension(load) == math.inf

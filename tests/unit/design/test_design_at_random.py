@@ -9,7 +9,7 @@ from scipy import stats
 from moyai.design.fatigue import EnduranceCurve, damage, equivalent_range, life
 from moyai.design.long_term import YEAR, JointSea, environmental_contour, long_term_exceedance, return_level
 from moyai.series.acer import acer_interval, exceedance_rates, fit_tail
-from moyai.series.extremes import Fit, fit
+from moyai.series.extremes import ExtremeFit, fit
 from moyai.series.peaks import peaks_of
 from moyai.series.rainflow import count_cycles
 
@@ -55,7 +55,7 @@ def test_rates_of_first_order_are_the_share_of_peaks_above(seed):
 @pytest.mark.parametrize("seed", SEEDS)
 def test_contours_lie_on_the_circle_of_their_return_period(seed):
     rng = np.random.default_rng(seed)
-    height = Fit(
+    height = ExtremeFit(
         "weibull", float(rng.uniform(0, 1)), float(rng.uniform(0.3, 3)), float(rng.uniform(0.9, 2.2)), 0, math.nan
     )
     sea = JointSea(
@@ -81,7 +81,7 @@ def test_return_levels_are_exceeded_once_in_their_years(seed):
     rng = np.random.default_rng(seed)
     share = rng.dirichlet(np.ones(5))
     laws = [
-        Fit("gumbel", float(m), float(s), 0.0, 9, math.nan)
+        ExtremeFit("gumbel", float(m), float(s), 0.0, 9, math.nan)
         for m, s in zip(rng.uniform(1, 50, 5), rng.uniform(0.1, 5, 5))
     ]
     years, duration = float(rng.uniform(0.5, 500)), float(rng.uniform(1200, 20000))

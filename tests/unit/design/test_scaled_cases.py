@@ -14,7 +14,7 @@ from moyai.core.errors import InputError
 from moyai.core.progress import silent
 from moyai.core.quantities import parse_quantity
 from moyai.design.model_needs import model_need
-from moyai.design.model_numbers import Motion, check_numbers, model_numbers
+from moyai.design.model_numbers import WaterMotion, check_numbers, model_numbers
 from moyai.design.similarity import Scale, scale_quantities, scale_water
 from moyai.sea.water import Water
 from moyai.structures.cage.case.build_flexible import rope_of
@@ -254,7 +254,7 @@ def test_numbers_kept_and_not_kept():
     assert water_of_density(1025.0) == sea and water_of_density(1000.0) == fresh
     for _ in range(30):
         scale = Scale(10.0 ** rng.uniform(0.3, 2), 1.025, 1.0)
-        motion = Motion(rng.uniform(0.1, 2), rng.uniform(0.01, 5), rng.uniform(3, 9), rng.uniform(5, 30))
+        motion = WaterMotion(rng.uniform(0.1, 2), rng.uniform(0.01, 5), rng.uniform(3, 9), rng.uniform(5, 30))
         found = {
             number.name: number for number in model_numbers(scale, motion, gravity=9.81, prototype=sea, model=fresh)
         }
@@ -268,7 +268,7 @@ def test_numbers_kept_and_not_kept():
         )
         assert not found["Reynolds"].kept and found["density of one material"].model == 1.025
     small = Scale(100.0, 1.025, 1.0)
-    motion = Motion(0.3, 0.05, 2.0, 8.0)
+    motion = WaterMotion(0.3, 0.05, 2.0, 8.0)
     numbers = model_numbers(small, motion, gravity=9.81, prototype=sea, model=fresh)
     codes = {n.code for n in check_numbers(small, motion, numbers, gravity=9.81, prototype=sea, model=fresh)}
     assert codes == {"similarity-period", "similarity-reynolds", "similarity-capillary"}

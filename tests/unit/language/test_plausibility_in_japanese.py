@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import moyai
-from moyai.core.quantities import Kind
+from moyai.core.quantities import QuantityKind
 from moyai.language.catalogue import catalogue
 from moyai.language.translator import translator
 from moyai.language.words import latin_words
@@ -46,10 +46,10 @@ def test_every_kind_of_quantity_is_said_in_japanese() -> None:
     sources = [path.read_text("utf-8") for path in Path(moyai.__file__).parent.rglob("*.py")]
     calls = [
         node for text in sources if "Kind(" in text for node in ast.walk(ast.parse(text))
-        if isinstance(node, ast.Call) and ast.unparse(node.func).split(".")[-1] == "Kind"
+        if isinstance(node, ast.Call) and ast.unparse(node.func).split(".")[-1] == "QuantityKind"
         and len(node.args) >= 4 and all(isinstance(argument, ast.Constant) for argument in node.args[:4])
     ]  # fmt: skip
-    kinds = [Kind(*(argument.value for argument in node.args[:4])) for node in calls]
+    kinds = [QuantityKind(*(argument.value for argument in node.args[:4])) for node in calls]
     assert {"a length", "a damping of the bed"} <= {kind.name for kind in kinds}
     texts = [kind.expectation() for kind in kinds]
     texts += [f"9 is no {name.split(' ', 1)[1]} that a structure in water can have" for name in kind_bounds()]

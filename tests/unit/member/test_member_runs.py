@@ -21,7 +21,7 @@ from moyai.sea.states import IrregularSea
 from moyai.sea.water import Water
 from moyai.structures.member.checks import require_in_water
 from moyai.structures.member.march import _effective, march
-from moyai.structures.member.model import MemberProblem, Motion, RegularWaves, Settings
+from moyai.structures.member.model import HarmonicMotion, MemberProblem, MemberSettings, MemberWaves
 from moyai.structures.member.run import run
 from moyai.structures.member.surface import surface_effect
 from moyai.structures.member.waves import waves_of
@@ -38,7 +38,7 @@ def problem(member, seas, water=TANK, **options):
     defaults = {
         "rule": CoefficientRule((0.0, 0.0)),
         "kinematic_viscosity": 1.14e-6,
-        "settings": Settings(("forces",), 6),
+        "settings": MemberSettings(("forces",), 6),
     }
     return MemberProblem("test", member, environment=Environment(water), seas=seas, **{**defaults, **options})
 
@@ -55,7 +55,7 @@ def test_inertia_force_on_an_upright_pile_is_the_closed_form(seed):
     water = Water(rng.uniform(5, 40), 1025.0, 9.81)
     period, height, diameter = rng.uniform(4, 12), 1e-4, rng.uniform(0.3, 2)
     member = StraightMember((0, 0, -water.depth), (0, 0, 0.0), sections.circle(diameter))
-    case = problem(member, (RegularWaves("a", (height,), (period,)),), water, settings=Settings(("forces",), 400))
+    case = problem(member, (MemberWaves("a", (height,), (period,)),), water, settings=MemberSettings(("forces",), 400))
     found = forces(case)
     number = float(wave_number(2 * math.pi / period, water.depth, water.gravity))
     omega = 2 * math.pi / period
@@ -74,9 +74,9 @@ def test_drag_force_on_an_upright_pile_is_the_closed_form(seed):
     member = StraightMember((0, 0, -water.depth), (0, 0, 0.0), sections.circle(diameter))
     case = problem(
         member,
-        (RegularWaves("a", (height,), (period,)),),
+        (MemberWaves("a", (height,), (period,)),),
         water,
-        settings=Settings(("forces",), 400),
+        settings=MemberSettings(("forces",), 400),
         rule=CoefficientRule((drag, drag), (0.0, 0.0)),
     )
     found = forces(case)
@@ -101,7 +101,7 @@ def test_a_turned_site_turns_the_forces(seed):
         member = StraightMember(tuple(matrix @ start), tuple(matrix @ end), sections.circle(0.8))
         current = currents.power_law(0.5, 1 / 7, heading + 0.3, water)
         case = replace(
-            problem(member, (RegularWaves("a", (2.0,), (7.0,), heading),), water),
+            problem(member, (MemberWaves("a", (2.0,), (7.0,), heading),), water),
             environment=Environment(water, current=current),
             rule=CoefficientRule((1.0, 1.0)),
             form="vector",
@@ -114,10 +114,12 @@ def test_a_turned_site_turns_the_forces(seed):
 def test_strips_converge_with_second_order_on_an_inclined_member():
     water = Water(20.0, 1025.0, 9.81)
     member = StraightMember((-4, -2, -15), (3, 1, -2), sections.circle(0.7))
-    seas = (RegularWaves("a", (3.0,), (7.0,), 0.5),)
+    seas = (MemberWaves("a", (3.0,), (7.0,), 0.5),)
     sums = {}
     for count in (5, 10, 20, 320):
-        case = problem(member, seas, water, rule=CoefficientRule((1.0, 1.0)), settings=Settings(("forces",), count))
+        case = problem(
+            member, seas, water, rule=CoefficientRule((1.0, 1.0)), settings=MemberSettings(("forces",), count)
+        )
         sums[count] = forces(case).force.sum(axis=0)
     errors = [np.abs(sums[count] - sums[320]).max() for count in (5, 10, 20)]
     assert errors[0] / errors[1] > 3.5
@@ -131,9 +133,9 @@ def test_effective_inertia_is_the_ideal_one_less_the_law(section):
     """From the computed forces, not from the formula: projection on the acceleration."""
     case = problem(
         horizontal(section),
-        (RegularWaves("a", (0.015,), (PERIOD,), theory="linear"),),
+        (MemberWaves("a", (0.015,), (PERIOD,), theory="linear"),),
         circulation=CirculationLaw(purpose="response"),
-        settings=Settings(("forces",), 6, stretching="constant"),
+        settings=MemberSettings(("forces",), 6, stretching="constant"),
     )
     found = forces(case)
     first, second = found.strip["velocity_first"][0], found.strip["velocity_second"][0]
@@ -148,7 +150,7 @@ def test_extreme_design_leaves_the_circulation_out_and_is_never_below_response()
     largest = {}
     for purpose in ("extreme", "response"):
         case = problem(
-            horizontal(section), (RegularWaves("a", (0.03,), (PERIOD,)),), circulation=CirculationLaw(purpose=purpose)
+            horizontal(section), (MemberWaves("a", (0.03,), (PERIOD,)),), circulation=CirculationLaw(purpose=purpose)
         )
         found = forces(case)
         largest[purpose] = np.linalg.norm(found.force.sum(axis=0), axis=1).max()
@@ -162,7 +164,7 @@ def test_force_tends_to_morison_as_the_wave_falls():
     """(F_response - F_extreme)/F_extreme falls like KC^2."""
     ratios = []
     for height in (0.02, 0.002, 0.0002):
-        case = problem(horizontal(sections.circle(0.045)), (RegularWaves("a", (height,), (PERIOD,)),))
+        case = problem(horizontal(sections.circle(0.045)), (MemberWaves("a", (height,), (PERIOD,)),))
         plain = forces(case).force.sum(axis=0)
         with_it = forces(replace(case, circulation=CirculationLaw(purpose="response"))).force.sum(axis=0)
         ratios.append(np.abs(with_it - plain).max() / np.abs(plain).max())
@@ -172,7 +174,7 @@ def test_force_tends_to_morison_as_the_wave_falls():
 
 def test_circulation_grows_from_calm_like_an_exponential():
     law = CirculationLaw(purpose="response", start="calm", relaxation_periods=3.0)
-    case = problem(horizontal(sections.circle(0.045)), (RegularWaves("a", (0.01,), (PERIOD,)),), circulation=law)
+    case = problem(horizontal(sections.circle(0.045)), (MemberWaves("a", (0.01,), (PERIOD,)),), circulation=law)
     found = forces(case)
     settled = found.strip["settled_circulation"][found.governing]
     exact = settled * -np.expm1(-found.time / (3.0 * PERIOD))
@@ -183,10 +185,10 @@ def test_circulation_grows_from_calm_like_an_exponential():
 def test_waves_from_the_other_side_turn_the_circulation_round():
     case = problem(
         horizontal(sections.circle(0.045)),
-        (RegularWaves("a", (0.01,), (PERIOD,)),),
+        (MemberWaves("a", (0.01,), (PERIOD,)),),
         circulation=CirculationLaw(purpose="response"),
     )
-    back = replace(case, seas=(RegularWaves("a", (0.01,), (PERIOD,), math.pi),))
+    back = replace(case, seas=(MemberWaves("a", (0.01,), (PERIOD,), math.pi),))
     ahead, behind = forces(case), forces(back)
     assert behind.circulation[0] == pytest.approx(-ahead.circulation[0], rel=1e-6)
     assert np.abs(behind.force).max(axis=1) == pytest.approx(np.abs(ahead.force).max(axis=1), rel=1e-6, abs=1e-12)
@@ -196,7 +198,7 @@ def test_an_upright_pile_in_long_crests_has_no_circulation():
     """Its orbits are planar: u to and fro, nothing across."""
     water = Water(10.0, 1025.0, 9.81)
     member = StraightMember((0, 0, -9.0), (0, 0, -2.0), sections.circle(0.5))
-    case = problem(member, (RegularWaves("a", (0.4,), (6.0,)),), water, circulation=CirculationLaw(purpose="response"))
+    case = problem(member, (MemberWaves("a", (0.4,), (6.0,)),), water, circulation=CirculationLaw(purpose="response"))
     found = forces(case)
     assert np.abs(found.force[2]).max() < 1e-9 * np.abs(found.force[0]).max()
 
@@ -244,15 +246,15 @@ def test_motion_with_the_water_leaves_the_froude_krylov_force():
     k = omega**2 / 9.81
     reach = 0.25 * math.exp(-3 * k)
     # eta = a cos(omega t): x follows reach sin(omega t), z follows reach cos(omega t)
-    motion = Motion((reach, 0.0, reach), (math.radians(90.0), 0.0, 0.0))
+    motion = HarmonicMotion((reach, 0.0, reach), (math.radians(90.0), 0.0, 0.0))
     case = problem(
         member,
-        (RegularWaves("a", (0.5,), (5.0,), theory="linear"),),
+        (MemberWaves("a", (0.5,), (5.0,), theory="linear"),),
         water,
         rule=CoefficientRule((1.0, 1.0)),
         motion=motion,
         circulation=CirculationLaw(purpose="response"),
-        settings=Settings(("forces",), 1, stretching="constant"),
+        settings=MemberSettings(("forces",), 1, stretching="constant"),
     )
     found = forces(case)
     assert np.abs(found.force[1:]).max() < 1e-9 * np.abs(found.force[0]).max()
@@ -266,7 +268,7 @@ def test_steady_current_alone_gives_the_drag_of_the_normal_component():
     angle = 0.7
     member = StraightMember((0, 0, -5), (10 * math.sin(angle), 10 * math.cos(angle), -5), sections.circle(0.5))
     case = replace(
-        problem(member, (RegularWaves("a", (1e-6,), (6.0,)),), water, rule=CoefficientRule((1.2, 1.2))),
+        problem(member, (MemberWaves("a", (1e-6,), (6.0,)),), water, rule=CoefficientRule((1.2, 1.2))),
         environment=Environment(water, current=currents.uniform(0.9, 0.0)),
     )
     found = forces(case).force.sum(axis=0).mean(axis=0)
@@ -281,7 +283,7 @@ def test_finite_wave_tends_to_the_linear_one():
     found = {}
     for theory in ("linear", "stokes", "stream_function"):
         case = problem(
-            member, (RegularWaves("a", (0.01,), (6.0,), 0.0, theory),), water, rule=CoefficientRule((1.0, 1.0))
+            member, (MemberWaves("a", (0.01,), (6.0,), 0.0, theory),), water, rule=CoefficientRule((1.0, 1.0))
         )
         found[theory] = forces(case).force.sum(axis=0)
     for theory in ("stokes", "stream_function"):
@@ -292,9 +294,9 @@ def test_exposure_counts_only_what_is_wet():
     water = Water(10.0, 1025.0, 9.81)
     low = StraightMember((0, 0, -9), (0, 0, -0.5), sections.circle(0.5))
     high = StraightMember((0, 0, -9), (0, 0, 8.0), sections.circle(0.5))
-    seas = (RegularWaves("a", (1.0,), (6.0,)),)
+    seas = (MemberWaves("a", (1.0,), (6.0,)),)
     rule = CoefficientRule((1.0, 1.0))
-    settings = Settings(("forces",), 340)
+    settings = MemberSettings(("forces",), 340)
     wet = forces(problem(high, seas, water, rule=rule, settings=settings))
     deep = forces(problem(low, seas, water, rule=rule, settings=settings))
     assert wet.strip["wet"][-1] == 0.0
@@ -345,9 +347,9 @@ def test_surface_effect_fades_with_depth():
 def test_run_warns_and_places_its_groups():
     case = problem(
         horizontal(sections.circle(0.045)),
-        (RegularWaves("tank", (0.01, 0.05, 0.08), (PERIOD,)),),
+        (MemberWaves("tank", (0.01, 0.05, 0.08), (PERIOD,)),),
         circulation=CirculationLaw(purpose="response"),
-        settings=Settings(("sweep", "forces", "surface"), 2),
+        settings=MemberSettings(("sweep", "forces", "surface"), 2),
     )
     result = run(case)
     codes = {notice.code for notice in result.notices}
@@ -365,7 +367,7 @@ def test_current_with_circulation_warns():
     case = replace(
         problem(
             horizontal(sections.circle(0.045)),
-            (RegularWaves("a", (0.01,), (PERIOD,)),),
+            (MemberWaves("a", (0.01,), (PERIOD,)),),
             circulation=CirculationLaw(purpose="response"),
         ),
         environment=Environment(TANK, current=currents.uniform(0.05, 0.0)),
@@ -380,7 +382,7 @@ def test_current_with_circulation_warns():
 def test_members_out_of_the_water_are_refused(ends, words):
     member = StraightMember(*ends, sections.circle(0.045))
     with pytest.raises(InputError, match=words):
-        run(problem(member, (RegularWaves("a", (0.01,), (PERIOD,)),)))
+        run(problem(member, (MemberWaves("a", (0.01,), (PERIOD,)),)))
 
 
 def test_interrupt_hands_back_what_is_there():
@@ -388,7 +390,7 @@ def test_interrupt_hands_back_what_is_there():
         if what.startswith("forces") and done == 1:
             raise KeyboardInterrupt
 
-    case = problem(horizontal(sections.circle(0.045)), (RegularWaves("a", (0.01, 0.02, 0.03), (PERIOD,)),))
+    case = problem(horizontal(sections.circle(0.045)), (MemberWaves("a", (0.01, 0.02, 0.03), (PERIOD,)),))
     result = run(case, listener)
     assert result.status == "interrupted"
     assert result.tree["/SWL/waves/a"].sizes["wave"] == 1
@@ -406,7 +408,7 @@ def test_forces_do_not_depend_on_where_the_outline_of_a_section_is_drawn(seed):
     turned = np.array([[math.cos(turn), -math.sin(turn)], [math.sin(turn), math.cos(turn)]]) @ shift
     moved = ends - (turned[:, None] * plain.axes[:2]).sum(axis=0)
     other = StraightMember(tuple(moved[0]), tuple(moved[1]), sections.polygon(points + shift), turn)
-    seas = (RegularWaves("a", (0.5,), (4.0,), 0.3),)
+    seas = (MemberWaves("a", (0.5,), (4.0,), 0.3),)
     options = {"rule": CoefficientRule((1.1, 0.9)), "circulation": CirculationLaw(purpose="response")}
     first, second = (forces(problem(one, seas, Water(6.0, 1000.0, 9.81), **options)) for one in (plain, other))
     assert 0.0 < first.strip["wet"].min() < first.strip["wet"].max() <= 1.0
@@ -429,9 +431,9 @@ def test_a_power_law_current_reaches_the_bed_at_every_water_level():
     """Above datum the profile stretches with the depth: its mean is U / (1 + exponent) at each level."""
     water = Water(12.0, 1025.0, 9.81)
     member = StraightMember((0, 0, -12.0), (0, 0, 3.0), sections.circle(1.0))
-    case = problem(member, (RegularWaves("a", (1e-6,), (8.0,)),), water, rule=CoefficientRule((1.0, 1.0)))
+    case = problem(member, (MemberWaves("a", (1e-6,), (8.0,)),), water, rule=CoefficientRule((1.0, 1.0)))
     environment = Environment(water, (("HWL", 2.0), ("LWL", -1.0)), (), None, currents.power_law(0.8, 0.2, 0.0, water))
-    case = replace(case, environment=environment, settings=Settings(("forces",), 600))
+    case = replace(case, environment=environment, settings=MemberSettings(("forces",), 600))
     for level in (2.0, -1.0):
         depth = 12.0 + level
         exact = 0.5 * 1025.0 * 0.8**2 * depth / 1.4
@@ -446,7 +448,7 @@ def test_a_flat_orbit_is_told_whatever_its_tilt():
     member = StraightMember((0, 0, -3.0), (0.4, 0.4, 0.2), sections.circle(0.1))
     case = problem(
         member,
-        (RegularWaves("a", (0.05,), (2.0,), math.radians(60)),),
+        (MemberWaves("a", (0.05,), (2.0,), math.radians(60)),),
         Water(1.2e3, 1000.0, 9.81),
         circulation=CirculationLaw(purpose="response"),
     )
@@ -462,7 +464,7 @@ def test_what_is_shown_without_circulation_is_what_the_inertia_force_shows():
     """Of a turned rectangle both axes are coupled: without circulation both coefficients agree, coupling included."""
     section = sections.rectangle(1.0, 0.3)
     member = StraightMember((0, -2.0, -3.0), (0, 2.0, -3.0), section, 0.6)
-    seas = (RegularWaves("a", (0.3,), (4.0,)),)
+    seas = (MemberWaves("a", (0.3,), (4.0,)),)
     still = forces(problem(member, seas, Water(8.0, 1000.0, 9.81)))
     assert still.strip["effective_inertia"] == pytest.approx(still.strip["plain_inertia"], rel=1e-12)
     turned = problem(member, seas, Water(8.0, 1000.0, 9.81), circulation=CirculationLaw(purpose="response"))
@@ -474,7 +476,7 @@ def test_a_reduction_larger_than_the_inertia_is_told():
     """On a plate standing in the waves the law takes more than the coefficient of 1.1 along its thin side."""
     case = problem(
         StraightMember((0, -2.0, -3.0), (0, 2.0, -3.0), sections.rectangle(0.5, 0.04)),
-        (RegularWaves("a", (0.4,), (4.0,)),),
+        (MemberWaves("a", (0.4,), (4.0,)),),
         Water(30.0, 1000.0, 9.81),
         circulation=CirculationLaw(purpose="response"),
     )
@@ -485,7 +487,7 @@ def test_a_reduction_larger_than_the_inertia_is_told():
 def test_planar_flow_past_a_pile_is_not_beyond_a_law_of_orbits():
     member = StraightMember((0, 0, -8.0), (0, 0, 2.0), sections.circle(0.5))
     law = CirculationLaw(purpose="response")
-    case = problem(member, (RegularWaves("a", (1.5,), (8.0,)),), Water(8.0, 1000.0, 9.81), circulation=law)
+    case = problem(member, (MemberWaves("a", (1.5,), (8.0,)),), Water(8.0, 1000.0, 9.81), circulation=law)
     found = run(case)
     assert not {"circulation-held", "circulation-beyond-law"} & {notice.code for notice in found.notices}
     assert float(found.tree["SWL/waves/a"]["circulation"].values[0]) == 0.0

@@ -17,7 +17,7 @@ from moyai.records.snaps.case.build import load_snaps
 from moyai.records.snaps.curves import model_curves
 from moyai.records.snaps.report.page import GENERATED
 from moyai.records.snaps.run import NUMBERS, _agreement, _exponents, measure_snaps
-from moyai.records.snaps.synthesis import Logger, made_record
+from moyai.records.snaps.synthesis import SnapLogger, made_record
 from moyai.sea.water import Water
 from moyai.structures.curtain.impact.cable import Impact, impact_numbers, peak_by_energy
 
@@ -32,7 +32,7 @@ def write_set(folder: Path, count: int = 4, header: str = "") -> Path:
         speed, draught = 0.2 + 0.06 * place, (0.1, 0.15, 0.2)[place % 3]
         impact = Impact(0.7, 0.8, draught, 19500.0, 19500.0, speed, Water(0.4, 1000.0, 9.81))
         made = made_record(
-            impact, drag_coefficient=1.2, spike_factor=0.9, logger=Logger(1000.0, 0.2, 1.0), rng=rng, length=6.0
+            impact, drag_coefficient=1.2, spike_factor=0.9, logger=SnapLogger(1000.0, 0.2, 1.0), rng=rng, length=6.0
         )
         np.savetxt(
             folder / f"run{place}.csv", np.column_stack([made.time, *made.tension]), delimiter=",", comments="",

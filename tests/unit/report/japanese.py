@@ -21,7 +21,7 @@ from matplotlib import font_manager
 from moyai.core.results import Result
 from moyai.language import spoken_in
 from moyai.language.words import latin_words, numbers
-from moyai.report.document import Choice, Document, Figure, Listing, NoticeBlock, Option, Section, Table
+from moyai.report.document import Chapter, Choice, Document, Figure, Listing, NoticeBlock, Option, Table
 from moyai.report.figures_static import draw_figure
 from moyai.report.fonts import JAPANESE, matplotlib_families, packaged_font
 from moyai.report.formatting import pretty_unit, subscripted
@@ -169,7 +169,7 @@ def _with_first_rows(item: Any, most: int = 8) -> Any:
             return tuple(_with_first_rows(one, most) for one in item)
         case Document():
             return replace(item, sections=_with_first_rows(item.sections, most))
-        case Section() | Option():
+        case Chapter() | Option():
             return replace(item, blocks=_with_first_rows(item.blocks, most))
         case Choice():
             return replace(item, options=_with_first_rows(item.options, most))

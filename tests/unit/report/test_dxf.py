@@ -16,7 +16,7 @@ import moyai
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.language import said, spoken_in
-from moyai.report.document import Distance, Document, Drawing, Section, Stroke, Words
+from moyai.report.document import Chapter, Distance, Document, Drawing, Stroke, Words
 from moyai.report.dxf import document_dxf, shapes_dxf
 from moyai.report.plan import LineInPlan, UnitInPlan, unit_plan
 from moyai.report.scene_3d import Faces, Marker, Scene3D, animation_3d
@@ -97,7 +97,7 @@ def _cage(still: bool = True) -> Scene3D:
 
 def _document(*scenes: Scene3D, language: str = "en") -> Document:
     views = tuple(animation_3d(f"view-{n + 1}", "The cage at rest", scene) for n, scene in enumerate(scenes))
-    return Document("t", "", "converged", "", (Section("a", "A", views),), language=language)
+    return Document("t", "", "converged", "", (Chapter("a", "A", views),), language=language)
 
 
 @pytest.mark.parametrize(("unit", "factor"), [("m", 1.0), ("mm", 1000.0)])
@@ -142,7 +142,7 @@ def test_words_are_those_of_the_language(tmp_path: Path) -> None:
     drawing = Sketch((-10.0, 10.0, -5.0, 5.0))
     drawing.label(10.0, 10.0, "waves of heading 0°", "start")
     drawing.dimension(1.0, 0.0, 1.0, 1.5, "freeboard 1.5 m", offset=10.0)
-    sections = (Section("a", "A", (drawing.drawing("section", "Section"),)),)
+    sections = (Chapter("a", "A", (drawing.drawing("section", "Chapter"),)),)
     ((_, data),) = document_dxf(Document("t", "", "converged", "", sections, language="ja"), "m")
     words = {text for entries in _read(data, tmp_path).values() for _, text in entries if text}
     assert words == {said_in("ja", "waves of heading 0°"), said_in("ja", "freeboard 1.5 m")}
@@ -184,7 +184,7 @@ def test_the_plan_of_a_breakwater_is_to_scale_with_evenly_spaced_lines() -> None
 
 def test_faults_of_a_unit_are_reported() -> None:
     picture = Drawing("map", "Map", "<svg/>", "<svg/>")
-    document = Document("t", "", "converged", "", (Section("a", "A", (picture,)),))
+    document = Document("t", "", "converged", "", (Chapter("a", "A", (picture,)),))
     assert document_dxf(document, "m") == ()
     with pytest.raises(InputError, match="is no unit of a drawing"):
         document_dxf(document, "inch")

@@ -13,7 +13,7 @@ from test_vtk import scene
 from typer.testing import CliRunner
 
 from moyai.cli.main import app
-from moyai.report.document import Document, Section
+from moyai.report.document import Chapter, Document
 from moyai.report.gltf import MOMENTS, SHAPES, TUBES, document_gltf, scene_glb
 from moyai.report.scene_3d import Faces, Scene3D, Waves3D, animation_3d
 
@@ -130,7 +130,7 @@ def test_waves_move_the_water_and_long_runs_are_thinned() -> None:
 
 def test_files_are_named_by_their_views() -> None:
     blocks = (animation_3d("a run", "A run", scene()), animation_3d("rest", "At rest", scene(still=True)))
-    files = dict(document_gltf(Document("t", "", "converged", "", (Section("s", "S", blocks),))))
+    files = dict(document_gltf(Document("t", "", "converged", "", (Chapter("s", "S", blocks),))))
     assert list(files) == ["a-run.glb", "rest.glb"]
     assert all(data[:4] == b"glTF" and int.from_bytes(data[8:12], "little") == len(data) for data in files.values())
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from chromium_pipe import Chromium, find_chromium
 
-from moyai.report.document import Document, Section
+from moyai.report.document import Chapter, Document
 from moyai.report.html import render_html
 from moyai.report.scene_3d import Faces, Marker, Scene3D, Trace, Waves3D, animation_3d, frame_rows
 
@@ -54,7 +54,7 @@ def net_scene(side: int, frames: int) -> Scene3D:
 def page(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Chromium]:
     # 3025 nodes, 5940 bars
     scene = net_scene(55, 60)
-    sections = (Section("view", "View", (animation_3d("net", "A large net", scene, "Caption"),)),)
+    sections = (Chapter("view", "View", (animation_3d("net", "A large net", scene, "Caption"),)),)
     target = Path(tmp_path_factory.mktemp("scene")) / "report.html"
     target.write_text(render_html(Document("Net", "Network", "converged", "", sections)), encoding="utf-8")
     assert target.stat().st_size < 6_000_000

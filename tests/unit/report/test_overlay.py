@@ -14,7 +14,7 @@ from moyai.core.errors import CaseError, InputError
 from moyai.core.kinds import structure_kinds
 from moyai.core.results import read_result
 from moyai.report.differences import read_others, with_others
-from moyai.report.document import Abscissa, Document, Figure, Panel, Section, Series, Table
+from moyai.report.document import Abscissa, Chapter, Document, Figure, Panel, Series, Table
 from moyai.report.overlay import figures_of, lay_over, misplaced_points, places, unit_factor
 from moyai.report.writer import compose_document
 
@@ -32,7 +32,7 @@ def page(key, unit, factor=1.0, *, label="force", bars=()):
         "",
         "converged",
         "",
-        (Section("s", "S", (Figure(key, key, axis, (Panel(label, unit),), (series,), categories=bars),)),),
+        (Chapter("s", "S", (Figure(key, key, axis, (Panel(label, unit),), (series,), categories=bars),)),),
     )
 
 

@@ -18,7 +18,7 @@ import moyai
 from moyai.cli.main import app
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
-from moyai.report.document import Column, Document, Listing, NoticeBlock, Paragraph, Section, Table
+from moyai.report.document import Chapter, Column, Document, Listing, NoticeBlock, Paragraph, Table
 from moyai.report.encoding import column_unit
 from moyai.report.formatting import display_unit, format_quantity
 from moyai.report.html import render_html
@@ -127,7 +127,7 @@ def test_no_remark_of_a_page_is_left_in_newtons() -> None:
         NoticeBlock((notice,)), Paragraph("at 5.0 kN/m"), drawn.drawing("d", "Drawing", "of 3 kN"),
         Table("t", "Table", (Column("Where", ["steady 8.0 kN"]),), "note of 9 kN"), Listing("case", "load: 7 kN"),
     )  # fmt: skip
-    document = Document("t", "", "converged", "", (Section("s", "S", blocks),), units="tf")
+    document = Document("t", "", "converged", "", (Chapter("s", "S", blocks),), units="tf")
     with displayed_in("tf"):
         document = with_words_in_system(document)
     page = render_html(document)

@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from moyai.report.document import Document, Section
+from moyai.report.document import Chapter, Document
 from moyai.report.scene_3d import Body3D, Faces, Scene3D, animation_3d
 from moyai.report.vtk import document_vtk, frame_vtp
 from moyai.report.writer import write_report
@@ -62,7 +62,7 @@ def test_a_moment_holds_nodes_bars_faces_and_bodies() -> None:
 
 def test_the_collection_names_every_moment(tmp_path: Path) -> None:
     blocks = (animation_3d("a run", "A run", scene()), animation_3d("rest", "At rest", scene(still=True)))
-    document = Document("t", "", "converged", "", (Section("s", "S", blocks),))
+    document = Document("t", "", "converged", "", (Chapter("s", "S", blocks),))
     files = dict(document_vtk(document))
     sets = list(ElementTree.fromstring(files["a-run.pvd"]).iter("DataSet"))
     assert [float(item.attrib["timestep"]) for item in sets] == [0.0, 0.5, 1.25]

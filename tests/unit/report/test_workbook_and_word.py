@@ -21,6 +21,7 @@ from moyai.core.validity import Notice
 from moyai.report.document import (
     Abscissa,
     Badge,
+    Chapter,
     Choice,
     Column,
     Document,
@@ -33,7 +34,6 @@ from moyai.report.document import (
     Option,
     Panel,
     Paragraph,
-    Section,
     Series,
     Table,
 )
@@ -74,11 +74,11 @@ def _document(count: int = 50) -> Document:
         NoticeBlock((Notice("steep", "the wave is steep", 0.2, 0.14, remedy="take a lower one"),)),
         choice,
         _figure(count),
-        Drawing("section", "Section", SVG, SVG, "to scale"),
+        Drawing("section", "Chapter", SVG, SVG, "to scale"),
         Listing("Case", "moyai: 1\n=a\n"),
     )
     badge = Badge("Design", "Holds", "all criteria hold", "good")
-    return Document("A title", "under it", "converged", "", (Section("all", "All", blocks),), {}, (badge,))
+    return Document("A title", "under it", "converged", "", (Chapter("all", "All", blocks),), {}, (badge,))
 
 
 def _read(document: Document) -> openpyxl.Workbook:
@@ -146,7 +146,7 @@ def test_numbers_of_the_first_page_and_of_criteria_are_numbers_with_unit_and_bou
         ),
     )
     numbers = KeyFigures(tuple(KeyFigure(f"label {row}", text, "detail") for row, text in enumerate(texts)))
-    book = _read(Document("T", "", "converged", "", (Section("s", "S", (numbers, criteria)),), language=language))
+    book = _read(Document("T", "", "converged", "", (Chapter("s", "S", (numbers, criteria)),), language=language))
     summary = list(book.worksheets[0].iter_rows(values_only=True))
     found = [row[1:4] for row in summary if str(row[0]).startswith("Label ")]
     sheet = list(book.worksheets[1].iter_rows(min_row=2, values_only=True))
@@ -191,7 +191,7 @@ def test_many_long_records_are_shortened_to_what_is_written_in_a_second():
         values[1234 + number] = 9.0 + number
         series = tuple(Series(f"s{k}", {"t": time}, values * (k + 1)) for k in range(5))
         records.append(Figure(f"record-{number}", f"Record {number}", (Abscissa("t", "time"),), (Panel("y"),), series))
-    book = _read(Document("t", "", "converged", "", (Section("a", "A", tuple(records)),)))
+    book = _read(Document("t", "", "converged", "", (Chapter("a", "A", tuple(records)),)))
     rows = [list(book[f"Record {number}"].iter_rows(min_row=2, values_only=True)) for number in range(60)]
     assert sum(len(one) * 6 for one in rows) < 1.3 * NUMBERS
     assert all(max(row[1] for row in one) == 9.0 + number for number, one in enumerate(rows))
@@ -290,9 +290,9 @@ def _read_references(paper, wanted: list[str]) -> None:
 )
 @pytest.mark.parametrize("language", ["en", "ja"])
 def test_word_names_the_tables_and_figures_of_a_section_by_fields(blocks, wanted, japanese, language):
-    drawing = Drawing("section", "Section", SVG, SVG)
+    drawing = Drawing("section", "Chapter", SVG, SVG)
     parts = tuple(_table() if kind == "table" else drawing for kind in blocks)
-    sections = (Section("all", "All", parts), Section("text", "Text", (Paragraph("no caption here"),)))
+    sections = (Chapter("all", "All", parts), Chapter("text", "Text", (Paragraph("no caption here"),)))
     document = Document("A title", "", "converged", "", sections, language=language)
     paper = docx.Document(io.BytesIO(render_docx(document)))
     _read_references(paper, [wanted if language == "en" else japanese])
@@ -301,7 +301,7 @@ def test_word_names_the_tables_and_figures_of_a_section_by_fields(blocks, wanted
 
 
 def test_word_goes_on_counting_where_a_template_has_captions_or_no_style_for_them(tmp_path):
-    first = Document("A title", "", "converged", "", (Section("all", "All", (_table(), _table())),))
+    first = Document("A title", "", "converged", "", (Chapter("all", "All", (_table(), _table())),))
     (tmp_path / "office.docx").write_bytes(render_docx(first))
     again = docx.Document(io.BytesIO(render_docx(_document(), tmp_path / "office.docx")))
     _read_references(again, ["In this section: Tables 1 and 2.", "In this section: Tables 3 and 4, Figures 1 and 2."])
@@ -398,7 +398,7 @@ def test_sheets_print_on_one_page_across_with_their_heads():
 def test_rows_of_the_summary_are_as_high_as_their_text(detail, lines):
     """LibreOffice keeps the height of one line where the file names none, and texts lay over each other."""
     blocks = (KeyFigures((KeyFigure("largest tension", "12.3 kN", detail.strip()),)),)
-    document = Document("t", "s", "converged", "", (Section("all", "All", blocks),), {})
+    document = Document("t", "s", "converged", "", (Chapter("all", "All", blocks),), {})
     sheet = _read(document).worksheets[0]
     row = next(cell.row for cell in sheet["A"] if cell.value == "Largest tension")
     assert (sheet.row_dimensions[row].height or 15.0) == 15.0 * lines
@@ -433,7 +433,7 @@ def test_numbers_of_rows_are_numbers_and_names_are_not() -> None:
     """Of modes, units and cases; a column with one word in it, or with zeros in front, holds names."""
     table = Table("modes", "Modes", (Column("Mode", ["1", "2", "10"]), Column("Unit", ["1", "2", "all"]),
                                      Column("Deck", ["01", "02", "03"])))  # fmt: skip
-    sheet = _read(Document("t", "", "converged", "", (Section("one", "One", (table,)),)))["Modes"]
+    sheet = _read(Document("t", "", "converged", "", (Chapter("one", "One", (table,)),)))["Modes"]
     rows = [[cell.value for cell in row] for row in sheet.iter_rows(min_row=2, max_row=4)]
     assert [row[0] for row in rows] == [1, 2, 10]
     assert [row[1] for row in rows] == ["1", "2", "all"]

@@ -15,7 +15,7 @@ from moyai.reproduce import Reproduction, as_result, paper
 from moyai.reproduce.drawing import curve, figure
 from moyai.reproduce.model import FilledInput, Finding, PaperFigure, Statement
 from moyai.reproduce.points import Agreement, Points
-from moyai.reproduce.reproduction import Row
+from moyai.reproduce.reproduction import StatementRow
 
 
 def found():
@@ -33,7 +33,10 @@ def found():
     return Reproduction(
         paper("arai"),
         True,
-        tuple(Row(Statement(f"s{n}", f"Fig. {n}", f"Claim {n}.", lambda _: None), f) for n, f in enumerate(findings)),
+        tuple(
+            StatementRow(Statement(f"s{n}", f"Fig. {n}", f"Claim {n}.", lambda _: None), f)
+            for n, f in enumerate(findings)
+        ),
         (PaperFigure("1", section), PaperFigure("2", drawn, "thin lines"), PaperFigure("3", None, "a photograph")),
         (FilledInput("viscosity", "1.0e-6 m2/s", "1.3e-6", "2 %"),),
         ((Points("2", "own.csv", kc[:3], kc[:3]), (Agreement("circle", 3, 0.1, float("nan"), 0.2),)),),

@@ -9,7 +9,7 @@ from scipy import stats
 from moyai.core.errors import InputError
 from moyai.series.acer import acer_interval, exceedance_rates, fit_tail
 from moyai.series.extremes import check_fit, fit, maximum_interval
-from moyai.series.peaks import Kind, maximum_of_kinds, most_probable_of_kinds, peaks_of
+from moyai.series.peaks import PeakKind, maximum_of_kinds, most_probable_of_kinds, peaks_of
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -69,8 +69,10 @@ def test_the_tail_of_a_weibull_law_is_found_whatever_lies_below(seed):
 @pytest.mark.parametrize("seed", range(3))
 def test_the_maximum_of_two_kinds_of_peaks_is_that_of_their_product(seed):
     rng = np.random.default_rng(seed)
-    one = Kind(fit(5.0 + rng.weibull(1.5, 300), "weibull", location=5.0), float(rng.uniform(50, 500)))
-    two = Kind(fit(6.0 + 2.0 * rng.exponential(1.0, 80), "generalised_pareto", location=6.0), float(rng.uniform(5, 60)))
+    one = PeakKind(fit(5.0 + rng.weibull(1.5, 300), "weibull", location=5.0), float(rng.uniform(50, 500)))
+    two = PeakKind(
+        fit(6.0 + 2.0 * rng.exponential(1.0, 80), "generalised_pareto", location=6.0), float(rng.uniform(5, 60))
+    )
     probability = float(rng.uniform(0.2, 0.99))
     level = maximum_of_kinds([one, two], probability)
     drawn = (1 - one.fitted.exceedance(level)) ** one.count * (1 - two.fitted.exceedance(level)) ** two.count

@@ -5,7 +5,7 @@ import pytest
 from scipy import stats
 
 from moyai.core.errors import ConvergenceError, InputError
-from moyai.series.extremes import Fit, fit, kolmogorov_distance
+from moyai.series.extremes import ExtremeFit, fit, kolmogorov_distance
 from moyai.series.intervals import reach_of_mean, reflected_interval, scatter_of_end, student_quantile
 from moyai.series.likelihood import pareto_likelihood, weibull_likelihood
 
@@ -38,7 +38,7 @@ def test_draws_are_reflected_at_the_estimate():
 @pytest.mark.parametrize("seed", range(3))
 def test_kolmogorov_distance_is_that_of_scipy(seed):
     values = np.random.default_rng(seed).weibull(1.4, 60)
-    fitted = Fit("weibull", 0.0, 1.1, 1.3, 60, 0.0)
+    fitted = ExtremeFit("weibull", 0.0, 1.1, 1.3, 60, 0.0)
     expected = stats.kstest(values, stats.weibull_min(1.3, scale=1.1).cdf).statistic
     assert kolmogorov_distance(fitted, values) == pytest.approx(expected, abs=1e-14)
 

@@ -15,7 +15,7 @@ import study_cases
 from moyai.core.errors import InputError
 from moyai.core.results import read_result
 from moyai.study.execute import run_study
-from moyai.study.ledger import Ledger, Record
+from moyai.study.ledger import Ledger, LedgerRecord
 from moyai.study.local import run_processes
 from moyai.study.plan import load_study
 from moyai.study.work import Task
@@ -220,7 +220,7 @@ def test_every_case_is_written_at_once_and_the_disk_is_asked_once_a_second(tmp_p
     monkeypatch.setattr(os, "fsync", asked.append)
     ledger = Ledger(tmp_path, "key", "title")
     for index in range(50):
-        ledger.add(Record(index, "converged", "", 1.0, {"x": index}))
+        ledger.add(LedgerRecord(index, "converged", "", 1.0, {"x": index}))
         # What the system holds outlives the process, whatever ends it
         assert len((tmp_path / "study.jsonl").read_text(encoding="utf-8").splitlines()) == index + 2
     assert len(asked) <= 2
@@ -238,7 +238,7 @@ def test_every_case_is_written_at_once_and_the_disk_is_asked_once_a_second(tmp_p
 
 def test_a_full_disk_says_so_and_keeps_the_cases_before(tmp_path):
     ledger = Ledger(tmp_path, "key", "title")
-    ledger.add(Record(0, "converged", "", 1.0, {}))
+    ledger.add(LedgerRecord(0, "converged", "", 1.0, {}))
 
     class Full:
         def write(self, text):
@@ -250,7 +250,7 @@ def test_a_full_disk_says_so_and_keeps_the_cases_before(tmp_path):
     whole = ledger._file
     ledger._file = Full()
     with pytest.raises(InputError, match="No space left on device; the cases finished before are safe"):
-        ledger.add(Record(1, "converged", "", 1.0, {}))
+        ledger.add(LedgerRecord(1, "converged", "", 1.0, {}))
     ledger.close()
     whole.close()
     again = Ledger(tmp_path, "key", "title")
@@ -262,7 +262,7 @@ def test_numbers_survive_the_diary_to_the_last_bit(tmp_path):
     rng = np.random.default_rng(5)
     numbers = rng.standard_normal(200) * 10.0 ** rng.integers(-300, 300, 200)
     ledger = Ledger(tmp_path, "key", "title")
-    ledger.add(Record(0, "converged", "", 1.0, {"a": {"values": numbers.tolist()}}))
+    ledger.add(LedgerRecord(0, "converged", "", 1.0, {"a": {"values": numbers.tolist()}}))
     read = next(ledger.records()).values["a"]["values"]
     ledger.close()
     assert np.array_equal(np.array(read).view(np.int64), numbers.view(np.int64))

@@ -13,7 +13,7 @@ from moyai.case.reader import load_case
 from moyai.case.templates import template
 from moyai.case.yaml_reader import parse_yaml
 from moyai.core.errors import CaseError, InputError
-from moyai.study.axes import Ground
+from moyai.study.axes import StudyBase
 from moyai.study.lost_lines import lines_lost
 from moyai.study.plan import case_at, load_study
 from moyai.study.scatter import read_scatter
@@ -394,7 +394,7 @@ def test_lines_that_stand_below_the_structure_by_name_are_lost_too():
         "site": {"water_depth": "5 m"},
         "structure": {"kind": "network", "lines": {"north": {"length": "3 m"}, "south": {"count": 3}, "west east": {}}},
     }
-    (axis,) = lines_lost(True, Ground(data, Path(), Path()))
+    (axis,) = lines_lost(True, StudyBase(data, Path(), Path()))
     assert [point.label for point in axis.points] == ["intact", "north", "one of south", "west east"]
     assert axis.points[1].removals == ("structure.lines.north",) and axis.lost_line
     assert axis.points[2].assignments == (("structure.lines.south.count", 2),)
@@ -402,9 +402,9 @@ def test_lines_that_stand_below_the_structure_by_name_are_lost_too():
         for path in (*point.removals, *dict(point.assignments)):
             resolve(data, path)
     with pytest.raises(InputError, match="the only line"):
-        lines_lost(True, Ground({"lines": {"name": "a", "length": "1 m"}}, Path(), Path()))
+        lines_lost(True, StudyBase({"lines": {"name": "a", "length": "1 m"}}, Path(), Path()))
     with pytest.raises(InputError, match="the only line"):
-        lines_lost(True, Ground({"lines": {"a": {"length": "1 m"}}}, Path(), Path()))
+        lines_lost(True, StudyBase({"lines": {"a": {"length": "1 m"}}}, Path(), Path()))
 
 
 @pytest.mark.parametrize(("first", "last", "count"), [(0.16, 1.6, 10), ("0.04 m", "1 m", 9), (0.08, 0.8, 10)])

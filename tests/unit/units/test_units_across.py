@@ -10,17 +10,17 @@ import xarray as xr
 
 from moyai.case.reader import load_case
 from moyai.structures.units.across import across_notices, stretch_across
-from moyai.structures.units.connectors import Joint
+from moyai.structures.units.connectors import UnitJoint
 from moyai.structures.units.model import Connector
 
 EXAMPLE = Path(__file__).parents[3] / "examples" / "units" / "two_pontoons.yaml"
 ALONG = np.array([0.0, 1.0, 0.0])
 
 
-def _joint(kind: str, in_space: bool) -> Joint:
+def _joint(kind: str, in_space: bool) -> UnitJoint:
     connector = Connector(kind, kind, ((0, 1),), axis=(0.0, 1.0, 0.0), end_to_end=in_space)
     empty = np.zeros((0, 6))
-    return Joint(kind, connector, (0, 1), np.zeros(3), np.zeros((6, 12)), empty, 0.5, np.eye(3), ALONG)
+    return UnitJoint(kind, connector, (0, 1), np.zeros(3), np.zeros((6, 12)), empty, 0.5, np.eye(3), ALONG)
 
 
 JOINTS = (_joint("chain", True), _joint("chain", False), _joint("fender", False))
@@ -41,10 +41,10 @@ def test_a_chain_of_half_a_metre_is_stretched_as_its_ends_move_apart() -> None:
     assert stretch_across(JOINTS, _motion(1.2), highest, in_time=True) == pytest.approx([0.0, 0.8, 0.0])
 
 
-def _spring(across: float) -> Joint:
+def _spring(across: float) -> UnitJoint:
     stiffness = np.diag([across, 6e6, across, 0.0, 0.0, 0.0])
     spring = Connector("spring", "spring", ((0, 1),), stiffness=stiffness)
-    return Joint("s", spring, (0, 1), np.zeros(3), np.zeros((6, 12)), np.zeros((0, 6)), 0.5, np.eye(3), ALONG)
+    return UnitJoint("s", spring, (0, 1), np.zeros(3), np.zeros((6, 12)), np.zeros((0, 6)), 0.5, np.eye(3), ALONG)
 
 
 @pytest.mark.parametrize(("across", "stretch"), [(0.0, 0.8), (5e5, 0.8), (6e6, 0.0)])

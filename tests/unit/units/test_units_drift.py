@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from moyai.structures.units.bem import Panels, panels_of, solve_frequency
+from moyai.structures.units.bem import MeshPanels, panels_of, solve_frequency
 from moyai.structures.units.drift import near_drift, reconciled
 from moyai.structures.units.hydrodynamics import RowHydrodynamics, solve_row
 from moyai.structures.units.mesh import row_mesh
@@ -19,7 +19,7 @@ from moyai.validation.units import LENGTH, WATER, at_rest, row
 OMEGA = np.array([1.2])
 
 
-def _panels(size: float, count: int = 2) -> tuple[NearField, Panels]:
+def _panels(size: float, count: int = 2) -> tuple[NearField, MeshPanels]:
     at = at_rest(row(count=count))
     mesh = row_mesh(at.section, LENGTH, at.row.placements, size, lid=True, gap_lid=False)
     panels = panels_of(mesh, at.centres)

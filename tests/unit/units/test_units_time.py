@@ -25,7 +25,7 @@ from moyai.structures.units.headlines import _with_opening
 from moyai.structures.units.hydrodynamics import solve_row
 from moyai.structures.units.largest import each_of
 from moyai.structures.units.mesh import row_mesh
-from moyai.structures.units.model import Connector, Curve, Settings, TimeSettings, UnitLine
+from moyai.structures.units.model import Connector, Curve, UnitLine, UnitSettings, UnitTimeSettings
 from moyai.structures.units.response import RowModel, respond
 from moyai.structures.units.seas import regular_answer
 from moyai.structures.units.time import damping as damping_in_time
@@ -39,7 +39,7 @@ from moyai.structures.units.time.memory import _Basis, _passive, _residues, fit_
 from moyai.structures.units.time.model import RowInTime, step_weights
 from moyai.structures.units.time.seas import (
     REPEATING,
-    TimeRun,
+    SeaRun,
     Water3D,
     _change,
     _growth,
@@ -209,9 +209,9 @@ def test_eddies_in_regular_waves_are_those_of_equal_work_in_the_frequency_domain
     omega, height = 1.1, 1.0
     own = replace(hydro, solutions=tuple(_with(item, memory) for item in hydro.solutions))
     sea = RegularSea("w", height, (2.0 * np.pi / omega,), np.radians(40.0))
-    (answer,) = regular_answer(at, own, sea, np.zeros(12), Settings(2.0, drift=False))
+    (answer,) = regular_answer(at, own, sea, np.zeros(12), UnitSettings(2.0, drift=False))
     assert answer.converged
-    settings = Settings(2.0, drift=False, time=TimeSettings(duration=300.0))
+    settings = UnitSettings(2.0, drift=False, time=UnitTimeSettings(duration=300.0))
     kept = regular_run(Water3D(at, own, memory, np.zeros(12), settings), sea, sea.periods[0], answer)
     run = kept.run
     # units without connectors have numbers as well
@@ -225,7 +225,7 @@ def test_eddies_in_regular_waves_are_those_of_equal_work_in_the_frequency_domain
     assert abs(moved[4] - expected[4]) < 0.04 * abs(expected[4])
     # they matter here
     (without,) = regular_answer(
-        replace(at, row=replace(given, viscous_factor=0.0)), own, sea, np.zeros(12), Settings(2.0, drift=False)
+        replace(at, row=replace(given, viscous_factor=0.0)), own, sea, np.zeros(12), UnitSettings(2.0, drift=False)
     )
     assert abs(0.5 * height * without.fine.motion[0, 0, 4]) > 1.1 * abs(expected[4])
 
@@ -233,7 +233,7 @@ def test_eddies_in_regular_waves_are_those_of_equal_work_in_the_frequency_domain
 def test_units_that_nothing_joins_have_their_numbers(hydro, memory):
     """One pontoon, or several on lines alone: a table of connectors without rows."""
     at, sea = at_rest(), RegularSea("w", 1.0, (6.0,), 0.0)
-    settings = Settings(2.0, drift=False, time=TimeSettings(duration=60.0))
+    settings = UnitSettings(2.0, drift=False, time=UnitTimeSettings(duration=60.0))
     (answer,) = regular_answer(at, hydro, sea, np.zeros(12), settings)
     found = run_numbers(regular_run(Water3D(at, hydro, memory, np.zeros(12), settings), sea, 6.0, answer))
     assert found["relative_motion_largest"][1].shape == (0, 3) and found["connector_resultant_largest"][1].shape == (0,)
@@ -246,7 +246,7 @@ def test_ends_of_the_damping_in_time_are_those_of_the_frequency_domain_where_it_
     at = assemble(given, Environment(WATER), "SWL", 0.0)
     own = replace(hydro, solutions=tuple(_with(item, memory) for item in hydro.solutions))
     sea = RegularSea("w", 1.0, (2.0 * np.pi / 1.1,), np.radians(40.0))
-    settings = Settings(2.0, drift=False, time=TimeSettings(duration=300.0))
+    settings = UnitSettings(2.0, drift=False, time=UnitTimeSettings(duration=300.0))
     others = []
     for factor in given.damping_band:
         damped = replace(at, row=given.damped(factor))
@@ -295,7 +295,7 @@ def test_lines_in_motion_keep_the_change_of_lines_at_rest(monkeypatch):
     found = SeaInTime({"": data, "/T4": data}, [], "converged")
     ends = {0.5: [72.0, 15.0], 2.0: [54.0, 18.0]}
     monkeypatch.setattr(damping_in_time, "runs_of", lambda water, sea, answers, progress: answers)
-    monkeypatch.setattr(damping_in_time.Kept, "of", staticmethod(lambda run: SimpleNamespace(status=run)))
+    monkeypatch.setattr(damping_in_time.KeptRun, "of", staticmethod(lambda run: SimpleNamespace(status=run)))
     monkeypatch.setattr(
         damping_in_time, "numbers_of",
         lambda row, sea, runs: xr.Dataset({"line_tension_maximum": (dims, ends[row])}, coords=data.coords),
@@ -539,18 +539,18 @@ def test_a_row_is_run_until_it_repeats_and_grows_no_more(monkeypatch, runs, coun
         return SimpleNamespace(change=change, growth=growth, complete=True)
 
     monkeypatch.setattr(seas_in_time, "regular_run", run)
-    water = SimpleNamespace(time=TimeSettings())
+    water = SimpleNamespace(time=UnitTimeSettings())
     repeating_run(water, None, 4.0, None)
     assert len(asked) == count and asked == [50.0, 300.0, 1000.0][:count]
     asked.clear()
-    repeating_run(SimpleNamespace(time=TimeSettings(duration=60.0)), None, 4.0, None)
+    repeating_run(SimpleNamespace(time=UnitTimeSettings(duration=60.0)), None, 4.0, None)
     assert len(asked) == 1
 
 
 def test_parts_of_a_record_are_whole_periods_at_its_end():
     period, step = 4.0, 0.1
     time = step * np.arange(round(300 * period / step) + 1)
-    run = TimeRun(SimpleNamespace(time=time), None, time, 40.0, 1160.0, 2.0 * np.pi / period, change=0.3)
+    run = SeaRun(SimpleNamespace(time=time), None, time, 40.0, 1160.0, 2.0 * np.pi / period, change=0.3)
     ends = np.array([(part.begin, part.end) for part in run.parts])
     assert np.allclose(ends[1:, 0], ends[:-1, 1]) and ends[-1, 1] == pytest.approx(time[-1])
     assert np.allclose(np.diff(ends, axis=1), 40 * period)

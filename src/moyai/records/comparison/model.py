@@ -15,7 +15,7 @@ from moyai.core.errors import InputError
 
 
 @dataclass(frozen=True)
-class Agreement:
+class ModelAgreement:
     """Figures of a model against observations; equation [eq:records-agreement]."""
 
     #: Pairs.
@@ -41,7 +41,7 @@ class Agreement:
     paper_error_spread: float
 
 
-def agreement(model: ArrayLike, observed: ArrayLike) -> Agreement:
+def agreement(model: ArrayLike, observed: ArrayLike) -> ModelAgreement:
     """Return the figures of pairs; those with a missing value do not count [eq:records-agreement].
 
     Raises
@@ -67,7 +67,7 @@ def agreement(model: ArrayLike, observed: ArrayLike) -> Agreement:
     squares = float(np.sum(difference**2))
     nonzero = m != 0.0
     relative = difference[nonzero] / m[nonzero]
-    return Agreement(
+    return ModelAgreement(
         int(m.size),
         bias,
         rms,
@@ -94,7 +94,7 @@ class ClassAgreement:
 
     lower: float
     upper: float
-    agreement: Agreement | None
+    agreement: ModelAgreement | None
     count: int
 
 
@@ -138,7 +138,7 @@ class Overlay:
     observed: Array
     #: Seconds by which the model was moved.
     lag: float
-    agreement: Agreement
+    agreement: ModelAgreement
 
 
 def overlay(

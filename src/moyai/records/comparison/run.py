@@ -19,7 +19,7 @@ from moyai.core.units import parse_unit
 from moyai.core.validity import Notice
 from moyai.core.vocabulary import NO_UNIT, Vocabulary, former
 from moyai.core.wording import counted
-from moyai.records.comparison.model import Agreement, agreement_by_state, overlay
+from moyai.records.comparison.model import ModelAgreement, agreement_by_state, overlay
 from moyai.records.reading.reader import read_record
 from moyai.records.reading.record import Record
 from moyai.records.reading.sources import ColumnSource, LoggerSource, TimeSource
@@ -359,7 +359,7 @@ FIGURES = (
 )
 
 
-def _row(figures: Agreement | None) -> list[float]:
+def _row(figures: ModelAgreement | None) -> list[float]:
     if figures is None:
         return [math.nan] * len(FIGURES)
     return [float(getattr(figures, key)) for key, _ in FIGURES]

@@ -133,7 +133,7 @@ class Coefficient:
 
 @checks_words
 @dataclass(frozen=True, eq=False)
-class Fit:
+class ForceFit:
     """One component by one method."""
 
     method: Method
@@ -189,7 +189,7 @@ def fit_component(
     omega: float,
     blocks: list[tuple[int, int]],
     rng: np.random.Generator,
-) -> Fit:
+) -> ForceFit:
     force = record.force[:, component]
     scale = np.linalg.norm(columns, axis=0)
     condition = float(np.linalg.cond(columns / scale)) if (scale > 0.0).all() else math.inf
@@ -223,7 +223,7 @@ def fit_component(
     both = float(spread[0] * spread[1])
     parts = [abs(found[k]) * 0.5 * float(np.ptp(columns[:, k])) for k in range(2)]
     total = float(np.var(force))
-    return Fit(
+    return ForceFit(
         method=method,
         component=component,
         inertia=coefficients[0],

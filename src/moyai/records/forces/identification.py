@@ -14,7 +14,7 @@ from moyai.core.validity import Notice
 from moyai.records.forces.fit import (
     METHODS,
     Coefficient,
-    Fit,
+    ForceFit,
     Setup,
     beside_columns,
     fit_component,
@@ -52,12 +52,12 @@ class Identification:
     velocity_amplitude: Array
     #: u T / b of every component, b its width.
     keulegan_carpenter: tuple[float, ...]
-    fits: tuple[Fit, ...]
+    fits: tuple[ForceFit, ...]
     #: Independent blocks behind the intervals.
     blocks: int
     notices: tuple[Notice, ...] = field(default=())
 
-    def fit(self, method: str, component: int = 0) -> Fit:
+    def fit(self, method: str, component: int = 0) -> ForceFit:
         """Return one fit."""
         for entry in self.fits:
             if entry.method == method and entry.component == component:
@@ -125,7 +125,7 @@ def identify(record: ForceRecord, setup: Setup) -> Identification:
         rate = acceleration_of(used.velocity, used.step, omega if setup.regular else None, orders)
     blocks = _blocks(used, period, setup.regular)
     rng = np.random.default_rng(setup.seed)
-    fits: list[Fit] = []
+    fits: list[ForceFit] = []
     for component in range(used.components):
         columns = force_columns(used, rate, setup, component)
         for method in setup.methods:
@@ -249,7 +249,7 @@ def _blocks(record: ForceRecord, period: float, regular: bool) -> list[tuple[int
 __all__ = [
     "METHODS",
     "Coefficient",
-    "Fit",
+    "ForceFit",
     "ForceRecord",
     "Identification",
     "Setup",

@@ -11,7 +11,7 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
-from moyai.records.forces.fit import UNKNOWN_SHARE, Coefficient, Fit, Setup, beside_columns, force_columns
+from moyai.records.forces.fit import UNKNOWN_SHARE, Coefficient, ForceFit, Setup, beside_columns, force_columns
 from moyai.records.forces.record import ForceRecord
 
 #: Condition number of the scaled equations above which inertia and drag cannot be distinguished
@@ -24,7 +24,7 @@ TURNING_FLOW = 0.2
 PLAUSIBLE_INERTIA = (0.2, 3.0)
 
 
-def collinear_notices(fit: Fit) -> list[Notice]:
+def collinear_notices(fit: ForceFit) -> list[Notice]:
     """Tell where inertia and drag cannot be distinguished."""
     if fit.condition <= LARGEST_CONDITION:
         return []
@@ -39,7 +39,7 @@ def collinear_notices(fit: Fit) -> list[Notice]:
     ]
 
 
-def unknown_notices(fits: Sequence[Fit]) -> list[Notice]:
+def unknown_notices(fits: Sequence[ForceFit]) -> list[Notice]:
     """Tell which coefficients cannot be known, one message for every coefficient of a component."""
     notices = []
     for component in sorted({fit.component for fit in fits}):
@@ -64,7 +64,7 @@ def unknown_notices(fits: Sequence[Fit]) -> list[Notice]:
     return notices
 
 
-def implausible_notices(fits: Sequence[Fit], setup: Setup) -> list[Notice]:
+def implausible_notices(fits: Sequence[ForceFit], setup: Setup) -> list[Notice]:
     """Tell of coefficients that no member shows: columns exchanged, a wrong sign, unit or length."""
     notices: dict[tuple[int, str], Notice] = {}
     remedy = "check columns, signs and units, and whether the force is per length"
@@ -164,7 +164,7 @@ def _unexplained(record: ForceRecord, rate: Array, setup: Setup) -> float:
     return left
 
 
-def harmonic_notices(fit: Fit, record: ForceRecord, omega: float) -> list[Notice]:
+def harmonic_notices(fit: ForceFit, record: ForceRecord, omega: float) -> list[Notice]:
     """Tell of harmonics in the residual: they repeat in every period, so that no interval shows what they do."""
     orders = (2, 3)
     design = beside_columns(record, orders, False, omega)
@@ -186,7 +186,7 @@ def harmonic_notices(fit: Fit, record: ForceRecord, omega: float) -> list[Notice
     ]
 
 
-def _place(fit: Fit) -> str:
+def _place(fit: ForceFit) -> str:
     return f"component {fit.component + 1}, {fit.method.replace('_', ' ')}"
 
 

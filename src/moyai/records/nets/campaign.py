@@ -14,7 +14,7 @@ from moyai.core.options import checks_words
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
 from moyai.records.nets.quality import record_notices
-from moyai.records.nets.regression import JointLaw, PowerLaw, fit_joint_law, fit_power_law
+from moyai.records.nets.regression import JointLaw, NetPowerLaw, fit_joint_law, fit_power_law
 from moyai.records.nets.runs import NetRun, Specimen, Tank
 from moyai.records.nets.tensions import CageRecord, EndTension, measure_tensions
 from moyai.records.nets.towing import FrameLaw, Tow, TowCoefficients, frame_law, measure_tow, tow_coefficients
@@ -111,7 +111,7 @@ class NetFindings:
     #: In the order of ``waves``.
     fits: tuple[WaveFit, ...]
     #: Of every net with three runs or more.
-    laws: tuple[PowerLaw, ...]
+    laws: tuple[NetPowerLaw, ...]
     joint: JointLaw | None
     #: By run.
     tensions: tuple[tuple[str, tuple[EndTension, ...]], ...]
@@ -345,7 +345,7 @@ def _frame_run(run: NetRun, frames: Sequence[NetRun]) -> NetRun | None:
 
 def _laws(
     campaign: NetCampaign, towing: Sequence[TowCoefficients], notices: list[Notice]
-) -> tuple[tuple[PowerLaw, ...], JointLaw | None]:
+) -> tuple[tuple[NetPowerLaw, ...], JointLaw | None]:
     laws = []
     good = [item for item in towing if item.drag > 0.0]
     for specimen in campaign.specimens:

@@ -23,7 +23,7 @@ _PERIOD_GAP = 0.03
 
 
 @dataclass(frozen=True, eq=False)
-class Flow:
+class PanelFlow:
     """Motion of the water past the panel over the part of the record that is used."""
 
     #: [s].
@@ -36,7 +36,7 @@ class Flow:
     encounter: float | None
 
 
-def wave_flow(run: NetRun, tank: Tank, part: NDArray[np.bool_]) -> tuple[Flow, tuple[Notice, ...]]:
+def wave_flow(run: NetRun, tank: Tank, part: NDArray[np.bool_]) -> tuple[PanelFlow, tuple[Notice, ...]]:
     """Return the motion of the water past the panel, by the meter or by linear theory from the gauge [eq:net-flow].
 
     Under way the panel meets waves of the period T at 2 pi / T + k U (head) or | 2 pi / T - k U | (following); orbital
@@ -81,10 +81,10 @@ def wave_flow(run: NetRun, tank: Tank, part: NDArray[np.bool_]) -> tuple[Flow, t
     if run.velocity is not None:
         # mean and harmonics of the meter; the water's own acceleration is that of the wave at rest
         velocity, rate = _harmonic(time, signal, met)
-        return Flow(time, velocity, slower * rate, met), tuple(notices)
+        return PanelFlow(time, velocity, slower * rate, met), tuple(notices)
     wave, rate = _orbital(run, tank, time, signal, met)
     sense = -1.0 if run.following and towed else 1.0
-    return Flow(time, _speed(run) + sense * wave, sense * rate, met), tuple(notices)
+    return PanelFlow(time, _speed(run) + sense * wave, sense * rate, met), tuple(notices)
 
 
 def _speed(run: NetRun) -> float:
@@ -148,10 +148,10 @@ def _overtakes(run: NetRun, tank: Tank) -> bool:
     return run.speed > omega / float(wave_number(omega, tank.water_depth, tank.gravity))
 
 
-def _irregular(run: NetRun, tank: Tank, time: Array, signal: Array) -> Flow:
+def _irregular(run: NetRun, tank: Tank, time: Array, signal: Array) -> PanelFlow:
     if run.velocity is not None:
         rate = acceleration_of(signal[:, None], float(time[1] - time[0]), None, 1)[:, 0]
-        return Flow(time, signal, rate, None)
+        return PanelFlow(time, signal, rate, None)
     velocity, rate = orbital_motion(
         time,
         signal,
@@ -161,4 +161,4 @@ def _irregular(run: NetRun, tank: Tank, time: Array, signal: Array) -> Flow:
         distance=run.distance,
         period=None,
     )
-    return Flow(time, velocity[:, 0], rate[:, 0], None)
+    return PanelFlow(time, velocity[:, 0], rate[:, 0], None)

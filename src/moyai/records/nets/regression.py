@@ -25,7 +25,7 @@ _LEAST_NETS = 3
 
 
 @dataclass(frozen=True, eq=False)
-class PowerLaw:
+class NetPowerLaw:
     """C_D = A Re^-B of one net."""
 
     net: str
@@ -58,7 +58,7 @@ class PowerLaw:
 
 def fit_power_law(
     net: str, reynolds: ArrayLike, drag: ArrayLike, error: ArrayLike, confidence: float = 0.95
-) -> PowerLaw:
+) -> NetPowerLaw:
     """Fit ln C_D = ln A - B ln Re with weights of the runs' errors and a scatter of its own [eq:net-power-law].
 
     Parameters
@@ -106,7 +106,7 @@ def fit_power_law(
     turn = np.array([[1.0, centre], [0.0, 1.0]])
     beta, covariance = turn @ beta, turn @ inverse @ turn.T
     reach = student_quantile(confidence, number.size - 2.0) * np.sqrt(np.diagonal(covariance))
-    return PowerLaw(
+    return NetPowerLaw(
         net=net,
         factor=math.exp(beta[0]),
         exponent=float(beta[1]),

@@ -11,8 +11,8 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
-from moyai.records.forces.identification import Fit, ForceRecord, Identification, Setup, identify
-from moyai.records.nets.flow import Flow, settled, wave_flow
+from moyai.records.forces.identification import ForceFit, ForceRecord, Identification, Setup, identify
+from moyai.records.nets.flow import PanelFlow, settled, wave_flow
 from moyai.records.nets.runs import NetRun, Specimen, Tank
 from moyai.records.nets.steady import correlated_covariance, zero_error
 from moyai.records.nets.vibration import Vibration, remove_band, shaken_mass
@@ -30,7 +30,7 @@ class WaveFit:
 
     run: NetRun
     #: Over the samples that the fit used.
-    flow: Flow
+    flow: PanelFlow
     #: Measured, without the vibration [N].
     force: Array
     #: As measured [N].
@@ -42,7 +42,7 @@ class WaveFit:
     notices: tuple[Notice, ...]
 
     @property
-    def fit(self) -> Fit:
+    def fit(self) -> ForceFit:
         """Least-squares fit."""
         return self.found.fit("least_squares")
 
@@ -179,7 +179,7 @@ def fit_waves(
         clean = _without_band(run.step, raw, found, vibration)
         found = identified(clean)
     size = found.record.time.size
-    cut = Flow(flow.time[:size], flow.velocity[:size], flow.acceleration[:size], flow.encounter)
+    cut = PanelFlow(flow.time[:size], flow.velocity[:size], flow.acceleration[:size], flow.encounter)
     return WaveFit(run, cut, clean[:size], raw[:size], found, mass, tuple(notices))
 
 

@@ -65,7 +65,7 @@ class QualityOptions:
 
 
 @dataclass(frozen=True)
-class Finding:
+class DoubtfulStretch:
     """One stretch of doubtful samples."""
 
     channel: str
@@ -85,7 +85,7 @@ class Quality:
 
     #: The record with its flags.
     record: Record
-    findings: tuple[Finding, ...]
+    findings: tuple[DoubtfulStretch, ...]
     #: Samples by channel and kind.
     counts: Mapping[str, Mapping[str, int]]
     #: First missing instant and duration of each gap in the clock [s].
@@ -208,7 +208,7 @@ def check_record(
     flags = np.zeros(record.values.shape, dtype=np.uint8)
     if record.flags is not None:
         flags |= record.flags
-    findings: list[Finding] = []
+    findings: list[DoubtfulStretch] = []
     counts: dict[str, dict[str, int]] = {}
     gaps, lacking = find_gaps(record.time, usual, _option(options, record.names[0]).gap_steps)
     for place, name in enumerate(record.names):
@@ -240,17 +240,19 @@ def _option(options: QualityOptions | Mapping[str, QualityOptions], name: str) -
 
 def _stretches(
     name: str, kind: str, time: Array, values: Array, where: NDArray[np.bool_], most: int = 50
-) -> list[Finding]:
+) -> list[DoubtfulStretch]:
     first, last = _runs(where)
     out = []
     for begin, end in zip(first[:most], last[:most]):
         value = values[begin]
         detail = f"value {value:.6g}" if kind in ("spike", "flat line", "clipped", "out of range") else ""
-        out.append(Finding(name, kind, float(time[begin]), float(time[end - 1]), int(end - begin), detail))
+        out.append(DoubtfulStretch(name, kind, float(time[begin]), float(time[end - 1]), int(end - begin), detail))
     if first.size > most:
         rest = int((last[most:] - first[most:]).sum())
         out.append(
-            Finding(name, kind, float(time[first[most]]), float(time[last[-1] - 1]), rest, f"{first.size - most} more")
+            DoubtfulStretch(
+                name, kind, float(time[first[most]]), float(time[last[-1] - 1]), rest, f"{first.size - most} more"
+            )
         )
     return out
 
@@ -401,7 +403,7 @@ def _weather(others: Sequence[Mapping[int, float]], before: int, after: int, jum
 
 
 @dataclass(frozen=True)
-class Drift:
+class ChannelDrift:
     """Trend of a channel's block means."""
 
     channel: str
@@ -420,7 +422,7 @@ class Drift:
         return abs(self.rate) > 3.0 * self.error
 
 
-def find_drift(moments: Sequence[BlockMoments], channel: str) -> Drift | None:
+def find_drift(moments: Sequence[BlockMoments], channel: str) -> ChannelDrift | None:
     """Return the trend of the block means by Theil and Sen's median of slopes [eq:records-drift].
 
     Its error allows for the correlation from block to block. A tide in a short record is a trend too: remove it first.
@@ -446,7 +448,7 @@ def find_drift(moments: Sequence[BlockMoments], channel: str) -> Drift | None:
     error = math.sqrt(variance / effective / float(np.var(time)))
     change = rate * float(time[-1] - time[0])
     typical = float(np.nanmedian([entry.deviation for entry in known]))
-    return Drift(channel, rate, error, change, abs(change) / typical if typical > 0.0 else math.inf)
+    return ChannelDrift(channel, rate, error, change, abs(change) / typical if typical > 0.0 else math.inf)
 
 
 def _percent(count: int, samples: int) -> str:

@@ -105,7 +105,7 @@ def read_chunks(source: LoggerSource, rows: int = CHUNK_ROWS) -> Iterator[Record
         without any value.
     """
     names = tuple(column.name for column in source.columns)
-    clock = _Clock(source)
+    clock = _LoggerClock(source)
     holds_value = np.zeros(len(names), dtype=bool)
     seen = 0
     for path in source.files:
@@ -218,7 +218,7 @@ def _values(raw: NDArray[Any], column: ColumnSource, unit: Unit) -> Array:
     return (values * column.scale + column.offset) * factor
 
 
-class _Clock:
+class _LoggerClock:
     """Turns the stamps of chunk after chunk into instants, and remembers where the last one was."""
 
     def __init__(self, source: LoggerSource) -> None:
@@ -377,14 +377,14 @@ class _Clock:
 
 
 @dataclass(frozen=True)
-class Block:
+class RecordBlock:
     """Number of a block of time and the record in it."""
 
     index: int
     record: Record
 
 
-def blocks(chunks: Iterator[Record], origin: float, length: float) -> Iterator[Block]:
+def blocks(chunks: Iterator[Record], origin: float, length: float) -> Iterator[RecordBlock]:
     """Cut a stream of chunks into blocks ``origin + i length`` [s]; blocks without a sample are left out.
 
     Parameters
@@ -402,17 +402,17 @@ def blocks(chunks: Iterator[Record], origin: float, length: float) -> Iterator[B
         for first, last in zip([0, *borders.tolist()], [*borders.tolist(), len(chunk)]):
             index = int(numbers[first])
             if current is not None and index != current and waiting:
-                yield Block(current, concatenate(waiting))
+                yield RecordBlock(current, concatenate(waiting))
                 waiting = []
             current = index
             waiting.append(chunk.rows(slice(first, last)))
     if waiting and current is not None:
-        yield Block(current, concatenate(waiting))
+        yield RecordBlock(current, concatenate(waiting))
 
 
-def aligned(streams: list[Iterator[Block]]) -> Iterator[tuple[int, list[Record | None]]]:
+def aligned(streams: list[Iterator[RecordBlock]]) -> Iterator[tuple[int, list[Record | None]]]:
     """Yield the blocks of several loggers side by side; ``None`` where a logger has no sample in a block."""
-    heads: list[Block | None] = [next(stream, None) for stream in streams]
+    heads: list[RecordBlock | None] = [next(stream, None) for stream in streams]
     while any(head is not None for head in heads):
         index = min(head.index for head in heads if head is not None)
         row: list[Record | None] = []

@@ -9,7 +9,7 @@ from moyai.core.options import checks_words
 from moyai.core.validity import Notice
 from moyai.structures.curtain.impact.cable import Impact, ImpactNumbers
 from moyai.structures.curtain.impact.compare import Comparison
-from moyai.structures.curtain.impact.skirt import Skirt
+from moyai.structures.curtain.impact.skirt import BulgedSkirt
 from moyai.structures.curtain.model import RecordedSnap
 
 #: Whether records were measured or computed
@@ -26,7 +26,7 @@ class SnapRun:
     cable: str
     #: The span; its speed is that of the current.
     impact: Impact
-    skirt: Skirt | None
+    skirt: BulgedSkirt | None
     record: RecordedSnap
 
 
@@ -77,7 +77,7 @@ class Exponents:
 
 
 @dataclass(frozen=True)
-class Agreement:
+class SnapAgreement:
     """A model over the records of all runs."""
 
     model: str
@@ -99,7 +99,7 @@ class SnapFindings:
     runs: SnapRuns
     found: tuple[SnapFinding, ...]
     #: One for each model that every run has.
-    agreements: tuple[Agreement, ...]
+    agreements: tuple[SnapAgreement, ...]
     #: Of the records, then of each of these models.
     exponents: tuple[Exponents, ...]
     notices: tuple[Notice, ...]

@@ -12,7 +12,7 @@ from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
-from moyai.records.snaps.model import Agreement, Exponents, SnapFinding, SnapFindings, SnapRun, SnapRuns
+from moyai.records.snaps.model import Exponents, SnapAgreement, SnapFinding, SnapFindings, SnapRun, SnapRuns
 from moyai.series.intervals import student_quantile
 from moyai.structures.curtain.impact.cable import Impact, impact_numbers
 from moyai.structures.curtain.impact.compare import ModelTension, compare_models
@@ -109,12 +109,12 @@ def _coefficients(found: Sequence[SnapFinding], tension: Array) -> Array:
     )
 
 
-def _agreement(model: str, ratio: Array) -> Agreement:
+def _agreement(model: str, ratio: Array) -> SnapAgreement:
     logs = np.log(ratio)
     scatter = float(np.std(logs, ddof=1))
     reach = student_quantile(0.95, logs.size - 1) * scatter / math.sqrt(logs.size)
     mean = float(np.mean(logs))
-    return Agreement(model, math.exp(mean), math.exp(mean - reach), math.exp(mean + reach), scatter, logs.size)
+    return SnapAgreement(model, math.exp(mean), math.exp(mean - reach), math.exp(mean + reach), scatter, logs.size)
 
 
 def _exponents(of: str, coefficient: Array, numbers: Array) -> Exponents:

@@ -20,7 +20,7 @@ _FINE = 40.0
 
 
 @dataclass(frozen=True)
-class Logger:
+class SnapLogger:
     """How a record is taken."""
 
     #: Samples a second [Hz].
@@ -48,7 +48,7 @@ class MadeRecord:
 
 
 def made_record(
-    impact: Impact, *, drag_coefficient: float, spike_factor: float, logger: Logger, rng: np.random.Generator,
+    impact: Impact, *, drag_coefficient: float, spike_factor: float, logger: SnapLogger, rng: np.random.Generator,
     release: float = 2.0, length: float = 20.0,
 ) -> MadeRecord:  # fmt: skip
     """Return the record of one release.

@@ -17,7 +17,7 @@ from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 
 
-class Calibration(Protocol):
+class CameraCalibration(Protocol):
     """What takes pixels to the light sheet and back."""
 
     @property

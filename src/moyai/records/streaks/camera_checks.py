@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
-from moyai.records.streaks.camera_calibration import Calibration, fit_homography
+from moyai.records.streaks.camera_calibration import CameraCalibration, fit_homography
 
 #: Misfit of the targets over their extent in the picture above which no lens explains it
 _LARGEST_MISFIT = 0.02
@@ -18,7 +18,7 @@ _LARGEST_MISFIT = 0.02
 _TOLD_MISFIT = 1.0
 
 
-def require_fitting_targets(calibration: Calibration, pixels: ArrayLike, world: ArrayLike) -> None:
+def require_fitting_targets(calibration: CameraCalibration, pixels: ArrayLike, world: ArrayLike) -> None:
     """Refuse targets that do not fit one plane, and name the one that is likely to be wrong.
 
     Parameters
@@ -63,7 +63,7 @@ def _misfit_without(picture: Array, sheet: Array, index: int) -> float:
         return math.inf
 
 
-def view_notices(calibration: Calibration, centre: ArrayLike) -> tuple[Notice, ...]:
+def view_notices(calibration: CameraCalibration, centre: ArrayLike) -> tuple[Notice, ...]:
     """Tell of targets that miss, and of views that are mirrored or turned: they change the sign of a circulation.
 
     Parameters
@@ -114,7 +114,7 @@ def view_notices(calibration: Calibration, centre: ArrayLike) -> tuple[Notice, .
     return tuple(notices)
 
 
-def inside_picture(calibration: Calibration, point: ArrayLike, shape: tuple[int, int]) -> bool:
+def inside_picture(calibration: CameraCalibration, point: ArrayLike, shape: tuple[int, int]) -> bool:
     """Return whether a point x, z [m] of the light sheet lies within a picture of (rows, columns)."""
     column, row = calibration.to_pixels(np.asarray(point, dtype=float)[None, :])[0]
     return bool(-0.5 <= column <= shape[1] - 0.5 and -0.5 <= row <= shape[0] - 0.5)

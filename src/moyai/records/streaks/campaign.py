@@ -16,9 +16,9 @@ from moyai.core.progress import Progress, silent
 from moyai.core.results import Result, make_provenance
 from moyai.core.store import DatasetStore
 from moyai.core.validity import IdentityCheck, Notice
-from moyai.records.streaks.camera_calibration import Calibration
+from moyai.records.streaks.camera_calibration import CameraCalibration
 from moyai.records.streaks.circulation_law import PUBLISHED, check_amplitude, fit_circulation_law, inertia_reduction
-from moyai.records.streaks.contour_circulation import Circulation, measure_circulation
+from moyai.records.streaks.contour_circulation import ContourCirculation, measure_circulation
 from moyai.records.streaks.drift_interpolation import Interpolation
 from moyai.records.streaks.flow import SectionMap
 from moyai.records.streaks.orbital_bias import Orbits
@@ -58,7 +58,7 @@ class StreakRun:
 
 @checks_words
 @dataclass(frozen=True, eq=False)
-class Campaign:
+class StreakCampaign:
     """Everything that a measurement needs."""
 
     #: ``title``, ``section``: Title, and the section in words.
@@ -73,7 +73,7 @@ class Campaign:
     centre: Array
     #: 1 for waves towards +x (clockwise orbits), -1 for the others.
     sense: int
-    calibration: Calibration
+    calibration: CameraCalibration
     runs: tuple[StreakRun, ...]
     settings: RunSettings
     #: Margin around the section where nothing is looked for [m].
@@ -106,13 +106,13 @@ class _Measured:
     run: StreakRun
     cloud: DriftCloud
     drift: Array
-    circulation: Circulation
+    circulation: ContourCirculation
     background: BackgroundDrift | None
     overlay: dict[str, Any] = field(default_factory=dict)
 
 
 def measure_campaign(
-    campaign: Campaign,
+    campaign: StreakCampaign,
     *,
     store: DatasetStore | None = None,
     attributes: Mapping[str, str] | None = None,
@@ -186,7 +186,7 @@ def measure_campaign(
 
 
 def _calm(
-    campaign: Campaign, recordings: Sequence[Recording], store: DatasetStore | None, progress: Progress
+    campaign: StreakCampaign, recordings: Sequence[Recording], store: DatasetStore | None, progress: Progress
 ) -> BackgroundDrift:
     datasets = [
         analyse_recording(recording, campaign.calibration, campaign.settings, store=store, progress=progress)
@@ -195,12 +195,12 @@ def _calm(
     return fit_background(_centred(gather(datasets), campaign))
 
 
-def _centred(cloud: DriftCloud, campaign: Campaign) -> DriftCloud:
+def _centred(cloud: DriftCloud, campaign: StreakCampaign) -> DriftCloud:
     return replace(cloud, position=cloud.position - campaign.centre)
 
 
 def _measure_run(
-    campaign: Campaign,
+    campaign: StreakCampaign,
     run: StreakRun,
     datasets: Sequence[xr.Dataset],
     background: BackgroundDrift | None,
@@ -255,7 +255,7 @@ def amplitude_number(run: StreakRun, breadth: float) -> float:
 
 
 def _result(
-    campaign: Campaign,
+    campaign: StreakCampaign,
     measured: list[_Measured],
     notices: list[Notice],
     interrupted: bool,
@@ -297,7 +297,7 @@ def _told_of(run: StreakRun, notices: Sequence[Notice]) -> list[Notice]:
     return [replace(notice, message=f"run '{run.name}': {notice.message}") for notice in notices]
 
 
-def _against_orbits(item: _Measured, campaign: Campaign) -> list[Notice]:
+def _against_orbits(item: _Measured, campaign: StreakCampaign) -> list[Notice]:
     low, high = sorted(campaign.sense * side for side in item.circulation.limit_interval)
     value = campaign.sense * item.circulation.limit
     if low > 0.0 and value > 0.0:
@@ -341,7 +341,7 @@ def _single_valued(item: _Measured) -> IdentityCheck:
     )
 
 
-def _root_attributes(campaign: Campaign, attributes: dict[str, str]) -> dict[str, Any]:
+def _root_attributes(campaign: StreakCampaign, attributes: dict[str, str]) -> dict[str, Any]:
     return {
         "structure": "streaks",
         "title": campaign.title,
@@ -355,7 +355,7 @@ def _root_attributes(campaign: Campaign, attributes: dict[str, str]) -> dict[str
     }
 
 
-def _run_dataset(campaign: Campaign, item: _Measured) -> xr.Dataset:
+def _run_dataset(campaign: StreakCampaign, item: _Measured) -> xr.Dataset:
     import xarray as xr
 
     cloud, found, calm = item.cloud, item.circulation, item.background
@@ -397,7 +397,7 @@ def _run_dataset(campaign: Campaign, item: _Measured) -> xr.Dataset:
     )
 
 
-def _law_dataset(campaign: Campaign, measured: list[_Measured]) -> tuple[xr.Dataset | None, tuple[Notice, ...]]:
+def _law_dataset(campaign: StreakCampaign, measured: list[_Measured]) -> tuple[xr.Dataset | None, tuple[Notice, ...]]:
     import xarray as xr
 
     kc = np.array([amplitude_number(item.run, campaign.breadth) for item in measured])

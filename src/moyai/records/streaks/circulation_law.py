@@ -19,7 +19,7 @@ LEAST_KC, MOST_KC = 1.0, 2.0
 
 
 @dataclass(frozen=True, eq=False)
-class CirculationLaw:
+class MeasuredCirculationLaw:
     """Circulation = coefficient * f B^2 KC^2."""
 
     #: ``coefficient``, ``deviation``: Dimensionless coefficient and its standard error (NaN with one run).
@@ -35,7 +35,7 @@ class CirculationLaw:
 
 def fit_circulation_law(
     keulegan_carpenter: ArrayLike, circulation: ArrayLike, frequency: ArrayLike, breadth: ArrayLike
-) -> CirculationLaw:
+) -> MeasuredCirculationLaw:
     """Fit the law robustly in logarithms with the slope 2 [eq:streaks-law].
 
     Parameters
@@ -89,7 +89,7 @@ def fit_circulation_law(
         )
     weight = np.zeros(kc.shape)
     weight[usable] = weights
-    return CirculationLaw(math.exp(centre), deviation, math.exp(centre) * f * b**2, weight, tuple(notices))
+    return MeasuredCirculationLaw(math.exp(centre), deviation, math.exp(centre) * f * b**2, weight, tuple(notices))
 
 
 def inertia_reduction(circulation: ArrayLike, period: ArrayLike, area: ArrayLike) -> Array:

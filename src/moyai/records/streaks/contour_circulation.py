@@ -28,7 +28,7 @@ Extrapolation = Literal["stokes", "linear"]
 
 
 @dataclass(frozen=True, eq=False)
-class Circulation:
+class ContourCirculation:
     """Circulation around a section, about +y (clockwise with x to the right, z up)."""
 
     #: Sizes Bc/B of the contours.
@@ -176,7 +176,7 @@ def measure_circulation(
     seed: int = 0,
     orbits: Orbits | None = None,
     progress: Progress = silent,
-) -> Circulation:
+) -> ContourCirculation:
     """Measure the circulation around a section from scattered drift velocities.
 
     Parameters
@@ -206,7 +206,7 @@ def measure_circulation(
 
     Returns
     -------
-    Circulation
+    ContourCirculation
 
     Raises
     ------
@@ -313,7 +313,7 @@ def _summary(
     confidence: float,
     inside: NDArray[np.bool_],
     outlier: NDArray[np.bool_],
-) -> Circulation:
+) -> ContourCirculation:
     spread = np.full(ratio.size, np.nan)
     if len(samples) > 2:
         spread[inside] = samples[:, inside].std(axis=0, ddof=1)
@@ -350,7 +350,7 @@ def _summary(
                 remedy="ask for more contours beyond this size, or give pictures of a larger field",
             )
         )
-    return Circulation(
+    return ContourCirculation(
         ratio,
         value,
         spread,

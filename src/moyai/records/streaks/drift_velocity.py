@@ -59,7 +59,7 @@ class StreakChain:
 
 
 @dataclass(frozen=True, eq=False)
-class Drift:
+class ParticleDrift:
     """Drift of one particle."""
 
     #: Mean over time of one orbit, where the drift counts [m]; shape (2,).
@@ -74,7 +74,7 @@ class Drift:
     residual: float = math.nan
 
 
-def close_period_cubic(chain: StreakChain, period: float) -> Drift:
+def close_period_cubic(chain: StreakChain, period: float) -> ParticleDrift:
     """Close the period by the cubic through four velocities [eq:streaks-cubic].
 
     Parameters
@@ -108,10 +108,10 @@ def close_period_cubic(chain: StreakChain, period: float) -> Drift:
     step = np.diff(times)[:, None]
     # Trapezoid with the correction of its ends by the velocities (Hermite), exact for cubics
     integral = (0.5 * step * (places[1:] + places[:-1]) + step**2 / 12.0 * (speeds[:-1] - speeds[1:])).sum(axis=0)
-    return Drift(integral / (times[-1] - times[0]), (closure - position[0]) / period, closure)
+    return ParticleDrift(integral / (times[-1] - times[0]), (closure - position[0]) / period, closure)
 
 
-def fit_drift_harmonics(chain: StreakChain, period: float, *, harmonics: Sequence[int] = (1, 2, 3, 4)) -> Drift:
+def fit_drift_harmonics(chain: StreakChain, period: float, *, harmonics: Sequence[int] = (1, 2, 3, 4)) -> ParticleDrift:
     """Fit a straight drift and harmonics of the period to all ends of a chain [eq:streaks-harmonic].
 
     Parameters
@@ -159,7 +159,7 @@ def fit_drift_harmonics(chain: StreakChain, period: float, *, harmonics: Sequenc
     _, coefficients, misfit, deviation, number = best
     first = _basis(np.array([(chain.time[0] - middle) / period + 1.0]), number) @ coefficients
     residual = math.sqrt(float((misfit**2).sum()) / count)
-    return Drift(coefficients[0], coefficients[1] / period, first[0], deviation, residual)
+    return ParticleDrift(coefficients[0], coefficients[1] / period, first[0], deviation, residual)
 
 
 def _basis(phase: Array, number: int) -> Array:

@@ -16,9 +16,9 @@ from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.core.progress import Progress, silent
 from moyai.core.store import DatasetStore, key_of
-from moyai.records.streaks.camera_calibration import Calibration
+from moyai.records.streaks.camera_calibration import CameraCalibration
 from moyai.records.streaks.detection import DetectionSettings, Streaks, detect_streaks, read_picture
-from moyai.records.streaks.drift_velocity import Drift, close_period_cubic, fit_drift_harmonics
+from moyai.records.streaks.drift_velocity import ParticleDrift, close_period_cubic, fit_drift_harmonics
 from moyai.records.streaks.linking import LinkedChain, LinkingSettings, WorldStreaks, link_exposure, link_frames
 from moyai.records.streaks.timing import PulseTrain
 
@@ -125,7 +125,7 @@ def saturation_level(picture: Array) -> float:
     return 254.5 if top <= 255.0 else (65534.5 if top <= 65535.0 else math.inf)
 
 
-def streaks_in_world(streaks: Streaks, calibration: Calibration) -> WorldStreaks:
+def streaks_in_world(streaks: Streaks, calibration: CameraCalibration) -> WorldStreaks:
     """Take the ends and the tangents of streaks to the light sheet."""
     pixels = streaks.ends
     chord = pixels[:, 1] - pixels[:, 0]
@@ -143,7 +143,7 @@ def streaks_in_world(streaks: Streaks, calibration: Calibration) -> WorldStreaks
 
 def drift_of_chains(
     chains: Sequence[LinkedChain], period: float, settings: RunSettings
-) -> tuple[list[Drift], list[int]]:
+) -> tuple[list[ParticleDrift], list[int]]:
     """Return the drift of every chain that is long and smooth enough, and which chains these are."""
     drifts, kept = [], []
     for index, linked in enumerate(chains):
@@ -155,7 +155,7 @@ def drift_of_chains(
                 continue
             if settings.closing == "cubic":
                 cubic = close_period_cubic(linked.chain, period)
-                fit = Drift(cubic.position, cubic.velocity, cubic.closure, fit.deviation, fit.residual)
+                fit = ParticleDrift(cubic.position, cubic.velocity, cubic.closure, fit.deviation, fit.residual)
         except InputError:
             continue
         drifts.append(fit)
@@ -165,7 +165,7 @@ def drift_of_chains(
 
 def analyse_recording(
     recording: Recording,
-    calibration: Calibration,
+    calibration: CameraCalibration,
     settings: RunSettings,
     *,
     mask_outline: Array | None = None,
@@ -241,7 +241,7 @@ def _require_streaks(recording: Recording, found: list[Streaks], settings: Detec
 
 
 def _mask(
-    shape: tuple[int, ...], calibration: Calibration, outline: Array | None, margin: float
+    shape: tuple[int, ...], calibration: CameraCalibration, outline: Array | None, margin: float
 ) -> NDArray[np.bool_] | None:
     if outline is None:
         return None
@@ -260,7 +260,7 @@ def _mask(
 
 def _key(
     recording: Recording,
-    calibration: Calibration,
+    calibration: CameraCalibration,
     settings: RunSettings,
     outline: Array | None,
     margin: float,

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
-from moyai.records.streaks.camera_calibration import Calibration
+from moyai.records.streaks.camera_calibration import CameraCalibration
 from moyai.records.streaks.flow import OrbitalFlow, track_particles
 from moyai.records.streaks.timing import PulseTrain
 
@@ -68,7 +68,7 @@ class Exposure:
 
 def synthesise(
     flow: OrbitalFlow,
-    calibration: Calibration,
+    calibration: CameraCalibration,
     shape: tuple[int, int],
     train: PulseTrain,
     *,
@@ -145,7 +145,7 @@ def _speed(path: Array, instants: Array) -> Array:
 
 def _deposit(
     canvas: Array,
-    calibration: Calibration,
+    calibration: CameraCalibration,
     path: Array,
     weight: Array,
     size: Array,
@@ -195,7 +195,7 @@ def _sensor(
     optics: Optics,
     sheet: Array,
     flow: OrbitalFlow,
-    calibration: Calibration,
+    calibration: CameraCalibration,
     random: np.random.Generator,
 ) -> Picture:
     from scipy.ndimage import gaussian_filter

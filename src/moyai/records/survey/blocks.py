@@ -12,7 +12,7 @@ from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.records.reading.clocks import interpolate
-from moyai.records.reading.quality import BlockMoments, Finding, check_record, moments_of
+from moyai.records.reading.quality import BlockMoments, DoubtfulStretch, check_record, moments_of
 from moyai.records.reading.record import Record, nominal_step
 from moyai.records.reading.sensors import Sensor, surface_elevation
 from moyai.records.reading.short_gaps import fill_short_gaps
@@ -42,7 +42,7 @@ class BlockResult:
     channels: dict[str, tuple[float, ...]]
     #: Flagged samples by channel and kind.
     counts: dict[str, dict[str, int]]
-    findings: tuple[Finding, ...]
+    findings: tuple[DoubtfulStretch, ...]
     gaps: tuple[tuple[float, float], ...]
     #: ``lacking``, ``samples``: Samples that gaps lack, and those there are (of the first logger).
     lacking: int
@@ -103,7 +103,7 @@ def work_off(survey: Survey, index: int, origin: float, records: Sequence[Record
     start = origin + index * survey.block_length
     checked: list[Record | None] = []
     counts: dict[str, dict[str, int]] = {}
-    findings: list[Finding] = []
+    findings: list[DoubtfulStretch] = []
     gaps: list[tuple[float, float]] = []
     channels: dict[str, tuple[float, ...]] = {}
     moments: dict[str, BlockMoments] = {}

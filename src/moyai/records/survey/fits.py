@@ -13,7 +13,7 @@ from moyai.core.errors import InputError
 from moyai.records.survey.model import Survey
 from moyai.series.regressions import (
     Estimate,
-    Fit,
+    Regression,
     correlation,
     fit_by_direction,
     fit_cosine,
@@ -172,7 +172,7 @@ def _add(rows: list[_Row], relation: str, of: str, x: Array, y: Array, fit: obje
     if np.count_nonzero(known) < FEWEST:
         return
     try:
-        found: Fit = fit(x[known], y[known])  # type: ignore[operator]
+        found: Regression = fit(x[known], y[known])  # type: ignore[operator]
     except InputError:
         return
     for name, estimate in found.parameters.items():

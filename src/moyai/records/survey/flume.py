@@ -84,7 +84,7 @@ class FlumeLayout:
 
 
 @dataclass(frozen=True)
-class Window:
+class RecordWindow:
     """Useful part of a record [s]."""
 
     start: float
@@ -100,7 +100,7 @@ class RegularRun:
     #: ``period``, ``wave_number``: Wave period [s] and wave number [rad/m].
     wave_number: float
     #: Useful part of the record.
-    window: Window
+    window: RecordWindow
     #: Mean and harmonics of every channel, phases referred to the record's clock.
     harmonics: Harmonics
     #: ``mean_spread``, ``amplitude_spread``: How much mean and amplitudes move while the whole periods slide in the
@@ -272,7 +272,9 @@ def wavemaker_start(time: Array, position: Array, *, fraction: float) -> float:
     return float(time[moving[0]])
 
 
-def useful_window(layout: FlumeLayout, water: Water, period: float, *, start: float, ramp_periods: float) -> Window:
+def useful_window(
+    layout: FlumeLayout, water: Water, period: float, *, start: float, ramp_periods: float
+) -> RecordWindow:
     """Return the part of a run in which all gauges see steady waves that have not met the wavemaker again.
 
     Equation [eq:flume-window]. Energy travels with the group velocity c_g: the window opens when the wave reflected by
@@ -307,7 +309,7 @@ def useful_window(layout: FlumeLayout, water: Water, period: float, *, start: fl
             parameter="ramp_periods",
             remedy="accept a shorter ramp or use gauges nearer to the model",
         )
-    return Window(opening, closing)
+    return RecordWindow(opening, closing)
 
 
 def analyse_regular_run(

@@ -15,7 +15,7 @@ from moyai.core.progress import Progress, silent
 from moyai.core.results import Result, make_provenance
 from moyai.core.validity import Notice
 from moyai.records.reading.quality import find_drift, find_slips, quality_notices
-from moyai.records.reading.reader import CHUNK_ROWS, Block, aligned, blocks, read_chunks
+from moyai.records.reading.reader import CHUNK_ROWS, RecordBlock, aligned, blocks, read_chunks
 from moyai.records.reading.record import Record, instant_text
 from moyai.records.survey.blocks import BlockResult, work_off
 from moyai.records.survey.fits import fit_relations
@@ -65,7 +65,7 @@ def run_survey(survey: Survey, progress: Progress = silent, *, rows: int = CHUNK
         first, dated = _first_instant(survey)
         origin = _origin(survey, first, dated)
         readers = [_Reader(read_chunks(logger, rows), notices) for logger in survey.loggers]
-        streams: list[Iterator[Block]] = [blocks(iter(reader), origin, survey.block_length) for reader in readers]
+        streams: list[Iterator[RecordBlock]] = [blocks(iter(reader), origin, survey.block_length) for reader in readers]
         for number, (index, records) in enumerate(aligned(streams), 1):
             found.append(work_off(survey, index, origin, records))
             progress("blocks", number, number + 1)

@@ -19,7 +19,7 @@ from moyai.reproduce.arai.runs import (
     PERIOD,
     PRINTED,
     SECTIONS,
-    Runs,
+    AraiRuns,
     speed,
 )
 from moyai.reproduce.drawing import curve, figure
@@ -35,7 +35,7 @@ PLANAR_WORDS = (
 LAW_WORDS = "The law is held from KC = 2 and ends at 3, where vortices of the size of the section govern."
 
 
-def _planar(runs: Runs) -> list[Series]:
+def _planar(runs: AraiRuns) -> list[Series]:
     """Return the curve of planar flow for what it is: laminar theory, held where the paper shows measured points."""
     data = runs.sweep("circle")
     kc, found = data.keulegan_carpenter.values, data.planar_inertia_coefficient.values[:, 0]
@@ -47,7 +47,7 @@ def _planar(runs: Runs) -> list[Series]:
     ]  # fmt: skip
 
 
-def _all_sections(runs: Runs) -> Figure:
+def _all_sections(runs: AraiRuns) -> Figure:
     series = []
     for tone, section in enumerate(SECTIONS):
         data = runs.sweep(section)
@@ -61,7 +61,7 @@ def _all_sections(runs: Runs) -> Figure:
     )  # fmt: skip
 
 
-def _coefficients(runs: Runs, number: str, section: str) -> Figure:
+def _coefficients(runs: AraiRuns, number: str, section: str) -> Figure:
     data = runs.sweep(section)
     kc = data.keulegan_carpenter.values
     x = {"kc": kc}
@@ -83,7 +83,7 @@ def _coefficients(runs: Runs, number: str, section: str) -> Figure:
     return figure(number, f"inertia coefficients of the {section}", NUMBER, Panel("C_M", from_zero=True), series, words)
 
 
-def _fall(runs: Runs) -> Figure:
+def _fall(runs: AraiRuns) -> Figure:
     series = []
     for tone, section in enumerate(SECTIONS):
         data = runs.sweep(section)
@@ -100,7 +100,7 @@ def _fall(runs: Runs) -> Figure:
     )  # fmt: skip
 
 
-def _surface(runs: Runs) -> Figure:
+def _surface(runs: AraiRuns) -> Figure:
     data = runs.sweep("circle")
     angle = {"angle": np.degrees(data.surface_angle.values)}
     series = [
@@ -115,7 +115,7 @@ def _surface(runs: Runs) -> Figure:
     )  # fmt: skip
 
 
-def _paths(runs: Runs) -> Figure:
+def _paths(runs: AraiRuns) -> Figure:
     _, paths = runs.paths(1.5, 2.2, 8)
     series = [
         curve(f"particle {index + 1}", {"x": 1e3 * path[:, 0]}, 1e3 * path[:, 1], index % 8)
@@ -129,7 +129,7 @@ def _paths(runs: Runs) -> Figure:
     )  # fmt: skip
 
 
-def _drift(runs: Runs, number: str, section: str, keulegan_carpenter: float) -> Figure:
+def _drift(runs: AraiRuns, number: str, section: str, keulegan_carpenter: float) -> Figure:
     """Draw the drift of particles on rings, each from its mean place."""
     arrows = []
     for ratio in (1.6, 2.0, 2.5):
@@ -161,7 +161,7 @@ def _outline(section: str) -> Array:
     return np.array([(1, 1), (-1, 1), (-1, -1), (1, -1), (1, 1)]) * corner
 
 
-def _contour(runs: Runs) -> Figure:
+def _contour(runs: AraiRuns) -> Figure:
     ratio = np.array(CONTOURS)
     series = []
     for tone, (number, found) in enumerate(runs.contours.items()):
@@ -178,7 +178,7 @@ def _contour(runs: Runs) -> Figure:
     )  # fmt: skip
 
 
-def _circulation(runs: Runs) -> Figure:
+def _circulation(runs: AraiRuns) -> Figure:
     data = runs.sweep("circle")
     kc = data.keulegan_carpenter.values
     known = (kc > 0.2) & (kc <= 2.0)
@@ -194,7 +194,7 @@ def _circulation(runs: Runs) -> Figure:
     )  # fmt: skip
 
 
-def lost_force(runs: Runs, section: str, number: float) -> tuple[float, float]:
+def lost_force(runs: AraiRuns, section: str, number: float) -> tuple[float, float]:
     """Return the loss of inertia force on the model [N], horizontal and vertical, at a KC in circular orbits."""
     data = runs.sweep(section)
     fall = runs.ideal(section)[None, :] - data.inertia_coefficient.values
@@ -211,7 +211,7 @@ def lift(number: Array) -> Array:
     return np.asarray(DENSITY * v * circulation * MODEL_LENGTH, dtype=float)
 
 
-def _force(runs: Runs) -> Figure:
+def _force(runs: AraiRuns) -> Figure:
     series = []
     for tone, section in enumerate(SECTIONS):
         kc = np.linspace(0.1, 3.0, 30)
@@ -231,7 +231,7 @@ def _force(runs: Runs) -> Figure:
     )  # fmt: skip
 
 
-def figures(runs: Runs) -> tuple[PaperFigure, ...]:
+def figures(runs: AraiRuns) -> tuple[PaperFigure, ...]:
     """Return the figures of the paper."""
     sarpkaya = f"panels a to c of the paper in one. {PLANAR_WORDS}"
     return (

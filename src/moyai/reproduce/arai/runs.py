@@ -46,7 +46,7 @@ def speed(number: float) -> float:
 
 
 @dataclass(frozen=True)
-class Runs:
+class AraiRuns:
     """The runs that the figures and statements read."""
 
     #: By section.
@@ -124,7 +124,7 @@ class Runs:
         return np.array(worst)
 
 
-def run(quick: bool = False, progress: Progress = silent) -> Runs:
+def run(quick: bool = False, progress: Progress = silent) -> AraiRuns:
     """Run everything.
 
     Parameters
@@ -139,4 +139,4 @@ def run(quick: bool = False, progress: Progress = silent) -> Runs:
         progress("sections of the paper", index, len(cases))
         members[name] = run_problem("member", problem, progress)
     progress("sections of the paper", len(cases), len(cases))
-    return Runs(members, cases, 24 if quick else 96)
+    return AraiRuns(members, cases, 24 if quick else 96)

@@ -9,20 +9,20 @@ import numpy as np
 
 from moyai.morison.circulation import magnus_force
 from moyai.reproduce.arai.figures import lost_force
-from moyai.reproduce.arai.runs import BREADTH, CONTOURS, FREQUENCY, OMEGA, PERIOD, PRINTED, SECTIONS, Runs, speed
+from moyai.reproduce.arai.runs import BREADTH, CONTOURS, FREQUENCY, OMEGA, PERIOD, PRINTED, SECTIONS, AraiRuns, speed
 from moyai.reproduce.inputs import run_problem
 from moyai.reproduce.model import FilledInput, Finding, Statement, judged, measured
 from moyai.sea.dispersion import wave_number
 from moyai.sea.kinematics import depth_functions
 
 
-def _at(runs: Runs, section: str, name: str, number: float, axis: int = 0) -> float:
+def _at(runs: AraiRuns, section: str, name: str, number: float, axis: int = 0) -> float:
     data = runs.sweep(section)
     values = data[name].values
     return float(np.interp(number, data.keulegan_carpenter.values, values[:, axis] if values.ndim > 1 else values))
 
 
-def _falls_early(runs: Runs) -> Finding:
+def _falls_early(runs: AraiRuns) -> Finding:
     ideal = runs.ideal("circle")[0]
     share = [1.0 - _at(runs, "circle", "inertia_coefficient", number) / ideal for number in (0.5, 1.0)]
     planar = np.ptp(runs.sweep("circle").planar_inertia_coefficient.values[:, 0])
@@ -33,21 +33,21 @@ def _falls_early(runs: Runs) -> Finding:
     return judged(share[1] > 0.05 and planar == 0.0, words)
 
 
-def _ideal(runs: Runs) -> Finding:
+def _ideal(runs: AraiRuns) -> Finding:
     miss = max(abs(_at(runs, name, "inertia_coefficient", 0.025, axis) / runs.ideal(name)[axis] - 1.0)
                for name in SECTIONS for axis in (0, 1))  # fmt: skip
     values = ", ".join(f"{name} {runs.ideal(name)[0]:.3f} and {runs.ideal(name)[1]:.3f}" for name in SECTIONS)
     return judged(miss < 1e-3, f"ideal values {values}; at KC 0.025 within {miss:.0e}")
 
 
-def _directions(runs: Runs) -> Finding:
+def _directions(runs: AraiRuns) -> Finding:
     ratios = {name: runs.ideal(name)[1] / runs.ideal(name)[0] for name in SECTIONS}
     words = ", ".join(f"{name} {ratio:.2f}" for name, ratio in ratios.items())
     same = all(abs(ratios[name] - 1.0) < 1e-3 for name in ("circle", "square"))
     return judged(same and 1.6 < ratios["rectangle"] < 2.4, f"vertical over horizontal: {words}")
 
 
-def _rises_again(runs: Runs) -> Finding:
+def _rises_again(runs: AraiRuns) -> Finding:
     data = runs.sweep("circle")
     known = data.inertia_coefficient.values[:, 0]
     last = float(data.keulegan_carpenter.values[np.isfinite(known)].max())
@@ -60,13 +60,13 @@ def _rises_again(runs: Runs) -> Finding:
     )  # fmt: skip
 
 
-def _coefficients(runs: Runs) -> Finding:
+def _coefficients(runs: AraiRuns) -> Finding:
     fall = {name: runs.ideal(name)[0] - _at(runs, name, "inertia_coefficient", 1.0) for name in SECTIONS}
     words = "at KC = 1: " + ", ".join(f"{name} {value:.4f} (printed {PRINTED[name]})" for name, value in fall.items())
     return judged(all(abs(value - PRINTED[name]) < 0.005 for name, value in fall.items()), words)
 
 
-def _both_ways(runs: Runs) -> Finding:
+def _both_ways(runs: AraiRuns) -> Finding:
     ideal = runs.ideal("rectangle")
     falls = [ideal[axis] - _at(runs, "rectangle", "inertia_coefficient", 2.0, axis) for axis in (0, 1)]
     waves = runs.waves("rectangle")
@@ -79,7 +79,7 @@ def _both_ways(runs: Runs) -> Finding:
     return judged(abs(falls[1] / falls[0] - 1.0) < 0.01, words)
 
 
-def _same_circulation(runs: Runs) -> Finding:
+def _same_circulation(runs: AraiRuns) -> Finding:
     found = [1e4 * _at(runs, name, "circulation", number) for number in (1.0, 2.0) for name in SECTIONS]
     words = f"{found[0]:.1f} cm2/s at KC = 1, {found[3]:.1f} at 2, alike for the three sections by the law"
     return judged(
@@ -87,13 +87,13 @@ def _same_circulation(runs: Runs) -> Finding:
     )
 
 
-def _otsuka(runs: Runs) -> Finding:
+def _otsuka(runs: AraiRuns) -> Finding:
     found = [1e4 * _at(runs, "circle", f"{name}_circulation", 1.0) for name in ("arai", "otsuka", "chaplin")]
     words = f"{found[0]:.1f}, {found[1]:.1f} and {found[2]:.1f} cm2/s at KC = 1 by Arai, Otsuka and Ikeda, Chaplin"
     return judged(max(found) / min(found) < 1.15, words)
 
 
-def _opposes(runs: Runs) -> Finding:
+def _opposes(runs: AraiRuns) -> Finding:
     angle = np.linspace(0.0, 2.0 * math.pi, 73)
     flow = np.column_stack([np.cos(angle), -np.sin(angle)])
     rate = np.column_stack([-np.sin(angle), -np.cos(angle)])
@@ -102,7 +102,7 @@ def _opposes(runs: Runs) -> Finding:
     return judged(bool(np.all(along < -0.999)), words)
 
 
-def _same_force(runs: Runs) -> Finding:
+def _same_force(runs: AraiRuns) -> Finding:
     worst = 0.0
     for number in (0.5, 1.0, 1.5, 2.0):
         losses = [each for name in SECTIONS for each in lost_force(runs, name, number)]
@@ -113,7 +113,7 @@ def _same_force(runs: Runs) -> Finding:
     return judged(worst < 0.01, words)
 
 
-def _inertia_rules(runs: Runs) -> Finding:
+def _inertia_rules(runs: AraiRuns) -> Finding:
     waves = runs.waves("circle")
     ratio = (
         math.pi**2
@@ -127,12 +127,12 @@ def _inertia_rules(runs: Runs) -> Finding:
     return judged(ratio.min() > 3.0, words)
 
 
-def _beta(runs: Runs) -> Finding:
+def _beta(runs: AraiRuns) -> Finding:
     beta = runs.waves("circle").beta.values
     return judged(bool(np.ptp(beta) < 1.0 and 1670 <= beta[0] <= 1720), f"beta = {beta[0]:.0f} (quoted 1670 to 1720)")
 
 
-def _surface(runs: Runs) -> Finding:
+def _surface(runs: AraiRuns) -> Finding:
     change = max(
         float(np.abs(runs.members[name].tree["SWL/surface/regular"].to_dataset().near_surface_change.values).max())
         for name in SECTIONS
@@ -140,7 +140,7 @@ def _surface(runs: Runs) -> Finding:
     return judged(change < 0.10, f"the surface changes C_M by at most {100 * change:.1f} % by potential theory")
 
 
-def _turns(runs: Runs) -> Finding:
+def _turns(runs: AraiRuns) -> Finding:
     data = runs.sweep("circle")
     angle = np.degrees(data.surface_angle.values)
     place = {
@@ -155,14 +155,14 @@ def _turns(runs: Runs) -> Finding:
     return judged(bool(np.all(np.abs(np.abs(steps) - 90.0) < 6.0)) and abs(turned[2] + 90.0) < 6.0, words)
 
 
-def _drifts(runs: Runs) -> Finding:
+def _drifts(runs: AraiRuns) -> Finding:
     found = {name: [1e4 * runs.contour(number, 1.6, name) for number in (1.0, 1.5)] for name in SECTIONS}
     parts = ", ".join(f"{name} {first:.0f} and {second:.0f}" for name, (first, second) in found.items())
     words = f"circulation of the drift, clockwise, on 1.6 times the breadth at KC = 1 and 1.5: {parts} cm2/s"
     return judged(all(0.0 < first < second for first, second in found.values()), words)
 
 
-def _paths(runs: Runs) -> Finding:
+def _paths(runs: AraiRuns) -> Finding:
     _, paths = runs.paths(1.5, 2.2, 8)
     moved = np.linalg.norm(paths[:, -1] - paths[:, 0], axis=1)
     around = paths[:, 0, 0] * paths[:, -1, 1] - paths[:, 0, 1] * paths[:, -1, 0]
@@ -173,17 +173,17 @@ def _paths(runs: Runs) -> Finding:
     return judged(bool(np.all(around < 0.0)) and moved.min() > 0.0, words)
 
 
-def _vortex_path(_runs: Runs) -> Finding:
+def _vortex_path(_runs: AraiRuns) -> Finding:
     return measured("no model here sheds vortices", "where a vortex is at each phase only pictures show")
 
 
-def _square_less_orderly(_runs: Runs) -> Finding:
+def _square_less_orderly(_runs: AraiRuns) -> Finding:
     return measured(
         "the law gives the square the circulation of the others", "the order of arrows and points only pictures show"
     )
 
 
-def _contour(runs: Runs) -> Finding:
+def _contour(runs: AraiRuns) -> Finding:
     values = 1e4 * runs.contours[1.0]
     words = (
         f"{values[0]:.1f} to {values[-1]:.1f} cm2/s from B_c/B = {CONTOURS[0]} to {CONTOURS[-1]:g} without "
@@ -197,20 +197,20 @@ def _contour(runs: Runs) -> Finding:
     )  # fmt: skip
 
 
-def _interpolates(runs: Runs) -> Finding:
+def _interpolates(runs: AraiRuns) -> Finding:
     miss = 1e3 * runs.interpolation_error
     words = f"median miss of the place after a period {miss[0]:.2f} mm at KC = 1, {miss[1]:.2f} mm at 1.5"
     return judged(miss.max() < 1.0, words)
 
 
-def _background(runs: Runs) -> Finding:
+def _background(runs: AraiRuns) -> Finding:
     k = float(wave_number(OMEGA, 0.5, 9.81))
     v = speed(1.0)
     return measured(f"mass transport of waves of KC = 1 is {1e3 * v**2 * k / OMEGA:.1f} mm/s at the depth of the model",
                     "settling and drift of the beads are measured in each campaign")  # fmt: skip
 
 
-def _vortex(_runs: Runs) -> Finding:
+def _vortex(_runs: AraiRuns) -> Finding:
     return measured("a circulation alone gives the fall", "whether vortices are seen only pictures show")
 
 
@@ -281,7 +281,7 @@ STATEMENTS = (
 )
 
 
-def filled(runs: Runs) -> tuple[FilledInput, ...]:
+def filled(runs: AraiRuns) -> tuple[FilledInput, ...]:
     """Return the inputs that were filled in."""
 
     def at_depth(depth: float) -> tuple[float, float]:

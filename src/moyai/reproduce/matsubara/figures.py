@@ -13,8 +13,8 @@ from moyai.reproduce.matsubara.runs import (
     SHORE,
     SLACK_PERIOD,
     TAUT_PERIOD,
-    Runs,
-    Wave,
+    CageWave,
+    MatsubaraRuns,
     net_in_wave,
     towed,
 )
@@ -54,11 +54,11 @@ def _wave_force() -> Figure:
     )  # fmt: skip
 
 
-def _words(wave: Wave) -> str:
+def _words(wave: CageWave) -> str:
     return f"H = {100 * wave.height:g} cm, T = {wave.period:g} s; the wave of the paper's record is not printed."
 
 
-def _motion(number: str, wave: Wave, mooring: str) -> Figure:
+def _motion(number: str, wave: CageWave, mooring: str) -> Figure:
     x = {"time": wave.time}
     return figure(
         number, f"motion of the cage, {mooring}", TIME, Panel("displacement", "cm"),
@@ -66,12 +66,12 @@ def _motion(number: str, wave: Wave, mooring: str) -> Figure:
     )  # fmt: skip
 
 
-def _rotation(number: str, wave: Wave, mooring: str) -> Figure:
+def _rotation(number: str, wave: CageWave, mooring: str) -> Figure:
     turned = curve("rotation", {"time": wave.time}, np.degrees(wave.rotation), 0)
     return figure(number, f"rotation of the cage, {mooring}", TIME, Panel("rotation", "deg"), [turned], _words(wave))
 
 
-def _tension(number: str, wave: Wave, mooring: str) -> Figure:
+def _tension(number: str, wave: CageWave, mooring: str) -> Figure:
     x = {"time": wave.time}
     return figure(
         number, f"line tensions, {mooring}", TIME, Panel("tension", "gf", from_zero=True),
@@ -83,7 +83,7 @@ def _tension(number: str, wave: Wave, mooring: str) -> Figure:
     )  # fmt: skip
 
 
-def figures(runs: Runs) -> tuple[PaperFigure, ...]:
+def figures(runs: MatsubaraRuns) -> tuple[PaperFigure, ...]:
     """Return the figures of the paper."""
     taut, slack = runs.at(runs.taut, TAUT_PERIOD), runs.at(runs.slack, SLACK_PERIOD)
     return (

@@ -8,13 +8,13 @@ from typing import Any
 
 from moyai.morison.net_laws.matsubara import Matsubara
 from moyai.reproduce.inputs import run_problem
-from moyai.reproduce.matsubara.runs import GRAM, HEIGHT, SHORE, TAUT_PERIOD, Runs, read, shortened
+from moyai.reproduce.matsubara.runs import GRAM, HEIGHT, SHORE, TAUT_PERIOD, MatsubaraRuns, read, shortened
 from moyai.reproduce.model import FilledInput
-from moyai.structures.cage.rigid.model import LinePlan, RegularWaves, RigidCageProblem
+from moyai.structures.cage.rigid.model import RigidCageProblem, RigidCageWaves, RigidLinePlan
 
 
 def _words(case: RigidCageProblem) -> str:
-    result = run_problem("cage", shortened(case, RegularWaves("one", (HEIGHT,), (TAUT_PERIOD,))))
+    result = run_problem("cage", shortened(case, RigidCageWaves("one", (HEIGHT,), (TAUT_PERIOD,))))
     (wave,) = read(result, "one")
     return (
         f"sway {wave.ratio('sway'):.2f} H, heave {wave.ratio('heave'):.2f} H, {wave.turn:.1f} deg, "
@@ -23,7 +23,7 @@ def _words(case: RigidCageProblem) -> str:
 
 
 def _lines(case: RigidCageProblem, **changed: Any) -> RigidCageProblem:
-    def change(plan: LinePlan) -> LinePlan:
+    def change(plan: RigidLinePlan) -> RigidLinePlan:
         values = dict(changed)
         if "anchor_x" in values:
             values["anchor_x"] = math.copysign(values["anchor_x"], plan.anchor_x)
@@ -32,7 +32,7 @@ def _lines(case: RigidCageProblem, **changed: Any) -> RigidCageProblem:
     return replace(case, plans=tuple(change(plan) for plan in case.plans))
 
 
-def filled(runs: Runs) -> tuple[FilledInput, ...]:
+def filled(runs: MatsubaraRuns) -> tuple[FilledInput, ...]:
     """Return the inputs that were filled in, with their effect on the taut cage at T = 1.1 s, H = 3 cm."""
     case = runs.case
     plain = f" (taken: {_words(case)})"

@@ -15,7 +15,7 @@ from moyai.morison.net_laws.matsubara import Matsubara
 from moyai.reproduce.inputs import problem_of, run_problem
 from moyai.sea.dispersion import wave_number
 from moyai.sea.kinematics import depth_functions
-from moyai.structures.cage.rigid.model import RegularWaves, RigidCageProblem
+from moyai.structures.cage.rigid.model import RigidCageProblem, RigidCageWaves
 from moyai.tables.nets import matsubara_net
 
 if TYPE_CHECKING:
@@ -29,7 +29,7 @@ SHORE, OFFSHORE = "shore", "offshore"
 
 
 @dataclass(frozen=True)
-class Wave:
+class CageWave:
     """What one wave does to the cage."""
 
     #: [s].
@@ -62,15 +62,15 @@ class Wave:
 
 
 @dataclass(frozen=True)
-class Runs:
+class MatsubaraRuns:
     """The runs that the figures and statements read."""
 
     #: Over the periods of the case files.
-    taut: tuple[Wave, ...]
+    taut: tuple[CageWave, ...]
     #: Over the periods of the case files.
-    slack: tuple[Wave, ...]
+    slack: tuple[CageWave, ...]
     #: Taut, over the wave heights.
-    higher: tuple[Wave, ...]
+    higher: tuple[CageWave, ...]
     #: On taut lines.
     case: RigidCageProblem
     #: Taut and slack.
@@ -78,12 +78,12 @@ class Runs:
     quick: bool
 
     @staticmethod
-    def at(waves: tuple[Wave, ...], period: float) -> Wave:
+    def at(waves: tuple[CageWave, ...], period: float) -> CageWave:
         """Return the wave of a period [s]."""
         return min(waves, key=lambda wave: abs(wave.period - period))
 
 
-def read(result: Result, sea: str) -> tuple[Wave, ...]:
+def read(result: Result, sea: str) -> tuple[CageWave, ...]:
     """Return the waves of a regular sea of a result."""
     tree: Any = result.tree["SWL"]
     waves = tree["waves"][sea].to_dataset()
@@ -95,7 +95,7 @@ def read(result: Result, sea: str) -> tuple[Wave, ...]:
         sides = {OFFSHORE if "offshore" in str(name) else SHORE: name for name in data.line.values}
         phases, peaks = waves.first_phase.values[index], data[LINE_TENSION_PEAK_SINCE_ROW.name]
         found.append(
-            Wave(
+            CageWave(
                 period,
                 float(waves.wave_height[index]),
                 time[last] - time[last][0],
@@ -110,13 +110,13 @@ def read(result: Result, sea: str) -> tuple[Wave, ...]:
     return tuple(found)
 
 
-def shortened(case: RigidCageProblem, *seas: RegularWaves) -> RigidCageProblem:
+def shortened(case: RigidCageProblem, *seas: RigidCageWaves) -> RigidCageProblem:
     """Return the case with other waves and a run of 24 periods."""
     settings = replace(case.settings, analyses=("statics", "time"), periods=24, settled_periods=10, tolerance=1e-5)
     return replace(case, seas=tuple(seas), settings=settings)
 
 
-def run(quick: bool = False, progress: Progress = silent) -> Runs:
+def run(quick: bool = False, progress: Progress = silent) -> MatsubaraRuns:
     """Run everything.
 
     Parameters
@@ -131,16 +131,16 @@ def run(quick: bool = False, progress: Progress = silent) -> Runs:
     if quick:
         one, heights = (TAUT_PERIOD, 1.2), (0.022, 0.033)
         plans = [
-            shortened(taut, RegularWaves("periods", (HEIGHT,), one),
-                      RegularWaves("heights", heights, (TAUT_PERIOD,))),
-            shortened(slack, RegularWaves("periods", (HEIGHT,), (1.1, 1.2, 1.5))),
+            shortened(taut, RigidCageWaves("periods", (HEIGHT,), one),
+                      RigidCageWaves("heights", heights, (TAUT_PERIOD,))),
+            shortened(slack, RigidCageWaves("periods", (HEIGHT,), (1.1, 1.2, 1.5))),
         ]  # fmt: skip
     results = []
     for index, plan in enumerate(plans):
         progress("moorings of the paper", index, len(plans))
         results.append(run_problem("cage", plan, progress))
     progress("moorings of the paper", len(plans), len(plans))
-    return Runs(
+    return MatsubaraRuns(
         read(results[0], "periods"), read(results[1], "periods"), read(results[0], "heights"), taut,
         (results[0], results[1]), quick,
     )  # fmt: skip

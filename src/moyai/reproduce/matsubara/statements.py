@@ -19,8 +19,8 @@ from moyai.reproduce.matsubara.runs import (
     SLACK_PERIOD,
     TAUT_PERIOD,
     VISCOSITY,
-    Runs,
-    Wave,
+    CageWave,
+    MatsubaraRuns,
     net_in_wave,
 )
 from moyai.reproduce.model import Finding, Statement, judged, measured
@@ -28,15 +28,15 @@ from moyai.sea.dispersion import wave_number
 from moyai.tables.nets import matsubara_net
 
 
-def _taut(runs: Runs) -> Wave:
+def _taut(runs: MatsubaraRuns) -> CageWave:
     return runs.at(runs.taut, TAUT_PERIOD)
 
 
-def _slack(runs: Runs) -> Wave:
+def _slack(runs: MatsubaraRuns) -> CageWave:
     return runs.at(runs.slack, SLACK_PERIOD)
 
 
-def _table(_runs: Runs) -> Finding:
+def _table(_runs: MatsubaraRuns) -> Finding:
     panel = {name: 1e4 * matsubara_net(name).projected_area / matsubara_net(name).solidity for name in NETS}
     usual = float(np.median(list(panel.values())))
     odd = {name: area for name, area in panel.items() if abs(area / usual - 1.0) > 0.1}
@@ -46,7 +46,7 @@ def _table(_runs: Runs) -> Finding:
     return judged(not odd, words, "the area of net J, 675.8 cm2, is a misprint; near 455 would fit")
 
 
-def _weight(runs: Runs) -> Finding:
+def _weight(runs: MatsubaraRuns) -> Finding:
     cage = runs.case.cage
     floats = 1e3 * (cage.mass - cage.mass_without_floats)
     words = f"twelve floats weigh {floats:.1f} g, the cage without them {1e3 * cage.mass_without_floats:.1f} g"
@@ -55,7 +55,7 @@ def _weight(runs: Runs) -> Finding:
     )  # fmt: skip
 
 
-def _sizes(runs: Runs) -> Finding:
+def _sizes(runs: MatsubaraRuns) -> Finding:
     side, opening = runs.case.cage.extent[0], matsubara_net("F").aperture
     words = (
         f"three floats of 4 cm stand on a side of {100 * side:g} cm; net F of table 1, of the same twine, has openings "
@@ -64,7 +64,7 @@ def _sizes(runs: Runs) -> Finding:
     return judged(False, words, "the units are exchanged: the side is 20 cm, the opening 2.09 mm as in table 2")
 
 
-def _floats(runs: Runs) -> Finding:
+def _floats(runs: MatsubaraRuns) -> Finding:
     diameter, count = 0.0401, 12
     lift = count * math.pi / 6.0 * diameter**3 * DENSITY
     weight = runs.case.cage.mass
@@ -72,28 +72,28 @@ def _floats(runs: Runs) -> Finding:
     return judged(abs(1e3 * lift / 402.0 - 1.0) < 0.02, words)
 
 
-def _lift(_runs: Runs) -> Finding:
+def _lift(_runs: MatsubaraRuns) -> Finding:
     row = matsubara_net("G")
     net = Net.from_aperture(row.twine_diameter, row.aperture, solidity_listed=row.solidity)
     drag, lift = (float(item[0]) for item in net_law("matsubara").coefficients(np.zeros(1), 0.5, net, VISCOSITY))
     return judged(abs(lift) < 0.01 * drag, f"lift {abs(lift):.0e}, drag {drag:.2f} on the outline, square to the flow")
 
 
-def _falls(_runs: Runs) -> Finding:
+def _falls(_runs: MatsubaraRuns) -> Finding:
     law = Matsubara()
     first, last = (float(law.twine_drag(number)) for number in (84.0, 1800.0))
     words = f"C_d = {first:.2f} at Re = 84, {last:.2f} at 1800, the largest that was towed"
     return judged(abs(first - 2.0) < 0.05 and 0.55 < last < 0.7, words)
 
 
-def _scatter(_runs: Runs) -> Finding:
+def _scatter(_runs: MatsubaraRuns) -> Finding:
     row = matsubara_net("G")
     speed = 100.0 * VISCOSITY / row.twine_diameter
     force = 0.5 * DENSITY * row.projected_area * float(Matsubara().twine_drag(100.0)) * speed**2
     return measured(f"the force on net G is {1e3 * force:.0f} mN at Re = 100")
 
 
-def _parameters(_runs: Runs) -> Finding:
+def _parameters(_runs: MatsubaraRuns) -> Finding:
     solidity = [matsubara_net(name).solidity for name in NETS]
     diameter = [1e3 * matsubara_net(name).twine_diameter for name in NETS]
     words = (
@@ -104,7 +104,7 @@ def _parameters(_runs: Runs) -> Finding:
     return measured(words, "forces of the single nets are not printed; moyai measure nets fits A and B over both")
 
 
-def _in_phase(_runs: Runs) -> Finding:
+def _in_phase(_runs: MatsubaraRuns) -> Finding:
     _, _, drag, inertia = net_in_wave("F", 0.065, 1.3)
     share = float(np.abs(inertia).max() / np.abs(drag).max())
     lead = math.degrees(math.atan(share))
@@ -115,39 +115,39 @@ def _in_phase(_runs: Runs) -> Finding:
     return judged(share < 0.3, words)
 
 
-def _numbers_apart(_runs: Runs) -> Finding:
+def _numbers_apart(_runs: MatsubaraRuns) -> Finding:
     return measured("the law of the paper has no KC number in it", "coefficients in waves are not printed")
 
 
-def _force_in_waves(_runs: Runs) -> Finding:
+def _force_in_waves(_runs: MatsubaraRuns) -> Finding:
     _, _, drag, inertia = net_in_wave("F", 0.065, 1.3)
     return measured(f"{np.abs(drag + inertia).max():.2f} N on net F at H = 6.5 cm, T = 1.3 s")
 
 
-def _phases(runs: Runs) -> Finding:
+def _phases(runs: MatsubaraRuns) -> Finding:
     taut, slack = _taut(runs), _slack(runs)
     return measured(
         f"sway follows heave by {math.degrees(taut.phase):.0f} degrees taut, {math.degrees(slack.phase):.0f} slack"
     )
 
 
-def _ranges(runs: Runs) -> Finding:
+def _ranges(runs: MatsubaraRuns) -> Finding:
     wave = _taut(runs)
     return measured(f"computed sway {wave.ratio('sway'):.2f} H, heave {wave.ratio('heave'):.2f} H")
 
 
-def _tensions(runs: Runs) -> Finding:
+def _tensions(runs: MatsubaraRuns) -> Finding:
     slack, taut = (max(wave.peak.values()) / GRAM for wave in (_slack(runs), _taut(runs)))
     return measured(f"largest tension {slack:.0f} gf slack, {taut:.0f} gf taut")
 
 
-def _quarter(runs: Runs) -> Finding:
+def _quarter(runs: MatsubaraRuns) -> Finding:
     wave = _taut(runs)
     words = f"sway {wave.ratio('sway'):.2f} H, heave {wave.ratio('heave'):.2f} H at T = {wave.period:g} s"
     return judged(all(0.15 <= wave.ratio(mode) <= 0.4 for mode in ("sway", "heave")), words)
 
 
-def _circle(runs: Runs) -> Finding:
+def _circle(runs: MatsubaraRuns) -> Finding:
     wave = _taut(runs)
     words = f"sway follows heave by {math.degrees(wave.phase):.0f} degrees, a circle needs 90"
     return judged(
@@ -156,7 +156,7 @@ def _circle(runs: Runs) -> Finding:
     )  # fmt: skip
 
 
-def _higher(runs: Runs) -> Finding:
+def _higher(runs: MatsubaraRuns) -> Finding:
     ratio = [wave.ratio("heave") for wave in runs.higher]
     words = (
         f"heave {ratio[0]:.2f} to {ratio[-1]:.2f} H for H = {100 * runs.higher[0].height:g} to "
@@ -170,13 +170,13 @@ def _higher(runs: Runs) -> Finding:
     )  # fmt: skip
 
 
-def _as_high(runs: Runs) -> Finding:
+def _as_high(runs: MatsubaraRuns) -> Finding:
     wave = _slack(runs)
     words = f"sway {wave.ratio('sway'):.2f} H, heave {wave.ratio('heave'):.2f} H at T = {wave.period:g} s"
     return judged(all(0.8 <= wave.ratio(mode) <= 1.3 for mode in ("sway", "heave")), words)
 
 
-def _thirty(runs: Runs) -> Finding:
+def _thirty(runs: MatsubaraRuns) -> Finding:
     wave = _slack(runs)
     number = float(wave_number(2.0 * math.pi / wave.period, DEPTH, GRAVITY))
     return measured(
@@ -186,18 +186,18 @@ def _thirty(runs: Runs) -> Finding:
     )
 
 
-def _six(runs: Runs) -> Finding:
+def _six(runs: MatsubaraRuns) -> Finding:
     wave = _taut(runs)
     return judged(4.5 <= wave.turn <= 7.0, f"{wave.turn:.1f} degrees to either side at T = {wave.period:g} s")
 
 
-def _two(runs: Runs) -> Finding:
+def _two(runs: MatsubaraRuns) -> Finding:
     wave = min(runs.slack, key=lambda one: abs(one.turn - 2.0))
     turns, periods = (", ".join(each) for each in zip(*((f"{one.turn:.1f}", f"{one.period:g}") for one in runs.slack)))
     return judged(abs(wave.turn - 2.0) < 0.5, f"{turns} degrees to either side at T = {periods} s")
 
 
-def _third(runs: Runs) -> Finding:
+def _third(runs: MatsubaraRuns) -> Finding:
     pairs = [(one.period, one.turn / runs.at(runs.slack, one.period).turn) for one in runs.taut
              if abs(runs.at(runs.slack, one.period).period - one.period) < 1e-9]  # fmt: skip
     ratios, periods = (", ".join(each) for each in zip(*((f"{ratio:.1f}", f"{period:g}") for period, ratio in pairs)))
@@ -210,18 +210,18 @@ def _third(runs: Runs) -> Finding:
     )  # fmt: skip
 
 
-def _eighty(runs: Runs) -> Finding:
+def _eighty(runs: MatsubaraRuns) -> Finding:
     return measured(f"computed {_taut(runs).turn:.1f} degrees taut, {_slack(runs).turn:.1f} slack")
 
 
-def _shore(runs: Runs) -> Finding:
+def _shore(runs: MatsubaraRuns) -> Finding:
     wave = _taut(runs)
     swing = {side: float(np.ptp(wave.tension[side])) / GRAM for side in (SHORE, OFFSHORE)}
     words = f"tension swings by {swing[SHORE]:.0f} gf on the shore side, {swing[OFFSHORE]:.0f} gf offshore"
     return judged(swing[SHORE] > 1.5 * swing[OFFSHORE], words)
 
 
-def _forty(runs: Runs) -> Finding:
+def _forty(runs: MatsubaraRuns) -> Finding:
     wave = _taut(runs)
     return measured(
         f"largest tension {wave.peak[OFFSHORE] / GRAM:.0f} gf offshore, {wave.peak[SHORE] / GRAM:.0f} gf on the "
@@ -231,7 +231,7 @@ def _forty(runs: Runs) -> Finding:
     )
 
 
-def _small(runs: Runs) -> Finding:
+def _small(runs: MatsubaraRuns) -> Finding:
     slack, taut = _slack(runs), _taut(runs)
     most = max(slack.peak.values()) / GRAM
     words = f"largest tension slack {most:.1f} gf, taut {max(taut.peak.values()) / GRAM:.0f} gf"

@@ -14,7 +14,7 @@ from moyai.mooring.shoji import solve_shoji
 from moyai.report.document import Abscissa, Figure, Panel, Series
 from moyai.reproduce.drawing import curve, drawing_of, figure
 from moyai.reproduce.model import PaperFigure
-from moyai.reproduce.nakamura.runs import FRACTION, MODES, Runs, abscissae, values
+from moyai.reproduce.nakamura.runs import FRACTION, MODES, NakamuraRuns, abscissae, values
 from moyai.structures.breakwater.model import MooringLine
 
 if TYPE_CHECKING:
@@ -27,7 +27,7 @@ CUT = 3.0  # of the undamped resonance under a damped figure
 STIFFNESS_UNITS = {"sway": "N/m", "heave": "N/m", "roll": "N m"}
 
 
-def chain(runs: Runs) -> tuple[float, float, float, float, float]:
+def chain(runs: NakamuraRuns) -> tuple[float, float, float, float, float]:
     """Return distance, height, length [m], EA [N] and submerged weight [N/m] of one chain at rest."""
     line = runs.case.breakwater.lines[0]
     assert isinstance(line, MooringLine)
@@ -39,7 +39,7 @@ def chain(runs: Runs) -> tuple[float, float, float, float, float]:
     return reach, height, segment.length, segment.line_type.axial_stiffness, segment.line_type.submerged_weight
 
 
-def restoring_curves(runs: Runs) -> tuple[Array, Array, Array, Array]:
+def restoring_curves(runs: NakamuraRuns) -> tuple[Array, Array, Array, Array]:
     """Return offsets [m] and the horizontal tension [N] of one chain: elastic, inextensible, and by Shoji.
 
     Shoji's form holds while some line lies on the bed; it is blank beyond.
@@ -57,7 +57,7 @@ def restoring_curves(runs: Runs) -> tuple[Array, Array, Array, Array]:
     return offsets, np.asarray(elastic.horizontal_tension), np.asarray(stiff.horizontal_tension), by_shoji
 
 
-def _restoring(runs: Runs) -> Figure:
+def _restoring(runs: NakamuraRuns) -> Figure:
     offsets, elastic, stiff, by_shoji = restoring_curves(runs)
     x = {"offset": 100.0 * offsets}
     return figure(
@@ -84,7 +84,7 @@ def _points(result: Result, name: str, dof: str, label: str, tone: int, domain: 
     return curve(label, abscissae(result, domain), values(result, domain, name, dof), tone, points=True)
 
 
-def _moving(runs: Runs, name: str, dof: str = "") -> list[Series]:
+def _moving(runs: NakamuraRuns, name: str, dof: str = "") -> list[Series]:
     """Return both domains with chains in motion, in frequency by the first harmonic of their force."""
     return [
         _points(runs.moving_time, name, dof, "time domain, chains in motion", 2),
@@ -92,7 +92,7 @@ def _moving(runs: Runs, name: str, dof: str = "") -> list[Series]:
     ]
 
 
-def _motion(runs: Runs, number: str, state: Literal["undamped", "damped", "drifted"], letter: int) -> Figure:
+def _motion(runs: NakamuraRuns, number: str, state: Literal["undamped", "damped", "drifted"], letter: int) -> Figure:
     mode = MODES[letter]
     result: Result = getattr(runs, state)
     in_time: Result = getattr(runs, f"{state}_time")
@@ -147,7 +147,7 @@ def _second_state(in_time: Result) -> str:
     )
 
 
-def _drift(runs: Runs) -> Figure:
+def _drift(runs: NakamuraRuns) -> Figure:
     return figure(
         "7", "drift force on the model", AXES, Panel("F*", from_zero=True),
         [
@@ -160,7 +160,7 @@ def _drift(runs: Runs) -> Figure:
     )  # fmt: skip
 
 
-def _stiffness(runs: Runs, number: str, letter: int) -> Figure:
+def _stiffness(runs: NakamuraRuns, number: str, letter: int) -> Figure:
     mode = MODES[letter]
     x = abscissae(runs.drifted, "frequency")
     found = values(runs.drifted, "frequency", "mooring_stiffness", mode)
@@ -174,7 +174,7 @@ def _stiffness(runs: Runs, number: str, letter: int) -> Figure:
     )  # fmt: skip
 
 
-def _far(runs: Runs, number: str, name: str, words: str, symbol: str) -> Figure:
+def _far(runs: NakamuraRuns, number: str, name: str, words: str, symbol: str) -> Figure:
     return figure(
         number, words, AXES, Panel(symbol, limits=(0.0, 1.05)),
         [
@@ -187,7 +187,7 @@ def _far(runs: Runs, number: str, name: str, words: str, symbol: str) -> Figure:
     )  # fmt: skip
 
 
-def figures(runs: Runs) -> tuple[PaperFigure, ...]:
+def figures(runs: NakamuraRuns) -> tuple[PaperFigure, ...]:
     """Return the figures of the paper."""
     out = [
         PaperFigure("1", drawing_of(runs.drifted, "1", "model and axes", "section")),

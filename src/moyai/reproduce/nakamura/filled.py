@@ -9,7 +9,7 @@ from moyai.core.results import Result
 from moyai.mooring.lines import LineType
 from moyai.reproduce.inputs import run_problem
 from moyai.reproduce.model import FilledInput
-from moyai.reproduce.nakamura.runs import CURVE, Runs, abscissae, at, peak, values, variant
+from moyai.reproduce.nakamura.runs import CURVE, NakamuraRuns, abscissae, at, peak, values, variant
 from moyai.structures.breakwater.model import BreakwaterProblem, Damping, MooringLine, RegularSea
 
 PLACE = 3.5
@@ -58,7 +58,7 @@ def _only_roll(case: BreakwaterProblem) -> BreakwaterProblem:
     return replace(case, breakwater=replace(case.breakwater, damping=Damping(fraction, ("roll",))))
 
 
-def _hardening(runs: Runs) -> FilledInput:
+def _hardening(runs: NakamuraRuns) -> FilledInput:
     """Return what the tangent of moving chains does to roll, at the height of the paper and at a quarter of it."""
     periods = tuple(float(period) for period in abscissae(runs.moving_time, "time")["period"][-3:])
     height = runs.case.environment.sea_states[0].height  # type: ignore[union-attr]
@@ -79,7 +79,7 @@ def _hardening(runs: Runs) -> FilledInput:
     )
 
 
-def filled(runs: Runs) -> tuple[FilledInput, ...]:
+def filled(runs: NakamuraRuns) -> tuple[FilledInput, ...]:
     """Return the inputs that were filled in, with the effect of other values on the frequency domain with drift."""
     case = variant(runs.case, CURVE)
     draught = case.breakwater.draught

@@ -25,7 +25,7 @@ MODES = ("sway", "heave", "roll")
 
 
 @dataclass(frozen=True)
-class Runs:
+class NakamuraRuns:
     """The runs that the figures and statements read."""
 
     #: ``undamped``, ``damped``, ``drifted``: Frequency domain over :data:`CURVE`: no damping beyond waves; 15 % of
@@ -92,7 +92,7 @@ def variant(
     )
 
 
-def run(quick: bool = False, progress: Progress = silent) -> Runs:
+def run(quick: bool = False, progress: Progress = silent) -> NakamuraRuns:
     """Run everything.
 
     Parameters
@@ -117,7 +117,7 @@ def run(quick: bool = False, progress: Progress = silent) -> Runs:
         progress("runs of the paper", len(found), len(plans))
         found[name] = run_problem("breakwater", plan, progress)
     progress("runs of the paper", len(plans), len(plans))
-    return Runs(**found, case=case, quick=quick)
+    return NakamuraRuns(**found, case=case, quick=quick)
 
 
 def values(result: Result, domain: str, name: str, dof: str = "") -> Array:
@@ -159,7 +159,7 @@ def peak(result: Result, name: str = "motion_ratio", dof: str = "roll") -> tuple
     return float(found[top]), float(place[top])
 
 
-def paired(runs: Runs, result: Result, name: str, dof: str = "") -> tuple[Array, Array, Array]:
+def paired(runs: NakamuraRuns, result: Result, name: str, dof: str = "") -> tuple[Array, Array, Array]:
     """Return L/B, a variable in time and the same of the frequency domain at the same periods and drift."""
     return (
         abscissae(result, "time")["ratio"],

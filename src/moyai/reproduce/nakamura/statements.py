@@ -9,7 +9,7 @@ from moyai.core.arrays import Array
 from moyai.floating.energy import ENERGY_TOLERANCE, SHOWN_LOSS, unexplained_share
 from moyai.reproduce.model import Finding, Statement, judged, measured
 from moyai.reproduce.nakamura.figures import chain, restoring_curves
-from moyai.reproduce.nakamura.runs import LEVEL, Runs, abscissae, at, paired, peak, values
+from moyai.reproduce.nakamura.runs import LEVEL, NakamuraRuns, abscissae, at, paired, peak, values
 
 RESONANCE = 3.5
 NEAR = (3.0, 4.2)  # L/B around the resonance of roll
@@ -25,7 +25,7 @@ def _near(ratio: Array) -> NDArray[np.bool_]:
     return (ratio > NEAR[0]) & (ratio < NEAR[1])
 
 
-def _steep(runs: Runs) -> Finding:
+def _steep(runs: NakamuraRuns) -> Finding:
     offsets, elastic, _, _ = restoring_curves(runs)
     tension = [float(np.interp(place, offsets, elastic)) for place in (-0.02, 0.0, 0.02)]
     last = float(elastic[-1])
@@ -36,7 +36,7 @@ def _steep(runs: Runs) -> Finding:
     return judged(last > 4.0 * tension[1] and tension[2] - tension[1] > 2.0 * (tension[1] - tension[0]), words)
 
 
-def _catenary(runs: Runs) -> Finding:
+def _catenary(runs: NakamuraRuns) -> Finding:
     offsets, elastic, stiff, by_shoji = restoring_curves(runs)
     laid = np.isfinite(by_shoji)
     apart = np.abs(stiff / elastic - 1.0)
@@ -50,19 +50,19 @@ def _catenary(runs: Runs) -> Finding:
     return measured(words)
 
 
-def _resonance(runs: Runs) -> Finding:
+def _resonance(runs: NakamuraRuns) -> Finding:
     plain, damped = peak(runs.undamped), peak(runs.damped)
     words = f"peak of roll at L/B = {plain[1]:.2f} without and {damped[1]:.2f} with damping; near: within a tenth"
     return judged(all(abs(place / RESONANCE - 1.0) < 0.1 for _, place in (plain, damped)), words)
 
 
-def _overshoot(runs: Runs) -> Finding:
+def _overshoot(runs: NakamuraRuns) -> Finding:
     plain, damped = peak(runs.undamped), peak(runs.damped)
     words = f"peak of theta B/H {plain[0]:.1f} without damping, {damped[0]:.2f} with 15 %"
     return judged(plain[0] > 3.0 * damped[0], words)
 
 
-def _waves_damp(runs: Runs) -> Finding:
+def _waves_damp(runs: NakamuraRuns) -> Finding:
     """Hold wave damping over critical damping of each mode at the resonance of roll."""
     water = runs.damped.tree[f"{LEVEL}/hydrodynamics"].to_dataset().sortby("period")
     statics = runs.damped.tree[f"{LEVEL}/statics"].to_dataset()
@@ -85,7 +85,7 @@ def _waves_damp(runs: Runs) -> Finding:
     return judged(min(share[:2]) > 4.0 * share[2], words)
 
 
-def _prototype(runs: Runs) -> Finding:
+def _prototype(runs: NakamuraRuns) -> Finding:
     """Hold the prototype column of table 1 against the column of the model."""
     body = runs.case.breakwater
     scale = 10.0 / 0.38
@@ -103,7 +103,7 @@ def _prototype(runs: Runs) -> Finding:
     )  # fmt: skip
 
 
-def _drift_small(runs: Runs) -> Finding:
+def _drift_small(runs: NakamuraRuns) -> Finding:
     """Hold the drift force over the amplitude of the first-order force along the waves."""
     drift = values(runs.drifted, "frequency", "mean_drift_force")
     water = runs.drifted.tree[f"{LEVEL}/hydrodynamics"].to_dataset().sortby("period")
@@ -119,20 +119,20 @@ def _drift_small(runs: Runs) -> Finding:
     return judged(share.max() < 0.2, words)
 
 
-def _fifteen(runs: Runs) -> Finding:
+def _fifteen(runs: NakamuraRuns) -> Finding:
     return measured(
         f"15 % lowers the peak of theta B/H from {peak(runs.undamped)[0]:.1f} to {peak(runs.damped)[0]:.2f}; which "
         "value fits best the measured points decide"
     )
 
 
-def _drift_matters(runs: Runs) -> Finding:
+def _drift_matters(runs: NakamuraRuns) -> Finding:
     sway, roll = (float(np.abs(_stiffness_change(runs, mode)).max()) for mode in ("sway", "roll"))
     words = f"drift changes K11 by up to {100 * sway:.1f} % and K33 by up to {100 * roll:.1f} %"
     return judged(max(sway, roll) > SMALL, words)
 
 
-def _hardens(runs: Runs) -> Finding:
+def _hardens(runs: NakamuraRuns) -> Finding:
     """Hold the slope of a chain's tension to seaward of the fairlead's place over that to shoreward."""
     ratio, swayed = (
         abscissae(runs.damped, "frequency")["ratio"],
@@ -148,7 +148,7 @@ def _hardens(runs: Runs) -> Finding:
     return judged((taut - rest) > 1.5 * (rest - slack), words)
 
 
-def _combined(runs: Runs) -> Finding:
+def _combined(runs: NakamuraRuns) -> Finding:
     """Hold the loss of the far field that the motion in time gives over the work of damping and chains."""
     result = runs.moving_time
     share = unexplained_share(values(result, "time", "dissipation"), values(result, "time", "damping_work"), SHOWN_LOSS)
@@ -159,7 +159,7 @@ def _combined(runs: Runs) -> Finding:
     return judged(float(share.max()) < ENERGY_TOLERANCE, words)
 
 
-def _roll_nearer(runs: Runs) -> Finding:
+def _roll_nearer(runs: NakamuraRuns) -> Finding:
     ratio = abscissae(runs.drifted_time, "time")["ratio"]
     short = ratio < 4.0
     in_time = (
@@ -170,7 +170,7 @@ def _roll_nearer(runs: Runs) -> Finding:
     return measured(f"drift changes roll in time by {100 * in_time.min():+.1f} to {100 * in_time.max():+.1f} %")
 
 
-def _squared(runs: Runs) -> Finding:
+def _squared(runs: NakamuraRuns) -> Finding:
     drift = values(runs.drifted, "frequency", "drift_coefficient")
     ratio = abscissae(runs.drifted, "frequency")["ratio"]
     share = values(runs.drifted, "frequency", "reflection_coefficient") ** 2 / drift
@@ -184,18 +184,18 @@ def _squared(runs: Runs) -> Finding:
     )  # fmt: skip
 
 
-def _short_waves_push(runs: Runs) -> Finding:
+def _short_waves_push(runs: NakamuraRuns) -> Finding:
     found = [at(runs.drifted, "frequency", "drift_coefficient", place) for place in (1.5, 2.5, RESONANCE, 5.0, 7.0)]
     words = "F* = " + ", ".join(f"{value:.2f}" for value in found) + " at L/B = 1.5, 2.5, 3.5, 5, 7"
     return judged(all(np.diff(found) < 0.0) and found[0] > 4.0 * found[-1], words)
 
 
-def _stiffness_change(runs: Runs, mode: str) -> Array:
+def _stiffness_change(runs: NakamuraRuns, mode: str) -> Array:
     rest = values(runs.damped, "frequency", "mooring_stiffness", mode)
     return values(runs.drifted, "frequency", "mooring_stiffness", mode) / rest - 1.0
 
 
-def _stiffness_follows(runs: Runs) -> Finding:
+def _stiffness_follows(runs: NakamuraRuns) -> Finding:
     ratio, drift = abscissae(runs.drifted, "frequency")["ratio"], values(runs.drifted, "frequency", "drift_coefficient")
     short = ratio < RESONANCE
     sway, roll = _stiffness_change(runs, "sway"), _stiffness_change(runs, "roll")
@@ -208,13 +208,13 @@ def _stiffness_follows(runs: Runs) -> Finding:
     return judged(bool(follows) and sway[short].min() > 0.0 and roll[short].min() > 0.0, words)
 
 
-def _heave_stiffness(runs: Runs) -> Finding:
+def _heave_stiffness(runs: NakamuraRuns) -> Finding:
     heave, sway = (float(np.abs(_stiffness_change(runs, mode)).max()) for mode in ("heave", "sway"))
     words = f"K22 changes by at most {100 * heave:.1f} %, K11 by {100 * sway:.1f} %"
     return judged(heave < 0.02 and heave < 0.3 * sway, words)
 
 
-def _sway_in_time(runs: Runs) -> Finding:
+def _sway_in_time(runs: NakamuraRuns) -> Finding:
     ratio, drifted = (
         abscissae(runs.drifted_time, "time")["ratio"],
         values(runs.drifted_time, "time", "motion_ratio", "sway"),
@@ -225,7 +225,7 @@ def _sway_in_time(runs: Runs) -> Finding:
     return judged(change.max() > 0.0 and np.abs(change).max() < SMALL, words)
 
 
-def _heave_unchanged(runs: Runs) -> Finding:
+def _heave_unchanged(runs: NakamuraRuns) -> Finding:
     change = values(runs.drifted, "frequency", "motion_ratio", "heave") / values(
         runs.damped, "frequency", "motion_ratio", "heave"
     )
@@ -237,7 +237,7 @@ def _heave_unchanged(runs: Runs) -> Finding:
     return judged(np.abs(change - 1.0).max() < 0.02 and np.abs(moved / still - 1.0).max() < 0.02, words)
 
 
-def _roll_falls(runs: Runs) -> Finding:
+def _roll_falls(runs: NakamuraRuns) -> Finding:
     ratio = abscissae(runs.drifted, "frequency")["ratio"]
     change = values(runs.drifted, "frequency", "motion_ratio", "roll") / values(
         runs.damped, "frequency", "motion_ratio", "roll"
@@ -247,7 +247,7 @@ def _roll_falls(runs: Runs) -> Finding:
     return judged(around.max() < 0.0, words)
 
 
-def _roll_in_time(runs: Runs) -> Finding:
+def _roll_in_time(runs: NakamuraRuns) -> Finding:
     ratio, moved, still = paired(runs, runs.drifted_time, "motion_ratio", "roll")
     near = _near(ratio)
     shares, places = (", ".join(f"{value:.2f}" for value in each) for each in ((moved / still)[near], ratio[near]))
@@ -255,7 +255,7 @@ def _roll_in_time(runs: Runs) -> Finding:
     return judged(bool(np.all(moved[near] < still[near])), words)
 
 
-def _roll_difference(runs: Runs) -> Finding:
+def _roll_difference(runs: NakamuraRuns) -> Finding:
     ratio, moved, still = paired(runs, runs.drifted_time, "motion_ratio", "roll")
     near = _near(ratio)
     worst = float(np.abs(moved / still - 1.0)[near].max())
@@ -276,7 +276,7 @@ def _roll_difference(runs: Runs) -> Finding:
     return judged(worst < 0.2 and water > 5.0 * lines and led.max() < DOMAINS, words)
 
 
-def _sway_heave_domains(runs: Runs) -> Finding:
+def _sway_heave_domains(runs: NakamuraRuns) -> Finding:
     worst, at_rest = 0.0, 0.0
     for mode in ("sway", "heave"):
         _, moved, still = paired(runs, runs.moving_time, "motion_ratio", mode)
@@ -290,7 +290,7 @@ def _sway_heave_domains(runs: Runs) -> Finding:
     return judged(max(worst, at_rest) < DOMAINS, words, f"{JUMP}; the paper's own model was of chains at rest")
 
 
-def _far_field(runs: Runs, name: str) -> Finding:
+def _far_field(runs: NakamuraRuns, name: str) -> Finding:
     _, moved, still = paired(runs, runs.moving_time, name)
     other, at_rest, linear = paired(runs, runs.drifted_time, name)
     worst = float(np.abs(moved - still).max())
@@ -304,34 +304,34 @@ def _far_field(runs: Runs, name: str) -> Finding:
     return judged(max(worst, long) < DOMAINS, words, JUMP)
 
 
-def _transmission(runs: Runs) -> Finding:
+def _transmission(runs: NakamuraRuns) -> Finding:
     return _far_field(runs, "transmission_coefficient")
 
 
-def _reflection(runs: Runs) -> Finding:
+def _reflection(runs: NakamuraRuns) -> Finding:
     return _far_field(runs, "reflection_coefficient")
 
 
-def _measured_transmission(runs: Runs) -> Finding:
+def _measured_transmission(runs: NakamuraRuns) -> Finding:
     found = [at(runs.drifted, "frequency", "transmission_coefficient", place) for place in (3.0, 5.0, 7.0)]
     return measured(
         "C_T = " + ", ".join(f"{value:.2f}" for value in found) + " at L/B = 3, 5, 7 in the frequency domain"
     )
 
 
-def _measured_reflection(runs: Runs) -> Finding:
+def _measured_reflection(runs: NakamuraRuns) -> Finding:
     found = [at(runs.drifted, "frequency", "reflection_coefficient", place) for place in (2.0, 3.0, 5.0)]
     return measured(
         "C_R = " + ", ".join(f"{value:.2f}" for value in found) + " at L/B = 2, 3, 5 in the frequency domain"
     )
 
 
-def _measured_motion(runs: Runs) -> Finding:
+def _measured_motion(runs: NakamuraRuns) -> Finding:
     _, moved, still = paired(runs, runs.drifted_time, "motion_ratio", "heave")
     return measured(f"heave of both domains within {100 * float(np.abs(moved / still - 1.0).max()):.1f} %")
 
 
-def _roll_closer(runs: Runs) -> Finding:
+def _roll_closer(runs: NakamuraRuns) -> Finding:
     top = peak(runs.drifted)
     in_time = values(runs.drifted_time, "time", "motion_ratio", "roll")
     ratio = abscissae(runs.drifted_time, "time")["ratio"]
@@ -340,7 +340,7 @@ def _roll_closer(runs: Runs) -> Finding:
     )
 
 
-def _damping_needed(runs: Runs) -> Finding:
+def _damping_needed(runs: NakamuraRuns) -> Finding:
     # the largest motion, since without damping the motion may never repeat and has no first harmonic
     near = _near(abscissae(runs.undamped_time, "time")["ratio"])
     plain = values(runs.undamped_time, "time", "maximum_motion", "roll")[near]
@@ -353,7 +353,7 @@ def _damping_needed(runs: Runs) -> Finding:
     return judged(change > 0.2, words)
 
 
-def _resonance_inside(runs: Runs) -> Finding:
+def _resonance_inside(runs: NakamuraRuns) -> Finding:
     place = peak(runs.damped)[1]
     stopped = abscissae(runs.drifted, "frequency")["ratio"][
         values(runs.drifted, "frequency", "transmission_coefficient") < 0.5
@@ -362,7 +362,7 @@ def _resonance_inside(runs: Runs) -> Finding:
     return judged(bool(stopped.min() < place < stopped.max()), words)
 
 
-def _weight(runs: Runs) -> Finding:
+def _weight(runs: NakamuraRuns) -> Finding:
     statics = runs.drifted.tree[f"{LEVEL}/statics"].to_dataset()
     reach, height, length, _, _ = chain(runs)
     left = float(statics.displaced_mass) - float(statics.body_mass)

@@ -7,7 +7,7 @@ import numpy as np
 from moyai.report.document import Abscissa, Figure, Panel
 from moyai.reproduce.drawing import curve, figure
 from moyai.reproduce.model import PaperFigure
-from moyai.reproduce.sawaragi.runs import LINE, STEEL, Record, Runs, SpanRecord
+from moyai.reproduce.sawaragi.runs import LINE, STEEL, Release, SawaragiRuns, SpanRecord
 from moyai.structures.curtain.impact.record import model_series
 
 PLOTTED = ("3a", "3b", "6", "7", "8", "15", "16", "17", "18", "19", "20")
@@ -16,7 +16,7 @@ COEFFICIENT = Panel("C_T", from_zero=True)
 SUM = "Sum of both cables."
 
 
-def _record(number: str, record: Record, material: str, whole: SpanRecord | None = None) -> Figure:
+def _record(number: str, record: Release, material: str, whole: SpanRecord | None = None) -> Figure:
     time = record.motion.time
     shown = time < record.taut + 4.0
     series = [curve("both cables, model A with drag", {"time": time[shown]}, record.motion.tension[shown])]
@@ -31,7 +31,7 @@ def _record(number: str, record: Record, material: str, whole: SpanRecord | None
     )  # fmt: skip
 
 
-def _frequency(runs: Runs) -> Figure:
+def _frequency(runs: SawaragiRuns) -> Figure:
     number, mass, damping = runs.over_frequency
     x = {"number": number}
     return figure(
@@ -41,7 +41,7 @@ def _frequency(runs: Runs) -> Figure:
     )  # fmt: skip
 
 
-def _rigid(runs: Runs) -> Figure:
+def _rigid(runs: SawaragiRuns) -> Figure:
     distance, values, lengths = runs.over_curvature
     x = {"s": distance}
     return figure(
@@ -52,7 +52,7 @@ def _rigid(runs: Runs) -> Figure:
     )  # fmt: skip
 
 
-def _stretch(runs: Runs) -> Figure:
+def _stretch(runs: SawaragiRuns) -> Figure:
     distance, values, lengths = runs.over_curvature
     x = {"s": distance}
     return figure(
@@ -65,7 +65,7 @@ def _stretch(runs: Runs) -> Figure:
     )  # fmt: skip
 
 
-def _series(runs: Runs) -> Figure:
+def _series(runs: SawaragiRuns) -> Figure:
     series = [
         curve(f"model {one.model}", {"time": one.time}, one.tension, tone)
         for tone, one in enumerate(model_series(runs.span))
@@ -77,7 +77,7 @@ def _series(runs: Runs) -> Figure:
     )  # fmt: skip
 
 
-def _peaks(runs: Runs) -> Figure:
+def _peaks(runs: SawaragiRuns) -> Figure:
     computed, released = runs.peaks
     line = np.array([0.0, 1.1 * float(computed.max())])
     return figure(
@@ -92,7 +92,7 @@ def _peaks(runs: Runs) -> Figure:
     )  # fmt: skip
 
 
-def _swept(runs: Runs, number: str, name: str, words: str) -> Figure:
+def _swept(runs: SawaragiRuns, number: str, name: str, words: str) -> Figure:
     series = []
     for tone, (material, total) in enumerate(MATERIALS[:1]):
         x, found = runs.over(name, total)
@@ -102,7 +102,7 @@ def _swept(runs: Runs, number: str, name: str, words: str) -> Figure:
                   "paper's.")  # fmt: skip
 
 
-def _stiffness(runs: Runs) -> Figure:
+def _stiffness(runs: SawaragiRuns) -> Figure:
     x, found = runs.over_stiffness()
     return figure(
         "20", "C_T against C_E", (Abscissa("x", "C_E"),), COEFFICIENT, [curve("model A", {"x": x}, found, 0)],
@@ -110,7 +110,7 @@ def _stiffness(runs: Runs) -> Figure:
     )  # fmt: skip
 
 
-def figures(runs: Runs) -> tuple[PaperFigure, ...]:
+def figures(runs: SawaragiRuns) -> tuple[PaperFigure, ...]:
     """Return the figures of the paper."""
     sketch = "definition sketch"
     return (

@@ -36,7 +36,7 @@ TOE_MASS, SHEET_MASS, RELEASE = 0.467, 0.1, 4.5
 
 
 @dataclass(frozen=True)
-class Record:
+class Release:
     """A release: held on the line between the supports, let go, taut, steady."""
 
     motion: SlackTautMotion
@@ -91,7 +91,7 @@ class SpanRecord:
 
 
 @dataclass(frozen=True)
-class Runs:
+class SawaragiRuns:
     """The span of the flume and what the figures and statements ask of it."""
 
     #: With cables of fishing line.
@@ -128,7 +128,7 @@ class Runs:
         spans = [self.with_stiffness(float(value)) for value in np.geomspace(20.0, 60000.0, self.points)]
         return np.array([impact_numbers(span, 1.0).cauchy_number for span in spans]), self.coefficients(spans)
 
-    def released(self, total: float) -> Record:
+    def released(self, total: float) -> Release:
         """Return the record of a release in the current of the span."""
         duration = 60.0
         motion = slack_taut_motion(
@@ -140,15 +140,15 @@ class Runs:
         top = int(np.argmax(motion.tension[:end]))
         late = motion.tension[motion.time > 0.9 * duration]
         rise = float(motion.time[top]) - first.time
-        return Record(motion, first.time, rise, float(motion.tension[top]), float(late.mean()))
+        return Release(motion, first.time, rise, float(motion.tension[top]), float(late.mean()))
 
     @cached_property
-    def line(self) -> Record:
+    def line(self) -> Release:
         """The release with fishing line."""
         return self.released(LINE)
 
     @cached_property
-    def steel(self) -> Record:
+    def steel(self) -> Release:
         """The release with steel wire."""
         return self.released(STEEL)
 
@@ -244,7 +244,7 @@ def span_of(case: CurtainProblem) -> Impact:
     return impact_of(unit, case.settings.impact, unit.surface_speed)
 
 
-def run(quick: bool = False, progress: Progress = silent) -> Runs:
+def run(quick: bool = False, progress: Progress = silent) -> SawaragiRuns:
     """Run everything.
 
     Parameters
@@ -254,7 +254,7 @@ def run(quick: bool = False, progress: Progress = silent) -> Runs:
     progress : Progress
     """
     case: CurtainProblem = problem_of("sawaragi", "flume")
-    runs = Runs(span_of(case), case, 21 if quick else 45, (24, 4) if quick else (24, 8))
+    runs = SawaragiRuns(span_of(case), case, 21 if quick else 45, (24, 4) if quick else (24, 8))
     steps = ("line", "steel", "whole_line", "over_frequency", "over_curvature")
     for index, name in enumerate(steps):
         progress("parts of the paper", index, len(steps))

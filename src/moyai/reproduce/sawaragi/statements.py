@@ -10,13 +10,13 @@ import numpy as np
 from moyai.design.similarity import Scale, scale_water
 from moyai.reproduce.model import FilledInput, Finding, Statement, judged, measured
 from moyai.reproduce.sawaragi.figures import log_slope
-from moyai.reproduce.sawaragi.runs import DRAG, LINE, SHEET_MASS, STEEL, TOE_MASS, Record, Runs, SpanRecord
+from moyai.reproduce.sawaragi.runs import DRAG, LINE, SHEET_MASS, STEEL, TOE_MASS, Release, SawaragiRuns, SpanRecord
 from moyai.structures.curtain.impact.cable import Impact, impact_numbers, peak_by_energy
 from moyai.structures.curtain.impact.march import iterate_first_step
-from moyai.structures.curtain.impact.skirt import Skirt, cable_and_skirt_impact, curved_impact, skirt_impact
+from moyai.structures.curtain.impact.skirt import BulgedSkirt, cable_and_skirt_impact, curved_impact, skirt_impact
 
 
-def _exponent(runs: Runs, name: str) -> float:
+def _exponent(runs: SawaragiRuns, name: str) -> float:
     """Return d log T / d log of a size of the span, at the flume."""
     low, high = (
         peak_by_energy(replace(runs.span, **{name: getattr(runs.span, name) * (1.0 + step)})).tension
@@ -25,7 +25,7 @@ def _exponent(runs: Runs, name: str) -> float:
     return math.log(high / low) / math.log(1.001 / 0.999)
 
 
-def _rise_first(runs: Runs) -> Finding:
+def _rise_first(runs: SawaragiRuns) -> Finding:
     record = runs.whole_line
     parts = record.before_spike()
     words = ", ".join(f"{value:.2f}" for value in parts)
@@ -36,13 +36,13 @@ def _rise_first(runs: Runs) -> Finding:
     )
 
 
-def _spike(runs: Runs) -> Finding:
+def _spike(runs: SawaragiRuns) -> Finding:
     one = runs.line
     words = f"spike {one.spike:.2f} N, {one.rise:.2f} s after taut, steady {one.plateau:.2f} N"
     return judged(one.spike > 2.0 * one.plateau, words)
 
 
-def _one_spike(runs: Runs) -> Finding:
+def _one_spike(runs: SawaragiRuns) -> Finding:
     record = runs.whole_line
     count = record.spikes()
     return judged(
@@ -52,7 +52,7 @@ def _one_spike(runs: Runs) -> Finding:
     )
 
 
-def _one_spike_of_steel(runs: Runs) -> Finding:
+def _one_spike_of_steel(runs: SawaragiRuns) -> Finding:
     count = _contacts(runs.steel)
     return judged(
         count == 1,
@@ -63,25 +63,25 @@ def _one_spike_of_steel(runs: Runs) -> Finding:
     )
 
 
-def _contacts(record: Record) -> int:
+def _contacts(record: Release) -> int:
     """Return how many contacts of a record of model A exceed half of the highest."""
     return sum(contact.tension > 0.5 * record.spike for contact in record.motion.contacts)
 
 
-def _same_time(runs: Runs) -> Finding:
+def _same_time(runs: SawaragiRuns) -> Finding:
     upper, lower, first, second = runs.edges(LINE)
     words = f"upper {upper:.2f} N at {first:.3f} s, lower {lower:.2f} N at {second:.3f} s"
     return judged(abs(first / second - 1.0) < 0.05, words)
 
 
-def _steel(runs: Runs) -> Finding:
+def _steel(runs: SawaragiRuns) -> Finding:
     ratio, faster = runs.steel.spike / runs.line.spike, runs.line.rise / runs.steel.rise
     return judged(
         ratio > 2.0 and faster > 2.0, f"steel is {ratio:.0f} times as high and rises {faster:.0f} times as fast"
     )
 
 
-def _plateau(runs: Runs) -> Finding:
+def _plateau(runs: SawaragiRuns) -> Finding:
     words = (
         f"{runs.line.plateau:.2f} N with fishing line, {runs.steel.plateau:.2f} N with steel; whole span "
         f"{runs.whole_line.plateau:.2f} N with fishing line"
@@ -89,7 +89,7 @@ def _plateau(runs: Runs) -> Finding:
     return judged(abs(runs.steel.plateau / runs.line.plateau - 1.0) < 0.2, words)
 
 
-def _high_frequency(runs: Runs) -> Finding:
+def _high_frequency(runs: SawaragiRuns) -> Finding:
     number, mass, _ = runs.over_frequency
     words = (
         f"M/M0 = {np.interp(10.0, number, mass):.2f} at Kd = 10, {mass[-1]:.2f} at {number[-1]:.0f}, least "
@@ -98,12 +98,12 @@ def _high_frequency(runs: Runs) -> Finding:
     return judged(0.93 < mass[-1] < 1.0 and mass[-1] > np.interp(10.0, number, mass), words)
 
 
-def _half_circle(runs: Runs) -> Finding:
+def _half_circle(runs: SawaragiRuns) -> Finding:
     found = float(runs.over_curvature[1][0, 0])
     return judged(1.35 < found < 1.5, f"{found:.3f} times the plate of the same chord")
 
 
-def _stretching(runs: Runs) -> Finding:
+def _stretching(runs: SawaragiRuns) -> Finding:
     distance, values, lengths = runs.over_curvature
     over = values[1:] / lengths**2
     far = over[:, distance >= 1.0].max()
@@ -111,12 +111,12 @@ def _stretching(runs: Runs) -> Finding:
     return judged(bool(np.all(np.diff(over, axis=1) < 0.0)) and over.max() < 0.65, words)
 
 
-def _froude(runs: Runs) -> Finding:
+def _froude(runs: SawaragiRuns) -> Finding:
     slope = log_slope(*runs.over("froude", LINE), 0.05, 0.25)
     return judged(slope < -0.5, f"C_T goes with Fr to the power {slope:.2f}")
 
 
-def _span(runs: Runs) -> Finding:
+def _span(runs: SawaragiRuns) -> Finding:
     x, found = runs.over("span_ratio", LINE)
     slopes = [log_slope(x, found, low, low + 0.1) for low in (0.6, 0.8)]
     return judged(
@@ -124,13 +124,13 @@ def _span(runs: Runs) -> Finding:
     )
 
 
-def _depth(runs: Runs) -> Finding:
+def _depth(runs: SawaragiRuns) -> Finding:
     x, found = runs.over("depth_ratio", LINE)
     change = float(np.ptp(found[(x >= 0.25) & (x <= 0.5)]) / found.mean())
     return judged(change < 0.03, f"C_T changes by {100 * change:.1f} % from d/h = 0.25 to 0.5")
 
 
-def _root(runs: Runs) -> Finding:
+def _root(runs: SawaragiRuns) -> Finding:
     x, found = runs.over_stiffness()
     slope = log_slope(x, found, float(x[1]), float(x[-2]))
     return judged(
@@ -138,13 +138,13 @@ def _root(runs: Runs) -> Finding:
     )
 
 
-def _proportional(runs: Runs) -> Finding:
+def _proportional(runs: SawaragiRuns) -> Finding:
     speed, draught = _exponent(runs, "speed"), _exponent(runs, "draught")
     words = f"T goes with the speed to the power {speed:.3f}, with the depth of the skirt to {draught:.3f}"
     return judged(abs(speed - 1.0) < 0.05 and abs(draught - 1.0) < 0.05, words)
 
 
-def _cube(runs: Runs) -> Finding:
+def _cube(runs: SawaragiRuns) -> Finding:
     length = 25.0
     scale, small = Scale(length, 1.0, 1.0), runs.span
     large = replace(
@@ -158,7 +158,7 @@ def _cube(runs: Runs) -> Finding:
     return judged(abs(ratio - 1.0) < 1e-9, f"T over the cube of the scale, at 1:25: {ratio:.12f}")
 
 
-def _iterates(runs: Runs) -> Finding:
+def _iterates(runs: SawaragiRuns) -> Finding:
     omega = math.pi / 2.0 / peak_by_energy(runs.span).time
     tried = {each: iterate_first_step(runs.span, each / omega, reverse=False).converged for each in (0.02, 0.5, 2.0)}
     met, lost = (", ".join(f"{each:g}" for each in tried if bool(tried[each]) is meets) for meets in (True, False))
@@ -171,7 +171,7 @@ def _iterates(runs: Runs) -> Finding:
     )  # fmt: skip
 
 
-def _above(runs: Runs) -> Finding:
+def _above(runs: SawaragiRuns) -> Finding:
     return measured(
         f"model A {peak_by_energy(runs.span).tension:.2f} N, released by itself {runs.line.spike:.2f} N: the "
         f"skirt is slower "
@@ -179,37 +179,37 @@ def _above(runs: Runs) -> Finding:
     )
 
 
-def _start_speed(runs: Runs) -> Finding:
+def _start_speed(runs: SawaragiRuns) -> Finding:
     first = runs.line.motion.contacts[0]
     share = first.speed / runs.span.speed
     return judged(0.3 < share < 1.0, f"the skirt is taut at {100 * share:.0f} % of the current's speed")
 
 
-def _skirt(runs: Runs) -> Skirt:
+def _skirt(runs: SawaragiRuns) -> BulgedSkirt:
     chord = runs.case.settings.impact.chord
     assert chord is not None
-    return Skirt(runs.span.draught, chord, runs.case.curtain.skirt.stiffness)
+    return BulgedSkirt(runs.span.draught, chord, runs.case.curtain.skirt.stiffness)
 
 
-def _rise_time(runs: Runs) -> Finding:
+def _rise_time(runs: SawaragiRuns) -> Finding:
     return measured(
         f"model A rises in {peak_by_energy(runs.span).time:.2f} s with fishing line, released by itself in "
         f"{runs.line.rise:.2f} s"
     )
 
 
-def _span_in_tests(runs: Runs) -> Finding:
+def _span_in_tests(runs: SawaragiRuns) -> Finding:
     _, found = runs.over("span_ratio", LINE)
     return measured(f"C_T of model A is {found.min():.1f} to {found.max():.1f} from B/l = 0.5 to 0.99")
 
 
-def _statics(runs: Runs) -> Finding:
+def _statics(runs: SawaragiRuns) -> Finding:
     whole, model = runs.whole_line.spike, runs.line.spike
     words = f"the whole span, dynamic, has a spike of {whole:.2f} N, model A released the same way {model:.2f} N"
     return judged(abs(whole / model - 1.0) > 0.1, words)
 
 
-def _flat(runs: Runs) -> Finding:
+def _flat(runs: SawaragiRuns) -> Finding:
     skirt = _skirt(runs)
     curved, flat = curved_impact(runs.span, skirt).tension, peak_by_energy(runs.span).tension
     words = (
@@ -222,7 +222,7 @@ def _flat(runs: Runs) -> Finding:
     )  # fmt: skip
 
 
-def _stretches(runs: Runs) -> Finding:
+def _stretches(runs: SawaragiRuns) -> Finding:
     both, alone = (
         cable_and_skirt_impact(runs.span, _skirt(runs)).tension,
         curved_impact(runs.span, _skirt(runs)).tension,
@@ -231,13 +231,13 @@ def _stretches(runs: Runs) -> Finding:
     return judged(both < alone, words)
 
 
-def _separate(runs: Runs) -> Finding:
+def _separate(runs: SawaragiRuns) -> Finding:
     upper, lower, _, _ = runs.edges(LINE)
     words = f"edges that move by themselves: upper {upper:.2f} N, lower {lower:.2f} N, with cables of equal stiffness"
     return judged(abs(upper / lower - 1.0) > 0.05, words)
 
 
-def _model_b(runs: Runs) -> Finding:
+def _model_b(runs: SawaragiRuns) -> Finding:
     skirt = _skirt(runs)
     found = skirt_impact(runs.span, skirt)
     words = f"model B with a skirt of {1e-3 * skirt.stiffness:.0f} kN/m: {found.edge_load:.0f} N/m on a cable"
@@ -296,7 +296,7 @@ def _spike_words(record: SpanRecord) -> str:
     return f"spike {record.spike:.2f} N, steady {record.plateau:.2f} N"
 
 
-def filled(runs: Runs) -> tuple[FilledInput, ...]:
+def filled(runs: SawaragiRuns) -> tuple[FilledInput, ...]:
     """Return the inputs that were filled in, with the peak of model A and C_T."""
 
     def words(span: Impact) -> str:

@@ -32,7 +32,7 @@ CONVENTIONAL = EnergyModel(
 
 
 @dataclass(frozen=True, eq=False)
-class Campaign:
+class FieldCampaign:
     """A record and what was put into it, block by block."""
 
     time: Array
@@ -46,7 +46,7 @@ class Campaign:
 
 def campaign(
     seed: int, blocks: int, *, pretension_in_model: float = 0.0, currents: float = 0.2, scatter: float = 0.15
-) -> Campaign:
+) -> FieldCampaign:
     """Return a campaign of so many blocks; angles of the waves are spread over 0 to 75 degrees from the normal."""
     rng = np.random.default_rng(seed)
     size = round(BLOCK / STEP)
@@ -69,7 +69,7 @@ def campaign(
             pulls = _pulls(model, elevation[part], local, angle[k], flow, pretension_in_model, rng, scatter)
             for line in lines:
                 line[part] = steady[k] + more + pulls * rng.uniform(0.95, 1.05) + 60.0 * rng.standard_normal(size)
-    return Campaign(time, elevation, new, conventional, current, angle, steady)
+    return FieldCampaign(time, elevation, new, conventional, current, angle, steady)
 
 
 def _pulls(
@@ -91,7 +91,7 @@ def _pulls(
     return out
 
 
-def process(data: Campaign, conventional: bool = False) -> Blocks:
+def process(data: FieldCampaign, conventional: bool = False) -> Blocks:
     """Run the chain over one type of the campaign."""
     return analyse_blocks(
         data.time, data.elevation, data.conventional if conventional else data.new, block=BLOCK, rule="median",

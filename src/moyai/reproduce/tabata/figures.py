@@ -8,7 +8,7 @@ from moyai.report.document import Abscissa, Figure, Panel, Series
 from moyai.reproduce.drawing import curve, figure
 from moyai.reproduce.model import PaperFigure
 from moyai.reproduce.tabata.campaign import CONVENTIONAL, wave_maxima
-from moyai.reproduce.tabata.runs import Runs
+from moyai.reproduce.tabata.runs import TabataRuns
 from moyai.series.regressions import fit_line, type_ratio
 from moyai.structures.curtain.seas.anchor_energy import error_against_product
 from moyai.structures.curtain.seas.squared_velocity import fit_proportional
@@ -18,7 +18,7 @@ MADE = "Blocks of a synthetic campaign with planted relations; the record of the
 TENSION = "kN"
 
 
-def _series(runs: Runs) -> tuple[PaperFigure, ...]:
+def _series(runs: TabataRuns) -> tuple[PaperFigure, ...]:
     """Return the strips of figure 3, one below the other."""
     new, axis = runs.new, (Abscissa("time", "time", "h"),)
     hours = {"time": np.arange(len(new)) / 3.0}
@@ -41,7 +41,7 @@ def _series(runs: Runs) -> tuple[PaperFigure, ...]:
     )  # fmt: skip
 
 
-def _height(runs: Runs) -> Figure:
+def _height(runs: TabataRuns) -> Figure:
     height, tenth = runs.new.significant_height, runs.new.averaged("tenth")
     line = fit_line(height, tenth)
     x = np.linspace(0.0, float(height.max()), 30)
@@ -56,7 +56,7 @@ def _height(runs: Runs) -> Figure:
     )  # fmt: skip
 
 
-def _current(runs: Runs) -> Figure:
+def _current(runs: TabataRuns) -> Figure:
     current, steady = runs.new.current_normal, runs.new.averaged("steady")
     line = fit_line(current, steady)
     x = np.linspace(float(current.min()), float(current.max()), 20)
@@ -71,7 +71,7 @@ def _current(runs: Runs) -> Figure:
     )  # fmt: skip
 
 
-def _direction(runs: Runs) -> Figure:
+def _direction(runs: TabataRuns) -> Figure:
     new = runs.new
     reduced = new.averaged("tenth") * new.significant_period / new.significant_height
     beta = np.linspace(0.0, 90.0, 91)
@@ -86,7 +86,7 @@ def _direction(runs: Runs) -> Figure:
     )  # fmt: skip
 
 
-def _squared(runs: Runs) -> Figure:
+def _squared(runs: TabataRuns) -> Figure:
     top = runs.new.averaged("maximum")
     fit = fit_proportional(runs.squared, top)
     x = np.linspace(0.0, float(runs.squared.max()), 60)
@@ -103,7 +103,7 @@ def _squared(runs: Runs) -> Figure:
     )  # fmt: skip
 
 
-def _types(runs: Runs) -> Figure:
+def _types(runs: TabataRuns) -> Figure:
     old, new = runs.conventional.averaged("maximum"), runs.new.averaged("maximum")
     line, _ = type_ratio(old, new)
     x = np.array([0.0, float(old.max())])
@@ -118,7 +118,7 @@ def _types(runs: Runs) -> Figure:
     )  # fmt: skip
 
 
-def _error(runs: Runs) -> Figure:
+def _error(runs: TabataRuns) -> Figure:
     factor = np.linspace(0.05, 0.6, 80)
     unit = CONVENTIONAL.float_mass * CONVENTIONAL.rope_stiffness
     mean, spread = error_against_product(*runs.observed, factor * unit)
@@ -138,7 +138,7 @@ def _error(runs: Runs) -> Figure:
     )  # fmt: skip
 
 
-def _compared(runs: Runs) -> Figure:
+def _compared(runs: TabataRuns) -> Figure:
     observed, speed = runs.observed
     unit = CONVENTIONAL.float_mass * CONVENTIONAL.rope_stiffness
     calculated = np.sqrt(CONVENTIONAL.energy_factor * unit) * speed
@@ -154,7 +154,7 @@ def _compared(runs: Runs) -> Figure:
     )  # fmt: skip
 
 
-def figures(runs: Runs) -> tuple[PaperFigure, ...]:
+def figures(runs: TabataRuns) -> tuple[PaperFigure, ...]:
     """Return the figures of the paper."""
     return (
         PaperFigure("1", None, "sketch of the construction"),

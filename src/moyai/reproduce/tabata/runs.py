@@ -19,7 +19,7 @@ from moyai.reproduce.tabata.campaign import (
     CONVENTIONAL,
     CURTAIN_DEPTH,
     WATER,
-    Campaign,
+    FieldCampaign,
     by_wave,
     campaign,
     paper_maxima,
@@ -67,11 +67,11 @@ class Pulls:
 
 
 @dataclass(frozen=True)
-class Runs:
+class TabataRuns:
     """The runs that the figures and statements read."""
 
     #: Synthetic.
-    data: Campaign
+    data: FieldCampaign
     #: Both types through the chain of the paper.
     new: Blocks
     #: Both types through the chain of the paper.
@@ -131,7 +131,7 @@ class Runs:
         return counts[0], counts[1]
 
 
-def run(quick: bool = False, progress: Progress = silent) -> Runs:
+def run(quick: bool = False, progress: Progress = silent) -> TabataRuns:
     """Run everything.
 
     Parameters
@@ -162,7 +162,7 @@ def run(quick: bool = False, progress: Progress = silent) -> Runs:
         done += 1
         progress("parts of the paper", done, steps)
         guessed[name] = _in_typhoon(_with_rope(changed, ROPES["890 kN"]), 1, progress)
-    runs = Runs(data, new, conventional, typhoon, guessed, case)
+    runs = TabataRuns(data, new, conventional, typhoon, guessed, case)
     progress("parts of the paper", steps - 1, steps)
     _ = runs.snaps
     progress("parts of the paper", steps, steps)

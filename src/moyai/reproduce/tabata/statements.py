@@ -11,7 +11,7 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.reproduce.model import FilledInput, Finding, Statement, judged, measured
 from moyai.reproduce.tabata.campaign import CONVENTIONAL, CURTAIN_DEPTH, NEW, WATER
-from moyai.reproduce.tabata.runs import CHOSEN, ROPES, TYPHOON, Pulls, Runs
+from moyai.reproduce.tabata.runs import CHOSEN, ROPES, TYPHOON, Pulls, TabataRuns
 from moyai.series.regressions import correlation, fit_by_direction, fit_cosine, fit_power, type_ratio
 from moyai.structures.curtain.seas.anchor_energy import EnergyModel, product_needed
 from moyai.structures.curtain.seas.squared_velocity import effective_height, fit_proportional
@@ -23,7 +23,7 @@ _TAKEN = "10 % longer than its span, waves at 60 degrees, T_1/3 of 6.75 s, stiff
 STEADY, FLUCTUATING = 13.7e3, 14.7e3
 
 
-def _linear(runs: Runs) -> Finding:
+def _linear(runs: TabataRuns) -> Finding:
     new = runs.new
     chosen = new.angle < CHOSEN
     reduced = (new.averaged("tenth") * new.significant_period / np.cos(new.angle) ** 2)[chosen]
@@ -34,26 +34,26 @@ def _linear(runs: Runs) -> Finding:
     return judged(abs(found.value - 1.0) < 0.15, words)
 
 
-def _uncorrelated(runs: Runs) -> Finding:
+def _uncorrelated(runs: TabataRuns) -> Finding:
     found = correlation(runs.new.current_normal, runs.new.averaged("steady"))
     words = f"correlation {found.value:+.2f} ({found.low:+.2f} to {found.high:+.2f}), none {PLANTED}"
     return judged(found.low <= 0.0 <= found.high, words)
 
 
-def _weak(runs: Runs) -> Finding:
+def _weak(runs: TabataRuns) -> Finding:
     load = 0.5 * WATER.density * 1.2 * CURTAIN_DEPTH * 0.2**2 * runs.case.curtain.span
     words = f"drag of 0.2 m/s on a unit {load / 1e3:.1f} kN, steady tension of the paper up to {STEADY / 1e3:.1f} kN"
     return judged(load < 0.25 * STEADY, words)
 
 
-def _cosine(runs: Runs) -> Finding:
+def _cosine(runs: TabataRuns) -> Finding:
     new = runs.new
     found = fit_cosine(new.angle, new.averaged("tenth") * new.significant_period / new.significant_height)["exponent"]
     words = f"cos to the power {found.value:.2f} ({found.low:.2f} to {found.high:.2f}); 2 {PLANTED}"
     return judged(abs(found.value - 2.0) < 0.25, words)
 
 
-def _near_normal(runs: Runs) -> Finding:
+def _near_normal(runs: TabataRuns) -> Finding:
     edges = np.radians([0.0, 25.0, 50.0, 76.0])
     _, classes = fit_by_direction(runs.new.significant_height, runs.new.averaged("tenth"), runs.new.angle, edges)
     parts = ", ".join(
@@ -65,7 +65,7 @@ def _near_normal(runs: Runs) -> Finding:
     return judged(first is not None and first.low > 0.0, f"off the line through all: {parts}")
 
 
-def _squared(runs: Runs) -> Finding:
+def _squared(runs: TabataRuns) -> Finding:
     top = runs.new.averaged("maximum")
     found = fit_power(runs.squared, top)["exponent"]
     words = f"T_max goes with u^2 to the power {found.value:.2f} ({found.low:.2f} to {found.high:.2f})"
@@ -77,7 +77,7 @@ def _squared(runs: Runs) -> Finding:
     )  # fmt: skip
 
 
-def _flume_line(runs: Runs) -> Finding:
+def _flume_line(runs: TabataRuns) -> Finding:
     fit = fit_proportional(runs.squared, runs.new.averaged("maximum"))
     return measured(
         f"{fit.factor / 1e3:.2f} kN for 1 m2/s2 through the origin in the synthetic campaign",
@@ -85,7 +85,7 @@ def _flume_line(runs: Runs) -> Finding:
     )
 
 
-def _compared(runs: Runs) -> Finding:
+def _compared(runs: TabataRuns) -> Finding:
     tension, speed = runs.observed
     model = math.sqrt(CONVENTIONAL.energy_factor * CONVENTIONAL.float_mass * CONVENTIONAL.rope_stiffness) * speed
     words = (
@@ -94,7 +94,7 @@ def _compared(runs: Runs) -> Finding:
     return measured(f"{words}, 0.2 {PLANTED}")
 
 
-def _waves_govern(runs: Runs) -> Finding:
+def _waves_govern(runs: TabataRuns) -> Finding:
     tenth = runs.new.averaged("tenth")
     height = correlation(effective_height(runs.new.significant_height, runs.new.angle, "paper", 1.0), tenth)
     flow = correlation(np.abs(runs.new.current_normal), tenth)
@@ -102,7 +102,7 @@ def _waves_govern(runs: Runs) -> Finding:
     return judged(height.low > flow.high, f"{words}, {PLANTED}")
 
 
-def _design_height(runs: Runs) -> Finding:
+def _design_height(runs: TabataRuns) -> Finding:
     new = _worked(replace(CONVENTIONAL, type_factor=NEW.type_factor), 60.0)
     old = _worked(replace(CONVENTIONAL, type_factor=1.0), 60.0, height=2.5)
     return judged(
@@ -111,25 +111,25 @@ def _design_height(runs: Runs) -> Finding:
     )
 
 
-def _seven_tenths(runs: Runs) -> Finding:
+def _seven_tenths(runs: TabataRuns) -> Finding:
     _, ratio = type_ratio(runs.conventional.averaged("maximum"), runs.new.averaged("maximum"))
     words = f"ratio {ratio.value:.3f} ({ratio.low:.3f} to {ratio.high:.3f}); {NEW.type_factor} {PLANTED}"
     return judged(abs(ratio.value - 0.7) < 0.03, words)
 
 
-def _higher_steady(runs: Runs) -> Finding:
+def _higher_steady(runs: TabataRuns) -> Finding:
     more = runs.conventional.averaged("steady") - runs.new.averaged("steady")
     return judged(bool(more.min() > 0.0), f"{more.min() / 1e3:.1f} to {more.max() / 1e3:.1f} kN more; 3 kN {PLANTED}")
 
 
-def _waves(runs: Runs) -> Finding:
+def _waves(runs: TabataRuns) -> Finding:
     found = float(np.mean(runs.new.maximum_height / runs.new.significant_height))
     return judged(
         abs(found - 1.8) < 0.2, f"H_max is {found:.2f} H_1/3 in blocks of {runs.new.wave_count.mean():.0f} waves"
     )
 
 
-def _tenths(runs: Runs) -> Finding:
+def _tenths(runs: TabataRuns) -> Finding:
     found = float(np.mean(runs.conventional.averaged("maximum") / runs.conventional.averaged("tenth")))
     return judged(
         abs(found - 1.7) < 0.15, f"T_max is {found:.2f} T_1/10",
@@ -139,7 +139,7 @@ def _tenths(runs: Runs) -> Finding:
     )  # fmt: skip
 
 
-def _factor(runs: Runs) -> Finding:
+def _factor(runs: TabataRuns) -> Finding:
     planted = CONVENTIONAL.energy_factor
     paper, single = runs.paper_factor(), runs.energy_factor
     ratio = float(np.mean(runs.conventional.averaged("maximum") / runs.conventional.averaged("tenth")))
@@ -156,7 +156,7 @@ def _factor(runs: Runs) -> Finding:
     )  # fmt: skip
 
 
-def _flume(_runs: Runs) -> Finding:
+def _flume(_runs: TabataRuns) -> Finding:
     ratio = float(product_needed(FLUCTUATING, 2.0, STEADY) / product_needed(FLUCTUATING, 2.0, 0.0))
     words = (
         f"with the steady {STEADY / 1e3:.1f} kN in the rope the same {FLUCTUATING / 1e3:.1f} kN need "
@@ -165,7 +165,7 @@ def _flume(_runs: Runs) -> Finding:
     return measured(words, "the model of the paper leaves the pretension out; with it field and flume need not differ")
 
 
-def _wire(runs: Runs) -> Finding:
+def _wire(runs: TabataRuns) -> Finding:
     anchors = runs.case.curtain.anchors
     assert anchors is not None
     return measured(
@@ -174,24 +174,24 @@ def _wire(runs: Runs) -> Finding:
     )
 
 
-def _impulsive(runs: Runs) -> Finding:
+def _impulsive(runs: TabataRuns) -> Finding:
     none, many = runs.snaps
     words = f"{none} snaps in 20 minutes without current, {many} with 0.3 m/s, in one sea of H_1/3 = 1.2 m"
     return judged(none == 0 and many > 20, words)
 
 
-def _ropes(runs: Runs, rope: str) -> Array:
+def _ropes(runs: TabataRuns, rope: str) -> Array:
     """Return the highest pull of an anchor rope in each realisation [N]."""
     return np.array([one.rope for one in runs.typhoon[rope]])
 
 
-def _pulls(runs: Runs, rope: str) -> str:
+def _pulls(runs: TabataRuns, rope: str) -> str:
     found = _ropes(runs, rope) / 1e3
     several = f", {len(found)} realisations {found.min():.0f} to {found.max():.0f} kN" if len(found) > 1 else ""
     return f"{found.mean():.0f} kN{several}"
 
 
-def _factor_of_span(runs: Runs, rope: str) -> float:
+def _factor_of_span(runs: TabataRuns, rope: str) -> float:
     """Return M that gives the energy model the pull of the span in the typhoon, mean of the realisations."""
     height = float(effective_height(TYPHOON, math.radians(60.0), "paper", 1.8))
     speed = CONVENTIONAL.float_speed(height, 6.75, 0.2, WATER)
@@ -199,7 +199,7 @@ def _factor_of_span(runs: Runs, rope: str) -> float:
     return float(product) / (CONVENTIONAL.float_mass * ROPES[rope])
 
 
-def _highest(runs: Runs) -> Finding:
+def _highest(runs: TabataRuns) -> Finding:
     # the print is not clear on whether its highest value is T_max or T_1/10, of which T_max is 1.7
     most = STEADY + 1.7 * FLUCTUATING
     printed, soft = (_ropes(runs, name) for name in ROPES)
@@ -217,7 +217,7 @@ def _highest(runs: Runs) -> Finding:
     )  # fmt: skip
 
 
-def _most_used(runs: Runs, pulls: Sequence[Pulls]) -> tuple[float, str]:
+def _most_used(runs: TabataRuns, pulls: Sequence[Pulls]) -> tuple[float, str]:
     """Return the largest load over strength, mean of the realisations, and its part."""
     each = [one.shares(runs.case.curtain.strengths) for one in pulls]
     mean = {name: float(np.mean([shares[name] for shares in each])) for name in each[0]}
@@ -225,7 +225,7 @@ def _most_used(runs: Runs, pulls: Sequence[Pulls]) -> tuple[float, str]:
     return mean[part], part
 
 
-def _stands(runs: Runs) -> Finding:
+def _stands(runs: TabataRuns) -> Finding:
     strengths = runs.case.curtain.strengths
     (share, part), (printed, other) = (_most_used(runs, runs.typhoon[name]) for name in ("890 kN", "890 kN/m"))
     return judged(
@@ -239,7 +239,7 @@ def _stands(runs: Runs) -> Finding:
     )
 
 
-def _along(_runs: Runs) -> Finding:
+def _along(_runs: TabataRuns) -> Finding:
     model = replace(CONVENTIONAL, type_factor=1.0)
     load = [_worked(model, angle) for angle in (0.0, 60.0)]
     words = f"{load[0] / 1e3:.1f} kN in waves across, {load[1] / 1e3:.1f} kN at 60 degrees, by the energy model"
@@ -293,7 +293,7 @@ STATEMENTS = (
 )
 
 
-def filled(runs: Runs) -> tuple[FilledInput, ...]:
+def filled(runs: TabataRuns) -> tuple[FilledInput, ...]:
     """Return the inputs that were filled in, with the tension of the energy model in the typhoon."""
     model = replace(CONVENTIONAL, type_factor=1.0)
     plain = f" (taken: {_worked(model, 60.0) / 1e3:.1f} kN)"
@@ -323,7 +323,7 @@ def rope_diameter(name: str, axial_stiffness: float) -> float:
     return one.diameter * math.sqrt(axial_stiffness / one.axial_stiffness)
 
 
-def _reading(runs: Runs) -> FilledInput:
+def _reading(runs: TabataRuns) -> FilledInput:
     """Return what the two readings of K are as ropes, and what they do to the span."""
     anchors = runs.case.curtain.anchors
     assert anchors is not None
@@ -342,7 +342,7 @@ def _reading(runs: Runs) -> FilledInput:
     )
 
 
-def _guesses(runs: Runs) -> Iterator[FilledInput]:
+def _guesses(runs: TabataRuns) -> Iterator[FilledInput]:
     """Yield how far the most used part moves with each guessed value of the span in the typhoon, one realisation."""
     yield _reading(runs)
     share, part = _most_used(runs, runs.typhoon["890 kN"][:1])

@@ -23,7 +23,7 @@ from moyai.sea.environment import Wind as Wind
 from moyai.sea.states import IrregularSea as IrregularSea
 from moyai.sea.states import RegularSea as RegularSea
 from moyai.sea.states import SeaState as SeaState
-from moyai.structures.breakwater.settings import ANALYSES, MODES, Analysis, Mode, Settings
+from moyai.structures.breakwater.settings import ANALYSES, MODES, Analysis, BreakwaterSettings, Mode
 
 DEFAULT_REALISATIONS = 5  # the mean of so many maxima is known to about half the scatter of one
 
@@ -160,7 +160,7 @@ class BreakwaterProblem:
     breakwater: Breakwater
     environment: Environment
     analyses: tuple[Analysis, ...] = ANALYSES
-    settings: Settings = field(default_factory=Settings)
+    settings: BreakwaterSettings = field(default_factory=BreakwaterSettings)
     measured: MeasuredPoints | None = None
     #: Water level that is run alone, for a draft; all of them where it is empty.
     only_level: str = ""

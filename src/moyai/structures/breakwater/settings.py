@@ -138,7 +138,7 @@ class Sensitivity(Block):
     )
 
 
-class Settings(Block):
+class BreakwaterSettings(Block):
     """How the analyses are run."""
 
     drift: Truth = Field(default=True, description="Whether the mean drift force acts. Default: true.")

@@ -61,7 +61,7 @@ AllRuns = Mapping[str, LawRuns]
 
 
 @dataclass(frozen=True, eq=False)
-class State:
+class LevelState:
     """The equilibrium in the current of the site at one water level.
 
     Without ``statics`` there is only what the laws of nets change in it, which numbers of a sea carry.
@@ -149,7 +149,7 @@ def _said(own: LawRuns | None, laws: str) -> str:
 
 
 def band_in_sea(
-    state: State | None,
+    state: LevelState | None,
     name: str,
     run: xr.Dataset,
     value: float,
@@ -162,7 +162,7 @@ def band_in_sea(
 
 
 def band_with_laws(
-    state: State | None, name: str, low: float, high: float, seed: str, line: int | None = None
+    state: LevelState | None, name: str, low: float, high: float, seed: str, line: int | None = None
 ) -> Band | None:
     """Return a range over seeds with what the laws of the net add; None where neither is known."""
     words = [seed] if seed else []

@@ -16,7 +16,7 @@ import numpy as np
 
 from moyai.core.headline import Band, Headline, Sense, all_judged
 from moyai.core.options import checks_words
-from moyai.structures.cage.bands import AllRuns, LawRuns, State, alone, band_in_sea, band_with_laws, reach
+from moyai.structures.cage.bands import AllRuns, LawRuns, LevelState, alone, band_in_sea, band_with_laws, reach
 from moyai.structures.cage.conditions import condition_headlines, sea_words
 from moyai.structures.cage.flexible.law_runs import IN_WAVES
 from moyai.structures.cage.flexible.problem import FlexibleCageProblem
@@ -126,7 +126,7 @@ def _with_mesh(item: Headline, factors: Factors) -> Headline:
     return replace(item, band=replace(band, low=band.low * less, high=band.high * more, of=words))
 
 
-def _state(level: str, groups: Groups) -> State:
+def _state(level: str, groups: Groups) -> LevelState:
     """Return the equilibrium in the current of the site, not the fastest of the sweep; row -1 where it was not run."""
     import xarray as xr
 
@@ -137,7 +137,7 @@ def _state(level: str, groups: Groups) -> State:
         speeds = statics.variables["current_speed"].values
         at = int(np.argmin(np.abs(speeds - speed)))
         row = at if abs(float(speeds[at]) - speed) <= 1e-6 * max(1.0, speed) else -1
-    return State(level, speed, row, groups.get(f"/{level}/cage", none), none if statics is None else statics, laws)
+    return LevelState(level, speed, row, groups.get(f"/{level}/cage", none), none if statics is None else statics, laws)
 
 
 def _law_runs(groups: Groups) -> AllRuns:
@@ -150,7 +150,7 @@ def _law_runs(groups: Groups) -> AllRuns:
     return found
 
 
-def _runs(state: State, groups: Groups, laws: AllRuns) -> Iterator[Run]:
+def _runs(state: LevelState, groups: Groups, laws: AllRuns) -> Iterator[Run]:
     """Yield water level, words and series of every run through time."""
     for path, run in groups.items():
         parts = path.strip("/").split("/")
@@ -166,11 +166,11 @@ def volume_text(volume: float) -> str:
 
 
 #: The water level of a run through time, its sea in words, its series.
-Run = tuple[State, str, "xr.Dataset"]
+Run = tuple[LevelState, str, "xr.Dataset"]
 Runs = list[Run]
 
 
-def _volume(states: list[State], runs: Runs, factors: Factors = NO_MESH) -> list[Headline]:
+def _volume(states: list[LevelState], runs: Runs, factors: Factors = NO_MESH) -> list[Headline]:
     """Return the least volume in the current of the site and, judged with it, what the sea leaves for moments."""
     found = []
     for state in states:
@@ -198,7 +198,7 @@ def _volume(states: list[State], runs: Runs, factors: Factors = NO_MESH) -> list
     return _with_moments(judged_seas(found, "at least", factors), worst, words)
 
 
-def _drag(states: list[State], runs: Runs, factors: Factors = NO_MESH) -> list[Headline]:
+def _drag(states: list[LevelState], runs: Runs, factors: Factors = NO_MESH) -> list[Headline]:
     """Return the largest drag in the current of the site and, judged with it, what the sea brings for moments."""
     found = []
     for state in states:
@@ -235,7 +235,7 @@ def _with_moments(steady: list[Headline], moments: list[Headline], words: str) -
     return [*steady, *(replace(item, shown=False) for item in moments)]
 
 
-def _tension(states: list[State], runs: Runs, factors: Factors = NO_MESH) -> tuple[list[Headline], list[Headline]]:
+def _tension(states: list[LevelState], runs: Runs, factors: Factors = NO_MESH) -> tuple[list[Headline], list[Headline]]:
     """Return the governing tension and its utilisation: of the seas where they were run, else of the current.
 
     Each line carries its own band; the one whose judged end is nearest to its breaking load is judged.
@@ -275,7 +275,7 @@ def _tension(states: list[State], runs: Runs, factors: Factors = NO_MESH) -> tup
     return own, utilisations
 
 
-def _static_tension(state: State, line: int, name: str) -> Headline:
+def _static_tension(state: LevelState, line: int, name: str) -> Headline:
     """Return the tension of a line in the current of the site with the band of the law of the net."""
     value = float(state.statics.variables["line_tension_maximum"].values[state.row, line])
     return Headline(
@@ -284,7 +284,7 @@ def _static_tension(state: State, line: int, name: str) -> Headline:
     )  # fmt: skip
 
 
-def _dynamic_tension(run: xr.Dataset, line: int, where: str, state: State | None) -> Headline:
+def _dynamic_tension(run: xr.Dataset, line: int, where: str, state: LevelState | None) -> Headline:
     """Return the highest tension of a run with its band: chance of the seed, and the law of the net."""
     value = float(run["line_tension_maximum"].values[line])
     details = []
@@ -308,7 +308,7 @@ def _dynamic_tension(run: xr.Dataset, line: int, where: str, state: State | None
     )  # fmt: skip
 
 
-def _offset(states: list[State], runs: Runs, factors: Factors = NO_MESH) -> list[Headline]:
+def _offset(states: list[LevelState], runs: Runs, factors: Factors = NO_MESH) -> list[Headline]:
     """Return the largest way of a collar from its place in still water."""
     found: list[tuple[float, str, str, Band | None]] = []
     for state in states:
@@ -334,7 +334,7 @@ def _offset(states: list[State], runs: Runs, factors: Factors = NO_MESH) -> list
     )
 
 
-def _anchor(states: list[State], runs: Runs, factors: Factors = NO_MESH) -> list[Headline]:
+def _anchor(states: list[LevelState], runs: Runs, factors: Factors = NO_MESH) -> list[Headline]:
     found: list[tuple[float, str, str, str, Band | None]] = []
     for state, where, run in runs:
         if "line_tension_maximum_lower" not in run:
@@ -371,7 +371,7 @@ def _anchor(states: list[State], runs: Runs, factors: Factors = NO_MESH) -> list
     )
 
 
-def _net(states: list[State], runs: Runs, factors: Factors = NO_MESH) -> list[Headline]:
+def _net(states: list[LevelState], runs: Runs, factors: Factors = NO_MESH) -> list[Headline]:
     """Return the largest tension of the net over its width: of the seas where they were run, else of the current."""
     found: list[tuple[float, str, str, Band | None]] = []
     for state, where, run in runs:
@@ -394,7 +394,7 @@ def _net(states: list[State], runs: Runs, factors: Factors = NO_MESH) -> list[He
     )  # fmt: skip
 
 
-def _stress(states: list[State], runs: Runs, factors: Factors = NO_MESH) -> list[Headline]:
+def _stress(states: list[LevelState], runs: Runs, factors: Factors = NO_MESH) -> list[Headline]:
     found: list[tuple[float, str, str, Band | None]] = []
     for state in states:
         if "collar_stress_largest" in state.statics:

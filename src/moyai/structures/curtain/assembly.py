@@ -12,7 +12,7 @@ from moyai.core.errors import InputError
 from moyai.sea import current as currents
 from moyai.sea.current import CurrentProfile, PowerLawCurrent, TabulatedCurrent, UniformCurrent
 from moyai.sea.water import Water
-from moyai.structures.curtain.limits.utilisation import Requirements, Site, drowning_speed
+from moyai.structures.curtain.limits.utilisation import CurtainSite, Requirements, drowning_speed
 from moyai.structures.curtain.model import UNJUDGED, Curtain, CurtainProblem
 from moyai.structures.curtain.statics.hanging import CurtainStatics, HangingCurtain
 from moyai.structures.curtain.statics.on_bed import lies_on_bed
@@ -37,7 +37,7 @@ class LevelCurtain:
     #: For the solvers.
     hanging: HangingCurtain
     #: Water and the currents of the profile at any surface speed.
-    site: Site
+    site: CurtainSite
     #: Of the current of the case [m/s]; 0 without one.
     surface_speed: float
     #: Without band: :attr:`moyai.structures.curtain.model.Settings.nominal`.
@@ -93,7 +93,7 @@ class LevelCurtain:
             surface_speed=float(surface[0]),
         )
 
-    def turned(self, angle: float) -> Site:
+    def turned(self, angle: float) -> CurtainSite:
         """Return the site with the current turned to an angle from the normal of the span [rad]."""
         site, by = self.site, angle - self.flow_angle
         return replace(
@@ -101,7 +101,7 @@ class LevelCurtain:
         )
 
     @cached_property
-    def facing(self) -> Site:
+    def facing(self) -> CurtainSite:
         """The site with what of its currents goes along the normal: so the water of waves loads an oblique curtain."""
         site, normal = self.site, self.curtain.normal
         return replace(site, current=lambda speed: _across(site.current(speed), normal), flow_heading=normal)
@@ -178,7 +178,7 @@ def assemble(problem: CurtainProblem, name: str, level: float) -> LevelCurtain:
         water=water,
         curtain=curtain,
         hanging=hanging,
-        site=Site(water, family, heading, curtain.normal, curtain.passing_fraction, on_bed=long),
+        site=CurtainSite(water, family, heading, curtain.normal, curtain.passing_fraction, on_bed=long),
         surface_speed=0.0 if given is None else reference,
         nominal=problem.settings.nominal,
     )

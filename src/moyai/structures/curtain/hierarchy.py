@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Literal
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.options import checks_words
 from moyai.structures.curtain.assembly import LevelCurtain
-from moyai.structures.curtain.model import Analysis, Settings
+from moyai.structures.curtain.model import Analysis, CurtainSettings
 from moyai.structures.curtain.variables import labelled
 
 if TYPE_CHECKING:
@@ -54,7 +54,7 @@ class ModelRole:
     limit: float = float("nan")
 
 
-def hierarchy(unit: LevelCurtain, settings: Settings, *, speed: float | None = None) -> tuple[ModelRole, ...]:
+def hierarchy(unit: LevelCurtain, settings: CurtainSettings, *, speed: float | None = None) -> tuple[ModelRole, ...]:
     """Return what every model that is asked for counts for, the steady one first.
 
     Parameters

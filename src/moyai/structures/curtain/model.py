@@ -256,7 +256,7 @@ class LimitSettings:
 
 @checks_words
 @dataclass(frozen=True)
-class Settings:
+class CurtainSettings:
     """Which analyses are run and how."""
 
     analyses: tuple[Analysis, ...] = ANALYSES
@@ -330,7 +330,7 @@ class CurtainProblem:
     title: str
     curtain: Curtain
     environment: Environment
-    settings: Settings = field(default_factory=Settings)
+    settings: CurtainSettings = field(default_factory=CurtainSettings)
     record: RecordedSnap | None = None
     case_text: str = ""
     case_hash: str = ""

@@ -13,7 +13,7 @@ from moyai.sea.regular_theory import linear_limit
 from moyai.sea.water import Water
 from moyai.structures.member.march import WaveForces
 from moyai.structures.member.model import MemberProblem
-from moyai.structures.member.waves import Wave
+from moyai.structures.member.waves import MemberWave
 
 #: Breadth over wavelength above which diffraction matters
 SLENDER_LIMIT = 0.2
@@ -95,7 +95,9 @@ def member_notices(problem: MemberProblem, member: StraightMember) -> tuple[Noti
     return tuple(notices)
 
 
-def wave_notices(problem: MemberProblem, member: StraightMember, wave: Wave, found: WaveForces) -> tuple[Notice, ...]:
+def wave_notices(
+    problem: MemberProblem, member: StraightMember, wave: MemberWave, found: WaveForces
+) -> tuple[Notice, ...]:
     """Hold one wave against slenderness and the range of the circulation law."""
     notices = list(found.notices)
     if isinstance(wave.flow, NonlinearFlow):
@@ -134,7 +136,7 @@ def wave_notices(problem: MemberProblem, member: StraightMember, wave: Wave, fou
     return tuple(notices)
 
 
-def theory_notices(wave: Wave) -> list[Notice]:
+def theory_notices(wave: MemberWave) -> list[Notice]:
     """Refuse to answer with linear waves that neglect more than the limit: the case asked for them by name."""
     if not isinstance(wave.flow, LinearFlow):
         return []

@@ -14,7 +14,7 @@ from moyai.structures.member.march import CAUSES, WaveForces
 from moyai.structures.member.model import MemberProblem
 from moyai.structures.member.supports import stations
 from moyai.structures.member.variables import VOCABULARY, labelled
-from moyai.structures.member.waves import Wave
+from moyai.structures.member.waves import MemberWave
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -77,7 +77,9 @@ def _along(member: StraightMember, problem: MemberProblem) -> np.ndarray:
     return (np.arange(count) + 0.5) * member.length / count
 
 
-def sea_dataset(problem: MemberProblem, member: StraightMember, runs: list[tuple[Wave, WaveForces]]) -> xr.Dataset:
+def sea_dataset(
+    problem: MemberProblem, member: StraightMember, runs: list[tuple[MemberWave, WaveForces]]
+) -> xr.Dataset:
     """Return numbers of every wave of a sea state; strips of the largest KC stand for the member."""
     waves = [wave for wave, _ in runs]
 
@@ -166,12 +168,12 @@ def _mean(force: np.ndarray) -> np.ndarray:
     return np.where(np.abs(mean) < 1e-12 * np.abs(force).max(), 0.0, mean)
 
 
-def _tail(wave: Wave, values: np.ndarray) -> np.ndarray:
+def _tail(wave: MemberWave, values: np.ndarray) -> np.ndarray:
     """Return the last period of a regular wave without its repeated end, or the whole irregular record."""
     return values[-wave.time.size : -1] if wave.regular else values
 
 
-def time_dataset(wave: Wave, found: WaveForces) -> xr.Dataset:
+def time_dataset(wave: MemberWave, found: WaveForces) -> xr.Dataset:
     """Return the time series of one wave."""
     # at the end that bears most, and where the moment is largest
     size = np.linalg.norm(_tail(wave, found.held.sum(axis=0)), axis=2).max(axis=0)

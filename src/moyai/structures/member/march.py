@@ -16,7 +16,7 @@ from moyai.morison.members import StraightMember, Strips
 from moyai.morison.orbits import mean_frequency, orbit_amplitudes
 from moyai.structures.member.model import MemberProblem
 from moyai.structures.member.supports import influence
-from moyai.structures.member.waves import Wave
+from moyai.structures.member.waves import MemberWave
 
 CAUSES = ("inertia", "drag", "magnus")
 #: Values of one array that are held at a time; longer records are taken in blocks of strips.
@@ -64,7 +64,7 @@ class _Block:
     wet: Array
 
 
-def march(problem: MemberProblem, member: StraightMember, wave: Wave) -> WaveForces:
+def march(problem: MemberProblem, member: StraightMember, wave: MemberWave) -> WaveForces:
     """Run one wave past the member.
 
     Parameters
@@ -119,7 +119,7 @@ def march(problem: MemberProblem, member: StraightMember, wave: Wave) -> WaveFor
     )
 
 
-def _shown_time(problem: MemberProblem, wave: Wave) -> Array:
+def _shown_time(problem: MemberProblem, wave: MemberWave) -> Array:
     """Return the times shown: the grid of an irregular sea, whole periods of a regular wave."""
     if not wave.regular or wave.steady:
         return wave.time
@@ -133,14 +133,14 @@ def _shown_time(problem: MemberProblem, wave: Wave) -> Array:
     return values
 
 
-def _repeated(values: Array, time: Array, wave: Wave) -> Array:
+def _repeated(values: Array, time: Array, wave: MemberWave) -> Array:
     """Repeat one period of a regular wave along the shown times."""
     if values.shape[0] in (1, time.size):
         return values
     return values[np.arange(time.size) % (wave.time.size - 1)]
 
 
-def _sample(problem: MemberProblem, member: StraightMember, wave: Wave, part: Strips) -> _Block:
+def _sample(problem: MemberProblem, member: StraightMember, wave: MemberWave, part: Strips) -> _Block:
     axes = member.axes[:2]
     flow = wave.flow.sample(wave.time, part.centres)
     current = wave.current
@@ -166,7 +166,7 @@ def _sample(problem: MemberProblem, member: StraightMember, wave: Wave, part: St
 
 
 def _block_forces(
-    problem: MemberProblem, member: StraightMember, wave: Wave, block: _Block, time: Array
+    problem: MemberProblem, member: StraightMember, wave: MemberWave, block: _Block, time: Array
 ) -> tuple[Array, Array, dict[str, Array], list[Notice]]:
     """Return circulation (times, strips), forces per length (causes, times, strips, 2), numbers of the strips."""
     section = member.placed_section
@@ -243,7 +243,7 @@ def _local_rate(velocity: Array, period: float) -> Array:
     return np.concatenate([rate, rate[:1]])
 
 
-def _state(problem: MemberProblem, wave: Wave, target: Array, omega: Array) -> Array:
+def _state(problem: MemberProblem, wave: MemberWave, target: Array, omega: Array) -> Array:
     """Return the circulation over the shown times [eq:circulation-state]."""
     law = problem.circulation
     step = float(wave.time[1] - wave.time[0])
@@ -259,7 +259,9 @@ def _state(problem: MemberProblem, wave: Wave, target: Array, omega: Array) -> A
     return relaxed(_repeated(target, time, wave), step, relaxation, np.zeros(target.shape[1]))
 
 
-def _effective(problem: MemberProblem, area: float, block: _Block, inertial: Array, magnus: Array, wave: Wave) -> Array:
+def _effective(
+    problem: MemberProblem, area: float, block: _Block, inertial: Array, magnus: Array, wave: MemberWave
+) -> Array:
     """Return the inertia coefficient along each axis that inertia and Magnus's force show together.
 
     By projection on the acceleration, the definition that also serves irregular seas [eq:morison-effective-inertia].

@@ -26,7 +26,7 @@ WaveTheory = Literal["automatic", "linear", "stokes", "stream_function"]
 
 @checks_words
 @dataclass(frozen=True)
-class RegularWaves:
+class MemberWaves:
     """Regular waves: every height with every period."""
 
     #: Label of the sea state.
@@ -46,11 +46,11 @@ class RegularWaves:
         return tuple((height, period) for period in self.periods for height in self.heights)
 
 
-MemberSea = RegularWaves | IrregularSea
+MemberSea = MemberWaves | IrregularSea
 
 
 @dataclass(frozen=True)
-class Motion:
+class HarmonicMotion:
     """A harmonic translation of the whole member, Re(amplitude e^{i phase} e^{-i omega t})."""
 
     #: Along x, y, z [m].
@@ -69,7 +69,7 @@ class Motion:
 
 @checks_words
 @dataclass(frozen=True)
-class Settings:
+class MemberSettings:
     """How the analyses are run."""
 
     #: ``sweep`` over KC, ``forces`` in the seas, ``surface``: what the free surface changes.
@@ -108,10 +108,10 @@ class MemberProblem:
     form: DragForm = "vector"
     #: Height of the roughness k [m].
     roughness: float = 0.0
-    motion: Motion | None = None
+    motion: HarmonicMotion | None = None
     #: Where it is held: simply at both ends, or fixed at one; one of "both_ends", "start", "end".
     support: Support = "both_ends"
-    settings: Settings = field(default_factory=Settings)
+    settings: MemberSettings = field(default_factory=MemberSettings)
     case_text: str = ""
     case_hash: str = ""
     criteria: tuple[Criterion, ...] = ()

@@ -20,11 +20,11 @@ from moyai.structures.member.checks import member_notices, require_in_water, the
 from moyai.structures.member.datasets import gathered, member_dataset, sea_dataset, time_dataset
 from moyai.structures.member.headlines import headlines_of, range_notices
 from moyai.structures.member.march import WaveForces, march
-from moyai.structures.member.model import MemberProblem, RegularWaves
+from moyai.structures.member.model import MemberProblem, MemberWaves
 from moyai.structures.member.surface import can_be_evaluated, relative_heading, surface_effect, surface_notices
 from moyai.structures.member.sweep import sweep
 from moyai.structures.member.variables import VOCABULARY, labelled
-from moyai.structures.member.waves import CURRENT_ALONE, Wave, current_alone, waves_of
+from moyai.structures.member.waves import CURRENT_ALONE, MemberWave, current_alone, waves_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -103,7 +103,7 @@ def _leading_frequency(problem: MemberProblem) -> float | None:
     if not problem.seas:
         return None
     first = problem.seas[0]
-    period = first.periods[0] if isinstance(first, RegularWaves) else float(first.spectrum.peak_period)
+    period = first.periods[0] if isinstance(first, MemberWaves) else float(first.spectrum.peak_period)
     return 1.0 / period
 
 
@@ -111,7 +111,7 @@ def _sea_steps(
     problem: MemberProblem,
     member: StraightMember,
     water: Water,
-    sea: RegularWaves | IrregularSea,
+    sea: MemberWaves | IrregularSea,
     collected: Collected,
     root: str,
     progress: Progress,
@@ -120,7 +120,7 @@ def _sea_steps(
         yield from _realisations(problem, member, water, sea, collected, root, progress)
         return
     waves = waves_of(problem, sea, water)
-    runs: list[tuple[Wave, WaveForces]] = []
+    runs: list[tuple[MemberWave, WaveForces]] = []
     reported: list[Notice] = []
     for number, wave in enumerate(waves):
         progress(f"forces, {sea.name}", number, len(waves))
@@ -175,7 +175,7 @@ def _realisations(
     progress(f"realisations, {sea.name}", count, count)
 
 
-def _periodicity(name: str, wave: Wave, found: WaveForces) -> IdentityCheck:
+def _periodicity(name: str, wave: MemberWave, found: WaveForces) -> IdentityCheck:
     """Tell whether the force of a regular wave repeats itself at the end of the run."""
     total = found.force.sum(axis=0)
     largest = float(np.abs(total).max())
@@ -199,7 +199,7 @@ def _surface(
     problem: MemberProblem,
     member: StraightMember,
     water: Water,
-    sea: RegularWaves | IrregularSea,
+    sea: MemberWaves | IrregularSea,
     collected: Collected,
     root: str,
     progress: Progress,
@@ -216,7 +216,7 @@ def _surface(
             )
         )
         return
-    periods = sea.periods if isinstance(sea, RegularWaves) else (float(sea.spectrum.peak_period),)
+    periods = sea.periods if isinstance(sea, MemberWaves) else (float(sea.spectrum.peak_period),)
     depth = -0.5 * (member.start[2] + member.end[2])
     effect = surface_effect(
         member.placed_section,

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from moyai.core.arrays import Array
-from moyai.morison.flow import Flow, LinearFlow, NonlinearFlow
+from moyai.morison.flow import LinearFlow, NonlinearFlow, PointFlow
 from moyai.sea.components import WaveComponents
 from moyai.sea.current import CurrentProfile
 from moyai.sea.dispersion import wave_number_in_current
@@ -18,19 +18,19 @@ from moyai.sea.permanent_wave import NonlinearWave
 from moyai.sea.regular_theory import regular_wave
 from moyai.sea.states import IrregularSea
 from moyai.sea.water import Water
-from moyai.structures.member.model import MemberProblem, RegularWaves
+from moyai.structures.member.model import MemberProblem, MemberWaves
 
 #: Name of the sea, and of what drives the member, where a current runs without waves
 CURRENT_ALONE, STEADY = "current", "steady current"
 
 
 @dataclass(frozen=True, eq=False)
-class Wave:
+class MemberWave:
     """One wave or irregular sea, ready to be run; a current alone is a regular wave of no height and no period."""
 
     #: Of its run.
     name: str
-    flow: Flow
+    flow: PointFlow
     #: H and T, or significant height and peak period [m].
     height: float
     #: H and T, or significant height and peak period [s].
@@ -53,14 +53,14 @@ class Wave:
         return self.theory == STEADY
 
 
-def current_alone(problem: MemberProblem, water: Water) -> Wave:
+def current_alone(problem: MemberProblem, water: Water) -> MemberWave:
     """Return the current of a case without waves; its two steps of time are alike."""
     current = problem.environment.current
     assert current is not None
     none = np.zeros(1)
     flow = LinearFlow(WaveComponents(np.ones(1), none, none, none, np.ones(1), water), problem.settings.stretching)
     heading = float(np.arctan2(*current.velocity(0.0)[1::-1]))
-    return Wave(
+    return MemberWave(
         CURRENT_ALONE, flow, math.nan, math.nan, math.nan, heading, np.linspace(0.0, 1.0, 3), True,
         current.in_depth(water.depth), STEADY,
     )  # fmt: skip
@@ -79,7 +79,7 @@ def mean_current(problem: MemberProblem, water: Water) -> tuple[float, float]:
     return float(found[0]), float(found[1])
 
 
-def waves_of(problem: MemberProblem, sea: RegularWaves | IrregularSea, water: Water) -> tuple[Wave, ...]:
+def waves_of(problem: MemberProblem, sea: MemberWaves | IrregularSea, water: Water) -> tuple[MemberWave, ...]:
     """Return every wave of a sea state at a water depth."""
     current = mean_current(problem, water)
     profile = None if problem.environment.current is None else problem.environment.current.in_depth(water.depth)
@@ -103,7 +103,7 @@ def waves_of(problem: MemberProblem, sea: RegularWaves | IrregularSea, water: Wa
         number = _wave_number(period, water, current, sea.heading)
         height = float(sea.spectrum.significant_height)
         grid = np.asarray(time[keep], dtype=np.float64)
-        return (Wave("sea", flow, height, period, number, sea.heading, grid, False, profile),)
+        return (MemberWave("sea", flow, height, period, number, sea.heading, grid, False, profile),)
     waves = (_regular(problem, sea, height, period, water, current) for height, period in sea.waves())
     return tuple(replace(wave, current=profile) for wave in waves)
 
@@ -114,8 +114,8 @@ def _wave_number(period: float, water: Water, current: tuple[float, float], head
 
 
 def _regular(
-    problem: MemberProblem, sea: RegularWaves, height: float, period: float, water: Water, current: tuple[float, float]
-) -> Wave:
+    problem: MemberProblem, sea: MemberWaves, height: float, period: float, water: Water, current: tuple[float, float]
+) -> MemberWave:
     along = current[0] * math.cos(sea.heading) + current[1] * math.sin(sea.heading)
     time: Array = np.linspace(0.0, period, problem.settings.steps_per_period + 1)
     name = f"H {height:.4g} m, T {period:.4g} s"
@@ -127,7 +127,7 @@ def _regular(
         parts, steep = regular_wave(sea.theory, height, period, sea.heading, water, along)
     if steep is not None:
         words = {"stokes": "Stokes waves of fifth order", "stream_function": "stream function"}[steep.theory]
-        flow: Flow = NonlinearFlow(steep)
-        return Wave(name, flow, height, period, steep.wave_number, sea.heading, time, True, theory=words)
+        flow: PointFlow = NonlinearFlow(steep)
+        return MemberWave(name, flow, height, period, steep.wave_number, sea.heading, time, True, theory=words)
     flow = LinearFlow(parts, problem.settings.stretching)
-    return Wave(name, flow, height, period, float(parts.wave_number[0]), sea.heading, time, True)
+    return MemberWave(name, flow, height, period, float(parts.wave_number[0]), sea.heading, time, True)

@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Run:
+class NetworkRun:
     """A run and what is reported of it."""
 
     plan: RunPlan
@@ -95,7 +95,7 @@ def run(
     earlier: Earlier | None = None,
     hung: CoupledRest | None = None,
     still: Array | None = None,
-) -> Run:
+) -> NetworkRun:
     """Run a network through time and gather what is reported of it.
 
     Parameters
@@ -176,7 +176,7 @@ def run(
         if safe:
             failure += "; finer runs give less, the design is judged at the larger peak"
     prefix = f"{plan.name}: "
-    return Run(
+    return NetworkRun(
         plan, history, series, frames, snaps, sensitivity, governing,
         tuple(replace(notice, message=f"{prefix}{notice.message}") for notice in notices),
         tuple(replace(check, name=f"{prefix}{check.name}") for check in history.checks), why, failure, safe, others,

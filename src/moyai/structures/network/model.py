@@ -242,7 +242,7 @@ class MotionPlan:
 
 @checks_words
 @dataclass(frozen=True)
-class Settings:
+class NetworkSettings:
     """How the analyses are run; ``None`` means chosen by the program. See docs/case_file/network.md for each."""
 
     analyses: tuple[Analysis, ...] = ("statics",)
@@ -279,7 +279,7 @@ class NetworkProblem:
     motions: Mapping[str, MotionPlan]
     #: Water, levels, seas, current.
     environment: Environment
-    settings: Settings = field(default_factory=Settings)
+    settings: NetworkSettings = field(default_factory=NetworkSettings)
     bodies: tuple[BodyPlan, ...] = ()
     sheets: tuple[SheetPlan, ...] = ()
     case_text: str = ""

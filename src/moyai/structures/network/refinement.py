@@ -81,7 +81,7 @@ def affordable(history: History, doubtful: bool, share: float = 1.0) -> bool:
 
 
 @dataclass(frozen=True, eq=False)
-class Window:
+class PeakWindow:
     """The part of a run that holds its highest tension, from a state of the run itself."""
 
     begin: State
@@ -91,7 +91,7 @@ class Window:
     lead: float
 
 
-def window_of(history: History, bars: np.ndarray, skip: float, period: float) -> Window | None:
+def window_of(history: History, bars: np.ndarray, skip: float, period: float) -> PeakWindow | None:
     """Return the window around the highest tension of some bars; ``None`` where the places of nodes were not all kept.
 
     Parameters
@@ -116,7 +116,7 @@ def window_of(history: History, bars: np.ndarray, skip: float, period: float) ->
     velocity = (place[row + 1] - place[row - 1]) / (time[row + 1] - time[row - 1])
     begin = State(float(time[row]), np.array(place[row]), np.asarray(velocity))
     end = min(top + AFTER * period, float(time[-1]))
-    return Window(begin, end - begin.time, 0.5 * (top - begin.time))
+    return PeakWindow(begin, end - begin.time, 0.5 * (top - begin.time))
 
 
 def check_event(
@@ -216,7 +216,7 @@ def _early(assembly: Assembly, history: History, skip: float) -> dict[str, float
 
 def _down_to_links(
     found: PeakSensitivity, assembly: Assembly, event: History, motions: Mapping[str, Motion], bars: np.ndarray,
-    window: Window, options: Mapping[str, Any], progress: Progress,
+    window: PeakWindow, options: Mapping[str, Any], progress: Progress,
 ) -> PeakSensitivity:  # fmt: skip
     """Cut the bars of an event in four, eight ... as long as its highest tension changes by a tenth each time."""
     network, factor, last = event.network, 4, found.double_mesh

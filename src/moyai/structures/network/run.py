@@ -22,7 +22,7 @@ from moyai.flexible.statics import Equilibrium, solve_equilibrium
 from moyai.structures.network.assembly import Assembly, assemble
 from moyai.structures.network.bodies import drawn_parts, rest_of
 from moyai.structures.network.coefficients import loads_on_time, with_coefficients
-from moyai.structures.network.dynamics import Run
+from moyai.structures.network.dynamics import NetworkRun
 from moyai.structures.network.dynamics import run as run_through_time
 from moyai.structures.network.equilibrium import (
     bodies_at_rest,
@@ -329,7 +329,7 @@ def _dynamic(
     solids = None
     if statics is not None and "solid_position" in statics:
         solids = np.asarray(statics["solid_position"].sel(condition="still water"))
-    runs: list[Run] = []
+    runs: list[NetworkRun] = []
     earlier = None if problem.settings.resume is None else read_earlier(problem.settings.resume)
     for plan in run_plans(problem, water):
         collected.notices.extend(theory_limit(problem, plan))

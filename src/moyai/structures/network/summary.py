@@ -18,7 +18,7 @@ from moyai.structures.network.variables import labelled
 if TYPE_CHECKING:
     import xarray as xr
 
-    from moyai.structures.network.dynamics import Run
+    from moyai.structures.network.dynamics import NetworkRun
 
 
 #: Loads on points in the summary, in the order of :func:`moyai.structures.network.equilibrium.highest_pulls`.
@@ -43,7 +43,7 @@ SOLID = ("offset", "mean_offset", "heave_range", "roll_range", "pitch_range", "y
 def summary_dataset(
     problem: NetworkProblem,
     assembly: Assembly,
-    runs: list[Run],
+    runs: list[NetworkRun],
     rest: Array | None,
     solids_at_rest: Array | None = None,
 ) -> xr.Dataset:
@@ -103,7 +103,7 @@ def summary_dataset(
     return made
 
 
-def _of_realisations(runs: list[Run]) -> dict[str, Any]:
+def _of_realisations(runs: list[NetworkRun]) -> dict[str, Any]:
     """Return the largest values of the realisations of every sea; not a number where there are fewer."""
     most = max((item.realisations.seeds.size for item in runs if item.realisations is not None), default=0)
     if not most:
@@ -120,12 +120,12 @@ def _of_realisations(runs: list[Run]) -> dict[str, Any]:
     return out
 
 
-def _counted(item: Run) -> NDArray[np.bool_]:
+def _counted(item: NetworkRun) -> NDArray[np.bool_]:
     time = item.series["time"].values
     return np.asarray(time >= time[0] + item.series.attrs["skip"])
 
 
-def _line_summary(problem: NetworkProblem, item: Run, lines: list[str]) -> dict[str, list[float]]:
+def _line_summary(problem: NetworkProblem, item: NetworkRun, lines: list[str]) -> dict[str, list[float]]:
     chosen = _counted(item)
     breaking = {line.name: line.breaking_load for line in problem.lines}
     keys = (
@@ -166,7 +166,7 @@ def _line_summary(problem: NetworkProblem, item: Run, lines: list[str]) -> dict[
     return out
 
 
-def _point_summary(item: Run, names: list[str], rest: Array | None) -> dict[str, list[float]]:
+def _point_summary(item: NetworkRun, names: list[str], rest: Array | None) -> dict[str, list[float]]:
     chosen = _counted(item)
     out: dict[str, list[float]] = {key: [] for key in (*LOADS, "excursion")}
     for number, name in enumerate(names):
@@ -189,7 +189,7 @@ def lean_of(angles: Array) -> Array:
     return values
 
 
-def _solid_summary(item: Run, rest: Array | None) -> dict[str, Array]:
+def _solid_summary(item: NetworkRun, rest: Array | None) -> dict[str, Array]:
     """Return how far the bodies go from their rest, and turn from where the run begins."""
     chosen = _counted(item)
     place, angle = (item.series[key].values for key in ("solid_position", "solid_angle"))
@@ -206,7 +206,7 @@ def _solid_summary(item: Run, rest: Array | None) -> dict[str, Array]:
     return dict(zip(SOLID, values, strict=True))
 
 
-def contacts_dataset(item: Run) -> xr.Dataset | None:
+def contacts_dataset(item: NetworkRun) -> xr.Dataset | None:
     """Return every time that a slack line came taut in a run, ``None`` where none did."""
     import xarray as xr
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.validity import Notice
-from moyai.structures.units.connectors import Joint
+from moyai.structures.units.connectors import UnitJoint
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -25,7 +25,7 @@ COUNTS = 0.1
 SLENDER = 0.1
 
 
-def stretch_across(joints: Sequence[Joint], motion: Array, highest: Array, *, in_time: bool) -> Array:
+def stretch_across(joints: Sequence[UnitJoint], motion: Array, highest: Array, *, in_time: bool) -> Array:
     """Return what the largest motion across stretches every connector by besides [m].
 
     Parameters
@@ -52,7 +52,7 @@ def stretch_across(joints: Sequence[Joint], motion: Array, highest: Array, *, in
     return np.asarray(np.where(stretch > COUNTS * np.maximum(along, 0.0), stretch, 0.0))
 
 
-def _on_one_axis(joint: Joint, in_time: bool) -> bool:
+def _on_one_axis(joint: UnitJoint, in_time: bool) -> bool:
     """Whether a connector bears along one axis alone that would bear from end to end."""
     if joint.connector.kind in ("chain", "rubber"):
         return not (in_time and joint.in_space)

@@ -19,7 +19,7 @@ from moyai.mooring.system import LineSystem, newton_with_line_search
 from moyai.potential.sections import Section
 from moyai.sea.environment import Environment
 from moyai.sea.water import Water
-from moyai.structures.units.connectors import Joint, constraints, joints_of, null_space, spring_matrices
+from moyai.structures.units.connectors import UnitJoint, constraints, joints_of, null_space, spring_matrices
 from moyai.structures.units.links import Link, Work, links_of
 from moyai.structures.units.model import FloatingRow, Placement, UnitLine
 from moyai.structures.units.row_lines import RowLines
@@ -70,7 +70,7 @@ class RowAtLevel:
     masses: Array
     statics: Hydrostatics
     centres: Array
-    joints: tuple[Joint, ...]
+    joints: tuple[UnitJoint, ...]
     constraint: Array
     lines: tuple[tuple[LineElement, ...], ...]
 

@@ -45,7 +45,7 @@ def engine_version() -> str:
 
 
 @dataclass(frozen=True, eq=False)
-class Panels:
+class MeshPanels:
     """A mesh with what a solution needs of it.
 
     Parameters
@@ -106,7 +106,7 @@ class Panels:
         return kept[depth]
 
 
-def panels_of(mesh: PanelMesh, centres: Array, gap_damping: float = 0.0) -> Panels:
+def panels_of(mesh: PanelMesh, centres: Array, gap_damping: float = 0.0) -> MeshPanels:
     """Return the panels with six motions of every unit about its centre (u, 3) [m], in axes of the row."""
     normal, point = mesh.normal, mesh.centre
     modes = np.zeros((6 * len(centres), mesh.count))
@@ -114,7 +114,7 @@ def panels_of(mesh: PanelMesh, centres: Array, gap_damping: float = 0.0) -> Pane
         mine = (mesh.unit == number) & (mesh.part == HULL)
         modes[6 * number : 6 * number + 3, mine] = normal[mine].T
         modes[6 * number + 3 : 6 * number + 6, mine] = np.cross(point[mine] - centre, normal[mine]).T
-    return Panels(mesh, modes, symmetry_of(mesh), gap_damping)
+    return MeshPanels(mesh, modes, symmetry_of(mesh), gap_damping)
 
 
 def memory_needed(count: int, group: int = 1) -> float:
@@ -135,7 +135,7 @@ def memory_of_machine() -> float:
     return math.inf
 
 
-def check_memory(panels: Panels) -> None:
+def check_memory(panels: MeshPanels) -> None:
     """Refuse a mesh that the machine cannot hold, before the work starts.
 
     Raises
@@ -196,7 +196,7 @@ def directions() -> Array:
     return np.arange(DIRECTIONS) * 2.0 * math.pi / DIRECTIONS
 
 
-def solve_frequency(panels: Panels, water: Water, omega: float, headings: Array) -> Solution:
+def solve_frequency(panels: MeshPanels, water: Water, omega: float, headings: Array) -> Solution:
     """Solve all motions and all headings at one frequency.
 
     Parameters
@@ -240,7 +240,7 @@ def solve_frequency(panels: Panels, water: Water, omega: float, headings: Array)
     )  # fmt: skip
 
 
-def given_flow(panels: Panels, water: Water, omega: float, k: float, headings: Array) -> ComplexArray:
+def given_flow(panels: MeshPanels, water: Water, omega: float, k: float, headings: Array) -> ComplexArray:
     """Return the normal velocities (n, r) of all unit motions and of all scattered waves; zero on lids."""
     incident_normal = incident_on(panels.mesh, water, omega, k, headings)[1]
     hull = (panels.mesh.part == HULL)[:, None]
@@ -306,7 +306,7 @@ def capytaine_mesh(corners: Array) -> Any:
     return Mesh(corners.reshape(-1, 3), faces, auto_clean=False, auto_check=False)
 
 
-def _blocks(panels: Panels, water: Water, k: float) -> list[tuple[ComplexArray, ComplexArray]]:
+def _blocks(panels: MeshPanels, water: Water, k: float) -> list[tuple[ComplexArray, ComplexArray]]:
     """Return single and double layer of every image of the part on the part, of values at the centres."""
     engine, group = green_function(), panels.symmetry
     further = panels.rankine(water.depth)
@@ -328,7 +328,7 @@ def _blocks(panels: Panels, water: Water, k: float) -> list[tuple[ComplexArray, 
 
 
 def _solved(
-    panels: Panels, water: Water, omega: float, k: float, given: ComplexArray, incident: ComplexArray
+    panels: MeshPanels, water: Water, omega: float, k: float, given: ComplexArray, incident: ComplexArray
 ) -> ComplexArray:
     """Return the potentials (n, r) of given normal velocities; in gaps the sources of the damped surface.
 
@@ -356,14 +356,14 @@ def _solved(
     return group.joined(found)
 
 
-def _layers(panels: Panels, surface: ComplexArray, given: ComplexArray) -> tuple[ComplexArray, ComplexArray]:
+def _layers(panels: MeshPanels, surface: ComplexArray, given: ComplexArray) -> tuple[ComplexArray, ComplexArray]:
     """Return the densities of the single and of the double layer (n, r) of a solution."""
     gap = (panels.mesh.part == GAP)[:, None]
     return np.where(gap, surface, given), np.where(gap, 0.0, surface)
 
 
 def far_amplitudes(
-    panels: Panels, water: Water, omega: float, k: float, surface: ComplexArray, given: ComplexArray,
+    panels: MeshPanels, water: Water, omega: float, k: float, surface: ComplexArray, given: ComplexArray,
     angles: Array | None = None,
 ) -> ComplexArray:  # fmt: skip
     """Return the amplitudes (r, directions) of the far waves of solutions (n, r) [eq:units-far-field]."""
@@ -392,7 +392,7 @@ def _far_factor(water: Water, k: float) -> float:
 
 
 def elevation_at(
-    points: Array, panels: Panels, water: Water, omega: float, k: float, surface: ComplexArray, given: ComplexArray
+    points: Array, panels: MeshPanels, water: Water, omega: float, k: float, surface: ComplexArray, given: ComplexArray
 ) -> ComplexArray:
     """Return the surface elevation (p, r) [m] at points (p, 2) of the row that solutions (n, r) make."""
     engine, full = green_function(), capytaine_mesh(panels.mesh.corners)

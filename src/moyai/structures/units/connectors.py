@@ -22,7 +22,7 @@ _RANK = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
-class Joint:
+class UnitJoint:
     """One connector at one place.
 
     Parameters
@@ -89,7 +89,7 @@ def stretch(moved: Array, axis: Array, span: float) -> Array:
     return np.asarray(change / (np.sqrt(np.maximum(span**2 + change, 0.0)) + span))
 
 
-def joints_of(row: FloatingRow, centres: Array, draught: float) -> tuple[Joint, ...]:
+def joints_of(row: FloatingRow, centres: Array, draught: float) -> tuple[UnitJoint, ...]:
     """Return every connector at every place.
 
     Parameters
@@ -117,7 +117,9 @@ def joints_of(row: FloatingRow, centres: Array, draught: float) -> tuple[Joint, 
             apart = frame @ (far - near)
             span = float(np.linalg.norm(apart))
             axis = apart / span if span > 0.0 else apart
-            joints.append(Joint(name, connector, (first, second), place, relative, _held(connector), span, frame, axis))
+            joints.append(
+                UnitJoint(name, connector, (first, second), place, relative, _held(connector), span, frame, axis)
+            )
     return tuple(joints)
 
 
@@ -136,7 +138,7 @@ def _held(connector: Connector) -> Array:
     return np.zeros((0, 6))
 
 
-def constraints(joints: tuple[Joint, ...], count: int) -> Array:
+def constraints(joints: tuple[UnitJoint, ...], count: int) -> Array:
     """Return the constraint matrix G (c, m) of G q = 0 [eq:units-constraint].
 
     Raises
@@ -179,7 +181,7 @@ def null_space(matrix: Array) -> Array:
     return np.asarray(vectors[int((values > _RANK * values[0]).sum()) :].T)
 
 
-def spring_matrices(joints: tuple[Joint, ...], count: int) -> tuple[Array, Array]:
+def spring_matrices(joints: tuple[UnitJoint, ...], count: int) -> tuple[Array, Array]:
     """Return stiffness and damping (m, m) of springs, dashpots and of the dashpots of curves [eq:units-spring]."""
     stiffness, damping = np.zeros((count, count)), np.zeros((count, count))
     for joint in joints:

@@ -14,7 +14,7 @@ from moyai.sea.states import IrregularSea, RegularSea
 from moyai.structures.units.across import stretch_across
 from moyai.structures.units.anchors import anchor_curves, loads_of_record
 from moyai.structures.units.assembly import RowAtLevel, RowPosition, steady_position
-from moyai.structures.units.connectors import Joint
+from moyai.structures.units.connectors import UnitJoint
 from moyai.structures.units.contact import distance_at, loses_contact, measured_ends, meeting_variables
 from moyai.structures.units.field import MapPoints, WaveField, height_ratio, line_transmission, sea_height_ratio
 from moyai.structures.units.gaps import gaps_of, largest_closing
@@ -210,7 +210,7 @@ def regular_dataset(at: RowAtLevel, sea: RegularSea, answers: list[SeaAnswer], h
          for item, mean in zip(answers, mean_load)]
     ).reshape(len(answers), -1)  # fmt: skip
 
-    def reach(item: SeaAnswer, joint: Joint) -> float:
+    def reach(item: SeaAnswer, joint: UnitJoint) -> float:
         return amplitude * float(np.abs(item.fine.motion[0, 0] @ joint.along))
 
     def closing(item: SeaAnswer) -> Callable[[Array], Array]:
@@ -301,7 +301,7 @@ def _harmonic_resultant(force: ComplexArray, mean: Array) -> Array:
 def _by_curve(
     at: RowAtLevel,
     answers: list[SeaAnswer],
-    reach_of: Callable[[SeaAnswer, Joint], float],
+    reach_of: Callable[[SeaAnswer, UnitJoint], float],
     largest: Array,
     resultant: Array,
 ) -> tuple[Array, Array]:
@@ -342,7 +342,7 @@ def irregular_dataset(at: RowAtLevel, sea: IrregularSea, answer: SeaAnswer) -> x
     relative = largest(fine.relative)
     top, resultant = top[None], resultant[None]
 
-    def reach(item: SeaAnswer, joint: Joint) -> float:
+    def reach(item: SeaAnswer, joint: UnitJoint) -> float:
         return float(largest(item.fine.motion @ joint.along))
 
     low, high = _by_curve(at, [answer], reach, top, resultant)

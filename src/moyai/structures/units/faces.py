@@ -26,7 +26,7 @@ _EDGE = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
-class Face:
+class UnitFace:
     """An end or a side of a unit in plan, row axes.
 
     Parameters
@@ -90,8 +90,8 @@ class Meeting:
         Points of both [m].
     """
 
-    near: Face
-    far: Face
+    near: UnitFace
+    far: UnitFace
     start: Array
     end: Array
 
@@ -130,13 +130,13 @@ class Meeting:
         return start, self.end + sign * across * self.near.along
 
 
-def _own_across(face: Face) -> Array:
+def _own_across(face: UnitFace) -> Array:
     """Return the direction x of the unit of a face."""
     turn = {0: face.along, 1: face.normal, 2: -face.normal, 3: -face.along}
     return turn[face.kind]
 
 
-def faces_of(place: Placement, unit: int, length: float, bounds: tuple[float, float]) -> tuple[Face, ...]:
+def faces_of(place: Placement, unit: int, length: float, bounds: tuple[float, float]) -> tuple[UnitFace, ...]:
     """Return the four faces of a unit.
 
     Parameters
@@ -153,10 +153,10 @@ def faces_of(place: Placement, unit: int, length: float, bounds: tuple[float, fl
     centre, half = np.array([place.x, place.y]), 0.5 * length
     left, right = bounds
     return (
-        Face(unit, 0, centre + half * y, y, x, left, right),
-        Face(unit, 1, centre + right * x, x, -y, -half, half),
-        Face(unit, 2, centre + left * x, -x, y, -half, half),
-        Face(unit, 3, centre - half * y, -y, -x, -right, -left),
+        UnitFace(unit, 0, centre + half * y, y, x, left, right),
+        UnitFace(unit, 1, centre + right * x, x, -y, -half, half),
+        UnitFace(unit, 2, centre + left * x, -x, y, -half, half),
+        UnitFace(unit, 3, centre - half * y, -y, -x, -right, -left),
     )
 
 
@@ -187,7 +187,7 @@ def meeting(places: Sequence[Placement], pair: tuple[int, int], length: float, b
     return best[1]
 
 
-def _met(near: Face, far: Face) -> Meeting:
+def _met(near: UnitFace, far: UnitFace) -> Meeting:
     """Return where two faces meet: at the axes of ends, across from an end on a side, in the middle of two sides."""
     if near.is_end and far.is_end:
         return Meeting(near, far, near.middle, far.middle)
@@ -200,7 +200,7 @@ def _met(near: Face, far: Face) -> Meeting:
     return Meeting(near, far, start, far.at(_inside(far, float(far.offset(start)))))
 
 
-def _inside(face: Face, offset: float) -> float:
+def _inside(face: UnitFace, offset: float) -> float:
     return min(max(offset, face.low), face.high)
 
 
@@ -235,4 +235,4 @@ def between(places: Sequence[Placement], met: Meeting, length: float, bounds: tu
     return None
 
 
-__all__ = ["Face", "Meeting", "between", "faces_of", "gaps_between", "meeting"]
+__all__ = ["Meeting", "UnitFace", "between", "faces_of", "gaps_between", "meeting"]

@@ -16,7 +16,7 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.mooring.rotations import cross_matrix
 from moyai.structures.units.assembly import RowAtLevel
-from moyai.structures.units.faces import Face, Meeting, gaps_between
+from moyai.structures.units.faces import Meeting, UnitFace, gaps_between
 from moyai.structures.units.links import displacement, hold_together
 
 
@@ -112,7 +112,7 @@ def _corners(at: RowAtLevel, met: Meeting) -> tuple[Array, Array, Array]:
     return np.array(clearances), np.array(along), points - at.centres[list(met.pair)][:, None]
 
 
-def _outline(at: RowAtLevel, face: Face) -> Array:
+def _outline(at: RowAtLevel, face: UnitFace) -> Array:
     """Return the corners (n, 3) of the hull on a face [m], row axes."""
     outline = np.concatenate([item.edges.polyline() for item in at.row.hull.outlines])
     left, right = at.row.hull.bounds[:2]

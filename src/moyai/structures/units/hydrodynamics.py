@@ -20,7 +20,7 @@ from moyai.sea.dispersion import group_velocity
 from moyai.sea.water import Water
 from moyai.structures.units.bem import (
     DIRECTIONS,
-    Panels,
+    MeshPanels,
     Solution,
     check_memory,
     directions,
@@ -62,7 +62,7 @@ class RowHydrodynamics:
         Program and file.
     """
 
-    panels: Panels | None
+    panels: MeshPanels | None
     water: Water
     centres: Array
     headings: Array
@@ -171,7 +171,7 @@ class RowHydrodynamics:
 
 
 def solve_row(
-    panels: Panels,
+    panels: MeshPanels,
     water: Water,
     centres: Array,
     omega: Array,
@@ -267,7 +267,7 @@ def _from_dataset(data: xr.Dataset) -> Solution | None:
     return Solution(**numbers, **arrays)
 
 
-def _checks(solutions: tuple[Solution, ...], panels: Panels, water: Water) -> tuple[IdentityCheck, ...]:
+def _checks(solutions: tuple[Solution, ...], panels: MeshPanels, water: Water) -> tuple[IdentityCheck, ...]:
     symmetry = max(asymmetry(item.added_mass, solutions, "added_mass") for item in solutions)
     symmetry = max(symmetry, max(asymmetry(item.damping, solutions, "damping") for item in solutions))
     size = np.max([np.abs(item.excitation).reshape(-1, 6).max(axis=0) for item in solutions], axis=0)

@@ -13,7 +13,7 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.mooring.rotations import cross_matrix
-from moyai.structures.units.connectors import Joint, stretch
+from moyai.structures.units.connectors import UnitJoint, stretch
 from moyai.structures.units.model import Curve
 
 #: Which forces a curve bears: it pulls only, it pushes only, both.
@@ -33,7 +33,7 @@ def displacement(motion: Array, arm: Array, bend: float = 1.0) -> Array:
     return np.asarray(motion[..., :3] + first + 0.5 * bend * np.cross(turn, first))
 
 
-def hold_together(joints: tuple[Joint, ...], pair: tuple[int, int]) -> bool:
+def hold_together(joints: tuple[UnitJoint, ...], pair: tuple[int, int]) -> bool:
     """Whether a constraint or a spring holds two units together along their gap.
 
     Both are of first order: they draw in neither unit, and what lies next to them must not either.
@@ -41,7 +41,7 @@ def hold_together(joints: tuple[Joint, ...], pair: tuple[int, int]) -> bool:
     return any(set(joint.pair) == set(pair) and _holds(joint) for joint in joints)
 
 
-def _holds(joint: Joint) -> bool:
+def _holds(joint: UnitJoint) -> bool:
     spring, axis = joint.connector.stiffness, joint.from_end_to_end
     return bool(joint.held[:, :3].any()) or (spring is not None and float(axis @ spring[:3, :3] @ axis) > 0.0)
 
@@ -181,7 +181,7 @@ class Link:
         return np.asarray(out)
 
 
-def links_of(joints: tuple[Joint, ...], centres: Array) -> tuple[Link, ...]:
+def links_of(joints: tuple[UnitJoint, ...], centres: Array) -> tuple[Link, ...]:
     """Return the curves of all connectors, in their order.
 
     Parameters

@@ -273,7 +273,7 @@ class MapArea:
 
 
 @dataclass(frozen=True)
-class TimeSettings:
+class UnitTimeSettings:
     """How the time domain is run; ``None`` means that the program chooses.
 
     Parameters
@@ -302,7 +302,7 @@ class TimeSettings:
 
 @checks_words
 @dataclass(frozen=True)
-class Settings:
+class UnitSettings:
     """Which analyses are run and how.
 
     Parameters
@@ -330,7 +330,7 @@ class Settings:
     frequency_count: int = 20
     drift: bool = True
     section_compare: bool = True
-    time: TimeSettings = field(default_factory=TimeSettings)
+    time: UnitTimeSettings = field(default_factory=UnitTimeSettings)
     nominal: bool = False
 
 
@@ -367,7 +367,7 @@ class UnitsProblem:
     title: str
     row: FloatingRow
     environment: Environment
-    settings: Settings
+    settings: UnitSettings
     map_area: MapArea
     criteria: tuple[Criterion, ...] = ()
     case_text: str = ""
@@ -382,6 +382,19 @@ def straight_row(count: int, length: float, gap: float) -> tuple[Placement, ...]
 
 
 __all__ = [
-    "DOFS", "SNAP_RATIO", "Analysis", "Connector", "ConnectorKind", "Curve", "FloatingRow", "MapArea", "Placement",
-    "RowCoefficients", "Settings", "TimeSettings", "UnitLine", "UnitsProblem", "straight_row",
+    "DOFS",
+    "SNAP_RATIO",
+    "Analysis",
+    "Connector",
+    "ConnectorKind",
+    "Curve",
+    "FloatingRow",
+    "MapArea",
+    "Placement",
+    "RowCoefficients",
+    "UnitLine",
+    "UnitSettings",
+    "UnitTimeSettings",
+    "UnitsProblem",
+    "straight_row",
 ]  # fmt: skip

@@ -17,7 +17,7 @@ import numpy as np
 
 from moyai.core.arrays import Array, ComplexArray, IntArray
 from moyai.structures.units.assembly import RowAtLevel
-from moyai.structures.units.bem import Panels, Solution, incident_potential
+from moyai.structures.units.bem import MeshPanels, Solution, incident_potential
 from moyai.structures.units.mesh import HULL
 from moyai.structures.units.variation import neighbours
 
@@ -51,7 +51,7 @@ class Waterline:
     length: Array
 
 
-def waterline_of(panels: Panels) -> Waterline:
+def waterline_of(panels: MeshPanels) -> Waterline:
     """Return the waterline of all hulls."""
     mesh = panels.mesh
     corners = mesh.corners
@@ -69,7 +69,7 @@ def waterline_of(panels: Panels) -> Waterline:
 
 
 @dataclass(frozen=True, eq=False)
-class Edges:
+class SharpEdges:
     """Panels at sharp edges and those next to them, with the powers of the distance through three centres.
 
     Parameters
@@ -130,7 +130,7 @@ class Edges:
         return _POWER**2 * np.array([factor * grown(power) for factor, power in factors])
 
 
-def edges_of(panels: Panels) -> Edges:
+def edges_of(panels: MeshPanels) -> SharpEdges:
     """Return the panels of the hulls at and next to sharp edges, those of the waterline left out [eq:units-edge]."""
     mesh = panels.mesh
     beyond, corners, centre = neighbours(mesh), mesh.corners, mesh.centre
@@ -163,7 +163,7 @@ def edges_of(panels: Panels) -> Edges:
     shapes: tuple[tuple[int, ...], ...] = ((), (), (), (), (), (3,), (3,), (3,), (3,), (2, 3))
     columns = zip(*rows) if rows else (np.zeros((0, *shape)) for shape in shapes)
     panel, near, far, way, direction, place, inward, centres, reach, factors = (np.array(column) for column in columns)
-    return Edges(
+    return SharpEdges(
         panel.astype(int), way.astype(int), direction, place, inward, near, far, centres.astype(int), reach, factors
     )
 
@@ -183,13 +183,13 @@ class NearField:
     """
 
     at: RowAtLevel
-    panels: Panels
+    panels: MeshPanels
     #: Frequency and heading to how often the drift was asked for, and to the sums over all pairs.
     _asked: Counter[tuple[float, float]] = field(default_factory=Counter, repr=False)
     _pairs: dict[tuple[float, float], ComplexArray] = field(default_factory=dict, repr=False)
 
     @classmethod
-    def of(cls, at: RowAtLevel, panels: Panels) -> NearField:
+    def of(cls, at: RowAtLevel, panels: MeshPanels) -> NearField:
         """Return the one that belongs to the panels; rows that differ in their damping alone share it."""
         found: NearField | None = panels.__dict__.get("_near_field")
         if found is None or not found._serves(at):
@@ -207,7 +207,7 @@ class NearField:
         return waterline_of(self.panels)
 
     @cached_property
-    def edges(self) -> Edges:
+    def edges(self) -> SharpEdges:
         """Where velocities grow without bound."""
         return edges_of(self.panels)
 

@@ -22,7 +22,7 @@ from moyai.sea.states import IrregularSea, RegularSea, SeaState
 from moyai.structures.units.across import across_notices
 from moyai.structures.units.anchors import anchored
 from moyai.structures.units.assembly import RowAtLevel, assemble, level_notices, steady_load
-from moyai.structures.units.bem import Panels, panels_of
+from moyai.structures.units.bem import MeshPanels, panels_of
 from moyai.structures.units.datasets import (
     hydrodynamics_dataset,
     irregular_dataset,
@@ -37,7 +37,7 @@ from moyai.structures.units.green import green_function
 from moyai.structures.units.headlines import governing_seas, greatest_rolls, headlines_of
 from moyai.structures.units.hydrodynamics import RowHydrodynamics, solve_row
 from moyai.structures.units.mesh import row_mesh
-from moyai.structures.units.model import DOFS, Settings, UnitsProblem
+from moyai.structures.units.model import DOFS, UnitSettings, UnitsProblem
 from moyai.structures.units.outlines import check_apart
 from moyai.structures.units.seas import (
     ENERGY_LEFT_OUT,
@@ -67,7 +67,7 @@ WITH_WAVES = frozenset({"frequency", "map", "time"})
 BALANCE = 0.05
 
 
-def row_panels(at: RowAtLevel, settings: Settings, shortest: float) -> Panels:
+def row_panels(at: RowAtLevel, settings: UnitSettings, shortest: float) -> MeshPanels:
     """Return the panels of the row; lids inside of hulls where a standing wave in them comes near the band.
 
     Parameters
@@ -90,7 +90,7 @@ def row_panels(at: RowAtLevel, settings: Settings, shortest: float) -> Panels:
     return panels_of(mesh, at.centres, row.gap_damping_lid)
 
 
-def highest_frequency(omega: Array, settings: Settings) -> float:
+def highest_frequency(omega: Array, settings: UnitSettings) -> float:
     """Return the highest frequency [rad/s] that panels meet: in time, of the band of the memory."""
     return float(omega.max()) * (ABOVE if "time" in settings.analyses else 1.0)
 
@@ -102,7 +102,7 @@ def irregular_frequency(at: RowAtLevel) -> float:
     return math.sqrt(at.water.gravity * k / math.tanh(k * at.draught))
 
 
-def check_resolution(at: RowAtLevel, panels: Panels, omega: Array) -> tuple[Notice, ...]:
+def check_resolution(at: RowAtLevel, panels: MeshPanels, omega: Array) -> tuple[Notice, ...]:
     """Hold the panels against the shortest wave.
 
     Raises

@@ -17,7 +17,7 @@ from moyai.structures.units.assembly import RowAtLevel, RowPosition, steady_posi
 from moyai.structures.units.drift import near_drift, reconciled
 from moyai.structures.units.hydrodynamics import RowHydrodynamics
 from moyai.structures.units.links import Work
-from moyai.structures.units.model import Settings
+from moyai.structures.units.model import UnitSettings
 from moyai.structures.units.response import (
     FarWaves,
     RowModel,
@@ -52,7 +52,7 @@ def band_of(sea: IrregularSea) -> tuple[float, float]:
 ROUND, LEAST_ROUND = 0.1, 5
 
 
-def frequencies_of(environment: Environment, settings: Settings) -> Array:
+def frequencies_of(environment: Environment, settings: UnitSettings) -> Array:
     """Return the frequencies [rad/s] of the coefficients: regular waves exactly, spectra evenly over their energy.
 
     Of a draft spectra take the round frequencies within, which they share with other seas.
@@ -153,7 +153,7 @@ class SeaAnswer:
 
 
 def regular_answer(
-    at: RowAtLevel, hydro: RowHydrodynamics, sea: RegularSea, steady: Array, settings: Settings
+    at: RowAtLevel, hydro: RowHydrodynamics, sea: RegularSea, steady: Array, settings: UnitSettings
 ) -> list[SeaAnswer]:
     """Return the answer to each period of regular waves of one height."""
     answers = []
@@ -278,7 +278,7 @@ def _near(new: Array, old: Array) -> bool:
 
 
 def irregular_answer(
-    at: RowAtLevel, hydro: RowHydrodynamics, sea: IrregularSea, steady: Array, settings: Settings
+    at: RowAtLevel, hydro: RowHydrodynamics, sea: IrregularSea, steady: Array, settings: UnitSettings
 ) -> SeaAnswer:
     """Return the answer to an irregular sea, curves of connectors linearised for the whole of it."""
     low, high = band_of(sea)

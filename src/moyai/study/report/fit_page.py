@@ -12,6 +12,7 @@ from moyai.core.wording import counted
 from moyai.report.document import (
     Abscissa,
     Block,
+    Chapter,
     Column,
     Document,
     Figure,
@@ -19,7 +20,6 @@ from moyai.report.document import (
     KeyFigures,
     Panel,
     Paragraph,
-    Section,
     Series,
     Table,
 )
@@ -83,10 +83,10 @@ def compose(result: Result) -> Document:
         status=result.status,
         message=result.message,
         sections=(
-            Section("summary", "Summary", (figures, agreement, *notice_blocks(result), table)),
-            Section("correlations", "What cannot be distinguished", _correlations(found, names)),
-            Section("observations", "Observed and fitted", _agreement(found)),
-            Section("input", "Input", (case_listing(Group("", result.tree)),)),
+            Chapter("summary", "Summary", (figures, agreement, *notice_blocks(result), table)),
+            Chapter("correlations", "What cannot be distinguished", _correlations(found, names)),
+            Chapter("observations", "Observed and fitted", _agreement(found)),
+            Chapter("input", "Input", (case_listing(Group("", result.tree)),)),
             closing_section(result),
         ),
         provenance=provenance(result),

@@ -11,6 +11,7 @@ from moyai.core.results import Result
 from moyai.report.document import (
     Abscissa,
     Block,
+    Chapter,
     Choice,
     Column,
     Document,
@@ -20,7 +21,6 @@ from moyai.report.document import (
     Option,
     Panel,
     Paragraph,
-    Section,
     Series,
     Table,
 )
@@ -65,13 +65,13 @@ def compose(result: Result) -> Document:
     pages = read_study(result)
     names = interesting(pages)
     sections = [
-        Section("summary", "Summary", _summary(pages)),
-        Section("found", "What the search found", _found(pages)),
-        Section("governing", "Governing cases", _governing(pages)),
-        Section("maps", "Over the axes", _maps(pages, names)),
-        Section("long-run", "Extremes", _extremes(pages)),
-        Section("matrix", "Load-case matrix", _matrix(pages, names)),
-        Section("input", "Base case", (case_listing(root_of(result)),)),
+        Chapter("summary", "Summary", _summary(pages)),
+        Chapter("found", "What the search found", _found(pages)),
+        Chapter("governing", "Governing cases", _governing(pages)),
+        Chapter("maps", "Over the axes", _maps(pages, names)),
+        Chapter("long-run", "Extremes", _extremes(pages)),
+        Chapter("matrix", "Load-case matrix", _matrix(pages, names)),
+        Chapter("input", "Base case", (case_listing(root_of(result)),)),
     ]
     axes = " x ".join(f"{len(axis.labels)} {axis.words}" for axis in pages.axes)
     return page_of(result, f"Study of {len(pages.status)} cases: {axes}", sections)

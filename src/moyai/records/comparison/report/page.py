@@ -12,13 +12,13 @@ from moyai.report.decimate import envelope_indices
 from moyai.report.document import (
     Abscissa,
     Block,
+    Chapter,
     Column,
     Document,
     Figure,
     KeyFigure,
     KeyFigures,
     Panel,
-    Section,
     Series,
     Table,
 )
@@ -55,10 +55,10 @@ def compose(result: Result) -> Document:
         KeyFigure(str(tree[name].attrs["label"]), f"skill {row[skill]:.3f}", f"bias {row[1]:.4g}, rms {row[2]:.4g}")
         for name, row in zip(names, figures, strict=True)
     )
-    sections = [Section("summary", "Summary", (KeyFigures(items[:8]), table, *notice_blocks(result)))]
+    sections = [Chapter("summary", "Summary", (KeyFigures(items[:8]), table, *notice_blocks(result)))]
     for number, name in enumerate(names, 1):
         sections.append(
-            Section(f"pair-{number}", str(tree[name].attrs["label"]), tuple(_pair(tree[name], number, words)))
+            Chapter(f"pair-{number}", str(tree[name].attrs["label"]), tuple(_pair(tree[name], number, words)))
         )
     sections.append(closing_section(result))
     return Document(

@@ -9,7 +9,7 @@ import numpy as np
 
 from moyai.case.measured import read_points
 from moyai.case.reader import read_block
-from moyai.case.yaml_reader import Document, read_yaml
+from moyai.case.yaml_reader import CaseDocument, read_yaml
 from moyai.core.errors import CaseError, InputError
 from moyai.records.forces.case.schema import ForceRecordFile, WaveGauge
 from moyai.records.forces.identification import METHODS, ForceRecord, Setup
@@ -18,7 +18,7 @@ from moyai.records.forces.waves import orbital_motion
 from moyai.structures.member.case.build import member_section
 
 
-def load_force_record(path: Path) -> tuple[Document, ForceRecordFile]:
+def load_force_record(path: Path) -> tuple[CaseDocument, ForceRecordFile]:
     """Read the configuration of a force record.
 
     Raises
@@ -31,7 +31,7 @@ def load_force_record(path: Path) -> tuple[Document, ForceRecordFile]:
     return document, model
 
 
-def setup_of(model: ForceRecordFile, document: Document) -> Setup:
+def setup_of(model: ForceRecordFile, document: CaseDocument) -> Setup:
     """Return the set-up of a configuration.
 
     Raises

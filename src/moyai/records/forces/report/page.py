@@ -11,6 +11,7 @@ from moyai.report.decimate import envelope_indices
 from moyai.report.document import (
     Abscissa,
     Block,
+    Chapter,
     Choice,
     Column,
     Document,
@@ -20,7 +21,6 @@ from moyai.report.document import (
     Option,
     Panel,
     Paragraph,
-    Section,
     Series,
     Table,
 )
@@ -52,10 +52,10 @@ def compose(result: Result) -> Document:
         for method in found.labels("fit_method")
     ]
     sections = [
-        Section("summary", "Summary", (*_key_figures(found), *notice_blocks(result), *_tables(found))),
-        Section("fits", "Fits and residuals", (Choice("fit", "Fit", tuple(fits), print_all=False),) if fits else ()),
-        Section("spread", "Bootstrap", tuple(_spread_figures(found))),
-        Section("input", "Input", (case_listing(root),)),
+        Chapter("summary", "Summary", (*_key_figures(found), *notice_blocks(result), *_tables(found))),
+        Chapter("fits", "Fits and residuals", (Choice("fit", "Fit", tuple(fits), print_all=False),) if fits else ()),
+        Chapter("spread", "Bootstrap", tuple(_spread_figures(found))),
+        Chapter("input", "Input", (case_listing(root),)),
     ]
     return page_of(result, f"Force record {root.attributes.get('record', '')}".strip(), sections)
 

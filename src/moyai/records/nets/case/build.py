@@ -11,10 +11,10 @@ import numpy as np
 from moyai.case.findings import Findings, duplicates
 from moyai.case.measured import read_points
 from moyai.case.reader import read_block
-from moyai.case.yaml_reader import Document, KeyPath, read_yaml
+from moyai.case.yaml_reader import CaseDocument, KeyPath, read_yaml
 from moyai.core import quantities
 from moyai.core.errors import CaseError, InputError
-from moyai.core.quantities import Kind
+from moyai.core.quantities import QuantityKind
 from moyai.core.validity import Notice
 from moyai.morison.nets import Net
 from moyai.records.nets.case.schema import CageRunBlock, NetRunBlock, NetsFile, NetSpecimen
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from moyai.records.nets.runs import NetRun, Specimen, Tank
     from moyai.records.nets.tensions import CageRecord
 
-_KINDS: dict[str, Kind] = {
+_KINDS: dict[str, QuantityKind] = {
     "time": quantities.TIME,
     "force": quantities.FORCE,
     "lift": quantities.FORCE,
@@ -37,7 +37,7 @@ _KINDS: dict[str, Kind] = {
 _NEEDED = ("density", "kinematic_viscosity", "gravity", "water_depth", "panel_z", "nets")
 
 
-def load_nets(path: str | os.PathLike[str]) -> tuple[NetCampaign, Document, tuple[Notice, ...]]:
+def load_nets(path: str | os.PathLike[str]) -> tuple[NetCampaign, CaseDocument, tuple[Notice, ...]]:
     """Read a file of ``moyai measure nets`` with its records.
 
     Returns

@@ -14,6 +14,7 @@ from moyai.report.decimate import envelope_indices
 from moyai.report.document import (
     Abscissa,
     Block,
+    Chapter,
     Choice,
     Column,
     Document,
@@ -24,7 +25,6 @@ from moyai.report.document import (
     Option,
     Panel,
     Paragraph,
-    Section,
     Series,
     Table,
 )
@@ -54,13 +54,13 @@ def compose(result: Result) -> Document:
     towing, waves, nets = root.child("towing"), root.child("waves"), root.child("nets")
     tensions = root.child("tensions")
     sections = [
-        Section("summary", "Summary", (*_key_figures(root), *notice_blocks(result))),
-        Section("drag", "Drag in still water", (*_drag_figure(towing, waves, nets), *towing_table(towing))),
-        Section("laws", "Laws of the drag", (*net_table(nets), *_law_blocks(root.child("law"), nets))),
-        Section("waves", "Waves", (*wave_table(waves), *_wave_figures(waves), *_reconstructions(root))),
-        Section("lines", "Tensions of lines", (*tension_table(tensions), *_tension_figures(root))),
-        Section("vibration", "Vibration of the carriage", (*_vibration(root.child("vibration")), *_tow_records(root))),
-        Section("input", "Input", (case_listing(root),)),
+        Chapter("summary", "Summary", (*_key_figures(root), *notice_blocks(result))),
+        Chapter("drag", "Drag in still water", (*_drag_figure(towing, waves, nets), *towing_table(towing))),
+        Chapter("laws", "Laws of the drag", (*net_table(nets), *_law_blocks(root.child("law"), nets))),
+        Chapter("waves", "Waves", (*wave_table(waves), *_wave_figures(waves), *_reconstructions(root))),
+        Chapter("lines", "Tensions of lines", (*tension_table(tensions), *_tension_figures(root))),
+        Chapter("vibration", "Vibration of the carriage", (*_vibration(root.child("vibration")), *_tow_records(root))),
+        Chapter("input", "Input", (case_listing(root),)),
     ]
     return page_of(result, "Coefficients of nets", sections)
 

@@ -7,17 +7,17 @@ from pathlib import Path
 
 from moyai.case.findings import Findings, duplicates
 from moyai.case.reader import read_block
-from moyai.case.yaml_reader import Document, KeyPath, read_yaml
+from moyai.case.yaml_reader import CaseDocument, KeyPath, read_yaml
 from moyai.core.errors import CaseError, InputError
 from moyai.records.snaps.case.schema import SnapRunBlock, SnapRunsFile
 from moyai.records.snaps.model import SnapRun, SnapRuns
 from moyai.sea.water import Water
 from moyai.structures.curtain.case.build import recorded_snap
 from moyai.structures.curtain.impact.cable import Impact
-from moyai.structures.curtain.impact.skirt import Skirt
+from moyai.structures.curtain.impact.skirt import BulgedSkirt
 
 
-def load_snaps(path: str | os.PathLike[str]) -> tuple[SnapRuns, Document]:
+def load_snaps(path: str | os.PathLike[str]) -> tuple[SnapRuns, CaseDocument]:
     """Read a file of ``moyai measure snaps`` with its records.
 
     Raises
@@ -52,7 +52,7 @@ def _run(block: SnapRunBlock, index: int, model: SnapRunsFile, findings: Finding
         )
         skirt = None
         if model.skirt is not None:
-            skirt = Skirt(block.draught, model.skirt.chord_ratio * block.draught, model.skirt.stiffness)
+            skirt = BulgedSkirt(block.draught, model.skirt.chord_ratio * block.draught, model.skirt.stiffness)
     except InputError as error:
         key = error.fault.path.split(".")[0]
         findings.raised(error, (*path, key) if key in ("length", "draught", "span") else path)

@@ -18,7 +18,7 @@ from moyai.case.schema_types import (
     Truth,
 )
 from moyai.core import quantities
-from moyai.structures.curtain.case.schema import Record
+from moyai.structures.curtain.case.schema import RecordKeys
 
 PositiveSpeed = Annotated[float, QuantityOf(quantities.SPEED, above=0.0)]
 SheetStiffness = Annotated[float, QuantityOf(quantities.FORCE_PER_LENGTH, above=0.0)]
@@ -42,7 +42,7 @@ class Sheet(Block):
     )
 
 
-class SnapRunBlock(Record):
+class SnapRunBlock(RecordKeys):
     """One release: its record, and what was varied."""
 
     name: Name = Field(description="Name of the run.")

@@ -10,6 +10,7 @@ from moyai.core.results import Result
 from moyai.report.document import (
     Abscissa,
     Block,
+    Chapter,
     Column,
     Document,
     Figure,
@@ -17,7 +18,6 @@ from moyai.report.document import (
     KeyFigures,
     Panel,
     Paragraph,
-    Section,
     Series,
     Table,
 )
@@ -48,15 +48,15 @@ def compose(result: Result) -> Document:
     head: list[Block] = [Paragraph(GENERATED)] if generated else []
     word = "generated" if generated else "measured"
     sections = (
-        Section(
+        Chapter(
             "summary",
             "Summary",
             (*head, _key_figures(runs, agreement), *notice_blocks(result), _agreement_table(agreement)),
         ),
-        Section("runs", "Runs", tuple(_run_tables(runs))),
-        Section("figures", "Impact tension and its numbers", tuple(_number_figures(runs, curves, word))),
-        Section("powers", "Powers of the numbers", (_power_table(powers),)),
-        Section("input", "Input", (case_listing(root),)),
+        Chapter("runs", "Runs", tuple(_run_tables(runs))),
+        Chapter("figures", "Impact tension and its numbers", tuple(_number_figures(runs, curves, word))),
+        Chapter("powers", "Powers of the numbers", (_power_table(powers),)),
+        Chapter("input", "Input", (case_listing(root),)),
         closing_section(result),
     )
     return Document(

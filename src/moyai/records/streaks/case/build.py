@@ -1,4 +1,4 @@
-"""From a file of ``moyai measure streaks`` to :class:`moyai.records.streaks.campaign.Campaign`."""
+"""From a file of ``moyai measure streaks`` to :class:`moyai.records.streaks.campaign.StreakCampaign`."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ import numpy as np
 from moyai.case.findings import Findings, duplicates
 from moyai.case.measured import read_points
 from moyai.case.reader import read_block
-from moyai.case.yaml_reader import Document, KeyPath, read_yaml
+from moyai.case.yaml_reader import CaseDocument, KeyPath, read_yaml
 from moyai.core.arrays import Array
 from moyai.core.errors import CaseError, InputError
 from moyai.morison.contour import Contour
@@ -30,12 +30,12 @@ from moyai.records.streaks.flow import SectionMap
 from moyai.records.streaks.timing import PulseTrain, regular_pulses, require_time_order
 
 if TYPE_CHECKING:
-    from moyai.records.streaks.camera_calibration import Calibration
-    from moyai.records.streaks.campaign import Campaign, StreakRun
+    from moyai.records.streaks.camera_calibration import CameraCalibration
+    from moyai.records.streaks.campaign import StreakCampaign, StreakRun
     from moyai.records.streaks.run import Recording
 
 
-def load_streaks(path: str | os.PathLike[str]) -> tuple[Campaign, Document]:
+def load_streaks(path: str | os.PathLike[str]) -> tuple[StreakCampaign, CaseDocument]:
     """Read a file of ``moyai measure streaks`` and build what it describes.
 
     Raises
@@ -53,9 +53,9 @@ def load_streaks(path: str | os.PathLike[str]) -> tuple[Campaign, Document]:
     return campaign, document
 
 
-def _build(model: StreaksFile, findings: Findings, folder: Path) -> Campaign | None:
+def _build(model: StreaksFile, findings: Findings, folder: Path) -> StreakCampaign | None:
     from moyai.records.streaks.camera_checks import inside_picture, view_notices
-    from moyai.records.streaks.campaign import Campaign, StreakRun
+    from moyai.records.streaks.campaign import StreakCampaign, StreakRun
     from moyai.records.streaks.detection import DetectionSettings
     from moyai.records.streaks.linking import LinkingSettings
     from moyai.records.streaks.run import BackgroundDrift, RunSettings
@@ -124,7 +124,7 @@ def _build(model: StreaksFile, findings: Findings, folder: Path) -> Campaign | N
         model.linking.closing,
         most_residual=model.linking.most_residual,
     )
-    return Campaign(
+    return StreakCampaign(
         title=model.title,
         section=words,
         outline=outline,
@@ -327,7 +327,7 @@ def _picture_shape(recordings: Sequence[Recording]) -> tuple[int, int] | None:
 
 def _calibration(
     block: CalibrationBlock, findings: Findings, folder: Path, shape: tuple[int, int] | None
-) -> Calibration | None:
+) -> CameraCalibration | None:
     from moyai.records.streaks.camera_calibration import Refraction, dry_to_wet, fit_homography, fit_ray_camera
     from moyai.records.streaks.camera_checks import require_fitting_targets
 

@@ -66,7 +66,7 @@ class StreakPolygon(Block):
 StreakSection = Annotated[StreakCircle | StreakRectangle | StreakPolygon, Field(discriminator="kind")]
 
 
-class Place(Block):
+class PlaceKeys(Block):
     """A point in the light sheet."""
 
     x: Length = Field(description="Along the tank.")
@@ -171,7 +171,7 @@ class BackgroundBlock(Block):
 
     mass_transport: SignedSpeed = Field(description="Mean drift along +x at the level of the centre.")
     mass_transport_gradient: Annotated[
-        float, QuantityOf(quantities.Kind("a rate", "1/s", "per second", "0.01 1/s"))
+        float, QuantityOf(quantities.QuantityKind("a rate", "1/s", "per second", "0.01 1/s"))
     ] = Field(default=0.0, description="Its growth with z. Default: 0.")
     settling: Speed = Field(description="Speed at which the particles sink.")
 
@@ -229,7 +229,7 @@ class StreaksFile(Block):
     measure: Literal["streaks"] = Field(description="What is measured: streaks.")
     title: Annotated[str, Field(min_length=1, max_length=200)] = Field(description="Title of the report.")
     section: StreakSection = Field(description="Section of the member.")
-    centre: Place = Field(description="Centre of the section in the coordinates of the targets.")
+    centre: PlaceKeys = Field(description="Centre of the section in the coordinates of the targets.")
     waves_towards: Literal["+x", "-x"] = Field(default="+x", description="Direction of the waves. Default: +x.")
     calibration: CalibrationBlock = Field(description="From pixels to the light sheet.")
     timing: Timing = Field(description="When the light was on.")

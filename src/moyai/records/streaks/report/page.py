@@ -12,6 +12,7 @@ from moyai.records.streaks.report.drawings import drift_map, overlay
 from moyai.report.document import (
     Abscissa,
     Block,
+    Chapter,
     Choice,
     Column,
     Document,
@@ -22,7 +23,6 @@ from moyai.report.document import (
     Option,
     Panel,
     Paragraph,
-    Section,
     Series,
     Table,
 )
@@ -56,15 +56,15 @@ def compose(result: Result) -> Document:
     runs = root.child("runs").children()
     law = root.child("law")
     sections = [
-        Section("summary", "Summary", (*_key_figures(root, runs, law), *notice_blocks(result), *_runs(root, runs)))
+        Chapter("summary", "Summary", (*_key_figures(root, runs, law), *notice_blocks(result), *_runs(root, runs)))
     ]
     if law.exists:
-        sections.append(Section("law", "Law of circulation and force", tuple(_law_figures(root, law))))
+        sections.append(Chapter("law", "Law of circulation and force", tuple(_law_figures(root, law))))
     if runs:
-        sections.append(Section("contours", "Circulation and size of the contour", (_choice(root, runs, "contours"),)))
-        sections.append(Section("drift", "Drift velocity", (_choice(root, runs, "drift"),)))
-        sections.append(Section("pictures", "Pictures and streaks", (_choice(root, runs, "pictures"),)))
-    sections.append(Section("input", "Input", (case_listing(root),)))
+        sections.append(Chapter("contours", "Circulation and size of the contour", (_choice(root, runs, "contours"),)))
+        sections.append(Chapter("drift", "Drift velocity", (_choice(root, runs, "drift"),)))
+        sections.append(Chapter("pictures", "Pictures and streaks", (_choice(root, runs, "pictures"),)))
+    sections.append(Chapter("input", "Input", (case_listing(root),)))
     sections.append(closing_section(result))
     return Document(
         title=report_title(result),

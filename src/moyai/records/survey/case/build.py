@@ -10,14 +10,14 @@ from pathlib import Path
 from typing import Any
 
 from moyai.case.reader import read_block
-from moyai.case.yaml_reader import Document, KeyPath, read_yaml
+from moyai.case.yaml_reader import CaseDocument, KeyPath, read_yaml
 from moyai.core.arrays import Array
 from moyai.core.errors import CaseError, Fault, InputError
 from moyai.core.units import parse_unit
 from moyai.records.reading.quality import QualityOptions
 from moyai.records.reading.sensors import QUANTITIES, Sensor
 from moyai.records.reading.sources import ClockCorrection, ColumnSource, LoggerSource, TimeSource
-from moyai.records.survey.case.schema import ChannelEntry, Logger, QualityKeys, RecordsFile
+from moyai.records.survey.case.schema import ChannelEntry, LoggerKeys, QualityKeys, RecordsFile
 from moyai.records.survey.model import (
     UNITS_OF_KINDS,
     ChannelUse,
@@ -55,7 +55,7 @@ def load_survey(path: str | os.PathLike[str]) -> Survey:
     """
     document = read_yaml(path)
     model: RecordsFile = read_block(document, RecordsFile)
-    builder = _Builder(model, document, Path(path).parent)
+    builder = _SurveyBuilder(model, document, Path(path).parent)
     survey = builder.build()
     if builder.faults:
         raise CaseError(sorted(builder.faults, key=lambda fault: (fault.line, fault.column)))
@@ -63,8 +63,8 @@ def load_survey(path: str | os.PathLike[str]) -> Survey:
     return survey
 
 
-class _Builder:
-    def __init__(self, model: RecordsFile, document: Document, folder: Path) -> None:
+class _SurveyBuilder:
+    def __init__(self, model: RecordsFile, document: CaseDocument, folder: Path) -> None:
         self.model, self.document, self.folder = model, document, folder
         self.faults: list[Fault] = []
 
@@ -190,7 +190,7 @@ class _Builder:
         if channel.kind not in kinds:
             self.fault(path, f"'{channel.name}' is of kind '{channel.kind}'", allowed=", ".join(kinds))
 
-    def _logger(self, entry: Logger, place: int) -> LoggerSource | None:
+    def _logger(self, entry: LoggerKeys, place: int) -> LoggerSource | None:
         path: KeyPath = ("loggers", place)
         files: list[Path] = []
         listed = entry.files if entry.files is not None else (entry.file,)

@@ -82,7 +82,7 @@ class TimeColumn(Block):
     )
 
 
-class Clock(Block):
+class ClockKeys(Block):
     """Error of the logger's clock."""
 
     offset: SignedDuration = Field(default=0.0, description="Seconds to add to the logger's time.")
@@ -147,7 +147,7 @@ class ChannelEntry(Block):
     quality: QualityKeys | None = Field(default=None, description="Limits for this channel.")
 
 
-class Logger(Block):
+class LoggerKeys(Block):
     """One logger and its files."""
 
     name: Name = Field(description="Name for messages.")
@@ -166,7 +166,7 @@ class Logger(Block):
     first_row: Row = Field(default=0, description="Line of the first sample; 0: the line after the headings.")
     comment: str = Field(default="#", max_length=1, description="Sign that opens a comment.")
     time: TimeColumn = Field(description="Where the time comes from.")
-    clock: Clock = Field(default=Clock(), description="Error of the clock.")
+    clock: ClockKeys = Field(default=ClockKeys(), description="Error of the clock.")
     channels: Annotated[tuple[ChannelEntry, ...], Field(min_length=1, max_length=200)] = Field(
         description="Columns to read."
     )
@@ -304,7 +304,7 @@ class RecordsFile(Block):
 
     moyai: Literal[1] = Field(description="Version of the file format.")
     title: str = Field(default="Records", max_length=200, description="Title of the report.")
-    loggers: Annotated[tuple[Logger, ...], Field(min_length=1, max_length=50)] = Field(description="The loggers.")
+    loggers: Annotated[tuple[LoggerKeys, ...], Field(min_length=1, max_length=50)] = Field(description="The loggers.")
     blocks: BlockKeys = Field(description="Blocks of time.")
     site: RecordSite | None = Field(default=None, description="Water; needed for directions, pressures and reflection.")
     structure_normal_deg: Heading | None = Field(default=None, description="Heading of the structure's normal.")

@@ -18,6 +18,7 @@ from moyai.records.survey.report.lanes import Span, flag_lanes
 from moyai.report.document import (
     Abscissa,
     Block,
+    Chapter,
     Column,
     Document,
     Figure,
@@ -25,7 +26,6 @@ from moyai.report.document import (
     KeyFigures,
     Mark,
     Panel,
-    Section,
     Series,
     Table,
 )
@@ -74,9 +74,9 @@ def compose(result: Result) -> Document:
     Document
     """
     tree = result.tree
-    clock = _Clock(tree)
+    clock = _PageClock(tree)
     sections = [
-        Section(
+        Chapter(
             "summary", "Summary", (*_key_figures(result, clock), *notice_blocks(result), case_listing(root_of(result)))
         )
     ]
@@ -94,7 +94,7 @@ def compose(result: Result) -> Document:
         ("quality", "Quality", _quality),
     ):
         if key in tree.children and (blocks := make(tree, clock)):
-            sections.append(Section(key, title, tuple(blocks)))
+            sections.append(Chapter(key, title, tuple(blocks)))
     sections.append(closing_section(result))
     return Document(
         title=report_title(result),
@@ -106,7 +106,7 @@ def compose(result: Result) -> Document:
     )
 
 
-class _Clock:
+class _PageClock:
     """Instants of the blocks as a reader wants them: dates for tables, hours or days for figures."""
 
     def __init__(self, tree: Any) -> None:
@@ -151,7 +151,7 @@ def _counted(counts: Array) -> str:
     return f"{float(np.nansum(counts)):.0f}"
 
 
-def _left_out(tree: Any, gauge: int, clock: _Clock) -> str:
+def _left_out(tree: Any, gauge: int, clock: _PageClock) -> str:
     """Return how much of the time lies in no wave that counts, where that is more than the ends of blocks explain."""
     counts, periods = (_values(tree, "waves", name)[:, gauge] for name in ("count", "mean_period"))
     share = 1.0 - float(np.nansum(counts * np.nan_to_num(periods))) / (clock.length * clock.start.size)
@@ -177,7 +177,7 @@ def _sampling(tree: Any, gauge: str, row: int, length: float) -> str:
     return f"; sampling error of a block {format_percent(error)}" if math.isfinite(error) else ""
 
 
-def _key_figures(result: Result, clock: _Clock) -> list[Block]:
+def _key_figures(result: Result, clock: _PageClock) -> list[Block]:
     tree: Any = result.tree
     items = [KeyFigure("blocks", str(clock.start.size), f"of {clock.length:g} s")]
     if "waves" in tree.children:
@@ -238,7 +238,13 @@ def _key_figures(result: Result, clock: _Clock) -> list[Block]:
 
 
 def _block_table(
-    tree: Any, clock: _Clock, group: str, key: str, title: str, columns: Sequence[tuple[str, str]], place: int | None
+    tree: Any,
+    clock: _PageClock,
+    group: str,
+    key: str,
+    title: str,
+    columns: Sequence[tuple[str, str]],
+    place: int | None,
 ) -> Table:
     """Return a table of blocks; ``place`` chooses the gauge or line."""
     out = [clock.column()]
@@ -254,7 +260,7 @@ def _block_table(
     return Table(key, title, tuple(out), collapsed=clock.start.size > 40)
 
 
-def _waves(tree: Any, clock: _Clock) -> list[Block]:
+def _waves(tree: Any, clock: _PageClock) -> list[Block]:
     gauges = [str(name) for name in tree["waves"]["gauge"].values]
     series = []
     for tone, gauge in enumerate(gauges):
@@ -294,7 +300,7 @@ def _waves(tree: Any, clock: _Clock) -> list[Block]:
     return blocks
 
 
-def _spectra(tree: Any, clock: _Clock) -> list[Block]:
+def _spectra(tree: Any, clock: _PageClock) -> list[Block]:
     group = tree["spectra"]
     frequency = np.asarray(group["frequency"].values, dtype=float)
     density = np.asarray(group["density"].values, dtype=float)
@@ -328,7 +334,7 @@ def _spectra(tree: Any, clock: _Clock) -> list[Block]:
     ]
 
 
-def _directions(tree: Any, clock: _Clock) -> list[Block]:
+def _directions(tree: Any, clock: _PageClock) -> list[Block]:
     names = [name for name in ("mean_heading", "peak_heading", "spread", "peak_spread") if name in tree["directions"]]
     bearing = float(tree.attrs.get("x_axis_bearing_deg", math.nan))
     compass = math.isfinite(bearing)
@@ -365,7 +371,7 @@ def _directions(tree: Any, clock: _Clock) -> list[Block]:
     return [clock.figure("directions", "Directions of the waves", panels, series, caption=caption), table]
 
 
-def _current(tree: Any, clock: _Clock) -> list[Block]:
+def _current(tree: Any, clock: _PageClock) -> list[Block]:
     names = [name for name in ("current_speed", "current_x", "current_y", "current_normal") if name in tree["current"]]
     words = {
         "current_speed": "speed",
@@ -388,7 +394,7 @@ def _current(tree: Any, clock: _Clock) -> list[Block]:
     return [clock.figure("current", "Mean currents", (Panel("current", "m/s"),), series), table]
 
 
-def _tensions(tree: Any, clock: _Clock) -> list[Block]:
+def _tensions(tree: Any, clock: _PageClock) -> list[Block]:
     lines = [str(name) for name in tree["tensions"]["line"].values]
     series = []
     for tone, line in enumerate(lines):
@@ -419,7 +425,7 @@ def _tensions(tree: Any, clock: _Clock) -> list[Block]:
     return blocks
 
 
-def _responses(tree: Any, clock: _Clock) -> list[Block]:
+def _responses(tree: Any, clock: _PageClock) -> list[Block]:
     group = tree["responses"]
     frequency = np.asarray(group["frequency"].values, dtype=float)
     names = [str(name) for name in group["motion"].values]
@@ -453,7 +459,7 @@ def _responses(tree: Any, clock: _Clock) -> list[Block]:
     return [figure, Table("responses", "Response to the waves", tuple(columns), caption)]
 
 
-def _fits(tree: Any, clock: _Clock) -> list[Block]:
+def _fits(tree: Any, clock: _PageClock) -> list[Block]:
     group = tree["fits"]
     texts = [(name, [str(value) for value in group[name].values]) for name in ("relation", "of", "parameter")]
     numbers = ("value", "error", "low", "high", "determination", "count")
@@ -467,7 +473,7 @@ def _fits(tree: Any, clock: _Clock) -> list[Block]:
     return [Table("fits", "Relations between the blocks", tuple(columns), "In SI units; bounds are those of 95 %.")]
 
 
-def _reflection(tree: Any, clock: _Clock) -> list[Block]:
+def _reflection(tree: Any, clock: _PageClock) -> list[Block]:
     names = list(tree["reflection"].data_vars)
     words = {name: str(tree["reflection"][name].attrs.get("long_name", name)) for name in names}
     coefficients = [name for name in names if str(name).endswith("coefficient")]
@@ -481,7 +487,7 @@ def _reflection(tree: Any, clock: _Clock) -> list[Block]:
     return [clock.figure("reflection", "Reflection and transmission", (panel,), series), table]
 
 
-def _whole(tree: Any, clock: _Clock) -> list[Block]:
+def _whole(tree: Any, clock: _PageClock) -> list[Block]:
     group = tree["whole"]
     ratio = np.asarray(group["ratio"].values, dtype=float)
     gauges = [str(name) for name in group["gauge"].values]
@@ -527,7 +533,7 @@ def _whole(tree: Any, clock: _Clock) -> list[Block]:
     return [figure, table]
 
 
-def _channels(tree: Any, clock: _Clock) -> list[Block]:
+def _channels(tree: Any, clock: _PageClock) -> list[Block]:
     names = str(tree["blocks"].attrs.get("channels", "")).split("\n")
     rows: list[list[Any]] = []
     for place, name in enumerate(names):
@@ -560,7 +566,7 @@ def _channels(tree: Any, clock: _Clock) -> list[Block]:
     return [table]
 
 
-def _quality(tree: Any, clock: _Clock) -> list[Block]:
+def _quality(tree: Any, clock: _PageClock) -> list[Block]:
     group = tree["quality"]
     count = int(group.sizes.get("finding", 0))
     if count == 0:

@@ -10,7 +10,7 @@ from moyai.case.build_lines import bar_type_of, line_parts
 from moyai.case.build_sea import environment_of
 from moyai.case.criteria import criteria_of
 from moyai.case.measured import read_points
-from moyai.case.schema_lines import ClumpEntry, LineEntry, SpringLine
+from moyai.case.schema_lines import ClumpEntry, LineEntry, SpringLineKeys
 from moyai.core.errors import InputError
 from moyai.sea.water import Water
 from moyai.structures.breakwater.case import schema
@@ -141,7 +141,7 @@ def _coefficients(entry: Any, model: schema.BreakwaterCase, folder: Path) -> Coe
 def line_of(entry: LineEntry, index: int, water: Water, *, in_motion: bool = False) -> MooringLine | MooringSpring:
     """Return one entry of ``lines``; ``in_motion`` sets it in motion from the start whatever it says itself."""
     fairlead = (entry.fairlead.x, entry.fairlead.y, entry.fairlead.above_keel)
-    if isinstance(entry, SpringLine):
+    if isinstance(entry, SpringLineKeys):
         anchor = (entry.anchor.x, entry.anchor.y, entry.anchor.z)
         return MooringSpring(entry.name, entry.count, fairlead, anchor, entry.stiffness, entry.pretension)
     segments, clumps = line_parts(entry, f"lines[{index}]", water)

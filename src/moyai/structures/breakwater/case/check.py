@@ -11,7 +11,7 @@ from moyai.case.check_catalogue import SAID_OTHERWISE, check_catalogue, line_pla
 from moyai.case.check_sea import check_file, check_level_names, check_surroundings, check_waves
 from moyai.case.findings import Findings, duplicates
 from moyai.case.schema_environment import PeriodRange
-from moyai.case.schema_lines import CatalogueSegment, CatenaryLine, SpringLine
+from moyai.case.schema_lines import CatalogueSegment, CatenaryLine, SpringLineKeys
 from moyai.case.yaml_reader import KeyPath
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.structures.breakwater.case.check_lines import (
@@ -266,7 +266,7 @@ def _check_anchor(model: BreakwaterCase, line: Any, index: int, hull: Hull, drau
 
     depth = model.site.water_depth
     x = line.anchor.x
-    z = line.anchor.z if isinstance(line, SpringLine) else line.anchor.above_bed - depth
+    z = line.anchor.z if isinstance(line, SpringLineKeys) else line.anchor.above_bed - depth
     path: KeyPath = ("lines", index, "anchor")
     if not math.isfinite(z) or abs(line.anchor.y) > 0.5 * model.structure.length:
         return
@@ -279,7 +279,7 @@ def _check_anchor(model: BreakwaterCase, line: Any, index: int, hull: Hull, drau
             f"the anchor of '{line.name}' at x = {x:g} m, z = {z:g} m lies inside the body",
             remedy="move it outside, normally down to the bed",
         )
-    elif not isinstance(line, SpringLine) and hull.bounds[0] < x < hull.bounds[1]:
+    elif not isinstance(line, SpringLineKeys) and hull.bounds[0] < x < hull.bounds[1]:
         findings.warn(
             path,
             f"the anchor of '{line.name}' at x = {x:g} m lies under the body",

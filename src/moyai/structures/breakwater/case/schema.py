@@ -6,12 +6,12 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 
-from moyai.case.schema_app import APP, App
+from moyai.case.schema_app import APP, AppKeys
 from moyai.case.schema_coefficients import OfCapytaine, OfNemoh, OfWamit
 from moyai.case.schema_criteria import CRITERIA
 from moyai.case.schema_damping import DampingBeyondWaves
 from moyai.case.schema_display import DISPLAY, Display
-from moyai.case.schema_environment import Current, SeaState, Site, Wind, refuse_no_seas
+from moyai.case.schema_environment import SeaState, SiteCurrentKeys, SiteKeys, WindKeys, refuse_no_seas
 from moyai.case.schema_lines import LineEntry
 from moyai.case.schema_measured import MEASURED, MeasuredSets
 from moyai.case.schema_sections import Section
@@ -35,7 +35,7 @@ from moyai.case.schema_types import (
     once_each,
 )
 from moyai.structures.breakwater.case.criteria import BreakwaterCriteria, BreakwaterKeeps
-from moyai.structures.breakwater.settings import Analysis, Mode, Settings
+from moyai.structures.breakwater.settings import Analysis, BreakwaterSettings, Mode
 
 
 class DampingTerms(DampingBeyondWaves):
@@ -179,19 +179,19 @@ class BreakwaterCase(Block):
 
     moyai: Literal[1] = Field(description="Version of the case file format.")
     title: Annotated[str, Field(min_length=1, max_length=200)] = Field(description="Title of the report.")
-    site: Site = Field(description="The water of the site.")
+    site: SiteKeys = Field(description="The water of the site.")
     waves: Annotated[tuple[SeaState, ...], OneOrMany(), BeforeValidator(refuse_no_seas)] = Field(
         default=(), description="One sea state, or a list of them; each is run."
     )
-    wind: Wind | None = Field(default=None, description="Steady wind.")
-    current: Current | None = Field(default=None, description="Steady current.")
+    wind: WindKeys | None = Field(default=None, description="Steady wind.")
+    current: SiteCurrentKeys | None = Field(default=None, description="Steady current.")
     structure: BreakwaterStructure = Field(description="The floating unit.")
     lines: tuple[LineEntry, ...] = Field(default=(), description="Mooring lines or springs.", max_length=200)
     analyses: Annotated[tuple[Analysis, ...], Field(min_length=1), AfterValidator(once_each)] = Field(
         description="What is computed.", examples=[["statics", "mooring", "frequency", "time"]]
     )
     criteria: BreakwaterKeeps = Field(default_factory=BreakwaterCriteria, description=CRITERIA)
-    settings: Settings = Field(default_factory=Settings, description="How the analyses are run.")
+    settings: BreakwaterSettings = Field(default_factory=BreakwaterSettings, description="How the analyses are run.")
     measured: Measured | None = Field(default=None, description=MEASURED)
     display: Display = Field(default_factory=Display, description=DISPLAY)
-    app: App = Field(default_factory=App, description=APP)
+    app: AppKeys = Field(default_factory=AppKeys, description=APP)

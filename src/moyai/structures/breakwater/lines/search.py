@@ -90,7 +90,7 @@ def events_in_order(simulation: Simulation, line: int, begin: float, apart: floa
 
 
 @dataclass
-class _Search:
+class _RerunSearch:
     """The reruns of one realisation so far."""
 
     member: Realisation
@@ -142,7 +142,9 @@ def events_in_motion(
         When it is stopped.
     """
     apart = PERIODS_AROUND * given.peak_period
-    searches = [_Search(one, events_in_order(one.run.simulation, line, one.around.begin, apart)) for one in members]
+    searches = [
+        _RerunSearch(one, events_in_order(one.run.simulation, line, one.around.begin, apart)) for one in members
+    ]
     words = f"lines in motion, {given.model.unit.name}"
     for number, search in enumerate(searches):
         progress(words, number, len(searches))
@@ -157,15 +159,15 @@ def events_in_motion(
     return [_answer(search, ratio) for search in searches]
 
 
-def _ratio(searches: list[_Search]) -> float:
+def _ratio(searches: list[_RerunSearch]) -> float:
     return max(1.0, *(search.ratio() for search in searches))
 
 
-def _is_open(search: _Search, ratio: float, floor: float) -> bool:
+def _is_open(search: _RerunSearch, ratio: float, floor: float) -> bool:
     return len(search.runs) < MOST_EVENTS and search.next * ratio > max(search.best, floor)
 
 
-def _rerun(given: EventSettings, search: _Search, line: int, progress: Progress) -> None:
+def _rerun(given: EventSettings, search: _RerunSearch, line: int, progress: Progress) -> None:
     one = search.member
     event = search.events[len(search.runs)][0]
     run = run_event(given, one.forcing, one.around, one.run.simulation, line, event, progress)
@@ -179,7 +181,7 @@ def _rerun(given: EventSettings, search: _Search, line: int, progress: Progress)
     search.tensions.append(float(numbers["line_tension_maximum"][line]))
 
 
-def _answer(search: _Search, ratio: float) -> EventsInMotion:
+def _answer(search: _RerunSearch, ratio: float) -> EventsInMotion:
     at = int(np.argmax(search.tensions))
     combined = dict(search.numbers[at])
     for name in combined:

@@ -7,11 +7,11 @@ import math
 from moyai.report.document import Column, Table
 from moyai.report.reading import Group
 from moyai.structures.breakwater.report.figures import key
-from moyai.structures.breakwater.report.reading import MODES, Level, Sea
+from moyai.structures.breakwater.report.reading import MODES, BreakwaterLevel, Sea
 from moyai.structures.breakwater.report.tables import useful_table
 
 
-def damping_table(level: Level, sea: Sea) -> Table | None:
+def damping_table(level: BreakwaterLevel, sea: Sea) -> Table | None:
     """Return equivalent damping beyond radiation of each mode in an irregular sea, with the motions of its band."""
     group = sea.frequency
     turned = {mode: 180.0 / math.pi if mode == "roll" else 1.0 for mode in MODES}
@@ -39,7 +39,7 @@ def damping_table(level: Level, sea: Sea) -> Table | None:
     )
 
 
-def regular_damping_table(level: Level, sea: Sea) -> Table | None:
+def regular_damping_table(level: BreakwaterLevel, sea: Sea) -> Table | None:
     """Return equivalent damping beyond radiation and the band of the transmission for each period."""
     group = sea.frequency
     periods = group.real("period", "period")

@@ -11,17 +11,17 @@ from moyai.report.document import Abscissa, Figure, Mark, Panel, Series
 from moyai.report.encoding import slug
 from moyai.report.formatting import largest_magnitude
 from moyai.report.reading import Group, common_scale
-from moyai.structures.breakwater.report.reading import Level
+from moyai.structures.breakwater.report.reading import BreakwaterLevel
 
 DASHES: tuple[Literal["solid", "dash", "dot", "dashdot"], ...] = ("solid", "dash", "dot", "dashdot")
 
 
-def key(level: Level, *parts: str) -> str:
+def key(level: BreakwaterLevel, *parts: str) -> str:
     """Return the key of a figure or table at a water level."""
     return slug(level.name, *parts)
 
 
-def wave_axes(level: Level, group: Group, dim: str) -> tuple[tuple[Abscissa, ...], dict[str, Array]]:
+def wave_axes(level: BreakwaterLevel, group: Group, dim: str) -> tuple[tuple[Abscissa, ...], dict[str, Array]]:
     """Return the ways to plot against the wave: period, wavelength over beam, angular frequency.
 
     Parameters
@@ -55,7 +55,7 @@ def wave_axes(level: Level, group: Group, dim: str) -> tuple[tuple[Abscissa, ...
     return tuple(axes), values
 
 
-def _wavelength_over_beam(level: Level, period: Array) -> Array | None:
+def _wavelength_over_beam(level: BreakwaterLevel, period: Array) -> Array | None:
     """Interpolate L/B between the periods of the response operators; ``None`` where they do not reach."""
     rao = level.group.child("rao")
     known_omega, known = rao.real("omega", "omega"), rao.real("wavelength_over_beam", "omega")
@@ -69,7 +69,7 @@ def _wavelength_over_beam(level: Level, period: Array) -> Array | None:
     return np.interp(period, known_period[order], known[order])
 
 
-def window_of_interest(level: Level, values: dict[str, Array]) -> tuple[float, float] | None:
+def window_of_interest(level: BreakwaterLevel, values: dict[str, Array]) -> tuple[float, float] | None:
     """Return the periods that the sea states reach, with a margin; ``None`` where all are shown anyway.
 
     Parameters
@@ -104,7 +104,7 @@ def within(values: dict[str, Array], y: Array) -> tuple[dict[str, Array], Array]
     return {name: entry[keep][order] for name, entry in values.items()}, y[keep][order]
 
 
-def restoring(level: Level) -> Figure | None:
+def restoring(level: BreakwaterLevel) -> Figure | None:
     """Horizontal restoring force and line tensions against the offset."""
     group = level.group.child("mooring")
     offset, force = group.real("offset", "offset"), group.real("restoring_force", "offset")
@@ -143,7 +143,9 @@ def restoring(level: Level) -> Figure | None:
     )
 
 
-def breaking_marks(level: Level, names: tuple[str, ...], tension: Array, factor: float, panel: int) -> list[Mark]:
+def breaking_marks(
+    level: BreakwaterLevel, names: tuple[str, ...], tension: Array, factor: float, panel: int
+) -> list[Mark]:
     """Return the breaking loads that lie within sight of the curves."""
     statics = level.group.child("statics")
     loads = statics.real("breaking_load", "line")
@@ -155,7 +157,7 @@ def breaking_marks(level: Level, names: tuple[str, ...], tension: Array, factor:
     return [Mark("breaking load", y=load * factor, panel=panel) for load in sorted(seen) if load < 1.6 * top]
 
 
-def response_operators(level: Level) -> tuple[Figure, ...]:
+def response_operators(level: BreakwaterLevel) -> tuple[Figure, ...]:
     """Amplitude and phase of the motions per metre of wave amplitude."""
     group = level.group.child("rao")
     axes, values = wave_axes(level, group, "omega")
@@ -200,7 +202,7 @@ def response_operators(level: Level) -> tuple[Figure, ...]:
     return tuple(figures)
 
 
-def wave_coefficients(level: Level) -> Figure | None:
+def wave_coefficients(level: BreakwaterLevel) -> Figure | None:
     """Reflection, transmission and loss of the moored body over frequency, with screening formulas."""
     group = level.group.child("rao")
     axes, values = wave_axes(level, group, "omega")
@@ -243,7 +245,7 @@ def wave_coefficients(level: Level) -> Figure | None:
     )
 
 
-def drift(level: Level) -> Figure | None:
+def drift(level: BreakwaterLevel) -> Figure | None:
     """Mean drift force over frequency."""
     group = level.group.child("rao")
     axes, values = wave_axes(level, group, "omega")
@@ -276,7 +278,7 @@ def drift(level: Level) -> Figure | None:
     )
 
 
-def hydrodynamic_coefficients(level: Level) -> tuple[Figure, ...]:
+def hydrodynamic_coefficients(level: BreakwaterLevel) -> tuple[Figure, ...]:
     """Added mass, radiation damping and excitation of the section, per metre."""
     group = level.group.child("hydrodynamics")
     axes, values = wave_axes(level, group, "omega")
@@ -326,7 +328,9 @@ def _coefficient_unit(name: str, mode: str) -> str:
     return "N m s" if turning else "N s/m"
 
 
-def _excitation(level: Level, group: Group, axes: tuple[Abscissa, ...], values: dict[str, Array]) -> Figure | None:
+def _excitation(
+    level: BreakwaterLevel, group: Group, axes: tuple[Abscissa, ...], values: dict[str, Array]
+) -> Figure | None:
     found = group.variable("excitation_force")
     if found is None or "influenced_dof" not in found.dims or "omega" not in found.dims:
         return None

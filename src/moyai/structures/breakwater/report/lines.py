@@ -12,7 +12,7 @@ from moyai.report.document import Abscissa, Block, Column, Figure, Panel, Paragr
 from moyai.report.formatting import format_quantity
 from moyai.report.reading import Group, common_scale
 from moyai.structures.breakwater.report.figures import key
-from moyai.structures.breakwater.report.reading import Level, Sea
+from moyai.structures.breakwater.report.reading import BreakwaterLevel, Sea
 
 BINS = 300
 
@@ -40,7 +40,9 @@ def in_motion(run: Group) -> bool:
     return run.variable("moving_line_x") is not None
 
 
-def line_blocks(level: Level, sea: Sea, run: Group, window: tuple[float, float], line: int) -> tuple[Block, ...]:
+def line_blocks(
+    level: BreakwaterLevel, sea: Sea, run: Group, window: tuple[float, float], line: int
+) -> tuple[Block, ...]:
     """Return what lines in motion add to a run: their table and the record next to that of lines at rest.
 
     Parameters
@@ -80,7 +82,7 @@ def _summary(sea: Sea, run: Group, name: str) -> Array | None:
     return np.asarray(found[row])
 
 
-def _table(level: Level, sea: Sea, run: Group) -> Table | None:
+def _table(level: BreakwaterLevel, sea: Sea, run: Group) -> Table | None:
     names = sea.domain("time").labels("line")
     columns = [Column("Line", names)]
     for name, words, unit in COLUMNS:
@@ -121,7 +123,7 @@ def _words(run: Group) -> str:
     return " ".join(parts)
 
 
-def _figure(level: Level, sea: Sea, run: Group, window: tuple[float, float], line: int) -> Figure | None:
+def _figure(level: BreakwaterLevel, sea: Sea, run: Group, window: tuple[float, float], line: int) -> Figure | None:
     time = run.real("time", "time")
     moving, still = (
         run.real("line_tension_peak_since_row", "time", "line"),

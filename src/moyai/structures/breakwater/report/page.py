@@ -22,7 +22,7 @@ from moyai.report.reading import Group, root_of
 from moyai.structures.breakwater.report import damping, figures, sea_figures, tables
 from moyai.structures.breakwater.report.reading import (
     MODES,
-    Level,
+    BreakwaterLevel,
     Sea,
     SeaNumbers,
     all_numbers,
@@ -32,7 +32,7 @@ from moyai.structures.breakwater.report.reading import (
 )
 from moyai.structures.breakwater.report.summary import summary_blocks
 from moyai.structures.breakwater.report.time import (
-    Record,
+    TimeRecord,
     centre_of_gravity,
     lines_rest_shapes,
     outlines_at_rest,
@@ -63,7 +63,7 @@ def compose(result: Result) -> Document:
     default = next((n for n, level in enumerate(levels) if decides is not None and level.name == decides.level), 0)
     measured = root.child("measured")
 
-    def each_level(compose_level: Callable[[Level], Sequence[Block | None]]) -> tuple[Block, ...]:
+    def each_level(compose_level: Callable[[BreakwaterLevel], Sequence[Block | None]]) -> tuple[Block, ...]:
         return at_each_level(levels, compose_level, words=level_words, default=default)
 
     sections = chapters(
@@ -85,7 +85,7 @@ def compose(result: Result) -> Document:
     return page_of(result, _subtitle(levels), sections)
 
 
-def _subtitle(levels: tuple[Level, ...]) -> str:
+def _subtitle(levels: tuple[BreakwaterLevel, ...]) -> str:
     parts = ["Floating breakwater"]
     if levels:
         statics = levels[0].group.child("statics")
@@ -105,12 +105,12 @@ def _subtitle(levels: tuple[Level, ...]) -> str:
     return " · ".join(parts)
 
 
-def _input(root: Group, levels: tuple[Level, ...]) -> tuple[Block, ...]:
+def _input(root: Group, levels: tuple[BreakwaterLevel, ...]) -> tuple[Block, ...]:
     derived = tables.derived_numbers(levels) if levels else None
     return (case_listing(root), *([derived] if derived is not None else []))
 
 
-def _drawings(level: Level) -> Sequence[Block | None]:
+def _drawings(level: BreakwaterLevel) -> Sequence[Block | None]:
     outlines = outlines_at_rest(level)
     if not outlines:
         return ()
@@ -140,7 +140,7 @@ def _drawings(level: Level) -> Sequence[Block | None]:
     return drawings
 
 
-def _plan(level: Level, geometry: SectionGeometry) -> Drawing | None:
+def _plan(level: BreakwaterLevel, geometry: SectionGeometry) -> Drawing | None:
     """Return the unit from above on its lines, with the ways of the waves."""
     statics = level.group.child("statics")
     length = statics.value("unit_length")
@@ -163,7 +163,7 @@ def _plan(level: Level, geometry: SectionGeometry) -> Drawing | None:
     )
 
 
-def _at_rest(level: Level) -> Sequence[Block | None]:
+def _at_rest(level: BreakwaterLevel) -> Sequence[Block | None]:
     return (
         tables.lines_at_rest(level),
         tables.natural_periods(level),
@@ -172,7 +172,7 @@ def _at_rest(level: Level) -> Sequence[Block | None]:
     )
 
 
-def _response(level: Level) -> Sequence[Block | None]:
+def _response(level: BreakwaterLevel) -> Sequence[Block | None]:
     return (
         *figures.response_operators(level),
         figures.wave_coefficients(level),
@@ -181,7 +181,7 @@ def _response(level: Level) -> Sequence[Block | None]:
     )
 
 
-def _seas(level: Level, measured: Group, decides: SeaNumbers | None) -> Sequence[Block | None]:
+def _seas(level: BreakwaterLevel, measured: Group, decides: SeaNumbers | None) -> Sequence[Block | None]:
     names = level.sea_names()
     options = []
     for name in names:
@@ -196,7 +196,7 @@ def _seas(level: Level, measured: Group, decides: SeaNumbers | None) -> Sequence
     return (Choice("sea", "Sea state", tuple(options), default),)
 
 
-def _regular_blocks(level: Level, sea: Sea, measured: Group) -> Sequence[Block | None]:
+def _regular_blocks(level: BreakwaterLevel, sea: Sea, measured: Group) -> Sequence[Block | None]:
     return (
         sea_figures.regular_motions(level, sea, measured),
         sea_figures.regular_coefficients(level, sea, measured),
@@ -208,7 +208,7 @@ def _regular_blocks(level: Level, sea: Sea, measured: Group) -> Sequence[Block |
     )
 
 
-def _irregular_blocks(level: Level, sea: Sea) -> Sequence[Block | None]:
+def _irregular_blocks(level: BreakwaterLevel, sea: Sea) -> Sequence[Block | None]:
     return (
         tables.irregular_waves(level, sea),
         tables.irregular_motions(level, sea),
@@ -218,9 +218,11 @@ def _irregular_blocks(level: Level, sea: Sea) -> Sequence[Block | None]:
     )
 
 
-def _time_section(levels: tuple[Level, ...], decides: SeaNumbers | None) -> Callable[[Level], Sequence[Block | None]]:
+def _time_section(
+    levels: tuple[BreakwaterLevel, ...], decides: SeaNumbers | None
+) -> Callable[[BreakwaterLevel], Sequence[Block | None]]:
     """Return the composer of the runs: animations for as many as a mail can carry, the worst runs first."""
-    records: dict[tuple[str, str, str], tuple[Level, Sea, Record]] = {}
+    records: dict[tuple[str, str, str], tuple[BreakwaterLevel, Sea, TimeRecord]] = {}
     for level in levels:
         for name in level.sea_names():
             sea = level.sea(name)
@@ -243,7 +245,7 @@ def _time_section(levels: tuple[Level, ...], decides: SeaNumbers | None) -> Call
     animated = set(sorted(records, key=severity, reverse=True)[:MOST_ANIMATIONS])
     bins = max(POINTS_OF_ALL_RECORDS // max(len(records), 1) // 16, 60)
 
-    def compose_level(level: Level) -> Sequence[Block | None]:
+    def compose_level(level: BreakwaterLevel) -> Sequence[Block | None]:
         options = []
         for name in level.sea_names():
             mine = [entry for entry in records if entry[:2] == (level.name, name)]
@@ -265,7 +267,7 @@ def _time_section(levels: tuple[Level, ...], decides: SeaNumbers | None) -> Call
     return compose_level
 
 
-def _run_words(record: Record) -> str:
+def _run_words(record: TimeRecord) -> str:
     period, attributes = attribute_number(record.run, "period"), record.run.attributes
     named = {"event": "largest event, lines in motion", "realisation": "whole record"}
     words = f"T = {period:.4g} s" if period > 0.0 else named.get(record.run.name, record.run.name.replace("_", " "))
@@ -275,7 +277,7 @@ def _run_words(record: Record) -> str:
     return words if status in {"converged", ""} else f"{words} ({status.replace('_', ' ')})"
 
 
-def _sensitivity(level: Level) -> Sequence[Block | None]:
+def _sensitivity(level: BreakwaterLevel) -> Sequence[Block | None]:
     return [sea_figures.sensitivity(level, group) for group in level.group.child("sensitivity").children()]
 
 

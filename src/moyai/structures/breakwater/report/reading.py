@@ -19,7 +19,7 @@ LEVEL_GROUPS = ("statics", "mooring", "hydrodynamics", "rao", "frequency", "time
 
 
 @dataclass(frozen=True)
-class Level:
+class BreakwaterLevel:
     """One water level of a result."""
 
     group: Group
@@ -86,11 +86,11 @@ def _number(value: object) -> float:
         return math.nan
 
 
-def water_levels(result: Result) -> tuple[Level, ...]:
+def water_levels(result: Result) -> tuple[BreakwaterLevel, ...]:
     """Return the water levels that a result holds, in the order of the case file."""
     root = root_of(result)
     return tuple(
-        Level(child)
+        BreakwaterLevel(child)
         for child in root.children()
         if "water_depth" in child.attributes or any(child.child(name).exists for name in LEVEL_GROUPS)
     )
@@ -140,7 +140,7 @@ _TENSION_NAMES = ("line_tension_maximum", "most_probable_maximum_tension")
 _UPLIFT_NAMES = ("maximum_anchor_vertical_tension",)
 
 
-def sea_numbers(level: Level, sea: Sea, domain: str) -> SeaNumbers | None:
+def sea_numbers(level: BreakwaterLevel, sea: Sea, domain: str) -> SeaNumbers | None:
     """Return the governing numbers of a sea state in one domain, ``None`` where that domain was not run."""
     group = sea.domain(domain)
     if not group.exists:
@@ -171,7 +171,7 @@ def sea_numbers(level: Level, sea: Sea, domain: str) -> SeaNumbers | None:
     )
 
 
-def ratios_beyond_range(level: Level, group: Group, domain: str) -> Array | None:
+def ratios_beyond_range(level: BreakwaterLevel, group: Group, domain: str) -> Array | None:
     """Return largest over mean tension ((periods,) lines) where lines at rest pass their range, NaN elsewhere."""
     largest, mean = group.variable("line_tension_maximum"), group.variable("line_tension_mean")
     if largest is None or mean is None:
@@ -188,7 +188,7 @@ def ratios_beyond_range(level: Level, group: Group, domain: str) -> Array | None
     return np.where(passing, ratio, math.nan)
 
 
-def _beyond_range(level: Level, group: Group, domain: str) -> float:
+def _beyond_range(level: BreakwaterLevel, group: Group, domain: str) -> float:
     found = ratios_beyond_range(level, group, domain)
     return float(np.nanmax(found)) if found is not None and np.isfinite(found).any() else math.nan
 
@@ -207,14 +207,16 @@ def _largest(group: Group, names: tuple[str, ...], absolute: bool = True, **choi
     return math.nan
 
 
-def breaking_loads(level: Level) -> dict[str, float]:
+def breaking_loads(level: BreakwaterLevel) -> dict[str, float]:
     """Return the breaking load of each line [N]; NaN where not known."""
     statics = level.group.child("statics")
     loads = statics.real("breaking_load", "line")
     return {} if loads is None else dict(zip(statics.labels("line"), map(float, loads), strict=True))
 
 
-def _largest_tension(level: Level, sea: Sea, domain: str, periods: Array | None) -> tuple[float, str, float, float]:
+def _largest_tension(
+    level: BreakwaterLevel, sea: Sea, domain: str, periods: Array | None
+) -> tuple[float, str, float, float]:
     """Return tension, line, its breaking load and the period, for the line with the highest utilisation."""
     group = sea.domain(domain)
     table = None
@@ -276,7 +278,7 @@ def _transmission(group: Group, periods: Array | None) -> tuple[float, float, fl
     return float(transmission[at]), math.nan if reflection is None else float(reflection[at]), float(periods[at])
 
 
-def all_numbers(levels: tuple[Level, ...]) -> tuple[SeaNumbers, ...]:
+def all_numbers(levels: tuple[BreakwaterLevel, ...]) -> tuple[SeaNumbers, ...]:
     """Return the governing numbers of every water level, sea state and domain."""
     found = []
     for level in levels:

@@ -9,13 +9,13 @@ from moyai.report.document import Abscissa, Figure, Mark, Panel, Series
 from moyai.report.formatting import largest_magnitude
 from moyai.report.reading import Group, common_scale
 from moyai.structures.breakwater.report.figures import DASHES, breaking_marks, key, wave_axes, within
-from moyai.structures.breakwater.report.reading import MODES, Level, Sea
+from moyai.structures.breakwater.report.reading import MODES, BreakwaterLevel, Sea
 
 FREQUENCY_WORDS, TIME_WORDS, MEASURED_WORDS = "frequency domain", "time domain", "measured"
 RATIO_LABELS = {"sway": "sway |x|/(H/2)", "heave": "heave |z|/(H/2)", "roll": "roll |θ|B/H"}
 
 
-def _both_domains(level: Level, sea: Sea) -> list[tuple[str, Group, tuple[Abscissa, ...], dict[str, Array]]]:
+def _both_domains(level: BreakwaterLevel, sea: Sea) -> list[tuple[str, Group, tuple[Abscissa, ...], dict[str, Array]]]:
     found = []
     for words, group in ((FREQUENCY_WORDS, sea.frequency), (TIME_WORDS, sea.time)):
         axes, values = wave_axes(level, group, "period")
@@ -25,7 +25,7 @@ def _both_domains(level: Level, sea: Sea) -> list[tuple[str, Group, tuple[Abscis
 
 
 def _curves(
-    level: Level, sea: Sea, wanted: tuple[tuple[str, dict[str, str], str], ...], measured: Group | None = None
+    level: BreakwaterLevel, sea: Sea, wanted: tuple[tuple[str, dict[str, str], str], ...], measured: Group | None = None
 ) -> tuple[tuple[Abscissa, ...], list[Panel], list[Series]]:
     """Return one panel for each wanted variable with both domains and measured points in it."""
     panels: list[Panel] = []
@@ -109,7 +109,7 @@ def _measured_points(
 
 
 def _regular_figure(
-    level: Level,
+    level: BreakwaterLevel,
     sea: Sea,
     name: str,
     title: str,
@@ -137,7 +137,7 @@ def _regular_figure(
     )
 
 
-def regular_motions(level: Level, sea: Sea, measured: Group | None) -> Figure | None:
+def regular_motions(level: BreakwaterLevel, sea: Sea, measured: Group | None) -> Figure | None:
     """Motion ratios in regular waves, both domains, with measured points."""
     return _regular_figure(
         level,
@@ -150,7 +150,7 @@ def regular_motions(level: Level, sea: Sea, measured: Group | None) -> Figure | 
     )
 
 
-def regular_coefficients(level: Level, sea: Sea, measured: Group | None) -> Figure | None:
+def regular_coefficients(level: BreakwaterLevel, sea: Sea, measured: Group | None) -> Figure | None:
     """Reflection, transmission and loss in regular waves."""
     return _regular_figure(
         level,
@@ -167,7 +167,7 @@ def regular_coefficients(level: Level, sea: Sea, measured: Group | None) -> Figu
     )
 
 
-def regular_drift(level: Level, sea: Sea, measured: Group | None) -> Figure | None:
+def regular_drift(level: BreakwaterLevel, sea: Sea, measured: Group | None) -> Figure | None:
     """Drift coefficient, mean drift force and mean offset in regular waves."""
     return _regular_figure(
         level,
@@ -184,7 +184,7 @@ def regular_drift(level: Level, sea: Sea, measured: Group | None) -> Figure | No
     )
 
 
-def stiffness_under_drift(level: Level, sea: Sea) -> Figure | None:
+def stiffness_under_drift(level: BreakwaterLevel, sea: Sea) -> Figure | None:
     """Tangent stiffness of the mooring about the mean offset, with its value at rest."""
     group = sea.frequency
     axes, values = wave_axes(level, group, "period")
@@ -212,7 +212,7 @@ def stiffness_under_drift(level: Level, sea: Sea) -> Figure | None:
     )
 
 
-def regular_tension(level: Level, sea: Sea) -> Figure | None:
+def regular_tension(level: BreakwaterLevel, sea: Sea) -> Figure | None:
     """Largest tension of each line against the period, both domains."""
     panels, series, marks = [], [], []
     axes: tuple[Abscissa, ...] = ()
@@ -258,7 +258,7 @@ def regular_tension(level: Level, sea: Sea) -> Figure | None:
     )
 
 
-def spectra(level: Level, sea: Sea) -> Figure | None:
+def spectra(level: BreakwaterLevel, sea: Sea) -> Figure | None:
     """Wave, transmitted and response spectra of an irregular sea."""
     group = sea.frequency
     omega, wave = group.real("omega", "omega"), group.real("wave_spectrum", "omega")
@@ -295,7 +295,7 @@ def spectra(level: Level, sea: Sea) -> Figure | None:
     )
 
 
-def tension_bars(level: Level) -> Figure | None:
+def tension_bars(level: BreakwaterLevel) -> Figure | None:
     """Tension at rest and largest tension of each line in every sea state, against the breaking load."""
     statics = level.group.child("statics")
     lines = statics.labels("line")
@@ -341,7 +341,7 @@ def tension_bars(level: Level) -> Figure | None:
     )
 
 
-def sensitivity(level: Level, group: Group) -> Figure | None:
+def sensitivity(level: BreakwaterLevel, group: Group) -> Figure | None:
     """Motions and transmission for several values of one parameter."""
     parameter = group.name
     dim = {"damping": "damping_fraction"}.get(parameter, parameter)

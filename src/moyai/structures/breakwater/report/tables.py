@@ -14,7 +14,7 @@ from moyai.structures.breakwater.report.figures import key
 from moyai.structures.breakwater.report.reading import (
     DOMAIN_WORDS,
     MODES,
-    Level,
+    BreakwaterLevel,
     Sea,
     SeaNumbers,
     breaking_loads,
@@ -133,7 +133,7 @@ _STATICS = (
 )
 
 
-def derived_numbers(levels: Sequence[Level]) -> Table | None:
+def derived_numbers(levels: Sequence[BreakwaterLevel]) -> Table | None:
     """Numbers that follow from the case, one column a water level."""
     rows: list[tuple[str, str, list[float]]] = [
         ("Water level above datum", "m", [level.elevation for level in levels]),
@@ -187,7 +187,7 @@ def _turn(mode: str, straight: str, turning: str) -> str:
     return turning if mode in {"roll", "pitch", "yaw"} else straight
 
 
-def lines_at_rest(level: Level) -> Table | None:
+def lines_at_rest(level: BreakwaterLevel) -> Table | None:
     """The lines as they hang at rest."""
     group = level.group.child("statics")
     names = group.labels("line")
@@ -231,7 +231,7 @@ def _whole(group: Group, name: str, count: int) -> list[float]:
     return [math.nan] * count if found is None else [float(value) for value in found]
 
 
-def natural_periods(level: Level) -> Table | None:
+def natural_periods(level: BreakwaterLevel) -> Table | None:
     """Natural periods with their mode shapes."""
     group = level.group.child("statics")
     with_lines, without = group.real("natural_period", "mode"), group.real("natural_period_without_lines", "mode")
@@ -256,7 +256,7 @@ def natural_periods(level: Level) -> Table | None:
     )
 
 
-def stiffness_matrices(level: Level) -> Table | None:
+def stiffness_matrices(level: BreakwaterLevel) -> Table | None:
     """Hydrostatic and mooring stiffness and inertia at rest."""
     group = level.group.child("statics")
     rows: list[tuple[str, str, list[float], str]] = []
@@ -289,7 +289,7 @@ def stiffness_matrices(level: Level) -> Table | None:
     return Table(key(level, "matrices"), "Inertia and stiffness at rest, whole unit", tuple(columns), collapsed=True)
 
 
-def regular_tables(level: Level, sea: Sea) -> tuple[Table, ...]:
+def regular_tables(level: BreakwaterLevel, sea: Sea) -> tuple[Table, ...]:
     """Motions with tensions, and waves with drift, for each period of regular waves; the time domain unfolded."""
     found = []
     for domain in ("time", "frequency"):
@@ -304,7 +304,7 @@ def _period_column(group: Group, name: str, words: str, unit: str, **choice: str
     return Column(words, [math.nan] * count if found is None else [float(value) for value in found], unit)
 
 
-def _regular_motions(level: Level, sea: Sea, domain: str, folded: bool) -> Table | None:
+def _regular_motions(level: BreakwaterLevel, sea: Sea, domain: str, folded: bool) -> Table | None:
     group = sea.domain(domain)
     columns = [
         _period_column(group, "period", "T", "s"),
@@ -334,7 +334,7 @@ def _regular_motions(level: Level, sea: Sea, domain: str, folded: bool) -> Table
     )
 
 
-def _regular_waves(level: Level, sea: Sea, domain: str, folded: bool) -> Table | None:
+def _regular_waves(level: BreakwaterLevel, sea: Sea, domain: str, folded: bool) -> Table | None:
     group = sea.domain(domain)
     radiated = group.real("harmonic_radiation", "period", "harmonic")
     higher = (
@@ -377,7 +377,7 @@ def _domains(sea: Sea) -> list[tuple[str, Group]]:
     return [(words, group) for words, group in (("frequency", sea.frequency), ("time", sea.time)) if group.exists]
 
 
-def irregular_motions(level: Level, sea: Sea) -> Table | None:
+def irregular_motions(level: BreakwaterLevel, sea: Sea) -> Table | None:
     """Motions of an irregular sea, a row for each mode and domain."""
     holds = {"frequency": sway_words("frequency", False), "time": sway_words("time", False)}
     rows = [(mode, f"{words}: {holds[words]}", group) for mode in MODES for words, group in _domains(sea)]
@@ -409,7 +409,7 @@ def _turn_factor(mode: str) -> float:
     return 180.0 / math.pi if mode in {"roll", "pitch", "yaw"} else 1.0
 
 
-def irregular_tensions(level: Level, sea: Sea) -> Table | None:
+def irregular_tensions(level: BreakwaterLevel, sea: Sea) -> Table | None:
     """Tensions of an irregular sea, a row for each line and domain."""
     names = sea.time.labels("line") or sea.frequency.labels("line")
     rows = [(number, words, group) for number in range(len(names)) for words, group in _domains(sea)]
@@ -446,7 +446,7 @@ def irregular_tensions(level: Level, sea: Sea) -> Table | None:
     )
 
 
-def irregular_waves(level: Level, sea: Sea) -> Table | None:
+def irregular_waves(level: BreakwaterLevel, sea: Sea) -> Table | None:
     """Waves on both sides, drift force."""
     rows: list[tuple[str, str, str]] = [
         ("significant_height", "Significant wave height, incident", "m"),

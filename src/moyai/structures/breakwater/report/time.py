@@ -27,7 +27,7 @@ from moyai.report.sketch import with_colours
 from moyai.report.waves import travelling_surface
 from moyai.structures.breakwater.report.figures import key
 from moyai.structures.breakwater.report.lines import in_motion, line_blocks, moving_paths
-from moyai.structures.breakwater.report.reading import MODES, Level, Sea, attribute_number
+from moyai.structures.breakwater.report.reading import MODES, BreakwaterLevel, Sea, attribute_number
 
 WINDOW_PERIODS = 12.0
 #: Periods before and after the window that the player shows: a storm of hours would fill the page with them.
@@ -35,7 +35,7 @@ WAVES_AROUND = 30.0
 
 
 @dataclass(frozen=True)
-class Record:
+class TimeRecord:
     """A run as arrays."""
 
     run: Group
@@ -58,7 +58,7 @@ class Record:
     governing_line: int
 
 
-def read_record(level: Level, run: Group) -> Record | None:
+def read_record(level: BreakwaterLevel, run: Group) -> TimeRecord | None:
     """Return a run as arrays, ``None`` where it holds no motion."""
     time, pose = run.real("time", "time"), run.real("position", "time", "dof")
     if time is None or pose is None or time.size < 3:
@@ -91,7 +91,7 @@ def read_record(level: Level, run: Group) -> Record | None:
         ranked = peaks / loads if loads is not None and loads.size == peaks.size and np.isfinite(loads).all() else peaks
         line = int(np.argmax(ranked))
         at = begin + int(np.nanargmax(settled[:, line]))
-    return Record(
+    return TimeRecord(
         run, time, pose, tension, run.labels("line") if tension.shape[1] else (), elevation, period, begin, at, line
     )
 
@@ -108,14 +108,14 @@ def _analysis_begin(run: Group, time: Array, period: float) -> int:
     return int(np.searchsorted(time, begin))
 
 
-def window_of(record: Record) -> tuple[float, float]:
+def window_of(record: TimeRecord) -> tuple[float, float]:
     """Return start and end [s] of the window about the maximum."""
     length = WINDOW_PERIODS * record.period if record.period > 0.0 else 0.1 * float(np.ptp(record.time))
     first, last = window_around(record.time, float(record.time[record.at]), length)
     return float(record.time[first]), float(record.time[last - 1])
 
 
-def run_blocks(level: Level, sea: Sea, record: Record, animate: bool, bins: int) -> tuple[Block, ...]:
+def run_blocks(level: BreakwaterLevel, sea: Sea, record: TimeRecord, animate: bool, bins: int) -> tuple[Block, ...]:
     """Return the blocks of one run: animation, time series, statistics."""
     blocks: list[Block] = []
     if animate:
@@ -128,7 +128,7 @@ def run_blocks(level: Level, sea: Sea, record: Record, animate: bool, bins: int)
     return tuple(blocks)
 
 
-def time_series(level: Level, sea: Sea, record: Record, bins: int) -> Figure:
+def time_series(level: BreakwaterLevel, sea: Sea, record: TimeRecord, bins: int) -> Figure:
     """Return the record: complete in the window about the maximum, its extremes elsewhere."""
     start, end = window_of(record)
     channels: list[tuple[str, str, Array, bool]] = []
@@ -187,7 +187,7 @@ def time_series(level: Level, sea: Sea, record: Record, bins: int) -> Figure:
     )
 
 
-def statistics(level: Level, sea: Sea, record: Record) -> Table:
+def statistics(level: BreakwaterLevel, sea: Sea, record: TimeRecord) -> Table:
     """Return mean, deviation and extremes of each channel, without the start of the run."""
     from_here = slice(record.begin, None)
     time = record.time[from_here]
@@ -233,7 +233,7 @@ def _mean(values: Array) -> float:
     return mean if abs(mean) > 1e-9 * float(np.nanmax(np.abs(values))) else 0.0
 
 
-def outlines_at_rest(level: Level) -> tuple[Array, ...]:
+def outlines_at_rest(level: BreakwaterLevel) -> tuple[Array, ...]:
     """Return the closed outlines of the hull at rest, shape (n, 2) each."""
     statics = level.group.child("statics")
     x, z = statics.real("outline_x", "outline_point"), statics.real("outline_z", "outline_point")
@@ -246,7 +246,7 @@ def outlines_at_rest(level: Level) -> tuple[Array, ...]:
     return outlines_of(x, z)
 
 
-def lines_rest_shapes(level: Level) -> tuple[tuple[str, Array], ...]:
+def lines_rest_shapes(level: BreakwaterLevel) -> tuple[tuple[str, Array], ...]:
     """Return name and shape at rest of each line, from the anchor to the fairlead."""
     statics = level.group.child("statics")
     x, z = statics.real("line_x", "line", "line_point"), statics.real("line_z", "line", "line_point")
@@ -267,13 +267,13 @@ def lines_rest_shapes(level: Level) -> tuple[tuple[str, Array], ...]:
     return tuple(shapes)
 
 
-def centre_of_gravity(level: Level) -> tuple[float, float]:
+def centre_of_gravity(level: BreakwaterLevel) -> tuple[float, float]:
     """Return x and z of the centre of gravity at rest [m], NaN where not known."""
     statics = level.group.child("statics")
     return statics.value("centre_of_gravity_x"), statics.value("centre_of_gravity_z")
 
 
-def animation(level: Level, sea: Sea, record: Record) -> Animation | None:
+def animation(level: BreakwaterLevel, sea: Sea, record: TimeRecord) -> Animation | None:
     """Return the animated side view of a run, ``None`` where the body's outline is not stored."""
     outlines = outlines_at_rest(level)
     if not outlines:
@@ -337,7 +337,7 @@ def animation(level: Level, sea: Sea, record: Record) -> Animation | None:
 
 
 def _moving_lines(
-    level: Level, record: Record, times: Array, pose: Array, pivot: tuple[float, float], bed: float | None
+    level: BreakwaterLevel, record: TimeRecord, times: Array, pose: Array, pivot: tuple[float, float], bed: float | None
 ) -> tuple[MovingLine, ...]:
     statics = level.group.child("statics")
     loads = statics.real("breaking_load", "line")
@@ -368,7 +368,7 @@ def _shape_table(statics: Group, name: str) -> tuple[Array, Array, Array] | None
 
 
 def _extents(
-    outlines: tuple[Array, ...], lines: tuple[MovingLine, ...], record: Record, bed: float | None
+    outlines: tuple[Array, ...], lines: tuple[MovingLine, ...], record: TimeRecord, bed: float | None
 ) -> dict[str, tuple[float, float, float, float]]:
     """Return the near view of the body and the whole view with the anchors."""
     hull = np.concatenate(outlines)
@@ -390,7 +390,7 @@ def _extents(
 
 
 def _surface(
-    level: Level, record: Record, times: Array, extents: dict[str, tuple[float, float, float, float]]
+    level: BreakwaterLevel, record: TimeRecord, times: Array, extents: dict[str, tuple[float, float, float, float]]
 ) -> Surface | None:
     if record.elevation is None or not record.period > 0.0:
         return None

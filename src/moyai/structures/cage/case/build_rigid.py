@@ -19,7 +19,13 @@ from moyai.sea.water import Water
 from moyai.structures.cage.case import schema
 from moyai.structures.cage.case import schema_parts as parts
 from moyai.structures.cage.rigid import shapes
-from moyai.structures.cage.rigid.model import CageSea, LinePlan, RegularWaves, RigidCageProblem, Settings
+from moyai.structures.cage.rigid.model import (
+    CageSea,
+    RigidCageProblem,
+    RigidCageSettings,
+    RigidCageWaves,
+    RigidLinePlan,
+)
 from moyai.structures.cage.rigid.parts import Floats, PointWeight, RigidCage, Rod
 
 #: Stated weight against the sum of the parts: what weighing and rounding may differ by
@@ -62,7 +68,7 @@ def build_problem(
         ),
         seas=seas_of(model, water, folder),
         equations=unit.equations,
-        settings=Settings(
+        settings=RigidCageSettings(
             analyses=model.analyses,
             periods=rigid.periods,
             settled_periods=rigid.settled_periods,
@@ -234,7 +240,7 @@ def _contradiction(weight: parts.RigidWeight, net: float, frame: float, floats: 
     )
 
 
-def plans_of(unit: schema.RigidCageStructure) -> tuple[LinePlan, ...]:
+def plans_of(unit: schema.RigidCageStructure) -> tuple[RigidLinePlan, ...]:
     """Return the planned lines of a case: of a pair the offshore one (-x) first."""
     mooring = unit.mooring
     if mooring is None:
@@ -250,7 +256,7 @@ def plans_of(unit: schema.RigidCageStructure) -> tuple[LinePlan, ...]:
     for name, side in (("offshore line", -1.0), ("shore line", 1.0)):
         anchor = side * mooring.anchor_distance * (-1.0 if crossed else 1.0)
         plans.append(
-            LinePlan(
+            RigidLinePlan(
                 name,
                 (side * half, level),
                 anchor,
@@ -276,9 +282,9 @@ def _setting(entry: Any, keys: tuple[str, ...]) -> tuple[Any, float]:
     raise AssertionError("the schema asks for one of them")
 
 
-def _own_plan(line: parts.OwnLine) -> LinePlan:
+def _own_plan(line: parts.OwnLine) -> RigidLinePlan:
     setting, value = _setting(line, ("pretension", "slack", "length"))
-    return LinePlan(
+    return RigidLinePlan(
         line.name,
         (line.attachment.x, line.attachment.z),
         line.anchor.x,
@@ -303,7 +309,7 @@ def seas_of(model: schema.CageCase, water: Water, folder: Path) -> tuple[CageSea
         if isinstance(state, RegularWavesOfHeights):
             heading = heading_of(state, bearing, f"waves[{index}]")
             sizes = state.all_heights(), state.all_periods()
-            found.append(RegularWaves(names[index], *sizes, _straight(heading), state.theory))
+            found.append(RigidCageWaves(names[index], *sizes, _straight(heading), state.theory))
             continue
         sea = sea_state_of(state, index, model.waves, water, folder, bearing)
         assert isinstance(sea, IrregularSea)

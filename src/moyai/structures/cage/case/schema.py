@@ -6,17 +6,17 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Field
 
-from moyai.case.schema_app import APP, App
+from moyai.case.schema_app import APP, AppKeys
 from moyai.case.schema_criteria import CRITERIA
 from moyai.case.schema_display import DISPLAY, Display
 from moyai.case.schema_environment import (
     STEEP_THEORY,
     BretschneiderMitsuyasu,
-    Current,
     Jonswap,
     PiersonMoskowitz,
     RegularWavesOfHeights,
-    Site,
+    SiteCurrentKeys,
+    SiteKeys,
     SpectrumFile,
     SteepTheory,
     Tma,
@@ -45,7 +45,7 @@ from moyai.structures.cage.case.schema_parts import (
     RigidNet,
     RigidShape,
     RigidWeight,
-    Sinker,
+    SinkerKeys,
 )
 
 Analysis = Literal["statics", "time", "sensitivity"]
@@ -70,7 +70,7 @@ class RigidCageStructure(Block):
     net: RigidNet = Field(description="The net, the same on all faces.")
     frame: RigidFrame = Field(description="Rods along the edges.")
     floats: RigidFloats = Field(description="Spherical floats on the top frame.")
-    sinkers: Annotated[tuple[Sinker, ...], OneOrMany(), Field(max_length=100)] = Field(
+    sinkers: Annotated[tuple[SinkerKeys, ...], OneOrMany(), Field(max_length=100)] = Field(
         default=(), description="Weights fixed to the cage. Default: none."
     )
     weight: RigidWeight | None = Field(
@@ -94,7 +94,7 @@ CageSeaState = Annotated[
 ]
 
 
-class RigidCageSettings(Block):
+class RigidCageSettingsKeys(Block):
     """How the rigid cage is computed."""
 
     patches: Patches = Field(default=3, description="Points of Gauss along each edge of a net face. Default: 3.")
@@ -127,7 +127,9 @@ class RigidCageSettings(Block):
 class CageSettings(Block):
     """How the analyses are run."""
 
-    rigid: RigidCageSettings = Field(default_factory=RigidCageSettings, description="Settings of `model: rigid`.")
+    rigid: RigidCageSettingsKeys = Field(
+        default_factory=RigidCageSettingsKeys, description="Settings of `model: rigid`."
+    )
     flexible: FlexibleCageSettings = Field(
         default_factory=FlexibleCageSettings, description="Settings of `model: flexible`."
     )
@@ -139,11 +141,11 @@ class CageCase(Block):
 
     moyai: Literal[1] = Field(description="Version of the case file format.")
     title: Annotated[str, Field(min_length=1, max_length=200)] = Field(description="Title of the report.")
-    site: Site = Field(description="The water of the site.")
+    site: SiteKeys = Field(description="The water of the site.")
     waves: Annotated[tuple[CageSeaState, ...], OneOrMany(), BeforeValidator(refuse_no_seas)] = Field(
         default=(), description="One sea state, or a list of them; each is run."
     )
-    current: Current | None = Field(default=None, description="Steady current.")
+    current: SiteCurrentKeys | None = Field(default=None, description="Steady current.")
     structure: CageStructure = Field(description="The cage.")
     analyses: Annotated[tuple[Analysis, ...], Field(min_length=1), AfterValidator(once_each)] = Field(
         description="What is computed: rest position, motions and tensions over time, what line stiffness changes.",
@@ -153,4 +155,4 @@ class CageCase(Block):
     settings: CageSettings = Field(default_factory=CageSettings, description="How the analyses are run.")
     measured: MeasuredSets = Field(default=(), description=MEASURED)
     display: Display = Field(default_factory=Display, description=DISPLAY)
-    app: App = Field(default_factory=App, description=APP)
+    app: AppKeys = Field(default_factory=AppKeys, description=APP)

@@ -34,7 +34,8 @@ Meshes = Annotated[int, Field(strict=True, ge=1, le=200)]
 Few = Annotated[int, Field(strict=True, ge=1, le=20)]
 Samples = Annotated[int, Field(strict=True, ge=8, le=2000)]
 BedStiffness = Annotated[
-    float, QuantityOf(quantities.Kind("a stiffness of the bed", "Pa/m", "pascals per metre", "1e5 Pa/m"), above=0.0)
+    float,
+    QuantityOf(quantities.QuantityKind("a stiffness of the bed", "Pa/m", "pascals per metre", "1e5 Pa/m"), above=0.0),
 ]
 Ratio = Annotated[float, QuantityOf(quantities.NUMBER, least=0.0, most=1.0)]
 Slack = Annotated[float, QuantityOf(quantities.NUMBER, above=-0.2, below=1.0)]
@@ -214,7 +215,10 @@ class BedEntry(Block):
     """How the bed carries chains."""
 
     stiffness: Annotated[
-        float, QuantityOf(quantities.Kind("a stiffness of the bed", "Pa/m", "pascals per metre", "1e5 Pa/m"), above=0.0)
+        float,
+        QuantityOf(
+            quantities.QuantityKind("a stiffness of the bed", "Pa/m", "pascals per metre", "1e5 Pa/m"), above=0.0
+        ),
     ] = Field(default=1.0e5, description="Pressure per depth of sinking in. Default: 100 kPa/m.")
     friction: NonNegativeNumber = Field(default=0.6, description="Coulomb coefficient. Default: 0.6.")
 

@@ -133,7 +133,7 @@ class RigidFloats(Block):
     added_mass: NonNegativeNumber = Field(default=0.5, description="C_a of a float. Default: 0.5, a sphere.")
 
 
-class Sinker(Block):
+class SinkerKeys(Block):
     """A weight fixed to the cage, mirrored about the plane of the waves."""
 
     name: Name | None = Field(default=None, description="Label.")

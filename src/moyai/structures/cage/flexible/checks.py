@@ -134,7 +134,7 @@ def _check_reach(model: FlexibleCage, mooring: object, rise: float) -> None:
 
 def problem_notices(problem: FlexibleCageProblem) -> tuple[Notice, ...]:
     """Tell where net and speeds leave the range of their law, and where the mesh is coarse."""
-    from moyai.structures.cage.rigid.model import RegularWaves
+    from moyai.structures.cage.rigid.model import RigidCageWaves
 
     model = problem.cage
     net = model.design.net
@@ -144,7 +144,7 @@ def problem_notices(problem: FlexibleCageProblem) -> tuple[Notice, ...]:
         velocity = np.asarray(current.velocity(np.array([0.0, -net.wall_depth])))
         speeds.extend(np.hypot(velocity[:, 0], velocity[:, 1]).tolist())
     for sea in problem.seas:
-        if isinstance(sea, RegularWaves):
+        if isinstance(sea, RigidCageWaves):
             speeds.extend(math.pi * height / period for height, period in sea.waves())
         else:
             speeds.append(math.pi * float(sea.spectrum.significant_height) / float(sea.spectrum.peak_period))
@@ -171,7 +171,7 @@ def design_speed(problem: FlexibleCageProblem) -> float:
     """Return the speed at which the laws of nets are compared: that of the current of the site at the surface, else
     of the water in the largest wave [m/s].
     """
-    from moyai.structures.cage.rigid.model import RegularWaves
+    from moyai.structures.cage.rigid.model import RigidCageWaves
 
     current = problem.environment.current
     if current is not None:
@@ -180,7 +180,7 @@ def design_speed(problem: FlexibleCageProblem) -> float:
             return speed
     speeds = [0.1]
     for sea in problem.seas:
-        if isinstance(sea, RegularWaves):
+        if isinstance(sea, RigidCageWaves):
             speeds.extend(math.pi * height / period for height, period in sea.waves())
         else:
             speeds.append(math.pi * float(sea.spectrum.significant_height) / float(sea.spectrum.peak_period))

@@ -49,7 +49,7 @@ class WaveCase:
         return f"{self.root}/{IN_WAVES}/{self.sea}/{self.label}"
 
 
-class Governing:
+class GoverningWaves:
     """The wave with the worst of every number of the first page."""
 
     def __init__(self) -> None:

@@ -13,7 +13,7 @@ from moyai.sea.kinematics import Stretching
 from moyai.sea.states import IrregularSea
 from moyai.sea.water import Water
 from moyai.structures.cage.flexible.model import FlexibleCage
-from moyai.structures.cage.rigid.model import RegularWaves
+from moyai.structures.cage.rigid.model import RigidCageWaves
 
 
 @checks_words
@@ -59,7 +59,7 @@ class FlexibleCageProblem:
     cage: FlexibleCage
     #: Water levels and current.
     environment: Environment
-    seas: tuple[RegularWaves | IrregularSea, ...]
+    seas: tuple[RigidCageWaves | IrregularSea, ...]
     settings: FlexibleSettings
     #: Kept with the result.
     case_text: str = ""

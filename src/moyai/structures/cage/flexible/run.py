@@ -34,7 +34,7 @@ from moyai.structures.cage.flexible.checks import (
     settling_notices,
 )
 from moyai.structures.cage.flexible.equilibrium import CageRest, solve_rest
-from moyai.structures.cage.flexible.law_runs import Governing, WaveCase, laws_in_wave
+from moyai.structures.cage.flexible.law_runs import GoverningWaves, WaveCase, laws_in_wave
 from moyai.structures.cage.flexible.laws import choice_of, laws_dataset
 from moyai.structures.cage.flexible.model import FlexibleCage
 from moyai.structures.cage.flexible.parts import CageNetwork
@@ -45,8 +45,8 @@ from moyai.structures.cage.flexible.time import run_cage, time_dataset
 from moyai.structures.cage.flexible.variables import VOCABULARY
 from moyai.structures.cage.flexible.wake import ScaledCurrent
 from moyai.structures.cage.headlines import flexible_headlines
-from moyai.structures.cage.rigid.model import RegularWaves
-from moyai.structures.cage.rigid.waves import COMPONENTS, Wave, theory_limit, wave_of
+from moyai.structures.cage.rigid.model import RigidCageWaves
+from moyai.structures.cage.rigid.waves import COMPONENTS, RigidCageWave, theory_limit, wave_of
 
 if TYPE_CHECKING:
     pass
@@ -95,12 +95,14 @@ def surface_current(current: Current | None) -> tuple[float, float]:
 _AUTOMATIC = "use 'theory: automatic' of regular waves, which takes the stream function here"
 
 
-def waves_of(problem: FlexibleCageProblem, sea: RegularWaves | IrregularSea, water: Water) -> tuple[Wave, ...]:
+def waves_of(
+    problem: FlexibleCageProblem, sea: RigidCageWaves | IrregularSea, water: Water
+) -> tuple[RigidCageWave, ...]:
     """Return every wave of a sea state at a water depth, on the current of the site."""
     current = problem.environment.current
     profile = None if current is None else current.in_depth(water.depth)
     mean = np.zeros(2) if profile is None else np.asarray(profile.depth_mean(-water.depth, 0.0))
-    if isinstance(sea, RegularWaves):
+    if isinstance(sea, RigidCageWaves):
         along = float(mean @ [math.cos(sea.heading), math.sin(sea.heading)])
         return tuple(
             wave_of(sea.theory, height, period, sea.heading, water, along, problem.settings.periods)
@@ -110,14 +112,14 @@ def waves_of(problem: FlexibleCageProblem, sea: RegularWaves | IrregularSea, wat
     parts = components_of_run(sea, water, (float(mean[0]), float(mean[1])), COMPONENTS)
     number = float(np.interp(2.0 * math.pi / period, np.sort(parts.omega), parts.wave_number[np.argsort(parts.omega)]))
     height = float(sea.spectrum.significant_height)
-    return (Wave("sea", parts, height, period, 2.0 * math.pi / number, sea.duration, False, sea.seed),)
+    return (RigidCageWave("sea", parts, height, period, 2.0 * math.pi / number, sea.duration, False, sea.seed),)
 
 
 def _steps(problem: FlexibleCageProblem, collected: Collected, progress: Progress) -> Iterator[None]:
     import xarray as xr
 
     levels = problem.environment.water_levels
-    worst = Governing()
+    worst = GoverningWaves()
     waved = bool(problem.seas) and bool({"time", "sensitivity"} & set(problem.settings.analyses))
     collected.notices.extend(problem_notices(problem))
     for index, (name, level) in enumerate(levels):
@@ -189,10 +191,10 @@ def _sea_steps(
     problem: FlexibleCageProblem,
     model: FlexibleCage,
     rest: CageRest,
-    sea: RegularWaves | IrregularSea,
+    sea: RigidCageWaves | IrregularSea,
     collected: Collected,
     root: str,
-    worst: Governing,
+    worst: GoverningWaves,
     progress: Progress,
 ) -> Iterator[None]:
     waves = waves_of(problem, sea, model.water)
@@ -240,7 +242,7 @@ def _sea_steps(
 
 
 def _law_steps(
-    problem: FlexibleCageProblem, worst: Governing, collected: Collected, progress: Progress
+    problem: FlexibleCageProblem, worst: GoverningWaves, collected: Collected, progress: Progress
 ) -> Iterator[None]:
     """Run the governing waves of all numbers under the lowest and the highest valid law of nets."""
     speed = design_speed(problem)

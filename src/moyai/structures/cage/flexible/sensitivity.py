@@ -13,7 +13,7 @@ from moyai.structures.cage.flexible.equilibrium import CageRest, collar_forces, 
 from moyai.structures.cage.flexible.model import CageMesh, FlexibleCage, GridMooring
 from moyai.structures.cage.flexible.problem import FlexibleSettings
 from moyai.structures.cage.flexible.time import CageRun, drag_rows, run_cage
-from moyai.structures.cage.rigid.waves import Wave
+from moyai.structures.cage.rigid.waves import RigidCageWave
 from moyai.structures.cage.settling import BLOCK
 
 if TYPE_CHECKING:
@@ -142,7 +142,7 @@ def _at_rest(model: FlexibleCage, rest: CageRest) -> dict[str, float]:
 
 
 def sensitivity_dataset(
-    model: FlexibleCage, rest: CageRest, wave: Wave, settings: FlexibleSettings, progress: Progress = silent
+    model: FlexibleCage, rest: CageRest, wave: RigidCageWave, settings: FlexibleSettings, progress: Progress = silent
 ) -> xr.Dataset:
     """Run one wave with half the step, a coarser mesh and more damping; return peaks of each run.
 
@@ -190,7 +190,7 @@ def coarse_run(model: FlexibleCage, run: CageRun, settings: FlexibleSettings) ->
     return run_cage(other, solve_rest(other, build_cage(other), run.rest.current), wave, settings)
 
 
-def governing_part(run: CageRun) -> Wave:
+def governing_part(run: CageRun) -> RigidCageWave:
     """Return the six periods of a sea about the highest use of a line, as a wave that begins with them.
 
     Without lines those about the highest surface over the middle; a sea of six periods is returned as it is.

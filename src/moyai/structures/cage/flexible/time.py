@@ -20,7 +20,7 @@ from moyai.structures.cage.flexible.loads import PARTS, drag_split
 from moyai.structures.cage.flexible.model import FlexibleCage
 from moyai.structures.cage.flexible.problem import FlexibleSettings
 from moyai.structures.cage.flexible.variables import described
-from moyai.structures.cage.rigid.waves import Wave
+from moyai.structures.cage.rigid.waves import RigidCageWave
 from moyai.structures.cage.settling import (
     BLOCKS,
     ENOUGH,
@@ -44,7 +44,7 @@ _ROWS_PER_PERIOD, _DRAG_ROWS = 12, 200
 class CageRun:
     """A run through time."""
 
-    wave: Wave
+    wave: RigidCageWave
     #: Where it started.
     rest: CageRest
     flow: Flow
@@ -56,7 +56,7 @@ class CageRun:
 def run_cage(
     model: FlexibleCage,
     rest: CageRest,
-    wave: Wave,
+    wave: RigidCageWave,
     settings: FlexibleSettings,
     *,
     step: float | None = None,
@@ -128,7 +128,7 @@ def go_on(rest: CageRest, before: CageRun, settings: FlexibleSettings) -> CageRu
 class _Settling:
     """Whether no number of the first page will rise any more in a run through regular waves."""
 
-    def __init__(self, rest: CageRest, wave: Wave, ramp: float) -> None:
+    def __init__(self, rest: CageRest, wave: RigidCageWave, ramp: float) -> None:
         built = rest.built
         self._built, self._ramp = built, ramp
         self._period, self._least = wave.period, ramp + wave.duration
@@ -332,7 +332,7 @@ def _governing_row(lines: dict[str, tuple[object, Array]], volume: Array, steady
     return int(np.argmin(np.where(steady, measure, np.inf)))
 
 
-def wave_attributes(wave: Wave) -> dict[str, Array]:
+def wave_attributes(wave: RigidCageWave) -> dict[str, Array]:
     """Return the components of a sea as attributes, so that a report can draw its surface."""
     parts = wave.components
     return {

@@ -9,21 +9,21 @@ import numpy as np
 
 from moyai.report.document import Abscissa, Figure, Mark, Panel, Series
 from moyai.report.reading import Group, common_scale
-from moyai.structures.cage.report.rigid_reading import Level, key
+from moyai.structures.cage.report.rigid_reading import CageLevel, key
 
 
-def design_mark(level: Level, panel: int = 0) -> tuple[Mark, ...]:
+def design_mark(level: CageLevel, panel: int = 0) -> tuple[Mark, ...]:
     """Return the mark of the current of the site, the design point of a sweep of currents."""
     speed = float(level.group.attributes.get("current", 0.0))
     return (Mark("current of the site", x=speed, panel=panel),) if speed > 0.0 else ()
 
 
-def design_row(level: Level, speed: np.ndarray) -> int:
+def design_row(level: CageLevel, speed: np.ndarray) -> int:
     """Return the row of the current of the site in a sweep."""
     return int(np.argmin(np.abs(speed - float(level.group.attributes.get("current", 0.0)))))
 
 
-def volume_figure(level: Level) -> Figure | None:
+def volume_figure(level: CageLevel) -> Figure | None:
     """Return the remaining volume and the lift of the bottom over the current."""
     statics = level.part("statics")
     speed = statics.real("current_speed", "current")
@@ -53,7 +53,7 @@ def volume_figure(level: Level) -> Figure | None:
     )
 
 
-def drag_figure(level: Level) -> Figure | None:
+def drag_figure(level: CageLevel) -> Figure | None:
     """Return the drag split over the current, and what it would be if it grew as the square of the speed."""
     statics = level.part("statics")
     speed, total = statics.real("current_speed", "current"), statics.array("total_drag", "current")
@@ -88,7 +88,7 @@ def drag_figure(level: Level) -> Figure | None:
     )
 
 
-def collar_figure(level: Level) -> Figure | None:
+def collar_figure(level: CageLevel) -> Figure | None:
     """Return stress, bending and axial force around the collar's ring in the current of the site."""
     statics = level.part("statics")
     stress = statics.array("collar_stress", "current", "cage", "ring", "around")
@@ -130,7 +130,7 @@ def collar_figure(level: Level) -> Figure | None:
     )
 
 
-def run_figures(level: Level, sea: str, run: Group) -> list[Figure]:
+def run_figures(level: CageLevel, sea: str, run: Group) -> list[Figure]:
     """Return tensions and volume over time of one run, and the spread of its drag."""
     time = run.real("time", "time")
     pull, volume = run.array("line_tension", "time", "line"), run.array("volume_share", "time", "cage")

@@ -14,7 +14,7 @@ from moyai.report.reading import Group, root_of
 from moyai.structures.cage.report import flexible_figures as figures
 from moyai.structures.cage.report import flexible_tables as tables
 from moyai.structures.cage.report.flexible_scene import rest_views, run_view
-from moyai.structures.cage.report.rigid_reading import Level, levels_of
+from moyai.structures.cage.report.rigid_reading import CageLevel, levels_of
 
 
 def compose(result: Result) -> Document:
@@ -32,7 +32,7 @@ def compose(result: Result) -> Document:
     root = root_of(result)
     levels = levels_of(root)
 
-    def each_level(compose_level: Callable[[Level], Sequence[Block | None]]) -> tuple[Block, ...]:
+    def each_level(compose_level: Callable[[CageLevel], Sequence[Block | None]]) -> tuple[Block, ...]:
         return at_each_level(levels, compose_level, choice_of_one=False)
 
     sections = chapters(
@@ -59,7 +59,7 @@ def compose(result: Result) -> Document:
     return page_of(result, _subtitle(levels), sections)
 
 
-def _subtitle(levels: tuple[Level, ...]) -> str:
+def _subtitle(levels: tuple[CageLevel, ...]) -> str:
     if not levels:
         return "Flexible net cage"
     cage = levels[0].part("cage")
@@ -73,11 +73,11 @@ def _summary(result: Result) -> tuple[Block, ...]:
     return () if found is None else (found,)
 
 
-def _runs(level: Level) -> list[tuple[str, Group]]:
+def _runs(level: CageLevel) -> list[tuple[str, Group]]:
     return [(sea.name, run) for sea in level.part("time").children() for run in sea.children()]
 
 
-def _time(level: Level) -> list[Block | None]:
+def _time(level: CageLevel) -> list[Block | None]:
     options: list[Option] = []
     for sea, run in _runs(level):
         blocks: list[Block | None] = [

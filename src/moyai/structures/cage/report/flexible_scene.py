@@ -13,7 +13,7 @@ from moyai.report.formatting import format_quantity
 from moyai.report.reading import Group
 from moyai.report.scene_3d import Faces, Marker, Scene3D, Trace, Waves3D, animation_3d, frame_rows
 from moyai.structures.cage.report.flexible_figures import design_row
-from moyai.structures.cage.report.rigid_reading import Level, key
+from moyai.structures.cage.report.rigid_reading import CageLevel, key
 
 Parts = tuple[IntArray, NDArray[np.bool_], tuple[Faces, ...], tuple[Marker, ...], tuple[str, ...]]
 
@@ -21,7 +21,7 @@ Parts = tuple[IntArray, NDArray[np.bool_], tuple[Faces, ...], tuple[Marker, ...]
 _WINDOW_PERIODS = 4.0
 
 
-def _parts(level: Level) -> Parts | None:
+def _parts(level: CageLevel) -> Parts | None:
     """Return bars, which of them are thin, faces, markers and names of the bars."""
     cage = level.part("cage")
     start, end, kind = (cage.array(name, "bar") for name in ("bar_start", "bar_end", "bar_kind"))
@@ -52,16 +52,16 @@ def _parts(level: Level) -> Parts | None:
     return np.stack([start, end], axis=1).astype(np.int64), kind == 0, faces, tuple(markers), names
 
 
-def _current(level: Level, speed: float) -> tuple[float, float]:
+def _current(level: CageLevel, speed: float) -> tuple[float, float]:
     heading = float(level.group.attributes.get("heading", 0.0))
     return speed * math.cos(heading), speed * math.sin(heading)
 
 
-def _bed(level: Level) -> float:
+def _bed(level: CageLevel) -> float:
     return float(level.part("cage").attributes.get("bed", -level.depth))
 
 
-def _without_anchor_lines(level: Level, count: int) -> tuple[IntArray, IntArray]:
+def _without_anchor_lines(level: CageLevel, count: int) -> tuple[IntArray, IntArray]:
     """Return the bars of all but the anchor lines, and the nodes that they join."""
     cage = level.part("cage")
     line, start, end = (cage.array(name, "bar") for name in ("bar_line", "bar_start", "bar_end"))
@@ -83,7 +83,7 @@ def _near(parts: Parts, keep: IntArray, kept: IntArray) -> Parts:
     return number[bars[keep]], thin[keep], left, shown, tuple(names[int(k)] for k in keep)
 
 
-def rest_views(level: Level) -> Block | None:
+def rest_views(level: CageLevel) -> Block | None:
     """Return the cage at rest in each current to choose from, ``None`` where there is none."""
     parts, statics = _parts(level), level.part("statics")
     position, tension = statics.array("position", "current", "node", "axis"), statics.array("tension", "current", "bar")
@@ -103,7 +103,7 @@ def rest_views(level: Level) -> Block | None:
     return Choice(f"rest-view-{level.name}", "Current", tuple(options), design_row(level, speed), print_all=False)
 
 
-def _still(level: Level, parts: Parts, place: Array, pull: Array, speed: float, said: str) -> Animation:
+def _still(level: CageLevel, parts: Parts, place: Array, pull: Array, speed: float, said: str) -> Animation:
     """Return the view of one rest."""
     bars, thin, faces, markers, names = parts
     scene = Scene3D(
@@ -119,7 +119,7 @@ def _still(level: Level, parts: Parts, place: Array, pull: Array, speed: float, 
     )
 
 
-def run_view(level: Level, sea: str, run: Group) -> Animation | None:
+def run_view(level: CageLevel, sea: str, run: Group) -> Animation | None:
     """Return the animation of a run, ``None`` where it kept no pictures."""
     parts = _parts(level)
     time = run.real("frame_time", "frame")
@@ -153,7 +153,7 @@ def run_view(level: Level, sea: str, run: Group) -> Animation | None:
     )
 
 
-def _traces(level: Level, run: Group, names: tuple[str, ...]) -> tuple[Trace, ...]:
+def _traces(level: CageLevel, run: Group, names: tuple[str, ...]) -> tuple[Trace, ...]:
     time, peak = run.real("time", "time"), run.array("line_tension_peak_since_row", "time", "line")
     broken = level.part("cage").real("breaking_load", "line")
     if time is None or peak is None:

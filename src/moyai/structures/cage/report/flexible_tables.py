@@ -7,14 +7,14 @@ import numpy as np
 from moyai.report.document import Column, Table, in_one_unit
 from moyai.report.reading import Group
 from moyai.structures.cage.report.flexible_figures import design_row
-from moyai.structures.cage.report.rigid_reading import Level, key
+from moyai.structures.cage.report.rigid_reading import CageLevel, key
 from moyai.structures.cage.report.rigid_tables import _listing as listing
 from moyai.structures.cage.report.rigid_tables import _row as row
 
 _CAGE = ("rest_volume", "net_area", "net_mass", "solidity", "submerged_weight", "reserve_buoyancy")
 
 
-def cage_table(level: Level) -> Table | None:
+def cage_table(level: CageLevel) -> Table | None:
     """Return volume, net and weights of one cage."""
     group = level.part("cage")
     first = group.labels("cage")
@@ -30,7 +30,7 @@ def cage_table(level: Level) -> Table | None:
     return listing(key(level, "cage"), "One cage" if len(first) > 1 else "Cage", rows, note=words)
 
 
-def current_table(level: Level) -> Table | None:
+def current_table(level: CageLevel) -> Table | None:
     """Return volume, drag, collar and loads in every current."""
     statics = level.part("statics")
     speed, share = statics.real("current_speed", "current"), statics.array("volume_share", "current", "cage")
@@ -69,7 +69,7 @@ def current_table(level: Level) -> Table | None:
     )  # fmt: skip
 
 
-def law_table(level: Level) -> Table | None:
+def law_table(level: CageLevel) -> Table | None:
     """Return the design state under every law that was measured on nets like this one."""
     laws = level.part("laws")
     names = laws.labels("law")
@@ -92,7 +92,7 @@ def law_table(level: Level) -> Table | None:
     )  # fmt: skip
 
 
-def split_table(level: Level) -> Table | None:
+def split_table(level: CageLevel) -> Table | None:
     """Return the drag split in every current."""
     statics = level.part("statics")
     speed, split = statics.real("current_speed", "current"), statics.array("drag_along", "current", "part")
@@ -113,7 +113,7 @@ def split_table(level: Level) -> Table | None:
     )  # fmt: skip
 
 
-def lines_table(level: Level) -> Table | None:
+def lines_table(level: CageLevel) -> Table | None:
     """Return the tensions of every line in still water and in the current of the site."""
     statics = level.part("statics")
     names, speed = statics.labels("line"), statics.real("current_speed", "current")
@@ -134,7 +134,7 @@ def lines_table(level: Level) -> Table | None:
     )  # fmt: skip
 
 
-def run_table(level: Level, sea: str, run: Group) -> Table | None:
+def run_table(level: CageLevel, sea: str, run: Group) -> Table | None:
     """Return tensions and snaps of every line in one run."""
     names = run.labels("line")
     values = {
@@ -173,7 +173,7 @@ def run_table(level: Level, sea: str, run: Group) -> Table | None:
     )
 
 
-def drag_table(level: Level, sea: str, run: Group) -> Table | None:
+def drag_table(level: CageLevel, sea: str, run: Group) -> Table | None:
     """Return the mean and largest drag of every part in one run."""
     mean, largest = run.array("drag_mean", "part", "horizontal"), run.array("drag_largest", "part")
     if mean is None or largest is None:
@@ -194,7 +194,7 @@ def drag_table(level: Level, sea: str, run: Group) -> Table | None:
     )
 
 
-def sensitivity_table(level: Level, sea: Group) -> Table | None:
+def sensitivity_table(level: CageLevel, sea: Group) -> Table | None:
     """Return peaks with another step, mesh and damping."""
     values = sea.array("value", "variant", "quantity")
     if values is None:

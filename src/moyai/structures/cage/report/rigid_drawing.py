@@ -10,7 +10,7 @@ from moyai.core.arrays import Array
 from moyai.report.document import Drawing
 from moyai.report.formatting import format_quantity
 from moyai.report.sketch import Sketch
-from moyai.structures.cage.report.rigid_reading import Level, Record, Section, key, line_path, section_of
+from moyai.structures.cage.report.rigid_reading import CageLevel, CageSection, RigidRecord, key, line_path, section_of
 
 NET_LINES = 5
 
@@ -32,7 +32,7 @@ def net_lines(outline: Array) -> list[Array]:
     return found
 
 
-def elevation_drawing(level: Level) -> Drawing | None:
+def elevation_drawing(level: CageLevel) -> Drawing | None:
     """Return the cage at rest on its lines, with water and bed, to scale."""
     section = section_of(level)
     if section is None:
@@ -76,7 +76,7 @@ def elevation_drawing(level: Level) -> Drawing | None:
     )
 
 
-def _cage(sketch: Sketch, section: Section) -> None:
+def _cage(sketch: Sketch, section: CageSection) -> None:
     for line in net_lines(section.outline):
         sketch.path(line, "chord")
     sketch.path(section.outline, "sheet", closed=True)
@@ -85,7 +85,7 @@ def _cage(sketch: Sketch, section: Section) -> None:
 
 
 def _measures(
-    sketch: Sketch, section: Section, level: Level, extent: tuple[float, float, float, float], bed: float | None
+    sketch: Sketch, section: CageSection, level: CageLevel, extent: tuple[float, float, float, float], bed: float | None
 ) -> None:
     low = float(section.outline[:, 1].min())
     left, right = float(section.outline[:, 0].min()), float(section.outline[:, 0].max())
@@ -102,7 +102,7 @@ def _measures(
         sketch.dimension(anchors[0], bed, anchors[-1], bed, format_quantity(anchors[-1] - anchors[0], "m"), offset=24.0)
 
 
-def orbit_drawing(level: Level, sea: str, records: list[Record]) -> Drawing | None:
+def orbit_drawing(level: CageLevel, sea: str, records: list[RigidRecord]) -> Drawing | None:
     """Return the orbits of the centre of gravity next to that of a float at the surface, one scale for all."""
     shown = [record for record in records if record.regular][:12]
     if not shown:
@@ -135,7 +135,7 @@ def orbit_drawing(level: Level, sea: str, records: list[Record]) -> Drawing | No
     )
 
 
-def _loop(record: Record) -> Array:
+def _loop(record: RigidRecord) -> Array:
     """Return the orbit over the last three periods, drift within them taken out, from a crest at x = 0."""
     step = float(record.time[1] - record.time[0])
     count = max(1, round(record.period / step))

@@ -6,10 +6,10 @@ import numpy as np
 
 from moyai.report.document import Abscissa, Column, Figure, Mark, Panel, Series, Table
 from moyai.report.reading import Group, common_scale
-from moyai.structures.cage.report.rigid_reading import Level, key
+from moyai.structures.cage.report.rigid_reading import CageLevel, key
 
 
-def response_figure(level: Level, sea: Group) -> Figure | None:
+def response_figure(level: CageLevel, sea: Group) -> Figure | None:
     """Return ranges over H, rotation and peak tensions over the period, or over the height where that varies."""
     period, height = sea.real("period", "wave"), sea.real("wave_height", "wave")
     ratio, turned = sea.array("range_ratio", "wave", "translation"), sea.array("range", "wave", "mode")
@@ -61,7 +61,7 @@ def response_figure(level: Level, sea: Group) -> Figure | None:
     )
 
 
-def sensitivity_blocks(level: Level, sea: Group) -> tuple[Figure | Table, ...]:
+def sensitivity_blocks(level: CageLevel, sea: Group) -> tuple[Figure | Table, ...]:
     """Return peaks and motions over line stiffness, as figure and table."""
     stiffness = sea.real("varied_stiffness", "varied_stiffness")
     peak = sea.array("line_tension_maximum", "varied_stiffness", "line")

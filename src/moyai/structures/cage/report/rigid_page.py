@@ -17,7 +17,7 @@ from moyai.report.reading import Group, root_of
 from moyai.structures.cage.report import rigid_figures as figures
 from moyai.structures.cage.report import rigid_tables as tables
 from moyai.structures.cage.report.rigid_drawing import elevation_drawing, orbit_drawing
-from moyai.structures.cage.report.rigid_reading import Level, Record, levels_of, read_record
+from moyai.structures.cage.report.rigid_reading import CageLevel, RigidRecord, levels_of, read_record
 from moyai.structures.cage.report.rigid_time import run_blocks
 
 MOST_RUNS = 12
@@ -40,7 +40,7 @@ def compose(result: Result) -> Document:
     root = root_of(result)
     levels = levels_of(root)
 
-    def each_level(compose_level: Callable[[Level], Sequence[Block | None]]) -> tuple[Block, ...]:
+    def each_level(compose_level: Callable[[CageLevel], Sequence[Block | None]]) -> tuple[Block, ...]:
         return at_each_level(levels, compose_level, choice_of_one=False)
 
     literal = str(root.attributes.get("equations", "")) == "literal"
@@ -56,7 +56,7 @@ def compose(result: Result) -> Document:
     return page_of(result, _subtitle(levels, literal), sections)
 
 
-def _subtitle(levels: tuple[Level, ...], literal: bool) -> str:
+def _subtitle(levels: tuple[CageLevel, ...], literal: bool) -> str:
     parts = ["Rigid net cage"]
     if levels:
         cage = levels[0].part("cage")
@@ -76,7 +76,7 @@ def _summary(result: Result, literal: bool) -> tuple[Block, ...]:
     return tuple(blocks)
 
 
-def _cage(level: Level) -> list[Block | None]:
+def _cage(level: CageLevel) -> list[Block | None]:
     return [
         elevation_drawing(level),
         tables.rest_table(level),
@@ -86,12 +86,12 @@ def _cage(level: Level) -> list[Block | None]:
     ]
 
 
-def _records(level: Level, sea: Group) -> list[Record]:
+def _records(level: CageLevel, sea: Group) -> list[RigidRecord]:
     runs = level.part(f"time/{sea.name}").children()
     return [record for run in runs if (record := read_record(run)) is not None]
 
 
-def _motions(level: Level) -> list[Block | None]:
+def _motions(level: CageLevel) -> list[Block | None]:
     blocks: list[Block | None] = []
     for sea in level.part("waves").children():
         blocks += [
@@ -102,15 +102,15 @@ def _motions(level: Level) -> list[Block | None]:
     return blocks
 
 
-def _tensions(level: Level) -> list[Block | None]:
+def _tensions(level: CageLevel) -> list[Block | None]:
     return [tables.tension_table(level, sea) for sea in level.part("waves").children()]
 
 
-def _stiffness(level: Level) -> list[Block | None]:
+def _stiffness(level: CageLevel) -> list[Block | None]:
     return [block for sea in level.part("sensitivity").children() for block in figures.sensitivity_blocks(level, sea)]
 
 
-def _time(level: Level) -> list[Block | None]:
+def _time(level: CageLevel) -> list[Block | None]:
     options: list[Option] = []
     largest: list[float] = []
     for sea in level.part("waves").children():

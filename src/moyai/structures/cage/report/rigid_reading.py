@@ -16,7 +16,7 @@ ENDS = ("cage", "anchor")
 
 
 @dataclass(frozen=True)
-class Level:
+class CageLevel:
     """One water level: its group, name and depth [m]."""
 
     group: Group
@@ -28,22 +28,22 @@ class Level:
         return self.group.child(path)
 
 
-def levels_of(root: Group) -> tuple[Level, ...]:
+def levels_of(root: Group) -> tuple[CageLevel, ...]:
     """Return the water levels of a result."""
     return tuple(
-        Level(child, child.name, float(child.attributes.get("water_depth", math.nan)))
+        CageLevel(child, child.name, float(child.attributes.get("water_depth", math.nan)))
         for child in root.children()
         if "water_depth" in child.attributes
     )
 
 
-def key(level: Level, *parts: str) -> str:
+def key(level: CageLevel, *parts: str) -> str:
     """Return a unique key for a figure or table."""
     return slug(level.name, *parts)
 
 
 @dataclass(frozen=True)
-class Record:
+class RigidRecord:
     """A run as arrays."""
 
     run: Group
@@ -83,7 +83,7 @@ class Record:
 WINDOW_PERIODS = 6.0
 
 
-def read_record(run: Group) -> Record | None:
+def read_record(run: Group) -> RigidRecord | None:
     """Return a run as arrays, ``None`` where it holds no motion."""
     time = run.real("time", "time")
     motion = [run.array(mode, "time") for mode in MODES]
@@ -108,7 +108,7 @@ def read_record(run: Group) -> Record | None:
     else:
         start = min(max(float(time[at]) - 0.5 * length, float(time[0])), max(float(time[-1]) - length, float(time[0])))
         window = (start, start + length)
-    return Record(
+    return RigidRecord(
         run,
         time,
         pose,
@@ -126,7 +126,7 @@ def read_record(run: Group) -> Record | None:
 
 
 @dataclass(frozen=True)
-class Section:
+class CageSection:
     """The section of the moored cage at rest, in site axes [m]."""
 
     #: Net from the upper left corner down and around; shape (4, 2).
@@ -143,7 +143,7 @@ class Section:
     lengths: tuple[float, ...]
 
 
-def section_of(level: Level) -> Section | None:
+def section_of(level: CageLevel) -> CageSection | None:
     """Return the cage at rest, ``None`` where it is not stored."""
     cage, statics = level.part("cage"), level.part("statics")
     x, z = cage.real("outline_x", "corner"), cage.array("outline_z", "corner")
@@ -171,7 +171,7 @@ def section_of(level: Level) -> Section | None:
         for n, name in enumerate(names):
             lines.append((name, np.array([[ax[n], az[n]], ends[n]])))
             lengths.append(float(length[n]))
-    return Section(
+    return CageSection(
         placed(np.asarray(x, dtype=float), np.asarray(z, dtype=float)),
         placed(np.asarray(fx, dtype=float), np.asarray(fz, dtype=float)),
         _plain(cage, "float_diameter"),

@@ -9,7 +9,7 @@ import numpy as np
 from moyai.report.document import Column, Table
 from moyai.report.formatting import display_unit
 from moyai.report.reading import Group
-from moyai.structures.cage.report.rigid_reading import ENDS, Level, key
+from moyai.structures.cage.report.rigid_reading import ENDS, CageLevel, key
 
 _CAGE = (
     "mass",
@@ -51,7 +51,7 @@ def _row(group: Group, name: str, words: str = "", **choice: str) -> tuple[str, 
     return words or group.long_name(name), float(found) * shown.factor, shown.name
 
 
-def cage_table(level: Level) -> Table | None:
+def cage_table(level: CageLevel) -> Table | None:
     """Return masses, volumes and net."""
     group = level.part("cage")
     rows = [row for name in _CAGE if (row := _row(group, name)) is not None]
@@ -61,7 +61,7 @@ def cage_table(level: Level) -> Table | None:
     return _listing(key(level, "cage"), "Cage", rows, note=f"Net law: {law}." if law else "")
 
 
-def rest_table(level: Level) -> Table | None:
+def rest_table(level: CageLevel) -> Table | None:
     """Return the cage at rest, floating freely and moored."""
     group = level.part("statics")
     situations = group.labels("situation")
@@ -84,7 +84,7 @@ def rest_table(level: Level) -> Table | None:
     return Table(key(level, "rest"), "At rest", tuple(columns), note="z from still water.")
 
 
-def line_table(level: Level) -> Table | None:
+def line_table(level: CageLevel) -> Table | None:
     """Return the lines."""
     group = level.part("statics")
     names = group.labels("line")
@@ -109,7 +109,7 @@ def line_table(level: Level) -> Table | None:
     )  # fmt: skip
 
 
-def modes_table(level: Level) -> Table | None:
+def modes_table(level: CageLevel) -> Table | None:
     """Return natural periods and shapes."""
     group = level.part("statics")
     periods = group.array("natural_period", "natural_mode")
@@ -145,7 +145,7 @@ def _waves(sea: Group) -> list[Column]:
     ]
 
 
-def motion_table(level: Level, sea: Group) -> Table | None:
+def motion_table(level: CageLevel, sea: Group) -> Table | None:
     """Return the motions of every wave."""
     ratio = sea.array("range_ratio", "wave", "translation")
     if ratio is None:
@@ -193,7 +193,7 @@ def motion_table(level: Level, sea: Group) -> Table | None:
     )
 
 
-def tension_table(level: Level, sea: Group) -> Table | None:
+def tension_table(level: CageLevel, sea: Group) -> Table | None:
     """Return the tensions of every wave and line at both ends."""
     peak = sea.require("line_tension_maximum", "wave", "line", "end")
     if peak.shape[1] == 0:

@@ -16,10 +16,10 @@ from moyai.report.reading import common_scale
 from moyai.report.sketch import with_colours
 from moyai.report.waves import travelling_surface
 from moyai.structures.cage.report.rigid_drawing import circle, net_lines
-from moyai.structures.cage.report.rigid_reading import Level, Record, Section, key, line_path, section_of
+from moyai.structures.cage.report.rigid_reading import CageLevel, CageSection, RigidRecord, key, line_path, section_of
 
 
-def run_blocks(level: Level, sea: str, record: Record, animate: bool, bins: int) -> tuple[Block, ...]:
+def run_blocks(level: CageLevel, sea: str, record: RigidRecord, animate: bool, bins: int) -> tuple[Block, ...]:
     """Return the blocks of one run."""
     blocks: list[Block] = []
     if animate:
@@ -30,7 +30,7 @@ def run_blocks(level: Level, sea: str, record: Record, animate: bool, bins: int)
     return tuple(blocks)
 
 
-def history(level: Level, sea: str, record: Record, bins: int) -> Figure:
+def history(level: CageLevel, sea: str, record: RigidRecord, bins: int) -> Figure:
     """Return wave, motions and tensions; complete in the window, their extremes elsewhere."""
     first, last = np.searchsorted(record.time, record.window)
     flat = record.tension.reshape(record.time.size, -1)
@@ -84,7 +84,7 @@ def history(level: Level, sea: str, record: Record, bins: int) -> Figure:
     )
 
 
-def animation(level: Level, sea: str, record: Record) -> Animation | None:
+def animation(level: CageLevel, sea: str, record: RigidRecord) -> Animation | None:
     """Return the animated section with water and lines."""
     section = section_of(level)
     if section is None:
@@ -136,7 +136,7 @@ def animation(level: Level, sea: str, record: Record) -> Animation | None:
     )
 
 
-def _outlines(section: Section) -> tuple[Array, ...]:
+def _outlines(section: CageSection) -> tuple[Array, ...]:
     """Return frame, net and floats as closed outlines."""
     # lines there and back: an area would hide what runs behind the net
     corners = section.outline
@@ -146,7 +146,7 @@ def _outlines(section: Section) -> tuple[Array, ...]:
     return (*net, *floats)
 
 
-def _lines(record: Record, section: Section, times: Array, pose: Array) -> tuple[MovingLine, ...]:
+def _lines(record: RigidRecord, section: CageSection, times: Array, pose: Array) -> tuple[MovingLine, ...]:
     found = []
     for (name, ends), length in zip(section.lines, section.lengths):
         if name not in record.lines:
@@ -159,7 +159,9 @@ def _lines(record: Record, section: Section, times: Array, pose: Array) -> tuple
     return tuple(found)
 
 
-def _extents(section: Section, record: Record, bed: float | None) -> dict[str, tuple[float, float, float, float]]:
+def _extents(
+    section: CageSection, record: RigidRecord, bed: float | None
+) -> dict[str, tuple[float, float, float, float]]:
     outline = section.outline
     size = max(float(np.ptp(outline[:, 0])), float(np.ptp(outline[:, 1])))
     wave = float(np.abs(record.elevation).max())
@@ -186,7 +188,7 @@ def _extents(section: Section, record: Record, bed: float | None) -> dict[str, t
 
 
 def _surface(
-    level: Level, record: Record, times: Array, extents: dict[str, tuple[float, float, float, float]]
+    level: CageLevel, record: RigidRecord, times: Array, extents: dict[str, tuple[float, float, float, float]]
 ) -> Surface:
     left, right = min(bounds[0] for bounds in extents.values()), max(bounds[1] for bounds in extents.values())
     x = np.linspace(left, right, 121)

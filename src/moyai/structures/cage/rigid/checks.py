@@ -12,7 +12,7 @@ from moyai.structures.cage.rigid.lines import CageLine
 from moyai.structures.cage.rigid.literal import FAULTS
 from moyai.structures.cage.rigid.model import RigidCageProblem
 from moyai.structures.cage.rigid.parts import RigidCage
-from moyai.structures.cage.rigid.runs import Run
+from moyai.structures.cage.rigid.runs import RigidCageRun
 from moyai.structures.cage.rigid.setup import drowning_depth
 from moyai.structures.cage.rigid.statics import Rest, reserve_buoyancy
 from moyai.structures.cage.rigid.waves import current_along, theory_limit
@@ -130,7 +130,7 @@ def level_notices(
 
 
 def run_checks(
-    name: str, problem: RigidCageProblem, run: Run, lines: tuple[CageLine, ...]
+    name: str, problem: RigidCageProblem, run: RigidCageRun, lines: tuple[CageLine, ...]
 ) -> tuple[IdentityCheck, ...]:
     """Hold the tensions against the length of the lines, found from the motion without the code that marched it."""
     label = f"{name}, {run.wave.name}"
@@ -158,7 +158,7 @@ def run_checks(
     return tuple(found)
 
 
-def run_notices(problem: RigidCageProblem, run: Run, lines: tuple[CageLine, ...] = ()) -> tuple[Notice, ...]:
+def run_notices(problem: RigidCageProblem, run: RigidCageRun, lines: tuple[CageLine, ...] = ()) -> tuple[Notice, ...]:
     """Hold a run against the range of its net law, the size of the cage, the bed, and breaking loads."""
     cage, wave = problem.cage, run.wave
     found = list(_law_notices(problem, run))
@@ -200,7 +200,7 @@ def run_notices(problem: RigidCageProblem, run: Run, lines: tuple[CageLine, ...]
     return tuple(found)
 
 
-def _law_notices(problem: RigidCageProblem, run: Run) -> tuple[Notice, ...]:
+def _law_notices(problem: RigidCageProblem, run: RigidCageRun) -> tuple[Notice, ...]:
     """Hold the speeds of water past the net against the law: the relative speed at the middle of the cage."""
     state, wave = run.march.state, run.wave
     water = wave.components.water

@@ -10,7 +10,7 @@ import numpy as np
 from moyai.sea.water import Water
 from moyai.structures.cage.rigid.lines import CageLine
 from moyai.structures.cage.rigid.model import RigidCageProblem
-from moyai.structures.cage.rigid.runs import Run
+from moyai.structures.cage.rigid.runs import RigidCageRun
 from moyai.structures.cage.rigid.statics import Rest, reserve_buoyancy, size_of, submerged_weight
 from moyai.structures.cage.rigid.variables import labelled
 
@@ -109,7 +109,9 @@ def statics_dataset(
     )
 
 
-def sea_dataset(problem: RigidCageProblem, water: Water, runs: list[Run], lines: tuple[CageLine, ...]) -> xr.Dataset:
+def sea_dataset(
+    problem: RigidCageProblem, water: Water, runs: list[RigidCageRun], lines: tuple[CageLine, ...]
+) -> xr.Dataset:
     """Return the numbers of every wave of a sea state."""
     import xarray as xr
 
@@ -161,14 +163,14 @@ def sea_dataset(problem: RigidCageProblem, water: Water, runs: list[Run], lines:
     )
 
 
-def _status(runs: list[Run]) -> str:
+def _status(runs: list[RigidCageRun]) -> str:
     for status in ("not_converged", "interrupted"):
         if any(run.march.status == status for run in runs):
             return status
     return "converged"
 
 
-def time_dataset(problem: RigidCageProblem, run: Run, lines: tuple[CageLine, ...]) -> xr.Dataset:
+def time_dataset(problem: RigidCageProblem, run: RigidCageRun, lines: tuple[CageLine, ...]) -> xr.Dataset:
     """Return the time series of one wave."""
     import xarray as xr
 

@@ -19,7 +19,7 @@ from moyai.structures.cage.rigid.model import RigidCageProblem
 from moyai.structures.cage.rigid.runs import run_wave
 from moyai.structures.cage.rigid.statics import Rest, rest_with_lines
 from moyai.structures.cage.rigid.variables import labelled
-from moyai.structures.cage.rigid.waves import Wave, current_along
+from moyai.structures.cage.rigid.waves import RigidCageWave, current_along
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -40,7 +40,7 @@ def laws_dataset(
     lines: tuple[CageLine, ...],
     rest: Rest,
     water: Water,
-    wave: Wave,
+    wave: RigidCageWave,
     known: tuple[Array, float, float],
     progress: Progress = silent,
 ) -> tuple[xr.Dataset, Notice]:

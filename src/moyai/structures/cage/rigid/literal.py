@@ -11,7 +11,7 @@ import numpy as np
 
 from moyai.sea.water import Water
 from moyai.structures.cage.rigid.parts import RigidCage
-from moyai.structures.cage.rigid.water_kernel import Packed
+from moyai.structures.cage.rigid.water_kernel import PackedCage
 
 Fault = Literal[
     "submerged_mass",
@@ -38,7 +38,9 @@ FAULTS: dict[str, str] = {
 ENCLOSED_INERTIA = 2.0
 
 
-def literal_pack(packed: Packed, cage: RigidCage, water: Water, faults: tuple[str, ...] = tuple(FAULTS)) -> Packed:
+def literal_pack(
+    packed: PackedCage, cage: RigidCage, water: Water, faults: tuple[str, ...] = tuple(FAULTS)
+) -> PackedCage:
     """Return the packed cage with printed equations [eq:cage-literal].
 
     Parameters

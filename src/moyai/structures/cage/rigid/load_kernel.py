@@ -11,7 +11,7 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.compiled import njit
-from moyai.structures.cage.rigid.water_kernel import Packed, current_at, fill_series, water_motion
+from moyai.structures.cage.rigid.water_kernel import PackedCage, current_at, fill_series, water_motion
 
 
 @njit(cache=True, error_model="numpy", inline="always")
@@ -23,7 +23,7 @@ def _wet(eta: float, z: float, half: float) -> float:
 
 
 @njit(cache=True, error_model="numpy", inline="always")
-def _table(p: Packed, angle: float, speed: float) -> tuple[float, float]:
+def _table(p: PackedCage, angle: float, speed: float) -> tuple[float, float]:
     """Interpolate both coefficients of the net over angle and logarithm of the speed."""
     rows, columns = p.normal_table.shape
     place = angle * (rows - 1) / (0.5 * math.pi)
@@ -64,7 +64,7 @@ def _add_mass(mass: Array, rx: float, rz: float, axx: float, axz: float, azz: fl
 
 
 @njit(cache=True, error_model="numpy")
-def line_state(p: Packed, number: int, y: Array, out: Array) -> None:
+def line_state(p: PackedCage, number: int, y: Array, out: Array) -> None:
     """Fill stretch [m], rate of stretch [m/s], unit vector body to anchor, arm of the attachment [eq:cage-line]."""
     cosine, sine = math.cos(y[2]), math.sin(y[2])
     line = p.lines[number]
@@ -79,14 +79,14 @@ def line_state(p: Packed, number: int, y: Array, out: Array) -> None:
 
 
 @njit(cache=True, error_model="numpy", inline="always")
-def tautness(p: Packed, number: int, state: Array) -> float:
+def tautness(p: PackedCage, number: int, state: Array) -> float:
     """Return a force that is positive just when the line pulls [N]: the smaller of k e and k e + c e'."""
     elastic = p.lines[number, 5] * state[0]
     return min(elastic, elastic + p.lines[number, 6] * state[1])
 
 
 @njit(cache=True, error_model="numpy")
-def tension_of(p: Packed, number: int, y: Array, work: Array) -> float:
+def tension_of(p: PackedCage, number: int, y: Array, work: Array) -> float:
     """Return the tension of a line [N], zero when it is slack."""
     line_state(p, number, y, work)
     if tautness(p, number, work) <= 0.0:
@@ -95,7 +95,7 @@ def tension_of(p: Packed, number: int, y: Array, work: Array) -> float:
 
 
 @njit(cache=True, error_model="numpy")
-def loads(p: Packed, t: float, y: Array, taut: Array, force: Array, mass: Array, work: Array) -> None:
+def loads(p: PackedCage, t: float, y: Array, taut: Array, force: Array, mass: Array, work: Array) -> None:
     """Fill the generalised force without added mass terms in the accelerations, and the mass matrix [eq:cage-motion].
 
     ``taut`` says which lines pull: 1 pulls (its force may pass through zero within a step), 0 does not, -1: decide by
@@ -254,7 +254,7 @@ def loads(p: Packed, t: float, y: Array, taut: Array, force: Array, mass: Array,
 
 
 @njit(cache=True, error_model="numpy")
-def slope(p: Packed, t: float, y: Array, taut: Array, out: Array, force: Array, mass: Array, work: Array) -> None:
+def slope(p: PackedCage, t: float, y: Array, taut: Array, out: Array, force: Array, mass: Array, work: Array) -> None:
     """Fill the rates of the state: velocities and the solution of the 3 x 3 system."""
     loads(p, t, y, taut, force, mass, work)
     out[0], out[1], out[2] = y[3], y[4], y[5]

@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 from moyai.core.arrays import Array
 from moyai.core.compiled import njit
 from moyai.structures.cage.rigid.load_kernel import line_state, slope, tautness, tension_of
-from moyai.structures.cage.rigid.water_kernel import Packed
+from moyai.structures.cage.rigid.water_kernel import PackedCage
 
 
 @njit(cache=True, error_model="numpy")
 def march_fixed(
-    p: Packed, t: float, y: Array, step: float, count: int, every: int, rows: Array, tension: Array, peak: Array
+    p: PackedCage, t: float, y: Array, step: float, count: int, every: int, rows: Array, tension: Array, peak: Array
 ) -> int:
     """Runge-Kutta of fourth order with a fixed step; writes every ``every``-th state, returns the rows written."""
     size = y.size
@@ -66,7 +66,7 @@ def _dense(share: float, step: float, y: Array, difference: Array, k: Array, fif
 
 @njit(cache=True, error_model="numpy")
 def _step(
-    p: Packed, t: float, y: Array, h: float, taut: Array, k: Array, new: Array, stage: Array, work: Array
+    p: PackedCage, t: float, y: Array, h: float, taut: Array, k: Array, new: Array, stage: Array, work: Array
 ) -> None:
     """One step of the Dormand-Prince pair: ``k[0]`` is given, ``k[6]`` and the new state come back [eq:cage-pair]."""
     force, mass, wave = work[:3], work[3:12].reshape((3, 3)), work[12:18]
@@ -109,7 +109,7 @@ def _step(
 
 
 @njit(cache=True, error_model="numpy")
-def _switched(p: Packed, y: Array, taut: Array, work: Array) -> bool:
+def _switched(p: PackedCage, y: Array, taut: Array, work: Array) -> bool:
     """Whether a line pulls that did not at the start of the step, or the other way round."""
     for i in range(p.lines.shape[0]):
         line_state(p, i, y, work)
@@ -119,7 +119,7 @@ def _switched(p: Packed, y: Array, taut: Array, work: Array) -> bool:
 
 
 @njit(cache=True, error_model="numpy")
-def _decide(p: Packed, y: Array, taut: Array, work: Array) -> None:
+def _decide(p: PackedCage, y: Array, taut: Array, work: Array) -> None:
     for i in range(p.lines.shape[0]):
         line_state(p, i, y, work)
         taut[i] = 1.0 if tautness(p, i, work) > 0.0 else 0.0
@@ -127,7 +127,7 @@ def _decide(p: Packed, y: Array, taut: Array, work: Array) -> None:
 
 @njit(cache=True, error_model="numpy")
 def _note_peaks(
-    p: Packed, t: float, y: Array, begin: float, spacing: float, peak: Array, total: Array, work: Array
+    p: PackedCage, t: float, y: Array, begin: float, spacing: float, peak: Array, total: Array, work: Array
 ) -> None:
     row = int((t - begin) / spacing + 0.5)
     if row < 0 or row >= peak.shape[0]:
@@ -140,7 +140,7 @@ def _note_peaks(
 
 @njit(cache=True, error_model="numpy")
 def march(
-    p: Packed,
+    p: PackedCage,
     t: float,
     end: float,
     y: Array,

@@ -14,7 +14,7 @@ from moyai.core.options import checks_words
 from moyai.morison.net_law_names import Net, net_law
 from moyai.sea.water import Water
 from moyai.structures.cage.rigid.lines import CageLine
-from moyai.structures.cage.rigid.model import LinePlan
+from moyai.structures.cage.rigid.model import RigidLinePlan
 from moyai.structures.cage.rigid.parts import Floats, RigidCage
 from moyai.structures.cage.rigid.setup import resolve
 from moyai.structures.cage.rigid.shapes import box_floats, box_patches, box_rods
@@ -81,7 +81,7 @@ def taut_lines(
     """
     crossed = kind == "crossed_top"
     plans = tuple(
-        LinePlan(
+        RigidLinePlan(
             name,
             cage.attachment("top" if crossed else "bottom", side),
             (-side if crossed else side) * anchor_distance,

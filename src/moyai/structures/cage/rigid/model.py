@@ -21,7 +21,7 @@ Setting = Literal["pull_down", "pretension", "slack", "length"]
 
 @checks_words
 @dataclass(frozen=True)
-class LinePlan:
+class RigidLinePlan:
     """A line before its length is known."""
 
     name: str
@@ -52,7 +52,7 @@ class LinePlan:
 
 @checks_words
 @dataclass(frozen=True)
-class RegularWaves:
+class RigidCageWaves:
     """Regular waves along +x (heading 0) or -x (pi): every height with every period, SI."""
 
     name: str
@@ -66,12 +66,12 @@ class RegularWaves:
         return tuple((height, period) for height in self.heights for period in self.periods)
 
 
-CageSea = RegularWaves | IrregularSea
+CageSea = RigidCageWaves | IrregularSea
 
 
 @checks_words
 @dataclass(frozen=True)
-class Settings:
+class RigidCageSettings:
     """How a rigid cage is computed."""
 
     analyses: tuple[Analysis, ...] = ("statics", "time", "sensitivity")
@@ -114,7 +114,7 @@ class RigidCageProblem:
 
     title: str
     cage: RigidCage
-    plans: tuple[LinePlan, ...]
+    plans: tuple[RigidLinePlan, ...]
     #: [m2/s].
     kinematic_viscosity: float
     #: Water, levels, current; its sea states are those of ``seas``.
@@ -122,7 +122,7 @@ class RigidCageProblem:
     seas: tuple[CageSea, ...] = ()
     #: One of "sound", "literal".
     equations: Equations = "sound"
-    settings: Settings = field(default_factory=Settings)
+    settings: RigidCageSettings = field(default_factory=RigidCageSettings)
     case_text: str = ""
     case_hash: str = ""
     criteria: tuple[Criterion, ...] = ()

@@ -9,10 +9,10 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.structures.cage.rigid import load_kernel
 from moyai.structures.cage.rigid.statics import Rest
-from moyai.structures.cage.rigid.water_kernel import Packed
+from moyai.structures.cage.rigid.water_kernel import PackedCage
 
 
-def mass_matrix(packed: Packed, place: Array) -> Array:
+def mass_matrix(packed: PackedCage, place: Array) -> Array:
     """Return mass with added mass at a place in still water, 3 x 3 [kg], [kg m], [kg m2] [eq:cage-added-mass]."""
     force, mass, work = np.empty(3), np.empty((3, 3)), np.empty(6)
     taut = np.full(len(packed.lines), -1.0)
@@ -20,7 +20,7 @@ def mass_matrix(packed: Packed, place: Array) -> Array:
     return mass
 
 
-def natural_modes(packed: Packed, rest: Rest, size: float) -> tuple[Array, Array]:
+def natural_modes(packed: PackedCage, rest: Rest, size: float) -> tuple[Array, Array]:
     """Return natural periods [s] and shapes (sway, heave over ``size``, rotation), longest first [eq:cage-modes].
 
     A direction without restoring force has an infinite period.

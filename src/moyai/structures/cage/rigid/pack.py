@@ -17,7 +17,7 @@ from moyai.sea.water import Water
 from moyai.structures.cage.rigid.lines import CageLine
 from moyai.structures.cage.rigid.parts import RigidCage
 from moyai.structures.cage.rigid.wake import shelter
-from moyai.structures.cage.rigid.water_kernel import Packed
+from moyai.structures.cage.rigid.water_kernel import PackedCage
 
 SPHERE_COLUMNS = ("r_x", "r_z", "radius", "count", "drag", "fluid_factor", "body_factor")
 PATCH_COLUMNS = (
@@ -279,7 +279,7 @@ def pack(
     stretching: str = "constant",
     wake: Array | None = None,
     damping: tuple[float, float, float] = (0.0, 0.0, 0.0),
-) -> Packed:
+) -> PackedCage:
     """Return the arrays of a cage in its water.
 
     Parameters
@@ -307,7 +307,7 @@ def pack(
     arm = max(math.hypot(*cage.extent), 2.0 * float(np.abs(cage.floats.points).max())) / 2.0
     series = series_rows(waves, arm + 0.5 * cage.floats.diameter + math.hypot(*cage.centre), stretching)
     body = np.array([cage.mass, cage.inertia, cage.mass * water.gravity, 0.0, 1.0, -1.0, *damping])
-    return Packed(
+    return PackedCage(
         spheres=sphere_rows(cage),
         patches=patch_rows(cage, wake),
         rods=_RODS.of(key_of_objects(cage), lambda: rod_rows(cage)).copy(),

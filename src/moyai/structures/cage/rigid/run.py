@@ -29,10 +29,10 @@ from moyai.structures.cage.rigid.datasets import cage_dataset, sea_dataset, stat
 from moyai.structures.cage.rigid.headlines import rigid_headlines, rigid_offsets
 from moyai.structures.cage.rigid.laws import IN_WAVES, laws_dataset
 from moyai.structures.cage.rigid.lines import CageLine
-from moyai.structures.cage.rigid.model import CageSea, RegularWaves, RigidCageProblem
+from moyai.structures.cage.rigid.model import CageSea, RigidCageProblem, RigidCageWaves
 from moyai.structures.cage.rigid.modes import natural_modes
 from moyai.structures.cage.rigid.pack import pack
-from moyai.structures.cage.rigid.runs import Run, run_wave
+from moyai.structures.cage.rigid.runs import RigidCageRun, run_wave
 from moyai.structures.cage.rigid.sensitivity import sensitivity_dataset
 from moyai.structures.cage.rigid.setup import at_level, lines_of
 from moyai.structures.cage.rigid.statics import Rest, free_floating, rest_with_lines, size_of
@@ -174,7 +174,7 @@ def _sea_steps(
     progress: Progress,
 ) -> Iterator[None]:
     waves = waves_of(problem, sea, water)
-    runs: list[Run] = []
+    runs: list[RigidCageRun] = []
     reported: list[Notice] = []
     for number, wave in enumerate(waves):
         progress(f"time, {sea.name}", number, len(waves))
@@ -217,7 +217,7 @@ def _sensitivity_steps(
     if known is not None and known["line_tension_maximum"].size:
         at = int(np.argmax(known["line_tension_maximum"].values.reshape(len(known["wave"]), -1).max(axis=1)))
     wave = waves[at]
-    if not isinstance(sea, RegularWaves):
+    if not isinstance(sea, RigidCageWaves):
         wave = replace(wave, duration=min(wave.duration, 100.0 * wave.period))
     found = sensitivity_dataset(problem, lines, water, wave, progress)
     if found is not None:

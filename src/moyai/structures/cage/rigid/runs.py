@@ -17,14 +17,14 @@ from moyai.structures.cage.rigid.numbers import Numbers, numbers_of
 from moyai.structures.cage.rigid.pack import pack
 from moyai.structures.cage.rigid.statics import Rest, size_of
 from moyai.structures.cage.rigid.time import March, march, march_fixed
-from moyai.structures.cage.rigid.waves import Wave
+from moyai.structures.cage.rigid.waves import RigidCageWave
 
 
 @dataclass(frozen=True, eq=False)
-class Run:
+class RigidCageRun:
     """A run with its numbers; ``ends`` is the tension (rows, lines, 2) at the cage and at the anchor [N]."""
 
-    wave: Wave
+    wave: RigidCageWave
     march: March
     ends: Array
     peak_at_ends: Array
@@ -68,10 +68,10 @@ def run_wave(
     lines: tuple[CageLine, ...],
     rest: Rest,
     water: Water,
-    wave: Wave,
+    wave: RigidCageWave,
     *,
     progress: Progress = silent,
-) -> Run:
+) -> RigidCageRun:
     """March the cage of a problem through one wave from its rest.
 
     Parameters
@@ -124,4 +124,4 @@ def run_wave(
     skip = min(skip, float(found.time[-1]) * 0.5) if found.status != "converged" else skip
     numbers = numbers_of(found, rest.place, ends, peaks, wave.period, skip)
     elevation = np.asarray(wave.components.elevation(found.time))
-    return Run(wave, found, ends, peaks, numbers, elevation, rest)
+    return RigidCageRun(wave, found, ends, peaks, numbers, elevation, rest)

@@ -14,7 +14,7 @@ from moyai.structures.cage.rigid.model import RigidCageProblem
 from moyai.structures.cage.rigid.runs import run_wave
 from moyai.structures.cage.rigid.statics import rest_with_lines
 from moyai.structures.cage.rigid.variables import labelled
-from moyai.structures.cage.rigid.waves import Wave
+from moyai.structures.cage.rigid.waves import RigidCageWave
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -29,7 +29,7 @@ def sensitivity_dataset(
     problem: RigidCageProblem,
     lines: tuple[CageLine, ...],
     water: Water,
-    wave: Wave,
+    wave: RigidCageWave,
     progress: Progress = silent,
 ) -> xr.Dataset | None:
     """Return peaks and motions over line stiffness in one wave, ``None`` where no stiffness can be run.

@@ -12,7 +12,7 @@ from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.sea.water import Water
 from moyai.structures.cage.rigid.lines import CageLine, series_stiffness
-from moyai.structures.cage.rigid.model import LinePlan, RigidCageProblem
+from moyai.structures.cage.rigid.model import RigidCageProblem, RigidLinePlan
 from moyai.structures.cage.rigid.pack import pack
 from moyai.structures.cage.rigid.parts import RigidCage
 from moyai.structures.cage.rigid.statics import Rest, force_at, free_floating, reserve_buoyancy, size_of
@@ -29,7 +29,7 @@ def at_level(lines: tuple[CageLine, ...], level: float) -> tuple[CageLine, ...]:
 
 
 def resolve(
-    cage: RigidCage, plans: tuple[LinePlan, ...], water: Water, kinematic_viscosity: float
+    cage: RigidCage, plans: tuple[RigidLinePlan, ...], water: Water, kinematic_viscosity: float
 ) -> tuple[CageLine, ...]:
     """Return lines with their lengths [eq:cage-setup].
 
@@ -67,7 +67,7 @@ def resolve(
     return tuple(lines)
 
 
-def _draft(plan: LinePlan, cage: RigidCage, water: Water, free: Rest) -> CageLine:
+def _draft(plan: RigidLinePlan, cage: RigidCage, water: Water, free: Rest) -> CageLine:
     anchor = (plan.anchor_x, -water.depth + plan.anchor_above_bed)
     line = CageLine(
         plan.name, plan.attachment, anchor, 1.0, 1.0, plan.damping, plan.submerged_weight, plan.breaking_load
@@ -79,14 +79,14 @@ def _draft(plan: LinePlan, cage: RigidCage, water: Water, free: Rest) -> CageLin
     return line
 
 
-def _stiffness(plan: LinePlan, length: float) -> float:
+def _stiffness(plan: RigidLinePlan, length: float) -> float:
     if plan.stiffness is not None:
         return plan.stiffness
     assert plan.axial_stiffness is not None
     return series_stiffness(plan.axial_stiffness, length, plan.gauge_stiffness)
 
 
-def _tightened(plan: LinePlan, draft: CageLine, span: float, tension: float) -> CageLine:
+def _tightened(plan: RigidLinePlan, draft: CageLine, span: float, tension: float) -> CageLine:
     """Return the line that has a tension over a span."""
     length = span
     for _ in range(100):
@@ -102,7 +102,7 @@ def _tightened(plan: LinePlan, draft: CageLine, span: float, tension: float) -> 
 
 def _balance(
     cage: RigidCage,
-    plans: tuple[LinePlan, ...],
+    plans: tuple[RigidLinePlan, ...],
     drafts: tuple[CageLine, ...],
     water: Water,
     kinematic_viscosity: float,

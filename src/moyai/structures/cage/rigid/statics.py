@@ -15,7 +15,7 @@ from moyai.structures.cage.rigid import load_kernel, march_kernel
 from moyai.structures.cage.rigid.lines import CageLine
 from moyai.structures.cage.rigid.pack import pack
 from moyai.structures.cage.rigid.parts import RigidCage
-from moyai.structures.cage.rigid.water_kernel import Packed
+from moyai.structures.cage.rigid.water_kernel import PackedCage
 
 #: Largest step of Newton's method: share of the size of the cage, and radians
 _LARGEST_MOVE = 0.05
@@ -48,7 +48,7 @@ class Rest:
         return np.array([self.x, self.z, self.theta])
 
 
-def force_at(packed: Packed, place: Array) -> Array:
+def force_at(packed: PackedCage, place: Array) -> Array:
     """Return the generalised force on the cage held at a place in still or flowing water [N], [N m]."""
     force, mass, work = np.empty(3), np.empty((3, 3)), np.empty(6)
     taut = np.full(len(packed.lines), -1.0)
@@ -57,7 +57,7 @@ def force_at(packed: Packed, place: Array) -> Array:
     return force
 
 
-def stiffness_at(packed: Packed, place: Array, size: float) -> Array:
+def stiffness_at(packed: PackedCage, place: Array, size: float) -> Array:
     """Return -d(force)/d(place): lines by their formulas, which bend where they go slack, the rest by differences."""
     bare = packed._replace(lines=packed.lines[:0].copy())
     out = np.empty((3, 3))
@@ -141,7 +141,7 @@ def require_floating(cage: RigidCage, water: Water) -> None:
     )
 
 
-def _newton(packed: Packed, place: Array, size: float, held: tuple[int, ...], weight: float) -> tuple[Array, float]:
+def _newton(packed: PackedCage, place: Array, size: float, held: tuple[int, ...], weight: float) -> tuple[Array, float]:
     """Newton's method for zero force in the free directions, with bounded moves."""
     free = [i for i in range(3) if i not in held]
     scale = np.array([weight, weight, weight * size])
@@ -175,7 +175,7 @@ def _newton(packed: Packed, place: Array, size: float, held: tuple[int, ...], we
     return place, float(np.abs(force / scale)[free].max())
 
 
-def rest_of(packed: Packed, cage: RigidCage, place: Array, held: tuple[int, ...] = ()) -> Rest:
+def rest_of(packed: PackedCage, cage: RigidCage, place: Array, held: tuple[int, ...] = ()) -> Rest:
     """Return the position of rest near a place [eq:cage-rest].
 
     Parameters
@@ -219,7 +219,7 @@ def rest_of(packed: Packed, cage: RigidCage, place: Array, held: tuple[int, ...]
     )
 
 
-def _settle(packed: Packed, place: Array, size: float, held: tuple[int, ...], weight: float) -> tuple[Array, float]:
+def _settle(packed: PackedCage, place: Array, size: float, held: tuple[int, ...], weight: float) -> tuple[Array, float]:
     """March the strongly damped cage until it lies still, then polish."""
     gravity = float(packed.water[1])
     rate = math.sqrt(gravity / size)

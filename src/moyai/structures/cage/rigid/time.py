@@ -11,7 +11,7 @@ from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
 from moyai.structures.cage.rigid import load_kernel, march_kernel
-from moyai.structures.cage.rigid.water_kernel import Packed
+from moyai.structures.cage.rigid.water_kernel import PackedCage
 
 #: Rows between two calls of the compiled marcher: progress and interruption
 _CHUNK = 4000
@@ -41,13 +41,13 @@ class March:
     status: str
 
 
-def scales(packed: Packed, size: float) -> Array:
+def scales(packed: PackedCage, size: float) -> Array:
     """Return the natural size of every state: that of the cage, and the speed of free fall over it."""
     rate = math.sqrt(float(packed.water[1]) / size)
     return np.array([size, size, 1.0, size * rate, size * rate, rate])
 
 
-def longest_steps(packed: Packed, state: Array, period: float) -> tuple[float, float]:
+def longest_steps(packed: PackedCage, state: Array, period: float) -> tuple[float, float]:
     """Return the longest step with slack and with taut lines [s] [eq:cage-longest].
 
     A twentieth of the period; with taut lines no longer than explicit steps bear without feeding an oscillation on
@@ -72,7 +72,7 @@ def longest_steps(packed: Packed, state: Array, period: float) -> tuple[float, f
 
 
 def march(
-    packed: Packed,
+    packed: PackedCage,
     start: Array,
     *,
     duration: float,
@@ -150,7 +150,7 @@ def march(
     return March(time, rows[keep], tension[keep], peaks, steps, refused, events, evaluations, status)
 
 
-def march_fixed(packed: Packed, start: Array, *, duration: float, step: float, every: int = 1) -> March:
+def march_fixed(packed: PackedCage, start: Array, *, duration: float, step: float, every: int = 1) -> March:
     """March with the classical Runge-Kutta method of fourth order at a fixed step.
 
     Parameters

@@ -9,7 +9,7 @@ from moyai.core.arrays import Array
 from moyai.core.compiled import njit
 
 
-class Packed(NamedTuple):
+class PackedCage(NamedTuple):
     """A cage, its lines and its water as flat arrays (SI); columns as the ``*_COLUMNS`` of ``pack.py`` say."""
 
     spheres: Array
@@ -47,7 +47,7 @@ def current_at(current: Array, z: float) -> float:
 
 
 @njit(cache=True, error_model="numpy")
-def water_at(p: Packed, t: float, x: float, z: float, out: Array) -> None:
+def water_at(p: PackedCage, t: float, x: float, z: float, out: Array) -> None:
     """Fill elevation, velocity and acceleration of the waves at a point [eq:cage-water].
 
     Kinematics above still water are those at still water (code 0) or stretched (code 2).
@@ -90,7 +90,7 @@ def water_at(p: Packed, t: float, x: float, z: float, out: Array) -> None:
 
 
 @njit(cache=True, error_model="numpy")
-def _centre_waves(p: Packed, x: float, z: float) -> None:
+def _centre_waves(p: PackedCage, x: float, z: float) -> None:
     """Move the middle of the series to a point: depth functions of every wave there, and nothing summed yet."""
     depth = p.water[2]
     z = min(max(z, -depth), 0.0)
@@ -105,7 +105,7 @@ def _centre_waves(p: Packed, x: float, z: float) -> None:
 
 
 @njit(cache=True, error_model="numpy")
-def _sum_waves(p: Packed, number: float, out: Array) -> None:
+def _sum_waves(p: PackedCage, number: float, out: Array) -> None:
     """Sum the waves at a time of the grid into the coefficients of their series [eq:cage-series-of-waves].
 
     Rows of ``out``: elevation, velocity u - i w (real, imaginary), acceleration (real, imaginary); then their rates.
@@ -144,7 +144,7 @@ def _sum_waves(p: Packed, number: float, out: Array) -> None:
 
 
 @njit(cache=True, error_model="numpy")
-def fill_series(p: Packed, t: float, x: float, z: float, out: Array) -> None:
+def fill_series(p: PackedCage, t: float, x: float, z: float, out: Array) -> None:
     """Fill the coefficients at a time for a cage at a place, between two times of the grid by Hermite's cubic."""
     step, margin, ramp = p.series[1], p.series[2], p.water[3]
     if not math.hypot(x - p.centre[0], min(max(z, -p.water[2]), 0.0) - p.centre[1]) <= margin:
@@ -170,7 +170,7 @@ def fill_series(p: Packed, t: float, x: float, z: float, out: Array) -> None:
 
 
 @njit(cache=True, error_model="numpy")
-def _from_series(p: Packed, x: float, z: float, series: Array, out: Array) -> None:
+def _from_series(p: PackedCage, x: float, z: float, series: Array, out: Array) -> None:
     """Evaluate the series of the waves at a point."""
     reach, depth = p.series[0], p.water[2]
     terms = series.shape[1]
@@ -191,7 +191,7 @@ def _from_series(p: Packed, x: float, z: float, series: Array, out: Array) -> No
 
 
 @njit(cache=True, error_model="numpy", inline="always")
-def water_motion(p: Packed, t: float, x: float, z: float, series: Array, out: Array) -> None:
+def water_motion(p: PackedCage, t: float, x: float, z: float, series: Array, out: Array) -> None:
     """Fill elevation, velocity and acceleration at a point, wave by wave or from their series."""
     if series.shape[1] > 0:
         _from_series(p, x, z, series, out)

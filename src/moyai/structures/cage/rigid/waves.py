@@ -14,14 +14,14 @@ from moyai.sea.irregular import components_of_run
 from moyai.sea.permanent_wave import NonlinearWave
 from moyai.sea.regular_theory import RegularTheory, linear_limit, regular_wave
 from moyai.sea.water import Water
-from moyai.structures.cage.rigid.model import CageSea, RegularWaves, RigidCageProblem
+from moyai.structures.cage.rigid.model import CageSea, RigidCageProblem, RigidCageWaves
 
 #: Components of equal energy that stand for an irregular sea; it never repeats itself
 COMPONENTS = 200
 
 
 @dataclass(frozen=True, eq=False)
-class Wave:
+class RigidCageWave:
     """One wave or irregular sea, ready to be run."""
 
     name: str
@@ -62,11 +62,11 @@ def current_along(problem: RigidCageProblem, water: Water) -> float:
     return float(found[0])
 
 
-def waves_of(problem: RigidCageProblem, sea: CageSea, water: Water) -> tuple[Wave, ...]:
+def waves_of(problem: RigidCageProblem, sea: CageSea, water: Water) -> tuple[RigidCageWave, ...]:
     """Return every wave of a sea state at a water depth."""
     flow = current_along(problem, water)
     sense = 1.0 if math.cos(sea.heading) > 0.0 else -1.0
-    if isinstance(sea, RegularWaves):
+    if isinstance(sea, RigidCageWaves):
         return tuple(
             wave_of("linear", height, period, sea.heading, water, flow * sense, problem.settings.periods)
             for height, period in sea.waves()
@@ -75,7 +75,7 @@ def waves_of(problem: RigidCageProblem, sea: CageSea, water: Water) -> tuple[Wav
     parts = components_of_run(sea, water, (flow, 0.0), COMPONENTS)
     number = float(wave_number_in_current(2.0 * math.pi / period, water.depth, water.gravity, flow * sense))
     height = float(sea.spectrum.significant_height)
-    return (Wave("sea", parts, height, period, 2.0 * math.pi / number, sea.duration, False, sea.seed),)
+    return (RigidCageWave("sea", parts, height, period, 2.0 * math.pi / number, sea.duration, False, sea.seed),)
 
 
 @checks_words
@@ -87,14 +87,14 @@ def wave_of(
     water: Water,
     current_along_wave: float,
     periods: int,
-) -> Wave:
+) -> RigidCageWave:
     """Return a regular wave whose crest passes the middle of the cage at t = 0."""
     parts, steep = regular_wave(theory, height, period, heading, water, current_along_wave)
     name, length = f"H {height:.4g} m, T {period:.4g} s", 2.0 * math.pi / float(parts.wave_number[0])
-    return Wave(name, parts, height, period, length, periods * period, True, steep=steep)
+    return RigidCageWave(name, parts, height, period, length, periods * period, True, steep=steep)
 
 
-def theory_limit(wave: Wave, remedy: str) -> list[Notice]:
+def theory_limit(wave: RigidCageWave, remedy: str) -> list[Notice]:
     """Say when a regular wave is run as a linear one beyond the range of that theory."""
     if wave.steep is not None:
         return list(wave.steep.notices())

@@ -21,7 +21,7 @@ from moyai.structures.curtain.dynamic.plans import Plan, plans_of
 from moyai.structures.curtain.dynamic.runs import DynamicRun, run_span
 from moyai.structures.curtain.dynamic.span import span_of
 from moyai.structures.curtain.impact.cable import edge_impact, peak_by_energy
-from moyai.structures.curtain.model import Settings
+from moyai.structures.curtain.model import CurtainSettings
 from moyai.structures.curtain.variables import labelled
 
 if TYPE_CHECKING:
@@ -57,7 +57,7 @@ class DynamicAnswer:
 
 
 def dynamic_answer(
-    unit: LevelCurtain, settings: Settings, seas: tuple[SeaState, ...], progress: Progress
+    unit: LevelCurtain, settings: CurtainSettings, seas: tuple[SeaState, ...], progress: Progress
 ) -> DynamicAnswer:
     """Run the span of a level through every sea state, or through the snap in its current.
 
@@ -202,7 +202,7 @@ def _steadied(first: DynamicRun, run: DynamicRun, place: str) -> tuple[Notice, .
     )  # fmt: skip
 
 
-def _models(unit: LevelCurtain, settings: Settings) -> xr.Dataset | None:
+def _models(unit: LevelCurtain, settings: CurtainSettings) -> xr.Dataset | None:
     """Return the peaks of models A and A2 at the start speed, to hold the dynamic peak against."""
     import xarray as xr
 

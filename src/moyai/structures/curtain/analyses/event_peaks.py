@@ -34,7 +34,7 @@ SMALLER, STEEPEST = 4.0, 1.0
 
 
 @dataclass(frozen=True)
-class Sample:
+class EventSample:
     """One run of an event, on a mesh and with a realisation of its sea."""
 
     #: What is run: a sea, a period of regular waves, the snap.
@@ -81,7 +81,7 @@ class EventPeak:
         return self.alone or (self.change > MESH_CHANGE and self.finer_is_more)
 
 
-def event_peak(samples: Sequence[Sample], event: str, component: str) -> EventPeak | None:
+def event_peak(samples: Sequence[EventSample], event: str, component: str) -> EventPeak | None:
     """Return the highest tension of a component in an event; None where it bears none.
 
     Parameters
@@ -146,7 +146,7 @@ def _growth(meshes: Sequence[tuple[int, int]], means: Sequence[float]) -> float:
     )
 
 
-def _shared_means(by_mesh: Mapping[tuple[int, int], Sequence[Sample]], component: str) -> list[float]:
+def _shared_means(by_mesh: Mapping[tuple[int, int], Sequence[EventSample]], component: str) -> list[float]:
     """Return the mean on each mesh over the realisations that all of them have."""
     shared = set.intersection(*({item.seed for item in items} for items in by_mesh.values()))
     return [
@@ -154,11 +154,11 @@ def _shared_means(by_mesh: Mapping[tuple[int, int], Sequence[Sample]], component
     ]
 
 
-def _peaks(samples: Sequence[Sample], component: str) -> Array:
+def _peaks(samples: Sequence[EventSample], component: str) -> Array:
     return np.array([item.peaks[component] for item in samples])
 
 
-def governing_peaks(samples: Sequence[Sample]) -> dict[str, tuple[str, EventPeak]]:
+def governing_peaks(samples: Sequence[EventSample]) -> dict[str, tuple[str, EventPeak]]:
     """Return of each component the event with its highest tension, and that tension."""
     events = list(dict.fromkeys(item.event for item in samples))
     found: dict[str, tuple[str, EventPeak]] = {}
@@ -169,13 +169,13 @@ def governing_peaks(samples: Sequence[Sample]) -> dict[str, tuple[str, EventPeak
     return found
 
 
-def highest_judged(samples: Sequence[Sample], component: str) -> float:
+def highest_judged(samples: Sequence[EventSample], component: str) -> float:
     """Return the highest value over the events at which a component is judged."""
     events = dict.fromkeys(item.event for item in samples)
     return max(peak.judged for event in events if (peak := event_peak(samples, event, component)) is not None)
 
 
-def event_variables(samples: Sequence[Sample]) -> tuple[dict[str, Any], dict[str, Any]]:
+def event_variables(samples: Sequence[EventSample]) -> tuple[dict[str, Any], dict[str, Any]]:
     """Return variables and coordinates of the peaks: of every event, and of every run."""
     events = list(dict.fromkeys(item.event for item in samples))
     names = list(COMPONENTS)
@@ -245,7 +245,7 @@ __all__ = [
     "COMPONENTS",
     "MESH_CHANGE",
     "EventPeak",
-    "Sample",
+    "EventSample",
     "event_band",
     "event_peak",
     "event_variables",

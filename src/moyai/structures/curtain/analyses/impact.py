@@ -15,7 +15,7 @@ from moyai.structures.curtain.impact.compare import Comparison, compare_models
 from moyai.structures.curtain.impact.kernels import spring, taut_shape
 from moyai.structures.curtain.impact.march import march_impact
 from moyai.structures.curtain.impact.release import slack_phase
-from moyai.structures.curtain.impact.skirt import Skirt as BulgingSkirt
+from moyai.structures.curtain.impact.skirt import BulgedSkirt as BulgingSkirt
 from moyai.structures.curtain.model import ImpactSettings
 
 _NO_CABLE = 1e-6

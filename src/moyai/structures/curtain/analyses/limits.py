@@ -22,7 +22,7 @@ from moyai.structures.curtain.hierarchy import CYCLES, IMPACT, STRAIGHT, Role, h
 from moyai.structures.curtain.limits.loads import fastest_water, impact_load, sea_loads
 from moyai.structures.curtain.limits.search import Limit
 from moyai.structures.curtain.limits.utilisation import AddedLoads, height_limit, speed_limit, utilisation
-from moyai.structures.curtain.model import Settings
+from moyai.structures.curtain.model import CurtainSettings
 from moyai.structures.curtain.seas.loads import DragCurve, SeaLoads
 from moyai.structures.curtain.statics.hanging import CurtainStatics
 from moyai.structures.curtain.statics.steady_load import drag_factors
@@ -39,7 +39,7 @@ _MOST_TURNS, _SETTLED = 5, 2e-3
 
 def limits_dataset(
     unit: LevelCurtain,
-    settings: Settings,
+    settings: CurtainSettings,
     answer: ImpactAnswer | None,
     curve: DragCurve,
     progress: Progress,
@@ -77,7 +77,7 @@ def limits_dataset(
     progress(f"operating limits, {unit.name}", len(speeds), len(speeds))
     heights = _heights(settings, max((row.value for row, _ in rows), default=0.0))
     parts = _grid(unit, [replace(counted.loads_in(speed), known=True) for speed in speeds], speeds, heights)
-    group = _limits_group(unit, settings, counted, _Found(most, most_bound, speeds, tuple(rows)), heights, parts)
+    group = _limits_group(unit, settings, counted, _FoundLimits(most, most_bound, speeds, tuple(rows)), heights, parts)
     strict = _settled(counted, lost_depth)
     height = float(group["design_limit_height"])
     return group.assign(_design_ends(_strict(counted, lost_depth), speeds)).assign_attrs(
@@ -164,7 +164,7 @@ def _steady_factors(unit: LevelCurtain) -> AddedLoads | None:
 
 
 @dataclass(frozen=True)
-class _Found:
+class _FoundLimits:
     """Limits that were searched: of the current, and of the height in each current of the table with its bound."""
 
     most: Limit
@@ -178,7 +178,7 @@ class CountedLimits:
     """Limits by the models that count: one out of its range sets none, a bound of the load gives a limit 'at least'."""
 
     unit: LevelCurtain
-    settings: Settings
+    settings: CurtainSettings
     loads: SeaLoads
     #: Of the seas that snaps are looked for in [s].
     duration: float = math.nan
@@ -258,7 +258,12 @@ _ROLES: tuple[Role, ...] = ("governs", "bound", "comparison", "out of range")
 
 
 def _limits_group(
-    unit: LevelCurtain, settings: Settings, counted: CountedLimits, found: _Found, heights: Array, parts: Array
+    unit: LevelCurtain,
+    settings: CurtainSettings,
+    counted: CountedLimits,
+    found: _FoundLimits,
+    heights: Array,
+    parts: Array,
 ) -> xr.Dataset:
     import xarray as xr
 
@@ -317,7 +322,7 @@ def _limits_group(
 
 
 def _design_height(
-    unit: LevelCurtain, counted: CountedLimits, found: _Found, alone: Array, data: dict[str, Any]
+    unit: LevelCurtain, counted: CountedLimits, found: _FoundLimits, alone: Array, data: dict[str, Any]
 ) -> dict[str, str]:
     """Add the height held in currents up to that of the case, and return what sets it and whether it is a bound."""
     own = unit.surface_speed
@@ -379,7 +384,7 @@ def _fails_at_once(limit: Limit, unit: str) -> str:
     return f"0 {unit}: the current alone is too much for the {limit.governing} ({100.0 * limit.ratio:.0f} %)"
 
 
-def _not_monotone(found: _Found, alone: Array, least: Array) -> str:
+def _not_monotone(found: _FoundLimits, alone: Array, least: Array) -> str:
     """Say where a stronger current alone would allow a higher wave, and why."""
     risen = np.flatnonzero(alone > least * (1.0 + 1e-6) + 1e-9)
     if not risen.size:
@@ -392,7 +397,7 @@ def _not_monotone(found: _Found, alone: Array, least: Array) -> str:
     )
 
 
-def _jump(unit: LevelCurtain, counted: CountedLimits, found: _Found) -> str:
+def _jump(unit: LevelCurtain, counted: CountedLimits, found: _FoundLimits) -> str:
     """Say from which current on the upright plate counts otherwise, where the heights jump for it."""
     if not counted.with_plate or unit.curtain.toe == "free":
         return ""
@@ -407,7 +412,7 @@ def _jump(unit: LevelCurtain, counted: CountedLimits, found: _Found) -> str:
     return ""
 
 
-def _speeds(unit: LevelCurtain, settings: Settings, limit: Limit) -> tuple[float, ...]:
+def _speeds(unit: LevelCurtain, settings: CurtainSettings, limit: Limit) -> tuple[float, ...]:
     """Return the speeds of the table: as given, or up past the limit, with the limit and the current of the case."""
     if settings.limits.speeds is not None:
         # a table begins at a current: without one there is no shape to speak of
@@ -427,7 +432,7 @@ def _speeds(unit: LevelCurtain, settings: Settings, limit: Limit) -> tuple[float
     return tuple(sorted(values))
 
 
-def _heights(settings: Settings, limit: float) -> Array:
+def _heights(settings: CurtainSettings, limit: float) -> Array:
     if settings.limits.heights is not None:
         return np.array(settings.limits.heights)
     top = min(max(1.3 * limit, 0.5), settings.limits.highest_height)

@@ -18,7 +18,7 @@ from moyai.structures.curtain.assembly import LevelCurtain
 from moyai.structures.curtain.governing import governing_load, model_of
 from moyai.structures.curtain.hierarchy import CREST, CYCLES, IMPACT, ModelRole, hierarchy, role_of, upright_in
 from moyai.structures.curtain.limits.utilisation import AddedLoads, Strength
-from moyai.structures.curtain.model import COMPONENTS, Settings
+from moyai.structures.curtain.model import COMPONENTS, CurtainSettings
 from moyai.structures.curtain.seas.loads import DragCurve, increase
 from moyai.structures.curtain.seas.squared_velocity import squared_velocity
 from moyai.structures.curtain.seas.states import DesignWave
@@ -53,7 +53,7 @@ class _Added:
 
 def loads_dataset(
     unit: LevelCurtain,
-    settings: Settings,
+    settings: CurtainSettings,
     waves: tuple[DesignWave, ...],
     oscillator: tuple[tuple[str, float], ...],
     answer: ImpactAnswer | None,
@@ -116,7 +116,7 @@ _WEAKER = (0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0)
 
 
 def _in_weaker_current(
-    unit: LevelCurtain, settings: Settings, answer: ImpactAnswer | None
+    unit: LevelCurtain, settings: CurtainSettings, answer: ImpactAnswer | None
 ) -> dict[str, list[dict[str, float | str]]]:
     """Return the rows of the impact in weaker currents than that of the case, up to the strongest of an upright plate.
 
@@ -257,7 +257,7 @@ def _without_snap(row: dict[str, float | str]) -> bool:
 
 def _wave_sources(
     unit: LevelCurtain,
-    settings: Settings,
+    settings: CurtainSettings,
     waves: tuple[DesignWave, ...],
     statics: CurtainStatics | None,
     oscillator: tuple[tuple[str, float], ...],

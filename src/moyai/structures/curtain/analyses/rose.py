@@ -20,7 +20,7 @@ from moyai.sea.states import SeaState
 from moyai.structures.curtain.analyses.impact import ImpactAnswer, solve_impact
 from moyai.structures.curtain.analyses.limits import CountedLimits, fastest_water, sea_loads
 from moyai.structures.curtain.assembly import LevelCurtain
-from moyai.structures.curtain.model import Settings
+from moyai.structures.curtain.model import CurtainSettings
 from moyai.structures.curtain.seas.loads import DragCurve, drag_curve
 from moyai.structures.curtain.seas.states import longest_sea, significant_height
 from moyai.structures.curtain.variables import labelled
@@ -62,7 +62,7 @@ class RoseLimits:
 
     #: As it lies.
     unit: LevelCurtain
-    settings: Settings
+    settings: CurtainSettings
     #: Loads at rest over the speed of the water along the normal.
     curve: DragCurve
     #: Of the seas that snaps are looked for in [s]; see :func:`sea_loads`.
@@ -131,7 +131,9 @@ def best_orientation(ratio: Array) -> int | None:
     return best
 
 
-def rose_dataset(unit: LevelCurtain, settings: Settings, seas: Sequence[SeaState], progress: Progress) -> xr.Dataset:
+def rose_dataset(
+    unit: LevelCurtain, settings: CurtainSettings, seas: Sequence[SeaState], progress: Progress
+) -> xr.Dataset:
     """Return the group ``rose``: the height held over orientation and wave heading, and in the seas of the case.
 
     Parameters

@@ -21,7 +21,7 @@ from moyai.structures.curtain.analyses.dynamic import DynamicAnswer, SpanLoad, t
 from moyai.structures.curtain.analyses.event_peaks import (
     COMPONENTS,
     MESH_CHANGE,
-    Sample,
+    EventSample,
     event_variables,
     governing_peaks,
     highest_judged,
@@ -34,7 +34,7 @@ from moyai.structures.curtain.dynamic.model import CurtainSpan, Mesh
 from moyai.structures.curtain.dynamic.plans import Plan, plans_of
 from moyai.structures.curtain.dynamic.span import span_of
 from moyai.structures.curtain.hierarchy import CYCLES, IMPACT, hierarchy, role_of
-from moyai.structures.curtain.model import Settings
+from moyai.structures.curtain.model import CurtainSettings
 from moyai.structures.curtain.variables import labelled
 
 if TYPE_CHECKING:
@@ -46,7 +46,7 @@ _FINE_REALISATIONS = 0.6
 _WEAKER_CURRENT = 0.5
 
 
-def peaks_wanted(unit: LevelCurtain, settings: Settings) -> bool:
+def peaks_wanted(unit: LevelCurtain, settings: CurtainSettings) -> bool:
     """Return whether an upright plate was asked for and is only a bound, and the whole span was not asked for."""
     given, asked = settings.dynamic, set(settings.analyses)
     if given is None or not given.by_default or "dynamic" in asked or unit.curtain.skirt.length >= unit.water.depth:
@@ -56,7 +56,7 @@ def peaks_wanted(unit: LevelCurtain, settings: Settings) -> bool:
 
 
 def span_peaks(
-    unit: LevelCurtain, settings: Settings, seas: tuple[SeaState, ...], progress: Progress
+    unit: LevelCurtain, settings: CurtainSettings, seas: tuple[SeaState, ...], progress: Progress
 ) -> DynamicAnswer | None:
     """Return the runs of the whole span that give the peaks, ``None`` where the case does not say enough for them.
 
@@ -116,7 +116,7 @@ def _four_thirds(cells: int) -> int:
 
 
 def _realisations(
-    unit: LevelCurtain, settings: Settings, seas: tuple[SeaState, ...], span: CurtainSpan
+    unit: LevelCurtain, settings: CurtainSettings, seas: tuple[SeaState, ...], span: CurtainSpan
 ) -> dict[str, tuple[tuple[int, Plan], ...]]:
     """Return the realisations of every irregular sea with their seeds, by the name of its run."""
     if "waves" not in settings.analyses:
@@ -136,10 +136,10 @@ class _Runs:
     """Runs that were made, with all that is kept of them."""
 
     def __init__(
-        self, unit: LevelCurtain, settings: Settings, span: CurtainSpan, progress: Progress, expected: int
+        self, unit: LevelCurtain, settings: CurtainSettings, span: CurtainSpan, progress: Progress, expected: int
     ) -> None:
         self.unit, self.settings, self.span, self.progress, self.expected = unit, settings, span, progress, expected
-        self.samples: list[Sample] = []
+        self.samples: list[EventSample] = []
         self.rows: dict[str, Mapping[str, float]] = {}
         self.groups: dict[str, xr.Dataset] = {}
         self.checks: list[IdentityCheck] = []
@@ -170,7 +170,7 @@ class _Runs:
         plan = replace(plan, name=name)
         data, row = run_dataset(run, given, None, plan)
         peaks = {component: row[key] for component, key in COMPONENTS.items()}
-        self.samples.append(Sample(event, name, (mesh.along, mesh.down), seed, peaks))
+        self.samples.append(EventSample(event, name, (mesh.along, mesh.down), seed, peaks))
         self.checks.extend(run_checks(run, place))
         if name not in self.rows:
             self.rows[name] = row

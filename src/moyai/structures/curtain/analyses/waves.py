@@ -22,9 +22,9 @@ from moyai.series.snap_statistics import SnapFit, fit_snaps
 from moyai.structures.curtain.analyses.impact import drag_coefficient, impact_of
 from moyai.structures.curtain.assembly import LevelCurtain
 from moyai.structures.curtain.impact.cable import Impact, speed_factor
-from moyai.structures.curtain.impact.cycles import Contact, SlackTautMotion, slack_sag
+from moyai.structures.curtain.impact.cycles import CableContact, SlackTautMotion, slack_sag
 from moyai.structures.curtain.impact.settling import SettledCycles, settled_cycles
-from moyai.structures.curtain.model import Settings, WaveSettings
+from moyai.structures.curtain.model import CurtainSettings, WaveSettings
 from moyai.structures.curtain.snaps.events import SeaSnaps, snaps_in_sea, suggested_time_step
 from moyai.structures.curtain.snaps.flow import SkirtFlow, check_samples, depth_mean_factor, flow_over_skirt
 from moyai.structures.curtain.variables import labelled
@@ -58,7 +58,7 @@ class WaveAnswer:
     notices: tuple[Notice, ...]
 
 
-def wave_answer(unit: LevelCurtain, settings: Settings, sea: SeaState, progress: Progress) -> WaveAnswer:
+def wave_answer(unit: LevelCurtain, settings: CurtainSettings, sea: SeaState, progress: Progress) -> WaveAnswer:
     """Run the slack and taut curtain through a sea state.
 
     Parameters
@@ -156,7 +156,7 @@ def _shown(found: SettledCycles) -> tuple[float, float]:
     return first * found.period, min(first + width, found.first + found.count) * found.period
 
 
-def _row(impact: Impact, found: SettledCycles, contacts: list[Contact], amplitude: float) -> dict[str, float]:
+def _row(impact: Impact, found: SettledCycles, contacts: list[CableContact], amplitude: float) -> dict[str, float]:
     first = [contact for contact in contacts if contact.first]
     largest = max(first, key=lambda contact: contact.tension, default=None)
     tension = found.motion.tension[found.motion.time >= found.begin]
@@ -211,7 +211,7 @@ def _never_taut(place: str, unit: LevelCurtain, row: dict[str, float]) -> Notice
 
 def _series(
     motion: SlackTautMotion,
-    contacts: Sequence[Contact],
+    contacts: Sequence[CableContact],
     flow: Array,
     window: tuple[float, float],
     attrs: dict[str, float],

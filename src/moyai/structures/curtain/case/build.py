@@ -26,11 +26,11 @@ from moyai.structures.curtain.model import (
     AnchorLoadSettings,
     Curtain,
     CurtainProblem,
+    CurtainSettings,
     ImpactSettings,
     LimitSettings,
     RecordedCable,
     RecordedSnap,
-    Settings,
     Strengths,
     WaveSettings,
 )
@@ -79,7 +79,7 @@ def build_problem(
     )
 
 
-def recorded_snap(entry: schema.Record, folder: Path) -> RecordedSnap:
+def recorded_snap(entry: schema.RecordKeys, folder: Path) -> RecordedSnap:
     """Return what a flume record says.
 
     Parameters
@@ -287,7 +287,7 @@ def _strengths(model: schema.CurtainCase, upper: float, lower: float) -> Strengt
     )
 
 
-def settings_of(model: schema.CurtainCase, environment: Environment) -> Settings:
+def settings_of(model: schema.CurtainCase, environment: Environment) -> CurtainSettings:
     """Return analyses and settings."""
     given = model.settings
     impact, cycles, loads, limits = given.impact, given.waves, given.anchor_loads, given.limits
@@ -305,7 +305,7 @@ def settings_of(model: schema.CurtainCase, environment: Environment) -> Settings
         )
     # along the normal the waves load a curtain most, whatever the seas of the case and their order
     angle = math.radians(limits.wave_angle_deg or 0.0)
-    return Settings(
+    return CurtainSettings(
         analyses=model.analyses,
         impact=ImpactSettings(
             impact.start,

@@ -8,10 +8,10 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 
-from moyai.case.schema_app import APP, App
+from moyai.case.schema_app import APP, AppKeys
 from moyai.case.schema_criteria import CRITERIA
 from moyai.case.schema_display import DISPLAY, Display
-from moyai.case.schema_environment import Current, SeaState, Site, refuse_no_seas
+from moyai.case.schema_environment import SeaState, SiteCurrentKeys, SiteKeys, refuse_no_seas
 from moyai.case.schema_measured import MEASURED, MeasuredSets
 from moyai.case.schema_types import (
     LEVEL_NAMES,
@@ -41,10 +41,10 @@ from moyai.case.schema_types import (
     refuse,
 )
 from moyai.core import quantities
-from moyai.core.quantities import Kind
+from moyai.core.quantities import QuantityKind
 from moyai.structures.curtain.case.criteria import CurtainCriteria, CurtainKeeps
 
-_WEIGHT_PER_AREA = Kind("a weight per area", "N/m2", "newtons per square metre", "8 N/m2")
+_WEIGHT_PER_AREA = QuantityKind("a weight per area", "N/m2", "newtons per square metre", "8 N/m2")
 
 Analysis = Literal["statics", "impact", "waves", "anchor_loads", "limits", "dynamic"]
 WeightPerArea = Annotated[float, QuantityOf(_WEIGHT_PER_AREA)]
@@ -66,7 +66,7 @@ HighFactor = Annotated[float, QuantityOf(quantities.NUMBER, least=1.0)]
 Contraction = Annotated[float, QuantityOf(quantities.NUMBER, above=0.5, most=1.0)]
 Blockage = Annotated[float, QuantityOf(quantities.NUMBER, least=0.0, below=1.0)]
 Instant = Annotated[float, QuantityOf(quantities.TIME)]
-_VISCOSITY = Kind("a viscosity", "N s", "newton seconds", "40 N s")
+_VISCOSITY = QuantityKind("a viscosity", "N s", "newton seconds", "40 N s")
 CableViscosity = Annotated[float, QuantityOf(_VISCOSITY, least=0.0)]
 SkirtDampingTime = Annotated[float, QuantityOf(quantities.TIME, least=0.0)]
 SpanStiffness = Annotated[float, QuantityOf(quantities.FORCE_PER_LENGTH, least=0.0)]
@@ -152,7 +152,7 @@ class Cables(Block):
     lower: Cable | None = Field(default=None, description="Cable at the toe; needed with a held toe.")
 
 
-class Floats(Block):
+class FloatsKeys(Block):
     """What carries the curtain, per length."""
 
     buoyancy: WeightPerLength = Field(description="Upward force of the wholly submerged floats, before their weight.")
@@ -248,7 +248,7 @@ class CurtainStructure(Block):
     skirt: SkirtEntry = Field(description="The sheet.")
     toe: Toe = Field(description="The lower edge.")
     cables: Cables = Field(description="The cables along the span.")
-    floats: Floats = Field(description="What carries the curtain.")
+    floats: FloatsKeys = Field(description="What carries the curtain.")
     joints: Joints | None = Field(default=None, description="Connections of the curtain units.")
     anchors: Anchors | None = Field(default=None, description="Anchor lines; absent: fixed supports.")
     drag: Drag = Field(description="Drag coefficient.")
@@ -280,7 +280,7 @@ class Factors(Block):
     )
 
 
-class Impact(Block):
+class ImpactKeys(Block):
     """How the impact is computed."""
 
     at_most_one: ClassVar[KeyGroups] = (("start", "start_speed"),)
@@ -502,10 +502,10 @@ class Dynamic(Block):
     )
 
 
-class CurtainSettings(Block):
+class CurtainSettingsKeys(Block):
     """How the analyses are run."""
 
-    impact: Impact = Field(default_factory=Impact, description="Impact when the curtain becomes taut.")
+    impact: ImpactKeys = Field(default_factory=ImpactKeys, description="Impact when the curtain becomes taut.")
     waves: Cycles = Field(default_factory=Cycles, description="Slack and taut cycles in waves.")
     anchor_loads: AnchorLoads | None = Field(default=None, description="Anchor loads in waves by the energy model.")
     limits: Limits = Field(default_factory=Limits, description="The operating-limit table.")
@@ -520,7 +520,7 @@ class CurtainSettings(Block):
     water_levels: LevelNames = Field(default="all", description=LEVEL_NAMES)
 
 
-class Record(Block):
+class RecordKeys(Block):
     """A flume record of a snap to hold the impact models against."""
 
     file: FileName = Field(description="CSV, names and units in its header: 'time [s], upper [N], lower [N]'.")
@@ -548,19 +548,19 @@ class CurtainCase(Block):
 
     moyai: Literal[1] = Field(description="Version of the case file format.")
     title: Annotated[str, Field(min_length=1, max_length=200)] = Field(description="Title of the report.")
-    site: Site = Field(description="The water of the site.")
+    site: SiteKeys = Field(description="The water of the site.")
     waves: Annotated[tuple[SeaState, ...], OneOrMany(), BeforeValidator(refuse_no_seas)] = Field(
         default=(), description="One sea state, or a list of them; each is run."
     )
-    current: Current | None = Field(default=None, description="Steady current.")
+    current: SiteCurrentKeys | None = Field(default=None, description="Steady current.")
     structure: CurtainStructure = Field(description="The curtain.")
     analyses: Annotated[tuple[Analysis, ...], Field(min_length=1), AfterValidator(once_each)] = Field(
         description="What is computed.",
         examples=[["statics", "impact", "waves", "anchor_loads", "limits"], ["dynamic"]],
     )
-    record: Record | None = Field(default=None, description="A flume record to hold the impact models against.")
+    record: RecordKeys | None = Field(default=None, description="A flume record to hold the impact models against.")
     criteria: CurtainKeeps = Field(default_factory=CurtainCriteria, description=CRITERIA)
-    settings: CurtainSettings = Field(default_factory=CurtainSettings, description="How the analyses are run.")
+    settings: CurtainSettingsKeys = Field(default_factory=CurtainSettingsKeys, description="How the analyses are run.")
     measured: MeasuredSets = Field(default=(), description=MEASURED)
     display: Display = Field(default_factory=Display, description=DISPLAY)
-    app: App = Field(default_factory=App, description=APP)
+    app: AppKeys = Field(default_factory=AppKeys, description=APP)

@@ -21,7 +21,7 @@ from moyai.structures.curtain.dynamic.model import CurtainSpan
 from moyai.structures.curtain.dynamic.runs import DynamicSettings
 from moyai.structures.curtain.impact.cable import Impact, peak_by_energy
 from moyai.structures.curtain.impact.cycles import slack_sag
-from moyai.structures.curtain.model import Settings
+from moyai.structures.curtain.model import CurtainSettings
 
 #: Rows in a period and in the rise of model A, components of an irregular sea.
 _ROWS_OF_A_PERIOD, _ROWS_OF_A_RISE, _COMPONENTS = 400, 150, 120
@@ -62,7 +62,9 @@ class Plan:
     open: bool = False
 
 
-def plans_of(unit: LevelCurtain, settings: Settings, seas: tuple[SeaState, ...], span: CurtainSpan) -> list[Plan]:
+def plans_of(
+    unit: LevelCurtain, settings: CurtainSettings, seas: tuple[SeaState, ...], span: CurtainSpan
+) -> list[Plan]:
     """Return the runs of a level.
 
     Raises
@@ -99,7 +101,7 @@ def plans_of(unit: LevelCurtain, settings: Settings, seas: tuple[SeaState, ...],
 
 
 def _snap_plan(
-    unit: LevelCurtain, settings: Settings, span: CurtainSpan, current: _Across | None, common: dict[str, Any]
+    unit: LevelCurtain, settings: CurtainSettings, span: CurtainSpan, current: _Across | None, common: dict[str, Any]
 ) -> Plan:
     """Return the run of the snap alone: just taut at the start speed, in the current where there is one."""
     given = settings.dynamic

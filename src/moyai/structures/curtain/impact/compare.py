@@ -13,8 +13,8 @@ from moyai.structures.curtain.impact.cable import Impact, check_impact, closed_f
 from moyai.structures.curtain.impact.march import march_impact
 from moyai.structures.curtain.impact.memory import impact_with_memory
 from moyai.structures.curtain.impact.skirt import (
+    BulgedSkirt,
     JointPeak,
-    Skirt,
     SkirtPeak,
     Variant,
     cable_and_skirt_impact,
@@ -72,7 +72,7 @@ class Comparison:
         return next(item.tension for item in self.models if item.model == model)
 
 
-def compare_models(impact: Impact, skirt: Skirt | None = None, *, memory: bool = True) -> Comparison:
+def compare_models(impact: Impact, skirt: BulgedSkirt | None = None, *, memory: bool = True) -> Comparison:
     """Return the peaks of all models that the data allow.
 
     The paper's model A and its closed form take the added mass of deep water; the others that of this depth.
@@ -153,7 +153,7 @@ def compare_models(impact: Impact, skirt: Skirt | None = None, *, memory: bool =
     return Comparison(tuple(lines), tuple(notices))
 
 
-def check_skirt(impact: Impact, skirt: Skirt, both: JointPeak, stretched_tension: float) -> tuple[Notice, ...]:
+def check_skirt(impact: Impact, skirt: BulgedSkirt, both: JointPeak, stretched_tension: float) -> tuple[Notice, ...]:
     """Tell where the skirt matters to model A, where the bed matters to the arc, and where model B stretches far.
 
     Parameters

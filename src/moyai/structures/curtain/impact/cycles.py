@@ -20,7 +20,7 @@ _TABLE_ROWS = 3000
 
 
 @dataclass(frozen=True)
-class Contact:
+class CableContact:
     """One time that the cable is taut."""
 
     #: When it becomes taut [s].
@@ -60,7 +60,7 @@ class SlackTautMotion:
     #: Sum of both cables [N].
     tension: Array
     #: In the order of time; one that has begun before the series is left out.
-    contacts: tuple[Contact, ...]
+    contacts: tuple[CableContact, ...]
 
 
 def slack_sag(impact: Impact) -> float:
@@ -203,19 +203,21 @@ def simulate_in_flow(
     return SlackTautMotion(time, position, speed, tension, _contacts(rows[:count], time, given[:, 0] - level))
 
 
-def _contacts(table: Array, time: Array, wave: Array) -> tuple[Contact, ...]:
+def _contacts(table: Array, time: Array, wave: Array) -> tuple[CableContact, ...]:
     """Turn rows of the kernel into contacts; ``wave`` is the speed of the water about its mean."""
     above = wave > 0.0
     crossings = np.flatnonzero(above[:-1] != above[1:])
     step = time[1] - time[0]
     when = time[crossings] + step * wave[crossings] / (wave[crossings] - wave[crossings + 1])
     turns = {1: when[~above[crossings]], -1: when[above[crossings]]}
-    found: list[Contact] = []
+    found: list[CableContact] = []
     for begin, speed, end, top, tension, number in table:
         side = int(number)
         fresh = not found or found[-1].side != side
         if not fresh:
             place = int(np.searchsorted(turns[side], begin)) - 1
             fresh = place >= 0 and turns[side][place] > found[-1].time
-        found.append(Contact(float(begin), float(speed), float(tension), side, bool(fresh), float(top), float(end)))
+        found.append(
+            CableContact(float(begin), float(speed), float(tension), side, bool(fresh), float(top), float(end))
+        )
     return tuple(found)

@@ -18,7 +18,7 @@ from moyai.core.arrays import Array
 from moyai.core.options import checks_words
 from moyai.series.intervals import reach_of_mean
 from moyai.structures.curtain.impact.cable import Impact
-from moyai.structures.curtain.impact.cycles import Contact, SlackTautMotion, slack_sag, slack_taut_motion
+from moyai.structures.curtain.impact.cycles import CableContact, SlackTautMotion, slack_sag, slack_taut_motion
 
 Kind = Literal["repeating", "chaotic", "not steady"]
 
@@ -88,7 +88,7 @@ class SettledCycles:
         """Return the number that stands for one value of each period that counts."""
         return float(values.max()) if self.kind == "repeating" else float(_blocks(values).mean())
 
-    def of_contacts(self, contacts: Iterable[Contact]) -> float:
+    def of_contacts(self, contacts: Iterable[CableContact]) -> float:
         """Return that number for the tensions of contacts; periods without one have none."""
         values = np.zeros(self.count)
         for contact in contacts:

@@ -30,7 +30,7 @@ LEAST_CHORD = math.sin(_WIDEST_HALF_ANGLE) / _WIDEST_HALF_ANGLE
 
 
 @dataclass(frozen=True)
-class Skirt:
+class BulgedSkirt:
     """A skirt that bulges to an arc between its edges.
 
     Raises
@@ -111,7 +111,7 @@ class SkirtPeak:
     skirt_tension: float
 
 
-def _arc_mass(impact: Impact, skirt: Skirt, finite_depth: bool) -> ArcMass:
+def _arc_mass(impact: Impact, skirt: BulgedSkirt, finite_depth: bool) -> ArcMass:
     return arc_skirt_mass(skirt.chord, impact.water if finite_depth else impact.water.with_depth(math.inf))
 
 
@@ -121,7 +121,7 @@ def shape_of_displacement(impact: Impact, displacement: float) -> float:
     return float(shape_of_sag(sag_ratio(taut) + 2.0 * displacement / impact.span, taut))
 
 
-def curved_impact(impact: Impact, skirt: Skirt, *, finite_depth: bool = False) -> ImpactPeak:
+def curved_impact(impact: Impact, skirt: BulgedSkirt, *, finite_depth: bool = False) -> ImpactPeak:
     """Return the peak of model A with the added mass of the skirt's just-taut arc in place of the flat plate's.
 
     The remedy for the paper's limitation that a flat plate stands for a skirt whose length is fixed
@@ -132,7 +132,7 @@ def curved_impact(impact: Impact, skirt: Skirt, *, finite_depth: bool = False) -
 
 @checks_words
 def skirt_impact(
-    impact: Impact, skirt: Skirt, variant: Variant = "energy_mid", *, finite_depth: bool = False
+    impact: Impact, skirt: BulgedSkirt, variant: Variant = "energy_mid", *, finite_depth: bool = False
 ) -> SkirtPeak:
     """Solve model B: the skirt stretches between cables that do not [eq:impact-stretch].
 
@@ -222,7 +222,7 @@ class JointPeak(ImpactPeak):
     notices: tuple[Notice, ...]
 
 
-def cable_and_skirt_impact(impact: Impact, skirt: Skirt, *, finite_depth: bool = False) -> JointPeak:
+def cable_and_skirt_impact(impact: Impact, skirt: BulgedSkirt, *, finite_depth: bool = False) -> JointPeak:
     """Solve model AB: cable and skirt stretch together, masses frozen at the just-taut arc [eq:impact-cable-skirt].
 
     A skirt so stiff that it swings more than 1000 times faster than the cable is taken as rigid, with a notice: what

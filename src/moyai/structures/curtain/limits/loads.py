@@ -20,8 +20,8 @@ from moyai.structures.curtain.analyses.impact import ImpactAnswer, bulging_skirt
 from moyai.structures.curtain.analyses.waves import largest_tension, left_out, realisation, waves_of
 from moyai.structures.curtain.assembly import LevelCurtain
 from moyai.structures.curtain.impact.cable import peak_by_energy
-from moyai.structures.curtain.impact.skirt import Skirt
-from moyai.structures.curtain.model import Settings
+from moyai.structures.curtain.impact.skirt import BulgedSkirt
+from moyai.structures.curtain.model import CurtainSettings
 from moyai.structures.curtain.seas.loads import DragCurve, ImpactLoad, SeaLoads
 from moyai.structures.curtain.seas.squared_velocity import effective_height, squared_velocity
 from moyai.structures.curtain.seas.states import DesignWave
@@ -37,7 +37,7 @@ _PEAK_ENHANCEMENT, _PERIODS = 3.3, 300.0
 _ALONG = 1e-6
 
 
-def impact_load(unit: LevelCurtain, answer: ImpactAnswer, settings: Settings) -> ImpactLoad:
+def impact_load(unit: LevelCurtain, answer: ImpactAnswer, settings: CurtainSettings) -> ImpactLoad:
     """Return the impact at any speed of the water, in the proportions of the case."""
     given = settings.impact
     ratio = _PAPER_RATIO
@@ -56,8 +56,8 @@ def impact_load(unit: LevelCurtain, answer: ImpactAnswer, settings: Settings) ->
 
 
 def _skirt_in_current(
-    unit: LevelCurtain, settings: Settings, answer: ImpactAnswer
-) -> Callable[[float], Skirt | None] | None:
+    unit: LevelCurtain, settings: CurtainSettings, answer: ImpactAnswer
+) -> Callable[[float], BulgedSkirt | None] | None:
     """Return the skirt at any speed of the water along the normal [m/s]; None where its chord is given or not known."""
     known = answer.skirt
     if known is None or settings.impact.chord is not None or not unit.normal_speed > 0.0:
@@ -75,7 +75,7 @@ def _skirt_in_current(
             known.chord if found is None else found.chord
         )  # fmt: skip
 
-    def at(speed: float) -> Skirt:
+    def at(speed: float) -> BulgedSkirt:
         # counted from the current of the case: a model in another size finds the same
         place = math.log(speed / unit.normal_speed) / _STEP
         below = math.floor(place)
@@ -85,7 +85,7 @@ def _skirt_in_current(
     return at
 
 
-def fastest_water(unit: LevelCurtain, settings: Settings, waves: tuple[DesignWave, ...]) -> float:
+def fastest_water(unit: LevelCurtain, settings: CurtainSettings, waves: tuple[DesignWave, ...]) -> float:
     """Return the largest root of the squared velocity [m/s] that load table and operating limits ask for.
 
     Parameters
@@ -116,7 +116,7 @@ def fastest_water(unit: LevelCurtain, settings: Settings, waves: tuple[DesignWav
 
 def sea_loads(
     unit: LevelCurtain,
-    settings: Settings,
+    settings: CurtainSettings,
     answer: ImpactAnswer | None,
     curve: DragCurve,
     duration: float | None = None,
@@ -157,7 +157,7 @@ def sea_loads(
     )
 
 
-def _snaps(unit: LevelCurtain, settings: Settings, answer: ImpactAnswer, duration: float) -> SnapTable:
+def _snaps(unit: LevelCurtain, settings: CurtainSettings, answer: ImpactAnswer, duration: float) -> SnapTable:
     """Return the snaps in JONSWAP seas of any height, long crested along the normal, with the periods of the limits."""
     rule, ratio = settings.direction
     limits, given = settings.limits, settings.waves
@@ -195,7 +195,7 @@ def _snaps(unit: LevelCurtain, settings: Settings, answer: ImpactAnswer, duratio
     return SnapTable(realise, stands, limits.highest_height)
 
 
-def _pretension(unit: LevelCurtain, settings: Settings) -> float | None:
+def _pretension(unit: LevelCurtain, settings: CurtainSettings) -> float | None:
     """Return the steady tension that the energy model takes [N]; None: that of the statics at each speed."""
     anchor, lines = settings.anchor_loads, unit.curtain.anchors
     if anchor is not None and not anchor.pretension:

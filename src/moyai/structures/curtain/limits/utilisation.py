@@ -166,7 +166,7 @@ def utilisation(
 
 
 @dataclass(frozen=True)
-class Site:
+class CurtainSite:
     """Where the curtain hangs, with a family of currents.
 
     Notes
@@ -271,7 +271,7 @@ def _worst(parts: dict[str, float]) -> tuple[float, str]:
 
 def speed_limit(
     curtain: HangingCurtain,
-    site: Site,
+    site: CurtainSite,
     required: Requirements,
     *,
     highest: float,
@@ -318,7 +318,7 @@ def speed_limit(
     return search(worst, highest, start=_LEAST * highest)
 
 
-def drowning_speed(curtain: HangingCurtain, site: Site, *, highest: float) -> float:
+def drowning_speed(curtain: HangingCurtain, site: CurtainSite, *, highest: float) -> float:
     """Return the surface speed [m/s] at which the float reserve is used up, infinite when not below ``highest``.
 
     The drag of the floats counts: it loads the anchor lines, which pull the floats down.
@@ -348,7 +348,7 @@ def drowning_speed(curtain: HangingCurtain, site: Site, *, highest: float) -> fl
 
 def height_limit(
     curtain: HangingCurtain,
-    site: Site,
+    site: CurtainSite,
     required: Requirements,
     waves: WaveLoading,
     *,
@@ -389,7 +389,7 @@ def height_limit(
 
 def operating_limits(
     curtain: HangingCurtain,
-    site: Site,
+    site: CurtainSite,
     required: Requirements,
     waves: WaveLoading,
     *,
@@ -419,7 +419,7 @@ _BY_SPAN = ("upper cable", "lower cable", "anchor line", "anchor")
 
 def anchor_spacing(
     curtain: HangingCurtain,
-    site: Site,
+    site: CurtainSite,
     required: Requirements,
     *,
     speed: float,

@@ -114,7 +114,7 @@ def product_needed(tension: ArrayLike, float_speed: ArrayLike, pretension: Array
 
 @checks_words
 @dataclass(frozen=True, eq=False)
-class Calibration:
+class EnergyCalibration:
     """M m_B K from observed tensions, by one rule."""
 
     #: ``mean_zero``, ``least_relative_error`` or ``least_squares``.
@@ -170,7 +170,7 @@ def calibrate(
     *,
     line_factor: float,
     rule: FittingRule = "mean_zero",
-) -> Calibration:
+) -> EnergyCalibration:
     """Find M m_B K from observed fluctuating tensions.
 
     Parameters
@@ -215,7 +215,7 @@ def calibrate(
     error = math.sqrt((count - 1) / count * float(np.sum((without - without.mean()) ** 2)))
     reach = student_quantile(0.95, count - 1) * error
     bounds = (max(root - reach, 0.0) ** 2, (root + reach) ** 2)
-    return Calibration(rule, root**2, 2.0 * root * error, bounds, root * speed, amplitude)
+    return EnergyCalibration(rule, root**2, 2.0 * root * error, bounds, root * speed, amplitude)
 
 
 @checks_words
@@ -232,8 +232,8 @@ def calibration_bounds(
 ) -> tuple[float, float]:
     """Return bounds of M m_B K [kg N/m] by drawing the observations again and fitting each draw.
 
-    They need no law of the scatter, and stand next to :attr:`Calibration.interval`, which rests on the variance of the
-    root of the product.
+    They need no law of the scatter, and stand next to :attr:`EnergyCalibration.interval`, which rests on the variance
+    of the root of the product.
 
     Parameters
     ----------

@@ -21,7 +21,7 @@ from moyai.sea.water import Water
 from moyai.structures.curtain.assembly import LevelCurtain
 from moyai.structures.curtain.impact.cable import Impact, peak_by_energy
 from moyai.structures.curtain.impact.kernels import taut_shape
-from moyai.structures.curtain.impact.skirt import Skirt
+from moyai.structures.curtain.impact.skirt import BulgedSkirt
 from moyai.structures.curtain.limits.utilisation import AddedLoads
 from moyai.structures.curtain.seas.anchor_energy import EnergyModel
 from moyai.structures.curtain.seas.squared_velocity import DirectionRule, effective_height, squared_velocity
@@ -125,14 +125,14 @@ class ImpactLoad:
     #: Start speed over the speed of the water [-].
     start_ratio: float
     #: The skirt that bulges; None: its share is not known and left out.
-    skirt: Skirt | None
+    skirt: BulgedSkirt | None
     #: Of the anchor line [rad].
     anchor_slope: float
     #: Ends of the band of the tension over its value [-] [eq:impact-band].
     uncertainty: tuple[float, float] = (1.0, 1.0)
     #: The skirt at a speed of the water along the normal [m/s], which hangs straighter in a weaker current; None: as in
     #: that of the case.
-    skirt_at: Callable[[float], Skirt | None] | None = None
+    skirt_at: Callable[[float], BulgedSkirt | None] | None = None
 
     def at(self, speed: float) -> AddedLoads:
         """Return the loads when the water moves with a speed [m/s] along the normal."""
@@ -147,7 +147,7 @@ class ImpactLoad:
         """Return the loads that go with a sum of the cable tensions [N]; both spans of a support act at once."""
         return self._of(tension, self.skirt)
 
-    def _of(self, tension: float, skirt: Skirt | None) -> AddedLoads:
+    def _of(self, tension: float, skirt: BulgedSkirt | None) -> AddedLoads:
         b = taut_shape(self.impact.span_ratio)
         load = 2.0 * b * tension / self.impact.span
         return AddedLoads(

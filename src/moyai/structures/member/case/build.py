@@ -21,7 +21,7 @@ from moyai.sea.environment import Environment
 from moyai.sea.states import IrregularSea
 from moyai.sea.water import Water
 from moyai.structures.member.case import schema
-from moyai.structures.member.model import MemberProblem, MemberSea, Motion, RegularWaves, Settings
+from moyai.structures.member.model import HarmonicMotion, MemberProblem, MemberSea, MemberSettings, MemberWaves
 
 
 def build_problem(model: schema.MemberCase, folder: Path, *, case_text: str = "", case_hash: str = "") -> MemberProblem:
@@ -62,7 +62,7 @@ def build_problem(model: schema.MemberCase, folder: Path, *, case_text: str = ""
         roughness=unit.drag.roughness if isinstance(unit.drag, schema.DragTable) else 0.0,
         motion=_motion(unit.motion),
         support=unit.support,
-        settings=Settings(
+        settings=MemberSettings(
             analyses=model.analyses,
             strips=model.settings.strips,
             stretching=model.settings.stretching,
@@ -135,7 +135,7 @@ def _inertia(entry: Any) -> tuple[float, float] | str | KeuleganCarpenterTable:
     return (entry, entry) if isinstance(entry, float) else (entry[0], entry[1])
 
 
-def _circulation(entry: schema.Circulation | None) -> CirculationLaw:
+def _circulation(entry: schema.CirculationKeys | None) -> CirculationLaw:
     if entry is None:
         return CirculationLaw(purpose="extreme")
     try:
@@ -151,12 +151,12 @@ def _circulation(entry: schema.Circulation | None) -> CirculationLaw:
         raise error.at(f"structure.circulation.{error.fault.path}") from None
 
 
-def _motion(entry: schema.MemberMotion | None) -> Motion | None:
+def _motion(entry: schema.MemberMotion | None) -> HarmonicMotion | None:
     if entry is None:
         return None
     phases = (entry.phase_x_deg, entry.phase_y_deg, entry.phase_z_deg)
     first, second, third = (math.radians(phase) for phase in phases)
-    return Motion((entry.x, entry.y, entry.z), (first, second, third), entry.period)
+    return HarmonicMotion((entry.x, entry.y, entry.z), (first, second, third), entry.period)
 
 
 def seas_of(model: schema.MemberCase, water: Water, folder: Path) -> tuple[MemberSea, ...]:
@@ -167,7 +167,7 @@ def seas_of(model: schema.MemberCase, water: Water, folder: Path) -> tuple[Membe
     for index, state in enumerate(model.waves):
         if isinstance(state, schema.MemberRegularWaves):
             heading = heading_of(state, bearing, f"waves[{index}]")
-            found.append(RegularWaves(names[index], state.all_heights(), state.all_periods(), heading, state.theory))
+            found.append(MemberWaves(names[index], state.all_heights(), state.all_periods(), heading, state.theory))
             continue
         sea = sea_state_of(state, index, model.waves, water, folder, bearing)
         assert isinstance(sea, IrregularSea)

@@ -296,7 +296,7 @@ def largest_numbers(problem: MemberProblem) -> list[float]:
     """Return about the largest Keulegan-Carpenter number of every sea state, by linear theory."""
     from moyai.sea.dispersion import wave_number
     from moyai.sea.kinematics import depth_functions
-    from moyai.structures.member.model import RegularWaves
+    from moyai.structures.member.model import MemberWaves
 
     level = max(value for _, value in problem.environment.water_levels)
     water, member = problem.environment.water_at(level), problem.member_at(level)
@@ -304,7 +304,7 @@ def largest_numbers(problem: MemberProblem) -> list[float]:
     top = float(min(centres.max(), 0.0))
     found = []
     for sea in problem.seas:
-        if isinstance(sea, RegularWaves):
+        if isinstance(sea, MemberWaves):
             pairs = sea.waves()
         else:
             # amplitude of the harmonic motion of equal variance

@@ -10,7 +10,7 @@ from moyai.case.derived import Number
 from moyai.case.reader import Case
 from moyai.sea.dispersion import wave_number
 from moyai.structures.member.case.check import largest_numbers
-from moyai.structures.member.model import MemberProblem, RegularWaves
+from moyai.structures.member.model import MemberProblem, MemberWaves
 
 
 def derived_numbers(case: Case) -> tuple[Number, ...]:
@@ -44,7 +44,7 @@ def _waves(problem: MemberProblem, name: str, level: float) -> Iterator[Number]:
     breadth = problem.member.placed_section.breadth
     for sea, number in zip(problem.seas, largest_numbers(problem)):
         group = f"Waves: {sea.name}"
-        regular = isinstance(sea, RegularWaves)
+        regular = isinstance(sea, MemberWaves)
         periods = sorted({min(sea.periods), max(sea.periods)}) if regular else [float(sea.spectrum.peak_period)]  # type: ignore[union-attr]
         label = "T" if regular else "Tp"
         for period in periods:

@@ -7,16 +7,16 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 
-from moyai.case.schema_app import APP, App
+from moyai.case.schema_app import APP, AppKeys
 from moyai.case.schema_criteria import CRITERIA
 from moyai.case.schema_display import DISPLAY, Display
 from moyai.case.schema_environment import (
     BretschneiderMitsuyasu,
-    Current,
     Jonswap,
     PiersonMoskowitz,
     RegularWavesOfHeights,
-    Site,
+    SiteCurrentKeys,
+    SiteKeys,
     SpectrumFile,
     Tma,
     refuse_no_seas,
@@ -184,7 +184,7 @@ def _strength_form(value: Any) -> str:
     return "<name>" if isinstance(value, str) and not value.strip()[:1].isdigit() else "<number>"
 
 
-class Circulation(Block):
+class CirculationKeys(Block):
     """The circulation of orbital flow at small KC, which lowers the inertia force."""
 
     purpose: Literal["extreme", "response"] = Field(
@@ -243,7 +243,7 @@ class MemberStructure(Block):
         "each axis by itself, as coefficients of a flow to and fro along one axis are found. Default: vector.",
     )
     kinematic_viscosity: Viscosity = Field(description="Of the water, 1.14e-6 m2/s at 15 degrees Celsius.")
-    circulation: Circulation | None = Field(
+    circulation: CirculationKeys | None = Field(
         default=None, description="What is done about the circulation at small KC; needed with waves."
     )
     support: Literal["both_ends", "start", "end"] = Field(
@@ -270,7 +270,7 @@ MemberSeaState = Annotated[
 ]
 
 
-class MemberSettings(Block):
+class MemberSettingsKeys(Block):
     """How the analyses are run."""
 
     strips: Strips = Field(default=40, description="Strips along the member. Default: 40.")
@@ -297,18 +297,18 @@ class MemberCase(Block):
 
     moyai: Literal[1] = Field(description="Version of the case file format.")
     title: Annotated[str, Field(min_length=1, max_length=200)] = Field(description="Title of the report.")
-    site: Site = Field(description="The water of the site.")
+    site: SiteKeys = Field(description="The water of the site.")
     waves: Annotated[tuple[MemberSeaState, ...], OneOrMany(), BeforeValidator(refuse_no_seas)] = Field(
         default=(), description="One sea state, or a list of them; each is run. Without any the current runs alone."
     )
-    current: Current | None = Field(default=None, description="Steady current.")
+    current: SiteCurrentKeys | None = Field(default=None, description="Steady current.")
     structure: MemberStructure = Field(description="The member.")
     analyses: Annotated[tuple[Analysis, ...], Field(min_length=1), AfterValidator(once_each)] = Field(
         description="What is computed: sweep over KC, forces, what the surface changes.",
         examples=[["sweep", "forces", "surface"]],
     )
     criteria: MemberKeeps = Field(default_factory=MemberCriteria, description=CRITERIA)
-    settings: MemberSettings = Field(default_factory=MemberSettings, description="How the analyses are run.")
+    settings: MemberSettingsKeys = Field(default_factory=MemberSettingsKeys, description="How the analyses are run.")
     measured: MeasuredSets = Field(default=(), description=MEASURED)
     display: Display = Field(default_factory=Display, description=DISPLAY)
-    app: App = Field(default_factory=App, description=APP)
+    app: AppKeys = Field(default_factory=AppKeys, description=APP)

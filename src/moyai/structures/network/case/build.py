@@ -138,9 +138,9 @@ def _current_field(case: NetworkCase, folder: Path) -> CurrentField | None:
         raise error.at("current_field.file") from None
 
 
-def _settings(case: NetworkCase, folder: Path) -> model.Settings:
+def _settings(case: NetworkCase, folder: Path) -> model.NetworkSettings:
     given = case.settings
-    return model.Settings(
+    return model.NetworkSettings(
         analyses=case.analyses, duration=given.duration, output_step=given.output_step, ramp=given.ramp,
         start=given.start, resume=None if given.resume is None else folder / given.resume, method=given.method,
         step=given.step, wave_front=given.wave_front, tolerance=given.tolerance, stretching=given.stretching,
@@ -286,11 +286,11 @@ def bar_type_of(
     return bar, breaking
 
 
-def _slow_stretch(entry: parts.SlowStretch | None) -> SlowStretch | None:
+def _slow_stretch(entry: parts.SlowStretchKeys | None) -> SlowStretch | None:
     return None if entry is None else SlowStretch(entry.static_stiffness, entry.viscosity, entry.growth)
 
 
-def _worn_rope(entry: parts.WornRope, curve: RopeCurve | None, doubled: bool) -> WornRope:
+def _worn_rope(entry: parts.WornRopeKeys, curve: RopeCurve | None, doubled: bool) -> WornRope:
     if curve is None or doubled:
         raise InputError(
             "a worn rope has 'slow_stretch' as well" if doubled else "a worn rope has no curve", path="worn_rope",
@@ -368,7 +368,7 @@ def _line(name: str, entry: parts.NetworkLine, types: Any, folder: Path) -> mode
         if entry.type is None or entry.length is None or entry.segments is None:
             remedy = "a line of one type has a length and a number of segments"
             raise InputError("'length' or 'segments' is missing", path=path, remedy=remedy)
-        given: tuple[Any, ...] = (parts.LinePart(type=entry.type, length=entry.length, segments=entry.segments),)
+        given: tuple[Any, ...] = (parts.LinePartKeys(type=entry.type, length=entry.length, segments=entry.segments),)
     else:
         for key in ("length", "segments"):
             if getattr(entry, key) is not None:
@@ -509,7 +509,7 @@ def _three(values: Sequence[float]) -> tuple[float, float, float]:
 def motion_of(name: str, entry: Any, folder: Path) -> model.MotionPlan:
     """Return one prescribed motion."""
     path = f"structure.motions.{name}"
-    if isinstance(entry, parts.HarmonicMotion):
+    if isinstance(entry, parts.HarmonicMotionKeys):
         phase = [math.radians(angle) for angle in entry.phase_deg]
         return model.MotionPlan(
             name, "harmonic", entry.period, math.inf, entry.amplitude, _three(phase), entry.ramp,

@@ -143,7 +143,7 @@ def _check_names(model: NetworkCase, findings: Findings) -> None:
         if name not in used:
             findings.warn(("structure", "motions", name), f"no point follows the motion '{name}'")
     every = [part for line in unit.lines.values() for part in line.parts or ()]
-    types = {part.type for part in every if isinstance(part, parts.LinePart)}
+    types = {part.type for part in every if isinstance(part, parts.LinePartKeys)}
     types |= {line.type for line in unit.lines.values() if line.type is not None}
     types |= {net.type for net in unit.nets.values() if net.type is not None}
     for name in unit.line_types:
@@ -174,7 +174,7 @@ def _check_lines(model: NetworkCase, findings: Findings) -> None:
         named += [
             (("structure", "lines", name, "parts", index, "type"), part.type)  # type: ignore[misc]
             for index, part in enumerate(line.parts or ())
-            if isinstance(part, parts.LinePart)
+            if isinstance(part, parts.LinePartKeys)
         ]
         for path, kind in named:
             if kind not in unit.line_types:

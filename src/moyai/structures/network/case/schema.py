@@ -6,15 +6,15 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Field
 
-from moyai.case.schema_app import APP, App
+from moyai.case.schema_app import APP, AppKeys
 from moyai.case.schema_criteria import CRITERIA
 from moyai.case.schema_display import DISPLAY, Display
 from moyai.case.schema_environment import (
     BretschneiderMitsuyasu,
-    Current,
     Jonswap,
     PiersonMoskowitz,
-    Site,
+    SiteCurrentKeys,
+    SiteKeys,
     SpectrumFile,
     SteepRegularWaves,
     Tma,
@@ -158,7 +158,7 @@ class CurrentInTime(Block):
     )
 
 
-class NetworkSettings(Block):
+class NetworkSettingsKeys(Block):
     """How the analyses are run."""
 
     duration: AutoDuration = Field(
@@ -236,11 +236,11 @@ class NetworkCase(Block):
 
     moyai: Literal[1] = Field(description="Version of the case file format.")
     title: Annotated[str, Field(min_length=1, max_length=200)] = Field(description="Title of the report.")
-    site: Site = Field(description="The water of the site.")
+    site: SiteKeys = Field(description="The water of the site.")
     waves: Annotated[tuple[NetworkSea, ...], OneOrMany(), BeforeValidator(refuse_no_seas)] = Field(
         default=(), description="One sea state, or a list of them; each is run. Still water when left out."
     )
-    current: Current | None = Field(default=None, description="Steady current.")
+    current: SiteCurrentKeys | None = Field(default=None, description="Steady current.")
     current_field: CurrentInTime | None = Field(
         default=None, description="A current that changes with time, in place of 'current'; it acts in 'dynamic'."
     )
@@ -253,7 +253,7 @@ class NetworkCase(Block):
         description="What is done with impossible numbers; cases made from decks are warned. Default: refuse.",
     )
     criteria: NetworkKeeps = Field(default_factory=NetworkCriteria, description=CRITERIA)
-    settings: NetworkSettings = Field(default_factory=NetworkSettings, description="How the analyses are run.")
+    settings: NetworkSettingsKeys = Field(default_factory=NetworkSettingsKeys, description="How the analyses are run.")
     measured: MeasuredSets = Field(default=(), description=MEASURED)
     display: Display = Field(default_factory=Display, description=DISPLAY)
-    app: App = Field(default_factory=App, description=APP)
+    app: AppKeys = Field(default_factory=AppKeys, description=APP)

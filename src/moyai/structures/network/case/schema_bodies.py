@@ -61,7 +61,7 @@ class NemohBody(OfNemoh, _BodyCoefficients):
 BodyCoefficients = Annotated[CapytaineBody | WamitBody | NemohBody, Field(discriminator="program")]
 
 
-class _Body(Block):
+class _BodyKeys(Block):
     exactly_one: ClassVar[KeyGroups] = (("inertia", "gyration_radii"), ("added_mass", "coefficients_file"))
 
     mass: Mass = Field(description="Mass.")
@@ -94,14 +94,14 @@ class _Body(Block):
     )
 
 
-class BoxBody(_Body):
+class BoxBody(_BodyKeys):
     """A box."""
 
     shape: Literal["box"] = Field(description="A box, partly immersed at the surface.")
     size: tuple[PositiveLength, PositiveLength, PositiveLength] = Field(description="Along x, y, z of the body.")
 
 
-class CylinderBody(_Body):
+class CylinderBody(_BodyKeys):
     """An upright cylinder."""
 
     shape: Literal["cylinder"] = Field(description="A cylinder about its z axis, partly immersed at the surface.")
@@ -111,7 +111,7 @@ class CylinderBody(_Body):
 
 ThreeAreas = tuple[Area, Area, Area]
 TurningDrag = Annotated[
-    float, QuantityOf(quantities.Kind("a drag of turns", "m^5", "metres to the fifth", "2 m^5"), least=0.0)
+    float, QuantityOf(quantities.QuantityKind("a drag of turns", "m^5", "metres to the fifth", "2 m^5"), least=0.0)
 ]
 
 

@@ -38,7 +38,9 @@ MembraneStiffness = Annotated[float, QuantityOf(quantities.FORCE_PER_LENGTH, lea
 MassPerArea = Annotated[float, QuantityOf(quantities.MASS_PER_AREA, above=0.0)]
 AddedMassPerArea = Annotated[float, QuantityOf(quantities.MASS_PER_AREA, least=0.0)]
 Angles = tuple[Heading, Heading, Heading]
-Viscosity = Annotated[float, QuantityOf(quantities.Kind("a viscosity", "N s", "newton seconds", "1e4 N s"), least=0.0)]
+Viscosity = Annotated[
+    float, QuantityOf(quantities.QuantityKind("a viscosity", "N s", "newton seconds", "1e4 N s"), least=0.0)
+]
 BendingStiffness = Annotated[float, QuantityOf(quantities.BENDING_STIFFNESS, least=0.0)]
 Area = Annotated[float, QuantityOf(quantities.AREA, least=0.0)]
 SectionArea = Annotated[float, QuantityOf(quantities.AREA, above=0.0)]
@@ -49,11 +51,14 @@ Modulus = Annotated[float, QuantityOf(quantities.PRESSURE, above=0.0)]
 MaterialDensity = Annotated[float, QuantityOf(quantities.DENSITY, above=0.0)]
 Ratio = Annotated[float, QuantityOf(quantities.NUMBER, least=0.0, most=10.0)]
 BedStiffness = Annotated[
-    float, QuantityOf(quantities.Kind("a stiffness of the bed", "Pa/m", "pascals per metre", "3e5 Pa/m"), above=0.0)
+    float,
+    QuantityOf(quantities.QuantityKind("a stiffness of the bed", "Pa/m", "pascals per metre", "3e5 Pa/m"), above=0.0),
 ]
 BedDamping = Annotated[
     float,
-    QuantityOf(quantities.Kind("a damping of the bed", "Pa s/m", "pascal seconds per metre", "3e4 Pa s/m"), least=0.0),
+    QuantityOf(
+        quantities.QuantityKind("a damping of the bed", "Pa s/m", "pascal seconds per metre", "3e4 Pa s/m"), least=0.0
+    ),
 ]
 Segments = Annotated[int, Field(strict=True, ge=1, le=20_000)]
 Axis = Literal["x", "y", "z"]
@@ -111,7 +116,7 @@ class CatalogueType(_Internal):
     bending_stiffness: BendingStiffness = Field(default=0.0, description="EI. Default: 0.")
 
 
-class SlowStretch(Block):
+class SlowStretchKeys(Block):
     """A spring parallel to a dashpot, in series with the quick stiffness."""
 
     static_stiffness: PositiveForce = Field(description="EA of the whole rope under a load that stays.")
@@ -121,7 +126,7 @@ class SlowStretch(Block):
     )
 
 
-class WornRope(Block):
+class WornRopeKeys(Block):
     """A polyester rope that remembers its highest mean tension (Syrope); its curve is that of the new rope."""
 
     form: Literal["linear", "quadratic", "exponential"] = Field(description="Shape of the working curve at rest.")
@@ -145,12 +150,12 @@ class OwnType(_Internal):
     mass: PositiveMassPerLength = Field(description="Mass in air per length.")
     axial_stiffness: PositiveForce | None = Field(default=None, description="EA.")
     curve: RopeTable | None = Field(default=None, description="Tension over strain in place of EA.")
-    slow_stretch: SlowStretch | None = Field(
+    slow_stretch: SlowStretchKeys | None = Field(
         default=None,
         description="How a synthetic rope gives way under loads that stay; axial_stiffness then is that of quick "
         "changes.",
     )
-    worn_rope: WornRope | None = Field(
+    worn_rope: WornRopeKeys | None = Field(
         default=None, description="How a polyester rope remembers its highest mean tension; needs 'curve'."
     )
     volume: Annotated[float, QuantityOf(quantities.AREA, least=0.0)] | None = Field(
@@ -181,7 +186,7 @@ NetworkLineType = Annotated[
 
 
 # ---- motions
-class HarmonicMotion(Block):
+class HarmonicMotionKeys(Block):
     """To and fro."""
 
     kind: Literal["harmonic"] = Field(description="amplitude sin(2 pi t / period + phase).")
@@ -228,7 +233,7 @@ class TableMotion(Block):
     )
 
 
-PointMotion = Annotated[HarmonicMotion | CircularMotion | TableMotion, Field(discriminator="kind")]
+PointMotion = Annotated[HarmonicMotionKeys | CircularMotion | TableMotion, Field(discriminator="kind")]
 
 
 # ---- points
@@ -318,7 +323,7 @@ class Weight(Block):
     added_mass_coefficient: NonNegativeNumber = Field(default=0.0, description="On the volume. Default: 0.")
 
 
-class LinePart(Block):
+class LinePartKeys(Block):
     """A length of one type."""
 
     type: Name = Field(description="Name in 'line_types'.")
@@ -339,7 +344,7 @@ def _part_form(value: Any) -> str:
 
 
 PartEntry = Annotated[
-    Annotated[LinePart, Tag("<part>")] | Annotated[WeightEntry, Tag("<clump>")], Discriminator(_part_form)
+    Annotated[LinePartKeys, Tag("<part>")] | Annotated[WeightEntry, Tag("<clump>")], Discriminator(_part_form)
 ]
 
 

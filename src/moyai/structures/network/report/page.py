@@ -13,7 +13,7 @@ from moyai.report.headlines import headline_figures
 from moyai.report.levels import at_each_level
 from moyai.report.reading import root_of
 from moyai.structures.network.report import figures, tables
-from moyai.structures.network.report.reading import Governing, NetworkLevel, attribute, governing_of, levels_of
+from moyai.structures.network.report.reading import HighestTension, NetworkLevel, attribute, governing_of, levels_of
 from moyai.structures.network.report.scene import mode_animations, rest_animation, run_animation
 
 MOST_VIEWS = 8
@@ -70,7 +70,7 @@ def _subtitle(levels: tuple[NetworkLevel, ...]) -> str:
     return " · ".join(part for part in parts if part)
 
 
-def _summary(result: Result, governing: Governing | None) -> tuple[Block, ...]:
+def _summary(result: Result, governing: HighestTension | None) -> tuple[Block, ...]:
     figures_of = headline_figures(result)
     if figures_of is None:
         return (Paragraph("The result holds no tensions."),)
@@ -78,7 +78,7 @@ def _summary(result: Result, governing: Governing | None) -> tuple[Block, ...]:
     return tuple(block for block in blocks if block is not None)
 
 
-def _views(level: NetworkLevel, governing: Governing | None) -> Block | None:
+def _views(level: NetworkLevel, governing: HighestTension | None) -> Block | None:
     runs = level.runs()[:MOST_VIEWS]
     if governing is not None and governing.level.name == level.name:
         names = [run.name for run in runs]
@@ -93,7 +93,7 @@ def _views(level: NetworkLevel, governing: Governing | None) -> Block | None:
     return Choice(f"run-{level.name}", "Run", tuple(known), default, print_all=False)
 
 
-def _of_runs(level: NetworkLevel, governing: Governing | None) -> Sequence[Block | None]:
+def _of_runs(level: NetworkLevel, governing: HighestTension | None) -> Sequence[Block | None]:
     options = []
     for run in level.runs():
         found = (

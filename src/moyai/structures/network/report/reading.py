@@ -42,7 +42,7 @@ class NetworkLevel:
 
 
 @dataclass(frozen=True)
-class Governing:
+class HighestTension:
     """The highest tension of a result: where, in which run, how much [N], when [s]."""
 
     level: NetworkLevel
@@ -74,16 +74,16 @@ def attribute(group: Group, name: str) -> float:
         return math.nan
 
 
-def peak_of_run(level: NetworkLevel, run: Group) -> Governing | None:
+def peak_of_run(level: NetworkLevel, run: Group) -> HighestTension | None:
     """Return the highest tension of a run after the part that is left out, ``None`` where there is none."""
-    best: Governing | None = None
+    best: HighestTension | None = None
     summary, time = level.part("dynamic"), run.real("time", "time")
     if time is None:
         return None
     for line in summary.labels("line"):
         peak, when = (summary.value(key, run=run.name, line=line) for key in ("line_tension_maximum", "peak_time"))
         if math.isfinite(peak) and (best is None or peak > best.peak):
-            best = Governing(level, run, line, peak, when)
+            best = HighestTension(level, run, line, peak, when)
     skip = attribute(run, "skip")
     counted = time >= time[0] + (skip if math.isfinite(skip) else 0.0)
     for net in run.labels("net"):
@@ -92,11 +92,11 @@ def peak_of_run(level: NetworkLevel, run: Group) -> Governing | None:
             continue
         at = int(np.flatnonzero(counted)[int(np.nanargmax(record[counted]))])
         if best is None or record[at] > best.peak:
-            best = Governing(level, run, net, float(record[at]), float(time[at]))
+            best = HighestTension(level, run, net, float(record[at]), float(time[at]))
     return best
 
 
-def governing_of(levels: tuple[NetworkLevel, ...]) -> Governing | None:
+def governing_of(levels: tuple[NetworkLevel, ...]) -> HighestTension | None:
     """Return the highest tension of all runs."""
     found = [peak_of_run(level, run) for level in levels for run in level.runs()]
     return max((item for item in found if item is not None), key=lambda item: item.peak, default=None)

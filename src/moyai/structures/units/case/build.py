@@ -27,10 +27,10 @@ from moyai.structures.units.model import (
     FloatingRow,
     MapArea,
     RowCoefficients,
-    Settings,
-    TimeSettings,
     UnitLine,
+    UnitSettings,
     UnitsProblem,
+    UnitTimeSettings,
 )
 from moyai.structures.units.seas import frequencies_of
 
@@ -209,7 +209,7 @@ def map_of(block: schema.MapBlock | None) -> MapArea:
     )  # fmt: skip
 
 
-def settings_of(model: schema.UnitsCase, row: FloatingRow, environment: Environment) -> Settings:
+def settings_of(model: schema.UnitsCase, row: FloatingRow, environment: Environment) -> UnitSettings:
     """Return analyses and settings."""
     given = model.settings
     frequencies: tuple[float, ...] | None = None
@@ -217,14 +217,14 @@ def settings_of(model: schema.UnitsCase, row: FloatingRow, environment: Environm
         frequencies = given.frequencies.spread(given.frequencies.first, given.frequencies.last, given.frequencies.count)
     elif not isinstance(given.frequencies, str):
         frequencies = tuple(given.frequencies)
-    settings = Settings(
+    settings = UnitSettings(
         panel_size=given.panel_size or 0.0,
         analyses=model.analyses,
         frequencies=frequencies,
         frequency_count=given.frequency_count,
         drift=given.drift,
         section_compare=given.compare_with_section,
-        time=TimeSettings(**given.time.model_dump()),
+        time=UnitTimeSettings(**given.time.model_dump()),
     )
     if given.panel_size is not None:
         return settings
@@ -234,4 +234,4 @@ def settings_of(model: schema.UnitsCase, row: FloatingRow, environment: Environm
         depth = environment.water.depth + min(level for _, level in environment.water_levels)
         k = float(wave_number(float(omega.max()), depth, environment.water.gravity))
         size = min(size, 2.0 * math.pi / (k * _WAVE_PANELS))
-    return Settings(**{**vars(settings), "panel_size": float(f"{size:.3g}")})
+    return UnitSettings(**{**vars(settings), "panel_size": float(f"{size:.3g}")})

@@ -6,13 +6,13 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 
-from moyai.case.schema_app import APP, App
+from moyai.case.schema_app import APP, AppKeys
 from moyai.case.schema_coefficients import word_of
 from moyai.case.schema_criteria import CRITERIA
 from moyai.case.schema_damping import DampingBeyondWaves
 from moyai.case.schema_display import DISPLAY, Display
-from moyai.case.schema_environment import Current, SeaState, Site, Wind, refuse_no_seas
-from moyai.case.schema_lines import CatenaryLine, SpringLine
+from moyai.case.schema_environment import SeaState, SiteCurrentKeys, SiteKeys, WindKeys, refuse_no_seas
+from moyai.case.schema_lines import CatenaryLine, SpringLineKeys
 from moyai.case.schema_measured import MEASURED, MeasuredSets
 from moyai.case.schema_sections import Section
 from moyai.case.schema_types import (
@@ -212,7 +212,7 @@ class UnitCatenaryLine(CatenaryLine):
     units: UnitNumbers = Field(default="all", description=_UNITS)
 
 
-class UnitSpringLine(SpringLine):
+class UnitSpringLine(SpringLineKeys):
     """Identical linear springs between a fixed point and a unit."""
 
     units: UnitNumbers = Field(default="all", description=_UNITS)
@@ -221,7 +221,7 @@ class UnitSpringLine(SpringLine):
 def _line_form(value: Any) -> str:
     if isinstance(value, dict):
         return f"<{value.get('kind', 'catenary')}>"
-    return "<spring>" if isinstance(value, SpringLine) else "<catenary>"
+    return "<spring>" if isinstance(value, SpringLineKeys) else "<catenary>"
 
 
 UnitLineEntry = Annotated[
@@ -336,12 +336,12 @@ class UnitsCase(Block):
 
     moyai: Literal[1] = Field(description="Version of the case file format.")
     title: Annotated[str, Field(min_length=1, max_length=200)] = Field(description="Title of the report.")
-    site: Site = Field(description="The water of the site.")
+    site: SiteKeys = Field(description="The water of the site.")
     waves: Annotated[tuple[SeaState, ...], OneOrMany(), BeforeValidator(refuse_no_seas)] = Field(
         default=(), description="One sea state, or a list of them; each is run."
     )
-    wind: Wind | None = Field(default=None, description="Steady wind.")
-    current: Current | None = Field(default=None, description="Steady current.")
+    wind: WindKeys | None = Field(default=None, description="Steady wind.")
+    current: SiteCurrentKeys | None = Field(default=None, description="Steady current.")
     structure: UnitsStructure = Field(description="The row of units.")
     lines: Annotated[tuple[UnitLineEntry, ...], Field(max_length=200)] = Field(
         default=(), description="Mooring lines or springs."
@@ -354,4 +354,4 @@ class UnitsCase(Block):
     settings: UnitsSettings = Field(default_factory=UnitsSettings, description="How the analyses are run.")
     measured: MeasuredSets = Field(default=(), description=MEASURED)
     display: Display = Field(default_factory=Display, description=DISPLAY)
-    app: App = Field(default_factory=App, description=APP)
+    app: AppKeys = Field(default_factory=AppKeys, description=APP)

@@ -17,11 +17,11 @@ from moyai.core.validity import IdentityCheck, Notice
 from moyai.sea.states import IrregularSea, RegularSea
 from moyai.structures.units.assembly import RowAtLevel
 from moyai.structures.units.hydrodynamics import RowHydrodynamics, solve_row
-from moyai.structures.units.model import SNAP_RATIO, Settings
+from moyai.structures.units.model import SNAP_RATIO, UnitSettings
 from moyai.structures.units.seas import SeaAnswer
 from moyai.structures.units.time.band import dense_coefficients, doubtful_gaps, wide_coefficients
 from moyai.structures.units.time.datasets import (
-    Kept,
+    KeptRun,
     irregular_time_dataset,
     memory_dataset,
     regular_time_dataset,
@@ -30,7 +30,7 @@ from moyai.structures.units.time.datasets import (
 )
 from moyai.structures.units.time.lines import LEAD, Carried, Reruns, rerun_events
 from moyai.structures.units.time.memory import FIT, RowMemory, fit_row_memory
-from moyai.structures.units.time.seas import REPEATING, TimeRun, Water3D, irregular_run, repeating_run
+from moyai.structures.units.time.seas import REPEATING, SeaRun, Water3D, irregular_run, repeating_run
 from moyai.structures.units.variables import labelled
 
 if TYPE_CHECKING:
@@ -71,7 +71,7 @@ class SeaInTime:
 
 
 def water_in_time(
-    at: RowAtLevel, hydro: RowHydrodynamics, steady: Array, settings: Settings, *, store: DatasetStore | None,
+    at: RowAtLevel, hydro: RowHydrodynamics, steady: Array, settings: UnitSettings, *, store: DatasetStore | None,
     progress: Progress,
 ) -> tuple[Water3D, dict[str, xr.Dataset], list[IdentityCheck], list[Notice]]:  # fmt: skip
     """Solve the band of the memory and fit it; return also its dataset, identities and notices."""
@@ -117,10 +117,10 @@ def sea_in_time(
     water: Water3D, sea: RegularSea | IrregularSea, answers: list[SeaAnswer], progress: Progress
 ) -> SeaInTime:
     """Run all periods or all realisations of a sea."""
-    runs: list[Kept] = []
+    runs: list[KeptRun] = []
     carried: list[list[Carried]] = []
     for run in runs_of(water, sea, answers, progress):
-        runs.append(Kept.of(run))
+        runs.append(KeptRun.of(run))
         if not run.complete:
             break
         carried.append([_carried(part) for part in run.parts])
@@ -148,7 +148,7 @@ def sea_in_time(
     )  # fmt: skip
 
 
-def numbers_of(at: RowAtLevel, sea: RegularSea | IrregularSea, runs: list[Kept]) -> xr.Dataset:
+def numbers_of(at: RowAtLevel, sea: RegularSea | IrregularSea, runs: list[KeptRun]) -> xr.Dataset:
     """Return the numbers of a sea."""
     if isinstance(sea, RegularSea):
         return regular_time_dataset(at, sea, runs)
@@ -157,7 +157,7 @@ def numbers_of(at: RowAtLevel, sea: RegularSea | IrregularSea, runs: list[Kept])
 
 def runs_of(
     water: Water3D, sea: RegularSea | IrregularSea, answers: list[SeaAnswer], progress: Progress
-) -> Iterator[TimeRun]:
+) -> Iterator[SeaRun]:
     """Yield the run of every period or realisation of a sea."""
     if isinstance(sea, RegularSea):
         for period, answer in zip(sea.periods, answers):
@@ -168,7 +168,7 @@ def runs_of(
         yield irregular_run(water, sea, number, answers[0], progress)
 
 
-def _carried(run: TimeRun) -> Carried:
+def _carried(run: SeaRun) -> Carried:
     """Return what reruns of lines need of the analysed part of a run."""
     found = run.run
     first = int(np.searchsorted(found.time, run.begin - LEAD * run.period))
@@ -255,7 +255,7 @@ def _rerun(
     return found, [Notice("lines-set-in-motion", words, severity="information")]
 
 
-def _notices(water: Water3D, sea: RegularSea | IrregularSea, data: xr.Dataset, runs: list[Kept]) -> list[Notice]:
+def _notices(water: Water3D, sea: RegularSea | IrregularSea, data: xr.Dataset, runs: list[KeptRun]) -> list[Notice]:
     where = f"{water.at.name}, {sea.name}"
     out: list[Notice] = []
     if not all(item.contacts for item in runs):

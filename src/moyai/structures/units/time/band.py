@@ -12,7 +12,7 @@ from moyai.core.progress import Progress, silent
 from moyai.core.store import DatasetStore
 from moyai.sea.dispersion import angular_frequency, group_velocity, wave_number
 from moyai.sea.water import Water
-from moyai.structures.units.bem import LEAST_DEPTH, Panels
+from moyai.structures.units.bem import LEAST_DEPTH, MeshPanels
 from moyai.structures.units.hydrodynamics import RowHydrodynamics, solve_row
 
 #: Ends of the band over the lowest and the highest frequency of the seas
@@ -23,7 +23,7 @@ STEPS_OF_A_SWING, MOST_FREQUENCIES = 3.0, 160
 LEAST_PANELS = 4.0
 
 
-def memory_band(omega: Array, panels: Panels, water: Water) -> tuple[float, float]:
+def memory_band(omega: Array, panels: MeshPanels, water: Water) -> tuple[float, float]:
     """Return the ends [rad/s] of the band: as far beyond the seas as the Green function and the panels reach."""
     lowest = 0.0
     if math.isfinite(water.depth):

@@ -19,7 +19,7 @@ from moyai.structures.units.datasets import BANDED
 from moyai.structures.units.model import SNAP_RATIO
 from moyai.structures.units.seas import SeaAnswer
 from moyai.structures.units.time.analysis import SeaInTime, numbers_of, runs_of
-from moyai.structures.units.time.datasets import Kept
+from moyai.structures.units.time.datasets import KeptRun
 from moyai.structures.units.time.seas import Water3D
 from moyai.structures.units.variables import labelled
 
@@ -64,7 +64,7 @@ def with_ends_in_time(
     own = {name: data[still if name == _TENSION and still in data else name].values for name in BANDED if name in data}
     ends = []
     for row, answers in others:
-        runs = [Kept.of(run) for run in runs_of(replace(water, at=row), sea, answers, progress)]
+        runs = [KeptRun.of(run) for run in runs_of(replace(water, at=row), sea, answers, progress)]
         if any(run.status == "interrupted" for run in runs):
             return replace(found, status="interrupted")
         if any(run.status != "converged" for run in runs):

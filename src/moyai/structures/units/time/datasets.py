@@ -20,7 +20,7 @@ from moyai.structures.units.contact import meeting_variables
 from moyai.structures.units.datasets import coords_of
 from moyai.structures.units.gaps import gaps_of
 from moyai.structures.units.time.memory import RowMemory
-from moyai.structures.units.time.seas import PARTS, TimeRun
+from moyai.structures.units.time.seas import PARTS, SeaRun
 from moyai.structures.units.variables import labelled
 
 if TYPE_CHECKING:
@@ -68,7 +68,7 @@ def _dofs(at: RowAtLevel) -> list[str]:
     return list(coords_of(at)["dof"])
 
 
-def run_numbers(given: TimeRun) -> Numbers:
+def run_numbers(given: SeaRun) -> Numbers:
     """Return the numbers of one run after its ramp, by their names."""
     run, part = given.run, given.kept
     at = run.model.at
@@ -140,7 +140,7 @@ def _damage(at: RowAtLevel, time: Array, loads: Array) -> Array:
 
 
 @dataclass(frozen=True)
-class Kept:
+class KeptRun:
     """What is kept of a run: its numbers, its record, how it ended.
 
     Parameters
@@ -151,7 +151,7 @@ class Kept:
     seed : int
     status, message : str
     contacts : bool
-        As of :class:`moyai.structures.units.time.seas.TimeRun`.
+        As of :class:`moyai.structures.units.time.seas.SeaRun`.
     change, growth : float
         As of the same.
     parts : tuple of dict
@@ -169,7 +169,7 @@ class Kept:
     parts: tuple[Numbers, ...]
 
     @classmethod
-    def of(cls, given: TimeRun) -> Kept:
+    def of(cls, given: SeaRun) -> KeptRun:
         """Take the numbers and the record of a run."""
         run, parts = given.run, tuple(run_numbers(part) for part in given.parts)
         return cls(
@@ -188,7 +188,7 @@ def _together(members: Sequence[Numbers]) -> Numbers:
     return out
 
 
-def regular_time_dataset(at: RowAtLevel, sea: RegularSea, runs: list[Kept]) -> xr.Dataset:
+def regular_time_dataset(at: RowAtLevel, sea: RegularSea, runs: list[KeptRun]) -> xr.Dataset:
     """Return the numbers of regular waves, one entry a period."""
     import xarray as xr
 
@@ -208,7 +208,7 @@ def regular_time_dataset(at: RowAtLevel, sea: RegularSea, runs: list[Kept]) -> x
     return data
 
 
-def irregular_time_dataset(at: RowAtLevel, sea: IrregularSea, runs: list[Kept]) -> xr.Dataset:
+def irregular_time_dataset(at: RowAtLevel, sea: IrregularSea, runs: list[KeptRun]) -> xr.Dataset:
     """Return means over the realisations with what each gave."""
     import xarray as xr
 
@@ -225,16 +225,16 @@ def irregular_time_dataset(at: RowAtLevel, sea: IrregularSea, runs: list[Kept]) 
     return data
 
 
-def status_of(runs: list[Kept]) -> str:
+def status_of(runs: list[KeptRun]) -> str:
     """Return the worst status of the runs as results have it."""
     found = {item.status for item in runs}
     return "interrupted" if "interrupted" in found else "not_converged" if "diverged" in found else "converged"
 
 
-def shown_run(runs: list[Kept]) -> int:
+def shown_run(runs: list[KeptRun]) -> int:
     """Return the number of the run whose largest load of a connector (tension, sway) is nearest to the mean."""
 
-    def followed(item: Kept) -> float:
+    def followed(item: KeptRun) -> float:
         for name in ("connector_resultant_largest", "line_tension_maximum", "largest_offset"):
             if item.numbers[name][1].size:
                 return float(item.numbers[name][1].max())
@@ -244,7 +244,7 @@ def shown_run(runs: list[Kept]) -> int:
     return int(np.abs(values - values.mean()).argmin())
 
 
-def series_dataset(at: RowAtLevel, given: TimeRun) -> xr.Dataset:
+def series_dataset(at: RowAtLevel, given: SeaRun) -> xr.Dataset:
     """Return the record of a run, thinned."""
     import xarray as xr
 

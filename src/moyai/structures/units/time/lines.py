@@ -64,7 +64,7 @@ class Carried:
 
 
 @dataclass(frozen=True, eq=False)
-class MovingLine:
+class DynamicLine:
     """A line as a network at rest."""
 
     network: Network
@@ -97,7 +97,7 @@ def movable(at: RowAtLevel) -> list[UnitLine | None]:
     return found
 
 
-def moving_line(at: RowAtLevel, number: int) -> MovingLine:
+def moving_line(at: RowAtLevel, number: int) -> DynamicLine:
     """Return a line of the row as a network, cut so that its tension at rest is that of the exact line.
 
     Raises
@@ -127,11 +127,11 @@ def moving_line(at: RowAtLevel, number: int) -> MovingLine:
             ) from error  # fmt: skip
         found = float(end_tensions(network, line.name, rest.state.position[None], rest.tension[None])[0][0])
         if abs(found - exact) <= AT_REST * exact or bars >= MOST_BARS:
-            return MovingLine(network, rest.state, line, unit)
+            return DynamicLine(network, rest.state, line, unit)
         bars *= 2
 
 
-def rerun(at: RowAtLevel, moving: MovingLine, given: Carried, event: float) -> float:
+def rerun(at: RowAtLevel, moving: DynamicLine, given: Carried, event: float) -> float:
     """Return the largest tension [N] of a line in motion around an event.
 
     Raises

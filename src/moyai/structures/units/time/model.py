@@ -16,7 +16,7 @@ from moyai.core.progress import Progress, silent
 from moyai.mooring.system import LineSystem
 from moyai.mooring.table import compile_lines
 from moyai.structures.units.assembly import RowAtLevel, held_load
-from moyai.structures.units.connectors import Joint, spring_matrices
+from moyai.structures.units.connectors import UnitJoint, spring_matrices
 from moyai.structures.units.response import critical_damping, masses_along_units
 from moyai.structures.units.time import kernel
 from moyai.structures.units.time.memory import RowMemory, check_mass
@@ -304,7 +304,7 @@ class RowRun:
             left -= self.link_force[:, [number]] * link.along(self.position)
         return np.asarray(held_load(model.at, left) - self.held_memory)
 
-    def relative(self, joint: Joint) -> Array:
+    def relative(self, joint: UnitJoint) -> Array:
         """Return the relative motion (n, 6) of a connector."""
         return np.asarray(self.position @ joint.relative.T)
 

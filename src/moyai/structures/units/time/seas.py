@@ -19,7 +19,7 @@ from moyai.sea.states import IrregularSea, RegularSea
 from moyai.sea.synthesis import choose_band
 from moyai.structures.units.assembly import RowAtLevel
 from moyai.structures.units.hydrodynamics import RowHydrodynamics
-from moyai.structures.units.model import Settings, TimeSettings
+from moyai.structures.units.model import UnitSettings, UnitTimeSettings
 from moyai.structures.units.seas import SeaAnswer, columns_of
 from moyai.structures.units.time.memory import RowMemory
 from moyai.structures.units.time.model import STEPS_OF_WAVE, RowInTime, RowRun
@@ -62,16 +62,16 @@ class Water3D:
     hydro: RowHydrodynamics
     memory: RowMemory
     steady: Array
-    settings: Settings
+    settings: UnitSettings
 
     @property
-    def time(self) -> TimeSettings:
+    def time(self) -> UnitTimeSettings:
         """Settings of the time domain."""
         return self.settings.time
 
 
 @dataclass(frozen=True, eq=False)
-class TimeRun:
+class SeaRun:
     """One run with its waves.
 
     Parameters
@@ -127,7 +127,7 @@ class TimeRun:
         return 2.0 * math.pi / self.omega
 
     @property
-    def parts(self) -> tuple[TimeRun, ...]:
+    def parts(self) -> tuple[SeaRun, ...]:
         """Stretches of whole periods of a regular motion that does not repeat, else the run alone."""
         last = float(self.run.time[-1])
         periods = math.floor((last - max(self.ramp, last / 3.0)) / self.period / PARTS)
@@ -153,7 +153,7 @@ def time_step(wanted: float | None, shortest: float, model: RowInTime) -> tuple[
 
 def repeating_run(
     water: Water3D, sea: RegularSea, period: float, answer: SeaAnswer, progress: Progress = silent
-) -> TimeRun:
+) -> SeaRun:
     """Run the row in regular waves until its motion repeats, or long enough for the statistics of one that never does.
 
     One whose change from period to period is small and grows does not repeat yet.
@@ -178,7 +178,7 @@ def regular_run(
     answer: SeaAnswer,
     least: float = PERIODS,
     progress: Progress = silent,
-) -> TimeRun:
+) -> SeaRun:
     """Run the row in regular waves, from its mean position of the frequency domain [eq:units-cummins].
 
     ``least`` is how many periods are run where no duration is given.
@@ -211,7 +211,7 @@ def regular_run(
     )
     every, change = _repetition(run.position, per_period, settings.analysed_periods)
     begin = float(time[-1]) - math.ceil(settings.analysed_periods / every) * every * period
-    return TimeRun(
+    return SeaRun(
         run, one, wave.real[: len(run.time)], ramp, begin, omega, contacts=resolved, change=change,
         growth=_growth(run.position, per_period, settings.analysed_periods), every=every,
     )  # fmt: skip
@@ -263,7 +263,7 @@ def _growth(position: Array, per_period: int, periods: int) -> float:
 
 def irregular_run(
     water: Water3D, sea: IrregularSea, number: int, answer: SeaAnswer, progress: Progress = silent
-) -> TimeRun:
+) -> SeaRun:
     """Run one realisation of an irregular sea with slow drift after Newman [eq:units-slow-drift]."""
     settings, at = water.time, water.at
     peak = float(sea.spectrum.peak_omega)
@@ -286,7 +286,7 @@ def irregular_run(
         water_motion = shape[:, None] * series
     words = f", {at.name}, {sea.name}, seed {seed}"
     run = model.run(load, step, water=water_motion, progress=progress, name=words)
-    return TimeRun(run, waves, elevation[: len(run.time)], ramp, ramp, peak, seed, resolved)
+    return SeaRun(run, waves, elevation[: len(run.time)], ramp, ramp, peak, seed, resolved)
 
 
 def forcing_of(
