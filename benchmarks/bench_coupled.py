@@ -15,9 +15,9 @@ from pathlib import Path
 
 import numpy as np
 
+from moyai.coupled.equilibrium import find_coupled_equilibrium
 from moyai.coupled.planar import PlanarBody
 from moyai.coupled.planar_march import PlanarMarch
-from moyai.coupled.rest import find_rest
 from moyai.coupled.simulate import simulate_coupled
 from moyai.flexible.build import NetworkBuilder
 from moyai.flexible.motion import Motion
@@ -49,7 +49,7 @@ def main() -> None:
     example = load_example()
     for bars in (10, 20, 40, 80, 160):
         network, points = example.chains(bars)
-        rest = find_rest(network, {"box": example.box("morison", points)})
+        rest = find_coupled_equilibrium(network, {"box": example.box("morison", points)})
         options = {"output_step": 0.025, "flow": example.sea(), "start": rest.state, "body_step": 0.0125}
         simulate_coupled(rest.network, rest.bodies, duration=0.5, **options)
         began = time.process_time()

@@ -19,8 +19,8 @@ from pathlib import Path
 
 import numpy as np
 
+from moyai.coupled.equilibrium import find_coupled_equilibrium
 from moyai.coupled.hulls import box_hull
-from moyai.coupled.rest import find_rest
 from moyai.coupled.rigid import RigidBody
 from moyai.coupled.simulate import CoupledHistory, simulate_coupled
 from moyai.coupled.wave_loads import WaveLoads
@@ -79,7 +79,7 @@ def sea(ramp: float = 2.0 * PERIOD) -> Flow:
 def run(model: str, *, periods: float = 20.0, bars: int = 20) -> CoupledHistory:
     """Run one model from rest."""
     network, points = chains(bars)
-    rest = find_rest(network, {"box": box(model, points)})
+    rest = find_coupled_equilibrium(network, {"box": box(model, points)})
     return simulate_coupled(
         rest.network, rest.bodies, duration=periods * PERIOD, output_step=0.025, flow=sea(), start=rest.state
     )

@@ -1,5 +1,6 @@
 """Every equation named in code stands in docs/theory and back; every page is listed where readers look."""
 
+import ast
 import re
 from pathlib import Path
 
@@ -139,5 +140,25 @@ def test_pages_use_the_words_of_the_glossary():
         for number, line in prose_of(page)
         for match in replaced.finditer(line)
         if match[0].lower() != "besides"
+    ]
+    assert not found, "\n".join(found)
+
+
+def test_texts_and_descriptions_in_the_code_use_the_words_of_the_glossary():
+    """What a person reads in messages, reports and descriptions of functions, and what is new for users.
+
+    In code ``fault`` is the name of an error in a file, as the key ``faults`` of the JSON answers; ``room`` is space.
+    """
+    replaced = re.compile(words_not_used(DOCS / "glossary.md").pattern + r"|\bworth\b", re.IGNORECASE)
+    texts = [("CHANGELOG.md", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"))]
+    for path in sorted(SOURCE.rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Constant) and isinstance(node.value, str) and " " in node.value:
+                texts.append((f"{path.relative_to(ROOT)}:{node.lineno}", node.value))
+    found = [
+        f"{place}: {text[max(match.start() - 30, 0) : match.end() + 30]}"
+        for place, text in texts
+        for match in replaced.finditer(text)
+        if not re.match("besides|fault|room", match[0], re.IGNORECASE)
     ]
     assert not found, "\n".join(found)

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from moyai.coupled.rest import find_rest
+from moyai.coupled.equilibrium import find_coupled_equilibrium
 from moyai.coupled.simulate import simulate_coupled
 from moyai.flexible.flow import Flow
 from moyai.interop.moordyn_deck import write_deck
@@ -56,7 +56,7 @@ def test_moordyn_feels_the_same_tensions_under_the_motion_of_the_box(tmp_path, e
         pytest.skip("MoorDyn is not installed here and MOYAI_PEER_PYTHON names no interpreter that has it")
     network, points = example.chains(20)
     body = example.box("morison", points)
-    rest = find_rest(network, {"box": body})
+    rest = find_coupled_equilibrium(network, {"box": body})
     body = rest.bodies["box"]
     # the box in waves, its chains in still water, as MoorDyn is given none
     # MoorDyn goes straight on from the place and velocity at the start of each call: short calls

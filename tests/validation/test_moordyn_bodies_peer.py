@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from moyai.coupled.rest import find_rest
+from moyai.coupled.equilibrium import find_coupled_equilibrium
 from moyai.coupled.simulate import simulate_coupled
 from moyai.interop.moordyn_deck import write_deck
 from moyai.interop.moordyn_reader import read_deck
@@ -77,7 +77,7 @@ def test_rod_hangs_alike_from_two_ropes(decks, tmp_path):
     deck = read_deck(decks / "RodHanging.txt")
     theirs = run_in_moordyn(write_deck(deck, tmp_path / "deck.txt"), 60.0, 0.1)
     system = to_system(deck)
-    rest = find_rest(system.network, system.bodies)
+    rest = find_coupled_equilibrium(system.network, system.bodies)
     height = rest.bodies["rod 1"].position[2]
     tension = rest.tension[rest.network.strand("line 1").bars[-1]]
     mean = theirs["rods"][200:, 0, 0, 2].mean()

@@ -15,7 +15,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from moyai.coupled.rest import find_rest
+from moyai.coupled.equilibrium import find_coupled_equilibrium
 from moyai.interop.moordyn_deck import write_deck
 from moyai.interop.moordyn_reader import read_deck
 from moyai.interop.moordyn_records import DeckOption
@@ -72,7 +72,7 @@ def test_risers_rest_alike(shared_data, tmp_path, name, step, duration):
         pytest.skip("MoorDyn is not installed here and MOYAI_PEER_PYTHON names no interpreter that has it")
     deck = read_deck(shared_data / "moordyn_decks" / f"{name}.txt")
     system = to_system(deck)
-    found = find_rest(system.network, system.bodies)
+    found = find_coupled_equilibrium(system.network, system.bodies)
     assert found.residual < 2e-9
     # its own scheme and step blow up; its start is not wanted
     own = ("fileIC", "cfl", "tScheme", "dtM", "writeLog")

@@ -21,7 +21,7 @@ from written_tables import DOCS, differences, tables_of
 import moyai
 from moyai.case.builder import build
 from moyai.case.templates import template
-from moyai.coupled.rest import find_rest, moved_network, point_pulls
+from moyai.coupled.equilibrium import find_coupled_equilibrium, moved_network, point_pulls
 from moyai.coupled.simulate import simulate_coupled
 from moyai.flexible.flow import Flow
 from moyai.flexible.statics import solve_equilibrium
@@ -195,7 +195,7 @@ def periods_of_the_box():
     """Surge, heave and pitch: eigenvalues of stiffness and coefficients at rest, and free decay in the run."""
     module = example("coupled/moored_box")
     network, points = module.chains()
-    rest = find_rest(network, {"box": module.box("coefficients", points)})
+    rest = find_coupled_equilibrium(network, {"box": module.box("coefficients", points)})
     body, still = rest.bodies["box"], Flow()
 
     def displaced(axis, amount):

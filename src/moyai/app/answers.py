@@ -1,4 +1,4 @@
-"""Answers of the app: JSON with a version, errors that a user can mend, what is not there."""
+"""Answers of the app: JSON with a version, errors that a user can correct, what is not there."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def refused(status: int, *faults: Fault) -> Response:
 
 
 def answering(function: Endpoint) -> Any:
-    """Turn what a user can mend into an answer with its errors, and what is not there into 404."""
+    """Turn what a user can correct into an answer with its errors, and what is not there into 404."""
 
     @wraps(function)
     async def answered(request: Request) -> Response:

@@ -73,7 +73,7 @@ class Job:
         return (self.ended or time.monotonic()) - self.started if self.started else self.before
 
     def keep(self) -> None:
-        """Write where it stands beside its results."""
+        """Write where it stands next to its results."""
         keep(self.order, self.state, self.words, self.seconds(), self.ordered)
 
     def command(self, shown: str) -> str:

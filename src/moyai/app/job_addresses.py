@@ -64,7 +64,7 @@ async def _study(app: App, request: Request) -> Response:
 
 
 async def _study_case(app: App, request: Request) -> Response:
-    """Open a case of a study beside its base case."""
+    """Open a case of a study next to its base case."""
     content, root = await body_of(request), app.folder.root
     index = value_in(content, "case", -1)
     folder = app.jobs[request.path_params["key"]].order.folder

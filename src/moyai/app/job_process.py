@@ -39,7 +39,7 @@ class Order:
     file: Path
     #: The case; empty for all but a run.
     text: str = ""
-    #: Whether ``file`` holds this text; else the command line that does the same takes the copy beside the results.
+    #: Whether ``file`` holds this text; else the command line that does the same takes the copy next to the results.
     saved: bool = True
     #: Of the report, where the case names none.
     language: str = "en"
@@ -53,15 +53,15 @@ def work(pipe: Any, stop: Any, order: Order, run: Run) -> None:
     speak(order.language)
     die_with_parent()
     collect_rarely()
-    pace, told = Pace(), [0.0]
+    pace, reported = Pace(), [0.0]
 
     def listen(what: str, done: float, total: float) -> None:
         pace.tell(what, done, total)
         if stop.is_set():
             raise KeyboardInterrupt
         now = time.monotonic()
-        if now - told[0] >= _EVERY:
-            told[0] = now
+        if now - reported[0] >= _EVERY:
+            reported[0] = now
             left = pace.left(what)
             pipe.send(
                 (

@@ -1,4 +1,4 @@
-"""What is kept of jobs beside their results, so that an app that starts later lists them."""
+"""What is kept of jobs next to their results, so that an app that starts later lists them."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def keep(order: Order, state: str, words: str, seconds: float, ordered: float) -
 def kept_jobs(folder: Folder) -> list[KeptJob]:
     """Return the jobs whose results lie in the output folder, in the order in which they were ordered.
 
-    One at which another app is at work is left out. One that had not ended when its app did is told as lost.
+    One at which another app is at work is left out. One that had not ended when its app did is reported as lost.
     """
     found: list[KeptJob] = []
     with contextlib.suppress(OSError):

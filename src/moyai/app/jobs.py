@@ -128,7 +128,7 @@ class Jobs:
                 with self._changed:
                     job.state, job.words = "failed", f"the process could not be started: {error}"
             job.ended = time.monotonic()
-            if not self._closed:  # else it is told as ended with the app when the next one starts
+            if not self._closed:  # else it is reported as ended with the app when the next one starts
                 job.keep()
 
     def _follow(self, job: Job) -> None:

@@ -55,7 +55,7 @@ def _group(node: Node, value: Any, path: KeyPath, label: str, *, removable: bool
         "path": list(path),
         "dotted": dotted(path),
         "label": label,
-        "help": _told(schema.get("description", "")),
+        "help": _help_of(schema.get("description", "")),
         "removable": removable,
         "entries": [],
         "absent": [],
@@ -85,7 +85,7 @@ def _group(node: Node, value: Any, path: KeyPath, label: str, *, removable: bool
         start = start_of(known[key])
         if start is not None:
             after = next((one for one in reversed(before[: before.index(key)]) if one in value), "")
-            words = _told(_plain(_fitting(known[key], start).get("description", "")))
+            words = _help_of(_plain(_fitting(known[key], start).get("description", "")))
             group["absent"].append({"key": key, "help": words, "start": start, "after": after})
     return group
 
@@ -107,7 +107,7 @@ def _entry(node: Node, value: Any, path: KeyPath, label: str, removable: bool) -
         "path": list(path),
         "dotted": dotted(path),
         "label": label,
-        "help": _told(_plain(_described(node, forms))),
+        "help": _help_of(_plain(_described(node, forms))),
         "removable": removable,
         "type": kind,
         "value": value if isinstance(value, bool | str) or value is None else _digits(value),
@@ -145,7 +145,7 @@ def _plain(words: str) -> str:
     return re.sub(r"\s+", " ", words.replace("`", "")).strip()
 
 
-def _told(words: str) -> str:
+def _help_of(words: str) -> str:
     """Return a help in the language in force, the range in brackets behind it for itself."""
     text, bracket, range_ = words.removesuffix("]").rpartition("[") if words.endswith("]") else (words, "", "")
     return " ".join(filter(None, (said(text.strip()), f"[{said(range_)}]" if bracket else "")))

@@ -74,10 +74,10 @@ def check_plausibility(model: Block, findings: Findings) -> None:
     # Kinds of ratio: a slip in two lines alike is no slip in what both are held against
     ratios = {(one.row.quantity, key) for one in odd if len(one.paths) > 1 for key in _keys(one)}
     shared = Counter(key for _, key in ratios)
-    told: dict[KeyPath, bool] = {}
+    reported: dict[KeyPath, bool] = {}
     for one in odd:
-        _tell(one, shared, told, numbers, findings, lenient=getattr(model, "plausibility", "") == "warn")
-    _tell_radians(numbers, told, findings)
+        _tell(one, shared, reported, numbers, findings, lenient=getattr(model, "plausibility", "") == "warn")
+    _tell_radians(numbers, reported, findings)
 
 
 def place_of(path: KeyPath, document: CaseDocument) -> KeyPath | None:
@@ -167,21 +167,21 @@ def _keys(odd: Odd) -> set[KeyPath]:
 def _tell(
     odd: Odd,
     shared: Counter[KeyPath],
-    told: dict[KeyPath, bool],
+    reported: dict[KeyPath, bool],
     numbers: dict[KeyPath, CheckedNumber],
     findings: Findings,
     *,
     lenient: bool,
 ) -> None:
-    """Record an odd quantity, unless one of its keys was told of.
+    """Record an odd quantity, unless one of its keys was reported.
 
     Parameters
     ----------
     odd : Odd
     shared : Counter
         How many kinds of odd ratios a key stands in.
-    told : dict of tuple to bool
-        Keys that were told of, and whether as impossible; what is impossible is said of one that was only unusual.
+    reported : dict of tuple to bool
+        Keys that were reported, and whether as impossible; what is impossible is said of one that was only unusual.
     numbers : dict of tuple to Entry
     findings : Findings
     lenient : bool
@@ -191,15 +191,15 @@ def _tell(
     possible = row.possible[0] * (1.0 - 1e-9) <= value <= row.possible[1] * (1.0 + 1e-9)
     before = [
         grave
-        for bad, grave in told.items()
+        for bad, grave in reported.items()
         if any(path[: len(bad)] == bad for path in paths) or any(_overlap(bad, k) for e in entries for k in e.of)
     ]
     if any(before) or (before and possible):
         return
-    blamed = _blamed(odd, shared, told, findings.document)
+    blamed = _blamed(odd, shared, reported, findings.document)
     if blamed is None:
         return
-    told[blamed[0]] = not possible
+    reported[blamed[0]] = not possible
     number = f"{value:.3g}{' ' + row.unit if row.unit else ''}"
     message = f"the {row.what} is {number}"
     if len(paths) > 1 or paths[0] != blamed[0]:
@@ -217,11 +217,11 @@ def _overlap(one: KeyPath, other: KeyPath) -> bool:
 
 
 def _blamed(
-    odd: Odd, shared: Counter[KeyPath], told: dict[KeyPath, bool], document: CaseDocument
+    odd: Odd, shared: Counter[KeyPath], reported: dict[KeyPath, bool], document: CaseDocument
 ) -> tuple[KeyPath, KeyPath, bool] | None:
     """Return path in the model and place in the file of the number to tell of, and whether it is a factor itself.
 
-    That is the first key of the quantity; another one where it was told of before, or where it stands in more odd
+    That is the first key of the quantity; another one where it was reported before, or where it stands in more odd
     ratios than the first, whose own value no slip of a unit explains.
     """
     first = odd.entries[0]
@@ -231,7 +231,7 @@ def _blamed(
     through = [(path, place, False) for entry in odd.entries for path in entry.of
                if (place := place_of(path, document)) is not None]  # fmt: skip
     choices = [*own, *through] if first.place is not None else through
-    known = [choice for choice in choices if choice[0] in told]
+    known = [choice for choice in choices if choice[0] in reported]
     if known or not choices:
         return known[0] if known else None
     return max(choices, key=lambda choice: shared[choice[0]]) if _near(odd.row, odd.value) else choices[0]
@@ -304,10 +304,10 @@ def _remedy(row: PlausibleRange, value: float, power: int, place: KeyPath, findi
     return "check the number and its unit"
 
 
-def _tell_radians(numbers: dict[KeyPath, CheckedNumber], told: dict[KeyPath, bool], findings: Findings) -> None:
+def _tell_radians(numbers: dict[KeyPath, CheckedNumber], reported: dict[KeyPath, bool], findings: Findings) -> None:
     """Warn of an angle in degrees whose decimals are those of a round angle in radians: 0.7854, 1.5708."""
     for path, entry in numbers.items():
-        if entry.place is None or path in told or not str(path[-1]).endswith("_deg"):
+        if entry.place is None or path in reported or not str(path[-1]).endswith("_deg"):
             continue
         decimals = len(repr(entry.value).partition(".")[2])
         step = 5 if decimals > 2 else 15

@@ -247,7 +247,7 @@ def _line_end(text: str, at: int) -> int:
 
 
 def _flow_cuts(text: str, first: int, last: int) -> list[str]:
-    """Return the text without an entry in braces and one of the commas beside it."""
+    """Return the text without an entry in braces and one of the commas next to it."""
     behind = last + len(text[last:]) - len(text[last:].lstrip())
     before = len(text[:first].rstrip())
     cuts = []

@@ -32,10 +32,10 @@ def app(
         require_extra()
         from moyai.cli.runner import run
 
-        def told(line: str) -> None:
+        def print_line(line: str) -> None:
             say(line)
             sys.stdout.flush()
 
         folder, first = chosen_folder(start, output)
-        serve(folder, first, run, port=port, browser=browser, say=told)
+        serve(folder, first, run, port=port, browser=browser, say=print_line)
         raise typer.Exit(OK)

@@ -49,7 +49,7 @@ def case_of_deck(
     replace: bool,
     depth: float | None = None,
 ) -> Path:
-    """Write the case file of a deck and return its path; what is worth knowing goes to standard error."""
+    """Write the case file of a deck and return its path; what a user should know goes to standard error."""
     from moyai.cli.files import write_text
     from moyai.interop.moordyn_case import case_text
     from moyai.interop.moordyn_reader import read_deck
@@ -271,7 +271,7 @@ def _require_orcaflex(kind: str, wanted: str) -> None:
 
 
 def _model_file(file: Path, output: Path | None) -> Path:
-    """Return the text data file to write: FILE.yml beside it, or in the folder that is named."""
+    """Return the text data file to write: FILE.yml next to it, or in the folder that is named."""
     if output is None:
         return file / "results.yml" if file.is_dir() else file.with_suffix(".yml")
     if output.suffix.lower() in (".yml", ".yaml", ".dat"):

@@ -237,10 +237,10 @@ def run(
     motion: Motion = None,
     duration: Duration = None,
     depth: Depth = None,
-    beside: Annotated[
+    overlay: Annotated[
         list[Path] | None,
         typer.Option(
-            "--beside",
+            "--overlay",
             metavar="RESULTS",
             help="results.nc of another run, laid over the figures of the report; may be repeated.",
         ),
@@ -263,7 +263,7 @@ def run(
         with _compiling(_kind_in(file), quiet):
             case = load_case(file)
             _speak_as(case, language)
-            others = _others(beside, report)
+            others = _others(overlay, report)
             if units is not None:
                 require_system(units)
             folder = prepare_output(folder)
@@ -358,7 +358,7 @@ def _others(paths: list[Path] | None, report: bool) -> tuple[Any, ...]:
     if not report:
         from moyai.core.errors import InputError
 
-        raise InputError("other results are laid over the report", path="--beside", remedy="leave out --no-report")
+        raise InputError("other results are laid over the report", path="--overlay", remedy="leave out --no-report")
     from moyai.report.differences import read_others
 
     return read_others(paths)

@@ -70,10 +70,10 @@ def study(
             inform(f"{plan.title}: {count_of_cases}")
         for word in _refused(plan) if not quiet and not as_json else ():
             tell(word)
-        teller = _Teller(plan, quiet or as_json, each)
+        lines = _ProgressLines(plan, quiet or as_json, each)
         with progress_bars(quiet or as_json) as progress:
             result = run_study(
-                plan, folder, run_case, workers=count, on=on, retry_failed=retry_failed, progress=progress, watch=teller
+                plan, folder, run_case, workers=count, on=on, retry_failed=retry_failed, progress=progress, watch=lines
             )
         from moyai.study.report.finish import finish_study
 
@@ -202,7 +202,7 @@ def _duration(seconds: float) -> str:
     return f"{seconds / 60:.0f} min" if seconds < 6000 else f"{seconds / 3600:.1f} h"
 
 
-class _Teller:
+class _ProgressLines:
     """Says on standard error how far the study is, where no bar can be drawn and for what a bar cannot say."""
 
     def __init__(self, plan: Study, silent: bool, each: bool = False) -> None:

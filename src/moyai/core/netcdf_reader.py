@@ -18,7 +18,7 @@ from moyai.core.netcdf_writer import NO_VARIABLE
 if TYPE_CHECKING:
     import xarray as xr
 
-#: What the format keeps beside the attributes of a variable.
+#: What the format keeps next to the attributes of a variable.
 _OWN = frozenset(
     ("CLASS", "NAME", "DIMENSION_LIST", "REFERENCE_LIST", "_Netcdf4Dimid", "_Netcdf4Coordinates", "_NCProperties")
 )

@@ -1,4 +1,4 @@
-"""Units: what a symbol such as ``kg/m3`` or ``kN*m*s`` is worth in SI, and of which dimension it is.
+"""Units: what a symbol such as ``kg/m3`` or ``kN*m*s`` is in SI, and of which dimension it is.
 
 Factors are exact rational numbers (times a power of pi for angles), so that a conversion is rounded once.
 """

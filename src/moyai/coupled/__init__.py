@@ -5,11 +5,11 @@ from typing import TYPE_CHECKING
 from moyai.core.exports import exports
 
 if TYPE_CHECKING:
+    from moyai.coupled.equilibrium import CoupledEquilibrium as CoupledEquilibrium
+    from moyai.coupled.equilibrium import find_coupled_equilibrium as find_coupled_equilibrium
     from moyai.coupled.hulls import box_hull as box_hull
     from moyai.coupled.hulls import cylinder_hull as cylinder_hull
     from moyai.coupled.planar import PlanarBody as PlanarBody
-    from moyai.coupled.rest import CoupledRest as CoupledRest
-    from moyai.coupled.rest import find_rest as find_rest
     from moyai.coupled.rigid import RigidBody as RigidBody
     from moyai.coupled.simulate import CoupledHistory as CoupledHistory
     from moyai.coupled.simulate import simulate_coupled as simulate_coupled
@@ -21,7 +21,7 @@ else:
         {
             "hulls": "box_hull cylinder_hull",
             "planar": "PlanarBody",
-            "rest": "CoupledRest find_rest",
+            "equilibrium": "CoupledEquilibrium find_coupled_equilibrium",
             "rigid": "RigidBody",
             "simulate": "CoupledHistory simulate_coupled",
             "wave_loads": "Excitation WaveLoads",

@@ -97,7 +97,7 @@ def simulate_coupled(
     motions : mapping of str to Motion, optional
         Of driven points that no body carries.
     start : State, optional
-        Of the network, for instance from :func:`moyai.coupled.rest.find_rest`; as built when left out.
+        Of the network, for instance from :func:`moyai.coupled.find_coupled_equilibrium`; as built when left out.
     body_step : float, optional
         Longest step of the bodies [s]; chosen from waves, restoring and lines when left out.
     step, safety, load_steps

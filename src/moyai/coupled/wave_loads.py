@@ -270,7 +270,7 @@ HEADING_SLACK = math.radians(2.0)
 def _memory(
     omega: Array, added: Array, damping: Array, infinite: Array
 ) -> tuple[StateSpaceMemory, tuple[IdentityCheck, ...], tuple[Notice, ...]]:
-    """Return the memory of the water as states, with what it is worth.
+    """Return the memory of the water as states, with its error.
 
     Panels give damping that is rough at high frequency, where moments of a small body nearly vanish; the fit is then
     made to the response that the program gave, as closely as a stable and passive model can follow it.

@@ -22,7 +22,7 @@ def _require(ok: bool, message: str, path: str, allowed: str) -> None:
 class Ground:
     """Levels of a bed on a rectangular grid: bilinear between its lines, flat beyond the outer ones.
 
-    The slope does not jump at a grid line: it turns over a twenty-fifth of the shorter cell beside it
+    The slope does not jump at a grid line: it turns over a twenty-fifth of the shorter cell next to it
     [eq:flexible-ground].
 
     Raises

@@ -315,7 +315,7 @@ def simulate_together(
             chosen, left = np.array(left[:together]), left[together:]
             run = _march(network, [members[m] for m in chosen], start, plan, rows, (nodes, bars))
             if not run.sound.all():
-                # those beside one that blew up begin anew without it
+                # the others in an array with one that blew up begin anew without it
                 left = [*chosen[run.sound], *left]
                 alone.extend(chosen[~run.sound])
                 continue

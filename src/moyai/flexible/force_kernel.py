@@ -170,8 +170,8 @@ def laws(
 ) -> None:  # fmt: skip
     """Write pull and stiffness along the bar of every bar, stiffness of the bed along and across its normal.
 
-    The third row of ``node_law`` (4, n) stays free for :func:`moyai.flexible.rest_kernel.mixed_laws`; the fourth is the
-    push of the bed, which turns with the place where the bed is curved.
+    The third row of ``node_law`` (4, n) stays free for :func:`moyai.flexible.equilibrium_kernel.mixed_laws`; the fourth
+    is the push of the bed, which turns with the place where the bed is curved.
     """
     nodes, bars, start, end, curve, curves, _, _, _ = system
     u = np.empty(3)

@@ -14,7 +14,7 @@ from moyai.core.compiled import njit
 
 #: Numbers of a flat bed, and those before the grid lines of one that varies.
 FLAT, HEAD = 4, 7
-#: Half the width over which the slope turns at a grid line, over the shorter of the cells beside it.
+#: Half the width over which the slope turns at a grid line, over the shorter of the cells next to it.
 ROUNDING = 0.02
 
 

@@ -39,13 +39,13 @@ def peak_notices(
         Whether the run came to its end; one that was stopped has said why.
     """
     return (
-        *fronts_told(network, run),
+        *peak_front_notices(network, run),
         *_doubts(network, run, check, finished),
         *beyond_curves(network, bars, peaks),
     )
 
 
-def fronts_told(network: Network, run: Run) -> tuple[Notice, ...]:
+def peak_front_notices(network: Network, run: Run) -> tuple[Notice, ...]:
     """Return reports of wave fronts; at the pace of the wave they are exact but for nodes that land on a bed."""
     paced = _at_wave_pace(run)
     fronts = [one for one in run.watch.fronts(network) if one.fall > 0.0 or not paced]

@@ -15,7 +15,7 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.remembered import Remembered, key_of_objects
-from moyai.flexible import force_kernel, front_kernel, rest_kernel
+from moyai.flexible import equilibrium_kernel, force_kernel, front_kernel
 from moyai.flexible.arrays import KernelArrays, kernel_arrays, kernel_bed
 from moyai.flexible.flow import Flow
 from moyai.flexible.network import Network
@@ -245,7 +245,9 @@ class Relaxation:
         while taken < most:
             taken += 1
             force = self._loads_at(x, radius)
-            rest_kernel.mixed_laws(x, self.system, self.bed, soft, pulls, pushes, self._bar_law, self._node_law, force)
+            equilibrium_kernel.mixed_laws(
+                x, self.system, self.bed, soft, pulls, pushes, self._bar_law, self._node_law, force
+            )
             force *= self.free
             step, work = self._solve(x, force, 1.0 / pace**2, bold)
             if step is None:
@@ -307,7 +309,7 @@ class Relaxation:
         for _ in range(6):
             new, new_pulls, new_pushes = np.empty_like(x), np.empty_like(pulls), pushes.copy()
             force = self._loads_at(x + part * step, radius)
-            rest_kernel.mixed_step(
+            equilibrium_kernel.mixed_step(
                 x, step, part, self.system, self.bed, self._bar_law, self._node_law, pulls, pushes, new, new_pulls,
                 new_pushes, force,
             )  # fmt: skip

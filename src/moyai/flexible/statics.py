@@ -13,11 +13,11 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError
 from moyai.flexible.checks import name_of_node
+from moyai.flexible.equilibrium_diagnosis import advice, refuse_impossible
 from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import FREE, Network
 from moyai.flexible.relaxation import Attempt, Relaxation
-from moyai.flexible.rest_diagnosis import advice, refuse_impossible
 from moyai.flexible.result import State
 from moyai.flexible.slow_stretch import at_rest
 
@@ -167,7 +167,7 @@ def solve_equilibrium(
 def nearby_equilibrium(
     network: Network, flow: Flow, starts: Sequence[State], *, tolerance: float, most_steps: int
 ) -> Equilibrium | None:
-    """Return the rest beside a state by Newton's method, ``None`` where a few steps find none: for drafts.
+    """Return the equilibrium near a state by Newton's method, ``None`` where a few steps find none: for drafts.
 
     Parameters
     ----------

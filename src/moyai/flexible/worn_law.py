@@ -73,7 +73,7 @@ class WornRope:
 
     @property
     def least(self) -> float:
-        """Mean tension below which nothing is told apart [N]."""
+        """Mean tension below which nothing is distinguished [N]."""
         return TRACE * float(self.new_tension[-1])
 
     def quick(self, mean: Array) -> Array:

@@ -1,4 +1,4 @@
-"""Array types and the small checks that every module of this room makes of its arguments."""
+"""Array types and the small checks that every module of this package makes of its arguments."""
 
 from __future__ import annotations
 

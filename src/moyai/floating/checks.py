@@ -1,4 +1,4 @@
-"""Where the theory of this room ends: the number found, the limit, and what to do."""
+"""Where the theory of this package ends: the number found, the limit, and what to do."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Hydrodynamic coefficients of a floating body as plain arrays: the form in which this room takes them.
+"""Hydrodynamic coefficients of a floating body as plain arrays: the form in which this package takes them.
 
 They come from a section (:mod:`moyai.potential`), from a 3-D program, or from anywhere else.
 """

@@ -34,7 +34,7 @@ class Forcing(Protocol):
 
     @property
     def shortest_period(self) -> float:
-        """Shortest period that carries force worth resolving [s]; ``inf`` for steady forces."""
+        """Shortest period that carries force that should be resolved [s]; ``inf`` for steady forces."""
 
     @property
     def longest_step(self) -> float:
@@ -335,7 +335,7 @@ def sum_by_columns(omega: Array, amplitude: ComplexArray, step: float, count: in
 
 
 def _transform_length(omega: Array, step: float) -> int:
-    """Return the transform length that holds all frequencies exactly, 0 when there is none worth using."""
+    """Return the transform length that holds all frequencies exactly, 0 when there is none of use."""
     unique = np.unique(omega)
     base = float(unique[0]) if len(unique) == 1 else float(np.min(np.diff(unique)))
     multiples = np.rint(omega / base)

@@ -154,8 +154,8 @@ def _round_bend(
     radius = chord / (2.0 * math.sin(0.5 * angle))
     reach = radius * math.tan(0.5 * angle)
     along = np.array([math.cos(first[index]), math.sin(first[index])])
-    beside = [float(edges.lengths[(index - 1) % count]), float(edges.lengths[(index + 1) % count])]
-    if radius > numbers.largest_radius * (min(beside) + reach):
+    neighbours = [float(edges.lengths[(index - 1) % count]), float(edges.lengths[(index + 1) % count])]
+    if radius > numbers.largest_radius * (min(neighbours) + reach):
         return None
     return _Break("corner", edges.start[index] + reach * along, angle, radius)
 

@@ -495,7 +495,7 @@ def read_deck(path: str | Path) -> MoorDynDeck:
     Returns
     -------
     MoorDynDeck
-        Its ``notes`` hold what is worth knowing and no fault.
+        Its ``notes`` hold what a user should know and is no error.
 
     Raises
     ------

@@ -60,7 +60,7 @@ def to_system(deck: MoorDynDeck, *, water: Water | None = None, segments: int | 
     """Return network and bodies of a deck.
 
     Coupled bodies, rods and points become driven points, which stand still unless the run gives them motions; what is
-    pinned turns about its pin. :func:`moyai.coupled.rest.find_rest` and
+    pinned turns about its pin. :func:`moyai.coupled.equilibrium.find_coupled_equilibrium` and
     :func:`moyai.coupled.simulate.simulate_coupled` take the result.
 
     Parameters

@@ -28,7 +28,7 @@ def read_waterkin(
         Of the deck.
     faults : Faults
     notes : list of str
-        What is worth knowing and no fault.
+        What a user should know and is no error.
     """
     name = str(option.value)
     if name in ("", "0.0"):

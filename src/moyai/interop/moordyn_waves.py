@@ -40,7 +40,7 @@ def read_waves(
         Of the deck.
     faults : Faults
     notes : list of str
-        What is worth knowing and no fault.
+        What a user should know and is no error.
     """
     recorded = option.value == 3.0
     if option.value == 2.0 and not (folder / FREQUENCY_FILE).is_file() and (folder / ELEVATION_FILE).is_file():

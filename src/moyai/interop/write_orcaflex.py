@@ -30,7 +30,7 @@ _ENDS = (
 )
 _SECTIONS = "LineType, Length, TargetSegmentLength"
 _CURRENT = "CurrentDepth, CurrentFactor, CurrentRotation"
-#: How far a current may lie beside its straight lines, over its largest speed.
+#: How far a current may lie off its straight lines, over its largest speed.
 _STRAIGHT = 1e-3
 #: Height of a buoy that is always wet [m].
 _SMALL = 0.01

@@ -14,7 +14,7 @@ from moyai.morison.coefficients import CoefficientRule, KeuleganCarpenterTable
 
 @dataclass(frozen=True)
 class MeasuredRange:
-    """Where a coefficient was found and what it is worth there."""
+    """Where a coefficient was found and how well it is known there."""
 
     #: Of the law, in words.
     name: str

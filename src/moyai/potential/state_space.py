@@ -333,9 +333,9 @@ def _residues(
     at_zero: Array = partial_fractions(np.zeros(1, dtype=complex), poles).real
     count = len(rows)
     # dips sit next to lightly damped poles and may be narrower than the steps of an even grid
-    beside = np.abs(poles.imag)[:, None] + np.abs(poles.real)[:, None] * np.linspace(-4.0, 4.0, 17)
+    near_poles = np.abs(poles.imag)[:, None] + np.abs(poles.real)[:, None] * np.linspace(-4.0, 4.0, 17)
     even = np.geomspace(0.05 * x[0], 200.0 * x[-1], _PASSIVITY_POINTS)
-    dense = np.unique(np.concatenate([even, beside[(beside > even[0]) & (beside < even[-1])]]))
+    dense = np.unique(np.concatenate([even, near_poles[(near_poles > even[0]) & (near_poles < even[-1])]]))
     dense_basis = partial_fractions(np.asarray(1j * dense, dtype=complex), poles).real
     # Conditions compare damping at all frequencies on one footing: the fit falls like omega^-2, and where nothing is
     # left at zero frequency (sway, roll) it starts with omega^2

@@ -340,8 +340,8 @@ def _draws(
     out = []
     for draw in range(draws):
         if len(names) >= _WHOLE_GROUPS:
-            picked = random.integers(0, len(names), len(names))
-            times = np.bincount(picked, minlength=len(names))
+            drawn = random.integers(0, len(names), len(names))
+            times = np.bincount(drawn, minlength=len(names))
             assert groups is not None
             chosen = np.array([times[names.index(group)] for group in groups], dtype=float)
         else:

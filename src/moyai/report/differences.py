@@ -107,7 +107,7 @@ def with_others(document: Document, result: Result, others: Sequence[Other]) -> 
         if not common and numbers is None:
             raise InputError(
                 f"{other.name} ({_kind(other.result)}) has nothing in common with this result ({_kind(result)})",
-                path="--beside",
+                path="--overlay",
                 allowed=f"figures here: {', '.join(known) or 'none'}; there: "
                 f"{', '.join(figures_of(other.document)) or 'none'}",
             )

@@ -178,12 +178,12 @@ def _distance(space: Any, shape: Distance, factor: float, at: dict[str, str]) ->
     height = _CAPITALS * factor * shape.size
     level = abs(end[1] - start[1]) < abs(end[0] - start[0])
     base = (start[0], start[1] - offset) if level else (start[0] + offset, start[1])
-    # upright dimensions stand close together: their words lie beside them, as on the page
+    # upright dimensions stand close together: their words lie next to them, as on the page
     side = (1.0 if offset > 0.0 else -1.0) * height * (1.0 + _WIDTH * len(shape.text))
-    beside = None if level else (base[0] + side, 0.5 * (start[1] + end[1]))
+    location = None if level else (base[0] + side, 0.5 * (start[1] + end[1]))
     sizes = {"dimtxt": 1.0, "dimasz": 1.0, "dimexe": 0.5, "dimexo": 0.5, "dimgap": 0.4}
     space.add_linear_dim(
-        base=base, p1=start, p2=end, angle=0.0 if level else 90.0, text=shape.text, location=beside,
+        base=base, p1=start, p2=end, angle=0.0 if level else 90.0, text=shape.text, location=location,
         text_rotation=None if level else 0.0, dimstyle="MOYAI", dxfattribs=at,
         override={name: share * height for name, share in sizes.items()},
     ).render()  # fmt: skip

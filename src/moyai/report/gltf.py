@@ -98,8 +98,8 @@ def _rows(scene: Scene3D) -> IntArray:
     first, last = scene.window or (float(scene.time[0]), float(scene.time[-1]))
     inside = np.flatnonzero((scene.time >= first - 1e-9) & (scene.time <= last + 1e-9))
     inside = inside if inside.size > 1 else np.arange(len(scene.time))
-    picked = np.linspace(0, inside.size - 1, min(inside.size, MOMENTS)).round().astype(int)
-    return np.asarray(inside[np.unique(picked)], dtype=np.int64)
+    chosen = np.linspace(0, inside.size - 1, min(inside.size, MOMENTS)).round().astype(int)
+    return np.asarray(inside[np.unique(chosen)], dtype=np.int64)
 
 
 @dataclass

@@ -162,7 +162,7 @@ def _asked(headline: Headline, item: Judgement, like: float) -> str:
 
 
 def _known(headline: Headline, open_one: Judgement, item: Judgement | None, like: float) -> str:
-    """Return the worst value that is known, with its place, beside one that leaves the limit open."""
+    """Return the worst value that is known, with its place, next to one that leaves the limit open."""
     if item is None or not item.value:
         return ""
     limit, found = limit_and_found(item, like)

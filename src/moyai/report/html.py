@@ -253,7 +253,7 @@ class _Page:
         found: dict[str, Any] = {"figures": self.figures, "scenes": self.scenes, "tables": self.tables}
         views = [view for scene in self.scenes.values() for view in scene.get("extents", {})]
         spoken = {text: said(text) for text in (*SCRIPT_WORDS, *views)}
-        if words := {text: told for text, told in spoken.items() if told != text}:
+        if words := {text: translated for text, translated in spoken.items() if translated != text}:
             found["words"] = words
         return found
 

@@ -46,10 +46,10 @@ def input_line(result: Result) -> str:
     for name in ("current", "wind"):
         words = _said(case.get(name), _FLOW)
         parts.append(f"{name} {words}" if words else "")
-    told = "; ".join(part for part in parts if part)
+    words = "; ".join(part for part in parts if part)
     mark = str(result.held.attrs.get("case_hash", ""))[:8]
     ending = f" Case {mark}." if mark else ""
-    return f"Conditions: {told}.{ending}" if told else ""
+    return f"Conditions: {words}.{ending}" if words else ""
 
 
 def _sea(sea: Any, number: int) -> str:

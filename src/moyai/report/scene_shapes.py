@@ -16,7 +16,7 @@ from moyai.report.sketch import Sketch
 #: Roles of what a cage calls its parts; other names are those of lines
 _ROLES = {"net": "net", "collar": "buoy", "bracket": "buoy", "sinker tube": "weight"}
 _SIGNS = {"anchor": "anchor", "float": "buoy", "clump": "weight", "driven": "marker", "joint": "marker"}
-#: Names that are written beside their lines, at most
+#: Names that are written next to their lines, at most
 _LABELS = 40
 #: Radius of the sign of a point, and height of the words in space, over the size of the structure
 _SIGN, _LETTERS = 0.004, 0.015

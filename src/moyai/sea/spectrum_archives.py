@@ -340,16 +340,16 @@ def _ndbc(text: str, file: Path) -> SpectrumArchive:
 
 def _ndbc_direction(file: Path, count: int, order: NDArray[np.intp]) -> Array:
     """Return the mean directions of the energy, from the files of first moments that lie next to the densities."""
-    beside = [file.with_suffix(suffix) for suffix in (".swdir", ".swr1")]
+    companions = [file.with_suffix(suffix) for suffix in (".swdir", ".swr1")]
     nothing = np.full((count, 1), math.nan)
-    if file.suffix != ".data_spec" or not all(other.is_file() for other in beside):
+    if file.suffix != ".data_spec" or not all(other.is_file() for other in companions):
         return nothing
 
     def table(path: Path) -> Array:
         rows = [line for line in path.read_text(encoding="latin-1").splitlines()[1:] if line.strip()]
         return np.array([[float(item) for item in _BEFORE_BRACKETS.findall(row)] for row in rows])
 
-    density, angle, first = table(file), table(beside[0]), table(beside[1])
+    density, angle, first = table(file), table(companions[0]), table(companions[1])
     if not density.shape == angle.shape == first.shape:
         return nothing
     good = (density < 999.0) & (angle < 999.0) & (first < 999.0)

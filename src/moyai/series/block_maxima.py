@@ -1,4 +1,4 @@
-"""What the largest value of one random record is worth: mean and scatter over records of the same length."""
+"""Uncertainty of the largest value of one random record: mean and scatter over records of the same length."""
 
 from __future__ import annotations
 

@@ -331,7 +331,7 @@ def kolmogorov_distance(fitted: ExtremeFit, values: ArrayLike) -> float:
 
 
 def check_fit(fitted: ExtremeFit, values: ArrayLike) -> tuple[Notice, ...]:
-    """Return notices about what a fit is worth: distance from the data, few values, heavy tail.
+    """Return notices about the quality of a fit: distance from the data, few values, heavy tail.
 
     The distance is that of Anderson and Darling, which weighs the tails; above 2.5 a fit is doubtful at the 5 % level
     where the parameters are known, and well above it where they were fitted.

@@ -140,7 +140,7 @@ def interval_of_kinds(
     probability : float
     seed : int
         Of the parametric bootstrap: as many peaks of every kind are drawn as were fitted, as if independent of each
-        other. Peaks that come in groups are worth less; average conditional exceedance counts groups.
+        other. Peaks that come in groups count less; average conditional exceedance counts groups.
     confidence : float
     repetitions : int
     """

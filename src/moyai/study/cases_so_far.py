@@ -27,7 +27,7 @@ _ASKED = ("utilisation", "maximum", "motion", "transmission", "tension", "offset
 
 
 def write_cases(plan: Study, block: Mapping[str, Any], folder: Path) -> None:
-    """Write what makes each case of a study beside its results.
+    """Write what makes each case of a study next to its results.
 
     Parameters
     ----------

@@ -86,7 +86,7 @@ def run_study(
         Run cases again that failed before.
     progress : Progress
     watch : callable, optional
-        Told the standing after every case.
+        Called with the standing after every case.
 
     Returns
     -------
@@ -111,7 +111,7 @@ def run_study(
         stopped = False
         if left:
             kept = _require_watched(study, known)
-            watching = _Watching(study, known, watch, progress)
+            watching = _Reporting(study, known, watch, progress)
             so_far = _SoFar(study, folder)
             records = _backend(on, workers, progress)(task, left)
             try:
@@ -191,7 +191,7 @@ class _SoFar:
         self.next = time.monotonic() + max(_OFTEN, _COST * (time.monotonic() - begun))
 
 
-class _Watching:
+class _Reporting:
     """Counts, the time left, the largest and smallest watched response."""
 
     def __init__(self, study: Study, known: dict[int, LedgerRecord], watch: Watcher | None, progress: Progress) -> None:

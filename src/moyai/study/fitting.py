@@ -336,7 +336,7 @@ def _correlation(covariance: Array) -> Array:
 def fitted_text(fit: StudyFit, found: Calibration) -> str:
     """Return the text of the case with the values that were found, comments and layout kept.
 
-    Every value stands with as many digits as its standard error is worth; the heading tells where they come from.
+    Every value stands with as many digits as its standard error allows; the heading says where they come from.
     """
     from moyai import __version__
 

@@ -85,7 +85,7 @@ class Ledger:
         try:
             folder.mkdir(parents=True, exist_ok=True)
             self._lock = _locked(folder)
-            complete = self._mend(key)
+            complete = self._repair(key)
             self._file = self.path.open("a", encoding="utf-8", newline="\n")
             if not complete:
                 self._write(json.dumps({"moyai_study": FORMAT, "key": key, "title": title}))
@@ -99,7 +99,7 @@ class Ledger:
             self._free()
             raise
 
-    def _mend(self, key: str) -> bool:
+    def _repair(self, key: str) -> bool:
         """Cut off a damaged last line; return whether the diary has its heading already."""
         if not self.path.exists():
             return False

@@ -29,7 +29,7 @@ def check_kind(document: CaseDocument) -> None:
 def unknown_keys(axes: tuple[Axis, ...], base: CaseDocument, base_path: Path) -> list[Fault]:
     """Return the faults of keys that the case does not know, each path of the axes tried once on its own.
 
-    Told together with paths that lead nowhere, so that all slips of one kind are corrected in one go.
+    Reported together with paths that lead nowhere, so that all slips of one kind are corrected in one go.
     """
     found: list[Fault] = []
     seen: set[str] = set()

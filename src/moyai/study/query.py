@@ -18,7 +18,7 @@ from moyai.case.faults import did_you_mean
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.quantities import parse_quantity
-from moyai.study.responses import in_stated_unit, picked, split_response
+from moyai.study.responses import in_stated_unit, selected, split_response
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -153,7 +153,7 @@ class StudyTable:
         if len(near) > 1:
             raise InputError(f"'{wanted}' is the name of {len(near)} responses", path="query", allowed=", ".join(near))
         written = near[0] + (f"[{','.join(f'{dim}={label}' for dim, label in labels)}]" if labels else "")
-        return written, picked(everything[near[0]], labels, text)
+        return written, selected(everything[near[0]], labels, text)
 
     def where(self, text: str) -> NDArray[np.bool_]:
         """Return which cases a condition holds for: ``significant_height > 0.6 m``, ``lost_line = intact``.

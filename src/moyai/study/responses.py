@@ -207,7 +207,7 @@ def find_response(tree: xr.DataTree, name: str) -> xr.DataArray:
         When there is no such variable, dimension or label.
     """
     group, last, labels = split_response(name)
-    return picked(_variable(groups_of(tree), group, last), labels, name)
+    return selected(_variable(groups_of(tree), group, last), labels, name)
 
 
 def split_response(text: str) -> tuple[str, str, tuple[tuple[str, str], ...]]:
@@ -228,7 +228,7 @@ def split_response(text: str) -> tuple[str, str, tuple[tuple[str, str], ...]]:
     return group, last, tuple((dim.strip(), label.strip()) for dim, _, label in pairs)
 
 
-def picked(variable: xr.DataArray, labels: Sequence[tuple[str, str]], text: str) -> xr.DataArray:
+def selected(variable: xr.DataArray, labels: Sequence[tuple[str, str]], text: str) -> xr.DataArray:
     """Return a variable at labels of its dimensions.
 
     Raises

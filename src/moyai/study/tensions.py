@@ -14,7 +14,7 @@ from moyai.core.results import Result
 from moyai.core.vocabulary import BREAKING_LOAD, LINE_TENSION_MAXIMUM, LINE_TENSION_MEAN, former
 from moyai.study import schema
 from moyai.study.plan import Study
-from moyai.study.responses import largest_tensions, picked, split_response
+from moyai.study.responses import largest_tensions, selected, split_response
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -69,7 +69,7 @@ def response(result: Result, text: str) -> xr.DataArray:
         raise InputError(
             f"the study has no response '{text}'", path="assess", allowed=", ".join(same[:6]), remedy=former(name)
         )
-    return picked(variable(result, f"/{group}", name), labels, text)
+    return selected(variable(result, f"/{group}", name), labels, text)
 
 
 def tensions(study: Study, result: Result, named: Mapping[str, schema.TensionOfLine]) -> list[Tensions]:
@@ -80,7 +80,7 @@ def tensions(study: Study, result: Result, named: Mapping[str, schema.TensionOfL
     InputError
         When there are none.
     """
-    return [_named(study, result, named)] if named else _told(study, result)
+    return [_named(study, result, named)] if named else _found_by_name(study, result)
 
 
 def _named(study: Study, result: Result, named: Mapping[str, schema.TensionOfLine]) -> Tensions:
@@ -116,7 +116,7 @@ def breaking_loads(result: Result, level: str) -> xr.DataArray | None:
     return None if where is None else variable(result, where, BREAKING_LOAD.name)
 
 
-def _told(study: Study, result: Result) -> list[Tensions]:
+def _found_by_name(study: Study, result: Result) -> list[Tensions]:
     axes = [axis.name for axis in study.axes]
     found = []
     for node in result.tree.subtree:

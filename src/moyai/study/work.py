@@ -51,7 +51,7 @@ def run_case(
     cancelled : callable, optional
         Asked a few times a second whether to stop.
     progress : Progress
-        Told the steps of the case.
+        Called with the steps of the case.
     """
     from moyai.case.reader import case_of
 

@@ -258,7 +258,7 @@ def gap() -> tuple[Array, Array, Array]:
     other = PanelMesh(turned_round(one.corners * np.array([1.0, -1.0, 1.0])), one.unit, one.part)
     points = 2.0 * math.pi * np.array([[4.0, 0.0], [2.0, 1.0], [4.0, 1.0]])
     x, along = points.T
-    # Penney and Price (1952): openings beside each other, each of them the half planes at its ends
+    # Penney and Price (1952): openings next to each other, each of them the half planes at its ends
     planes = sommerfeld(k, x, along + 0.5 * width) + sommerfeld(k, x, 0.5 * width - along) - np.exp(1j * k * x)
     for sign in (1.0, -1.0):
         planes = planes + sommerfeld(k, x, sign * along - 0.5 * width - length)

@@ -21,7 +21,7 @@ from moyai.sea.water import Water
 from moyai.structures.cage.flexible.build import build_cage
 from moyai.structures.cage.flexible.checks import floating_balance
 from moyai.structures.cage.flexible.collar import Collar, Pipe
-from moyai.structures.cage.flexible.equilibrium import CageRest, horizontal_balance, ring_shape, solve_rest
+from moyai.structures.cage.flexible.equilibrium import CageEquilibrium, horizontal_balance, ring_shape, solve_rest
 from moyai.structures.cage.flexible.grid_mooring import Buoy, GridMooring
 from moyai.structures.cage.flexible.loads import drag_split
 from moyai.structures.cage.flexible.model import CageDesign, CageMesh, CageNet, FixedCollar, FlexibleCage, Sinkers
@@ -71,24 +71,26 @@ def moored(
 @lru_cache
 def at_rest(
     speed: float, heading: float = 0.0, solidity: float = 0.225, weight: float = 3.92
-) -> tuple[FlexibleCage, CageRest]:
+) -> tuple[FlexibleCage, CageEquilibrium]:
     model = flume(solidity, weight=weight)
     current = uniform(speed, heading) if speed else None
     return model, solve_rest(model, build_cage(model), current)
 
 
 @lru_cache
-def at_sea(speed: float, heading: float = 0.0, rigid: bool = False, rings: int = 1) -> tuple[FlexibleCage, CageRest]:
+def at_sea(
+    speed: float, heading: float = 0.0, rigid: bool = False, rings: int = 1
+) -> tuple[FlexibleCage, CageEquilibrium]:
     model = moored(rigid=rigid, rings=rings)
     return model, solve_rest(model, build_cage(model), uniform(speed, heading) if speed else None)
 
 
-def share(rest: CageRest) -> float:
+def share(rest: CageEquilibrium) -> float:
     cage = rest.built.cages[0]
     return float(cage.volume(rest.state.position)) / cage.rest_volume
 
 
-def drag(rest: CageRest) -> np.ndarray:
+def drag(rest: CageEquilibrium) -> np.ndarray:
     return horizontal_balance(rest)[0].sum(axis=0)
 
 

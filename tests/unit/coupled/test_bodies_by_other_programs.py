@@ -7,8 +7,8 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.special import ellipj
 
+from moyai.coupled.equilibrium import find_coupled_equilibrium
 from moyai.coupled.pace import steps_at_the_pace
-from moyai.coupled.rest import find_rest
 from moyai.coupled.rigid import RigidBody, quaternion_of
 from moyai.coupled.simulate import simulate_coupled
 from moyai.flexible.build import NetworkBuilder
@@ -249,7 +249,7 @@ def test_network_and_bodies_at_rest_are_of_one_piece(seed) -> None:
         builder.fixed(f"a{k}", (8 * math.cos(2.1 * k), 8 * math.sin(2.1 * k), 6.0 + random.uniform(0, 2)))
         builder.driven(f"p{k}", body.points_at_start[f"p{k}"])
         builder.line(f"l{k}", f"a{k}", f"p{k}", cord(2.0, 1e5), length=9.0, segments=4)
-    rest = find_rest(builder.build(), {"body": body})
+    rest = find_coupled_equilibrium(builder.build(), {"body": body})
     for name, place in rest.bodies["body"].points_at_start.items():
         node = rest.network.points[name]
         assert np.abs(rest.network.nodes.position[node] - place).max() < 1e-9

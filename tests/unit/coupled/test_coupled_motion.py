@@ -9,8 +9,8 @@ import pytest
 from bodies_for_tests import GRAVITY, SEA, SPACE, VACUUM, hung, light, random_inertia
 
 from moyai.core.errors import InputError
+from moyai.coupled.equilibrium import find_coupled_equilibrium
 from moyai.coupled.hulls import box_hull
-from moyai.coupled.rest import find_rest
 from moyai.coupled.rigid import RigidBody
 from moyai.coupled.simulate import simulate_coupled
 from moyai.flexible.build import NetworkBuilder
@@ -299,7 +299,7 @@ def test_rest_of_a_moored_box_is_where_it_stays() -> None:
         lumps=box_hull(size, bottom=0.0), linear_damping=(300.0,) * 6,
     )  # fmt: skip
     network = builder.build()
-    rest = find_rest(network, {"box": body})
+    rest = find_coupled_equilibrium(network, {"box": body})
     assert rest.residual < 1e-7
     history = simulate_coupled(rest.network, rest.bodies, duration=3.0, output_step=0.5, start=rest.state)
     box = history.bodies["box"]

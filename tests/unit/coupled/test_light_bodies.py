@@ -74,10 +74,10 @@ def test_three_heavy_lines_on_a_light_clamp(tmp_path):
 
 @pytest.mark.shared_data
 def test_the_riser_deck_goes_on(shared_data):
-    from moyai.coupled.rest import find_rest
+    from moyai.coupled.equilibrium import find_coupled_equilibrium
 
     system = to_system(read_deck(shared_data / "moordyn_decks" / "riser" / "riser.txt"))
-    rest = find_rest(system.network, system.bodies)
+    rest = find_coupled_equilibrium(system.network, system.bodies)
     still = Motion(0.0, 1.0, np.zeros((3, 3)), np.zeros((3, 3)))
     found = simulate_coupled(
         rest.network, rest.bodies, duration=0.05, output_step=0.01, start=rest.state, motions={"point 4": still}

@@ -7,7 +7,7 @@ import pytest
 from scipy.special import ellipk
 
 from moyai.core.errors import InputError
-from moyai.coupled.rest import find_rest
+from moyai.coupled.equilibrium import find_coupled_equilibrium
 from moyai.coupled.rigid import RigidBody
 from moyai.coupled.simulate import simulate_coupled
 from moyai.flexible.build import NetworkBuilder
@@ -45,7 +45,7 @@ def test_swings_with_the_exact_period_and_hangs_below_its_pin(seed):
     cut = np.flatnonzero(angle[:-1] * angle[1:] < 0.0)
     times = history.time[cut] - angle[cut] * step / (angle[cut + 1] - angle[cut])
     assert 2.0 * np.diff(times).mean() == pytest.approx(period, rel=1e-5)
-    rest = find_rest(nothing(), {"bob": body}).bodies["bob"]
+    rest = find_coupled_equilibrium(nothing(), {"bob": body}).bodies["bob"]
     assert rest.start_rotation @ (arm / length) == pytest.approx([0.0, 0.0, -1.0], abs=1e-6)
 
 

@@ -5,7 +5,7 @@ import pytest
 
 from moyai.core.errors import ConvergenceError
 from moyai.coupled.assembly import BodyAssembly, RodPart, VolumePart
-from moyai.coupled.rest import find_rest
+from moyai.coupled.equilibrium import find_coupled_equilibrium
 from moyai.flexible.build import NetworkBuilder
 from moyai.flexible.network import BarType, Bed
 from moyai.mooring.rotations import rotation_matrix
@@ -34,7 +34,7 @@ def column(seed, **options):
 @pytest.mark.parametrize("seed", range(3))
 def test_a_pin_stays_where_it_is(seed):
     network, body = column(seed, pin=np.zeros(3))
-    rest = find_rest(network, {"column": body})
+    rest = find_coupled_equilibrium(network, {"column": body})
     found = rest.bodies["column"]
     np.testing.assert_allclose(found.position, [0.0, 0.0, -19.0], atol=1e-9)
     # moments about the pin balance: the rope against weight and buoyancy of the column
@@ -60,7 +60,7 @@ def test_motions_that_are_held_stay(held):
     free = np.ones(6, dtype=bool)
     free[list(np.atleast_1d(held))] = False
     network, body = column(7, free=tuple(bool(item) for item in free))
-    rest = find_rest(network, {"column": body})
+    rest = find_coupled_equilibrium(network, {"column": body})
     found = rest.bodies["column"]
     change = np.concatenate([np.asarray(found.position) - body.position, np.asarray(found.rotation) - body.rotation])
     centre = np.asarray(body.centre_of_gravity)
@@ -80,4 +80,4 @@ def test_a_body_that_sinks_is_told_at_once():
     builder.driven("eye", body.points_at_start["eye"])
     builder.line("chain", "anchor", "eye", BarType("chain", 72.0, 3e8, 0.06), length=32.0, segments=4)
     with pytest.raises(ConvergenceError, match="'block' sinks through the bed at z = -20 m"):
-        find_rest(builder.build(), {"block": body})
+        find_coupled_equilibrium(builder.build(), {"block": body})

@@ -20,7 +20,7 @@ from moyai.structures.curtain.dynamic.assembly import build_span
 from moyai.structures.curtain.dynamic.cable import dynamic_cable
 from moyai.structures.curtain.dynamic.checks import run_checks, run_notices
 from moyai.structures.curtain.dynamic.model import AnchoredSupport, CurtainNetwork, CurtainSpan, Mesh
-from moyai.structures.curtain.dynamic.peak_uncertainty import PeakWorth, Worth, span_worth
+from moyai.structures.curtain.dynamic.peak_uncertainty import PeakUncertainties, PeakUncertainty, span_uncertainty
 from moyai.structures.curtain.dynamic.plans import Plan
 from moyai.structures.curtain.dynamic.runs import DynamicRun, run_span
 from moyai.structures.curtain.dynamic.section import section_mesh
@@ -189,7 +189,7 @@ def test_sensitivity_names_what_the_peak_is_worth() -> None:
         "profile": "sag",
     }  # fmt: skip
     run = run_span(span, mesh, **given)  # type: ignore[arg-type]
-    worth = span_worth(run, **given)
+    worth = span_uncertainty(run, **given)
     assert set(worth.of) == {"both", "upper cable", "lower cable"}
     for name, one in worth.of.items():
         assert one.peak == run.peak(name)[0]
@@ -200,12 +200,14 @@ def test_sensitivity_names_what_the_peak_is_worth() -> None:
 
 
 def test_sensitivity_tells_of_a_cable_that_the_sum_hides() -> None:
-    good, poor = PeakWorth(10.0, 10.0, 10.1, 9.9), PeakWorth(2.4, 2.4, 5.0, 2.3)
-    reported = Worth({"both": good, "upper cable": good, "lower cable": poor}).notices("here")
+    good, poor = PeakUncertainty(10.0, 10.0, 10.1, 9.9), PeakUncertainty(2.4, 2.4, 5.0, 2.3)
+    reported = PeakUncertainties({"both": good, "upper cable": good, "lower cable": poor}).notices("here")
     assert len(reported) == 1 and "lower cable by 108.3 %" in reported[0].message and "upper" not in reported[0].message
-    assert not Worth({"both": good, "upper cable": good}).notices("here")
-    missing = PeakWorth(10.0, 10.0, math.nan, 9.9)
-    assert [n.code for n in Worth({"both": missing}, ("the run stopped",)).notices("here")] == ["dynamic-sensitivity"]
+    assert not PeakUncertainties({"both": good, "upper cable": good}).notices("here")
+    missing = PeakUncertainty(10.0, 10.0, math.nan, 9.9)
+    assert [n.code for n in PeakUncertainties({"both": missing}, ("the run stopped",)).notices("here")] == [
+        "dynamic-sensitivity"
+    ]
 
 
 @pytest.mark.slow

@@ -134,11 +134,11 @@ def test_commands(folder):
     refused = CliRunner().invoke(app, ["compare", *files, "--pair", "a=b"])
     assert refused.exit_code == 2
     both = ["run", str(folder / "thin.yaml"), "-q", "-o", str(folder / "again")]
-    done = CliRunner().invoke(app, [*both, "--beside", files[0]])
+    done = CliRunner().invoke(app, [*both, "--overlay", files[0]])
     assert done.exit_code == 0, done.output
     assert "there is no figure 'rao'" in done.output
     assert (folder / "again" / "report_tables" / "series-differences-wide.csv").is_file()
-    absent = CliRunner().invoke(app, [*both, "--beside", "absent.nc"])
+    absent = CliRunner().invoke(app, [*both, "--overlay", "absent.nc"])
     assert absent.exit_code == 2
     assert "no such file: absent.nc" in absent.output
 

@@ -169,7 +169,7 @@ def force_columns(record: ForceRecord, rate: Array, setup: Setup, component: int
     )
 
 
-def beside_columns(record: ForceRecord, orders: Sequence[int], mean: bool, omega: float) -> Array:
+def other_columns(record: ForceRecord, orders: Sequence[int], mean: bool, omega: float) -> Array:
     """Return what is fitted together with Morison's equation: mean and harmonics."""
     angle = omega * (record.time - record.time.mean())
     parts = [np.ones_like(angle)] if mean else []
@@ -193,21 +193,21 @@ def fit_component(
     force = record.force[:, component]
     scale = np.linalg.norm(columns, axis=0)
     condition = float(np.linalg.cond(columns / scale)) if (scale > 0.0).all() else math.inf
-    beside = beside_columns(record, setup.harmonics, setup.mean, omega)
+    others = other_columns(record, setup.harmonics, setup.mean, omega)
     stretch = 1.0
     if method == "fourier":
         gain = _fourier_gain(record, columns, omega)
         rest = force - columns @ (gain @ force)
-        extra, *_ = np.linalg.lstsq(beside, rest, rcond=None)
-        modelled = force - rest + beside @ extra
+        extra, *_ = np.linalg.lstsq(others, rest, rcond=None)
+        modelled = force - rest + others @ extra
     else:
         weight = np.ones(force.size)
-        whole = _gain(columns, beside, weight)
-        design = np.hstack([columns, beside])
+        whole = _gain(columns, others, weight)
+        design = np.hstack([columns, others])
         modelled = design @ (whole @ force)
         for _ in range(0 if method == "least_squares" else 60):
             previous, weight = weight, _weights(method, modelled, force - modelled)
-            whole = _gain(columns, beside, weight)
+            whole = _gain(columns, others, weight)
             modelled = design @ (whole @ force)
             if np.abs(weight - previous).max() < 1e-12:
                 break
@@ -239,9 +239,9 @@ def fit_component(
     )
 
 
-def _gain(columns: Array, beside: Array, weight: Array) -> Array:
+def _gain(columns: Array, others: Array, weight: Array) -> Array:
     """Return the matrix that takes the force to all coefficients by weighted least squares; C_M and C_D come first."""
-    design = np.hstack([columns, beside])
+    design = np.hstack([columns, others])
     size = np.linalg.norm(design, axis=0)
     root = np.sqrt(weight)[:, None]
     safe = np.where(size > 0.0, size, 1.0)
@@ -256,7 +256,7 @@ def _fourier_gain(record: ForceRecord, columns: Array, omega: float) -> Array:
     8/(3 pi) of a sine.
     """
     orders = range(1, 1 + int(min(6, max(1, 2.0 * math.pi / (omega * record.step) // 2 - 1))))
-    design = beside_columns(record, orders, True, omega)
+    design = other_columns(record, orders, True, omega)
     inverse = np.linalg.pinv(design)[1:3]
     harmonic = inverse @ columns
     size = np.linalg.norm(harmonic, axis=0)

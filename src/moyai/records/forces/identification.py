@@ -16,9 +16,9 @@ from moyai.records.forces.fit import (
     Coefficient,
     ForceFit,
     Setup,
-    beside_columns,
     fit_component,
     force_columns,
+    other_columns,
 )
 from moyai.records.forces.notices import (
     collinear_notices,
@@ -34,7 +34,7 @@ _SPEED_FACTOR = 8.0 / (3.0 * math.pi)
 
 
 #: Share of noise in the variance of a derivative from which it is cut off, and that may be left
-NOISE_TOLD, NOISE_LEFT = 0.01, 0.02
+NOISE_REPORTED, NOISE_LEFT = 0.01, 0.02
 
 
 @dataclass(frozen=True, eq=False)
@@ -169,7 +169,7 @@ def _clean(record: ForceRecord) -> tuple[ForceRecord, list[Notice]]:
                     remedy="use a record of 20 waves and more",
                 )
             )
-        elif cut.share >= NOISE_TOLD:
+        elif cut.share >= NOISE_REPORTED:
             velocity[:, component] = without_noise(velocity[:, component], record.step, cut.frequency)
             if record.acceleration is not None:
                 continue
@@ -201,7 +201,7 @@ def velocity_amplitudes(record: ForceRecord, period: float, orders: int | None) 
     """
     if orders is None:
         return np.asarray(math.sqrt(2.0) * record.velocity.std(axis=0))
-    design = beside_columns(record, range(1, orders + 1), True, 2.0 * math.pi / period)
+    design = other_columns(record, range(1, orders + 1), True, 2.0 * math.pi / period)
     fit, *_ = np.linalg.lstsq(design, record.velocity, rcond=None)
     return np.asarray(0.5 * np.ptp(design @ fit, axis=0))
 

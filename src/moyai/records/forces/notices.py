@@ -11,7 +11,7 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
-from moyai.records.forces.fit import UNKNOWN_SHARE, Coefficient, ForceFit, Setup, beside_columns, force_columns
+from moyai.records.forces.fit import UNKNOWN_SHARE, Coefficient, ForceFit, Setup, force_columns, other_columns
 from moyai.records.forces.record import ForceRecord
 
 #: Condition number of the scaled equations above which inertia and drag cannot be distinguished
@@ -98,7 +98,7 @@ def periodicity_notices(record: ForceRecord, period: float, orders: int) -> list
     InputError
         When half of the variance lies outside: the record does not repeat itself with this period.
     """
-    design = beside_columns(record, range(1, orders + 1), True, 2.0 * math.pi / period)
+    design = other_columns(record, range(1, orders + 1), True, 2.0 * math.pi / period)
     fit, *_ = np.linalg.lstsq(design, record.velocity, rcond=None)
     variance = np.var(record.velocity, axis=0)
     outside = np.var(record.velocity - design @ fit, axis=0) / variance
@@ -167,7 +167,7 @@ def _unexplained(record: ForceRecord, rate: Array, setup: Setup) -> float:
 def harmonic_notices(fit: ForceFit, record: ForceRecord, omega: float) -> list[Notice]:
     """Tell of harmonics in the residual: they repeat in every period, so that no interval shows what they do."""
     orders = (2, 3)
-    design = beside_columns(record, orders, False, omega)
+    design = other_columns(record, orders, False, omega)
     part, *_ = np.linalg.lstsq(design, fit.residual, rcond=None)
     share = float(np.var(design @ part)) / max(float(np.var(fit.residual)), 1e-300)
     size = float(np.std(design @ part)) / max(float(np.std(fit.force)), 1e-300)

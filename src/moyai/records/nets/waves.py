@@ -235,8 +235,8 @@ def wave_coefficients(
     u, a = whole.flow.velocity, whole.flow.acceleration
     inertia_column = tank.density * specimen.volume * a
     drag_column = 0.5 * tank.density * specimen.projected_area * u * np.abs(u)
-    beside = fit.force - fit.inertia.value * inertia_column - fit.drag.value * drag_column
-    net_force = whole.force - beside - carried[0] * inertia_column - carried[1] * drag_column
+    other_terms = fit.force - fit.inertia.value * inertia_column - fit.drag.value * drag_column
+    net_force = whole.force - other_terms - carried[0] * inertia_column - carried[1] * drag_column
     mean = float(u.mean())
     amplitude = float(whole.found.velocity_amplitude[0])
     period = whole.found.period

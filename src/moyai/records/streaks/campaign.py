@@ -271,7 +271,7 @@ def _result(
     for item in measured:
         groups[f"/runs/{item.run.name}"] = _run_dataset(campaign, item)
         notices.extend(check_amplitude(amplitude_number(item.run, campaign.breadth)))
-        notices.extend(_told_of(item.run, item.circulation.notices))
+        notices.extend(_notices_of(item.run, item.circulation.notices))
         notices.extend(_against_orbits(item, campaign))
         checks.append(_single_valued(item))
     if measured:
@@ -293,7 +293,7 @@ def _result(
     )
 
 
-def _told_of(run: StreakRun, notices: Sequence[Notice]) -> list[Notice]:
+def _notices_of(run: StreakRun, notices: Sequence[Notice]) -> list[Notice]:
     return [replace(notice, message=f"run '{run.name}': {notice.message}") for notice in notices]
 
 

@@ -1,4 +1,4 @@
-"""A survey: loggers whose records are worked off block by block. What is to be done, frozen and checked."""
+"""A survey: loggers whose records are processed block by block. What is to be done, frozen and checked."""
 
 from __future__ import annotations
 

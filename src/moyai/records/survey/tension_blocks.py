@@ -134,7 +134,7 @@ def analyse_blocks(
     least_waves : int
         Blocks with fewer waves are left out.
     progress : Progress
-        Told after each block.
+        Called after each block.
 
     Raises
     ------

@@ -171,9 +171,9 @@ def _line_errors(t: Array, rest: Array, omega: Array, length: float) -> Array:
     out = np.empty(omega.size)
     step = 2.0 * math.pi / length
     for i, w in enumerate(omega):
-        beside = np.array([w + m * step for m in (-6.5, -5.5, -4.5, -3.5, 3.5, 4.5, 5.5, 6.5)])
-        beside = np.abs(beside)
-        waves = np.exp(1j * beside[:, None] * (t - t[0]))
+        nearby = np.array([w + m * step for m in (-6.5, -5.5, -4.5, -3.5, 3.5, 4.5, 5.5, 6.5)])
+        nearby = np.abs(nearby)
+        waves = np.exp(1j * nearby[:, None] * (t - t[0]))
         levels = np.abs(waves @ rest / t.size * 2.0) ** 2
         out[i] = math.sqrt(float(levels.sum(axis=1).mean()) / 4.0)
     return out

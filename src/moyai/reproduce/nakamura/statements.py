@@ -386,7 +386,7 @@ STATEMENTS = (
         "At prototype scale the centre of gravity lies 0.17 m below still water and the inertia is 4.41e7 t m2.",
         _prototype,
     ),
-    Statement("drift-small", "2.3", "The mean drift force is small beside the first-order force.", _drift_small),
+    Statement("drift-small", "2.3", "The mean drift force is small against the first-order force.", _drift_small),
     Statement(
         "steep", "4.1, figure 4", "The horizontal tension rises steeply and non-linearly with the offset.", _steep
     ),

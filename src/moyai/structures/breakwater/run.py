@@ -75,7 +75,7 @@ def run(
     ----------
     problem : BreakwaterProblem
     progress : Progress
-        Told of every step; KeyboardInterrupt ends the run with what there is and the status ``interrupted``.
+        Called after every step; KeyboardInterrupt ends the run with what there is and the status ``interrupted``.
     coefficients : callable or None
         Planar coefficients per metre of the unit from a 3-D program in place of the section.
     notices : tuple of Notice

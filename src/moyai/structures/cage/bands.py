@@ -202,7 +202,7 @@ def reach(
     scale = abs(value) if scale is None else scale
     if is_settled(highest, scale):
         more = max(float(highest[-1]) + still_to_come(highest) - value, 0.0)
-        # what rounding and the rows of a period hide is not told
+        # what rounding and the rows of a period hide is not reported
         known = more > 2e-3 * scale
         return value, value + more, f"periods still to come {100.0 * more / scale:.2g} %" if known else ""
     late = times >= ramp

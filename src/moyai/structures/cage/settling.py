@@ -69,7 +69,7 @@ def still_to_come(values: Array) -> float:
 def limit_of(blocks: Array) -> Array:
     """Return where three rows of numbers lead whose changes shrink at one ratio; the last where they do not.
 
-    A twentieth away at most: what leads further is not told by so few periods.
+    A twentieth away at most: what leads further cannot be seen from so few periods.
 
     Parameters
     ----------

@@ -54,7 +54,7 @@ def run(problem: CurtainProblem, progress: Progress = silent) -> Result:
     ----------
     problem : CurtainProblem
     progress : Progress
-        Told of every step; KeyboardInterrupt ends the run with what there is and the status ``interrupted``.
+        Called after every step; KeyboardInterrupt ends the run with what there is and the status ``interrupted``.
 
     Returns
     -------

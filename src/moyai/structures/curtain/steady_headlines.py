@@ -81,7 +81,7 @@ def depth_headlines(groups: Groups, levels: Sequence[str]) -> Iterator[Headline]
             value = math.nan if statics is None else at_rest(statics, key)
             if statics is None or not math.isfinite(value):
                 continue
-            band, detail = statics_band(statics, key), _beside(name, statics, value)
+            band, detail = statics_band(statics, key), _other_models(name, statics, value)
             slack = float(statics[f"slack_{key}"]) if f"slack_{key}" in statics else math.nan
             if slack < value:
                 # a curtain hangs lower and heavier at slack water than in its current
@@ -101,7 +101,7 @@ def _plain(value: float, unit: str) -> str:
     return f"{value:.3g}" if unit == "1" else f"{value:.3g} {unit}"
 
 
-def _beside(name: str, statics: xr.Dataset, value: float) -> str:
+def _other_models(name: str, statics: xr.Dataset, value: float) -> str:
     """Return the one more fact that a depth needs."""
     if name == "effective_depth":
         share = f"{100.0 * value / float(statics['skirt_length']):.0f} % of the skirt"

@@ -283,7 +283,7 @@ def _causes_text(shares: tuple[float, float, float]) -> str:
 
 
 def _chance_text(found: _Largest) -> str:
-    """Say what the number is worth as one of the largest values of a random sea."""
+    """Say how uncertain the number is as one of the largest values of a random sea."""
     if found.sea.attrs.get("kind") == "regular":
         return ""
     scatter = found.scatter

@@ -40,7 +40,7 @@ def run(problem: MemberProblem, progress: Progress = silent) -> Result:
     ----------
     problem : MemberProblem
     progress : Progress
-        Told of every wave; KeyboardInterrupt ends the run with what there is and the status ``interrupted``.
+        Called after every wave; KeyboardInterrupt ends the run with what there is and the status ``interrupted``.
 
     Returns
     -------

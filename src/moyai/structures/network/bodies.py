@@ -14,8 +14,8 @@ from moyai.core.options import checks_words
 from moyai.core.progress import Progress
 from moyai.coupled.assembly import BodyAssembly, RodPart, VolumePart
 from moyai.coupled.bodies import BodyHistory, BodyState
+from moyai.coupled.equilibrium import CoupledEquilibrium, find_coupled_equilibrium
 from moyai.coupled.hulls import box_hull, cylinder_hull
-from moyai.coupled.rest import CoupledRest, find_rest
 from moyai.coupled.rigid import RigidBody
 from moyai.coupled.simulate import CoupledHistory, simulate_coupled
 from moyai.coupled.wave_loads import WaveLoads
@@ -144,7 +144,7 @@ def drawn_parts(bodies: Sequence[BodyPlan]) -> dict[str, tuple[Any, ...]]:
     }  # fmt: skip
 
 
-def rest_of(problem: NetworkProblem, network: Network, flow: Flow) -> CoupledRest:
+def rest_of(problem: NetworkProblem, network: Network, flow: Flow) -> CoupledEquilibrium:
     """Return network and bodies at rest.
 
     Raises
@@ -153,7 +153,7 @@ def rest_of(problem: NetworkProblem, network: Network, flow: Flow) -> CoupledRes
         When there is no rest.
     """
     bodies = {plan.name: plan.body(network.water) for plan in problem.bodies}
-    return find_rest(network, bodies, flow=flow)
+    return find_coupled_equilibrium(network, bodies, flow=flow)
 
 
 @dataclass(frozen=True, eq=False)
@@ -170,7 +170,7 @@ class CoupledRun:
 
 
 def _start(
-    problem: NetworkProblem, network: Network, rest: CoupledRest | None
+    problem: NetworkProblem, network: Network, rest: CoupledEquilibrium | None
 ) -> tuple[dict[str, RigidBody], State, Network]:
     if rest is None:
         bodies = {plan.name: plan.body(network.water) for plan in problem.bodies}
@@ -181,7 +181,7 @@ def _start(
 def run_coupled(
     problem: NetworkProblem,
     network: Network,
-    rest: CoupledRest | None,
+    rest: CoupledEquilibrium | None,
     progress: Progress,
     left: tuple[State, Mapping[str, BodyState]] | None = None,
     **options: Any,
@@ -224,7 +224,7 @@ def _as_history(network: Network, found: CoupledHistory) -> History:
 def coupled_sensitivity(
     problem: NetworkProblem,
     network: Network,
-    rest: CoupledRest | None,
+    rest: CoupledEquilibrium | None,
     bar: int,
     after: float,
     peak: float,

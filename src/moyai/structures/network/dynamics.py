@@ -1,4 +1,4 @@
-"""Runs of a network through time, and what their peaks are worth."""
+"""Runs of a network through time, and the uncertainty of their peaks."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import IdentityCheck, Notice
-from moyai.coupled.rest import CoupledRest
+from moyai.coupled.equilibrium import CoupledEquilibrium
 from moyai.flexible.result import History, State
 from moyai.flexible.sensitivity import PeakSensitivity, peak_sensitivity
 from moyai.flexible.simulation import simulate
@@ -93,7 +93,7 @@ def run(
     begin: State,
     progress: Progress = silent,
     earlier: Earlier | None = None,
-    hung: CoupledRest | None = None,
+    hung: CoupledEquilibrium | None = None,
     still: Array | None = None,
 ) -> NetworkRun:
     """Run a network through time and gather what is reported of it.
@@ -155,10 +155,10 @@ def run(
     if coupled is not None:
         notices += capsized(series)
     why = doubt(assembly, history, snaps, governing)
-    sensitivity, told_of_peak, history = _worth(
+    sensitivity, peak_notices_found, history = _peak_uncertainty(
         problem, assembly, plan, (begin, hung), (history, coupled), (governing, worst, why), earlier, reported
     )
-    notices += told_of_peak
+    notices += peak_notices_found
     others: Realisations | None = None
     if earlier is None and still is not None:
         try:
@@ -183,17 +183,17 @@ def run(
     )  # fmt: skip
 
 
-def _worth(
+def _peak_uncertainty(
     problem: NetworkProblem,
     assembly: Assembly,
     plan: RunPlan,
-    starts: tuple[State, CoupledRest | None],
+    starts: tuple[State, CoupledEquilibrium | None],
     made: tuple[History, CoupledRun | None],
     peak: tuple[str, int, str],
     earlier: Earlier | None,
     reported: Progress,
 ) -> tuple[PeakSensitivity | None, list[Notice], History]:
-    """Find what the peak of a run is worth: as asked for, or as far as it costs little.
+    """Find the uncertainty of the peak of a run: as asked for, or as far as it costs little.
 
     ``peak`` is the line, its bar and why the peak is doubtful. Returns what was found, what is to be reported, and the
     history, marked where the user ended this part.
@@ -249,7 +249,7 @@ def _sensitivity(
     problem: NetworkProblem,
     assembly: Assembly,
     plan: RunPlan,
-    starts: tuple[State, CoupledRest | None],
+    starts: tuple[State, CoupledEquilibrium | None],
     made: tuple[History, CoupledRun | None],
     bar: int,
     progress: Progress,

@@ -25,7 +25,7 @@ from moyai.structures.network.variables import labelled
 if TYPE_CHECKING:
     import xarray as xr
 
-    from moyai.coupled.rest import CoupledRest
+    from moyai.coupled.equilibrium import CoupledEquilibrium
 
 AXES = ["x", "y", "z"]
 TURNS = ["roll", "pitch", "yaw"]
@@ -204,7 +204,7 @@ def with_finer_mesh(
     return labelled(dataset.assign(double_mesh=(("condition", "line"), np.array(rows))))
 
 
-def bodies_at_rest(dataset: xr.Dataset, found: dict[str, CoupledRest]) -> xr.Dataset:
+def bodies_at_rest(dataset: xr.Dataset, found: dict[str, CoupledEquilibrium]) -> xr.Dataset:
     """Return the dataset with the places and angles of the bodies at rest."""
     if not found:
         return dataset

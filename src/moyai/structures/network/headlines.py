@@ -254,7 +254,7 @@ def _numerical_band(summary: xr.Dataset, peak: _Peak) -> tuple[Band | None, list
 
 
 def _chance(groups: Mapping[str, xr.Dataset], peak: _Peak) -> tuple[Maximum | None, list[str]]:
-    """Return what one maximum of an irregular sea is worth, and say the height that was realised."""
+    """Return the uncertainty of one maximum of an irregular sea, and say the height that was realised."""
     series = groups.get(f"/{peak.level}/time/{peak.run}")
     if series is None:
         return None, []
@@ -285,7 +285,7 @@ def _record(series: xr.Dataset, line: str) -> tuple[Array, Array]:
 
 
 def _of_periods(series: xr.Dataset, time: Array, values: Array) -> Maximum | None:
-    """Return what the largest of a regular motion that never repeats is worth, ``None`` where it repeats.
+    """Return what the largest of a regular motion that never repeats stands for, ``None`` where it repeats.
 
     The highest values of its periods are then taken as those of blocks of a record.
     """

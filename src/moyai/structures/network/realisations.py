@@ -114,7 +114,7 @@ def realisations_of(
     doubtful : bool
         Whether the peak hangs on snaps or fronts, so that more may be spent on it.
     progress : Progress
-        Told the realisations that are done.
+        Called with the realisations that are done.
 
     Returns
     -------

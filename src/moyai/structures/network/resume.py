@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-#: Sizes of the network that a node may be away from where it was built, in a state that is worth keeping.
+#: Sizes of the network that a node may be away from where it was built, in a state that should be kept.
 FAR = 20.0
 
 

@@ -14,7 +14,7 @@ from moyai.core.headline import SEAS_LEFT_OUT
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
 from moyai.core.validity import IdentityCheck, Notice
-from moyai.coupled.rest import CoupledRest
+from moyai.coupled.equilibrium import CoupledEquilibrium
 from moyai.flexible.flow import Flow
 from moyai.flexible.network import DRIVEN, FIXED
 from moyai.flexible.result import State
@@ -60,7 +60,7 @@ def run(
     ----------
     problem : NetworkProblem
     progress : Progress
-        Told the simulated time of every run. KeyboardInterrupt ends the work with what there is and the status
+        Called with the simulated time of every run. KeyboardInterrupt ends the work with what there is and the status
         ``interrupted``.
     coefficients : mapping of str to xarray.Dataset, optional
         Of the bodies whose loads come from a 3-D program, in the names of Capytaine.
@@ -200,7 +200,7 @@ def network_dataset(problem: NetworkProblem, assembly: Assembly, water: Water) -
 
 def _at_rest(
     problem: NetworkProblem, assembly: Assembly, water: Water, root: str, said: str, collected: Collected
-) -> tuple[dict[str, Equilibrium], dict[str, CoupledRest]]:
+) -> tuple[dict[str, Equilibrium], dict[str, CoupledEquilibrium]]:
     """Find the networks at rest that the analyses need; tell where there is none."""
     wanted = set(problem.settings.analyses)
     if not ({"statics", "modes"} & wanted) and problem.settings.start == "as_built":
@@ -209,7 +209,7 @@ def _at_rest(
     if problem.environment.current is not None:
         conditions["current"] = steady_flow(problem, water)
     found: dict[str, Equilibrium] = {}
-    hung: dict[str, CoupledRest] = {}
+    hung: dict[str, CoupledEquilibrium] = {}
     for name, flow in conditions.items():
         begin = found["still water"].state if "still water" in found else None
         try:
@@ -306,7 +306,7 @@ def _dynamic(
     problem: NetworkProblem,
     assembly: Assembly,
     water: Water,
-    at_rest: tuple[dict[str, Equilibrium], dict[str, CoupledRest]],
+    at_rest: tuple[dict[str, Equilibrium], dict[str, CoupledEquilibrium]],
     root: str,
     said: str,
     collected: Collected,

@@ -59,7 +59,7 @@ class RunPlan:
 
 
 @dataclass(frozen=True, eq=False)
-class _Within:
+class _CurrentAtAnyHeight:
     """A current asked at any height: nodes sink a little into the bed, and profiles end there."""
 
     profile: CurrentProfile
@@ -73,7 +73,7 @@ class _Within:
 def steady_flow(problem: NetworkProblem, water: Water) -> Flow:
     """Return the current alone."""
     current = problem.environment.current
-    return Flow() if current is None else Flow(current=_Within(current.in_depth(water.depth), water.depth))
+    return Flow() if current is None else Flow(current=_CurrentAtAnyHeight(current.in_depth(water.depth), water.depth))
 
 
 def mean_current(problem: NetworkProblem, water: Water) -> tuple[float, float]:
@@ -184,7 +184,7 @@ def theory_limit(problem: NetworkProblem, plan: RunPlan) -> list[Notice]:
     if plan.waves is None or plan.irregular:
         return []
     if problem.linear_waves_only:
-        # diffraction and radiation know no steeper waves: as for a breakwater the range is told, nothing else can run
+        # diffraction and radiation know no steeper waves: as for a breakwater the range is reported, no other can run
         remedy = "the coefficients of a body answer linear waves: compare with a lower or longer wave"
         return [replace(one, severity="warning") for one in linear_limit(plan.name, plan.waves, remedy)]
     return linear_limit(plan.name, plan.waves, "use 'theory: automatic', which takes the stream function here")

@@ -119,7 +119,7 @@ def _whole(count: int, history: History) -> Array:
 
 
 def frames_of(plan: RunPlan, history: History) -> xr.Dataset:
-    """Return places and tensions at as many evenly spaced times as are worth storing, the moment of the peak among
+    """Return places and tensions at as many evenly spaced times as should be stored, the moment of the peak among
     them."""
     import xarray as xr
 

@@ -41,7 +41,7 @@ def stretch_across(joints: Sequence[UnitJoint], motion: Array, highest: Array, *
     Returns
     -------
     ndarray (..., joints)
-        Zero where motion across does not matter, or does not count beside the elongation along the axis.
+        Zero where motion across does not matter, or does not count against the elongation along the axis.
     """
     span = np.array([joint.span if _on_one_axis(joint, in_time) else 0.0 for joint in joints])
     axis = np.array([j.axis if j.connector.stiffness is None else j.from_end_to_end for j in joints])

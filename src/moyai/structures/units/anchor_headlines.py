@@ -46,7 +46,7 @@ def anchor_headlines(seas: Seas) -> Iterator[Headline]:
 
 def _load(found: Largest, name: str, label: str) -> Headline:
     """Return a load of an anchor, known as far as the tension of its line is."""
-    tension = _beside(found, "line_tension_maximum")
+    tension = _of_same_run(found, "line_tension_maximum")
     mean = float(found.data["line_tension_mean"].values[found.index])
     item = Headline(
         name, label, found.value, "N", found.where, line_model(tension), band=_band(found), digits=found.digits
@@ -65,7 +65,7 @@ def _band(found: Largest) -> Band | None:
     band = band if band is not None and band.high > 0.0 else None
     if found.name != _UPLIFT or "anchor_curve_tension" not in found.data:
         return band
-    tension, tensions = _beside(found, "line_tension_maximum"), np.zeros(found.data.sizes["line"])
+    tension, tensions = _of_same_run(found, "line_tension_maximum"), np.zeros(found.data.sizes["line"])
     tensions[found.index[-1]] = judged_end(tension.value, line_band(tension))
     end = float(loads_at(tensions, found.data)[1, found.index[-1]])
     if end <= judged_end(found.value, band):
@@ -75,7 +75,7 @@ def _band(found: Largest) -> Band | None:
     return Band(low, end, "at the end of its tension at which the line is judged")
 
 
-def _beside(found: Largest, name: str) -> Largest:
+def _of_same_run(found: Largest, name: str) -> Largest:
     """Return another number of the same line in the same sea."""
     return replace(found, name=name, value=float(found.data[name].values[found.index]))
 
@@ -84,7 +84,7 @@ def _capacity(found: Largest, pull: Headline, asked: list[_Asked]) -> Headline:
     item = replace(pull, name="anchor_capacity_required", label="Horizontal holding capacity that an anchor needs")
     if math.isnan(pull.value):
         return item
-    uplift, grounded = _beside(found, _UPLIFT), _beside(found, _LIES)
+    uplift, grounded = _of_same_run(found, _UPLIFT), _of_same_run(found, _LIES)
     lifted = judged_end(uplift.value, _band(uplift))
     heaviest = max(asked, key=lambda one: one.sinker)
     # lines that lie alike ask for the same one
@@ -97,7 +97,7 @@ def _capacity(found: Largest, pull: Headline, asked: list[_Asked]) -> Headline:
     raised = max((one for one in asked if one.uplift > 0.0), key=lambda one: one.uplift, default=None)
     if raised is not None and lifted == 0.0:
         words += f"; no drag anchor holds line {raised.line}, which lifts it"
-    # another line may stand beside it, of an anchor of another kind
+    # another line may stand next to it, of an anchor of another kind
     where = f"{item.where}, {need.factor:g} times its pull"
     return replace(item, value=need.factor * found.value, band=band, detail=words, where=where)
 
@@ -111,7 +111,7 @@ class _Asked(NamedTuple):
 
 
 def _asked_by(pull: Largest) -> _Asked:
-    lifted = judged_end((uplift := _beside(pull, _UPLIFT)).value, _band(uplift))
+    lifted = judged_end((uplift := _of_same_run(pull, _UPLIFT)).value, _band(uplift))
     weight = sinker_weight(judged_end(pull.value, _band(pull)), lifted)
     return _Asked(str(pull.data["line"].values[pull.index[-1]]), weight, lifted)
 

@@ -20,7 +20,7 @@ from moyai.structures.units.assembly import RowAtLevel
 if TYPE_CHECKING:
     import xarray as xr
 
-#: Tensions of a curve beside that at which the anchor is lifted, and the highest of them: over the breaking load, as a
+#: Tensions of a curve next to that at which the anchor is lifted, and the highest of them: over the breaking load, as a
 #: share of the axial stiffness where none is known, over the weight of a line that does not stretch.
 _POINTS, _BEYOND, _STRAIN, _WEIGHTS = 95, 3.0, 0.3, 1e4
 #: Instants at which a line is solved, those of its largest tensions.

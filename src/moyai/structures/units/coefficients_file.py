@@ -34,8 +34,8 @@ WHERE = "coefficients_file"
 _SAME, _SAME_HEADING = 1e-6, 1e-4
 #: Headings of the file between which others are taken by splines
 WIDEST = math.radians(15.0)
-#: Heave stiffness of the file over that of the units, apart from one: told, refused
-STIFFNESS_TOLD, STIFFNESS_REFUSED = 0.02, 0.1
+#: Heave stiffness of the file over that of the units, apart from one: reported, refused
+STIFFNESS_REPORTED, STIFFNESS_REFUSED = 0.02, 0.1
 
 
 @dataclass(frozen=True, eq=False)
@@ -170,7 +170,7 @@ def _stiffness_notices(dataset: xr.Dataset, at: RowAtLevel) -> list[Notice]:
     wanted = np.diag(at.hydrostatic)[2::6]
     apart = np.abs(found / wanted - 1.0)
     number = int(apart.argmax())
-    if not found.any() or apart[number] <= STIFFNESS_TOLD:
+    if not found.any() or apart[number] <= STIFFNESS_REPORTED:
         return []
     if apart[number] > STIFFNESS_REFUSED:
         raise InputError(
@@ -185,7 +185,7 @@ def _stiffness_notices(dataset: xr.Dataset, at: RowAtLevel) -> list[Notice]:
             "coefficients-stiffness",
             f"the heave stiffness of body {number + 1} of the file is off by {100.0 * apart[number]:.2g} % from that "
             "of a unit",
-            value=float(apart[number]), limit=STIFFNESS_TOLD, severity="warning",
+            value=float(apart[number]), limit=STIFFNESS_REPORTED, severity="warning",
             remedy="check section, length and draught against the mesh of the file",
         )
     ]  # fmt: skip

@@ -28,7 +28,7 @@ _LETS_GO = 0.05
 def touches(curve: Curve, low: float, high: float) -> tuple[bool, bool]:
     """Return whether a connector bears from one elongation to another [m], and whether it lets go there.
 
-    It lets go where its curve is flat over a stretch, or hardly rises beside another one.
+    It lets go where its curve is flat over a stretch, or hardly rises next to another one.
     """
     nodes = np.array(curve.elongation)
     if high - low < _NO_TRAVEL:

@@ -18,9 +18,9 @@ from moyai.structures.units import doubts
 from moyai.structures.units.anchor_headlines import anchor_headlines
 from moyai.structures.units.anchors import has_anchors, with_anchor_loads
 from moyai.structures.units.datasets import BANDED
+from moyai.structures.units.equilibrium_headlines import stability_headlines, steady_headlines
 from moyai.structures.units.largest import Largest, each_of
 from moyai.structures.units.line_headlines import left_out, line_headlines, with_unknown
-from moyai.structures.units.rest_headlines import stability_headlines, steady_headlines
 from moyai.structures.units.unjudged import Seas, not_judged, not_judged_at_rest
 
 if TYPE_CHECKING:

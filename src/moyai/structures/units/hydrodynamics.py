@@ -193,7 +193,7 @@ def solve_row(
     store : DatasetStore or None
         Where each frequency is kept as soon as it is solved.
     progress : Progress
-        Told of every frequency.
+        Called after every frequency.
 
     Raises
     ------

@@ -75,7 +75,7 @@ class Largest:
 
     @property
     def band(self) -> Band | None:
-        """What chance and the damping of the units are worth; none of nothing."""
+        """The band of chance and of the damping of the units; none of nothing."""
         return self.spread(self.chance()) if self.value > 0.0 else None
 
     def chance(self, bound: Array | None = None) -> Band | None:
@@ -107,7 +107,7 @@ class Largest:
         return storms(self.value, min(abs(mean), self.value), float(np.median(ratio)))
 
     def spread(self, chance: Band | None) -> Band | None:
-        """Return a band of realisations widened by what the damping of the units is worth."""
+        """Return a band of realisations widened by the damping of the units."""
         damping = damping_band(self.data, self.name, self.index, self.scale)
         if damping is None or chance is None or not self.value > 0.0:
             return chance or damping

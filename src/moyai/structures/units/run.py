@@ -139,7 +139,7 @@ def run(problem: UnitsProblem, progress: Progress = silent, *, store: DatasetSto
     ----------
     problem : UnitsProblem
     progress : Progress
-        Told of every step; KeyboardInterrupt ends the run with what there is and the status ``interrupted``.
+        Called after every step; KeyboardInterrupt ends the run with what there is and the status ``interrupted``.
     store : DatasetStore or None
         Where coefficients and waves are kept, one file a frequency, and looked for.
 

@@ -34,7 +34,7 @@ def finish_study(
         ``run(case, progress)``, for the governing cases, which get reports of their own.
     progress : Progress
     report, pdf, as_zarr : bool
-        What is written beside ``study.nc`` and ``study.csv``.
+        What is written next to ``study.nc`` and ``study.csv``.
 
     Returns
     -------

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from moyai.core.arrays import Array
 from moyai.core.results import Result
-from moyai.study.responses import in_stated_unit, picked, split_response
+from moyai.study.responses import in_stated_unit, selected, split_response
 
 
 @dataclass(frozen=True)
@@ -95,7 +95,7 @@ class StudyPages:
             found = None
         if found is None:
             return None
-        found = in_stated_unit(picked(found, labels, name))
+        found = in_stated_unit(selected(found, labels, name))
         dims = [axis.name for axis in self.axes]
         if not set(dims) <= set(found.dims):
             return None

@@ -319,7 +319,7 @@ def _picture_shape(recordings: Sequence[Recording]) -> tuple[int, int] | None:
         try:
             rows, columns = read_picture(recording.pictures[0]).shape
         except InputError:
-            # Told when the picture's turn comes, with its name
+            # Reported when the picture's turn comes, with its name
             return None
         return rows, columns
     return None

@@ -69,7 +69,8 @@ def overlay(key: str, title: str, grey: NDArray[np.uint8], ends: Array, particle
     used = int((particle >= 0).sum())
     caption = (
         f"{len(ends)} streaks found, {used} of them in chains that give a drift velocity: one colour a particle, grey "
-        "the others. Lines are drawn beside the streaks. With one picture a pulse the brightest of all frames is shown."
+        "the others. Lines are drawn next to the streaks. "
+        "With one picture a pulse the brightest of all frames is shown."
     )
     return Drawing(key, title, svg, svg, caption)
 

@@ -389,14 +389,14 @@ def _check_lines_at_rest(model: BreakwaterCase, unit: Breakwater, environment: E
     check_sides(model, findings)
     places = {line.name: index for index, line in enumerate(model.lines)}
     said: set[tuple[str, str]] = set()
-    chains_told: set[str] = set()
+    chains_reported: set[str] = set()
     for name, level in sorted(environment.water_levels, key=lambda entry: -entry[1]):
         water = environment.water_at(level)
         centre = body_to_site(unit.centre_of_gravity, draught, 0.0)
         lines = site_lines(unit, water, centre, draught, 0.0)
         depth = water.depth + centre[1]
         placed = ((index, *pair, depth) for index, pair in enumerate(zip(model.lines, lines)))
-        check_chain_on_bed(placed, name, findings, chains_told)
+        check_chain_on_bed(placed, name, findings, chains_reported)
         for notice in check_line_system(LineSystem(lines, depth)):
             label, _, message = notice.message.partition(": ")
             line = label.removeprefix("lines.")

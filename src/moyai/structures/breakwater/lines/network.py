@@ -10,7 +10,7 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.validity import IdentityCheck
-from moyai.coupled.rest import point_pulls
+from moyai.coupled.equilibrium import point_pulls
 from moyai.flexible.build import NetworkBuilder
 from moyai.flexible.flow import Flow
 from moyai.flexible.mooring_line import add_mooring_line, bed_under, carried_along, end_tensions, joined

@@ -117,10 +117,10 @@ def irregular_sea(
     moved = np.zeros(len(unit.lines), dtype=bool)
     if good and status == "converged":
         try:
-            good, events, moved, told_of = _lines_in_motion(shared, good, frequency, progress)
+            good, events, moved, line_notices = _lines_in_motion(shared, good, frequency, progress)
         except KeyboardInterrupt:
-            status, told_of = "interrupted", ()
-        notices.extend(told_of)
+            status, line_notices = "interrupted", ()
+        notices.extend(line_notices)
     data, shown = _gathered(unit, good or members, moved)
     kept = (good or members)[shown]
     runs = [kept.run, *events[shown : shown + 1]]

@@ -36,7 +36,7 @@ SETTLE_TIME = 15.0
 
 
 @dataclass(frozen=True, eq=False)
-class CageRest:
+class CageEquilibrium:
     """A cage at rest."""
 
     built: CageNetwork
@@ -60,7 +60,7 @@ def solve_rest(
     start: State | None = None,
     near: Sequence[State] = (),
     progress: Progress = silent,
-) -> CageRest:
+) -> CageEquilibrium:
     """Find a cage at rest in a current.
 
     Dynamic relaxation leads, which ends in no unstable rest, then Newton's method. Where slack net flutters and will
@@ -86,9 +86,9 @@ def solve_rest(
     """
     network, flow = sheltered(model, built, current), Flow(current=current)
     if alike := [one for one in near if one.position.shape == network.nodes.position.shape]:
-        beside = nearby_equilibrium(network, flow, alike, tolerance=LEAD, most_steps=NEAR_STEPS)
-        if beside is not None:
-            return CageRest(built, network, current, beside.state, beside.tension, beside.residual, beside.steps)
+        nearby = nearby_equilibrium(network, flow, alike, tolerance=LEAD, most_steps=NEAR_STEPS)
+        if nearby is not None:
+            return CageEquilibrium(built, network, current, nearby.state, nearby.tension, nearby.residual, nearby.steps)
     found = relax_network(
         network, flow=flow, start=start, tolerance=LEAD, good_enough=1.0, most_steps=30_000, progress=progress
     )
@@ -100,7 +100,9 @@ def solve_rest(
         )  # fmt: skip
         polished = _newton(model, network, flow, found.state)
     if polished is not None:
-        return CageRest(built, network, current, polished.state, polished.tension, polished.residual, found.steps)
+        return CageEquilibrium(
+            built, network, current, polished.state, polished.tension, polished.residual, found.steps
+        )
     state, tension, residual = found.state, found.tension, found.residual
     if residual > SETTLE_ABOVE:
         duration = SETTLE_TIME * math.sqrt(model.design.size / model.water.gravity)
@@ -110,7 +112,7 @@ def solve_rest(
             state, tension = State(0.0, place, np.zeros_like(place)), history.tension[-1]
             again = relax_network(network, flow=flow, start=state, tolerance=1.0, good_enough=1.0)
             residual = again.residual
-    return CageRest(built, network, current, state, tension, residual, found.steps)
+    return CageEquilibrium(built, network, current, state, tension, residual, found.steps)
 
 
 def _newton(model: FlexibleCage, network: Network, flow: Flow, start: State) -> Equilibrium | None:
@@ -123,7 +125,9 @@ def _newton(model: FlexibleCage, network: Network, flow: Flow, start: State) -> 
     return found if float(away.max()) < ASTRAY * max(model.design.size, model.spacing) else None
 
 
-def collar_forces(model: FlexibleCage, rest: CageRest, position: Array, tension: Array) -> list[list[dict[str, Array]]]:
+def collar_forces(
+    model: FlexibleCage, rest: CageEquilibrium, position: Array, tension: Array
+) -> list[list[dict[str, Array]]]:
     """Return axial force, moments and stress around the rings of each collar.
 
     Parameters
@@ -173,7 +177,7 @@ def ring_shape(cage: CageParts, position: Array, built: Array) -> tuple[Array, f
     return middle, float((across.max() - across.min()) / across.mean()), float(warp.max())
 
 
-def horizontal_balance(rest: CageRest) -> tuple[Array, Array]:
+def horizontal_balance(rest: CageEquilibrium) -> tuple[Array, Array]:
     """Return the drag on all parts (parts, 3) and the pull on all holds, summed (3) [N]: they agree at rest."""
     position = rest.state.position
     water = Flow(current=rest.current).at(0.0, position.T)
@@ -183,5 +187,5 @@ def horizontal_balance(rest: CageRest) -> tuple[Array, Array]:
 
 
 __all__ = [
-    "PARTS", "CageRest", "collar_forces", "horizontal_balance", "ring_shape", "solve_rest",
+    "PARTS", "CageEquilibrium", "collar_forces", "horizontal_balance", "ring_shape", "solve_rest",
 ]  # fmt: skip

@@ -13,7 +13,7 @@ from moyai.morison.net_law_base import NetLaw
 from moyai.morison.net_law_choice import METAL, LawChoice, law_choice
 from moyai.structures.cage.flexible.build import build_cage
 from moyai.structures.cage.flexible.equilibrium import (
-    CageRest,
+    CageEquilibrium,
     collar_forces,
     horizontal_balance,
     ring_shape,
@@ -34,7 +34,12 @@ def choice_of(model: FlexibleCage, speed: float) -> LawChoice:
 
 
 def laws_dataset(
-    model: FlexibleCage, rest: CageRest, calm: CageRest, speed: float, heading: float, progress: Progress = silent
+    model: FlexibleCage,
+    rest: CageEquilibrium,
+    calm: CageEquilibrium,
+    speed: float,
+    heading: float,
+    progress: Progress = silent,
 ) -> xr.Dataset:
     """Return the equilibrium in the current of the site under the law of the case and under every other valid one.
 
@@ -79,14 +84,14 @@ def laws_dataset(
     )
 
 
-def _line_tensions(rest: CageRest) -> list[float]:
+def _line_tensions(rest: CageEquilibrium) -> list[float]:
     """Return the largest tension of each line [N]."""
     strands = rest.built.network.strands
     return [float(rest.tension[strands[part.strand].bars].max()) for part in rest.built.lines]
 
 
 def _numbers(
-    model: FlexibleCage, rest: CageRest, calm: CageRest, heading: float, lines: list[float]
+    model: FlexibleCage, rest: CageEquilibrium, calm: CageEquilibrium, heading: float, lines: list[float]
 ) -> dict[str, float]:
     """Return what the first page shows of one rest."""
     built, position = rest.built, rest.state.position
@@ -111,7 +116,7 @@ def _numbers(
     }
 
 
-def _collar_stress(model: FlexibleCage, rest: CageRest) -> float:
+def _collar_stress(model: FlexibleCage, rest: CageEquilibrium) -> float:
     """Return the largest stress of the collars [Pa]; NaN for a collar that is rigid or a plain frame."""
     if not rest.built.cages[0].collar_bars or model.design.collar.rigid:
         return math.nan

@@ -107,12 +107,12 @@ def bar_widths(network: Network, bars: IntArray) -> Array:
     key = ends[:, 0] * size + ends[:, 1]
     own = np.sort(np.stack([network.bars.start[bars], network.bars.end[bars]], axis=1), axis=1)
     names, where = np.unique(key, return_inverse=True)
-    beside = np.zeros(len(names) + 1)
-    np.add.at(beside, where, area)
+    adjacent = np.zeros(len(names) + 1)
+    np.add.at(adjacent, where, area)
     wanted = own[:, 0] * size + own[:, 1]
     at = np.searchsorted(names, wanted)
     at = np.where((at < len(names)) & (names[np.minimum(at, len(names) - 1)] == wanted), at, len(names))
-    width = 0.5 * beside[at] / network.bars.length[bars]
+    width = 0.5 * adjacent[at] / network.bars.length[bars]
     return np.where(width > 0.0, width, np.inf)
 
 

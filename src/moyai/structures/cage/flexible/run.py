@@ -1,4 +1,4 @@
-"""Run a flexible cage: every water level, its rest in each current, every sea, and what the peaks are worth."""
+"""Run a flexible cage: every water level, its rest in each current, every sea, and the uncertainty of the peaks."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ from moyai.structures.cage.flexible.checks import (
     run_notices,
     settling_notices,
 )
-from moyai.structures.cage.flexible.equilibrium import CageRest, solve_rest
+from moyai.structures.cage.flexible.equilibrium import CageEquilibrium, solve_rest
 from moyai.structures.cage.flexible.law_runs import GoverningWaves, WaveCase, laws_in_wave
 from moyai.structures.cage.flexible.laws import choice_of, laws_dataset
 from moyai.structures.cage.flexible.model import FlexibleCage
@@ -57,7 +57,7 @@ _NEAR: dict[tuple[str, bool], tuple[State, ...]] = {}
 _MOST_NEAR = 6
 # What cases share that differ in their currents and seas alone
 _BUILT: Remembered[CageNetwork] = Remembered(4)
-_STILL: Remembered[CageRest] = Remembered(4)
+_STILL: Remembered[CageEquilibrium] = Remembered(4)
 
 
 def run(problem: FlexibleCageProblem, progress: Progress = silent) -> Result:
@@ -135,10 +135,10 @@ def _steps(problem: FlexibleCageProblem, collected: Collected, progress: Progres
             attrs={"water_level": level, "water_depth": model.water.depth, "current": speed, "heading": heading}
         )
         collected.groups[f"{root}/cage"] = cage_dataset(model, built)
-        rest: CageRest | None = None
+        rest: CageEquilibrium | None = None
         laws_wanted = speed > 0.0 and problem.settings.other_laws
         if "statics" in problem.settings.analyses:
-            rests: list[CageRest] = []
+            rests: list[CageEquilibrium] = []
             speeds = _speeds(problem, speed)
             for number, value in enumerate(speeds):
                 progress("rest in the current", number, len(speeds))
@@ -190,7 +190,7 @@ def _speeds(problem: FlexibleCageProblem, speed: float) -> list[float]:
 def _sea_steps(
     problem: FlexibleCageProblem,
     model: FlexibleCage,
-    rest: CageRest,
+    rest: CageEquilibrium,
     sea: RigidCageWaves | IrregularSea,
     collected: Collected,
     root: str,

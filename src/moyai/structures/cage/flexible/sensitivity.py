@@ -1,4 +1,4 @@
-"""What the peaks of a flexible cage are worth: the same sea with another step, mesh and damping."""
+"""Uncertainty of the peaks of a flexible cage: the same sea with another step, mesh and damping."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 
 from moyai.core.progress import Progress, silent
 from moyai.structures.cage.flexible.build import build_cage
-from moyai.structures.cage.flexible.equilibrium import CageRest, collar_forces, horizontal_balance, solve_rest
+from moyai.structures.cage.flexible.equilibrium import CageEquilibrium, collar_forces, horizontal_balance, solve_rest
 from moyai.structures.cage.flexible.model import CageMesh, FlexibleCage, GridMooring
 from moyai.structures.cage.flexible.problem import FlexibleSettings
 from moyai.structures.cage.flexible.time import CageRun, drag_rows, run_cage
@@ -100,7 +100,7 @@ def _largest_drag(run: CageRun) -> float:
     return float(np.linalg.norm(drag_rows(run, rows).sum(axis=1), axis=1).max())
 
 
-def _in_current(rest: CageRest) -> dict[str, float]:
+def _in_current(rest: CageEquilibrium) -> dict[str, float]:
     """Return volume, drag and tension of the net of a cage at rest in a current."""
     place, cages = rest.state.position, rest.built.cages
     return {
@@ -110,7 +110,7 @@ def _in_current(rest: CageRest) -> dict[str, float]:
     }
 
 
-def rest_mesh_dataset(model: FlexibleCage, rest: CageRest) -> xr.Dataset:
+def rest_mesh_dataset(model: FlexibleCage, rest: CageEquilibrium) -> xr.Dataset:
     """Return the numbers at rest on the mesh of the case and on one that is coarser by a third.
 
     Parameters
@@ -124,7 +124,7 @@ def rest_mesh_dataset(model: FlexibleCage, rest: CageRest) -> xr.Dataset:
     return _dataset((VARIANTS[0], COARSER), [_at_rest(model, rest), _at_rest(other, again)])
 
 
-def _at_rest(model: FlexibleCage, rest: CageRest) -> dict[str, float]:
+def _at_rest(model: FlexibleCage, rest: CageEquilibrium) -> dict[str, float]:
     """Return volume, drag, net, the highest tension of each kind of line, offset and stress at rest in a current."""
     place, built = rest.state.position, rest.built
     out = _in_current(rest)
@@ -142,7 +142,11 @@ def _at_rest(model: FlexibleCage, rest: CageRest) -> dict[str, float]:
 
 
 def sensitivity_dataset(
-    model: FlexibleCage, rest: CageRest, wave: RigidCageWave, settings: FlexibleSettings, progress: Progress = silent
+    model: FlexibleCage,
+    rest: CageEquilibrium,
+    wave: RigidCageWave,
+    settings: FlexibleSettings,
+    progress: Progress = silent,
 ) -> xr.Dataset:
     """Run one wave with half the step, a coarser mesh and more damping; return peaks of each run.
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from moyai.structures.cage.flexible.checks import floating_balance
-from moyai.structures.cage.flexible.equilibrium import CageRest, collar_forces, horizontal_balance, ring_shape
+from moyai.structures.cage.flexible.equilibrium import CageEquilibrium, collar_forces, horizontal_balance, ring_shape
 from moyai.structures.cage.flexible.loads import PARTS, pull_on_anchors
 from moyai.structures.cage.flexible.model import FlexibleCage
 from moyai.structures.cage.flexible.parts import CageNetwork
@@ -114,7 +114,9 @@ def deflection(built: CageNetwork, position: np.ndarray, calm: np.ndarray) -> tu
     return np.array(furthest), np.array(lift)
 
 
-def statics_dataset(model: FlexibleCage, speeds: list[float], heading: float, rests: list[CageRest]) -> xr.Dataset:
+def statics_dataset(
+    model: FlexibleCage, speeds: list[float], heading: float, rests: list[CageEquilibrium]
+) -> xr.Dataset:
     """Return the rest of a cage in every current; the first rest is that in the slowest.
 
     Parameters

@@ -15,7 +15,7 @@ from moyai.flexible.result import History
 from moyai.flexible.simulation import simulate
 from moyai.series.block_maxima import LEAST_BLOCKS, PERIODS
 from moyai.series.snaps import find_snaps
-from moyai.structures.cage.flexible.equilibrium import CageRest, collar_forces, ring_shape
+from moyai.structures.cage.flexible.equilibrium import CageEquilibrium, collar_forces, ring_shape
 from moyai.structures.cage.flexible.loads import PARTS, drag_split
 from moyai.structures.cage.flexible.model import FlexibleCage
 from moyai.structures.cage.flexible.problem import FlexibleSettings
@@ -46,7 +46,7 @@ class CageRun:
 
     wave: RigidCageWave
     #: Where it started.
-    rest: CageRest
+    rest: CageEquilibrium
     flow: Flow
     #: Until which the waves grew [s].
     ramp: float
@@ -55,7 +55,7 @@ class CageRun:
 
 def run_cage(
     model: FlexibleCage,
-    rest: CageRest,
+    rest: CageEquilibrium,
     wave: RigidCageWave,
     settings: FlexibleSettings,
     *,
@@ -100,7 +100,7 @@ def run_cage(
     return CageRun(wave, rest, flow, ramp, history)
 
 
-def go_on(rest: CageRest, before: CageRun, settings: FlexibleSettings) -> CageRun:
+def go_on(rest: CageEquilibrium, before: CageRun, settings: FlexibleSettings) -> CageRun:
     """Run the wave of another run with a cage that differs a little, of the same mesh, under another law for instance.
 
     Regular waves go on from the end of that run for six periods, a sea begins again.
@@ -128,7 +128,7 @@ def go_on(rest: CageRest, before: CageRun, settings: FlexibleSettings) -> CageRu
 class _Settling:
     """Whether no number of the first page will rise any more in a run through regular waves."""
 
-    def __init__(self, rest: CageRest, wave: RigidCageWave, ramp: float) -> None:
+    def __init__(self, rest: CageEquilibrium, wave: RigidCageWave, ramp: float) -> None:
         built = rest.built
         self._built, self._ramp = built, ramp
         self._period, self._least = wave.period, ramp + wave.duration

@@ -1,4 +1,4 @@
-"""Tables of a flexible cage: the cage, its rest in each current, lines and anchors, runs, what peaks are worth."""
+"""Tables of a flexible cage: the cage, its rest in each current, lines and anchors, runs, uncertainty of peaks."""
 
 from __future__ import annotations
 
@@ -208,7 +208,7 @@ def sensitivity_table(level: CageLevel, sea: Group) -> Table | None:
     ]  # fmt: skip
     return Table(
         key(level, sea.name, "sensitivity"),
-        f"What the peaks are worth: {sea.name}",
+        f"Uncertainty of the peaks: {sea.name}",
         tuple(columns),
         note=f"{sea.attributes.get('wave', '')}; a shorter run with each change.",
     )

@@ -14,7 +14,7 @@ from moyai.structures.cage.rigid.model import RigidCageProblem
 from moyai.structures.cage.rigid.parts import RigidCage
 from moyai.structures.cage.rigid.runs import RigidCageRun
 from moyai.structures.cage.rigid.setup import drowning_depth
-from moyai.structures.cage.rigid.statics import Rest, reserve_buoyancy
+from moyai.structures.cage.rigid.statics import RigidCageEquilibrium, reserve_buoyancy
 from moyai.structures.cage.rigid.waves import current_along, theory_limit
 
 #: Size of the cage over the wavelength above which its net and floats no longer leave the wave as it is
@@ -37,7 +37,12 @@ def mass_checks(cage: RigidCage) -> tuple[IdentityCheck, ...]:
 
 
 def rest_checks(
-    name: str, problem: RigidCageProblem, lines: tuple[CageLine, ...], water: Water, free: Rest, rest: Rest
+    name: str,
+    problem: RigidCageProblem,
+    lines: tuple[CageLine, ...],
+    water: Water,
+    free: RigidCageEquilibrium,
+    rest: RigidCageEquilibrium,
 ) -> tuple[IdentityCheck, ...]:
     """Hold the rest against Archimedes' law, written without the code that found it."""
     found = [IdentityCheck(f"{name}: forces at rest", rest.residual, 1e-8, "weight, buoyancy and lines balance")]
@@ -59,7 +64,7 @@ def rest_checks(
     return tuple(found)
 
 
-def _wholly_wet(problem: RigidCageProblem, rest: Rest) -> bool:
+def _wholly_wet(problem: RigidCageProblem, rest: RigidCageEquilibrium) -> bool:
     """Whether net and frame are wholly under water at rest."""
     cage = problem.cage
     top = 0.5 * cage.extent[2] + 0.5 * max((rod.diameter for rod in cage.rods), default=0.0)
@@ -94,7 +99,12 @@ def cage_notices(problem: RigidCageProblem) -> tuple[Notice, ...]:
 
 
 def level_notices(
-    name: str, problem: RigidCageProblem, lines: tuple[CageLine, ...], water: Water, free: Rest, rest: Rest
+    name: str,
+    problem: RigidCageProblem,
+    lines: tuple[CageLine, ...],
+    water: Water,
+    free: RigidCageEquilibrium,
+    rest: RigidCageEquilibrium,
 ) -> tuple[Notice, ...]:
     """Tell of drowned floats, a cage near the bed, slack lines at rest, a current that would carry it away."""
     cage = problem.cage

@@ -11,7 +11,7 @@ from moyai.sea.water import Water
 from moyai.structures.cage.rigid.lines import CageLine
 from moyai.structures.cage.rigid.model import RigidCageProblem
 from moyai.structures.cage.rigid.runs import RigidCageRun
-from moyai.structures.cage.rigid.statics import Rest, reserve_buoyancy, size_of, submerged_weight
+from moyai.structures.cage.rigid.statics import RigidCageEquilibrium, reserve_buoyancy, size_of, submerged_weight
 from moyai.structures.cage.rigid.variables import labelled
 
 if TYPE_CHECKING:
@@ -64,8 +64,8 @@ def cage_dataset(problem: RigidCageProblem, water: Water) -> xr.Dataset:
 def statics_dataset(
     problem: RigidCageProblem,
     lines: tuple[CageLine, ...],
-    free: Rest,
-    rest: Rest,
+    free: RigidCageEquilibrium,
+    rest: RigidCageEquilibrium,
     modes: tuple[np.ndarray, np.ndarray],
 ) -> xr.Dataset:
     """Return the floating and the moored cage at rest."""

@@ -17,7 +17,7 @@ from moyai.sea.water import Water
 from moyai.structures.cage.rigid.lines import CageLine
 from moyai.structures.cage.rigid.model import RigidCageProblem
 from moyai.structures.cage.rigid.runs import run_wave
-from moyai.structures.cage.rigid.statics import Rest, rest_with_lines
+from moyai.structures.cage.rigid.statics import RigidCageEquilibrium, rest_with_lines
 from moyai.structures.cage.rigid.variables import labelled
 from moyai.structures.cage.rigid.waves import RigidCageWave, current_along
 
@@ -38,7 +38,7 @@ def is_metal(problem: RigidCageProblem) -> bool:
 def laws_dataset(
     problem: RigidCageProblem,
     lines: tuple[CageLine, ...],
-    rest: Rest,
+    rest: RigidCageEquilibrium,
     water: Water,
     wave: RigidCageWave,
     known: tuple[Array, float, float],

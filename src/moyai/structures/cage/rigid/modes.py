@@ -8,7 +8,7 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.structures.cage.rigid import load_kernel
-from moyai.structures.cage.rigid.statics import Rest
+from moyai.structures.cage.rigid.statics import RigidCageEquilibrium
 from moyai.structures.cage.rigid.water_kernel import PackedCage
 
 
@@ -20,7 +20,7 @@ def mass_matrix(packed: PackedCage, place: Array) -> Array:
     return mass
 
 
-def natural_modes(packed: PackedCage, rest: Rest, size: float) -> tuple[Array, Array]:
+def natural_modes(packed: PackedCage, rest: RigidCageEquilibrium, size: float) -> tuple[Array, Array]:
     """Return natural periods [s] and shapes (sway, heave over ``size``, rotation), longest first [eq:cage-modes].
 
     A direction without restoring force has an infinite period.

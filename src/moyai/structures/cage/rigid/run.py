@@ -35,7 +35,7 @@ from moyai.structures.cage.rigid.pack import pack
 from moyai.structures.cage.rigid.runs import RigidCageRun, run_wave
 from moyai.structures.cage.rigid.sensitivity import sensitivity_dataset
 from moyai.structures.cage.rigid.setup import at_level, lines_of
-from moyai.structures.cage.rigid.statics import Rest, free_floating, rest_with_lines, size_of
+from moyai.structures.cage.rigid.statics import RigidCageEquilibrium, free_floating, rest_with_lines, size_of
 from moyai.structures.cage.rigid.variables import VOCABULARY
 from moyai.structures.cage.rigid.waves import current_along, waves_of
 
@@ -50,7 +50,7 @@ def run(problem: RigidCageProblem, progress: Progress = silent) -> Result:
     ----------
     problem : RigidCageProblem
     progress : Progress
-        Told of every wave; KeyboardInterrupt ends the run with what there is and the status ``interrupted``.
+        Called after every wave; KeyboardInterrupt ends the run with what there is and the status ``interrupted``.
 
     Returns
     -------
@@ -68,7 +68,9 @@ def run(problem: RigidCageProblem, progress: Progress = silent) -> Result:
     return _result(problem, collected)
 
 
-def rest_at(problem: RigidCageProblem, lines: tuple[CageLine, ...], water: Water) -> tuple[Rest, Rest]:
+def rest_at(
+    problem: RigidCageProblem, lines: tuple[CageLine, ...], water: Water
+) -> tuple[RigidCageEquilibrium, RigidCageEquilibrium]:
     """Return the cage floating freely and as moored; without lines in a current both float freely in still water."""
     viscosity = problem.kinematic_viscosity
     free = free_floating(problem.cage, water, viscosity)
@@ -114,7 +116,7 @@ def _steps(
 def _law_steps(
     problem: RigidCageProblem,
     lines: tuple[CageLine, ...],
-    rest: Rest,
+    rest: RigidCageEquilibrium,
     water: Water,
     collected: Collected,
     root: str,
@@ -166,7 +168,7 @@ def _peaks(sea: xr.Dataset) -> Array:
 def _sea_steps(
     problem: RigidCageProblem,
     lines: tuple[CageLine, ...],
-    rest: Rest,
+    rest: RigidCageEquilibrium,
     water: Water,
     sea: CageSea,
     collected: Collected,

@@ -15,7 +15,7 @@ from moyai.structures.cage.rigid.literal import literal_pack
 from moyai.structures.cage.rigid.model import RigidCageProblem
 from moyai.structures.cage.rigid.numbers import Numbers, numbers_of
 from moyai.structures.cage.rigid.pack import pack
-from moyai.structures.cage.rigid.statics import Rest, size_of
+from moyai.structures.cage.rigid.statics import RigidCageEquilibrium, size_of
 from moyai.structures.cage.rigid.time import March, march, march_fixed
 from moyai.structures.cage.rigid.waves import RigidCageWave
 
@@ -30,7 +30,7 @@ class RigidCageRun:
     peak_at_ends: Array
     numbers: Numbers
     elevation: Array
-    rest: Rest
+    rest: RigidCageEquilibrium
 
 
 def end_tensions(lines: tuple[CageLine, ...], attachment_z: Array, tension: Array) -> Array:
@@ -66,7 +66,7 @@ def attachments(lines: tuple[CageLine, ...], state: Array, centre: tuple[float, 
 def run_wave(
     problem: RigidCageProblem,
     lines: tuple[CageLine, ...],
-    rest: Rest,
+    rest: RigidCageEquilibrium,
     water: Water,
     wave: RigidCageWave,
     *,

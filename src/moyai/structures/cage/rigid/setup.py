@@ -15,7 +15,7 @@ from moyai.structures.cage.rigid.lines import CageLine, series_stiffness
 from moyai.structures.cage.rigid.model import RigidCageProblem, RigidLinePlan
 from moyai.structures.cage.rigid.pack import pack
 from moyai.structures.cage.rigid.parts import RigidCage
-from moyai.structures.cage.rigid.statics import Rest, force_at, free_floating, reserve_buoyancy, size_of
+from moyai.structures.cage.rigid.statics import RigidCageEquilibrium, force_at, free_floating, reserve_buoyancy, size_of
 
 
 def lines_of(problem: RigidCageProblem) -> tuple[CageLine, ...]:
@@ -67,7 +67,7 @@ def resolve(
     return tuple(lines)
 
 
-def _draft(plan: RigidLinePlan, cage: RigidCage, water: Water, free: Rest) -> CageLine:
+def _draft(plan: RigidLinePlan, cage: RigidCage, water: Water, free: RigidCageEquilibrium) -> CageLine:
     anchor = (plan.anchor_x, -water.depth + plan.anchor_above_bed)
     line = CageLine(
         plan.name, plan.attachment, anchor, 1.0, 1.0, plan.damping, plan.submerged_weight, plan.breaking_load
@@ -106,7 +106,7 @@ def _balance(
     drafts: tuple[CageLine, ...],
     water: Water,
     kinematic_viscosity: float,
-    free: Rest,
+    free: RigidCageEquilibrium,
 ) -> tuple[Array, Array]:
     """Return the place at rest and the tensions that were asked for there."""
     still = pack(cage, (), water, kinematic_viscosity)
@@ -154,7 +154,9 @@ def _balance(
     return place, tension
 
 
-def _require_carried(cage: RigidCage, drafts: tuple[CageLine, ...], water: Water, free: Rest, given: Array) -> None:
+def _require_carried(
+    cage: RigidCage, drafts: tuple[CageLine, ...], water: Water, free: RigidCageEquilibrium, given: Array
+) -> None:
     """Refuse tensions that pull more than the floats carry, with the directions of the floating cage."""
     carried = reserve_buoyancy(cage, water)
     steep = []
@@ -198,7 +200,7 @@ def _root(residual: Callable[[Array], Array], start: Array) -> tuple[Array, floa
     return point, float(np.abs(value).max())
 
 
-def _require_reach(line: CageLine, cage: RigidCage, water: Water, free: Rest) -> None:
+def _require_reach(line: CageLine, cage: RigidCage, water: Water, free: RigidCageEquilibrium) -> None:
     """Refuse a line so short that it drowns the cage."""
     span = line.span(free.place, cage.centre)
     if line.length >= span:
@@ -219,7 +221,7 @@ def _require_reach(line: CageLine, cage: RigidCage, water: Water, free: Rest) ->
         )
 
 
-def drowning_depth(cage: RigidCage, free: Rest) -> float:
+def drowning_depth(cage: RigidCage, free: RigidCageEquilibrium) -> float:
     """Return how far the freely floating cage has to be pulled under until its floats are wholly in water [m]."""
     top = float(np.max(cage.floats.points[:, 2])) - cage.centre[1] + 0.5 * cage.floats.diameter
     return max(free.z + top, 0.0)

@@ -22,7 +22,7 @@ _LARGEST_MOVE = 0.05
 
 
 @dataclass(frozen=True, eq=False)
-class Rest:
+class RigidCageEquilibrium:
     """A position of rest."""
 
     #: ``x``, ``z``, ``theta``: Centre of gravity [m] above still water, rotation [rad].
@@ -175,7 +175,7 @@ def _newton(packed: PackedCage, place: Array, size: float, held: tuple[int, ...]
     return place, float(np.abs(force / scale)[free].max())
 
 
-def rest_of(packed: PackedCage, cage: RigidCage, place: Array, held: tuple[int, ...] = ()) -> Rest:
+def rest_of(packed: PackedCage, cage: RigidCage, place: Array, held: tuple[int, ...] = ()) -> RigidCageEquilibrium:
     """Return the position of rest near a place [eq:cage-rest].
 
     Parameters
@@ -207,7 +207,7 @@ def rest_of(packed: PackedCage, cage: RigidCage, place: Array, held: tuple[int, 
     state = np.concatenate([found, np.zeros(3)])
     tension = np.array([load_kernel.tension_of(packed, i, state, work) for i in range(len(packed.lines))])
     middle = found[1] + math.sin(found[2]) * cage.centre[0] - math.cos(found[2]) * cage.centre[1]
-    return Rest(
+    return RigidCageEquilibrium(
         float(found[0]),
         float(found[1]),
         float(found[2]),
@@ -251,7 +251,7 @@ def _settle(packed: PackedCage, place: Array, size: float, held: tuple[int, ...]
     return best, least
 
 
-def free_floating(cage: RigidCage, water: Water, kinematic_viscosity: float) -> Rest:
+def free_floating(cage: RigidCage, water: Water, kinematic_viscosity: float) -> RigidCageEquilibrium:
     """Return the cage floating without lines in still water, at x = 0 of its middle.
 
     Raises
@@ -273,7 +273,7 @@ def rest_with_lines(
     kinematic_viscosity: float,
     current: CurrentProfile | None = None,
     start: Array | None = None,
-) -> Rest:
+) -> RigidCageEquilibrium:
     """Return the moored cage at rest in still water or a current.
 
     Raises

@@ -16,7 +16,7 @@ from moyai.structures.curtain.assembly import LevelCurtain
 from moyai.structures.curtain.dynamic.checks import crumples, run_checks, run_notices, still_rises
 from moyai.structures.curtain.dynamic.groups import run_dataset, run_frames
 from moyai.structures.curtain.dynamic.model import CurtainSpan, Mesh
-from moyai.structures.curtain.dynamic.peak_uncertainty import Worth, span_worth
+from moyai.structures.curtain.dynamic.peak_uncertainty import PeakUncertainties, span_uncertainty
 from moyai.structures.curtain.dynamic.plans import Plan, plans_of
 from moyai.structures.curtain.dynamic.runs import DynamicRun, run_span
 from moyai.structures.curtain.dynamic.span import span_of
@@ -83,7 +83,7 @@ def dynamic_answer(
         plan, run, reported = through(span, given.mesh, plan, progress, place)
         progress(place, 1, 1)
         notices.extend(reported)
-        worth: Worth | None = None
+        uncertainty: PeakUncertainties | None = None
         interrupted = run.history.status == "interrupted"
         if run.history.status == "not_converged":
             notices.append(
@@ -93,12 +93,12 @@ def dynamic_answer(
             )  # fmt: skip
         elif given.sensitivity and not interrupted:
             try:
-                worth = span_worth(run, progress=progress, **plan.arguments)
-                notices.extend(worth.notices(place))
+                uncertainty = span_uncertainty(run, progress=progress, **plan.arguments)
+                notices.extend(uncertainty.notices(place))
             except KeyboardInterrupt:
                 interrupted = True
         checks.extend(run_checks(run, place))
-        data, row = run_dataset(run, given, worth, plan)
+        data, row = run_dataset(run, given, uncertainty, plan)
         groups[plan.name] = data
         groups[f"{plan.name}/frames"] = run_frames(run, plan)
         rows.append(row)

@@ -124,7 +124,7 @@ def _strict(counted: CountedLimits, lost_depth: float) -> CountedLimits:
 def _design_ends(strict: CountedLimits, speeds: tuple[float, ...]) -> dict[str, xr.DataArray]:
     """Return the height held in currents up to that of the case, loads at the upper ends of their bands [m].
 
-    Beside it stands by how much other seeds of the seas that prove it may lower it.
+    It states by how much other seeds of the seas that prove it may lower it.
     """
     import xarray as xr
 

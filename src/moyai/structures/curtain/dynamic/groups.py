@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from moyai.flexible.sheets import sheet_stress
-from moyai.structures.curtain.dynamic.peak_uncertainty import BOTH, PeakWorth, Worth
+from moyai.structures.curtain.dynamic.peak_uncertainty import BOTH, PeakUncertainties, PeakUncertainty
 from moyai.structures.curtain.dynamic.plans import Plan
 from moyai.structures.curtain.dynamic.runs import DynamicRun, DynamicSettings
 from moyai.structures.curtain.variables import labelled
@@ -23,7 +23,7 @@ _TRIALS = ("half_step", "half_mesh", "extrapolated", "double_viscosity", "held_n
 
 
 def run_dataset(
-    run: DynamicRun, settings: DynamicSettings, worth: Worth | None, plan: Plan
+    run: DynamicRun, settings: DynamicSettings, uncertainty: PeakUncertainties | None, plan: Plan
 ) -> tuple[xr.Dataset, dict[str, float]]:
     """Return the group of a run, and its row in the table of all runs."""
     import xarray as xr
@@ -54,10 +54,13 @@ def run_dataset(
     data["snap_threshold"] = ("line", [record.threshold for record in stats])
     rises = [[c.rise_time for c in record.snaps] for record in stats]
     data["snap_rise_time"] = ("line", [float(np.median(r)) if r else math.nan for r in rises])
-    nothing = PeakWorth(math.nan)
+    nothing = PeakUncertainty(math.nan)
     for key in _TRIALS:
-        data[f"line_{key}"] = ("line", [getattr(worth.of[name] if worth else nothing, key) for name in names])
-    total = worth.of[BOTH] if worth else nothing
+        data[f"line_{key}"] = (
+            "line",
+            [getattr(uncertainty.of[name] if uncertainty else nothing, key) for name in names],
+        )
+    total = uncertainty.of[BOTH] if uncertainty else nothing
     both, when = run.peak("both")
     row = int(np.argmin(np.abs(history.time - when)))
     near = np.arange(max(0, row - 100), min(history.time.size, row + 101))

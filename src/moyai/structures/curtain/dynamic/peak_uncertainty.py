@@ -1,4 +1,4 @@
-"""What the peaks of a run are worth: each cable and line with another step, mesh, viscosity, and with held normals."""
+"""Uncertainty of the peaks of a run: each cable and line with another step, mesh, viscosity, and with held normals."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ BOTH = "both"
 
 
 @dataclass(frozen=True)
-class PeakWorth:
+class PeakUncertainty:
     """The peak of one cable or line, and what it is in other runs [N]; NaN for a run that was not made or stopped."""
 
     #: Of the run itself.
@@ -63,11 +63,11 @@ class PeakWorth:
 
 
 @dataclass(frozen=True)
-class Worth:
-    """What every peak of a run is worth."""
+class PeakUncertainties:
+    """Uncertainty of every peak of a run."""
 
     #: By the names of the cables and lines, and ``both``.
-    of: dict[str, PeakWorth]
+    of: dict[str, PeakUncertainty]
     #: What is to be said of runs that had to stop.
     stopped: tuple[str, ...] = ()
 
@@ -77,22 +77,22 @@ class Worth:
             Notice("dynamic-sensitivity", f"{place}: {words}", math.nan, math.nan, "warning", "", "guard on energy")
             for words in self.stopped
         ]
-        highest = max(worth.peak for worth in self.of.values())
+        highest = max(one.peak for one in self.of.values())
         poor = {
-            name: worth
-            for name, worth in self.of.items()
-            if worth.error > limit and max(worth.peak, worth.half_mesh) > _MATTERS * highest
+            name: one
+            for name, one in self.of.items()
+            if one.error > limit and max(one.peak, one.half_mesh) > _MATTERS * highest
         }
         if poor:
             said = "; ".join(
-                f"{'both cables' if name == BOTH else name} by {100.0 * worth.error:.1f} % "
-                f"({plain(worth.peak)} N, half the cells {plain(worth.half_mesh)} N, half the step "
-                f"{plain(worth.half_step)} N)"
-                for name, worth in sorted(poor.items(), key=lambda item: -item[1].error)[:_NAMED]
+                f"{'both cables' if name == BOTH else name} by {100.0 * one.error:.1f} % "
+                f"({plain(one.peak)} N, half the cells {plain(one.half_mesh)} N, half the step "
+                f"{plain(one.half_step)} N)"
+                for name, one in sorted(poor.items(), key=lambda item: -item[1].error)[:_NAMED]
             )
             if len(poor) > _NAMED:
                 said += f"; {len(poor) - _NAMED} more by less"
-            worst = max(worth.error for worth in poor.values())
+            worst = max(one.error for one in poor.values())
             found.append(
                 Notice("dynamic-peak-mesh", f"{place}: peaks move with step and mesh: {said}", worst, limit, "warning",
                        "take more cells (settings.dynamic.cells_along, cells_down)",
@@ -103,15 +103,15 @@ class Worth:
         if turn > limit:
             found.append(
                 Notice("dynamic-normals", f"{place}: with sections of added mass that keep their normals the peak of "
-                       f"both cables is {plain(both.held_normals)} N, not {plain(both.peak)} N: what the turn of the "
-                       "curtain is worth, and folded cloth with it", turn, limit,
+                       f"both cables is {plain(both.held_normals)} N, not {plain(both.peak)} N: the effect of the "
+                       "turn of the curtain, and of folded cloth with it", turn, limit,
                        "warning" if turn > _APART else "information", "",
                        "a run with held normals")
             )  # fmt: skip
         return tuple(found)
 
 
-def span_worth(run: DynamicRun, **arguments: object) -> Worth:
+def span_uncertainty(run: DynamicRun, **arguments: object) -> PeakUncertainties:
     """Run a span again with half the step, half the cells and twice the viscosity; in waves also with held normals.
 
     Parameters
@@ -157,7 +157,7 @@ def span_worth(run: DynamicRun, **arguments: object) -> Worth:
             continue
         for name in names:
             peaks[name][key] = found.peak(name)[0]
-    return Worth({name: PeakWorth(**values) for name, values in peaks.items()}, tuple(stopped))
+    return PeakUncertainties({name: PeakUncertainty(**values) for name, values in peaks.items()}, tuple(stopped))
 
 
-__all__ = ["BOTH", "LIMIT", "PeakWorth", "Worth", "span_worth"]
+__all__ = ["BOTH", "LIMIT", "PeakUncertainties", "PeakUncertainty", "span_uncertainty"]

@@ -33,7 +33,7 @@ _CREST = 0.6
 
 
 @dataclass(frozen=True, eq=False)
-class _Across:
+class _CurrentOfSpan:
     """A current in the axes of the span, asked at any height."""
 
     profile: CurrentProfile
@@ -75,7 +75,7 @@ def plans_of(
     given = settings.dynamic
     assert given is not None
     profile = unit.site.current(unit.surface_speed) if unit.surface_speed > 0.0 else None
-    current = None if profile is None else _Across(profile, unit.curtain.normal, float(unit.water.depth))
+    current = None if profile is None else _CurrentOfSpan(profile, unit.curtain.normal, float(unit.water.depth))
     common = {"water": unit.water, "profile": given.profile}
     if not seas:
         return [_snap_plan(unit, settings, span, current, common)]
@@ -101,7 +101,11 @@ def plans_of(
 
 
 def _snap_plan(
-    unit: LevelCurtain, settings: CurtainSettings, span: CurtainSpan, current: _Across | None, common: dict[str, Any]
+    unit: LevelCurtain,
+    settings: CurtainSettings,
+    span: CurtainSpan,
+    current: _CurrentOfSpan | None,
+    common: dict[str, Any],
 ) -> Plan:
     """Return the run of the snap alone: just taut at the start speed, in the current where there is one."""
     given = settings.dynamic
@@ -147,8 +151,8 @@ def _snap_plan(
 
 
 def _wave_plan(
-    name: str, waves: WaveComponents, current: _Across | None, period: float, last: float, given: DynamicSettings,
-    unit: LevelCurtain, common: dict[str, Any],
+    name: str, waves: WaveComponents, current: _CurrentOfSpan | None, period: float, last: float,
+    given: DynamicSettings, unit: LevelCurtain, common: dict[str, Any],
 ) -> Plan:  # fmt: skip
     drifting = given.start == "drifting"
     flow = Flow(current=current, waves=waves, ramp=0.0 if drifting else period, wave_ramp=period if drifting else 0.0)

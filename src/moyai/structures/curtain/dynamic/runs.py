@@ -1,4 +1,4 @@
-"""Runs of a whole span through a snap, waves and current: tensions over time, snaps, and what the peaks are worth."""
+"""Runs of a whole span through a snap, waves and current: tensions over time, snaps, and uncertainty of the peaks."""
 
 from __future__ import annotations
 

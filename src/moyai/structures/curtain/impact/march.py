@@ -112,7 +112,7 @@ def iterate_first_step(impact: Impact, time_step: float, *, reverse: bool, sweep
     """Iterate the first step as the paper describes it, or in reverse [eq:impact-iteration].
 
     Forward (displacement, acceleration, load, displacement) contracts only for omega dt > sqrt 2, where the result is
-    worthless; in reverse (displacement, load, acceleration, displacement) it contracts for omega dt < sqrt 2. The
+    useless; in reverse (displacement, load, acceleration, displacement) it contracts for omega dt < sqrt 2. The
     frequency is that of the spring as loaded at the end of the step.
 
     Parameters

@@ -28,7 +28,7 @@ from moyai.report.scene_3d import Faces, Marker, Scene3D, Trace, Waves3D, animat
 from moyai.structures.curtain.report.reading import CurtainLevel, attribute, key
 
 _BINS, _PERIODS_SHOWN, _WHOLE = 900, 4.0, 6.0
-#: Columns of the table of what peaks are worth: heading, name in the table of runs, name of each line in its run.
+#: Columns of the table of the uncertainty of peaks: heading, name in the table of runs, name of each line in its run.
 _TRIALS = (
     ("As run", "both_peak", "line_tension_maximum"),
     ("Half the step", "half_step_peak", "line_half_step"),
@@ -54,7 +54,7 @@ def dynamic_blocks(level: CurtainLevel) -> Sequence[Block | None]:
         if blocks:
             options.append(Option(run.name, blocks))
     choice = Choice("dynamic-run", "Run", tuple(options), print_all=False) if options else None
-    return peak_table(level), sample_table(level), worth_table(level), choice
+    return peak_table(level), sample_table(level), uncertainty_table(level), choice
 
 
 def _rows(group: Group, columns: tuple[tuple[str, str, str], ...]) -> list[Column]:
@@ -125,7 +125,7 @@ def sample_table(level: CurtainLevel) -> Table | None:
     )
 
 
-def worth_table(level: CurtainLevel) -> Table | None:
+def uncertainty_table(level: CurtainLevel) -> Table | None:
     """Return what the peaks of each cable and line become with another step, mesh, viscosity, and held normals."""
     group = level.part("dynamic")
     names: list[str] = []
@@ -154,7 +154,7 @@ def worth_table(level: CurtainLevel) -> Table | None:
     run_column = (Column("Run", names),) if len(set(names)) > 1 else ()
     return Table(
         key(level, "dynamic-worth"),
-        "What the peaks are worth",
+        "Uncertainty of the peaks",
         (*run_column, Column("Line", lines), *in_one_unit(columns)),
         note,
     )
@@ -325,5 +325,5 @@ __all__ = [
     "snap_table",
     "span_animation",
     "tension_figure",
-    "worth_table",
+    "uncertainty_table",
 ]

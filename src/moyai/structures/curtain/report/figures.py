@@ -98,7 +98,7 @@ def _laws(
         (axes[0],),
         (axes[1],),
         tuple(series),
-        "All laws share " + " and ".join(parts) + "; their spread is what the choice of the law is worth."
+        "All laws share " + " and ".join(parts) + "; their spread is the uncertainty of the choice of the law."
         if parts
         else "Axes are not to one scale.",
         height=330,

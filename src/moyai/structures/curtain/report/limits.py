@@ -76,7 +76,7 @@ def _considered(group: Group) -> str:
     if not known:
         return ""
     taken = [words[name] for name in known if float(group.attributes[name]) > 0.0]
-    said = f" Beside the steady load: {', '.join(taken) if taken else 'nothing'}."
+    said = f" With the steady load: {', '.join(taken) if taken else 'nothing'}."
     role = str(group.attributes.get("plate_role", ""))
     if role == "bound":
         return f"{said} Impact and snaps are those of an upright plate, a bound: the limits that they set are at least."

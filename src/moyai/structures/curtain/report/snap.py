@@ -158,10 +158,10 @@ def _still(plan: Array, section: Array | None, boxes: dict[str, list[float] | No
     side.path(np.column_stack([section[:n], section[n:]]), "sheet")
     side.dot(float(section[0]), float(section[n]), 6.0, "buoy")
     side.dot(float(section[n - 1]), float(section[-1]), 4.0, "marker")
-    return beside(side, top)
+    return side_by_side(side, top)
 
 
-def beside(left: Sketch, right: Sketch, gap: float = 10.0) -> str:
+def side_by_side(left: Sketch, right: Sketch, gap: float = 10.0) -> str:
     """Return two drawings side by side as one, the taller one setting the height."""
 
     def inner(sketch: Sketch) -> str:

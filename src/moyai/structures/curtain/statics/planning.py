@@ -73,5 +73,5 @@ class CurrentRule:
 CURRENT_RULES: tuple[CurrentRule, ...] = (
     CurrentRule("toe lifts off the bed", 0.15, True, "Kouwen (1990), Ontario, abstract"),
     CurrentRule("anchor loads become excessive", 0.3, True, "Kouwen (1990), Ontario, abstract"),
-    CurrentRule("a curtain is rarely worth while", 0.5, False, "ERDC TN-DOER-E21 (2005), 1 to 1.5 knots, from memory"),
+    CurrentRule("a curtain is rarely economic", 0.5, False, "ERDC TN-DOER-E21 (2005), 1 to 1.5 knots, from memory"),
 )

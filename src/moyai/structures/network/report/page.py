@@ -74,7 +74,7 @@ def _summary(result: Result, governing: HighestTension | None) -> tuple[Block, .
     figures_of = headline_figures(result)
     if figures_of is None:
         return (Paragraph("The result holds no tensions."),)
-    blocks: list[Block | None] = [figures_of, None if governing is None else tables.worth_table(governing.level)]
+    blocks: list[Block | None] = [figures_of, None if governing is None else tables.uncertainty_table(governing.level)]
     return tuple(block for block in blocks if block is not None)
 
 

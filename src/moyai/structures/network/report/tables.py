@@ -1,4 +1,4 @@
-"""Tables of a network: lines, points, runs, snaps, what the peaks are worth, natural modes."""
+"""Tables of a network: lines, points, runs, snaps, uncertainty of the peaks, natural modes."""
 
 from __future__ import annotations
 
@@ -221,8 +221,8 @@ def bodies_table(level: NetworkLevel, run: Group) -> Table | None:
     )
 
 
-def worth_table(level: NetworkLevel) -> Table | None:
-    """Return what the peaks are worth: the same run with other step, mesh and viscosity."""
+def uncertainty_table(level: NetworkLevel) -> Table | None:
+    """Return the uncertainty of the peaks: the same run with other step, mesh and viscosity."""
     dynamic = level.part("dynamic")
     names = (
         ("sensitivity_peak", "Peak"), ("half_step", "half the step"), ("double_mesh", "twice the bars"),

@@ -257,7 +257,7 @@ def _check_named_points(model: schema.UnitsCase, findings: Findings) -> None:
     try:
         hull = model.structure.section.hull()
     except InputError:
-        return  # told by the checks of the section
+        return  # reported by the checks of the section
     left, right = hull.bounds[0], hull.bounds[1]
     for index, point in enumerate(model.map.points):
         for number, place in enumerate(_places(model)):

@@ -42,9 +42,9 @@ LEAST_WAVES = 10.0
 LEAST_CYCLES = 25.0
 #: Frequency of slow drift, for its added mass [rad/s].
 _SLOW = 1e-3
-#: Error of the memory that is told, of the largest response
-_TOLD = 0.02
-#: Change of a growing motion from one period to the next that is told.
+#: Error of the memory that is reported, of the largest response
+_REPORTED = 0.02
+#: Change of a growing motion from one period to the next that is reported.
 _SEEN = 1e-3
 #: Turns in which frequencies are added where the memory misses what was interpolated, and most of them a turn.
 _MOST_TURNS, _MOST_GAPS = 2, 8
@@ -84,7 +84,7 @@ def water_in_time(
             f"{at.name}: {len(memory.poles)} poles carry the memory of the water; added mass and damping within "
             f"{100.0 * memory.error:.2g} % of the largest of their pair in the band of the waves, "
             f"{100.0 * memory.error_outside:.2g} % outside",
-            value=memory.error, limit=_TOLD, severity="information" if memory.error <= _TOLD else "warning",
+            value=memory.error, limit=_REPORTED, severity="information" if memory.error <= _REPORTED else "warning",
             remedy="give smaller panels or more settings.time.memory_frequencies",
         )
     ]  # fmt: skip
@@ -130,13 +130,13 @@ def sea_in_time(
     data = numbers_of(water.at, sea, good)
     if isinstance(sea, RegularSea):
         if len(carried) == len(runs):
-            data, told = _periods_in_motion(water, sea, data, carried, progress)
-            notices += told
+            data, further = _periods_in_motion(water, sea, data, carried, progress)
+            notices += further
         groups = {f"T{period:g}": item.series for period, item in zip(sea.periods, good)}
     else:
         if len(carried) == len(runs):
-            data, told = _in_motion(water, sea, data, [member for (member,) in carried], progress)
-            notices += told
+            data, further = _in_motion(water, sea, data, [member for (member,) in carried], progress)
+            notices += further
         groups = {"realisation": good[shown_run(good)].series}
     data.attrs["status"] = status_of(runs)
     data.attrs["drift"] = "none" if not water.settings.drift else "mean" if regular else "newman"
@@ -211,8 +211,8 @@ def _periods_in_motion(
     notices: list[Notice] = []
     for row, members in enumerate(carried):
         where = f"{water.at.name}, {sea.name}, T = {float(sea.periods[row]):g} s"
-        found, told = _rerun(water, where, members, progress)
-        notices += told
+        found, further = _rerun(water, where, members, progress)
+        notices += further
         if found is None:
             continue
         there = found.moved

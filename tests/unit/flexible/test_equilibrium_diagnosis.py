@@ -11,9 +11,9 @@ from moyai.core.errors import ConvergenceError
 from moyai.core.wording import spoken
 from moyai.flexible import statics
 from moyai.flexible.build import NetworkBuilder
+from moyai.flexible.equilibrium_diagnosis import advice
 from moyai.flexible.flow import Flow
 from moyai.flexible.network import FREE, Bars, BarType, Bed, Network, Nodes
-from moyai.flexible.rest_diagnosis import advice
 from moyai.flexible.statics import solve_equilibrium
 from moyai.sea.water import Water
 

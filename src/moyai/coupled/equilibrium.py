@@ -30,7 +30,7 @@ SLACK, MOST_TIPS = 1e-6, 3
 
 
 @dataclass(frozen=True, eq=False)
-class CoupledRest:
+class CoupledEquilibrium:
     """Bodies and network at rest."""
 
     #: With its carried points where the bodies rest.
@@ -78,13 +78,13 @@ def point_pulls(network: Network, state: State, names: list[str], calm: Flow) ->
     return np.asarray(stepped.try_step(instant, places, np.zeros_like(places))[0])
 
 
-def find_rest(
+def find_coupled_equilibrium(
     network: Network,
     bodies: Mapping[str, Body],
     *,
     flow: Flow | None = None,
     tolerance: float = TOLERANCE,
-) -> CoupledRest:
+) -> CoupledEquilibrium:
     """Find the poses in which bodies and network are in equilibrium [eq:coupled-newton-euler].
 
     Weight, buoyancy, pulls and steady current act. Newton's method on the poses, the network in equilibrium for each,
@@ -104,7 +104,7 @@ def find_rest(
 
     Returns
     -------
-    CoupledRest
+    CoupledEquilibrium
         The bodies and the network in equilibrium, tensions [N], shape (m,), and what is left of the balance.
 
     Raises
@@ -116,7 +116,7 @@ def find_rest(
 
     Examples
     --------
-    >>> from moyai.coupled import RigidBody, box_hull, find_rest
+    >>> from moyai.coupled import RigidBody, box_hull, find_coupled_equilibrium
     >>> from moyai.flexible import BarType, NetworkBuilder
     >>> from moyai.sea import Water
     >>> hull = box_hull((4.0, 4.0, 2.0), bottom=-1.0, columns=(2, 2))
@@ -127,7 +127,7 @@ def find_rest(
     >>> builder.driven("eye", body.points_at_start["eye"])
     >>> rope = BarType("rope", mass_per_length=1.0, axial_stiffness=1e6, diameter=0.03)
     >>> builder.line("line", "anchor", "eye", rope, length=8.9, segments=4)
-    >>> found = find_rest(builder.build(), {"float": body})
+    >>> found = find_coupled_equilibrium(builder.build(), {"float": body})
     >>> found.residual < 1e-6, round(float(found.tension.max()) / 1000.0, 1)   # [kN]
     (True, 6.6)
     """
@@ -238,7 +238,7 @@ class _NewtonSearch:
             out[:, column] = (ends[0] - ends[1]) / (2.0 * step)
         return out
 
-    def run(self, tolerance: float) -> CoupledRest:
+    def run(self, tolerance: float) -> CoupledEquilibrium:
         force = self.imbalance()
         longest = 0.25 * max(self.size, 0.02 * float(np.max(np.ptp(self.network.nodes.position, axis=0))))
         tips = 0
@@ -286,7 +286,7 @@ class _NewtonSearch:
             raise ConvergenceError("nothing to bring to rest")
         bodies = {name: self._rested(self.bodies[name], carrier) for name, carrier in self.carriers.items()}
         state = State(0.0, rest.state.position, np.zeros_like(rest.state.position))
-        return CoupledRest(network, state, bodies, rest.tension, left, self.solves)
+        return CoupledEquilibrium(network, state, bodies, rest.tension, left, self.solves)
 
     def _down(self, force: Array, values: Array, shapes: Array, none: float, longest: float) -> Array:
         """Move down the energy where it is no bowl, by Newton's step with all stiffness positive; return the force."""
