@@ -57,6 +57,7 @@ def judged(tmp_path_factory: pytest.TempPathFactory):
     return end
 
 
+@pytest.mark.slow
 def test_a_daily_wave_beside_the_storm_takes_nothing_away(judged):
     assert judged(STORM, daily(0.4)) >= judged(STORM) * (1.0 - 1e-9)
     assert judged(STORM, daily(0.4)) >= judged(daily(0.4)) * (1.0 - 1e-9)

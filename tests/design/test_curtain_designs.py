@@ -165,6 +165,7 @@ def test_held_toe_carries_at_most_the_drag_of_its_length(designs) -> None:
     assert 0.5 < share <= 1.0
 
 
+@pytest.mark.slow
 def test_a_load_with_an_impact_carries_the_band_of_its_steady_part(designs) -> None:
     _, result = designs("held toe")
     loads, statics = result.tree["/SWL/loads"].to_dataset(), result.tree["/SWL/statics"].to_dataset()

@@ -90,6 +90,7 @@ def plan_by_hand(load):
     return (cosine, uniform), (2.0 * cosine * math.tanh(b), 2.0 * uniform * math.sin(alpha))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_load_is_that_by_hand(statics, name):
     found = statics(name).tree["SWL/statics"]

@@ -169,6 +169,7 @@ def test_a_struck_rope_of_few_bars_is_not_called_converged(tmp_path, segments):
         assert tension.band.high - tension.band.low > 0.05 * tension.value
 
 
+@pytest.mark.slow
 def test_a_heaving_weight_on_a_stiff_line():
     """2 t hung from a head that heaves 0.2 m every 6 s: T = W + (m + m_a) omega^2 A, the line being stiff."""
     found = result_of(
@@ -321,6 +322,7 @@ settings: {SETTINGS}
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("settings", "outcome", "code"),
     [
@@ -335,6 +337,7 @@ def test_a_whole_period_of_waves_at_their_height_counts(settings, outcome, code)
     assert bool(code) == any(notice.code == "waves-not-counted" for notice in found.notices)
 
 
+@pytest.mark.slow
 def test_a_level_that_was_left_out_keeps_the_design_from_holding(tmp_path):
     file = tmp_path / "case.yaml"
     for levels, outcome in (("all", "holds"), ("[LW]", "not judged")):

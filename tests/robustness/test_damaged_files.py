@@ -28,6 +28,7 @@ COUNT = os.environ.get("MOYAI_FUZZ_COUNT", "150")
 PARTS = 4
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_damage_ends_in_an_error_of_moyai(kind):
     print(f"seed {SEED}")

@@ -86,6 +86,7 @@ def closure_errors(kc, circulation, noise, count=300):
     return 1e3 * np.median(errors, axis=0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("kc", "circulation", "clean", "noisy"), [(1.0, 18e-4, 0.23, 0.3), (1.5, 40.5e-4, 0.6, 0.7)])
 def test_period_closes_within_the_errors_of_the_prototype(kc, circulation, clean, noisy):
     """Median error of the end point [mm]; harmonics by least squares do better than the cubic."""

@@ -70,6 +70,7 @@ def test_oblique_sea(solved):
     assert solved(heading=30).status == "converged"
 
 
+@pytest.mark.slow
 def test_time_domain(solved):
     assert solved(analyses="statics, frequency, time").status == "converged"
 

@@ -104,6 +104,7 @@ def test_the_cage_at_rest_is_that_of_the_derivation():
     assert listed == pytest.approx(75.0, abs=1.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: " ".join(row[:4]))
 def test_motions_of_the_prototype(row):
     """Within 8 % of its range: it marched a grid of twine panels with a step of 0.5 ms, this with other quadratures.

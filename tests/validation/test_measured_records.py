@@ -32,6 +32,7 @@ def example(shared_data, monkeypatch):
     return load
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("hour", ["00h00", "00h30", "12h00", "18h30"])
 def test_waverider(example, hour):
     """Zero crossing within the buoy's own dropping of a few waves; its direction within 30 degrees.
@@ -83,6 +84,7 @@ def test_eighteen_months_of_current(example):
     assert found["flood"] > 0.0 > found["ebb"]
 
 
+@pytest.mark.slow
 def test_profilers(example):
     module = example("currents")
     mean, top = module.profile("Sig1000_tidal.nc", None)

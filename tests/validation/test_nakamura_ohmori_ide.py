@@ -104,6 +104,7 @@ def test_undamped_motion() -> None:
     assert lowest.min() == pytest.approx(0.36, abs=5e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("line", TIME, ids=lambda line: f"T={line[0]:g}")
 def test_time_domain_with_nonlinear_chains(line: np.ndarray) -> None:
     assert model.time_ratio(line[0], 2) == pytest.approx(line[1], rel=5e-3)

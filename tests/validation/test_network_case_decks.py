@@ -13,6 +13,7 @@ from moyai.core.results import read_result
 from moyai.validation import network_cases
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", network_cases.CASES, ids=[case.name for case in network_cases.CASES])
 def test_peaks_of_the_line_program(case):
     assert case.error(case.compute()) <= case.tolerance

@@ -67,6 +67,7 @@ def test_curved_and_stretching_skirt(distance):
     assert mass[0, 0] / found**2 == pytest.approx(over_arc, abs=6e-4)
 
 
+@pytest.mark.slow
 def test_half_circle_about_one_and_a_half_times_the_plate():
     mass, length = curved_mass(0.0)
     assert mass[0, 0] == pytest.approx(1.461, abs=3e-3)
@@ -101,6 +102,7 @@ WALL = plate_section(Plate((0, 0), (0, -1)))
 GRAVITY = 9.81
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("ratio", "column"), [(10.0, 0), (3.0, 1)])
 def test_added_mass_and_damping_over_frequency(ratio, column):
     """Within 0.25 %, which is the truncation of the prototype: full sums of eigenfunctions agree to 2e-5."""

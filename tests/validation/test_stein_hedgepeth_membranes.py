@@ -69,6 +69,7 @@ def bent(cells: int, ratio: float, curvature: float) -> tuple[float, float]:
     return abs(float(pull.sum())), abs(float(np.sum(pull * y)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ratio", [0.0, 0.4])
 @pytest.mark.parametrize(("curvature", "wrinkled"), [(1e-4, False), (3e-4, True), (1e-3, True)])
 def test_bending_of_a_stretched_strip(ratio: float, curvature: float, wrinkled: bool) -> None:

@@ -219,6 +219,7 @@ def test_statement_8_largest_waves_and_tensions(new):
     assert found == pytest.approx(1.8, abs=0.2)
 
 
+@pytest.mark.slow
 def test_statement_8_ratio_of_tensions_needs_pretension(example):
     """T_max/T_1/10 is 1.3 to 1.5 for tension linear in height; near 1.7 with pretension (T_e ~ H^2 when small)."""
     ratios = []

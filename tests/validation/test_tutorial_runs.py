@@ -39,6 +39,7 @@ def test_variation_of_the_tutorial_is_understood(tmp_path):
     assert load_case(file).kind == "breakwater"
 
 
+@pytest.mark.slow
 def test_case_of_the_tutorial_without_lines_has_a_report(tmp_path):
     import moyai
 

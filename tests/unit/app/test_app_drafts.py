@@ -62,6 +62,7 @@ def test_numbers_are_those_of_a_fresh_run(tmp_path: Path, name: str, kind: str) 
         assert found
 
 
+@pytest.mark.slow
 def test_nominal_numbers_come_first_and_are_marked(tmp_path: Path) -> None:
     """The same values without their bands, then the whole answer of a fresh run."""
     text = re.sub("^  water_levels:.*\n", "", only("curtain", "statics"), flags=re.MULTILINE)
@@ -80,6 +81,7 @@ def test_nominal_numbers_come_first_and_are_marked(tmp_path: Path) -> None:
     assert "nominal numbers only" in nominal["html"] and "nominal numbers only" not in whole["html"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("chosen", ["", "HWL (+1.50 m)", "LWL (0.00 m)", "elsewhere"])
 def test_the_first_draft_has_the_water_level_on_the_screen(tmp_path: Path, chosen: str) -> None:
     text = only("curtain", "statics")

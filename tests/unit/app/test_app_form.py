@@ -45,6 +45,7 @@ def test_every_scalar_of_the_file_is_a_field_with_help(name: str) -> None:
     assert len(unexplained) <= 0.1 * len(named), unexplained
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", TEMPLATES)
 def test_what_is_offered_can_be_added_alone(name: str) -> None:
     document = parse_yaml(template(name))

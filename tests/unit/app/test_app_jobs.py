@@ -47,6 +47,7 @@ def queue(request: pytest.FixtureRequest) -> Iterator[Any]:
         one.close()
 
 
+@pytest.mark.slow
 def test_jobs_run_one_after_the_other_and_stop_on_request(queue: Any, tmp_path: Path) -> None:
     jobs = queue(quick_work)
     first, second, third = (jobs.add(order(tmp_path, name)) for name in ("wait", "b.yaml", "c.yaml"))
@@ -65,6 +66,7 @@ def test_jobs_run_one_after_the_other_and_stop_on_request(queue: Any, tmp_path: 
     assert third.process is None
 
 
+@pytest.mark.slow
 def test_a_deaf_job_is_ended_after_two_seconds(queue: Any, tmp_path: Path) -> None:
     jobs = queue(deaf_work)
     job = jobs.add(order(tmp_path))
@@ -133,6 +135,7 @@ def test_results_never_go_where_something_is(queue: Any, tmp_path: Path) -> None
     assert jobs.folder_for(tmp_path, "pile").name == "pile_3"
 
 
+@pytest.mark.slow
 def test_an_app_that_starts_later_lists_the_jobs(queue: Any, tmp_path: Path) -> None:
     root = tmp_path.resolve()
     output = root / "out"
@@ -167,6 +170,7 @@ def test_a_job_at_which_another_app_works_is_not_listed(queue: Any, tmp_path: Pa
     assert len(kept_jobs(Folder(root, root / "out"))) == 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "changes",
     [

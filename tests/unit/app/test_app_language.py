@@ -85,6 +85,7 @@ def helps(entry: dict[str, Any]) -> Iterator[str]:
         yield from helps(one)
 
 
+@pytest.mark.slow
 def test_the_server_speaks_japanese(page: Any) -> None:
     html = page.get("/").text
     assert '<html lang="ja">' in html and "{{" not in html

@@ -78,6 +78,7 @@ def test_the_gallery_has_files_templates_and_papers(page: Page) -> None:
     assert len(found["papers"]) == 5
 
 
+@pytest.mark.slow
 def test_a_case_from_opening_to_saving(page: Page) -> None:
     record = page.post("/api/cases", {"file": "pile.yaml"})
     key, text = record["id"], record["text"]

@@ -39,6 +39,7 @@ def changed(problem, *, breakwater=None, environment=None, settings=None, analys
     )
 
 
+@pytest.mark.slow
 def test_linear_mooring_in_time_gives_the_frequency_domain(pontoon_problem):
     # the mandatory test of the specification, motions, C_R and C_T within 1 %; waves so low that springs stay linear
     generator = np.random.default_rng(7)
@@ -60,6 +61,7 @@ def test_linear_mooring_in_time_gives_the_frequency_domain(pontoon_problem):
             assert time[name].values == pytest.approx(frequency[name].values, abs=5e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(4))
 def test_random_units_rest_in_balance(pontoon_problem, seed):
     generator = np.random.default_rng(seed)
@@ -217,6 +219,7 @@ def test_infinite_depth_with_springs(pontoon_problem, domain):
     assert np.all(np.isfinite(result.tree[f"SWL/{domain}/waves"].to_dataset().motion_amplitude.values))
 
 
+@pytest.mark.slow
 def test_interrupt_keeps_what_was_done(pontoon_problem, tmp_path):
     def stop_in_time_domain(what, done, total):
         if what.startswith("time domain"):
@@ -243,6 +246,7 @@ def test_gap_of_a_twin_pontoon_is_told(pontoon_problem, lid):
     assert reported and reported[0].severity == ("warning" if lid == 0.0 else "information")
 
 
+@pytest.mark.slow
 def test_operators_in_slightly_oblique_waves_keep_their_energy(pontoon_problem):
     # Between the frequencies of the oblique solve stand splines; their error shows in the energy of the moving body
     problem = changed(
@@ -256,6 +260,7 @@ def test_operators_in_slightly_oblique_waves_keep_their_energy(pontoon_problem):
     assert max(energy) < 1e-3
 
 
+@pytest.mark.slow
 def test_oblique_coefficients_are_kept_and_used_again(pontoon_problem, tmp_path, monkeypatch):
     problem = changed(
         pontoon_problem,
@@ -423,6 +428,7 @@ def test_drag_of_a_taut_line_is_that_of_a_rod_hinged_at_its_foot(pontoon_problem
     assert float(np.sum(coefficients * np.abs(rows[:, 0]) ** 3)) == pytest.approx(whole / 4.0, rel=0.01)
 
 
+@pytest.mark.slow
 def test_line_drag_damps_in_both_domains(pontoon_problem):
     dragged = tuple(replace(line, drag_width=0.05) for line in pontoon_problem.breakwater.lines)
     bare, with_drag = (

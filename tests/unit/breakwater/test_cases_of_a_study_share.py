@@ -53,6 +53,7 @@ def assert_same_bits(first: Result, second: Result) -> None:
     assert first.notices == second.notices or repr(first.notices) == repr(second.notices)
 
 
+@pytest.mark.slow
 def test_seas_of_one_unit_in_a_row_are_those_run_alone(
     pontoon_problem: BreakwaterProblem, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -33,6 +33,7 @@ def in_motion():
     return run(variant(problem_of("nakamura", "tank_model"), (1.4,), time=True, moving=True))
 
 
+@pytest.mark.slow
 def test_status_tells_where_reflection_and_transmission_do_not_keep_the_energy(at_rest):
     found = checks_of(at_rest)
     assert at_rest.status == "not_converged"
@@ -42,6 +43,7 @@ def test_status_tells_where_reflection_and_transmission_do_not_keep_the_energy(a
     assert "third 13.7 %" in found[LOSS].meaning
 
 
+@pytest.mark.slow
 def test_what_damping_does_not_take_the_lines_carry_into_other_harmonics(at_rest):
     data = at_rest.tree["SWL/time/waves"].to_dataset()
     assert checks_of(at_rest)[WORK].value < 2e-3
@@ -53,6 +55,7 @@ def test_what_damping_does_not_take_the_lines_carry_into_other_harmonics(at_rest
     assert float(data.energy_to_harmonics.sel(period=1.2)) < 1e-3
 
 
+@pytest.mark.slow
 def test_lines_in_motion_keep_the_energy(in_motion):
     """Forces of lines in motion taken half a step late miss 3.7 % of the loss here."""
     found = checks_of(in_motion)
@@ -61,6 +64,7 @@ def test_lines_in_motion_keep_the_energy(in_motion):
     assert found[LOSS].value < 5e-3
 
 
+@pytest.mark.slow
 def test_viscous_damping_in_moving_water_keeps_the_energy():
     """Drag of eddies against the moving wave, quadratic: its work on the first harmonic is what the far field loses."""
     case = variant(problem_of("nakamura", "tank_model"), (0.95,), fraction=0.0, time=True)
@@ -72,6 +76,7 @@ def test_viscous_damping_in_moving_water_keeps_the_energy():
     assert checks_of(found)[WORK].value < 5e-3
 
 
+@pytest.mark.slow
 def test_waves_without_height_and_a_damping_lid_have_no_energy_check(pontoon_problem):
     sea = replace(pontoon_problem.environment.sea_states[0], height=0.0, periods=(1.0,))
     environment = replace(pontoon_problem.environment, sea_states=(sea,))
@@ -80,6 +85,7 @@ def test_waves_without_height_and_a_damping_lid_have_no_energy_check(pontoon_pro
         assert not [check for check in run(problem).checks if LOSS in check.name]
 
 
+@pytest.mark.slow
 def test_no_period_out_of_its_range_decides_a_headline(at_rest, in_motion):
     """In time roll at 1.6 s is five times that of 1.2 s; it is the motion of the second state and decides nothing."""
     time, frequency = (at_rest.tree[f"SWL/{domain}/waves"].to_dataset() for domain in ("time", "frequency"))
@@ -129,6 +135,7 @@ settings: {time: {lines: {mode: quasi_static}}}
 """
 
 
+@pytest.mark.slow
 def test_a_motion_that_never_repeats_has_no_reflection_and_its_largest_values_are_of_a_hundred_periods(
     tmp_path, monkeypatch
 ):

@@ -96,6 +96,7 @@ def test_inertia_of_a_taut_line_is_a_third_of_its_mass(pontoon_problem):
     assert not line_inertia(still).any() and not line_drag_rows(still)[1].size
 
 
+@pytest.mark.slow
 def test_low_waves_give_the_same_motion_in_both_domains(low):
     """Without inertia and drag of the chains in frequency sway is 4 % lower in time, roll 6 % at 0.6 s."""
     assert ratios(low, "motion_amplitude")[:, :2] == pytest.approx(1.0, abs=3e-3)
@@ -103,6 +104,7 @@ def test_low_waves_give_the_same_motion_in_both_domains(low):
     assert ratios(low, "transmission_coefficient") == pytest.approx(1.0, abs=3e-3)
 
 
+@pytest.mark.slow
 def test_the_difference_of_the_domains_falls_with_the_square_of_the_wave_height(paper, low):
     """The hardening of chains is of third order: four times lower waves, sixteen times less difference of roll."""
     high, small = (1.0 - ratios(item, "motion_amplitude")[-1, 2] for item in (paper, low))
@@ -110,6 +112,7 @@ def test_the_difference_of_the_domains_falls_with_the_square_of_the_wave_height(
     assert 10.0 < high / small < 22.0
 
 
+@pytest.mark.slow
 def test_roll_and_transmission_of_the_paper_are_alike_in_both_domains_to_its_resonance(paper):
     assert ratios(paper, "motion_amplitude")[:2] == pytest.approx(1.0, abs=0.03)
     assert ratios(paper, "transmission_coefficient") == pytest.approx(1.0, abs=0.02)
@@ -130,6 +133,7 @@ def test_all_periods_of_the_paper_agree_and_with_the_tangent_all_but_roll_in_lon
     assert (of_tangent[11:] < 0.90).all()
 
 
+@pytest.mark.slow
 def test_the_lines_alone_make_the_difference():
     """With the first harmonic of the line force of the run in time the frequency domain gives the motion in time."""
     problem = tank_model(0.04, (1.2,))
@@ -170,12 +174,14 @@ def test_led_lines_give_the_motion_in_time_where_the_tangent_does_not():
     assert energy.value < 1e-6
 
 
+@pytest.mark.slow
 def test_led_lines_are_their_tangent_in_low_waves():
     found = run_frequency(tank_model(0.0025, (0.95, 1.4), restoring="equivalent"))
     share = found["motion_amplitude"].values / found["motion_amplitude_with_tangent"].values
     assert share == pytest.approx(1.0, abs=5e-3)
 
 
+@pytest.mark.slow
 def test_led_chains_at_rest_at_every_instant_give_the_motion_of_such_chains_in_time():
     result = run(tank_model(0.03, (1.0, 1.2), moving=False, restoring="equivalent"))
     assert ratios(result, "motion_amplitude") == pytest.approx(1.0, abs=0.01)

@@ -143,6 +143,7 @@ def test_irregular_sea_carries_its_damping_and_band(pontoon_problem):
     assert 0.0 < float(data.equivalent_damping_fraction.sel(dof="roll")) < 0.3
 
 
+@pytest.mark.slow
 def test_regular_waves_in_time_are_those_of_the_frequency_domain(pontoon_problem):
     """Quadratic force against moving water as it is, against its equal-work linearisation."""
     problem = changed(pontoon_problem, COMPUTED, (replace(WAVES, periods=(0.8, 1.0)),), ("frequency", "time"))

@@ -132,6 +132,7 @@ def pair(cage, free, water, kind="crossed", reach=1.5, stiffness=None, pull=0.3)
     return tuple(lines)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("shape", ["box", "cylinder"])
 def test_energy_is_kept_without_drag(seed, shape):

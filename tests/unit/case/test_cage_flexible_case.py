@@ -156,6 +156,7 @@ def test_growth_and_own_ropes_reach_the_model():
     assert rope.axial_stiffness == 1e6 and rope.breaking_load == 4e5
 
 
+@pytest.mark.slow
 def test_a_case_runs_to_its_report(tmp_path):
     result = run(build(case()))
     assert result.status == "converged", result.message

@@ -58,6 +58,7 @@ def test_the_package_is_short():
     assert sum(bool(line.strip()) for line in text.splitlines()) < 200
 
 
+@pytest.mark.slow
 def test_every_command_knows_the_structure(spar):
     file, folder = spar / "case.yaml", spar / "out"
     moyai("new", "spar", "-o", file)

@@ -126,6 +126,7 @@ def test_the_page_of_ranges_is_up_to_date(request):
     assert renew(page) == page, "run: python -m moyai.case.plausibility_page docs/answer/plausibility.md"
 
 
+@pytest.mark.slow
 def test_every_fifth_slip_of_a_thousand_in_the_templates_is_told():
     """A sample of the measure of ``slips.py``; the number of the first one is drawn from the file's own length."""
     found: list[slips.Slip] = []
@@ -139,6 +140,7 @@ def test_every_fifth_slip_of_a_thousand_in_the_templates_is_told():
         assert sum(slip.reported for slip in group) >= 0.8 * len(group), slips.table(found)
 
 
+@pytest.mark.slow
 def test_slips_in_designs_that_the_ranges_did_not_see_are_told():
     found = [slip for name, text, folder in slips.designs() for slip in slips.slips(name, text, folder)]
     assert {slip.outcome for slip in found} <= {"stopped", "warned", "silent"}

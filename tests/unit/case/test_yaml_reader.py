@@ -221,6 +221,7 @@ _TREES = st.dictionaries(
 )
 
 
+@pytest.mark.slow
 @given(_TREES)
 def test_json_is_read_as_it_was_written(tree):
     """JSON is YAML: what json writes must come back the same."""

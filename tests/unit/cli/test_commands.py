@@ -130,6 +130,7 @@ def test_missing_file_and_folder(tmp_path):
     assert runner.invoke(app, ["run", str(tmp_path)]).exit_code == 2
 
 
+@pytest.mark.slow
 def test_schema_is_json(tmp_path):
     from moyai.case.schema import json_schema
 

@@ -21,6 +21,7 @@ def case_file(tmp_path):
     return path
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("stop_after", [1, 3])
 def test_an_interrupt_hands_back_what_there_is(case_file, tmp_path, stop_after):
     steps = []

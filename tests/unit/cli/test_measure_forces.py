@@ -147,6 +147,7 @@ def test_absent_files(record):
     assert (found.exit_code, "none.yaml" in found.stderr) == (2, True)
 
 
+@pytest.mark.slow
 def test_a_member_is_run_and_reported(tmp_path):
     from moyai.case.templates import template
 

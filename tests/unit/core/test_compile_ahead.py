@@ -100,6 +100,7 @@ def test_an_unknown_kind_is_refused_with_the_kinds_that_exist() -> None:
     assert "allowed: breakwater, curtain" in answer.stderr
 
 
+@pytest.mark.slow
 def test_further_processes_compile_what_a_first_run_needs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The last part of the list lands in the cache of the run, which goes on by itself."""
     from moyai.core import compile_ahead

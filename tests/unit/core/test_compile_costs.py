@@ -21,6 +21,7 @@ NUMBERS = (types.int64, types.float64, types.complex128, types.boolean, types.li
 CALLS = (operator.add, operator.truediv, operator.pow, operator.lt, operator.mod, operator.and_, max, math.atan2)
 
 
+@pytest.mark.slow
 def test_signatures_are_those_of_numba() -> None:
     context = cpu_target.typing_context
     context.refresh()
@@ -62,6 +63,7 @@ def test_an_array_that_does_not_fit_a_slice_is_refused() -> None:
         put(out, np.arange(2.0))
 
 
+@pytest.mark.slow
 def test_numbers_of_other_types_between_give_their_own_code() -> None:
     @njit()
     def halves(x, y):
@@ -73,6 +75,7 @@ def test_numbers_of_other_types_between_give_their_own_code() -> None:
     assert halves(True, 2) == (0.5, 3, 2)
 
 
+@pytest.mark.slow
 def test_numba_of_another_version_is_left_as_it_is() -> None:
     script = (
         "import numba; numba.__version__ = '0.99.0'\n"

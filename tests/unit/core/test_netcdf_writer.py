@@ -86,6 +86,7 @@ def scales(file: h5py.File) -> list[h5py.Dataset]:
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [0, 1])
 def test_file_is_that_of_xarray(seed: int, tmp_path: Path) -> None:
     tree = a_tree(seed)

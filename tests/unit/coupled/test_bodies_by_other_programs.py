@@ -211,6 +211,7 @@ def thrown_against_a_line(ratio, bars, rows_of):
     return found.network.tension_peak[:, 0].max() / (speed * math.sqrt(stiffness * mass)), found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ratio", [1.0, 2.7, 8.3])
 def test_a_body_that_snaps_a_line_meets_the_reflected_waves(ratio) -> None:
     """At the pace of the wave the error falls with the length of the bars; within a hundredth at 256."""

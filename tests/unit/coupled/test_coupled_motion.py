@@ -58,6 +58,7 @@ def stiffness_of(body, lines):
     return np.stack([-(force(step * e) - force(-step * e)) / (2 * step) for e in np.eye(6)], axis=1), force
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(3))
 def test_body_on_random_springs_has_the_exact_natural_motion(seed: int) -> None:
     """Started along a mode of the six coupled ones, it stays in it with the exact frequency."""

@@ -72,6 +72,7 @@ def test_three_heavy_lines_on_a_light_clamp(tmp_path):
     np.testing.assert_allclose(body, fallen, atol=0.05 * abs(fallen[-1]))
 
 
+@pytest.mark.slow
 @pytest.mark.shared_data
 def test_the_riser_deck_goes_on(shared_data):
     from moyai.coupled.equilibrium import find_coupled_equilibrium

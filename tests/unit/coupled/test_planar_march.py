@@ -49,6 +49,7 @@ def run(monkeypatch: pytest.MonkeyPatch, flow: Flow, *, compiled: bool, stiffnes
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("stiffness", [5e3, 4e4])
 @pytest.mark.parametrize("sea", ["still", "regular", "sheared"])
 def test_the_march_takes_the_steps_of_the_joint(monkeypatch: pytest.MonkeyPatch, sea: str, stiffness: float) -> None:

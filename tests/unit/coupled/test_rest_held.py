@@ -31,6 +31,7 @@ def column(seed, **options):
     return builder.build(), body
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(3))
 def test_a_pin_stays_where_it_is(seed):
     network, body = column(seed, pin=np.zeros(3))
@@ -71,6 +72,7 @@ def test_motions_that_are_held_stay(held):
     assert rest.residual < 1e-6
 
 
+@pytest.mark.slow
 def test_a_body_that_sinks_is_told_at_once():
     made = BodyAssembly(WATER.density)
     made.add(RodPart((0.0, 0.0, -1.0), (0.0, 0.0, 1.0), 2.7, 25e3, 1.0, 1.0, 0.8, 0.8))

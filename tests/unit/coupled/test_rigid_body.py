@@ -29,6 +29,7 @@ def free_flight(body, water, duration, step, *, velocity=(0.0,) * 6, flow=None):
     return carrier, np.array(states)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(3))
 def test_a_spinning_body_keeps_momentum_and_energy_and_meets_the_exact_motion(seed: int) -> None:
     """Torque-free top of random inertia: momentum in site axes and energy stay; errors fall with the fourth power."""

@@ -82,6 +82,7 @@ def run(carrier, duration, step):
     return np.array(rows)
 
 
+@pytest.mark.slow
 def test_heave_in_a_regular_wave_is_that_of_the_frequency_domain() -> None:
     data, *_, stiffness, _ = dataset()
     omega = 1.7
@@ -129,6 +130,7 @@ def test_memory_decays_as_the_convolution_does() -> None:
     assert np.max(np.abs(rows[:, 1] - np.interp(rows[:, 0], step * np.arange(count + 1), x))) < 5e-3 * np.abs(x).max()
 
 
+@pytest.mark.slow
 def test_a_turned_body_feels_the_wave_from_its_own_heading() -> None:
     """Wave and body turned by the same angle: the same motion, turned."""
     data, *_ = dataset(tuple(np.arange(0.0, 360.0, 30.0)))
@@ -154,6 +156,7 @@ def test_loads_about_another_point_give_the_same_motion() -> None:
     assert np.allclose(back.amplitude, first.about(np.array([0.0, 0.0, 0.9]), np.zeros(3)).amplitude)
 
 
+@pytest.mark.slow
 def test_what_coefficients_lack_is_named() -> None:
     data, *_ = dataset()
     for changed, reported in (

@@ -134,6 +134,7 @@ def test_snap_runs_from_release_over_the_spike_to_the_plateau(flume_result):
     assert np.all(snap["frame_section_x"].values == place[:, None])
 
 
+@pytest.mark.slow
 def test_result_is_written_and_read_again(flume_result):
     result, folder = flume_result
     assert result.status == "converged", result.message
@@ -217,6 +218,7 @@ def test_load_table_adds_up(small):
     assert np.isfinite(governing[0])
 
 
+@pytest.mark.slow
 def test_impact_governs_where_it_is_the_largest(tmp_path):
     text = SMALL.replace("start_speed: 0.05 m/s", "start: current")
     text = text.replace("[statics, impact, waves, anchor_loads, limits]", "[statics, impact]")
@@ -407,6 +409,7 @@ def test_waves_find_sides_and_thresholds(flume_result):
     assert float(waves["maximum_tension"][0]) >= float(series["tension"].max()) - 1e-9
 
 
+@pytest.mark.slow
 def test_irregular_sea_has_snaps_and_a_law(tmp_path):
     text = SMALL.replace(
         "waves: {kind: regular, height: 0.6 m, period: 4 s, heading_deg: 0}",
@@ -512,6 +515,7 @@ def test_interrupt_hands_back_what_is_there(small):
     assert "/SWL/impact" in names and "/SWL/limits" not in names
 
 
+@pytest.mark.slow
 def test_every_water_level_has_its_groups(tmp_path):
     text = SMALL.replace("water_depth: 8 m,", "water_depth: 8 m, water_levels: {high: 1 m, low: -1 m},").replace(
         "statics, impact, waves, anchor_loads, limits", "statics"
@@ -523,6 +527,7 @@ def test_every_water_level_has_its_groups(tmp_path):
     assert gaps[0] - gaps[1] == pytest.approx(2.0, abs=1e-6)
 
 
+@pytest.mark.slow
 def test_site_axes_turn_with_the_curtain(tmp_path):
     """A curtain, its current and waves turned together give the same loads."""
     text = SMALL.replace("statics, impact, waves, anchor_loads, limits", "statics, waves, anchor_loads")

@@ -78,6 +78,7 @@ def test_arc_geometry_at_random() -> None:
     np.testing.assert_allclose(2.0 * arc.edge_load, 2.0 * arc.tension * np.sin(arc.half_angle), rtol=1e-9)
 
 
+@pytest.mark.slow
 def test_rigid_law_obeys_moments_and_elastic_law_its_length() -> None:
     rng = np.random.default_rng(8)
     for _ in range(200):

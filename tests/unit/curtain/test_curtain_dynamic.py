@@ -367,6 +367,7 @@ def test_crumpling_fails_the_energy_check() -> None:
     assert [check.passed for check in run_checks(eaten, "here")] == [True, False]
 
 
+@pytest.mark.slow
 def test_held_normals_of_a_flat_start_are_those_of_an_independent_program() -> None:
     """Threads for cloth and normals that never turn: a leapfrog of its own, current that grows over 5 s, no drag."""
     water = Water(10.0, 1025.0, 9.81)
@@ -539,6 +540,7 @@ def test_too_many_periods_are_refused(tmp_path: Path) -> None:
         moyai.load_case(write(tmp_path, text))
 
 
+@pytest.mark.slow
 def test_a_snap_is_run_until_it_is_past_its_peak() -> None:
     """A plan that begins too short is doubled; one whose length was given is not."""
     span = CurtainSpan(**BASE)  # type: ignore[arg-type]
@@ -630,6 +632,7 @@ def test_moving_spans_are_held_against_the_strengths(tmp_path: Path, analyses: s
     assert np.isnan(float(loads.sel(component="anchor")["governing_load"]))
 
 
+@pytest.mark.slow
 def test_a_run_that_had_to_stop_gives_no_peak(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Its last instants are no motion of the curtain; the series stays for the search of the cause."""
     import moyai.structures.curtain.analyses.dynamic as analysis
@@ -722,6 +725,7 @@ def test_a_span_let_go_slack_is_gathered_and_bears_nothing() -> None:
         build_span(span, Mesh(12, 4), FLUME, release=1.0)
 
 
+@pytest.mark.slow
 def test_a_released_span_comes_to_the_catenary_under_drag() -> None:
     """The sheet under normal drag q cos^2 hangs in a catenary of constant tension q a, longer by the cables' strain."""
     span = CurtainSpan(**{**BASE, "chord": 0.15, "drag_coefficient": 1.2})  # type: ignore[arg-type]

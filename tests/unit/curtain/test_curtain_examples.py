@@ -18,6 +18,7 @@ def load(name: str):
     return module
 
 
+@pytest.mark.slow
 def test_anchor_loads_example(tmp_path, monkeypatch, capsys) -> None:
     example = load("anchor_loads")
     monkeypatch.setattr("sys.argv", ["anchor_loads.py", str(tmp_path)])

@@ -87,6 +87,7 @@ def test_in_calm_water_the_height_goes_with_one_over_the_squared_cosine(calm) ->
     assert seen == 60
 
 
+@pytest.mark.slow
 def test_own_row_is_the_limit_of_the_table(stream) -> None:
     """As it lies, waves at the angle of the table: the least of half and whole current, by the limits themselves."""
     problem, unit, rose = stream

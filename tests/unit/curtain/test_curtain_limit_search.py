@@ -134,6 +134,7 @@ def test_current_that_keeps_the_depth_rises_with_the_toe_weight(count):
         assert values == sorted(values) and values[0] < values[-1]
 
 
+@pytest.mark.slow
 @SAMPLES
 def test_current_that_an_anchor_holds_falls_with_the_distance_and_rises_with_its_strength(count):
     for curtain in curtains(2, count):

@@ -102,6 +102,7 @@ def random_case(rng: np.random.Generator) -> tuple[Skirt, object, Water]:
     return skirt, uniform(rng.uniform(0.05, 0.5), 0.3), water
 
 
+@pytest.mark.slow
 def test_skirt_with_weight_in_sheared_current_against_independent_integration() -> None:
     """Angle form of the same equilibrium, integrated by scipy from the toe that was found upwards."""
     from scipy.integrate import solve_ivp

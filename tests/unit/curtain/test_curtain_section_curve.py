@@ -39,6 +39,7 @@ def family_of(skirt: Skirt, current: CurrentProfile, water: Water, drag: DragLaw
     return found
 
 
+@pytest.mark.slow
 def test_the_curve_gives_what_the_direct_solution_gives() -> None:
     """Random skirts, laws, drag laws, friction, toes, angles: to 1e-8, and nearly always from the curve."""
     rng, asked, answered = np.random.default_rng(31), 0, 0
@@ -136,6 +137,7 @@ def test_a_skirt_without_room_is_refused_by_the_curve_too() -> None:
         section_load(Skirt(5.99, 4.0, 170.0, 9e4), uniform(0.05, 0.0), 0.0, 0.0, water, CONSTANT)
 
 
+@pytest.mark.slow
 def test_plan_by_steps_is_that_by_brackets() -> None:
     rng, arrived = np.random.default_rng(34), 0
     for _ in range(30):

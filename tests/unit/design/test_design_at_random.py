@@ -23,6 +23,7 @@ def peaks_by(rng):
     return [np.abs(part) for part in np.array_split(mixed, int(rng.integers(1, 12)))]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", SEEDS)
 def test_conditional_exceedance_does_not_know_units_or_zero(seed):
     rng = np.random.default_rng(seed)

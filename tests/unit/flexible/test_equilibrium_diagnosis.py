@@ -82,12 +82,14 @@ def test_a_float_that_lifts_everything_is_told_at_once() -> None:
     assert solve_equilibrium(loose(CHAIN, Bed(-30.0, 1e5), volume=0.5, height=0.8)).residual < 1e-6
 
 
+@pytest.mark.slow
 def test_what_a_current_carries_away_is_told() -> None:
     with pytest.raises(ConvergenceError, match="along x and y: the current carries them away"):
         solve_equilibrium(loose(CHAIN, Bed(-30.0, 1e5)), flow=Flow((0.3, 1.0, 0.0)))
     assert solve_equilibrium(loose(CHAIN, Bed(-30.0, 1e5))).residual < 1e-9
 
 
+@pytest.mark.slow
 def test_rounding_far_away_is_no_rest() -> None:
     """A chain held in height alone drifts off: 1e10 m away its drag is below the rounding of places there."""
     builder = NetworkBuilder(WATER)

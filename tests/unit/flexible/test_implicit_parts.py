@@ -208,6 +208,7 @@ def drum(cells: int, side: float, tension: float, mass: float, stiffness: float)
     return Network(Nodes(place, kind), NO_BARS, Water(20.0, 1000.0, 1e-9), sheets=sheets)
 
 
+@pytest.mark.slow
 def test_a_taut_membrane_swings_with_its_exact_modes() -> None:
     """omega = pi sqrt(T / m (p^2 + q^2)) / a, from the eigenproblem and from a run of each implicit scheme."""
     side, tension, mass, stiffness = 3.0, 40.0, 0.7, 4e5
@@ -359,6 +360,7 @@ def test_what_the_implicit_schemes_do_not_march_is_told() -> None:
         simulate(network, duration=1.0, output_step=0.1, method="tr_bdf2")
 
 
+@pytest.mark.slow
 def test_the_error_estimate_is_real() -> None:
     """A chain with friction beats on a bed and snaps: the global error falls with the tolerance."""
     builder = NetworkBuilder(Water(40.0, 1025.0, 9.81), bed=Bed(-40.0, 1e6, 2e5, 0.3))

@@ -55,6 +55,7 @@ def check(network, flow):
     assert leftover(network, flow, rest) < 1e-6 * work + noise * extent
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(40))
 def test_lines_of_every_kind_find_rest(seed):
     check(*random_line(np.random.default_rng(10_000 + seed)))

@@ -178,6 +178,7 @@ def test_pressurised_cylinder(length: float, stiffness: float, pressure: float) 
     assert stress.first * stretch == pytest.approx(np.full(2 * cells, pressure * radius), rel=6e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ratio", [0.25, 0.5, 1.0, 2.0])
 def test_skirt_in_a_current(ratio: float) -> None:
     """Toe weight W, load q cos^2: tension W, reach a asinh(L/a), flare sqrt(a^2 + L^2) - a with a = W/q."""

@@ -40,6 +40,7 @@ def run(kind, strain, step, method):
     )  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["explicit", "tr_bdf2"])
 def test_a_step_is_met_by_the_quick_stiffness_and_ends_on_the_working_curve(method):
     kind = law()
@@ -56,6 +57,7 @@ def test_a_step_is_met_by_the_quick_stiffness_and_ends_on_the_working_curve(meth
     assert tension[-1] == pytest.approx(float(np.interp(0.0135, *kind.curve_at_rest())), rel=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["explicit", "tr_bdf2"])
 def test_a_new_highest_tension_is_remembered(method):
     """Pulled along the curve of the new rope to 3 %, then let go to 2 %: on the working curve of what it bore there."""
@@ -81,6 +83,7 @@ def test_the_law_agrees_with_its_curve_and_the_area_under_it(form):
     assert float(kind.energy(fine[-1:], np.array([HIGHEST]))[0]) == pytest.approx(area, rel=1e-4)
 
 
+@pytest.mark.slow
 def test_cycles_lose_energy_and_never_gain_it():
     """The work of the end over whole cycles on one working curve is what the dashpot takes."""
     time = 0.05 * np.arange(801)

@@ -68,6 +68,7 @@ def same(found: xr.Dataset, given: xr.Dataset, without: set[str], tolerance: flo
         )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("names", [NAMES, NAMES[:2]])
 @pytest.mark.parametrize("depth", [17.3, math.inf])
 def test_every_coupling_comes_back(tmp_path: Path, names: tuple[str, ...], depth: float) -> None:

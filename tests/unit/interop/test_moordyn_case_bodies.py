@@ -90,6 +90,7 @@ def test_coupled_bodies_follow_motions_and_pins_do_not(tmp_path):
         case_text(deck, motions={"body 1": surge})
 
 
+@pytest.mark.slow
 def test_a_deck_of_rods_alone_runs_from_the_command(tmp_path):
     file = tmp_path / "deck.txt"
     rod = "--- RODS ---\nID RodType Attachment Xa Ya Za Xb Yb Zb NumSegs\n(#)\n1 can Pinned 0 0 -5 1 0 -5 2\n"

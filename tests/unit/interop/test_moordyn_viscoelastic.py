@@ -36,6 +36,7 @@ ID LineType AttachA AttachB UnstrLen NumSegs LineOutputs
 """
 
 
+@pytest.mark.slow
 def test_it_is_read_written_and_rests_on_its_static_stiffness(tmp_path):
     (tmp_path / "deck.txt").write_text(DECK)
     deck = read_deck(tmp_path / "deck.txt")

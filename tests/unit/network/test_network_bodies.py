@@ -184,6 +184,7 @@ def test_an_interrupt_while_the_worth_is_found_keeps_the_run(tmp_path, bodies):
     assert "SWL/dynamic" in [name.strip("/") for name in result.tree.groups]
 
 
+@pytest.mark.slow
 def test_a_run_does_not_go_on_with_other_bodies(stopped):
     problem, _, file = stopped
     other = replace(problem.bodies[0], name="pontoon")
@@ -192,6 +193,7 @@ def test_a_run_does_not_go_on_with_other_bodies(stopped):
         run(replace(problem, bodies=(other,), settings=settings))
 
 
+@pytest.mark.slow
 def test_a_run_with_bodies_that_blows_up_tells_its_sound_rows(tmp_path):
     result = run(problem_of(tmp_path, more=", step: 12 ms", bars=80))
     assert result.status == "not_converged"

@@ -381,6 +381,7 @@ def test_loads_on_points_hold_what_a_snap_pulls_between_two_rows(tmp_path):
     assert any(notice.code == "rows-too-far-apart" for notice in result.notices)
 
 
+@pytest.mark.slow
 def test_a_peak_inside_a_line_is_told_apart_from_its_ends(tmp_path):
     """Chain that a small buoy lifts and drops on the bed: what its nodes bear there is no load of anchor or buoy."""
     text = """moyai: 1

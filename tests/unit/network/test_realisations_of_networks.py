@@ -93,12 +93,14 @@ def test_a_regular_wave_has_none(found: Result) -> None:
     assert np.isnan(values).all()
 
 
+@pytest.mark.slow
 def test_they_are_run_without_being_asked_for_where_they_take_little_time() -> None:
     result = run(CASE.replace(", realisations: 4", ""))
     tension = _headline(result, "line_tension").band
     assert tension is not None and tension.realisations >= 4
 
 
+@pytest.mark.slow
 def test_realisations_that_are_not_run_are_said() -> None:
     result = run(CASE.replace("realisations: 4", "realisations: 4, method: tr_bdf2").replace("30 s,", "12 s,"))
     assert any(notice.code == "realisations-left-out" for notice in result.notices)

@@ -36,6 +36,7 @@ def offset(tmp_path, heading: float, drawn: float) -> float:
     return next(item for item in moyai.run(moyai.load_case(path)).headlines if item.name == "offset").value
 
 
+@pytest.mark.slow
 def test_a_buoy_on_one_anchor_needs_the_same_room_wherever_it_is_drawn(tmp_path):
     found = [offset(tmp_path, heading, drawn) for heading, drawn in ((0, 6.0), (180, 6.0), (0, -3.0))]
     assert found[1] == pytest.approx(found[0], rel=1e-6) and found[2] == pytest.approx(found[0], rel=2e-3)

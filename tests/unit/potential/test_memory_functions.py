@@ -27,6 +27,7 @@ def random_rectangle(seed):
     return water, beam, draught, centre, solve_rectangle(beam, draught, water, plan.omega, centre=(0.0, centre))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(3))
 def test_piecewise_polynomials_are_integrated_exactly_at_any_time(seed):
     rng = np.random.default_rng(seed)
@@ -131,6 +132,7 @@ def test_recommended_frequencies_are_as_accurate_as_they_say(accuracies):
         assert (np.abs(kernel - exact) / pair_measure(exact)).max() < accuracy
 
 
+@pytest.mark.slow
 def test_coarse_frequencies_are_noticed_and_refined():
     water = Water(5.0, 1000.0, G)
     omega = np.linspace(0.3, 7.0, 11)
@@ -240,6 +242,7 @@ def test_identities_are_of_the_water_and_not_of_the_instants_of_the_output(time)
     assert figures["Ogilvie"] < 1e-4 and figures["lambda is the integral of K"] < 1e-5
 
 
+@pytest.mark.slow
 def test_the_ogilvie_check_still_sees_a_wrong_added_mass_on_coarse_output():
     water = Water(5.0, 1025.0, G)
     plan = recommend_frequencies(water, breadth=4.0, wall_height=1.0)

@@ -20,6 +20,7 @@ def test_half_circle_gives_the_waves_their_energy(mode, seed):
         assert coarse.added_mass == pytest.approx(fine.added_mass, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_half_circle_limits():
     # slow sway is that of a whole circle in an unbounded fluid; slow heave makes the waves of a source
     assert half_immersed_circle(1e-6, "sway").added_mass == pytest.approx(1.0, abs=3e-6)

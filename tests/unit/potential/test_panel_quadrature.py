@@ -118,6 +118,7 @@ def test_real_panels(sweep, grade, kappa):
         assert found[1] == pytest.approx(expected[1], abs=tolerance)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kappa", [0.0, 1.3])
 @pytest.mark.parametrize("grade", [0, -1, 1])
 @pytest.mark.parametrize("sweep", [0.0, 0.7])

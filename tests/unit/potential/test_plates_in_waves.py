@@ -269,6 +269,7 @@ def test_split_and_stretching_modes_in_the_limit():
     assert np.abs(found - exact).max() < 2e-5 * exact.max()
 
 
+@pytest.mark.slow
 def test_jump_tends_to_the_inverse_hyperbolic_secant():
     """At high frequency the jump off the still water is that of the limit, (4/pi) z arsech(z/d)."""
     found = waves(Plate((0, 0), (0, -1)), Water(math.inf, 1.0, G), math.sqrt(G * 1e5), modes=SWAY, accuracy=1e-5)
@@ -325,6 +326,7 @@ def test_plates_move_with_what_they_hang_on():
     assert joined.wetted_plates[0].joined == (True, True)
 
 
+@pytest.mark.slow
 def test_memory_of_a_plate():
     """Damping and added mass are one function (Kramers-Kronig); a draught scales by Froude's law."""
     rng = np.random.default_rng(5)

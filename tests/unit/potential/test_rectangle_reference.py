@@ -58,6 +58,7 @@ def matched_modes(beam, draught, water, omega, heading, modes):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(5))
 @pytest.mark.parametrize("oblique", [False, True])
 def test_ordinary_matched_eigenfunctions_tend_to_the_reference(seed, oblique):
@@ -78,6 +79,7 @@ def test_ordinary_matched_eigenfunctions_tend_to_the_reference(seed, oblique):
         assert abs(own - sway) < 2e-5 * abs(sway)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(8))
 def test_identities_of_random_rectangles(seed):
     rng = np.random.default_rng(seed)
@@ -142,6 +144,7 @@ def test_long_waves_and_low_frequencies():
     assert np.allclose(solution.added_mass[0], solution.zero_frequency_added_mass, rtol=1e-4, atol=1e-6)
 
 
+@pytest.mark.slow
 def test_thin_plate_without_gravity_has_the_added_mass_of_the_strip():
     # both sides of a vertical plate under phi = 0, over rho d^2: values of an independent Galerkin calculation, 2/pi
     table = {0.4: 0.6374, 0.5: 0.6386, 0.6: 0.6411, 0.7: 0.6464, 0.8: 0.6574, 0.9: 0.6837}

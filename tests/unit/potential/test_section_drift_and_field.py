@@ -56,6 +56,7 @@ SECTIONS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("depth", [10.0, math.inf])
 @pytest.mark.parametrize("name", SECTIONS)
 def test_pressure_and_momentum_give_the_same_drift(name, depth):

@@ -102,6 +102,7 @@ def test_real_form_is_the_modal_form():
     assert not np.triu(a, 2).any() and not np.tril(a, -2).any()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("quadratic", [False, True])
 def test_discrete_step_is_exact(quadratic):
     memory, _, _ = rectangle_memory(4)
@@ -125,6 +126,7 @@ def test_discrete_step_is_exact(quadratic):
         assert found[k] == pytest.approx(exact[0], rel=1e-10, abs=1e-10 * np.abs(found).max())
 
 
+@pytest.mark.slow
 def test_states_give_the_force_of_the_convolution():
     memory, _, _ = rectangle_memory(1)
     states = fit_memory(memory, tolerance=1e-4, highest_order=40)
@@ -169,6 +171,7 @@ def test_free_decay_of_coupled_modes_is_that_of_the_frequency_integral(seed):
     assert fine < 6e-4
 
 
+@pytest.mark.slow
 def test_slow_heave_decay_shows_the_steady_dashpot():
     # overdamped return: a soft spring in shallow water; the memory is almost its steady dashpot
     memory, mass, _ = rectangle_memory(12)

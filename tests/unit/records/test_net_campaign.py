@@ -55,6 +55,7 @@ def run(folder):
     return json.loads(done.stdout), place / "out", module
 
 
+@pytest.mark.slow
 def test_example_gives_back_what_was_planted(run):
     record, _, module = run
     assert record["vibration"]["frequency"] == pytest.approx(3.0, rel=0.02)
@@ -77,6 +78,7 @@ def test_example_gives_back_what_was_planted(run):
     assert record["joint_law"]["left_out_error"] < record["joint_law"]["pooled_error"]
 
 
+@pytest.mark.slow
 def test_example_files_are_whole(run):
     record, out, _ = run
     assert {Path(name).name for name in record["files"]} >= {"results.nc", "report.html"}
@@ -95,6 +97,7 @@ def test_example_files_are_whole(run):
     assert np.var(force - fitted) < 0.1 * np.var(force)
 
 
+@pytest.mark.slow
 def test_comparison_of_laws(tmp_path, capsys):
     spec = importlib.util.spec_from_file_location("compare_net_laws", EXAMPLE / "compare_laws.py")
     assert spec is not None

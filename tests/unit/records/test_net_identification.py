@@ -125,6 +125,7 @@ def test_third_harmonic_in_the_band_survives():
     assert np.std(drags) < 0.8 * np.std(plain)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("accelerometer", [False, True])
 def test_intervals_cover_what_was_planted(accelerometer):
     rng = np.random.default_rng(21 + accelerometer)

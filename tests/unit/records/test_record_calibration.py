@@ -42,6 +42,7 @@ def test_errors_cover_the_truth_as_often_as_they_say():
     assert 106 <= inside <= 119
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(4))
 def test_bootstrap_leave_one_out_and_bounds(seed):
     random = np.random.default_rng(seed)

@@ -52,6 +52,7 @@ STAR = tuple(
 )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("sensors", [PUV, BUOY, SLOPES, STAR], ids=["puv", "buoy", "slopes", "array"])
 @pytest.mark.parametrize("seed", range(3))
 def test_random_seas_come_back(sensors, seed):

@@ -11,6 +11,7 @@ from moyai.records.survey.motions import fit_decay_record, response_function, ri
 from moyai.series.spectra import WelchOptions
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(6))
 def test_decay_of_an_integrated_oscillator(seed):
     """x'' + 2 zeta w x' + b |x'| x' + w^2 x = 0 from random coefficients, with noise and an offset."""

@@ -76,6 +76,7 @@ def test_whole_second_stamps_are_spread_and_a_gap_stays(tmp_path):
         np.testing.assert_allclose(instants, truth, atol=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(6))
 def test_all_formats_agree(tmp_path, seed):
     """The same random numbers through text, MATLAB, NetCDF and Parquet."""

@@ -161,6 +161,7 @@ def test_command_writes_result_and_page_and_says_generated(made, tmp_path) -> No
     assert (tmp_path / "out" / "report_tables" / "cables.csv").exists()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [

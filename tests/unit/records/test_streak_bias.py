@@ -26,6 +26,7 @@ def drift(shape, planted, seed, count=200, sense=1.0):
     return section, Orbits(section, PERIOD, SPEED, sense * SPEED), mean, (path[:, -1] - path[:, 0]) / PERIOD
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("shape", "planted", "sense"), [("circle", 0.0, 1.0), ("square", 3e-3, 1.0), ("circle", -2e-3, -1.0)]
 )

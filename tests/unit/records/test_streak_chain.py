@@ -132,6 +132,7 @@ def test_an_interrupted_batch_keeps_what_is_done_and_goes_on(batch):
     assert seen.count("pictures") == 2
 
 
+@pytest.mark.slow
 def test_waves_to_the_other_side_turn_the_sign(folder, batch):
     campaign, _ = load_streaks(changed(folder, "other", ("calibration:", "waves_towards: -x\ncalibration:")))
     result = measure_campaign(campaign, store=batch[-1])
@@ -188,6 +189,7 @@ def test_targets_on_a_line_and_dark_pictures_are_told(folder):
         measure_campaign(campaign)
 
 
+@pytest.mark.slow
 def test_too_few_particles_are_told(folder):
     picture = imageio.imread(folder / "run_0.png")
     picture[:, 200:] = np.random.default_rng(2).poisson(12.0, picture[:, 200:].shape)
@@ -197,6 +199,7 @@ def test_too_few_particles_are_told(folder):
         measure_campaign(campaign)
 
 
+@pytest.mark.slow
 def test_amplitude_outside_the_range_warns(folder, batch):
     campaign, _ = load_streaks(changed(folder, "weak", ("keulegan_carpenter: 1\n", "keulegan_carpenter: 0.7\n")))
     result = measure_campaign(campaign, store=batch[-1])

@@ -56,6 +56,7 @@ def test_extrapolation_is_exact_for_its_own_form():
 
 
 # Straight lines between neighbours overrate a field that falls like 1/r, which is why the spline is the default
+@pytest.mark.slow
 @pytest.mark.parametrize(("method", "tolerance"), [("spline", 0.06), ("triangles", 0.25)])
 @pytest.mark.parametrize("section", SECTIONS[:3])
 def test_scattered_drift_gives_the_planted_circulation(section, method, tolerance):

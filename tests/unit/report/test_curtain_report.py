@@ -258,6 +258,7 @@ def test_figures_hold_the_result(result: Result, document: Document) -> None:
     assert len(named(document, Figure, "Record about the largest snap")) == 2  # one a water level
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "absent",
     ["impact", "waves", "anchor_loads", "limits", "loads", "section", "plan", "statics", "statics_laws", "impact/snap"],

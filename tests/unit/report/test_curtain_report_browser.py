@@ -91,6 +91,7 @@ def test_frames_between_the_stored_ones_follow_the_shape(page: Chromium, result:
         assert max(abs(a - b) for a, b in zip(shape, stored, strict=True)) < 0.005 * synthetic_curtain.SPAN
 
 
+@pytest.mark.slow
 def test_other_water_level_and_keyboard(page: Chromium) -> None:
     page.evaluate("MOYAI.choose('water-level', 'LWL (+0.00 m)')")
     assert page.evaluate(DIFFERENT) > 30

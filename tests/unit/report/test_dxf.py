@@ -155,6 +155,7 @@ def said_in(language: str, text: str) -> str:
         return said(text)
 
 
+@pytest.mark.slow
 def test_a_breakwater_and_a_row_have_plan_and_section(tmp_path: Path) -> None:
     for template, extra in (("breakwater", {"WAVES"}), ("units", {"BODY"})):
         case = moyai.load_case(moyai.template(template)).replace("analyses", ["statics"])

@@ -151,6 +151,7 @@ def test_papers(paper: str) -> None:
     assert_letters(document)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("letter", ["\U0001f9ff", "\U0002a6d6"])
 def test_a_letter_that_no_font_has_is_found(letter: str) -> None:
     """So that the tests above can fail."""

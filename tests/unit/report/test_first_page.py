@@ -6,6 +6,7 @@ import io
 from dataclasses import replace
 
 import openpyxl
+import pytest
 import synthetic_result
 
 from moyai.core.headline import UNCONFIRMED, Band, Criterion, Headline, Verdict, judge
@@ -74,6 +75,7 @@ def test_numbers_come_before_criteria_before_notices() -> None:
     assert columns["Found"] == ["0.476", "3.18 kN"] and columns["Limit"] == ["at least 2.00", "at most 5.00 kN"]
 
 
+@pytest.mark.slow
 def test_the_workbook_has_the_numbers_of_page_and_criteria_as_numbers() -> None:
     book = openpyxl.load_workbook(io.BytesIO(render_workbook(compose_document(judged(FACTOR, UPLIFT)))))
     rows = {row[0]: row[1:4] for row in book["Summary"].iter_rows(values_only=True) if row[0]}

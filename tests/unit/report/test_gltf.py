@@ -135,6 +135,7 @@ def test_files_are_named_by_their_views() -> None:
     assert all(data[:4] == b"glTF" and int.from_bytes(data[8:12], "little") == len(data) for data in files.values())
 
 
+@pytest.mark.slow
 def test_commands_write_them_or_say_that_there_are_none(tmp_path: Path) -> None:
     from synthetic_result import build
 

@@ -48,6 +48,7 @@ def test_a_value_is_computed_once_for_each_name(runs: list[str], monkeypatch: py
     assert kept_runs.kept_value("one", lambda: "fresh") == "fresh"
 
 
+@pytest.mark.slow
 def test_another_case_and_another_package_are_run(runs: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
     case = moyai.load_case(moyai.template("member")).replace("waves", SHORT)
     kept_runs.kept_run(case)

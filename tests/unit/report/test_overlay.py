@@ -125,6 +125,7 @@ def test_a_result_without_anything_in_common_is_refused_in_one_line(folder):
         with_others(compose_document(here), here, [strange])
 
 
+@pytest.mark.slow
 def test_commands(folder):
     files = [str(folder / name / "results.nc") for name in ("wide", "thin")]
     done = CliRunner().invoke(app, ["compare", *files, "--report", "-o", str(folder / "both")])
@@ -143,6 +144,7 @@ def test_commands(folder):
     assert "no such file: absent.nc" in absent.output
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", structure_kinds())
 def test_every_structure_takes_measured_points(kind, tmp_path):
     case = tmp_path / "case.yaml"

@@ -71,6 +71,7 @@ def test_a_page_without_arrays_has_no_block() -> None:
     assert pack_arrays(data) == (data, "")
 
 
+@pytest.mark.slow
 def test_a_long_record_weighs_half() -> None:
     document = compose_document(build(duration=400.0))
     whole, page = page_json(render_parts(document)[1]), render_html(document)
@@ -79,6 +80,7 @@ def test_a_long_record_weighs_half() -> None:
     assert sum(len(text) for _, text in parts) < 0.6 * len(whole)
 
 
+@pytest.mark.slow
 @pytest.mark.browser
 @pytest.mark.skipif(find_chromium() is None, reason="Chromium is not installed (set MOYAI_CHROMIUM to its path)")
 def test_the_browser_unpacks_every_bit_or_says_that_it_cannot(tmp_path: Path) -> None:

@@ -148,6 +148,7 @@ def test_pictures_of_a_figure_can_be_saved(page: Chromium) -> None:
     assert page.wait_download("hwl-elevation.svg").startswith(b"<svg")
 
 
+@pytest.mark.slow
 def test_choices_of_a_group_change_together(page: Chromium) -> None:
     page.evaluate("document.querySelector('#rest [data-option^=LWL]').click()")
     panes = "document.querySelectorAll('.choice[data-group=water-level] > .pane:not([hidden])')"
@@ -237,6 +238,7 @@ def test_player_moves_as_the_run(page: Chromium, result: Result) -> None:
         assert tension == pytest.approx(float(np.interp(moment, run["time"], run["tension"][:, 0])), rel=5e-3)
 
 
+@pytest.mark.slow
 def test_dark_follows_the_reader(page: Chromium) -> None:
     light = page.evaluate("getComputedStyle(document.body).backgroundColor")
     page.prefer("dark")
@@ -246,6 +248,7 @@ def test_dark_follows_the_reader(page: Chromium) -> None:
     page.prefer("light")
 
 
+@pytest.mark.slow
 def test_narrow_page_does_not_overflow(page: Chromium) -> None:
     for width in (390, 760, 1280):
         page.resize(width, 900)
@@ -256,6 +259,7 @@ def test_narrow_page_does_not_overflow(page: Chromium) -> None:
     page.resize(1280, 1000)
 
 
+@pytest.mark.slow
 def test_print_is_light_and_whole(page: Chromium, tmp_path: Path) -> None:
     page.prefer("dark")
     printed = page.print_pdf(tmp_path / "print.pdf")

@@ -26,6 +26,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return place
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("words", [["--dxf"], ["--dxf", "m"]])
 def test_a_folder_is_enough_and_metres_need_no_word(folder: Path, tmp_path: Path, words: list[str]) -> None:
     ran = RUN.invoke(app, ["report", str(folder), "-q", "-o", str(tmp_path), *words])

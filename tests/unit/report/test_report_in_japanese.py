@@ -54,6 +54,7 @@ def test_a_report_in_english_is_what_it_was(result: Result) -> None:
     assert not JAPANESE.search(str(heads))
 
 
+@pytest.mark.slow
 def test_the_page_brings_every_japanese_letter_that_it_shows(result: Result) -> None:
     page = render_html(compose_document(result, language="ja"))
     assert '<html lang="ja">' in page
@@ -93,6 +94,7 @@ def test_without_a_font_a_message_says_what_helps(monkeypatch: pytest.MonkeyPatc
     assert fonts.font_folders() == []
 
 
+@pytest.mark.slow
 def test_the_command_takes_a_language(tmp_path: Path) -> None:
     build(levels=ONE).write(tmp_path / "results.nc")
     before = (tmp_path / "results.nc").read_bytes()

@@ -68,6 +68,7 @@ def result() -> Result:
     return build(duration=300.0)
 
 
+@pytest.mark.slow
 def test_files_are_complete(result: Result, tmp_path: Path) -> None:
     written = write_report(result, tmp_path / "new" / "folder", name="report")
     assert written[0] == tmp_path / "new" / "folder" / "report.html"
@@ -80,12 +81,14 @@ def test_files_are_complete(result: Result, tmp_path: Path) -> None:
     assert {"governing-tensions-and-offsets.csv", "derived-numbers.csv", "identity-checks.csv"} <= names
 
 
+@pytest.mark.slow
 def test_result_read_from_its_file_gives_the_same_document(result: Result, tmp_path: Path) -> None:
     stored = read_result(result.write(tmp_path / "results.nc"))
     here, there = compose_document(result), compose_document(stored)
     assert [table_csv(a) for a in here.tables()] == [table_csv(b) for b in there.tables()]
 
 
+@pytest.mark.slow
 def test_governing_tension_is_the_largest_use_of_the_breaking_load() -> None:
     random = np.random.default_rng(11)
     for _ in range(5):
@@ -177,6 +180,7 @@ def without(result: Result, *parts: str) -> Result:
     return Result(xr.DataTree.from_dict(groups), "interrupted", "stopped by the user", (), (), {})
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "absent",
     [
@@ -201,6 +205,7 @@ def test_whatever_is_absent_the_report_stands(result: Result, absent: tuple[str,
     assert all(section.blocks for section in document.sections)
 
 
+@pytest.mark.slow
 def test_single_variables_may_be_absent_or_unknown(result: Result) -> None:
     """Drop or blank random variables that a run may lack: the page must stand and show dashes, never nan."""
     random = np.random.default_rng(21)
@@ -223,6 +228,7 @@ def test_single_variables_may_be_absent_or_unknown(result: Result) -> None:
         assert not re.search(r">\s*-?(nan|inf|None)\b", visible)
 
 
+@pytest.mark.slow
 def test_interrupted_record_within_its_ramp() -> None:
     made = build(duration=200.0)
     groups = {node.path: node.to_dataset(inherit=False) for node in made.tree.subtree}
@@ -285,6 +291,7 @@ def test_static_figures_draw_marks_windows_and_bars() -> None:
     assert draw_figure(bars, image_format="png")[:4] == b"\x89PNG"
 
 
+@pytest.mark.slow
 def test_pdf_is_written_with_hostile_text(tmp_path: Path) -> None:
     pytest.importorskip("typst")
     made = build(duration=60.0, title="#panic() *b* $x$ 浮防波堤 <a>", levels=(("SWL", 0.0),), time=False)

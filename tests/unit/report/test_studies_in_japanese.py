@@ -96,6 +96,7 @@ def test_a_study_of_each_structure(kind: str) -> None:
     assert texts > 300
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", STRUCTURES)
 def test_names_stand_whole_in_headings(kind: str) -> None:
     """A name that is read word by word says something else: each end, the middle, by direction."""
@@ -120,6 +121,7 @@ def test_a_case_in_words() -> None:
         )
 
 
+@pytest.mark.slow
 def test_the_title_of_a_study_is_printed_as_it_is(tmp_path: Path) -> None:
     """'of the member' in it was put into Japanese, the rest left."""
     base = template("member").replace("analyses: [sweep, forces, surface]", "analyses: [forces]")

@@ -57,6 +57,7 @@ def test_columns_of_one_unit_share_tonnes_or_kilograms_force() -> None:
         assert [column_unit(column).name for column in columns] == ["tf", "tf"]
 
 
+@pytest.mark.slow
 def test_a_report_in_tonnes_force_holds_the_numbers_of_that_in_si() -> None:
     result = build(levels=ONE)
     assert assert_same_numbers(result) > 20
@@ -64,6 +65,7 @@ def test_a_report_in_tonnes_force_holds_the_numbers_of_that_in_si() -> None:
     assert left_in_si(compose_document(result, "tf")) == []
 
 
+@pytest.mark.slow
 def test_every_file_of_the_report_is_in_tonnes_force(tmp_path: Path) -> None:
     result = build(levels=ONE)
     files = write_report(result, tmp_path, units="tf")
@@ -136,6 +138,7 @@ def test_no_remark_of_a_page_is_left_in_newtons() -> None:
         assert text in page, text
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("words", [["--units", "tf"], []])
 def test_check_shows_forces_in_the_units_asked(tmp_path: Path, words: list[str]) -> None:
     text = moyai.template("breakwater")

@@ -29,6 +29,7 @@ def result(tmp_path_factory: pytest.TempPathFactory) -> ReportedResult:
     return moyai.read_result(file)
 
 
+@pytest.mark.slow
 def test_frames_hold_the_tables_of_the_report(result: ReportedResult, tmp_path: Path) -> None:
     files = moyai.write_report(result, tmp_path)
     written = {path.stem: path for path in files if path.suffix == ".csv"}
@@ -78,6 +79,7 @@ def test_plain_names_stand_for_one_block_and_an_ambiguous_one_lists_its_choices(
         views["_"]
 
 
+@pytest.mark.slow
 def test_every_figure_becomes_one_of_plotly_with_its_data(result: ReportedResult) -> None:
     blocks = [block for block in result.document.blocks() if isinstance(block, Figure)]
     assert len(result.figures) == len(blocks) > 5

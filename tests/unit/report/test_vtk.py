@@ -96,6 +96,7 @@ def test_a_report_without_structures_in_space_is_written_all_the_same(tmp_path: 
     assert files and not any(path.suffix in (".pvd", ".vtp") for path in files)
 
 
+@pytest.mark.slow
 def test_the_command_says_what_there_was_no_file_for(tmp_path: Path) -> None:
     from synthetic_result import build
     from typer.testing import CliRunner

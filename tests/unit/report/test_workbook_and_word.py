@@ -183,6 +183,7 @@ def test_long_figures_keep_their_extremes_and_say_so():
     assert len(short) == 51
 
 
+@pytest.mark.slow
 def test_many_long_records_are_shortened_to_what_is_written_in_a_second():
     time = np.linspace(0.0, 600.0, 5000)
     records = []
@@ -274,6 +275,7 @@ def _read_references(paper, wanted: list[str]) -> None:
         assert len(counted) == sum(f"_{kind}_" in name for name in marks)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("blocks", "wanted", "japanese"),
     [
@@ -300,6 +302,7 @@ def test_word_names_the_tables_and_figures_of_a_section_by_fields(blocks, wanted
     assert paper.paragraphs[heading + 1].text.startswith("In this section" if language == "en" else "この章")
 
 
+@pytest.mark.slow
 def test_word_goes_on_counting_where_a_template_has_captions_or_no_style_for_them(tmp_path):
     first = Document("A title", "", "converged", "", (Chapter("all", "All", (_table(), _table())),))
     (tmp_path / "office.docx").write_bytes(render_docx(first))
@@ -404,6 +407,7 @@ def test_rows_of_the_summary_are_as_high_as_their_text(detail, lines):
     assert (sheet.row_dimensions[row].height or 15.0) == 15.0 * lines
 
 
+@pytest.mark.slow
 def test_the_report_is_written_again_from_the_results(tmp_path):
     runner = CliRunner()
     case = tmp_path / "member.yaml"

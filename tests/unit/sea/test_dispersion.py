@@ -163,6 +163,7 @@ def test_velocities_at_the_limits():
     assert dispersion.group_velocity(100.0, 1e6, 9.81) == pytest.approx(9.81 / 200.0)
 
 
+@pytest.mark.slow
 def test_current_shifts_the_wave_number():
     rng = np.random.default_rng(7)
     checked = 0

@@ -219,6 +219,7 @@ def test_solitary_limit_of_long_waves():
     assert (wave.celerity - along) / math.sqrt(9.81 * depth_under_trough) == pytest.approx(froude, rel=1e-4)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("depth", "period", "height"), [(10.0, 8.0, 7.6), (10.0, 8.0, 20.0), (2.0, 10.0, 1.75), (math.inf, 6.0, 9.5)]
 )

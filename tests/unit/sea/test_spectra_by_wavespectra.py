@@ -21,6 +21,7 @@ def peer():
         return pytest.importorskip("wavespectra", reason="the extra wavespectra is not installed")
 
 
+@pytest.mark.slow
 @needs_data
 @pytest.mark.shared_data
 @pytest.mark.peer

@@ -101,6 +101,7 @@ def test_more_values_of_the_same_scatter_narrow_an_interval_that_still_covers():
     assert reach_of_mean(values[0], alike=alike[0, :2]) == alone[0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("count", [3, 5, 8, 20])
 def test_the_end_of_an_interval_scatters_as_is_said(count):
     """Drawn by Gumbel's law: the deviation of the ends of many sets, and the root mean square of what each set says."""

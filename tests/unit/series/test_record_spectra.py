@@ -21,6 +21,7 @@ def test_energy_of_the_whole_record_is_kept(size):
     assert found.moment(0) == pytest.approx(values.var(), rel=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("window", ["hann", "rectangular", "cosine_tenth"])
 @pytest.mark.parametrize("overlap", [0.0, 0.5, 0.75])
 def test_degrees_of_freedom_by_repetition(window, overlap):

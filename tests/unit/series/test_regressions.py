@@ -61,6 +61,7 @@ def test_power_and_cosine_are_those_of_curve_fit(seed):
         assert found.predict(at) + found.residual == pytest.approx(y, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_bounds_hold_the_truth_as_often_as_they_say():
     """Binomial: 95 % of 300 trials, below 91 % once in a thousand."""
     rng = np.random.default_rng(4)

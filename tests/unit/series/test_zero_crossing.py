@@ -141,6 +141,7 @@ def test_no_record_of_waves():
         WaveOptions(dead_band=-1.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ratio", [0.05, 0.2, 0.5, 1.0, 2.0, 8.0])
 def test_slow_part_has_the_response_it_states(ratio):
     """A single cosine through the filter, away from the ends, with random gaps."""

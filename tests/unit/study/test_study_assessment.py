@@ -115,6 +115,7 @@ def test_anchors_that_fail_lower_the_status(tmp_path):
     assert "upwards" in reported and "danforth on sand" in reported
 
 
+@pytest.mark.slow
 def test_the_most_probable_maximum_of_many_times_is_the_mode_of_their_law(tmp_path):
     """Gumbel: the largest of n has the mode u + b ln n."""
     _, result = assessed(
@@ -161,6 +162,7 @@ def test_return_levels_over_a_scatter_diagram(tmp_path):
         assert found == pytest.approx(1e5 + 1e4 * math.log(states), rel=0.06)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("assessment", "word"),
     [

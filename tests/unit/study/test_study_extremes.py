@@ -39,6 +39,7 @@ def exact(probability, snaps):
     return float(np.interp(probability, below, level))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("settings", "tolerance"),
     [
@@ -64,6 +65,7 @@ def test_every_family_finds_the_maximum_of_peaks_of_a_known_law(tmp_path, settin
     assert "line" not in found.dims and settings.split()[1].strip(",") in found.attrs["family"]
 
 
+@pytest.mark.slow
 def test_snaps_are_fitted_apart_and_the_maximum_is_that_of_both_kinds(tmp_path):
     _, result = assessed(
         tmp_path,
@@ -85,6 +87,7 @@ def test_snaps_are_fitted_apart_and_the_maximum_is_that_of_both_kinds(tmp_path):
     assert "Generalised Pareto fits of snap peaks" in render_html(compose(result))
 
 
+@pytest.mark.slow
 def test_longer_times_ask_for_more_peaks_of_the_same_law(tmp_path):
     _, result = assessed(
         tmp_path,

@@ -46,6 +46,7 @@ def of_one_group(fit):
     return dataclasses.replace(fit, rows=tuple(dataclasses.replace(row, group="") for row in fit.rows))
 
 
+@pytest.mark.slow
 def test_a_planted_value_is_found_to_rounding_and_written_into_the_case(tmp_path):
     fit = load_fit(write(tmp_path))
     result, found = run_fit(fit, study_cases.linear_case)

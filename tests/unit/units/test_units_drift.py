@@ -66,6 +66,7 @@ def test_pressures_on_the_hulls_add_up_to_the_far_waves(heading: float) -> None:
     assert max(left[2:]) < 0.1 and max(left[2:]) < max(left[:2])
 
 
+@pytest.mark.slow
 def test_two_units_abeam_bear_the_same_and_push_each_other() -> None:
     field, hydro = _solved(2.5, 0.0)
     model = RowModel(field.at, hydro, np.zeros(field.at.size))
@@ -77,6 +78,7 @@ def test_two_units_abeam_bear_the_same_and_push_each_other() -> None:
     assert loads[0, 5] == pytest.approx(-loads[1, 5], rel=1e-9)
 
 
+@pytest.mark.slow
 def test_the_seaward_unit_shelters_the_next_and_the_sum_is_kept() -> None:
     field, hydro = _solved(2.5, np.radians(70.0))
     model = RowModel(field.at, hydro, np.zeros(field.at.size))
@@ -111,6 +113,7 @@ def test_shares_of_what_is_left_do_not_depend_on_the_axes_of_the_row() -> None:
     assert np.allclose(turned.reshape(-1, 3), found @ turn.T, atol=1e-12)
 
 
+@pytest.mark.slow
 def test_the_drift_from_all_pairs_of_motions_is_that_of_the_panels(monkeypatch: pytest.MonkeyPatch) -> None:
     """Held in a wave, let go, and moved in any way: products of the motions are summed once for them all."""
     _, hydro = _solved(2.5, 0.6)

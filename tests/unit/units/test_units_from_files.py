@@ -113,6 +113,7 @@ def compare(found, wanted, without, tolerance):
         )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("program", [pytest.param("wamit", marks=pytest.mark.slow), "bemio"])
 def test_motions_drift_and_headlines_are_those_of_the_computation(program, folder, computed, dataset):
     found = run(build(case(folder, *from_file(f"program: {program}, {ENTRIES[program]}"))))
@@ -130,6 +131,7 @@ def test_motions_drift_and_headlines_are_those_of_the_computation(program, folde
     assert {notice.code for notice in found.notices} >= {"coefficients-drift"}
 
 
+@pytest.mark.slow
 def test_without_drift_in_the_file_the_row_moves_as_without_drift(folder, dataset, kept):
     still = run(build(case(folder, ("{panel_size", "{drift: false, panel_size"))), store=kept)
     found = run(build(case(folder, *from_file(f"program: nemoh, {ENTRIES['nemoh']}"))))
@@ -173,6 +175,7 @@ def test_in_time_the_band_of_the_file_carries_the_memory(folder, kept):
                                atol=0.02 * float(regular["maximum_motion"].max()))  # fmt: skip
 
 
+@pytest.mark.slow
 def test_bodies_in_another_order_and_axes(folder, computed, dataset):
     """The same row in the axes of the file that computed it: x along the row, another origin, bodies the other way."""
     turned = moved_axes(in_order(dataset, [2, 1]), (30.0, -5.0), np.radians(-90.0))
@@ -207,6 +210,7 @@ SLIPS = {
 }  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("slip", list(SLIPS))
 def test_each_slip_gives_one_clear_message(slip, folder, dataset):
     entry, changes, words = SLIPS[slip]

@@ -42,6 +42,7 @@ def result(folder):
     return run(problem(), store=DatasetStore(folder))
 
 
+@pytest.mark.slow
 def test_the_template_runs_and_its_numbers_stand_on_the_first_page(result):
     assert {item.name for item in result.headlines} >= {
         "connector_force", "connector_utilisation", "connector_moment", "line_tension", "line_utilisation", "offset",
@@ -56,6 +57,7 @@ def test_the_template_runs_and_its_numbers_stand_on_the_first_page(result):
     assert float(storm["relative_motion_largest"].max()) < 1e-9
 
 
+@pytest.mark.slow
 def test_waves_ahead_of_the_row_are_higher_and_behind_it_lower(result):
     data = result.tree["SWL/map/operation"].to_dataset().sel(period=5.0)
     assert float(data["transmission_coefficient"]) < 0.95
@@ -63,6 +65,7 @@ def test_waves_ahead_of_the_row_are_higher_and_behind_it_lower(result):
     assert float(data["section_transmission"]) == pytest.approx(float(data["transmission_coefficient"]), abs=0.2)
 
 
+@pytest.mark.slow
 def test_the_band_is_what_half_and_twice_the_damping_give(result, folder):
     """Roll and transmission of the frequency domain: a run with half of the damping stands at one end of the band."""
     half = run(
@@ -86,6 +89,7 @@ def test_the_band_is_what_half_and_twice_the_damping_give(result, folder):
     assert "damping of the units" in shown.band.of
 
 
+@pytest.mark.slow
 def test_the_report_has_map_connectors_and_lines(result, tmp_path):
     document = compose(result)
     keys = [block.key for block in document.blocks() if hasattr(block, "key")]
@@ -118,6 +122,7 @@ def test_a_stopped_run_keeps_its_frequencies_and_goes_on(result, folder):
     assert len(list(folder.glob("*.nc"))) == len(kept) + 2
 
 
+@pytest.mark.slow
 def test_linear_waves_move_the_row_in_proportion(folder):
     fixed = ("drift: true", "drift: false")
     linear = ("[statics, frequency, time, map]", "[statics, frequency]")
@@ -131,6 +136,7 @@ def test_linear_waves_move_the_row_in_proportion(folder):
         assert np.allclose(4.0 * first, second, rtol=1e-9, atol=1e-9 * np.abs(second).max()), name
 
 
+@pytest.mark.slow
 def test_the_time_domain_governs_and_its_realisations_scatter(result):
     numbers = {item.name: item for item in result.headlines}
     time, frequency = (result.tree[f"SWL/{domain}/storm"].to_dataset() for domain in ("time", "frequency"))
@@ -157,6 +163,7 @@ def test_the_time_domain_governs_and_its_realisations_scatter(result):
         assert np.allclose(one, two, rtol=0.05), dof
 
 
+@pytest.mark.slow
 def test_an_irregular_sea_of_one_frequency_is_a_regular_sea(result):
     """Energy at the peak: significant motion of a narrow sea over its height is the operator at the peak."""
     storm = result.tree["SWL/frequency/storm"].to_dataset()
@@ -165,6 +172,7 @@ def test_an_irregular_sea_of_one_frequency_is_a_regular_sea(result):
     assert 0.2 < heave < 2.0
 
 
+@pytest.mark.slow
 def test_the_report_in_japanese_has_no_english_word(result):
     left, count = compared(result)
     assert count > 200

@@ -137,6 +137,7 @@ def test_residues_are_made_passive_alike_in_any_unit_of_force():
     assert other_least == pytest.approx(least, rel=1e-6, abs=1e-12)
 
 
+@pytest.mark.slow
 def test_ogilvie_holds_between_the_memory_and_the_panels(hydro, memory):
     """A_inf = A + (1/omega) int K sin(omega t) dt with A of the panels, K of the memory by quadrature."""
     assert memory.error < 0.02
@@ -174,6 +175,7 @@ def test_factors_of_a_step_integrate_a_straight_velocity():
     assert np.allclose(decay, np.exp(0.2 * poles))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("heading", [0, 1])
 def test_regular_waves_move_the_row_as_in_the_frequency_domain(hydro, memory, heading):
     """Coefficients of the memory itself in both: what differs is the step; those of the panels: the fit as well."""
@@ -202,6 +204,7 @@ def test_regular_waves_move_the_row_as_in_the_frequency_domain(hydro, memory, he
             assert np.abs(loads - force)[3:].max() < allowed * np.abs(force[3:]).max()
 
 
+@pytest.mark.slow
 def test_eddies_in_regular_waves_are_those_of_equal_work_in_the_frequency_domain(hydro, memory):
     """Near the resonance of roll, where they decide: first harmonics of the quadratic drag as it is."""
     given = replace(row(), viscous_factor=1.0, damping_fraction=np.zeros(6))
@@ -230,6 +233,7 @@ def test_eddies_in_regular_waves_are_those_of_equal_work_in_the_frequency_domain
     assert abs(0.5 * height * without.fine.motion[0, 0, 4]) > 1.1 * abs(expected[4])
 
 
+@pytest.mark.slow
 def test_units_that_nothing_joins_have_their_numbers(hydro, memory):
     """One pontoon, or several on lines alone: a table of connectors without rows."""
     at, sea = at_rest(), RegularSea("w", 1.0, (6.0,), 0.0)
@@ -240,6 +244,7 @@ def test_units_that_nothing_joins_have_their_numbers(hydro, memory):
     assert (found["maximum_motion"][1][:, 2] > 0.1).all()
 
 
+@pytest.mark.slow
 def test_ends_of_the_damping_in_time_are_those_of_the_frequency_domain_where_it_is_linear(hydro, memory):
     """Damping linear in the speed, near the resonance of roll."""
     given = replace(row(), viscous_factor=0.0, damping_fraction=np.array([0.05, 0.05, 0.0, 0.0, 0.08, 0.05]))
@@ -363,6 +368,7 @@ def plain_newmark(at, memory, load, step, chain):
     return positions, held, pulls
 
 
+@pytest.mark.slow
 def test_two_hinged_bodies_with_a_slack_chain_against_a_plain_program(hydro, memory):
     curve = Curve((-1.0, 0.02, 1.0), (0.0, 0.0, 0.98 * 4e6))
     chain = Connector("c", "chain", ((0, 1),), 0.0, 0.5, (0.0, 1.0, 0.0), curve=curve)
@@ -382,6 +388,7 @@ def test_two_hinged_bodies_with_a_slack_chain_against_a_plain_program(hydro, mem
     assert run.link_force.max() == pytest.approx(pull.max(), rel=0.01)
 
 
+@pytest.mark.slow
 def test_a_row_that_is_let_go_never_has_more_energy_than_at_first(memory):
     fender = Connector(
         "f", "fender", ((0, 1),), 0.0, 3.0, (0.0, 1.0, 0.0), curve=Curve((-1.0, -0.01, 1.0), (-9.9e6, 0.0, 0.0))

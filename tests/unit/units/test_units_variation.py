@@ -78,6 +78,7 @@ def test_round_hulls_have_neighbours_round_the_bilge():
     assert (neighbours(mesh)[deep][:, [0, 2]] >= 0).all()
 
 
+@pytest.mark.slow
 def test_rankine_terms_are_those_of_fine_panels():
     """A parabola over each panel, summed over its 81 parts with the layers of Capytaine."""
     box = unit_mesh(shapes.rectangle(10.0, 4.5).immersed(3.0), 20.0, 4.0, lid=True)

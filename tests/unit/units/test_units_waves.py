@@ -37,6 +37,7 @@ LONGER = (
 QUICK = [item for item in known.CASES if not any(words in item.name for words in LONGER)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", QUICK, ids=lambda item: item.name)
 def test_known_values(case):
     value = case.compute()
@@ -93,6 +94,7 @@ def test_two_screens_that_touch_are_one():
     assert np.abs(one - two).max() < 0.1
 
 
+@pytest.mark.slow
 def test_haskind_holds_with_a_damped_gap():
     at = at_rest(row())
     mesh = row_mesh(at.section, 20.0, at.row.placements, 2.5, lid=True, gap_lid=True)
@@ -137,6 +139,7 @@ def test_a_row_turned_with_its_waves_moves_the_same():
         assert np.abs(first - second).max() < 1e-6 * np.abs(first).max()
 
 
+@pytest.mark.slow
 def test_loads_of_connectors_balance_each_unit():
     """Newton's law of unit 2 by itself: its inertia is what waves, water and the hinge push."""
     at, found = known.response((HINGE,))
