@@ -201,6 +201,34 @@ def all_judged(candidates: Iterable[Headline], sense: Sense = "at most") -> list
 
 
 @checks_words
+def also_judged(shown: Headline, others: Iterable[Headline], sense: Sense = "at most") -> list[Headline]:
+    """Return, not shown, what has to be judged beside the one of a number that is shown.
+
+    Of the others each kind has its worst: those that may be worse than they say without an end, those with one, bounds
+    from the safe side, and values. The first kind stays open however far it lies behind; the others count where their
+    judged end is worse than that of the number shown, or where that is no value. What is not known is kept as it is.
+    """
+    sign = 1.0 if sense == "at most" else -1.0
+    value = not shown.bound and math.isfinite(shown.value)
+    kinds: dict[tuple[str, bool], list[Headline]] = {}
+    found: dict[str, Headline] = {}
+    for item in others:
+        if math.isfinite(item.value):
+            ended = item.band is not None and item.band.beyond_bound
+            kinds.setdefault((item.bound, ended), []).append(item)
+        else:
+            found.setdefault(item.text, replace(item, shown=False))
+    kept = list(found.values())
+    own = unfavourable(shown, sense)
+    for (bound, ended), items in kinds.items():
+        worst = max(items, key=lambda item: sign * unfavourable(item, sense))
+        open_end = bound not in ("", sense) and not ended
+        if open_end or not value or sign * unfavourable(worst, sense) > sign * own:
+            kept.append(replace(worst, shown=False, sea=""))
+    return kept
+
+
+@checks_words
 @dataclass(frozen=True)
 class Criterion:
     """What a headline has to keep."""

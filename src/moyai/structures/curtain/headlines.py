@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from moyai.core.headline import Band, Bound, Criterion, Headline, judge, unfavourable
+from moyai.core.headline import Band, Bound, Criterion, Headline, also_judged, judge, unfavourable
 from moyai.series.intervals import reach_of_mean
-from moyai.structures.curtain.analyses.event_peaks import ceiling_of, event_band
+from moyai.structures.curtain.analyses.event_peaks import COMPONENTS, ceiling_of, event_band, open_events
 from moyai.structures.curtain.governing import model_of
 from moyai.structures.curtain.hierarchy import SPAN, STATICS
 from moyai.structures.curtain.limit_headlines import REMEDY, limit_headlines
@@ -66,12 +66,14 @@ class _Load:
     component: str
     row: xr.Dataset
     band: Band | None
+    #: What another run than that of the row makes of its values.
+    other: Mapping[str, float | str] = field(default_factory=dict)
 
     def number(self, name: str) -> float:
-        return float(self.row.variables[name].values)
+        return float(self.other[name] if name in self.other else self.row.variables[name].values)
 
     def words(self, name: str) -> str:
-        return str(self.row.variables[name].values)
+        return str(self.other[name] if name in self.other else self.row.variables[name].values)
 
     @property
     def value(self) -> float:
@@ -157,14 +159,64 @@ def _failing(found: Sequence[Headline], criteria: Sequence[Criterion]) -> set[st
 
 
 def _loads_of(groups: Groups, level: str) -> Iterator[_Load]:
+    """Yield the governing load of every component, and the other runs of the whole span that may be judged higher."""
     table = groups.get(f"/{level}/loads")
     if table is None:
         return
     for number, component in enumerate(table["component"].values):
-        row = table.isel(component=number)
-        if math.isfinite(float(row["governing_load"])):
-            load = _Load(level, str(component), row, None)
+        load = _Load(level, str(component), table.isel(component=number), None)
+        if math.isfinite(load.value):
             yield replace(load, band=_band(groups, load))
+            for other in _other_runs(groups, load):
+                yield replace(other, band=_band(groups, other))
+
+
+def _other_runs(groups: Groups, load: _Load) -> Iterator[_Load]:
+    """Yield the loads of a component in the runs of the whole span that do not lead.
+
+    Of default runs the band of the one that leads holds the known ones, so that those that are open are left.
+    """
+    table = groups.get(f"/{load.level}/dynamic")
+    key = COMPONENTS.get(_line(load))
+    if table is None or key is None or "run" not in table.dims:
+        return
+    leads = load.words("dynamic_source") if load.words("governing") == "dynamic" else ""
+    anchored = load.component == "anchor"
+    slope = float(groups[f"/{load.level}"].attrs.get("anchor_slope", 0.0)) if anchored else 0.0
+    for run, value, bound in _runs_of(groups, load.level, table, _line(load), key, leads):
+        tension = math.cos(slope) * value
+        if run == leads or not tension > 0.0:
+            continue
+        yield replace(load, other={
+            "governing": "dynamic", "governing_load": tension, "governing_high": tension, "dynamic_load": tension,
+            "dynamic_source": run, "load_bound": bound,
+            "utilisation": load.number("utilisation") * tension / load.value,
+        })  # fmt: skip
+
+
+def _runs_of(
+    groups: Groups, level: str, table: xr.Dataset, line: str, key: str, leads: str
+) -> Iterator[tuple[str, float, str]]:
+    """Yield run, highest tension of a line and ``at least`` where more may come, of runs asked for or of events."""
+    runs = [str(name) for name in table["run"].values]
+    if "run_of" not in table:
+        for run, value in zip(runs, table[key].values, strict=True):
+            data = groups.get(f"/{level}/dynamic/{run}")
+            random = data is not None and bool(data.attrs.get("random", 0))
+            yield run, float(value), "at least" if random else ""
+        return
+    of = dict(zip(map(str, table["run_of"].values), runs, strict=True))
+    own = str(table["run_of"].sel(run=leads).values) if leads else ""
+    still = set(open_events(table, line))
+    for event, run in of.items():
+        if event != own and (event in still or not leads):
+            value = event_band(table, event, line)[0]
+            yield run, value, "at least" if event in still else ""
+
+
+def _line(load: _Load) -> str:
+    """Return the component of the whole span that bears a load: that of an anchor is its line, turned."""
+    return "anchor line" if load.component == "anchor" else load.component
 
 
 def _at_rest_words(load: _Load, groups: Groups) -> str:
@@ -204,13 +256,14 @@ def _tensions(loads: Sequence[_Load], groups: Groups) -> Iterator[Headline]:
         label = "Largest tension of a cable" if words == "cable" else "Largest tension of an anchor line"
         mine = sorted((one for one in loads if one.component in components), key=lambda one: one.value, reverse=True)
         found = [_tension(name, label, load, groups) for load in mine]
-        worst = max(found[1:], key=_end, default=None)
-        if worst is None or not _end(worst) > _end(found[0]):
-            yield from found[:1]
-        elif worst.bound or found[0].bound:
-            yield from (found[0], replace(worst, shown=False))
-        else:
-            yield worst
+        if not found:
+            continue
+        shown = found[0]
+        if not shown.bound:
+            # of values the one that is judged worst is shown; what is open is judged with it
+            shown = max((item for item in found if not item.bound), key=_end)
+        yield shown
+        yield from also_judged(shown, (item for item in found if item is not shown))
 
 
 def _tension(name: str, label: str, load: _Load, groups: Groups) -> Headline:
@@ -227,8 +280,8 @@ def _tension(name: str, label: str, load: _Load, groups: Groups) -> Headline:
 def _used(loads: Sequence[_Load]) -> Iterator[tuple[float, Headline]]:
     """Return each load over its strength, with its utilisation, the safety factor included.
 
-    Of each kind the component and level that is judged worst is shown, the most used where that one is a bound; another
-    that is worse, and what a weaker current proves where only a bound is known, are judged with it.
+    Of each kind the component and level that is judged worst is shown, the most used where that one is a bound; what
+    may be worse, what is not known, and what a weaker current proves where only a bound is known, are judged with it.
     """
     for name, label, components in _USED:
         known = [one for one in loads if one.component in components and math.isfinite(one.used)]
@@ -240,10 +293,13 @@ def _used(loads: Sequence[_Load]) -> Iterator[tuple[float, Headline]]:
         top = max(each, key=lambda pair: pair[0].number("utilisation"))
         shown, first = max(rated, key=lambda pair: _end(pair[1])) if rated and top in rated else top
         yield shown.number("utilisation"), first
-        open_ones = [headline for one, headline in each if one is not shown]
-        worst = max([*open_ones, *_in_weaker(name, label, known)], key=_end, default=None)
-        if worst is not None and (first.bound or _end(worst) > _end(first)):
-            yield shown.number("utilisation"), replace(worst, shown=False)
+        others = [
+            headline if math.isfinite(headline.value) else replace(headline, text=f"not known at {one.level}")
+            for one, headline in each
+            if one is not shown
+        ]
+        for other in also_judged(first, [*others, *_in_weaker(name, label, known)]):
+            yield shown.number("utilisation"), other
 
 
 def _end(item: Headline) -> float:
@@ -343,8 +399,7 @@ def _moving_band(groups: Groups, load: _Load, value: float) -> Band | None:
         return None
     if "run_of" in groups[f"/{load.level}/dynamic"]:
         return _mesh_band(groups[f"/{load.level}/dynamic"], load, value)
-    # the load of an anchor is that of its line, turned to the horizontal
-    line = "anchor line" if load.component == "anchor" else load.component
+    line = _line(load)
     mine = [row for row, name in enumerate(run["line"].values) if str(name).startswith(line)]
     if not mine:
         return None
@@ -365,10 +420,13 @@ def _moving_band(groups: Groups, load: _Load, value: float) -> Band | None:
 def _mesh_band(table: xr.Dataset, load: _Load, value: float) -> Band | None:
     """Return the peaks of an event on its meshes and over the realisations of its sea, with those of other events."""
     event = str(table["run_of"].sel(run=load.words("dynamic_source")).values)
-    component = "anchor line" if load.component == "anchor" else load.component
+    component = _line(load)
     whole, low, high, judged, count = event_band(table, event, component)
-    # another event with a smaller mean may reach higher
-    others = [event_band(table, str(name), component) for name in table["event"].values if str(name) != event]
+    # another event with a smaller mean may reach higher; one that is open is judged as a load of its own
+    still = open_events(table, component)
+    others = [
+        event_band(table, str(name), component) for name in table["event"].values if str(name) not in (event, *still)
+    ]
     known = [item for item in others if math.isfinite(item[0])]
     high, judged = max([high, *(item[2] for item in known)]), max([judged, *(item[3] for item in known)])
     ceiling = ceiling_of(table, component) if load.bound == "at least" else math.nan

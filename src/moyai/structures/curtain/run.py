@@ -221,7 +221,7 @@ def _lost_depth(statics: xr.Dataset | None, depth: float) -> float:
     return (depth - low) / (depth - value) if low < value < depth else 1.0
 
 
-_NOT_MOVED = "neither the impact nor the whole span in the seas of the case was run"
+_NOT_MOVED = "snaps in the seas of the case were not run, which needs 'waves' or 'dynamic' in 'analyses'"
 
 
 def _result(problem: CurtainProblem, collected: _Collected) -> Result:
@@ -233,9 +233,8 @@ def _result(problem: CurtainProblem, collected: _Collected) -> Result:
     }
     levels = [name for name, _ in problem.environment.water_levels]
     found = curtain_headlines(collected.groups, levels, problem.criteria)
-    # the whole span is run by default in what the cycles leave open, without being asked for
-    moved = any(path.endswith("/dynamic") for path in collected.groups)
-    ran = {*problem.settings.analyses, *(("dynamic",) if moved else ())}
+    # an impact, and the whole span that is run by default for it, are those of the current alone
+    in_seas = bool({"waves", "dynamic"} & set(problem.settings.analyses))
     more = weaker_currents(collected.groups, found) if problem.criteria else ()
     fulfilled = "all identities hold" if collected.checks else "done; these analyses have no identity to hold"
     if any(notice.code == "span-mesh" for notice in collected.notices):
@@ -248,7 +247,7 @@ def _result(problem: CurtainProblem, collected: _Collected) -> Result:
         headlines=found,
         fulfilled=fulfilled,
         criteria=(*problem.criteria, *more),
-        left_out=_NOT_MOVED if problem.environment.sea_states and not {"impact", "dynamic"} & ran else "",
+        left_out=_NOT_MOVED if problem.environment.sea_states and not in_seas else "",
     )
 
 

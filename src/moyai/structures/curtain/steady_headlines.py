@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 Groups = Mapping[str, "xr.Dataset"]
+_TOE = "weight of the toe at slack water"
 
 
 def kilo(value: float, unit: str = "N") -> str:
@@ -82,11 +83,12 @@ def depth_headlines(groups: Groups, levels: Sequence[str]) -> Iterator[Headline]
             if statics is None or not math.isfinite(value):
                 continue
             band, detail = statics_band(statics, key), _other_models(name, statics, value)
-            slack = float(statics[f"slack_{key}"]) if f"slack_{key}" in statics else math.nan
-            if slack < value:
+            slack = _at_slack(statics, key)
+            if slack is not None and slack.value < value:
                 # a curtain hangs lower and heavier at slack water than in its current
                 detail = f"at slack water; {_plain(value, unit)} in the current" + (f", {detail}" if detail else "")
-                value, band = slack, None
+            if slack is not None:
+                value, band = _with_slack(value, band, slack)
             if name == "toe_clearance" and any(path.startswith(f"/{level}/waves/") for path in groups):
                 detail = "; ".join(filter(None, (detail, "under still water, in the trough of a wave less")))
             found.append(
@@ -95,6 +97,35 @@ def depth_headlines(groups: Groups, levels: Sequence[str]) -> Iterator[Headline]
                 )
             )
         yield from governing(found, "at least")
+
+
+class _Slack(NamedTuple):
+    """A number at slack water with its ends over the weight of the toe."""
+
+    value: float
+    low: float
+    high: float
+
+
+def _at_slack(statics: xr.Dataset, key: str) -> _Slack | None:
+    """Return a number at slack water; None where the case does not tell it."""
+    value = float(statics[f"slack_{key}"]) if f"slack_{key}" in statics else math.nan
+    if math.isnan(value):
+        return None
+    # a clearance has no ends, and results of older versions have none
+    low, high = (float(statics.get(f"slack_{key}{end}", value)) for end in ("_low", "_high"))
+    return _Slack(value, low, high)
+
+
+def _with_slack(value: float, band: Band | None, slack: _Slack) -> tuple[float, Band | None]:
+    """Return the less of a number in the current and at slack water, with the less of both their lower ends."""
+    low, of = (value, "") if band is None else (band.low, band.of)
+    if slack.low < low:
+        low, of = slack.low, "; ".join(filter(None, ("" if slack.value < value else of, _TOE)))
+    if slack.value < value:
+        return slack.value, Band(low, slack.high, of or _TOE) if low < slack.high else None
+    high = value if band is None else band.high
+    return value, Band(low, high, of) if low < high else None
 
 
 def _plain(value: float, unit: str) -> str:

@@ -37,12 +37,14 @@ class SpanLoad(NamedTuple):
     """Highest tension of a component, the run in which it stands, whether smaller cells give more, and what is judged.
 
     Tensions in N, N/m; what is judged is the upper end of the interval of the mean, the tension itself without one.
+    ``open`` tells that some run, this one or another, leaves the component open upwards.
     """
 
     load: float
     run: str
     at_least: bool = False
     judged: float = math.nan
+    open: bool = False
 
 
 @dataclass(frozen=True)
@@ -128,12 +130,10 @@ def peaks_of_runs(plans: Sequence[Plan], rows: Sequence[Mapping[str, float]]) ->
     found: dict[str, SpanLoad] = {}
     for component, key in COMPONENTS.items():
         known = [
-            SpanLoad(row[key], plan.name, plan.arguments["flow"].waves is not None and not plan.regular)
-            for row, plan in zip(rows, plans, strict=False)
-            if row[key] > 0.0
+            SpanLoad(row[key], plan.name, plan.random) for row, plan in zip(rows, plans, strict=False) if row[key] > 0.0
         ]
         if known:
-            found[component] = max(known)
+            found[component] = max(known)._replace(open=any(item.at_least for item in known))
     return found
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,7 +12,7 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.core.validity import Notice
 from moyai.core.wording import spoken
-from moyai.series.intervals import reach_of_mean
+from moyai.series.intervals import reach_of_mean, student_quantile
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -31,6 +31,9 @@ MESH_CHANGE = 0.2
 #: What the growth of a tension with the cells is continued to, over the cells of the finest mesh: some 0.2 m, the
 #: spacing of eyelets, within which seams bear and not the sheet; and its steepest power, that near a point load.
 SMALLER, STEEPEST = 4.0, 1.0
+#: What a tension may grow by from the coarsest mesh of the default runs to the next: in ordinary curtains up to 1.7 for
+#: cables and lines and 2.9 for sheets, both in the snap of a release.
+COARSE_GROWTH: Mapping[str, float] = {"upper cable": 2.0, "lower cable": 2.0, "skirt": 3.0, "anchor line": 2.0}
 
 
 @dataclass(frozen=True)
@@ -47,6 +50,8 @@ class EventSample:
     seed: int
     #: Highest tension by component [N, N/m].
     peaks: Mapping[str, float]
+    #: Event whose scatter over realisations and growth with the cells are this one's, where it is not run as often.
+    like: str = ""
 
 
 @dataclass(frozen=True)
@@ -72,13 +77,23 @@ class EventPeak:
     #: Whether it is of one realisation of a random sea.
     alone: bool = False
     #: Judged end as the change from mesh to mesh goes on: of the skirt to cells :data:`SMALLER` times smaller, of
-    #: cables and lines at first order [N, N/m].
+    #: cables and lines at first order [N, N/m]; infinite where one realisation leaves it open, NaN with one mesh.
     ceiling: float = math.nan
 
     @property
     def at_least(self) -> bool:
         """Whether smaller cells or other realisations would give more: the value is a bound from below."""
         return self.alone or (self.change > MESH_CHANGE and self.finer_is_more)
+
+    @property
+    def end(self) -> float:
+        """Where it is judged: of a bound from below where its growth goes on to."""
+        return self.ceiling if self.at_least else self.judged
+
+    @property
+    def open(self) -> str:
+        """What leaves it open upwards: ``one realisation``, ``mesh``, or nothing."""
+        return ("one realisation" if self.alone else "mesh") if self.at_least else ""
 
 
 def event_peak(samples: Sequence[EventSample], event: str, component: str) -> EventPeak | None:
@@ -115,14 +130,37 @@ def event_peak(samples: Sequence[EventSample], event: str, component: str) -> Ev
         mean[counting], float(every.min()), float(every.max()), judged,
         by_mesh[counting][0].run, alone=own.size == 1 and by_mesh[counting][0].seed != 0,
     )  # fmt: skip
+    like = event_peak(samples, mine[0].like, component) if mine[0].like else None
+    if like is not None:
+        return _alike(found, like, own, [item for item in samples if item.event == mine[0].like], component)
     if len(meshes) < 2:
-        return found
+        return replace(found, ceiling=math.inf if found.alone else math.nan)
     first, last = means[0], means[-1]
     grown = SMALLER ** min(_growth(meshes, means), STEEPEST) if component == "skirt" else _of_resultant(meshes, means)
     return EventPeak(
         found.value, found.low, found.high, found.judged, found.run,
         1.0 - min(first, last) / max(first, last), last > first, (first, last), found.alone,
-        math.nan if found.alone else found.judged * grown,
+        math.inf if found.alone else found.judged * grown,
+    )  # fmt: skip
+
+
+def _alike(found: EventPeak, like: EventPeak, own: Array, runs: Sequence[EventSample], component: str) -> EventPeak:
+    """Return a peak with the scatter and the growth of another event, which was run more often and on more meshes.
+
+    One realisation lies at most so far below the mean as Student's value tells of the scatter of the others, which
+    are as many as there are on the mesh that has most.
+    """
+    by_mesh: dict[tuple[int, int], list[EventSample]] = {}
+    for item in runs:
+        by_mesh.setdefault(item.mesh, []).append(item)
+    others = _peaks(max(by_mesh.values(), key=len), component)
+    reach = reach_of_mean(own, alike=others)
+    if own.size == 1 and others.size > 1:
+        reach = student_quantile(0.9, others.size - 1) * float(np.std(others, ddof=1) / others.mean() * own[0])
+    judged = max(found.judged, found.value + reach)
+    return replace(
+        found, judged=judged, alone=found.alone and others.size < 2, change=like.change,
+        finer_is_more=like.finer_is_more, ceiling=judged * like.ceiling / like.judged,
     )  # fmt: skip
 
 
@@ -169,6 +207,41 @@ def governing_peaks(samples: Sequence[EventSample]) -> dict[str, tuple[str, Even
     return found
 
 
+def leading_end(samples: Sequence[EventSample], component: str) -> tuple[str, EventPeak] | None:
+    """Return the event of a component that is judged highest, each at its own end; None where none bears it.
+
+    An event on the coarsest of several meshes alone has :data:`COARSE_GROWTH` of its judged value as its end.
+    """
+    ends = [
+        (unresolved_end(samples, event, peak, component), event, peak)
+        for event in dict.fromkeys(item.event for item in samples)
+        if (peak := event_peak(samples, event, component)) is not None
+    ]
+    return max(ends, key=lambda item: item[0])[1:] if ends else None
+
+
+def unresolved_end(samples: Sequence[EventSample], event: str, peak: EventPeak, component: str) -> float:
+    """Return the end of a peak; on the coarsest mesh alone what its growth to the next may come to."""
+    mine = [item for item in samples if item.event == event]
+    coarse = min(item.mesh for item in samples)
+    alone = not mine[0].like and all(item.mesh == coarse for item in mine)
+    return peak.end * (COARSE_GROWTH[component] if alone and math.isfinite(peak.end) else 1.0)
+
+
+def open_peaks(samples: Sequence[EventSample]) -> dict[str, tuple[str, EventPeak]]:
+    """Return of each component the bound from below with the highest end, where no known event is judged as high."""
+    found: dict[str, tuple[str, EventPeak]] = {}
+    events = list(dict.fromkeys(item.event for item in samples))
+    for component in COMPONENTS:
+        known = [(event, peak) for event in events if (peak := event_peak(samples, event, component)) is not None]
+        bounds = [item for item in known if item[1].at_least]
+        highest = max((peak.judged for _, peak in known if not peak.at_least), default=-math.inf)
+        worst = max(bounds, key=lambda item: item[1].end, default=None)
+        if worst is not None and worst[1].end > highest:
+            found[component] = worst
+    return found
+
+
 def highest_judged(samples: Sequence[EventSample], component: str) -> float:
     """Return the highest value over the events at which a component is judged."""
     events = dict.fromkeys(item.event for item in samples)
@@ -189,6 +262,10 @@ def event_variables(samples: Sequence[EventSample]) -> tuple[dict[str, Any], dic
                               ("_ceiling", "ceiling"),
                               ("_mesh_change", "change"))
     }  # fmt: skip
+    data["event_peak_open"] = (
+        ("event", "span_component"),
+        [["" if one is None else one.open for one in row] for row in peaks],
+    )
     data["event_realisations"] = ("event", [len({s.seed for s in samples if s.event == event}) for event in events])
     data["sample_peak"] = (("sample", "span_component"), [[item.peaks[name] for name in names] for item in samples])
     for name, values in (
@@ -217,9 +294,23 @@ def ceiling_of(table: xr.Dataset, component: str) -> float:
     return float(known[bears].max()) if bears.any() else math.nan
 
 
-def mesh_notices(found: Mapping[str, tuple[str, EventPeak]]) -> tuple[Notice, ...]:
-    """Return a warning for components whose governing tension moves with the mesh beyond :data:`MESH_CHANGE`."""
-    apart = {name: item for name, item in found.items() if item[1].change > MESH_CHANGE}
+def open_events(table: xr.Dataset, component: str) -> list[str]:
+    """Return the events that leave a component open upwards, read from the table of runs."""
+    if "event_peak_open" not in table:
+        return []
+    words = table["event_peak_open"].sel(span_component=component)
+    return [str(event) for event in table["event"].values if str(words.sel(event=event).values)]
+
+
+def mesh_notices(
+    found: Mapping[str, tuple[str, EventPeak]], behind: Mapping[str, tuple[str, EventPeak]] | None = None
+) -> tuple[Notice, ...]:
+    """Return a warning for components whose governing tension moves with the mesh beyond :data:`MESH_CHANGE`.
+
+    ``behind`` are those that a smaller tension leaves open, as :func:`open_peaks` gives them.
+    """
+    every = [*found.items(), *(item for item in (behind or {}).items() if found.get(item[0]) != item[1])]
+    apart = [(name, *item) for name, item in every if item[1].change > MESH_CHANGE and item[1].means]
     if not apart:
         return ()
     units = {"skirt": "N/m"}
@@ -227,13 +318,13 @@ def mesh_notices(found: Mapping[str, tuple[str, EventPeak]]) -> tuple[Notice, ..
         f"{name} in '{event}' {spoken(peak.means[0], units.get(name, 'N'), 3)} on the coarser mesh, "
         f"{spoken(peak.means[1], units.get(name, 'N'), 3)} on the finer"
         + (", so that the number is a bound from below" if peak.at_least else ", and the larger counts")
-        for name, (event, peak) in apart.items()
+        for name, event, peak in apart
     )
     return (
         Notice(
             "span-mesh",
             f"peaks of the whole span move with the mesh, in the realisations that both have: {said}",
-            max(peak.change for _, peak in apart.values()),
+            max(peak.change for _, _, peak in apart),
             MESH_CHANGE,
             remedy="run 'dynamic' with more cells, or design with the bound of the upright plate",
             source="eq:curtain-hierarchy",
@@ -251,5 +342,9 @@ __all__ = [
     "event_variables",
     "governing_peaks",
     "highest_judged",
+    "leading_end",
     "mesh_notices",
+    "open_events",
+    "open_peaks",
+    "unresolved_end",
 ]

@@ -172,7 +172,7 @@ def _table(
                     "weaker_source": other["impact_source"],
                 }  # fmt: skip
         decided[number] = decided[number] | least
-    rows = _with_joint(unit, decided)
+    rows = _with_joint(unit, decided, frozenset(name for name, span in moved.items() if span.open))
     columns = {key: [row[key] for row in rows] for key in rows[0]}
     known = [row for row in rows if math.isfinite(row["utilisation"])]  # type: ignore[arg-type]
     governing = max(known, key=lambda row: float(row["utilisation"]), default=None)
@@ -218,11 +218,14 @@ def _decided(
     }
 
 
-def _with_joint(unit: LevelCurtain, rows: list[dict[str, float | str]]) -> list[dict[str, float | str]]:
+def _with_joint(
+    unit: LevelCurtain, rows: list[dict[str, float | str]], open_lines: frozenset[str] = frozenset()
+) -> list[dict[str, float | str]]:
     """Return the rows with the joint loaded by no more than the load line in which it lies [eq:curtain-joint-load].
 
     As a bound it takes the upper end of what the cables vary with. Where the whole span was run and the joint has but a
-    drag that knows no snap of its own, the line is its bound, or nothing where the line is known from below alone.
+    drag that knows no snap of its own, the line is its bound, or nothing where the line is known from below alone, or
+    is one of ``open_lines``, of which a run that does not lead may come to more.
     """
     cables = [row for row in rows if row["component"] in ("upper cable", "lower cable")]
     strength = _strength(unit, "joint")
@@ -230,7 +233,7 @@ def _with_joint(unit: LevelCurtain, rows: list[dict[str, float | str]]) -> list[
         if row["component"] != "joint":
             continue
         if any(cable["governing"] == "dynamic" for cable in cables) and _without_snap(row):
-            alone = any(cable["load_bound"] == "at least" for cable in cables)
+            alone = any(cable["load_bound"] == "at least" or cable["component"] in open_lines for cable in cables)
             row["governing_load"] = row["governing_high"] = math.nan if alone else math.inf
             row["load_bound"] = "" if alone else "at most"
         for load, end, used in (

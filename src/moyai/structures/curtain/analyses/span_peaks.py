@@ -1,9 +1,10 @@
 """Peaks of the whole span where it is not asked for and an upright plate only bounds them [eq:curtain-hierarchy].
 
-Every event is run on a coarse mesh; those that lead a component are run again on a finer one, those without chance on a
-third where the coarse one gives more by a fifth. Irregular seas are run with several realisations, since the snaps of
-a motion that never repeats are chance: the larger of the means on the meshes that resolve the event counts. Waves that
-lead are run in half the current too, in which the skirt hangs deeper.
+Every event is run on a coarse mesh; those that lead a component, or may lead it by what a finer mesh may add, are run
+again on a finer one, those without chance on a third where the coarse one gives more by a fifth. Irregular seas are run
+with several realisations, since the snaps of a motion that never repeats are chance: the larger of the means on the
+meshes that resolve the event counts. Waves that lead are run in half the current too, in which the skirt hangs deeper,
+with one realisation, with more where that may be judged higher than the waves in the current of the case.
 """
 
 from __future__ import annotations
@@ -25,7 +26,9 @@ from moyai.structures.curtain.analyses.event_peaks import (
     event_variables,
     governing_peaks,
     highest_judged,
+    leading_end,
     mesh_notices,
+    open_peaks,
 )
 from moyai.structures.curtain.assembly import LevelCurtain
 from moyai.structures.curtain.dynamic.checks import crumples, run_checks, run_notices
@@ -92,19 +95,23 @@ def span_peaks(
     while (event := found.unresolved(given.mesh)) is not None:
         name, mesh = event
         words = f", {mesh.along} by {mesh.down} cells"
-        count = max(3, math.ceil(_FINE_REALISATIONS * len(drawn[name])))
+        count = _fine_count(drawn[name])
         if not found.event(drawn[name][:count], mesh, words):
             return found.stopped(by_name[name])
     if unit.surface_speed > 0.0 and "waves" in settings.analyses:
         there = replace(unit, surface_speed=_WEAKER_CURRENT * unit.surface_speed)
         leading = {event for event, _ in governing_peaks(found.samples).values()}
-        for plan in plans_of(there, replace(settings, analyses=("waves",)), seas, span):
-            if plan.name in leading:
-                seed = drawn[plan.name][0][0]
-                plan = replace(plan, name=f"{plan.name}, current {there.surface_speed:.3g} m/s")
-                if not found.event(((seed, plan),), fine):
-                    return found.stopped(plan)
+        alone = plans_of(there, replace(settings, analyses=("waves",)), seas, span)
+        weaker = {plan.name: ((0, plan),) for plan in alone} | _realisations(there, settings, seas, span)
+        for name, several in weaker.items():
+            if name in leading and not found.weaker(several, fine, f"{name}, current {there.surface_speed:.3g} m/s"):
+                return found.stopped(several[0][1])
     return found.answer()
+
+
+def _fine_count(drawn: Sequence[tuple[int, Plan]]) -> int:
+    """Return how many realisations of an event the finer mesh is run with."""
+    return max(3, math.ceil(_FINE_REALISATIONS * len(drawn)))
 
 
 def _two_thirds(cells: int) -> int:
@@ -145,15 +152,28 @@ class _Runs:
         self.checks: list[IdentityCheck] = []
         self.notices: list[Notice] = []
 
-    def event(self, drawn: Sequence[tuple[int, Plan]], mesh: Mesh, suffix: str = "") -> bool:
+    def event(self, drawn: Sequence[tuple[int, Plan]], mesh: Mesh, suffix: str = "", like: str = "") -> bool:
         """Run an event on a mesh with the realisations of its sea; return whether it can be counted."""
         name = drawn[0][1].name + suffix
         several = len(drawn) > 1
         return all(
-            self._add(plan, mesh, name, seed, f"{name}, seed {seed}" if several else name) for seed, plan in drawn
+            self._add(plan, mesh, name, seed, f"{name}, seed {seed}" if several else name, like) for seed, plan in drawn
         )
 
-    def _add(self, plan: Plan, mesh: Mesh, name: str, seed: int, words: str) -> bool:
+    def weaker(self, drawn: Sequence[tuple[int, Plan]], mesh: Mesh, name: str) -> bool:
+        """Run an event in a weaker current, under a name of its own; return whether it can be counted.
+
+        One realisation has the scatter and the growth with the cells of the event in the current of the case; where it
+        may be judged highest by them, more are run.
+        """
+        like, drawn = drawn[0][1].name, [(seed, replace(plan, name=name)) for seed, plan in drawn]
+        if not self.event(drawn[:1], mesh, like=like):
+            return False
+        leads = any((top := leading_end(self.samples, part)) is not None and top[0] == name for part in COMPONENTS)
+        more = drawn[1 : _fine_count(drawn)] if leads else []
+        return not more or self.event(more, mesh, like=like)
+
+    def _add(self, plan: Plan, mesh: Mesh, name: str, seed: int, words: str, like: str) -> bool:
         """Make a run; keep the series of the first realisation, of the others the peaks."""
         given = self.settings.dynamic
         assert given is not None
@@ -170,7 +190,7 @@ class _Runs:
         plan = replace(plan, name=name)
         data, row = run_dataset(run, given, None, plan)
         peaks = {component: row[key] for component, key in COMPONENTS.items()}
-        self.samples.append(EventSample(event, name, (mesh.along, mesh.down), seed, peaks))
+        self.samples.append(EventSample(event, name, (mesh.along, mesh.down), seed, peaks, like))
         self.checks.extend(run_checks(run, place))
         if name not in self.rows:
             self.rows[name] = row
@@ -181,19 +201,25 @@ class _Runs:
     def unresolved(self, fine: Mesh) -> tuple[str, Mesh] | None:
         """Return an event that leads a component and the mesh that it has still to be run on, None where none is left.
 
-        Every one is run on ``fine``, and one without chance on a finer one where the coarsest gives more beyond the
-        change allowed; of realisations a few tell no mesh from chance.
+        Every one that leads by its value, or by the end to which it may grow, is run on ``fine``; one without chance
+        that leads by its value on a finer one where the coarsest gives more beyond the change allowed: of realisations
+        a few tell no mesh from chance.
         """
         finest = replace(fine, along=_four_thirds(fine.along), down=_four_thirds(fine.down))
-        for event, peak in governing_peaks(self.samples).values():
-            mine = [item for item in self.samples if item.event == event]
-            known, chance = {item.mesh for item in mine}, any(item.seed for item in mine)
-            if (fine.along, fine.down) not in known:
+        leading = list(governing_peaks(self.samples).values())
+        ends = [leading_end(self.samples, component) for component in COMPONENTS]
+        for event, _ in [*leading, *(top for top in ends if top is not None)]:
+            if not self._known(event, fine):
                 return event, fine
+        for event, peak in leading:
+            chance = any(item.seed for item in self.samples if item.event == event)
             apart = peak.change > MESH_CHANGE and not peak.finer_is_more
-            if apart and not chance and (finest.along, finest.down) not in known:
+            if apart and not chance and not self._known(event, finest):
                 return event, finest
         return None
+
+    def _known(self, event: str, mesh: Mesh) -> bool:
+        return any(item.event == event and item.mesh == (mesh.along, mesh.down) for item in self.samples)
 
     def stopped(self, plan: Plan) -> DynamicAnswer:
         """Return that nothing counts, and why."""
@@ -212,12 +238,13 @@ class _Runs:
         peaks, coords = event_variables(self.samples)
         self.groups[""] = labelled(xr.Dataset({**table, "run_of": run_of, **peaks}, coords={"run": names, **coords}))
         found = governing_peaks(self.samples)
-        # another event with a smaller mean may be judged higher
+        behind = open_peaks(self.samples)
+        # another event with a smaller mean may be judged higher, or be open where this one is known
         loads = {
-            name: SpanLoad(peak.value, peak.run, peak.at_least, highest_judged(self.samples, name))
+            name: SpanLoad(peak.value, peak.run, peak.at_least, highest_judged(self.samples, name), name in behind)
             for name, (_, peak) in found.items()
         }
-        notices = (*self.notices, *mesh_notices(found))
+        notices = (*self.notices, *mesh_notices(found, behind))
         return DynamicAnswer(self.groups, tuple(self.checks), notices, loads)
 
 

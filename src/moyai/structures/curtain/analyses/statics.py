@@ -169,19 +169,22 @@ def _at_slack_water(unit: LevelCurtain) -> dict[str, float]:
 
     The flared skirt of a curtain in its current stands higher, and the load bears part of its weight: both numbers
     are on the favourable side there. The reserve is NaN for a held toe, whose pull without a current the case does not
-    tell.
+    tell. Its ends are those of the range of the toe's weight.
     """
     hanging, depth = unit.hanging, unit.water.depth
     skirt, floats = hanging.skirt, hanging.floats
     gap = math.nan if math.isinf(depth) else max(depth - skirt.length, 0.0)
+    name = "slack_float_reserve_ratio"
     if hanging.toe != "free":
-        return {"slack_toe_gap": gap, "slack_float_reserve_ratio": math.nan}
-    afloat = skirt.length < depth
-    weight = skirt.submerged_weight * min(skirt.length, depth) + (skirt.toe_load if afloat else 0.0)
-    return {
-        "slack_toe_gap": gap,
-        "slack_float_reserve_ratio": (floats.buoyancy - floats.weight - max(weight, 0.0)) / floats.buoyancy,
+        return {"slack_toe_gap": gap} | dict.fromkeys((name, f"{name}_low", f"{name}_high"), math.nan)
+    toe = skirt.toe_load if skirt.length < depth else 0.0
+    sheet = skirt.submerged_weight * min(skirt.length, depth)
+    lightest, heaviest = unit.curtain.toe_range
+    left = {
+        end: (floats.buoyancy - floats.weight - max(sheet + factor * toe, 0.0)) / floats.buoyancy
+        for end, factor in (("", 1.0), ("_low", max(heaviest, 1.0)), ("_high", min(lightest, 1.0)))
     }
+    return {"slack_toe_gap": gap} | {f"{name}{end}": value for end, value in left.items()}
 
 
 def _anchor_spacing(unit: LevelCurtain) -> Limit:

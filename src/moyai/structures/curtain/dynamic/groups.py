@@ -84,7 +84,7 @@ def run_dataset(
     attributes = {
         "status": history.status, "time_step": history.step, "steps": history.steps, "counted_from": run.from_time,
         "period": plan.period, "cells_along": run.built.mesh.along, "cells_down": run.built.mesh.down,
-        "regular": int(plan.regular),
+        "regular": int(plan.regular), "random": int(plan.random),
     }  # fmt: skip
     return labelled(xr.Dataset(data, coords={"time": history.time, "line": names}, attrs=attributes)), summary
 

@@ -61,6 +61,11 @@ class Plan:
     #: Whether the run may be made longer until the tension is past its peak.
     open: bool = False
 
+    @property
+    def random(self) -> bool:
+        """Whether it runs through one realisation of an irregular sea."""
+        return self.arguments["flow"].waves is not None and not self.regular
+
 
 def plans_of(
     unit: LevelCurtain, settings: CurtainSettings, seas: tuple[SeaState, ...], span: CurtainSpan
