@@ -130,7 +130,7 @@ def limit_headlines(groups: Groups, levels: Sequence[str], span_holds: Callable[
             name, label, limit, unit, where=f"{where}: {level}",
             bound="at least" if governing == "not reached" and not bound else bound,  # type: ignore[arg-type]
             detail="; ".join(details),
-            text="" if limit > 0.0 else "none",
+            text="" if limit > 0.0 else "none", without_waves=key == "speed_limit",
         )  # fmt: skip
 
 
