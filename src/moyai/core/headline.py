@@ -200,6 +200,20 @@ def all_judged(candidates: Iterable[Headline], sense: Sense = "at most") -> list
     return kept
 
 
+def saying_what_is_open(items: Iterable[Headline]) -> list[Headline]:
+    """Return numbers with the first, which is shown, naming the largest of those behind it that is but a lower bound.
+
+    What is held against no criterion has no other mark of it.
+    """
+    found = list(items)
+    behind = [item for item in found[1:] if item.bound == "at least" and item.name == found[0].name]
+    if not behind or found[0].bound:
+        return found
+    worst = max(behind, key=lambda item: item.value)
+    words = f"more is possible at {worst.where}: at least {_worded(worst.value, worst.unit)} there"
+    return [replace(found[0], detail="; ".join(filter(None, (found[0].detail, words)))), *found[1:]]
+
+
 @checks_words
 def also_judged(shown: Headline, others: Iterable[Headline], sense: Sense = "at most") -> list[Headline]:
     """Return, not shown, what has to be judged beside the one of a number that is shown.
@@ -476,9 +490,15 @@ def _absent(criterion: Criterion) -> str:
 
 def _judge_part(criterion: Criterion, headline: Headline, left_out: str) -> Judgement:
     """Judge a number of which a part may be left out: it can but come nearer to its limit."""
-    if not left_out or headline.without_waves or headline.bound:
+    if not left_out or headline.without_waves:
         return _judge_one(criterion, headline)
-    found = _judge_one(criterion, replace(headline, bound="at least" if criterion.sense == "at most" else "at most"))
+    if headline.bound == criterion.sense:
+        # what it bounds is but what was run
+        return Judgement(criterion, headline.value, "not judged", left_out, headline.bound)
+    # the end to which a growth goes on is that of what was run too
+    band = None if headline.band is not None and headline.band.beyond_bound else headline.band
+    open_one: Bound = "at least" if criterion.sense == "at most" else "at most"
+    found = _judge_one(criterion, replace(headline, bound=open_one, band=band))
     return replace(found, reason=left_out) if found.outcome == "not judged" else found
 
 

@@ -34,14 +34,15 @@ def headline_figures(result: Result) -> KeyFigures | None:
 def _judged(result: Result, headline: Headline) -> list[Judgement]:
     """Return the judgements of one headline: of its name and sea, and where several on the page share it of its place.
 
-    What is not shown and judged worse, another line with a wider band, stands with the only one that is.
+    What is not shown and judged worse, another line with a wider band or a named sea, stands with the only one that is.
     """
+    alone = sum(other.name == headline.name and other.shown for other in result.headlines) == 1
     found = [
         item
         for item in result.verdict.judgements
-        if item.criterion.headline == headline.name and item.criterion.sea in ("", headline.sea)
+        if item.criterion.headline == headline.name
+        and (item.criterion.sea in ("", headline.sea) or (alone and not headline.sea))
     ]
-    alone = sum(other.name == headline.name and other.shown for other in result.headlines) == 1
     return [item for item in found if alone or item.reason == headline.where or item.outcome == "not judged"]
 
 
@@ -138,6 +139,8 @@ def _figure(headline: Headline, judged: list[Judgement], scale: Mapping[str, flo
 def _asked(headline: Headline, item: Judgement, like: float) -> str:
     """Return limit and judged value, with the value shown next to it where that is another one; why it is not known."""
     limit, found = limit_and_found(item, like)
+    if item.criterion.sea not in ("", headline.sea):
+        limit = f"{limit} in {item.criterion.sea}"
     if math.isnan(item.value):
         # the verdict says what to do about it
         reason = "" if item.reason == headline.text else f": {item.reason.partition('; ')[0]}"

@@ -197,3 +197,6 @@ def test_a_bound_behind_a_larger_known_number_leaves_its_limit_open():
             numbers = page(known, other)
             assert judge(numbers, (criterion,), computed=True).outcome == "not judged", criterion.name
             assert [item.where for item in numbers if item.name == criterion.headline and item.shown] == [known.where]
+            (shown,) = (item for item in numbers if item.name == "line_tension" and item.shown)
+            assert "more is possible at" in shown.detail and "swell" in shown.detail
+            assert "more is possible" not in headline(page(known), "line_tension").detail

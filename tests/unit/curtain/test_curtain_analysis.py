@@ -554,3 +554,37 @@ def test_a_joint_is_bounded_by_its_cable_at_the_end_at_which_the_cable_is_judged
         12e3
     )
     assert float(joint["governing_load"]) == pytest.approx(12e3) and str(joint["load_bound"].values) == "at most"
+
+
+def test_a_case_with_seas_holds_only_where_snaps_in_them_are_run(tmp_path: Path) -> None:
+    """The impact is one in the current: it says nothing of snaps in the seas."""
+    text = SMALL.replace("analyses: [statics, impact, waves, anchor_loads, limits]", "analyses: [statics, impact]")
+    text = (
+        text.replace("  impact: {start_speed: 0.05 m/s}\n", "")
+        .replace("kind: free", "kind: held")
+        .replace(
+            "breaking_load: 60 kN}}", "breaking_load: 60 kN}, lower: {axial_stiffness: 60 kN, breaking_load: 60 kN}}"
+        )
+    )
+    seas = "waves: {kind: regular, height: 0.6 m, period: 4 s, heading_deg: 0}\n"
+    without = run(problem_of(tmp_path, text.replace(seas, "")))
+    assert without.verdict.outcome == "holds", without.verdict.message
+    with_seas = run(problem_of(tmp_path, text))
+    assert with_seas.verdict.outcome == "not judged"
+    assert "snaps in the seas of the case were not run" in with_seas.verdict.message
+
+
+@pytest.mark.parametrize("speed", ["0.2", "0.05"])
+def test_reserve_of_the_floats_at_slack_water_has_the_band_of_the_toe(tmp_path: Path, speed: str) -> None:
+    """Without a current the floats bear toe and sheet: (900 - 90 - 1.4 x 180 - 4 x 3)/900 with the heaviest toe."""
+    text = SMALL.replace("weight: 180 N/m}", "weight: 180 N/m, range: [0.8, 1.4]}").replace(
+        "speed: 0.2", f"speed: {speed}"
+    )
+    text = text.replace("analyses: [statics, impact, waves, anchor_loads, limits]", "analyses: [statics]")
+    text = text.replace("  anchors: {line_length: 25 m, axial_stiffness: 2 MN, breaking_load: 100 kN, "
+                        "holding_force: 60 kN}\n", "")  # fmt: skip
+    found = next(item for item in run(problem_of(tmp_path, text)).headlines if item.name == "float_reserve")
+    ends = [(900.0 - 90.0 - factor * 180.0 - 12.0) / 900.0 for factor in (1.4, 1.0, 0.8)]
+    assert found.band is not None and "weight of the toe" in found.band.of
+    assert [found.band.low, found.value, found.band.high] == pytest.approx(ends, abs=2e-3)
+    assert found.band.low == pytest.approx(ends[0], rel=1e-9)

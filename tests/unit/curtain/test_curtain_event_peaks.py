@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from moyai.core.headline import Criterion, judge
+from moyai.core.headline import Criterion, Verdict, judge
 from moyai.flexible.flow import Flow
 from moyai.sea.components import WaveComponents
 from moyai.sea.water import Water
@@ -21,7 +21,9 @@ from moyai.structures.curtain.analyses.event_peaks import (
     event_variables,
     governing_peaks,
     highest_judged,
+    leading_end,
     mesh_notices,
+    open_peaks,
 )
 from moyai.structures.curtain.analyses.loads import _with_joint
 from moyai.structures.curtain.dynamic.plans import Plan
@@ -298,3 +300,120 @@ def test_a_single_run_that_leads_does_not_hide_the_end_of_the_storm():
     groups[f"/SWL/dynamic/{run}"] = groups["/SWL/dynamic/storm"]
     used = next(item for item in curtain_headlines(groups, ["SWL"]) if item.name == "cable_utilisation")
     assert used.band.decides and used.band.high >= end / 100e3
+
+
+def wave(event: str, coarse: float, fine: float) -> list[EventSample]:
+    return [sample(event, COARSE, 0, coarse), sample(event, FINE, 0, fine)]
+
+
+def judged_cables(groups: dict[str, xr.Dataset], factor: float = 3.0) -> Verdict:
+    criterion = Criterion("cables", "cable_utilisation", 1.0 / factor, "at most", "case file", as_factor=True)
+    levels = dict.fromkeys(path.split("/")[1] for path in groups)
+    return judge(curtain_headlines(groups, list(levels)), [criterion], computed=True)
+
+
+def test_a_bound_behind_a_larger_known_tension_is_judged_at_its_own_end() -> None:
+    """30 kN of the storm, judged at 37 kN; a wave of 20 to 29 kN on finer cells may come to 29 + 9/0.5 = 47 kN."""
+    behind = wave("wave", 20e3, 29e3)
+    assert event_peak(behind, "wave", "upper cable").ceiling == pytest.approx(47e3)
+    samples = [*storm(), *behind]
+    event_end = event_peak(storm(), "storm", "upper cable").judged
+    assert governing_peaks(samples)["upper cable"][0] == "storm"
+    for strength, alone, both in ((160e3, "holds", "holds"), (130e3, "holds", "not judged")):
+        assert judged_cables(groups_of(storm(), strength, "")).outcome == alone
+        found = judged_cables(groups_of(samples, strength, ""))
+        assert found.outcome == both
+        # an end that breaks the limit proves nothing; the 29 kN do not break it
+        ends = {item.outcome: item.value for item in found.judgements}
+        assert max(ends.values()) == pytest.approx((47e3 if both == "holds" else event_end) / strength)
+    numbers = curtain_headlines(groups_of(samples, 130e3, ""), ["SWL"])
+    hidden = next(item for item in numbers if item.name == "cable_tension" and not item.shown)
+    assert (hidden.value, hidden.bound) == (29e3, "at least") and "wave" in hidden.where
+    shown = next(item for item in numbers if item.name == "cable_tension" and item.shown)
+    assert (shown.value, shown.bound) == (30e3, "")
+
+
+def test_the_growth_of_what_is_judged_below_the_number_shown_opens_nothing() -> None:
+    samples = [*storm(), *wave("wave", 2e3, 3e3)]
+    assert open_peaks(samples) == {} and judged_cables(groups_of(samples, 130e3, "")).outcome == "holds"
+    opened = open_peaks([*storm(), *wave("wave", 20e3, 29e3)])
+    assert opened["upper cable"][0] == "wave"
+    (notice,) = mesh_notices({}, opened)
+    assert "upper cable in 'wave' 20 kN" in notice.message and "a bound from below" in notice.message
+
+
+def test_one_realisation_has_no_end_to_which_it_grows() -> None:
+    """A sea with a single seed stays open on one mesh and on two, behind a known number as well."""
+    single = [sample("sea", mesh, 7, 5e3) for mesh in (COARSE, FINE)]
+    assert event_peak(single, "sea", "upper cable").ceiling == math.inf
+    assert event_peak(single[:1], "sea", "upper cable").ceiling == math.inf
+    assert judged_cables(groups_of([*storm(), *single], 1e7, "")).outcome == "not judged"
+
+
+def test_an_event_on_the_coarsest_mesh_may_lead_by_what_the_finer_one_may_add() -> None:
+    """9 kN of a snap on 8 by 3 cells may double: it leads the 15 kN of a wave that both meshes know."""
+    runs = [*wave("wave", 15e3, 13e3), sample("snap", COARSE, 0, 9e3)]
+    assert governing_peaks(runs)["upper cable"][0] == "wave"
+    assert leading_end(runs, "upper cable")[0] == "snap"
+    assert leading_end([*wave("wave", 19e3, 18e3), sample("snap", COARSE, 0, 9e3)], "upper cable")[0] == "wave"
+    assert leading_end([*runs, sample("snap", FINE, 0, 9.5e3)], "upper cable")[0] == "wave"
+
+
+def test_one_realisation_in_a_weaker_current_scatters_and_grows_as_the_sea_in_that_of_the_case() -> None:
+    """Of five values 31, 33, 23, 27, 36 kN: 2.132 of their deviations for one value, the growth of the storm too."""
+    slow = replace(sample("storm, current 0.1 m/s", FINE, 1, 20e3), like="storm")
+    scatter = np.std([31e3, 33e3, 23e3, 27e3, 36e3], ddof=1) / 30e3
+    known = event_peak([*storm(), slow], slow.event, "upper cable")
+    assert not known.at_least and known.judged == pytest.approx(20e3 * (1.0 + 2.1318 * scatter), rel=1e-4)
+    grown = [*storm((40e3, 42e3, 44e3)), slow]
+    open_one, own = (event_peak(grown, event, "upper cable") for event in (slow.event, "storm"))
+    assert open_one.at_least and open_one.ceiling / open_one.judged == pytest.approx(own.ceiling / own.judged)
+    alone = [sample("storm", COARSE, 1, 30e3), slow]
+    assert event_peak(alone, slow.event, "upper cable").ceiling == math.inf
+
+
+def asked_for(**peaks: float) -> dict[str, xr.Dataset]:
+    """Groups of a curtain whose whole span was asked for, a sea of one realisation behind a regular wave."""
+    groups = groups_of(storm(), 100e3, "")
+    loads = groups["/SWL/loads"].assign(governing_load=("component", [max(peaks.values())]))
+    lead = max(peaks, key=peaks.__getitem__)
+    groups["/SWL/loads"] = loads.assign(dynamic_source=("component", [lead]))
+    groups["/SWL/dynamic"] = xr.Dataset(
+        {"upper_peak": ("run", list(peaks.values()))}, coords={"run": list(peaks)}
+    )  # fmt: skip
+    for name, value in peaks.items():
+        groups[f"/SWL/dynamic/{name}"] = xr.Dataset(
+            {"line_tension_maximum": ("line", [value]), "line_half_mesh": ("line", [1.4 * value if name == "swell" else
+             value]), "line_half_step": ("line", [value])},
+            coords={"line": ["upper cable"]}, attrs={"regular": int(name != "storm"), "random": int(name == "storm")},
+        )  # fmt: skip
+    return groups
+
+
+def test_a_realisation_behind_a_regular_wave_leaves_a_span_that_was_asked_for_open() -> None:
+    assert judged_cables(asked_for(swell=20e3)).outcome == "holds"
+    found = judged_cables(asked_for(swell=20e3, storm=10e3))
+    assert found.outcome == "not judged"
+    assert {item.bound for item in found.judgements} == {"", "at least"}
+
+
+def test_the_band_of_a_run_that_does_not_lead_is_judged() -> None:
+    """22 kN with nothing around it, and 20 kN of a swell with 28 kN on half the cells: 28 kN breaks a limit of 25."""
+    found = judged_cables(asked_for(ferry=22e3, swell=20e3), 4.0)
+    assert found.outcome == "does not hold"
+    assert max(item.value for item in found.judgements) == pytest.approx(0.28)
+    assert judged_cables(asked_for(ferry=22e3), 4.0).outcome == "holds"
+
+
+@pytest.mark.parametrize("order", [("HW", "LW"), ("LW", "HW")])
+def test_what_is_not_known_at_one_level_stays_open(order: tuple[str, str]) -> None:
+    """At low water the impact says nothing of the strength that it takes: high water does not hold for both."""
+    groups: dict[str, xr.Dataset] = {}
+    for level in order:
+        groups |= {path.replace("/SWL/", f"/{level}/"): data for path, data in groups_of(storm(), 1e6, "").items()}
+    assert judged_cables(groups).outcome == "holds"
+    changed = {"governing": "steady", "load_bound": "at least"}
+    groups["/LW/loads"] = groups["/LW/loads"].assign({key: ("component", [word]) for key, word in changed.items()})
+    del groups["/LW/dynamic"], groups["/LW/dynamic/storm"]
+    found = judged_cables(groups)
+    assert found.outcome == "not judged" and "not known" in found.message

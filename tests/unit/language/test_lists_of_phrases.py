@@ -13,7 +13,7 @@ def test_factors_of_safety_that_are_not_judged_stand_side_by_side() -> None:
     with spoken_in("ja"):
         found = said(
             "factor of safety of the cables, factor of safety of the sheet, factor of safety of the anchor lines: "
-            "neither the impact nor the whole span in the seas of the case was run"
+            "snaps in the seas of the case were not run, which needs 'waves' or 'dynamic' in 'analyses'"
         )
     names, _, reason = found.partition("：")
     assert names == "ケーブルの安全率、シートの安全率、係留索の安全率" and reason

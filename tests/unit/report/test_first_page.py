@@ -232,3 +232,34 @@ def test_a_tile_that_is_not_judged_for_want_of_a_number_says_why() -> None:
         "at least 2.00; not judged: SWL, T = 7 s: not known, beyond its range; worst known: factor of safety 3.33",
         "at least 2.00; not judged",
     ]
+
+
+def test_the_tile_of_a_number_of_all_seas_carries_limits_at_named_ones() -> None:
+    """0.48 of the storm on the tile; the squall, which is not shown, breaks its own limit and is named."""
+    numbers = (
+        Headline("transmission", "K_T", 0.48, "1", "HWL, storm"),
+        Headline("transmission", "K_T", 0.48, "1", "HWL, storm", sea="storm", shown=False),
+        Headline("transmission", "K_T", 0.38, "1", "LWL, squall", sea="squall", shown=False),
+    )
+    base = Criterion("greatest_transmission", "transmission", 0.5, "at most", "case file")
+    for limit, judgement, words in (
+        (0.3, "bad", "limit at most 0.300 in squall, judged at 0.380 (LWL, squall)"),
+        (0.4, "good", ""),
+    ):
+        criteria = [replace(base, sea="storm"), replace(base, sea="squall", limit=limit)]
+        verdict = judge(numbers, criteria, computed=True)
+        (figure,) = headline_figures(replace(judged(), headlines=numbers, verdict=verdict)).items
+        assert figure.judgement == judgement and words in figure.detail, figure.detail
+
+
+def test_what_bounds_a_part_of_the_loads_proves_nothing_of_the_rest() -> None:
+    """Seas that were not run add to a bound of the current as to a value, and to what a growth goes on to."""
+    criterion = Criterion("cables", "cable_utilisation", 0.3, "at most", "case file")
+    grown = Band(0.1, 0.1, "meshes", decides=False, judged=(0.1, 0.2), beyond_bound=True)
+    plain = Headline("cable_utilisation", "Cables", 0.1, "1")
+    for item in (plain, replace(plain, bound="at most"), replace(plain, bound="at least", band=grown)):
+        assert judge([item], [criterion], computed=True).outcome == "holds"
+        found = judge([item], [criterion], computed=True, left_out="seas were not run")
+        assert found.outcome == "not judged" and "seas were not run" in found.message
+    more = [replace(plain, value=0.4, bound=bound) for bound in ("", "at least")]
+    assert all(judge([item], [criterion], computed=True, left_out="x").outcome == "does not hold" for item in more)

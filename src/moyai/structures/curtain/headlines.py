@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from moyai.core.headline import Band, Bound, Criterion, Headline, also_judged, judge, unfavourable
+from moyai.core.headline import Band, Bound, Criterion, Headline, also_judged, judge, saying_what_is_open, unfavourable
 from moyai.series.intervals import reach_of_mean
 from moyai.structures.curtain.analyses.event_peaks import COMPONENTS, ceiling_of, event_band, open_events
 from moyai.structures.curtain.governing import model_of
@@ -262,8 +262,8 @@ def _tensions(loads: Sequence[_Load], groups: Groups) -> Iterator[Headline]:
         if not shown.bound:
             # of values the one that is judged worst is shown; what is open is judged with it
             shown = max((item for item in found if not item.bound), key=_end)
-        yield shown
-        yield from also_judged(shown, (item for item in found if item is not shown))
+        behind = also_judged(shown, (item for item in found if item is not shown))
+        yield from saying_what_is_open([shown, *behind])
 
 
 def _tension(name: str, label: str, load: _Load, groups: Groups) -> Headline:
@@ -394,11 +394,12 @@ def _judged_in_waves(groups: Groups, load: _Load) -> float:
 
 def _moving_band(groups: Groups, load: _Load, value: float) -> Band | None:
     """Return the change with mesh and step of the run, where these runs were made, else the scatter of its periods."""
+    table = groups.get(f"/{load.level}/dynamic")
+    if table is not None and "run_of" in table:
+        return _mesh_band(table, load, value)
     run = groups.get(f"/{load.level}/dynamic/{load.words('dynamic_source')}")
     if run is None or "line_tension_maximum" not in run:
         return None
-    if "run_of" in groups[f"/{load.level}/dynamic"]:
-        return _mesh_band(groups[f"/{load.level}/dynamic"], load, value)
     line = _line(load)
     mine = [row for row, name in enumerate(run["line"].values) if str(name).startswith(line)]
     if not mine:

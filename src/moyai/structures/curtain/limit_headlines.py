@@ -72,7 +72,15 @@ def limit_headlines(groups: Groups, levels: Sequence[str], span_holds: Callable[
             more = f"an upright plate, a bound, allows {limit:.3g} {unit}; " if limit > 0.0 and not waves else ""
             detail = f"the whole span holds in the state of the case; {more}the span is run in that state alone"
             yield Headline(
-                name, label, proven, unit, where=f"{where}: {level}", model=SPAN, bound="at least", detail=detail
+                name,
+                label,
+                proven,
+                unit,
+                where=f"{where}: {level}",
+                model=SPAN,
+                bound="at least",
+                detail=detail,
+                without_waves=not waves,
             )
             continue
         details = [said or f"{governing} sets it"]
@@ -108,7 +116,8 @@ def limit_headlines(groups: Groups, levels: Sequence[str], span_holds: Callable[
             if waves and run is not None and (oblique := _all_oblique(groups, level)):
                 more = oblique
             detail = f"{words}; {more}"
-            yield Headline(name, label, math.nan, unit, where=f"{where}: {level}", detail=detail, text="not known")
+            yield Headline(name, label, math.nan, unit, where=f"{where}: {level}", detail=detail, text="not known",
+                           without_waves=not waves)  # fmt: skip
             continue
         if band is not None and band.low < limit:
             # what is held is what holds at the unfavourable end
@@ -130,7 +139,7 @@ def limit_headlines(groups: Groups, levels: Sequence[str], span_holds: Callable[
             name, label, limit, unit, where=f"{where}: {level}",
             bound="at least" if governing == "not reached" and not bound else bound,  # type: ignore[arg-type]
             detail="; ".join(details),
-            text="" if limit > 0.0 else "none", without_waves=key == "speed_limit",
+            text="" if limit > 0.0 else "none", without_waves=not waves,
         )  # fmt: skip
 
 

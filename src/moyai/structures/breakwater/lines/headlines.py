@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from moyai.core.arrays import Array
-from moyai.core.headline import Band, Bound, Headline, all_judged, unfavourable
+from moyai.core.headline import Band, Bound, Headline, all_judged, saying_what_is_open, unfavourable
 from moyai.core.wording import kilonewton
 from moyai.design.anchor_needs import anchor_need, judged_end, sinker_weight
 from moyai.series.intervals import student_quantile
@@ -196,7 +196,7 @@ def line_headlines(peaks: list[LinePeak]) -> list[Headline]:
     highest = max(peaks, key=lambda peak: peak.rank)
     also = _other_level(highest, peaks)
     known = [peak for peak in peaks if peak.known]
-    tensions = all_judged(_tension(peak, also if peak is highest else "") for peak in known)
+    tensions = saying_what_is_open(all_judged(_tension(peak, also if peak is highest else "") for peak in known))
     # Codes ask another factor of each analysis: the highest of the other one is judged too
     strong = [peak for peak in known if peak.breaking_load > 0.0]
     same = all_judged(_utilisation(peak) for peak in strong if peak.analysis == highest.analysis)
@@ -315,7 +315,7 @@ def anchor_headlines(groups: Mapping[str, xr.Dataset], levels: list[str], peaks:
     # where no anchor is lifted, the line that leaves least on the bed comes nearest to it
     lifted = max(pulled, key=lambda peak: (max(peak.vertical, 0.0), -peak.grounded))
     hardest = max(pulled, key=lambda peak: peak.horizontal + max(peak.vertical, 0.0))
-    pulls = all_judged(_pull(peak) for peak in known)
+    pulls = saying_what_is_open(all_judged(_pull(peak) for peak in known))
     lifts = [_uplift(peak) for peak in known if peak is not lifted]
     if not (hardest.known and lifted.known):
         worst = lifted if hardest.known else hardest
@@ -331,7 +331,8 @@ def anchor_headlines(groups: Mapping[str, xr.Dataset], levels: list[str], peaks:
         return [*shown, *hidden, *_unknown_anchors(pulled, worst)]
     # a sinker is bought for the end at which criteria are judged, not for the mean of a few realisations
     weight, heaviest = max(((_sinker(peak), peak) for peak in known), key=lambda pair: pair[0])
-    capacities = all_judged(_capacity(peak, weight, heaviest, len(known) < len(pulled)) for peak in known)
+    needed = all_judged(_capacity(peak, weight, heaviest, len(known) < len(pulled)) for peak in known)
+    capacities = saying_what_is_open(needed)
     none = lifted.vertical <= 0.0
     least = min(peak.grounded for peak in pulled)
     kept = f"{least:.3g} m of line stays on the bed" if least > 0.0 else "the line leaves the bed"
