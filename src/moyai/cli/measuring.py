@@ -6,11 +6,13 @@ import typer
 
 from moyai.cli.help_pages import SpokenGroup
 from moyai.cli.measuring_decay import decay
+from moyai.cli.measuring_flume import flume
 from moyai.cli.measuring_forces import forces
 from moyai.cli.measuring_nets import nets
 from moyai.cli.measuring_records import records
 from moyai.cli.measuring_snaps import snaps
 from moyai.cli.measuring_streaks import streaks
+from moyai.cli.measuring_tide import tide
 
 measure = typer.Typer(
     name="measure",
@@ -20,8 +22,10 @@ measure = typer.Typer(
     help="Turn records and pictures into statistics and coefficients.",
 )
 measure.command()(decay)
+measure.command()(flume)
 measure.command()(forces)
 measure.command()(nets)
 measure.command()(records)
 measure.command()(snaps)
 measure.command()(streaks)
+measure.command()(tide)
