@@ -216,7 +216,7 @@ def saying_what_is_open(items: Iterable[Headline]) -> list[Headline]:
 
 @checks_words
 def also_judged(shown: Headline, others: Iterable[Headline], sense: Sense = "at most") -> list[Headline]:
-    """Return, not shown, what has to be judged beside the one of a number that is shown.
+    """Return, not shown, what has to be judged with the one of a number that is shown.
 
     Of the others each kind has its worst: those that may be worse than they say without an end, those with one, bounds
     from the safe side, and values. The first kind stays open however far it lies behind; the others count where their
