@@ -223,21 +223,30 @@ def also_judged(shown: Headline, others: Iterable[Headline], sense: Sense = "at 
     judged end is worse than that of the number shown, or where that is no value. What is not known is kept as it is.
     """
     sign = 1.0 if sense == "at most" else -1.0
-    value = not shown.bound and math.isfinite(shown.value)
+
+    def kind(item: Headline) -> tuple[str, bool]:
+        return item.bound, item.band is not None and item.band.beyond_bound
+
+    def ends(item: Headline) -> tuple[float, float]:
+        return sign * unfavourable(item, sense), sign * item.value
+
     kinds: dict[tuple[str, bool], list[Headline]] = {}
     found: dict[str, Headline] = {}
     for item in others:
         if math.isfinite(item.value):
-            ended = item.band is not None and item.band.beyond_bound
-            kinds.setdefault((item.bound, ended), []).append(item)
+            kinds.setdefault(kind(item), []).append(item)
         else:
             found.setdefault(item.text, replace(item, shown=False))
     kept = list(found.values())
-    own = unfavourable(shown, sense)
-    for (bound, ended), items in kinds.items():
-        worst = max(items, key=lambda item: sign * unfavourable(item, sense))
-        open_end = bound not in ("", sense) and not ended
-        if open_end or not value or sign * unfavourable(worst, sense) > sign * own:
+    known = math.isfinite(shown.value)
+    for own, items in kinds.items():
+        worst = max(items, key=ends)
+        # a value counts by its end alone, a bound from the open side may break a limit by its value too
+        parts = ends(worst)[: 2 if own[0] not in ("", sense) else 1]
+        worse = any(end > limit for end, limit in zip(parts, ends(shown), strict=False)) or not known
+        open_end = own[0] not in ("", sense) and not own[1]
+        # a bound says nothing of a value, nor a value of what is open; of one kind the worst is enough
+        if worse or (own != kind(shown) and (open_end or shown.bound)):
             kept.append(replace(worst, shown=False, sea=""))
     return kept
 

@@ -10,7 +10,17 @@ import pytest
 import xarray as xr
 
 from moyai.core.collected import Collected
-from moyai.core.headline import SEAS_LEFT_OUT, Band, Criterion, Headline, Judgement, Verdict, governing, judge
+from moyai.core.headline import (
+    SEAS_LEFT_OUT,
+    Band,
+    Criterion,
+    Headline,
+    Judgement,
+    Verdict,
+    also_judged,
+    governing,
+    judge,
+)
 from moyai.core.results import read_result
 from moyai.core.vocabulary import Vocabulary
 
@@ -174,3 +184,20 @@ def test_a_bound_from_below_with_an_end_beyond_it_holds_where_that_end_keeps_the
     for least, outcome in ((5.0, "not judged"), (1.5, "does not hold")):
         (item,) = judge([found], [replace(limit, limit=least)], computed=True).judgements
         assert (item.outcome, item.value) == (outcome, 2.0)
+
+
+def test_of_what_stands_behind_a_number_each_kind_is_judged_once() -> None:
+    """A value by its end; a bound without an end always, with one where it passes; what is not known as it is."""
+    shown = Headline("pull", "Pull", 30.0, "N", "storm", band=Band(20.0, 40.0, "seeds"))
+    smaller = Headline("pull", "Pull", 25.0, "N", "swell", band=Band(20.0, 35.0, "seeds"))
+    wider = replace(smaller, band=Band(20.0, 45.0, "seeds"))
+    alone = Headline("pull", "Pull", 5.0, "N", "calm", bound="at least")
+    grown = replace(alone, band=Band(5.0, 5.0, "meshes", decides=False, judged=(5.0, 38.0), beyond_bound=True))
+    further = replace(grown, band=replace(grown.band, judged=(5.0, 42.0)))
+    unknown = Headline("pull", "Pull", math.nan, "N", "LWL", text="not known")
+    most = Headline("pull", "Pull", 39.0, "N", "plate", bound="at most")
+    assert also_judged(shown, [smaller, grown, most]) == []
+    for item in (wider, alone, further, unknown, replace(most, value=41.0)):
+        assert also_judged(shown, [smaller, item, grown if item is wider else smaller]) == [replace(item, shown=False)]
+    # with a bound every value counts, and of bounds alike the worst alone
+    assert also_judged(replace(alone, value=6.0), [smaller, alone]) == [replace(smaller, shown=False)]
