@@ -237,8 +237,8 @@ def also_judged(shown: Headline, others: Iterable[Headline], sense: Sense = "at 
             kinds.setdefault(kind(item), []).append(item)
         else:
             found.setdefault(item.text, replace(item, shown=False))
-    kept = list(found.values())
     known = math.isfinite(shown.value)
+    kept = list(found.values()) if known else []
     for own, items in kinds.items():
         worst = max(items, key=ends)
         # a value counts by its end alone, a bound from the open side may break a limit by its value too

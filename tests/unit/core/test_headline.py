@@ -201,3 +201,4 @@ def test_of_what_stands_behind_a_number_each_kind_is_judged_once() -> None:
         assert also_judged(shown, [smaller, item, grown if item is wider else smaller]) == [replace(item, shown=False)]
     # with a bound every value counts, and of bounds alike the worst alone
     assert also_judged(replace(alone, value=6.0), [smaller, alone]) == [replace(smaller, shown=False)]
+    assert also_judged(unknown, [replace(unknown, text="not known at HWL")]) == []
