@@ -24,6 +24,7 @@ from moyai.structures.curtain.analyses.event_peaks import (
     leading_end,
     mesh_notices,
     open_peaks,
+    unresolved_end,
 )
 from moyai.structures.curtain.analyses.loads import _with_joint
 from moyai.structures.curtain.dynamic.plans import Plan
@@ -357,6 +358,17 @@ def test_an_event_on_the_coarsest_mesh_may_lead_by_what_the_finer_one_may_add() 
     assert leading_end(runs, "upper cable")[0] == "snap"
     assert leading_end([*wave("wave", 19e3, 18e3), sample("snap", COARSE, 0, 9e3)], "upper cable")[0] == "wave"
     assert leading_end([*runs, sample("snap", FINE, 0, 9.5e3)], "upper cable")[0] == "wave"
+
+
+def test_a_second_sea_may_grow_as_the_first_one_did() -> None:
+    """Means of 29 and 20 kN of the storm fall with the cells: a second sea may come to a quarter more, not to twice."""
+    swell = [sample("swell", COARSE, seed, value) for seed, value in enumerate((19e3, 21e3, 20e3, 18e3, 22e3), 1)]
+    peak = event_peak(swell, "swell", "upper cable")
+    assert unresolved_end([*storm(), *swell], "swell", peak, "upper cable") == pytest.approx(peak.judged / 0.8)
+    assert unresolved_end(swell, "swell", peak, "upper cable") == pytest.approx(2.0 * peak.judged)
+    grown = [*storm((32e3, 34e3, 36e3)), *swell]
+    assert unresolved_end(grown, "swell", peak, "upper cable") == pytest.approx(peak.judged * 34.0 / 29.0 / 0.8)
+    assert leading_end([*storm(), *swell], "upper cable")[0] == "storm"
 
 
 def test_one_realisation_in_a_weaker_current_scatters_and_grows_as_the_sea_in_that_of_the_case() -> None:

@@ -221,11 +221,22 @@ def leading_end(samples: Sequence[EventSample], component: str) -> tuple[str, Ev
 
 
 def unresolved_end(samples: Sequence[EventSample], event: str, peak: EventPeak, component: str) -> float:
-    """Return the end of a peak; on the coarsest mesh alone what its growth to the next may come to."""
+    """Return the end of a peak; on the coarsest mesh alone what its growth to the next may come to.
+
+    An irregular sea grows with the cells as another one did, means over realisations of the same cloth, and by
+    :data:`MESH_CHANGE` more; a snap and regular waves as far as any did.
+    """
     mine = [item for item in samples if item.event == event]
     coarse = min(item.mesh for item in samples)
-    alone = not mine[0].like and all(item.mesh == coarse for item in mine)
-    return peak.end * (COARSE_GROWTH[component] if alone and math.isfinite(peak.end) else 1.0)
+    if mine[0].like or any(item.mesh != coarse for item in mine) or not math.isfinite(peak.end):
+        return peak.end
+    growth = COARSE_GROWTH[component]
+    if any(item.seed for item in mine):
+        seas = dict.fromkeys(item.event for item in samples if item.seed)
+        known = [other for sea in seas if (other := event_peak(samples, sea, component)) is not None and other.means]
+        grown = max((other.means[-1] / other.means[0] for other in known), default=growth)
+        growth = min(growth, max(grown, 1.0) / (1.0 - MESH_CHANGE))
+    return peak.end * growth
 
 
 def open_peaks(samples: Sequence[EventSample]) -> dict[str, tuple[str, EventPeak]]:
