@@ -218,9 +218,9 @@ def saying_what_is_open(items: Iterable[Headline]) -> list[Headline]:
 def also_judged(shown: Headline, others: Iterable[Headline], sense: Sense = "at most") -> list[Headline]:
     """Return, not shown, what has to be judged with the one of a number that is shown.
 
-    Of the others each kind has its worst: those that may be worse than they say without an end, those with one, bounds
-    from the safe side, and values. The first kind stays open however far it lies behind; the others count where their
-    judged end is worse than that of the number shown, or where that is no value. What is not known is kept as it is.
+    Of each kind the worst: what may be worse than it says without an end, with one, bounds from the safe side, values.
+    The first is open however far behind; the others count where their judged end is worse than that shown, or where
+    that is no value. What is not known is kept as it is.
     """
     sign = 1.0 if sense == "at most" else -1.0
 
@@ -230,17 +230,15 @@ def also_judged(shown: Headline, others: Iterable[Headline], sense: Sense = "at 
     def ends(item: Headline) -> tuple[float, float]:
         return sign * unfavourable(item, sense), sign * item.value
 
+    items, known = list(others), math.isfinite(shown.value)
     kinds: dict[tuple[str, bool], list[Headline]] = {}
-    found: dict[str, Headline] = {}
-    for item in others:
+    for item in items:
         if math.isfinite(item.value):
             kinds.setdefault(kind(item), []).append(item)
-        else:
-            found.setdefault(item.text, replace(item, shown=False))
-    known = math.isfinite(shown.value)
-    kept = list(found.values()) if known else []
-    for own, items in kinds.items():
-        worst = max(items, key=ends)
+    unknown = {item.text: item for item in items if not math.isfinite(item.value)}
+    kept = [replace(item, shown=False) for item in unknown.values()] if known else []
+    for own, alike in kinds.items():
+        worst = max(alike, key=ends)
         # a value counts by its end alone, a bound from the open side may break a limit by its value too
         parts = ends(worst)[: 2 if own[0] not in ("", sense) else 1]
         worse = any(end > limit for end, limit in zip(parts, ends(shown), strict=False)) or not known
