@@ -437,7 +437,7 @@ def test_the_table_is_what_is_computed(page, heading, first, computed, request):
 def test_the_whole_span_bears_a_quarter_of_the_plate_in_a_strong_current():
     """Motion of cloth is chaotic: the numbers of the page, 29 and 41 kN, 0.33 and 0.12, are held to a fifth."""
     result = moyai.run(case_on("answer/curtain.md").replace("settings.dynamic", {"by_default": True}))
-    found = {item.name: item.value for item in result.headlines}
+    found = {item.name: item.value for item in result.headlines if item.shown}
     assert found["cable_tension"] == pytest.approx(29e3, rel=0.2)
     assert found["anchor_load"] == pytest.approx(41e3, rel=0.2)
     assert found["anchor_utilisation"] == pytest.approx(0.33, rel=0.2)

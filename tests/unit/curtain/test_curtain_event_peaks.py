@@ -16,6 +16,7 @@ from moyai.structures.curtain.analyses.dynamic import peaks_of_runs
 from moyai.structures.curtain.analyses.event_peaks import (
     COMPONENTS,
     EventSample,
+    ceiling_of,
     event_band,
     event_peak,
     event_variables,
@@ -341,6 +342,18 @@ def test_the_growth_of_what_is_judged_below_the_number_shown_opens_nothing() -> 
     assert opened["upper cable"][0] == "wave"
     (notice,) = mesh_notices({}, opened)
     assert "upper cable in 'wave' 20 kN" in notice.message and "a bound from below" in notice.message
+
+
+def test_a_bound_behind_has_its_own_end_and_not_the_growth_of_a_known_event() -> None:
+    """The storm grows by a tenth, no bound; a wave of 2 to 3 kN on finer cells may come to 12 kN, below its 37 kN."""
+    growing = storm((31e3, 32e3, 33e3))
+    assert not event_peak(growing, "storm", "upper cable").at_least
+    end = event_peak(growing, "storm", "upper cable").judged
+    groups = groups_of([*growing, *wave("wave", 2e3, 3e3)], 3.05 * end, "")
+    table = groups["/SWL/dynamic"]
+    assert float(table["event_peak_ceiling"].sel(event="storm", span_component="upper cable")) > 1.1 * end
+    assert ceiling_of(table, "wave", "upper cable") == pytest.approx(end)
+    assert judged_cables(groups).outcome == "holds"
 
 
 def test_one_realisation_has_no_end_to_which_it_grows() -> None:

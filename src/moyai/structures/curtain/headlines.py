@@ -430,7 +430,7 @@ def _mesh_band(table: xr.Dataset, load: _Load, value: float) -> Band | None:
     ]
     known = [item for item in others if math.isfinite(item[0])]
     high, judged = max([high, *(item[2] for item in known)]), max([judged, *(item[3] for item in known)])
-    ceiling = ceiling_of(table, component) if load.bound == "at least" else math.nan
+    ceiling = ceiling_of(table, event, component) if load.bound == "at least" else math.nan
     if not low < max(high, judged) and math.isnan(ceiling):
         return None
     factor = value / whole

@@ -295,14 +295,18 @@ def event_band(table: xr.Dataset, event: str, component: str) -> tuple[float, fl
     return value, low, high, judged, int(table["event_realisations"].sel(event=event))
 
 
-def ceiling_of(table: xr.Dataset, component: str) -> float:
-    """Return the highest end that the growth with the cells leads to over all events; NaN where a mesh is missing."""
+def ceiling_of(table: xr.Dataset, event: str, component: str) -> float:
+    """Return the end to which the growth of an event with the cells goes on, or that of a known one that is higher.
+
+    NaN where a mesh is missing; another event that is open has an end of its own.
+    """
     if "event_peak_ceiling" not in table:
         return math.nan
-    ends = table["event_peak_ceiling"].sel(span_component=component).values
-    bears = table["event_peak"].sel(span_component=component).values > 0.0
-    known = np.where(np.isnan(ends), table["event_peak_judged"].sel(span_component=component).values, ends)
-    return float(known[bears].max()) if bears.any() else math.nan
+    ceiling = float(table["event_peak_ceiling"].sel(event=event, span_component=component))
+    still = open_events(table, component)
+    names = [str(name) for name in table["event"].values if str(name) not in (event, *still)]
+    known = [event_band(table, name, component)[3] for name in names]
+    return ceiling if math.isnan(ceiling) else max([ceiling, *(end for end in known if math.isfinite(end))])
 
 
 def open_events(table: xr.Dataset, component: str) -> list[str]:
