@@ -25,7 +25,8 @@ from moyai.flexible.network import DRIVEN, Network
 from moyai.flexible.peak_notices import peak_notices
 from moyai.flexible.result import State
 
-#: Accepted steps after which the step of the network is chosen again.
+#: Accepted steps after which the step of the network is chosen again: within them a march ends where drag or a drying
+#: part would make the step too long, so that the number is one of speed alone.
 _CHOSEN_FOR = 16
 #: Steps of the network within one step of a body, at least: mean and tilt of the reaction are sums over them.
 LEAST_STEPS = 16
