@@ -64,18 +64,16 @@ class StepRecord:
     time: Array
     #: ``nodes``, ``bars``: Which nodes and bars the arrays hold.
     nodes: IntArray
-    #: ``nodes``, ``bars``: Which nodes and bars the arrays hold.
+    #: See ``nodes``.
     bars: IntArray
     #: [m]; shape (k, nodes, 3).
     position: Array
     #: ``tension``, ``tension_peak``, ``tension_trough``: At the row, and the highest and lowest since the row before
     #: [N]; the highest counts every small step, the lowest the accepted ones; shape (k, bars).
     tension: Array
-    #: ``tension``, ``tension_peak``, ``tension_trough``: At the row, and the highest and lowest since the row before
-    #: [N]; the highest counts every small step, the lowest the accepted ones; shape (k, bars).
+    #: See ``tension``.
     tension_peak: Array
-    #: ``tension``, ``tension_peak``, ``tension_trough``: At the row, and the highest and lowest since the row before
-    #: [N]; the highest counts every small step, the lowest the accepted ones; shape (k, bars).
+    #: See ``tension``.
     tension_trough: Array
     #: As in :class:`moyai.flexible.result.History` [J]; shape (k,).
     kinetic_energy: Array

@@ -22,7 +22,7 @@ class Maximum:
     observed: float
     #: ``mean``, ``deviation``: Over all records of that length, estimated from the maxima of blocks.
     mean: float
-    #: ``mean``, ``deviation``: Over all records of that length, estimated from the maxima of blocks.
+    #: See ``mean``.
     deviation: float
     blocks: int
 

@@ -49,8 +49,7 @@ class NetworkRun:
     #: ``series``, ``frames``: Time series of lines and points; places of all nodes and tensions of all bars at fewer
     #: times.
     series: xr.Dataset
-    #: ``series``, ``frames``: Time series of lines and points; places of all nodes and tensions of all bars at fewer
-    #: times.
+    #: See ``series``.
     frames: xr.Dataset
     #: By line.
     snaps: Mapping[str, SnapRecord]

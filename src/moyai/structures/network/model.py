@@ -121,7 +121,7 @@ class NetPlan:
     columns: int
     #: ``along``, ``across``: Materials of inner and edge bars of the rows, and of the columns.
     along: tuple[BarType, BarType]
-    #: ``along``, ``across``: Materials of inner and edge bars of the rows, and of the columns.
+    #: See ``along``.
     across: tuple[BarType, BarType]
     #: Distance of the knots at the start over their unstretched distance [-].
     hanging_ratio: float = 1.0
