@@ -28,5 +28,18 @@ def test_every_class_has_a_name_of_its_own():
     assert not shared, "\n".join(shared)
 
 
+def test_fields_are_described_where_they_stand():
+    """A list of fields in the description of a class says a second time what stands, or should stand, at the fields."""
+    lists = [
+        f"{path.relative_to(SOURCE)}: {node.name}"
+        for path in FILES
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.ClassDef)
+        and any("dataclass" in ast.unparse(one) for one in node.decorator_list)
+        and "Parameters\n-----" in (ast.get_docstring(node) or "")
+    ]
+    assert not lists, "\n".join(lists)
+
+
 def _lines(path):
     return path.read_text(encoding="utf-8").count("\n")
