@@ -1,9 +1,8 @@
-"""No file of the package is longer than a reader holds in mind; no two classes share a name."""
+"""No file is longer than a reader holds in mind; no two classes share a name; fields are described where they stand."""
 
-import ast
 from collections import defaultdict
 
-from source_files import FILES, SOURCE
+from source_files import FILES, SOURCE, findings
 
 LONGEST = 600
 
@@ -20,10 +19,9 @@ def test_half_of_the_files_are_short():
 
 def test_every_class_has_a_name_of_its_own():
     places = defaultdict(list)
-    for path in FILES:
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            if isinstance(node, ast.ClassDef):
-                places[node.name].append(str(path.relative_to(SOURCE)))
+    for path, found in findings().items():
+        for name in found.classes:
+            places[name].append(str(path.relative_to(SOURCE)))
     shared = [f"{name}: {', '.join(files)}" for name, files in sorted(places.items()) if len(files) > 1]
     assert not shared, "\n".join(shared)
 
@@ -31,12 +29,7 @@ def test_every_class_has_a_name_of_its_own():
 def test_fields_are_described_where_they_stand():
     """A list of fields in the description of a class says a second time what stands, or should stand, at the fields."""
     lists = [
-        f"{path.relative_to(SOURCE)}: {node.name}"
-        for path in FILES
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
-        if isinstance(node, ast.ClassDef)
-        and any("dataclass" in ast.unparse(one) for one in node.decorator_list)
-        and "Parameters\n-----" in (ast.get_docstring(node) or "")
+        f"{path.relative_to(SOURCE)}: {name}" for path, found in findings().items() for name in found.lists_of_fields
     ]
     assert not lists, "\n".join(lists)
 
