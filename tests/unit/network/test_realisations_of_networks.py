@@ -54,6 +54,7 @@ def _headline(result: Result, name: str) -> Headline:
     return next(item for item in result.headlines if item.name == name)
 
 
+@pytest.mark.slow
 def test_each_realisation_is_the_run_of_its_seed(found: Result) -> None:
     dynamic = _storm(found)
     seeds = [realisation_seed(4, number) for number in range(4)]
