@@ -96,7 +96,9 @@ def summary_dataset(
     if solids:
         coords["solid"] = solids
     if "load_of_realisation" in out:
-        coords |= {"measure": MEASURES, "net": list(assembly.net_bars)}
+        coords["measure"] = MEASURES
+    if "net_tension_maximum_of_realisation" in out:
+        coords["net"] = list(assembly.net_bars)
     made = labelled(xr.Dataset(out, coords=coords))
     made.attrs |= {f"governing {item.plan.name}": item.governing for item in runs}
     made.attrs |= {f"doubt {item.plan.name}": item.doubt for item in runs}
