@@ -83,6 +83,8 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "load_double_mesh": ("N", "highest pull on the fixed point with every bar cut in two"),
     "load_damped": ("N", "highest pull on the fixed point on a finer mesh of damped bars"),
     "load_finest": ("N", "highest pull on the fixed point on the finest mesh of the event"),
+    "line_tension_of_check": ("N", "highest tension of the line in the run and in those that check its mesh"),
+    "net_tension_of_check": ("N", "highest tension in the net in the run and in those that check its mesh"),
     "line_tension_maximum_of_realisation": ("N", "largest tension of the line in each realisation"),
     "net_tension_maximum_of_realisation": ("N", "largest tension in the net in each realisation"),
     "load_of_realisation": ("N", "largest pull on the point in each realisation"),
@@ -142,6 +144,7 @@ LABELS: dict[str, str] = {
     "body_axis": "axis of the body",
     "turn": "angle of the body",
     "member": "realisation",
+    "check": "the run itself, or the run that checks its mesh and step",
     "measure": "measure",
     "left": "body of the last state",
 }
