@@ -96,7 +96,7 @@ RIPPLE = "waves: {name: ripple, kind: regular, height: H, period: 5 s, heading_d
 
 
 def test_a_ripple_takes_nothing_from_the_drag_of_a_current(tmp_path: Path) -> None:
-    """KC of waves and current together is 15 m/s x s over 2 m: below 8, where waves alone have less than steady drag."""
+    """KC of both together is below 8, where waves alone have less than steady drag."""
     deep = (
         "start: {z: -8 m}\n  end: {z: 2 m}\n  support: start",
         "start: {y: -3 m, z: -5 m}\n  end: {y: 3 m, z: -5 m}",

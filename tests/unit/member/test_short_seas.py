@@ -10,8 +10,8 @@ CASE = """
 moyai: 1
 title: Pile in a sea
 site: {water_depth: 9.5 m, density: 1025 kg/m3, gravity: 9.81 m/s2}
-waves: {kind: jonswap, name: storm, significant_height: 1.5 m, peak_period: 5.5 s, peak_enhancement: 3.3, heading_deg: 0,
-        duration: DURATION, seed: 1}
+waves: {kind: jonswap, name: storm, significant_height: 1.5 m, peak_period: 5.5 s, peak_enhancement: 3.3,
+        heading_deg: 0, duration: DURATION, seed: 1}
 structure:
   kind: member
   section: {shape: circle, diameter: 0.5 m}
@@ -36,5 +36,5 @@ def test_realisations_of_a_few_waves_keep_no_limit(duration: str, limit: str, ou
     (force,) = [item for item in result.headlines if item.name == "peak_force"]
     short = duration == "60 s"
     assert (force.bound == "at least") is short and ("less than 24 periods" in force.detail) is short
-    assert f"realisations of {'60 s' if short else '2.5 min'}" in force.detail
+    assert f"each of {'60 s' if short else '2.5 min'}" in force.detail
     assert result.verdict.outcome == outcome

@@ -6,9 +6,11 @@ import math
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import moyai
 from moyai.core.results import Result
+from moyai.structures.network.chance import of_periods
 from moyai.structures.network.settling import DRIFTED, Drift, drift_of
 
 CASE = """
@@ -104,3 +106,17 @@ def test_the_way_from_rest_is_left_out() -> None:
     found = {item.name: item for item in result.headlines if item.shown}
     assert found["line_tension"].value == pytest.approx(tension, rel=0.03)
     assert found["start_up_tension"].value > 1.2 * tension and DRIFTED in found["start_up_tension"].detail
+
+
+def test_periods_in_which_a_motion_grows_say_nothing_of_chance() -> None:
+    """Ten periods of snaps, the first two of a motion that grows: the chance is that of the eight others."""
+    time = np.linspace(0.0, 40.0, 4001)
+    peaks = np.array([2.0, 8.0, 37.0, 39.0, 36.0, 40.0, 38.0, 35.0, 39.0, 37.0])
+    values = peaks[np.minimum((time / 4.0).astype(int), 9)] * np.abs(np.sin(math.pi * time / 4.0))
+    found, late = (
+        of_periods(xr.Dataset(coords={"time": time}, attrs={"period": 4.0, "growth": growth}), time[kept], values[kept])
+        for growth, kept in ((8.0, time >= 0.0), (0.0, time >= 8.0))
+    )
+    assert found is not None and late is not None and found.range == late.range and found.observed == values.max()
+    whole = of_periods(xr.Dataset(coords={"time": time}, attrs={"period": 4.0}), time, values)
+    assert whole is not None and whole.range[1] > 1.3 * found.range[1]

@@ -304,8 +304,8 @@ def _chance_text(found: _Largest) -> str:
         return f"; largest of {_length_text(found)}; {ALONE}"
     deviation = spoken(float(scatter.std(ddof=1)), "N", 2, like=found.value)
     return (
-        f"; mean of the largest of {scatter.size} realisations of {_length_text(found)}; their standard deviation "
-        f"{deviation}"
+        f"; mean of the largest of {scatter.size} realisations, their standard deviation {deviation}; each of "
+        f"{_length_text(found)}"
     )
 
 
@@ -317,7 +317,7 @@ def _length_text(found: _Largest) -> str:
 
 def _ends_text(found: _Largest) -> str:
     count = found.scatter.size
-    return f"; mean of {count} realisations of {_length_text(found)}" if count > 1 else ""
+    return f"; mean of {count} realisations; each of {_length_text(found)}" if count > 1 else ""
 
 
 def _band(found: _Largest, ranges: tuple[MeasuredRange, ...]) -> Band:

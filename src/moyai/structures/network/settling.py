@@ -172,8 +172,8 @@ def settled(
 ) -> tuple[RunPlan, Drift]:
     """Return the plan with the way to the mean place left out, where the case leaves that to the program, and the rest.
 
-    Currents that change, lines that part and motions that lead away have no place to stand at; in still water nothing
-    drifts.
+    Currents that change, lines that part and motions that lead away have no place to stand at. What waves
+    alone move little by little counts in an irregular sea, whose means move by chance.
 
     Parameters
     ----------
@@ -196,7 +196,8 @@ def settled(
         series["time"].values, place, place[0] if origin is None else origin, np.array([n in driven for n in names]),
         period=plan.period, skip=plan.skip, irregular=plan.irregular, names=names, pull=pull,
     )  # fmt: skip
-    flows = plan.waves is not None or problem.environment.current is not None
-    if own_start and flows and problem.settings.skip is None and found.until > plan.skip:
+    away = problem.environment.current is not None and problem.start != "rest_in_current"
+    drifts = away or (plan.waves is not None and not plan.irregular)
+    if own_start and drifts and problem.settings.skip is None and found.until > plan.skip:
         plan = replace(plan, skip=found.until, skip_rule=DRIFTED)
     return plan, found
