@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
 import xarray as xr
 
 from moyai.core.collected import Collected
-from moyai.core.headline import Criterion, Headline, judge
+from moyai.core.headline import Band, Criterion, Headline, judge
 from moyai.core.validity import IdentityCheck
 from moyai.core.vocabulary import Vocabulary
 from moyai.flexible.sensitivity import PeakSensitivity
 from moyai.structures.network import headlines
-from moyai.structures.network.headlines import DYNAMIC, _band, _Peak, _utilisation
+from moyai.structures.network.headlines import DYNAMIC, _at_most, _band, _Peak, _utilisation
 from moyai.structures.network.refinement import LANDING, lowered
 
 
@@ -65,3 +66,14 @@ def test_one_seed_too_short_stays_open_behind_a_higher_regular_wave(monkeypatch:
         assert [item.where for item in found if item.shown] == ["chain, wave"]
         outcomes.append(judge(found, [limit], computed=True).outcome)
     assert outcomes == ["holds", "not judged"]
+
+
+def test_a_bound_from_above_is_the_end_of_its_chance() -> None:
+    """33.8 kN in the record, up to 54.7 with chance, less on finer meshes: at most 54.7."""
+    record = Headline("line_tension", "highest tension", 33.8e3, "N", band=Band(15.5e3, 54.7e3, "chance"))
+    bound = _at_most(replace(record, bound="at most"))
+    assert (bound.value, bound.band, bound.bound) == (54.7e3, None, "at most") and "33.8 kN, chance" in bound.detail
+    assert _at_most(record) is record
+    for limit, outcome in ((60e3, "holds"), (40e3, "not judged")):
+        found = judge([bound], [Criterion("tension", "line_tension", limit, "at most", "case")], computed=True)
+        assert found.outcome == outcome

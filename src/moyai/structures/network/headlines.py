@@ -14,6 +14,7 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.headline import Band, Bound, Headline, all_judged, unfavourable
+from moyai.core.wording import spoken
 from moyai.flexible.sensitivity import PeakSensitivity
 from moyai.series.block_maxima import maximum_of
 from moyai.structures.network.chance import (
@@ -176,6 +177,7 @@ def _tension(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peak: _P
             detail="; ".join(part for part in details if part),
         )
     ]  # fmt: skip
+    items = [_at_most(item) for item in items]
     if "start_peak" in summary and peak.line in summary["line"].values:
         ends = [float(summary[key].sel(line=peak.line)) for key in ("start_peak", "end_peak")]
         if float(summary["line_tension_maximum"].sel(line=peak.line)) > INSIDE * max(ends):
@@ -288,14 +290,13 @@ def _utilisation(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peak
         if load is None:
             continue
         band, _, bound = _band(groups, item)
-        items.append(
-            Headline(
-                "line_utilisation", "highest tension over breaking load", item.value / load, "1",
-                _place(groups, item.level, item.line, item.run), item.model,
-                None if band is None else band.scaled(1.0 / load), bound,
-                detail=f"breaking load {load / 1e3:.4g} kN, without a safety factor",
-            )
+        one = Headline(
+            "line_utilisation", "highest tension over breaking load", item.value / load, "1",
+            _place(groups, item.level, item.line, item.run), item.model,
+            None if band is None else band.scaled(1.0 / load), bound,
+            detail=f"breaking load {load / 1e3:.4g} kN, without a safety factor",
         )  # fmt: skip
+        items.append(_at_most(one))
     found = all_judged(items)
     if found and bare:
         # one that is not known stays open beside those that keep the limit
@@ -328,6 +329,16 @@ def _band(groups: Mapping[str, xr.Dataset], peak: _Peak) -> tuple[Band | None, l
         return band, [*details, *([ONE_SEED] if alone else [])], "at least" if alone else open_end or unproven or most
     of_sea = irregular(groups, peak.level, peak.run)
     return with_chance(peak.value, band, found, of_sea), details, open_end or unproven or most
+
+
+def _at_most(item: Headline) -> Headline:
+    """Return a bound from above with what is judged as its number, where chance lets that be more than the record's."""
+    end = unfavourable(item)
+    if item.bound != "at most" or item.band is None or not end > item.value:
+        return item
+    record = f"{item.value:.3g}" if item.unit == "1" else spoken(item.value, item.unit, 3)
+    said = f"at most: the record has {record}, {item.band.of}"
+    return replace(item, value=end, band=None, detail="; ".join(filter(None, (item.detail, said))))
 
 
 def _left_open(groups: Mapping[str, xr.Dataset], level: str, run: str, scatter: Array) -> tuple[Bound, list[str]]:
@@ -373,12 +384,11 @@ def _anchor(groups: Mapping[str, xr.Dataset], peaks: list[_Peak]) -> list[Headli
                 said = f"horizontal {parts[0] / 1e3:.3g} kN, upwards {parts[1] / 1e3:.3g} kN, each at its own largest"
                 open_end, why = _left_open(groups, level, run, scatter)
                 bound, said = open_end or bound, "; ".join([said, *why])
-                found.append(
-                    Headline(
-                        "anchor_load", "largest pull on a fixed point", value, "N", _place(groups, level, point, run),
-                        DYNAMIC, own, bound, detail=said,
-                    )
+                one = Headline(
+                    "anchor_load", "largest pull on a fixed point", value, "N", _place(groups, level, point, run),
+                    DYNAMIC, own, bound, detail=said,
                 )  # fmt: skip
+                found.append(_at_most(one))
     return all_judged(found)
 
 
