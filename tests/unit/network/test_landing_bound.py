@@ -77,3 +77,29 @@ def test_a_bound_from_above_is_the_end_of_its_chance() -> None:
     for limit, outcome in ((60e3, "holds"), (40e3, "not judged")):
         found = judge([bound], [Criterion("tension", "line_tension", limit, "at most", "case")], computed=True)
         assert found.outcome == outcome
+
+
+@pytest.mark.parametrize(
+    ("doubt", "few", "bound"), [(LANDING, False, "at most"), ("", False, ""), ("", True, "at least")]
+)
+def test_a_line_whose_event_was_not_run_again_is_marked(doubt: str, few: bool, bound: str) -> None:
+    """The rope governs and changes by a tenth on finer meshes; the chain bears its highest tension at another time."""
+    again = [[[10e3, 10e3, 11e3, math.nan, math.nan], [math.nan] * 5]]
+    attrs = {"governing storm": "rope", "doubt storm": doubt} | ({"few chain": "'chain' has 4 segments"} if few else {})
+    runs = xr.Dataset(
+        {"line_tension_of_check": (("run", "line", "check"), again)},
+        coords={"run": ["storm"], "line": ["rope", "chain"]}, attrs=attrs,
+    )  # fmt: skip
+    band, words, found = _band({"/SWL/dynamic": runs}, _Peak(5e3, "chain", "SWL", "storm", 12.0, DYNAMIC))
+    assert found == bound and any("mesh and step not checked" in word for word in words)
+    if doubt:
+        assert band is None
+    else:
+        assert band is not None and (band.low, band.high) == pytest.approx((5e3, 6e3)) and "of rope" in band.of
+    own, words, found = _band({"/SWL/dynamic": runs}, _Peak(10e3, "rope", "SWL", "storm", 12.0, DYNAMIC))
+    assert (
+        own is not None
+        and own.high == pytest.approx(12e3)
+        and found == ""
+        and not any("not checked" in w for w in words)
+    )

@@ -152,7 +152,7 @@ def run(
     series.attrs |= {"skip": plan.skip, "skip_rule": plan.skip_rule}
     if earlier is not None:
         series, frames = joined(earlier.series, series, "time"), joined(earlier.frames, frames, "frame")
-    plan, drift = settled(problem, plan, series, still, earlier is None)
+    plan, drift = settled(problem, plan, series, still)
     series.attrs |= {"skip": plan.skip, "skip_rule": plan.skip_rule, "unsettled": drift.words()}
     snaps = snaps_of(problem, series)
     governing = _governing(series, {line.name: line.breaking_load for line in problem.lines})

@@ -253,7 +253,8 @@ def _numerical_band(summary: xr.Dataset, peak: _Peak) -> tuple[Band | None, list
         said = f"half and twice the viscosity: {min(viscous):.4g} to {max(viscous):.4g} N" if viscous else ""
         return band, [said], ""
     unchecked = f"mesh and step not checked{': ' + why if why else ''}"
-    if not first or not first[0] > 0.0:
+    lands = LANDING in str(summary.attrs.get(f"doubt {peak.run}", ""))
+    if not first or not first[0] > 0.0 or lands:
         return None, [unchecked], ""
     # only the event of the governing line was run again: what the mesh does to it is taken for this one too
     of = _mesh_and_step(first[0], first)

@@ -167,9 +167,7 @@ def unsettled(groups: Mapping[str, xr.Dataset], level: str, run: str) -> str:
     return "" if series is None else str(series.attrs.get("unsettled", ""))
 
 
-def settled(
-    problem: NetworkProblem, plan: RunPlan, series: xr.Dataset, origin: Array | None, own_start: bool
-) -> tuple[RunPlan, Drift]:
+def settled(problem: NetworkProblem, plan: RunPlan, series: xr.Dataset, origin: Array | None) -> tuple[RunPlan, Drift]:
     """Return the plan with the way to the mean place left out, where the case leaves that to the program, and the rest.
 
     Currents that change, lines that part and motions that lead away have no place to stand at. What waves
@@ -179,11 +177,9 @@ def settled(
     ----------
     problem, plan
     series : xarray.Dataset
-        Of the whole run.
+        Of the whole run, with the rows of an earlier one that it goes on from.
     origin : ndarray, shape (points, 3), or None
         Places of the points in still water [m]; where the run begins when left out.
-    own_start : bool
-        Whether the run begins at its own start, and not at the end of an earlier one.
     """
     if problem.current_field is not None or problem.failures or not series.sizes["point"]:
         return plan, Drift()
@@ -198,6 +194,6 @@ def settled(
     )  # fmt: skip
     away = problem.environment.current is not None and problem.start != "rest_in_current"
     drifts = away or (plan.waves is not None and not plan.irregular)
-    if own_start and drifts and problem.settings.skip is None and found.until > plan.skip:
+    if drifts and problem.settings.skip is None and found.until > plan.skip:
         plan = replace(plan, skip=found.until, skip_rule=DRIFTED)
     return plan, found
