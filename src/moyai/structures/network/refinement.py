@@ -313,7 +313,7 @@ def check_peak(
         Of the run itself.
     motions : mapping of str to Motion
     line : str
-        Line or net whose highest tension is compared, those of all others beside it.
+        Line or net whose highest tension is compared; those of all others come with it.
     begin : State
     skip : float
         Start-up that does not count [s].
