@@ -21,7 +21,7 @@ from typing import Any, ClassVar
 
 import numba
 from numba.core import event, sigutils, typing
-from numba.core.caching import CompileResultCacheImpl, FunctionCache
+from numba.core.caching import CompileResultCacheImpl, FunctionCache, IndexDataCacheFile
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Flags, compile_extra
 from numba.core.registry import CPUDispatcher
@@ -73,8 +73,28 @@ class _CacheImpl(CompileResultCacheImpl):  # type: ignore[misc]
     _locator_classes: ClassVar = [_with_stamp(locator) for locator in CompileResultCacheImpl._locator_classes]
 
 
+class _Files(IndexDataCacheFile):  # type: ignore[misc]
+    """Files of a kernel; those that cannot be read, damaged or of classes that are gone, are written anew."""
+
+    def _load_index(self) -> Any:
+        try:
+            return super()._load_index()
+        except Exception:
+            return {}
+
+    def _load_data(self, name: str) -> Any:
+        try:
+            return super()._load_data(name)
+        except Exception as error:
+            raise OSError(f"{name} cannot be read") from error
+
+
 class _Cache(FunctionCache):  # type: ignore[misc]
     _impl_class = _CacheImpl
+
+    def __init__(self, function: Callable[..., Any]) -> None:
+        super().__init__(function)
+        self._cache_file.__class__ = _Files
 
 
 class _Part(JITCodeLibrary):  # type: ignore[misc]

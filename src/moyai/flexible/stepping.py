@@ -26,7 +26,7 @@ from moyai.flexible.peak_notices import peak_notices
 from moyai.flexible.result import State
 
 #: Accepted steps after which the step of the network is chosen again.
-_CHOSEN_FOR = 4
+_CHOSEN_FOR = 16
 #: Steps of the network within one step of a body, at least: mean and tilt of the reaction are sums over them.
 LEAST_STEPS = 16
 

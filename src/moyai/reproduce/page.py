@@ -48,7 +48,7 @@ def compose(found: Reproduction, result: Result) -> Document:
     --------
     >>> from moyai.reproduce import Reproduction, as_result, compose, paper
     >>> from moyai.reproduce.model import Finding
-    >>> from moyai.reproduce.reproduction import Row
+    >>> from moyai.reproduce.reproduction import StatementRow
     >>> tabata = paper("tabata")
     >>> row = StatementRow(tabata.statements[0], Finding("as the paper says", "agrees"))
     >>> found = Reproduction(tabata, True, (row,), (), ())

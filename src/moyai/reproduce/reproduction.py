@@ -168,7 +168,7 @@ def as_result(found: Reproduction) -> Result:
     --------
     >>> from moyai.reproduce import Reproduction, as_result, paper
     >>> from moyai.reproduce.model import Finding
-    >>> from moyai.reproduce.reproduction import Row
+    >>> from moyai.reproduce.reproduction import StatementRow
     >>> tabata = paper("tabata")
     >>> row = StatementRow(tabata.statements[0], Finding("as the paper says", "agrees"))
     >>> result = as_result(Reproduction(tabata, True, (row,), (), ()))

@@ -52,7 +52,7 @@ def test_quantities_state_their_unit_and_range(schema):
     structure = schema["definitions"]["BreakwaterStructure"]["properties"]
     assert structure["length"]["description"].endswith("[plain numbers in m; greater than 0 m]")
     assert {"type": "number", "exclusiveMinimum": 0.0} in structure["length"]["anyOf"]
-    depth = schema["definitions"]["Site"]["properties"]["water_depth"]
+    depth = schema["definitions"]["SiteKeys"]["properties"]["water_depth"]
     assert {"enum": ["infinite"]} in depth["anyOf"]
 
 

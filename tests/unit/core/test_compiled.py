@@ -1,5 +1,7 @@
 """The cache of compiled kernels: an edit of an inner kernel makes every kernel that calls it new."""
 
+import importlib.util
+import pickle
 from pathlib import Path
 
 import numpy as np
@@ -96,3 +98,36 @@ def test_types_that_a_part_cannot_take_are_told() -> None:
 
     with pytest.raises(Exception, match="no_such_thing"):
         call(1.0)
+
+
+@pytest.mark.parametrize("damage", [b"", b"no pickle", b"\x80\x04cmoyai.core.compiled\nGoneWithAnUpgrade\n."])
+def test_a_kept_kernel_that_cannot_be_read_is_compiled_anew(tmp_path: Path, damage: bytes) -> None:
+    (tmp_path / "kept_kernel.py").write_text(
+        "from moyai.core.compiled import njit\n\n\n@njit(cache=True)\ndef thrice(x):\n    return 3.0 * x\n"
+    )
+
+    def fresh() -> object:
+        spec = importlib.util.spec_from_file_location("kept_kernel", tmp_path / "kept_kernel.py")
+        module = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(module)
+        return module.thrice
+
+    assert fresh()(2.0) == 6.0
+    again = fresh()
+    assert again(2.0) == 6.0 and sum(again.stats.cache_hits.values()) == 1
+    kept = Path(again._cache.cache_path)
+    (index,) = kept.glob("kept_kernel.thrice-*.nbi")
+    whole = index.read_bytes()
+    for file in (index, *kept.glob("kept_kernel.thrice-*.nbc")):
+        if file == index and damage:
+            # as after an upgrade: the version is good, what follows cannot be read
+            with file.open("rb") as stream:
+                pickle.load(stream)
+                head = whole[: stream.tell()]
+            file.write_bytes(head + damage)
+        else:
+            file.write_bytes(damage)
+    damaged = fresh()
+    assert damaged(2.0) == 6.0 and not damaged.stats.cache_hits
+    healed = fresh()
+    assert healed(2.0) == 6.0 and sum(healed.stats.cache_hits.values()) == 1
