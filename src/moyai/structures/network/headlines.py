@@ -294,7 +294,7 @@ def _utilisation(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peak
         one = Headline(
             "line_utilisation", "highest tension over breaking load", item.value / load, "1",
             _place(groups, item.level, item.line, item.run), item.model,
-            None if band is None else band.scaled(1.0 / load), bound,
+            None if band is None else band.scaled(1.0 / load), bound, mean=_mean(groups, item, load),
             detail=f"breaking load {load / 1e3:.4g} kN, without a safety factor",
         )  # fmt: skip
         items.append(_at_most(one))
@@ -305,6 +305,17 @@ def _utilisation(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peak
         found.append(Headline("line_utilisation", label, math.nan, "1", text=text, shown=False))
         found[0] = replace(found[0], detail=f"{found[0].detail}; {text}")
     return found
+
+
+def _mean(groups: Mapping[str, xr.Dataset], peak: _Peak, load: float) -> float | None:
+    """Return the mean tension of a line over time, over its breaking load; at rest it is the tension."""
+    if peak.model == REST:
+        return peak.value / load
+    summary = groups.get(f"/{peak.level}/dynamic")
+    if summary is None or "line_tension_mean" not in summary:
+        return None
+    found = float(summary["line_tension_mean"].sel(run=peak.run, line=peak.line)) / load
+    return found if math.isfinite(found) else None
 
 
 def _band(groups: Mapping[str, xr.Dataset], peak: _Peak) -> tuple[Band | None, list[str], Bound]:
@@ -472,8 +483,9 @@ def _offset(
     swinging = _swinging(groups, level, run, name, kind, anchors)
     value, said, away = swinging or (value, said, away)
     scatter = np.zeros(0)
-    if kind == "point" and swinging is None:
-        scatter = scatter_of(groups[f"/{level}/dynamic"], "excursion_of_realisation", run, point=name)
+    if kind == "point":
+        of = "excursion" if swinging is None else "distance_from_anchor"
+        scatter = scatter_of(groups[f"/{level}/dynamic"], f"{of}_of_realisation", run, point=name)
     if scatter.size:
         value = float(scatter.mean())
         found = _moved("offset", value, _place(groups, level, name, run), said, groups, level, run, None)

@@ -37,6 +37,7 @@ OF_REALISATIONS = {
     "net_tension": ("net_tension_maximum_of_realisation", ("net",)),
     "load": ("load_of_realisation", ("point", "measure")),
     "excursion": ("excursion_of_realisation", ("point",)),
+    "reach": ("distance_from_anchor_of_realisation", ("point",)),
 }  # fmt: skip
 #: Motions of bodies in the summary.
 SOLID = ("offset", "mean_offset", "heave_range", "roll_range", "pitch_range", "yaw_range", "highest_lean")

@@ -89,6 +89,10 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "net_tension_maximum_of_realisation": ("N", "largest tension in the net in each realisation"),
     "load_of_realisation": ("N", "largest pull on the point in each realisation"),
     "excursion_of_realisation": ("m", "largest distance of the point from rest in still water in each realisation"),
+    "distance_from_anchor_of_realisation": (
+        "m",
+        "largest horizontal distance of the point from the only fixed point that holds it in each realisation",
+    ),
     "seed_of_realisation": ("1", "seed of each realisation"),
     "load_horizontal": ("N", "highest horizontal pull on the point"),
     "load_upwards": ("N", "highest upward pull on the point"),
