@@ -17,6 +17,7 @@ from moyai.core.headline import Band, Bound, Headline, all_judged, unfavourable
 from moyai.core.wording import spoken
 from moyai.flexible.sensitivity import PeakSensitivity
 from moyai.series.block_maxima import maximum_of
+from moyai.structures.network.at_rest import rest_headlines
 from moyai.structures.network.chance import (
     ONE_SEED,
     irregular,
@@ -79,7 +80,8 @@ def headlines_of(problem: NetworkProblem, groups: Mapping[str, xr.Dataset]) -> t
         What was run, by its place in the result.
     """
     # a run of which nothing counts does not hand its number to the rest
-    peaks = list(_peaks(groups)) if any(_levels(groups, "dynamic")) else list(_rest_peaks(groups))
+    timed = any(_levels(groups, "dynamic"))
+    peaks = list(_peaks(groups)) if timed else list(_rest_peaks(groups))
     peak = max(peaks, key=lambda item: item.value, default=None)
     items: list[Headline] = []
     if peak is not None:
@@ -90,7 +92,7 @@ def headlines_of(problem: NetworkProblem, groups: Mapping[str, xr.Dataset]) -> t
         items += [one for one in others if unfavourable(one) > unfavourable(first) or one.bound != first.bound]
         items += _start_up(groups, peak)
         items += _utilisation(problem, groups, peaks)
-    items += _anchor(groups, peaks)
+    items += _anchor(groups, peaks) if timed else rest_headlines(groups, single_anchors(problem), REST)
     items += held_headlines(problem, groups, DYNAMIC)
     items += _offsets(groups, single_anchors(problem))
     items += _mode(groups)
