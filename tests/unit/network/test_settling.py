@@ -120,3 +120,20 @@ def test_periods_in_which_a_motion_grows_say_nothing_of_chance() -> None:
     assert found is not None and late is not None and found.range == late.range and found.observed == values.max()
     whole = of_periods(xr.Dataset(coords={"time": time}, attrs={"period": 4.0}), time, values)
     assert whole is not None and whole.range[1] > 1.3 * found.range[1]
+
+
+def test_what_swings_about_its_place_has_arrived() -> None:
+    """Means of four parts of 10 s zigzag by a tenth of a metre and end up aside: no way to anywhere."""
+    parts = np.array([[-0.02, 0.01], [0.16, -0.11], [-0.05, 0.17], [0.14, 0.15]])
+    time = np.linspace(0.0, 40.0, 801)
+    both = np.zeros((time.size, 2, 3))
+    both[:, 0, :2] = parts[np.minimum((time / 10.0).astype(int), 3)]
+    both[:, 0, 0] += np.sin(2.0 * math.pi * time / 5.0)
+    found = [
+        drift_of(
+            time, both, np.zeros((2, 3)), np.zeros(2, dtype=bool), period=5.0, skip=0.0, irregular=irregular,
+            names=["box", "anchor"],
+        )
+        for irregular in (False, True)
+    ]  # fmt: skip
+    assert [one.point for one in found] == ["", ""]

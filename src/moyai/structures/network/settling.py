@@ -25,6 +25,8 @@ PARTS, LEAST_PARTS = 24, 6
 STANDING, SCATTER = 0.02, 3.0
 #: The same change from the first to the last fifth of a random record, in which means move by chance.
 STANDING_IN_A_SEA = 0.1
+#: Way from the first to the last of the means over the way along them all, above which they move on and do not swing.
+STRAIGHT = 0.8
 #: Change of the highest tension in a steady current that still counts as the same, over the highest of all.
 PULLING = 0.02
 #: The rule of a beginning in which something drifts to its place.
@@ -153,6 +155,7 @@ def _still_moving(
     steps = np.diff(means, axis=0)
     whole = means[-1] - means[0]
     onwards = (np.einsum("kpa,pa->kp", steps, whole) > 0.0).all(axis=0)
+    onwards &= np.linalg.norm(whole, axis=1) >= STRAIGHT * np.linalg.norm(steps, axis=2).sum(axis=0)
     size = np.linalg.norm(whole if irregular else steps[-1], axis=1)
     size = np.where(onwards & (size > (STANDING_IN_A_SEA if irregular else STANDING) * scale), size, 0.0)
     if not size.any():
