@@ -49,6 +49,8 @@ class PeakSensitivity:
     factor: int = 1
     #: The same of the pull on fixed points, by their names; empty where it was not looked at.
     pulls: Mapping[str, PeakSensitivity] = field(default_factory=dict)
+    #: The same of every line and net, by their names; empty where only the peak itself was looked at.
+    lines: Mapping[str, PeakSensitivity] = field(default_factory=dict)
 
     @property
     def discretisation_error(self) -> float:
