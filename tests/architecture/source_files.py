@@ -26,6 +26,9 @@ class Findings:
     mutable_dataclasses: tuple[str, ...]
     mutable_models: tuple[str, ...]
     bare_excepts: tuple[str, ...]
+    classes: tuple[str, ...]
+    lists_of_fields: tuple[str, ...]
+    texts: tuple[tuple[int, str], ...]
 
 
 def called_name(node: ast.expr) -> str:
@@ -82,11 +85,16 @@ def findings_of_text(text: str, parts: tuple[str, ...]) -> Findings:
     dataclasses: list[str] = []
     models: list[str] = []
     bare: list[str] = []
+    classes: list[str] = []
+    lists: list[str] = []
     for node in nodes:
         if isinstance(node, ast.FunctionDef):
             if COMPILED & {called_name(decorator) for decorator in node.decorator_list}:
                 kernels += _calls(list(ast.walk(node)), FORBIDDEN_IN_KERNELS)
         elif isinstance(node, ast.ClassDef):
+            classes.append(node.name)
+            if any(called_name(decorator) == "dataclass" for decorator in node.decorator_list):
+                lists += [node.name] * ("Parameters\n-----" in (ast.get_docstring(node) or ""))
             if not node.name.startswith("_"):
                 for decorator in node.decorator_list:
                     if called_name(decorator) == "dataclass" and not _frozen(decorator):
@@ -98,7 +106,22 @@ def findings_of_text(text: str, parts: tuple[str, ...]) -> Findings:
             bare.append(f"line {node.lineno}")
     prints = () if parts[0] in TALKERS else tuple(_calls(nodes, {"print", "breakpoint", "set_trace"}))
     imports = tuple(_imports(nodes, ["moyai", *parts[:-1]]))
-    return Findings(imports, tuple(kernels), prints, tuple(dataclasses), tuple(models), tuple(bare))
+    texts = tuple(
+        (node.lineno, node.value)
+        for node in nodes
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and " " in node.value
+    )
+    return Findings(
+        imports,
+        tuple(kernels),
+        prints,
+        tuple(dataclasses),
+        tuple(models),
+        tuple(bare),
+        tuple(classes),
+        tuple(lists),
+        texts,
+    )
 
 
 @functools.cache

@@ -1,8 +1,9 @@
 """Every equation named in code stands in docs/theory and back; every page is listed where readers look."""
 
-import ast
 import re
 from pathlib import Path
+
+from source_files import findings
 
 ROOT = Path(__file__).resolve().parents[2]
 SOURCE, DOCS = ROOT / "src" / "moyai", ROOT / "docs"
@@ -151,10 +152,9 @@ def test_texts_and_descriptions_in_the_code_use_the_words_of_the_glossary():
     """
     replaced = re.compile(words_not_used(DOCS / "glossary.md").pattern + r"|\bworth\b", re.IGNORECASE)
     texts = [("CHANGELOG.md", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"))]
-    for path in sorted(SOURCE.rglob("*.py")):
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            if isinstance(node, ast.Constant) and isinstance(node.value, str) and " " in node.value:
-                texts.append((f"{path.relative_to(ROOT)}:{node.lineno}", node.value))
+    texts += [
+        (f"{path.relative_to(ROOT)}:{line}", text) for path, one in findings().items() for line, text in one.texts
+    ]
     found = [
         f"{place}: {text[max(match.start() - 30, 0) : match.end() + 30]}"
         for place, text in texts

@@ -197,6 +197,7 @@ def storm(realisations=""):
     )
 
 
+@pytest.mark.slow
 def test_the_force_of_a_storm_is_the_mean_of_realisations_with_their_scatter():
     """Square brace in a short storm: mean of the default five, each of its own seed; the band holds them all."""
     found = result_of(storm())

@@ -165,6 +165,7 @@ def test_orbits_and_wave_heights_of_the_tank(depth, ratio, height):
     assert 100 * BREADTH / math.pi / float(horizontal) == pytest.approx(height, abs=0.006)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ROWS)
 def test_case_files_of_the_three_sections(name):
     """The examples, run as a user runs them: C_M falls like KC^2 of the elliptic orbit in the tank."""

@@ -106,6 +106,7 @@ def exact_cloud(section, kc, circulation, count, seed):
     return np.array([item.position for item in drifts]), np.array([item.velocity for item in drifts])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("kc", "circulation", "fit", "linear"),
     [(1.0, 18e-4, 18.1, 29.0), pytest.param(1.5, 40.5e-4, 41.6, 53.0, marks=pytest.mark.slow)],
@@ -139,6 +140,7 @@ def stokes_along(section, ratio):
     return np.array(found) / (flow.amplitude_x**2 * PERIOD)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "leftover"),
     [

@@ -43,6 +43,7 @@ def first_level(result):
     return next(iter(result.tree.children.values()))
 
 
+@pytest.mark.slow
 def test_runs_with_all_identities(solved):
     bare, plated = solved(plates=""), solved()
     assert plated.status == "converged"

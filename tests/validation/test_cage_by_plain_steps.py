@@ -105,6 +105,7 @@ def plain_cage(speed, size, depth, solidity, weight):
     raise AssertionError("the plain cage does not come to rest")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("speed", "size", "depth", "solidity", "weight"),
     [(0.2, 1.3, 1.2, 0.2, 9.0), pytest.param(0.35, 1.8, 1.1, 0.28, 14.0, marks=pytest.mark.slow)],

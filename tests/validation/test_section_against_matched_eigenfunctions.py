@@ -15,6 +15,7 @@ from moyai.sea.water import Water
 GRAVITY = 9.81
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [2, 3, *(pytest.param(s, marks=pytest.mark.slow) for s in (0, 1, *range(4, 10)))])
 def test_random_rectangles(seed):
     rng = np.random.default_rng(seed)

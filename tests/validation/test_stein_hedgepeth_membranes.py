@@ -139,6 +139,7 @@ def disc(rings: int, ratio: float, inner: float, angle: float) -> float:
     return abs(float(np.sum(hub[:, 0] * pull[:, 1] - hub[:, 1] * pull[:, 0])))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ratio", [pytest.param(0.0, marks=pytest.mark.slow), 0.35])
 def test_torsion_of_a_disc_by_its_hub(ratio: float) -> None:
     """Tension lines that touch a circle c: T = 2 pi K phi c^2 / ln(s_b / s_a), s^2 = r^2 - c^2, at its highest."""

@@ -141,6 +141,7 @@ def test_statement_6_planted_factor_within_two_percent(rule):
     assert abs(fit.residual.mean()) < (1e-12 if rule == "mean_zero" else 0.05)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("pretension", [0.0, 8e3])
 def test_bounds_of_the_factor_hold_it_as_often_as_they_say(pretension):
     """30 observations, 200 trials: at least 90 of a hundred for both kinds of bounds."""

@@ -19,6 +19,7 @@ def ursell(ka):
     return math.pi * iv(1, ka) / common, 1j * kv(1, ka) / common
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(3))
 def test_reflection_and_transmission(seed):
     rng = np.random.default_rng(seed)

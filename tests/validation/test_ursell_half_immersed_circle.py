@@ -16,6 +16,7 @@ GRAVITY = 9.81
 RADIUS = 1.3
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "relative", [0.05, 0.6, 1.7, 6.0, *(pytest.param(k, marks=pytest.mark.slow) for k in (0.25, 1.0, 3.0))]
 )

@@ -43,11 +43,11 @@ class QuantityOf:
     kind: QuantityKind
     #: ``above``, ``least``, ``below``, ``most``: Open and closed limits, in the unit of plain numbers.
     above: float = -math.inf
-    #: ``above``, ``least``, ``below``, ``most``: Open and closed limits, in the unit of plain numbers.
+    #: See ``above``.
     least: float = -math.inf
-    #: ``above``, ``least``, ``below``, ``most``: Open and closed limits, in the unit of plain numbers.
+    #: See ``above``.
     below: float = math.inf
-    #: ``above``, ``least``, ``below``, ``most``: Open and closed limits, in the unit of plain numbers.
+    #: See ``above``.
     most: float = math.inf
     #: Words that stand for a value: ``(("infinite", math.inf),)``, ``(("auto", None),)``.
     words: tuple[tuple[str, float | None], ...] = ()

@@ -57,7 +57,7 @@ class CaseDocument:
     file: str
     #: ``keys``, ``values``: Place of the key and of the value of every path, such as ``("lines", 0, "anchor", "x")``.
     keys: dict[KeyPath, Place] = field(default_factory=dict)
-    #: ``keys``, ``values``: Place of the key and of the value of every path, such as ``("lines", 0, "anchor", "x")``.
+    #: See ``keys``.
     values: dict[KeyPath, Place] = field(default_factory=dict)
 
     def place(self, path: KeyPath, *, of_key: bool = False) -> Place:

@@ -21,9 +21,9 @@ class Fault:
     remedy: str = ""
     #: ``file``, ``line``, ``column``: Place in the file, 1-based; 0 where there is none.
     file: str = ""
-    #: ``file``, ``line``, ``column``: Place in the file, 1-based; 0 where there is none.
+    #: See ``file``.
     line: int = 0
-    #: ``file``, ``line``, ``column``: Place in the file, 1-based; 0 where there is none.
+    #: See ``file``.
     column: int = 0
 
     def __str__(self) -> str:

@@ -33,7 +33,7 @@ class Band:
 
     #: ``low``, ``high``: Smallest and largest value, in the unit of the headline.
     low: float
-    #: ``low``, ``high``: Smallest and largest value, in the unit of the headline.
+    #: See ``low``.
     high: float
     #: What is varied and how far, for instance ``viscous damping halved and doubled`` or ``5 seeds``.
     of: str

@@ -22,7 +22,7 @@ class Notice:
     message: str
     #: ``value``, ``limit``: The number found and the limit it was held against (NaN where there is none).
     value: float = math.nan
-    #: ``value``, ``limit``: The number found and the limit it was held against (NaN where there is none).
+    #: See ``value``.
     limit: float = math.nan
     #: ``error`` makes the status of the result ``outside_validity``; one of "information", "warning", "error".
     severity: Severity = "warning"

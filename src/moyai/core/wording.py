@@ -45,3 +45,9 @@ def counted(number: int, word: str) -> str:
         For one of them; several take an s.
     """
     return f"{number} {word}" if number == 1 else f"{number} {word}s"
+
+
+def spoken_time(seconds: float) -> str:
+    """Return a length of time as people say it: ``40 s``, ``4.6 min``, ``3 h``."""
+    size, unit = (1.0, "s") if seconds < 120.0 else (60.0, "min") if seconds < 7200.0 else (3600.0, "h")
+    return f"{seconds / size:.3g} {unit}"

@@ -36,11 +36,11 @@ class RodPart:
     mass_per_length: float
     #: ``drag_normal``, ``added_mass_normal``: Across it, on diameter and volume [-].
     drag_normal: float
-    #: ``drag_normal``, ``added_mass_normal``: Across it, on diameter and volume [-].
+    #: See ``drag_normal``.
     added_mass_normal: float
     #: ``drag_end``, ``added_mass_end``: Of each end along it, on its face and on half a sphere of water [-].
     drag_end: float
-    #: ``drag_end``, ``added_mass_end``: Of each end along it, on its face and on half a sphere of water [-].
+    #: See ``drag_end``.
     added_mass_end: float
     #: That the water meets one by one; 24 at least are taken.
     slices: int = SLICES

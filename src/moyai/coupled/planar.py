@@ -55,7 +55,7 @@ class PlanarBody:
     reaction_at_rest: ArrayLike = (0.0, 0.0, 0.0)
     #: ``initial_position``, ``initial_velocity``: Motion at the start, relative to rest; shape (3,).
     initial_position: ArrayLike = (0.0, 0.0, 0.0)
-    #: ``initial_position``, ``initial_velocity``: Motion at the start, relative to rest; shape (3,).
+    #: See ``initial_position``.
     initial_velocity: ArrayLike = (0.0, 0.0, 0.0)
     #: States of the memory at the start, one per pole; empty when left out.
     initial_memory: ArrayLike | None = None

@@ -47,7 +47,7 @@ class CoupledHistory:
     network: StepRecord
     #: ``body_step``, ``network_step``: Largest step of the bodies and smallest of the network [s].
     body_step: float
-    #: ``body_step``, ``network_step``: Largest step of the bodies and smallest of the network [s].
+    #: See ``body_step``.
     network_step: float
     #: Runs of the network per step of the bodies, on average.
     passes: float

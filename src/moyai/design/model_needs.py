@@ -19,7 +19,7 @@ class Need:
     name: str
     #: ``wanted``, ``at_hand``: Value by the scale, and value of what is there, in ``unit``.
     wanted: float
-    #: ``wanted``, ``at_hand``: Value by the scale, and value of what is there, in ``unit``.
+    #: See ``wanted``.
     at_hand: float
     #: Unit of the scaled quantity.
     unit: str

@@ -77,7 +77,7 @@ class ScaledQuantity:
 
     #: ``name``, ``unit``: What it is, and its unit.
     name: str
-    #: ``name``, ``unit``: What it is, and its unit.
+    #: See ``name``.
     unit: str
     #: Values in that unit.
     prototype: float
@@ -120,7 +120,7 @@ class StretchMatch:
 
     #: ``wanted``, ``available``: EA that the model needs, EA of the line at hand [N].
     wanted: float
-    #: ``wanted``, ``available``: EA that the model needs, EA of the line at hand [N].
+    #: See ``wanted``.
     available: float
     #: Available over wanted [-]: the factor on the Cauchy number's square, on tension about its root.
     distortion: float

@@ -29,11 +29,11 @@ class Front:
     strand: int
     #: ``highest``, ``rise``: Highest tension there, and highest rise within the window [N].
     highest: float
-    #: ``highest``, ``rise``: Highest tension there, and highest rise within the window [N].
+    #: See ``highest``.
     rise: float
     #: ``within``, ``travel``: The window, and the time of an elastic wave along the strand [s].
     within: float
-    #: ``within``, ``travel``: The window, and the time of an elastic wave along the strand [s].
+    #: See ``within``.
     travel: float
     #: Highest speed with which a node of the strand came down on the bed [m/s].
     fall: float

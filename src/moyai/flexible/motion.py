@@ -49,7 +49,7 @@ class Motion:
 
     #: ``start``, ``step``: First time and spacing of the grid [s].
     start: float
-    #: ``start``, ``step``: First time and spacing of the grid [s].
+    #: See ``start``.
     step: float
     #: Relative to the node's position in the network [m]; shape (k, 3).
     displacement: Array

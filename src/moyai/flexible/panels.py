@@ -41,8 +41,7 @@ class PanelLaw:
     #: ``along``, ``normal``: Coefficients a (along the flow) and b (along the normal) of ``F = (a w + b n (n.w)) |w|
     #: rho A / 2`` [eq:cage-panel-force]; one row when the law knows no Reynolds number; shape (speeds, cosines).
     along: Array
-    #: ``along``, ``normal``: Coefficients a (along the flow) and b (along the normal) of ``F = (a w + b n (n.w)) |w|
-    #: rho A / 2`` [eq:cage-panel-force]; one row when the law knows no Reynolds number; shape (speeds, cosines).
+    #: See ``along``.
     normal: Array
     #: log10 of the first speed.
     first_decade: float = -3.0

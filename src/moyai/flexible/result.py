@@ -44,7 +44,7 @@ class History:
     time: Array
     #: ``nodes``, ``bars``: Which nodes and bars the arrays hold.
     nodes: IntArray
-    #: ``nodes``, ``bars``: Which nodes and bars the arrays hold.
+    #: See ``nodes``.
     bars: IntArray
     #: [m]; shape (k, nodes, 3).
     position: Array
@@ -55,11 +55,9 @@ class History:
     #: ``kinetic_energy``, ``elastic_energy``, ``work``: Energy of what is free, energy of bars, hinges and bed, and the
     #: work done on them since the start by weight, water and driven points [J]; shape (k,).
     kinetic_energy: Array
-    #: ``kinetic_energy``, ``elastic_energy``, ``work``: Energy of what is free, energy of bars, hinges and bed, and the
-    #: work done on them since the start by weight, water and driven points [J]; shape (k,).
+    #: See ``kinetic_energy``.
     elastic_energy: Array
-    #: ``kinetic_energy``, ``elastic_energy``, ``work``: Energy of what is free, energy of bars, hinges and bed, and the
-    #: work done on them since the start by weight, water and driven points [J]; shape (k,).
+    #: See ``kinetic_energy``.
     work: Array
     #: State at the end, from which a run can go on.
     final: State
@@ -71,11 +69,11 @@ class History:
     steps: int
     #: ``status``, ``message``: ``converged``, ``not_converged`` or ``interrupted``, and why.
     status: RunStatus = "converged"
-    #: ``status``, ``message``: ``converged``, ``not_converged`` or ``interrupted``, and why.
+    #: See ``status``.
     message: str = ""
     #: ``checks``, ``notices``: Identities of the run; where it leaves its range.
     checks: tuple[IdentityCheck, ...] = ()
-    #: ``checks``, ``notices``: Identities of the run; where it leaves its range.
+    #: See ``checks``.
     notices: tuple[Notice, ...] = field(default=())
     #: Highest rate at which drag damped any part [1/s]; NaN where the method does not watch it.
     drag_rate: float = math.nan

@@ -33,17 +33,11 @@ class PeakSensitivity:
     #: half the step, with every bar cut in two, and with half and twice the viscosity [N]; of a network without any
     #: viscosity, twice stands for a twentieth of critical damping on the mesh.
     half_step: float
-    #: ``half_step``, ``double_mesh``, ``half_viscosity``, ``double_viscosity``: Highest tension at the same place with
-    #: half the step, with every bar cut in two, and with half and twice the viscosity [N]; of a network without any
-    #: viscosity, twice stands for a twentieth of critical damping on the mesh.
+    #: See ``half_step``.
     double_mesh: float
-    #: ``half_step``, ``double_mesh``, ``half_viscosity``, ``double_viscosity``: Highest tension at the same place with
-    #: half the step, with every bar cut in two, and with half and twice the viscosity [N]; of a network without any
-    #: viscosity, twice stands for a twentieth of critical damping on the mesh.
+    #: See ``half_step``.
     half_viscosity: float
-    #: ``half_step``, ``double_mesh``, ``half_viscosity``, ``double_viscosity``: Highest tension at the same place with
-    #: half the step, with every bar cut in two, and with half and twice the viscosity [N]; of a network without any
-    #: viscosity, twice stands for a twentieth of critical damping on the mesh.
+    #: See ``half_step``.
     double_viscosity: float
     #: Time step of the run itself [s].
     step: float
@@ -55,6 +49,8 @@ class PeakSensitivity:
     factor: int = 1
     #: The same of the pull on fixed points, by their names; empty where it was not looked at.
     pulls: Mapping[str, PeakSensitivity] = field(default_factory=dict)
+    #: The same of every line and net, by their names; empty where only the peak itself was looked at.
+    lines: Mapping[str, PeakSensitivity] = field(default_factory=dict)
 
     @property
     def discretisation_error(self) -> float:

@@ -42,8 +42,7 @@ class Sheets:
     #: ``warp_stiffness``, ``weft_stiffness``: Young's modulus times thickness [N/m]; 0 for a sheet without threads that
     #: way.
     warp_stiffness: Array | float
-    #: ``warp_stiffness``, ``weft_stiffness``: Young's modulus times thickness [N/m]; 0 for a sheet without threads that
-    #: way.
+    #: See ``warp_stiffness``.
     weft_stiffness: Array | float
     #: Shear modulus times thickness [N/m]; 0 lets the two families of threads work apart.
     shear_stiffness: Array | float = 0.0
@@ -55,7 +54,7 @@ class Sheets:
     volume_per_area: Array | float = 0.0
     #: ``drag_normal``, ``drag_tangential``: Force per area rho/2 C u|u| of the relative velocity across and along [-].
     drag_normal: Array | float = 0.0
-    #: ``drag_normal``, ``drag_tangential``: Force per area rho/2 C u|u| of the relative velocity across and along [-].
+    #: See ``drag_normal``.
     drag_tangential: Array | float = 0.0
     #: Time by which the rate of strain is multiplied and added to the strain (internal damping) [s].
     damping_time: Array | float = 0.0
@@ -250,7 +249,7 @@ class SheetStress:
     shear: Array
     #: ``first``, ``second``: Principal stresses, the higher one first; shape (t,).
     first: Array
-    #: ``first``, ``second``: Principal stresses, the higher one first; shape (t,).
+    #: See ``first``.
     second: Array
     #: 0 slack, 1 wrinkled, 2 taut; shape (t,).
     state: IntArray

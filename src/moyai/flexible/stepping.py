@@ -25,7 +25,8 @@ from moyai.flexible.network import DRIVEN, Network
 from moyai.flexible.peak_notices import peak_notices
 from moyai.flexible.result import State
 
-#: Accepted steps after which the step of the network is chosen again.
+#: Accepted steps after which the step of the network is chosen again: within them a march ends where drag or a drying
+#: part would make the step too long, so that the number is one of speed alone.
 _CHOSEN_FOR = 16
 #: Steps of the network within one step of a body, at least: mean and tilt of the reaction are sums over them.
 LEAST_STEPS = 16
@@ -63,18 +64,16 @@ class StepRecord:
     time: Array
     #: ``nodes``, ``bars``: Which nodes and bars the arrays hold.
     nodes: IntArray
-    #: ``nodes``, ``bars``: Which nodes and bars the arrays hold.
+    #: See ``nodes``.
     bars: IntArray
     #: [m]; shape (k, nodes, 3).
     position: Array
     #: ``tension``, ``tension_peak``, ``tension_trough``: At the row, and the highest and lowest since the row before
     #: [N]; the highest counts every small step, the lowest the accepted ones; shape (k, bars).
     tension: Array
-    #: ``tension``, ``tension_peak``, ``tension_trough``: At the row, and the highest and lowest since the row before
-    #: [N]; the highest counts every small step, the lowest the accepted ones; shape (k, bars).
+    #: See ``tension``.
     tension_peak: Array
-    #: ``tension``, ``tension_peak``, ``tension_trough``: At the row, and the highest and lowest since the row before
-    #: [N]; the highest counts every small step, the lowest the accepted ones; shape (k, bars).
+    #: See ``tension``.
     tension_trough: Array
     #: As in :class:`moyai.flexible.result.History` [J]; shape (k,).
     kinetic_energy: Array

@@ -18,7 +18,7 @@ class Tableau:
     name: str
     #: ``order``, ``embedded_order``: Of the step and of the solution that estimates its error.
     order: int
-    #: ``order``, ``embedded_order``: Of the step and of the solution that estimates its error.
+    #: See ``order``.
     embedded_order: int
     #: Lower triangular; the last row is the step; shape (s, s).
     stages: Array

@@ -53,8 +53,7 @@ class Hydrodynamics:
     #: ``reflection``, ``transmission``: Complex coefficients of the body held fixed; ``None`` for a body of finite
     #: length; shape (n, h).
     reflection: ComplexArray | None = None
-    #: ``reflection``, ``transmission``: Complex coefficients of the body held fixed; ``None`` for a body of finite
-    #: length; shape (n, h).
+    #: See ``reflection``.
     transmission: ComplexArray | None = None
     #: Complex wave amplitude per unit velocity towards -x and +x [s]; shape (n, m, 2).
     radiated_wave: ComplexArray | None = None

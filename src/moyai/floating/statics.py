@@ -56,7 +56,7 @@ class Hydrostatics:
     stiffness: Array
     #: ``displaced_mass``, ``mass``: rho A l and body mass [kg].
     displaced_mass: float
-    #: ``displaced_mass``, ``mass``: rho A l and body mass [kg].
+    #: See ``displaced_mass``.
     mass: float
     #: Centre of gravity (x, z) of the site frame [m].
     centre: tuple[float, float]

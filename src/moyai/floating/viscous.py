@@ -81,7 +81,7 @@ class Measure:
     weights: Array
     #: ``points``, ``directions``: (x, z) [m]; unit vectors; shape (p, 2).
     points: Array
-    #: ``points``, ``directions``: (x, z) [m]; unit vectors; shape (p, 2).
+    #: See ``points``.
     directions: Array
     #: c / (rho l) of the force c |J v| J v.
     coefficient: float

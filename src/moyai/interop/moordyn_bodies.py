@@ -62,11 +62,11 @@ class DeckRodType:
     mass_per_length: float
     #: ``drag_normal``, ``added_mass_normal``: Across the rod, on diameter and volume [-].
     drag_normal: float
-    #: ``drag_normal``, ``added_mass_normal``: Across the rod, on diameter and volume [-].
+    #: See ``drag_normal``.
     added_mass_normal: float
     #: ``drag_end``, ``added_mass_end``: Of each end along the rod, on its face and on half a sphere [-].
     drag_end: float
-    #: ``drag_end``, ``added_mass_end``: Of each end along the rod, on its face and on half a sphere [-].
+    #: See ``drag_end``.
     added_mass_end: float
     #: Line of the file.
     line: int = field(default=0, compare=False)
@@ -111,7 +111,7 @@ class DeckRod:
     kind: RodKind
     #: ``start``, ``end``: Ends A and B [m]; in body axes for part of a body.
     start: Triple
-    #: ``start``, ``end``: Ends A and B [m]; in body axes for part of a body.
+    #: See ``start``.
     end: Triple
     #: 0 for a rod of no length, which joins lines.
     segments: int

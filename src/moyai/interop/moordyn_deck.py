@@ -57,14 +57,11 @@ class DeckLineType:
     #: ``drag_normal``, ``added_mass_normal``, ``drag_axial``, ``added_mass_axial``: Cd on the diameter, Ca, CdAx on the
     #: circumference, CaAx [-].
     drag_normal: float
-    #: ``drag_normal``, ``added_mass_normal``, ``drag_axial``, ``added_mass_axial``: Cd on the diameter, Ca, CdAx on the
-    #: circumference, CaAx [-].
+    #: See ``drag_normal``.
     added_mass_normal: float
-    #: ``drag_normal``, ``added_mass_normal``, ``drag_axial``, ``added_mass_axial``: Cd on the diameter, Ca, CdAx on the
-    #: circumference, CaAx [-].
+    #: See ``drag_normal``.
     drag_axial: float
-    #: ``drag_normal``, ``added_mass_normal``, ``drag_axial``, ``added_mass_axial``: Cd on the diameter, Ca, CdAx on the
-    #: circumference, CaAx [-].
+    #: See ``drag_normal``.
     added_mass_axial: float
     #: Line of the file, 0 for a record that was not read.
     line: int = field(default=0, compare=False)
@@ -112,7 +109,7 @@ class DeckLine:
     line_type: str
     #: ``start``, ``end``: IDs of the points at its ends A and B, or ends of rods such as ``R1A``.
     start: int | str
-    #: ``start``, ``end``: IDs of the points at its ends A and B, or ends of rods such as ``R1A``.
+    #: See ``start``.
     end: int | str
     #: Unstretched [m].
     length: float
@@ -144,9 +141,9 @@ class MoorDynDeck:
     seafloor: DeckSeafloor | None = None
     #: ``rod_types``, ``bodies``, ``rods``: Rows of ROD TYPES, BODIES and RODS.
     rod_types: tuple[DeckRodType, ...] = ()
-    #: ``rod_types``, ``bodies``, ``rods``: Rows of ROD TYPES, BODIES and RODS.
+    #: See ``rod_types``.
     bodies: tuple[DeckBody, ...] = ()
-    #: ``rod_types``, ``bodies``, ``rods``: Rows of ROD TYPES, BODIES and RODS.
+    #: See ``rod_types``.
     rods: tuple[DeckRod, ...] = ()
     #: Line that describes the deck.
     title: str = field(default="", compare=False)

@@ -46,7 +46,7 @@ class DeckSyrope:
     form: Literal["LINEAR", "QUADRATIC", "EXP"]
     #: ``k1``, ``k2``: parameters of the shape.
     k1: float
-    #: ``k1``, ``k2``: parameters of the shape.
+    #: See ``k1``.
     k2: float
     #: Quick stiffness without tension [N], and per tension [-].
     alpha: float
@@ -70,7 +70,7 @@ class DeckSeafloor:
     rows: tuple[tuple[float, float, float], ...]
     #: ``file``, ``folder``: where the file stands.
     file: str = field(default="", compare=False)
-    #: ``file``, ``folder``: where the file stands.
+    #: See ``file``.
     folder: str = field(default="", compare=False)
 
     @property

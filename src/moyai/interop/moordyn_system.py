@@ -97,7 +97,7 @@ class BodyOfDeck:
     mass: float
     #: ``centre``, ``inertia``: Centre of that mass, and its moments of inertia about it [m, kg m2].
     centre: Triple
-    #: ``centre``, ``inertia``: Centre of that mass, and its moments of inertia about it [m, kg m2].
+    #: See ``centre``.
     inertia: Triple
     parts: tuple[RodPart | VolumePart, ...]
     #: Points that lines meet, in its axes [m]; shape (3,).

@@ -51,7 +51,7 @@ class AnchorCheck:
 
     #: ``sliding``, ``lifting``: Utilisation against each; above 1 fails.
     sliding: float
-    #: ``sliding``, ``lifting``: Utilisation against each; above 1 fails.
+    #: See ``sliding``.
     lifting: float
     notices: tuple[Notice, ...] = ()
 

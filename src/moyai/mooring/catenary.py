@@ -28,8 +28,7 @@ class CatenarySolution:
     #: ``vertical_tension_fairlead``, ``vertical_tension_anchor``: Vertical tension [N], positive where the line rises
     #: towards the fairlead.
     vertical_tension_fairlead: Array
-    #: ``vertical_tension_fairlead``, ``vertical_tension_anchor``: Vertical tension [N], positive where the line rises
-    #: towards the fairlead.
+    #: See ``vertical_tension_fairlead``.
     vertical_tension_anchor: Array
     #: Horizontal tension at the anchor [N], lowered by bed friction.
     horizontal_tension_anchor: Array

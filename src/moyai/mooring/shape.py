@@ -25,8 +25,7 @@ class LineShape:
     #: ``horizontal``, ``height``: Distance from the anchor and height above it in the line's own vertical plane [m];
     #: shape (n,).
     horizontal: Array
-    #: ``horizontal``, ``height``: Distance from the anchor and height above it in the line's own vertical plane [m];
-    #: shape (n,).
+    #: See ``horizontal``.
     height: Array
 
 

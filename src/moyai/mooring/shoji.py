@@ -19,7 +19,7 @@ class ShojiSolution:
 
     #: ``horizontal_tension``, ``vertical_tension``: T_H and T_V = w s at the fairlead [N].
     horizontal_tension: float
-    #: ``horizontal_tension``, ``vertical_tension``: T_H and T_V = w s at the fairlead [N].
+    #: See ``horizontal_tension``.
     vertical_tension: float
     #: Unstretched length s clear of the bed [m].
     suspended_length: float

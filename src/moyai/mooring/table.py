@@ -37,7 +37,7 @@ class TabulatedForce:
     water_depth: float
     #: ``horizontal_range``, ``vertical_range``: Window of X and Z [m] in which the table was asked for.
     horizontal_range: tuple[float, float]
-    #: ``horizontal_range``, ``vertical_range``: Window of X and Z [m] in which the table was asked for.
+    #: See ``horizontal_range``.
     vertical_range: tuple[float, float]
     #: Relative accuracy asked for: |error of (H, V)| over the tension.
     tolerance: float

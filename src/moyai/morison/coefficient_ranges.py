@@ -24,7 +24,7 @@ class MeasuredRange:
     reynolds: tuple[float, float]
     #: ``below``, ``above``: Allowance under and over the coefficient, as a part of it [-].
     below: float
-    #: ``below``, ``above``: Allowance under and over the coefficient, as a part of it [-].
+    #: See ``below``.
     above: float
     source: str
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
+from moyai.core.headline import UNCONFIRMED
 from moyai.core.validity import Notice
 from moyai.morison.planar import hall_limit, stokes_wang_drag, stokes_wang_inertia
 from moyai.morison.sections import MemberSection
@@ -28,6 +29,9 @@ INERTIA_LAWS: dict[str, str] = {
     "api": DRAG_LAWS["api"],
     "stokes_wang": DRAG_LAWS["stokes_wang"],
 }
+#: Current over orbital speed from which the recommended practice takes the drag of steady flow, and from which a run
+#: says that this is near [-].
+DNV_CURRENT, DNV_NEAR_CURRENT = 0.4, 0.2
 #: Relative roughness k/D from which API's values for rough members are taken
 API_ROUGH = 1e-4
 
@@ -44,6 +48,15 @@ class Conditions:
     beta: float
     #: k / D [-].
     relative_roughness: float = 0.0
+    #: Speed of a current over the largest orbital speed of the waves [-].
+    current_ratio: float = 0.0
+    #: KC of the waves alone [-]; NaN: the same.
+    wave_keulegan_carpenter: float = math.nan
+
+    @property
+    def current_governs(self) -> bool:
+        """Whether the current is so fast that wakes are those of steady flow."""
+        return self.current_ratio >= DNV_CURRENT
 
 
 @dataclass(frozen=True)
@@ -146,7 +159,11 @@ class CoefficientRule:
             notices.extend(_range_notices("API RP 2A", entry, flow))
             return np.eye(2) * entry.inertia
         notices.extend(_dnv_notices(flow))
-        return np.eye(2) * (1.0 + dnv_added_mass(flow.keulegan_carpenter, flow.relative_roughness))
+        number = flow.keulegan_carpenter
+        if flow.current_governs and not math.isnan(flow.wave_keulegan_carpenter):
+            # no wake that a current carries away comes back to take from the added mass
+            number = flow.wave_keulegan_carpenter
+        return np.eye(2) * (1.0 + dnv_added_mass(number, flow.relative_roughness))
 
     def _drag(self, section: MemberSection, flow: Conditions, notices: list[Notice]) -> Array:
         if isinstance(self.drag, KeuleganCarpenterTable):
@@ -163,8 +180,8 @@ class CoefficientRule:
             entry = api_circle(rough=flow.relative_roughness >= API_ROUGH)
             notices.extend(_range_notices("API RP 2A", entry, flow))
             return np.full(2, entry.drag)
-        notices.extend(_dnv_notices(flow))
-        return np.full(2, dnv_drag(flow.keulegan_carpenter, flow.relative_roughness))
+        notices.extend([*_dnv_notices(flow), *_dnv_current_notices(flow)])
+        return np.full(2, dnv_drag(flow.keulegan_carpenter, flow.relative_roughness, flow.current_ratio))
 
 
 #: KC beyond which the recommended practice gives a figure for the amplification of drag.
@@ -183,11 +200,12 @@ def dnv_steady_drag(relative_roughness: float) -> float:
     return (29.0 + 4.0 * math.log10(relative_roughness)) / 20.0
 
 
-def dnv_drag(keulegan_carpenter: float, relative_roughness: float) -> float:
+def dnv_drag(keulegan_carpenter: float, relative_roughness: float, current_ratio: float = 0.0) -> float:
     """Return C_D = C_DS psi(KC) of a circle (DNV-RP-C205, 6.7.2) [eq:morison-dnv-drag].
 
     Beyond KC = 12, where the recommended practice gives a figure, the factor keeps its value of KC = 12, the crest of
-    that figure. In steady flow, at infinite KC, it is one.
+    that figure. In steady flow, at infinite KC, it is one, and in waves with a current of :data:`DNV_CURRENT` of the
+    orbital speed or more it is one at least: the water does not turn back far enough to bring a wake back.
     """
     steady = dnv_steady_drag(relative_roughness)
     if math.isinf(keulegan_carpenter):
@@ -199,7 +217,7 @@ def dnv_drag(keulegan_carpenter: float, relative_roughness: float) -> float:
         factor = level - 1.0
     else:
         factor = level + 0.10 * (min(keulegan_carpenter, DNV_CREST) - 12.0)
-    return steady * factor
+    return steady * (max(factor, 1.0) if current_ratio >= DNV_CURRENT else factor)
 
 
 def dnv_added_mass(keulegan_carpenter: float, relative_roughness: float) -> float:
@@ -280,6 +298,34 @@ def _dnv_notices(flow: Conditions) -> list[Notice]:
             )
         )
     return notices
+
+
+def _dnv_current_notices(flow: Conditions) -> list[Notice]:
+    """Say where a current takes the drag of steady flow, and warn where it nearly does: the law jumps there."""
+    number, ratio = flow.keulegan_carpenter, flow.current_ratio
+    if ratio < DNV_NEAR_CURRENT or math.isinf(number):
+        return []
+    share = dnv_steady_drag(flow.relative_roughness) / dnv_drag(number, flow.relative_roughness)
+    if share <= 1.0:
+        return []
+    source = f"DNV-RP-C205, 6.7; {UNCONFIRMED}"
+    if ratio >= DNV_CURRENT:
+        return [
+            Notice(
+                "drag-current-governs",
+                f"the current is {DNV_CURRENT:g} times the orbital speed or more: drag is that of steady flow, "
+                f"{share:.2g} times that of waves alone at KC = {number:.3g}",
+                share, 1.0, "information", source=source,
+            )
+        ]  # fmt: skip
+    return [
+        Notice(
+            "drag-current-near",
+            f"the current is {ratio:.2g} times the orbital speed: drag is read at KC = {number:.3g} as in waves alone; "
+            f"from {DNV_CURRENT:g} it is that of steady flow, {share:.2g} times as much",
+            share, 1.0, "warning", "give C_D as a number where drag matters", source,
+        )
+    ]  # fmt: skip
 
 
 def _laminar_notices(flow: Conditions) -> list[Notice]:

@@ -26,7 +26,7 @@ class StraightMember:
 
     #: ``start``, ``end``: Ends (x, y, z) [m], z above the reference level of the caller.
     start: tuple[float, float, float]
-    #: ``start``, ``end``: Ends (x, y, z) [m], z above the reference level of the caller.
+    #: See ``start``.
     end: tuple[float, float, float]
     #: In axes of the section; see :attr:`axes`.
     section: MemberSection

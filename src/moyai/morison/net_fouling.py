@@ -22,7 +22,7 @@ class FouledNet:
 
     #: ``clean``, ``net``: Without and with the growth.
     clean: Net
-    #: ``clean``, ``net``: Without and with the growth.
+    #: See ``clean``.
     net: Net
     #: Of the growth [kg/m3].
     density: float

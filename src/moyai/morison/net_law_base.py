@@ -33,8 +33,7 @@ class NetLaw(ABC):
     #: ``reynolds_range``, ``solidity_range``: Range that the source covers; outside it the law is continued as
     #: ``outside`` says, with a notice.
     reynolds_range: ClassVar[tuple[float, float]]
-    #: ``reynolds_range``, ``solidity_range``: Range that the source covers; outside it the law is continued as
-    #: ``outside`` says, with a notice.
+    #: See ``reynolds_range``.
     solidity_range: ClassVar[tuple[float, float]]
     #: Definition of the Reynolds number of the range.
     reynolds_name: ClassVar[str] = "Re = U d / nu"

@@ -35,7 +35,7 @@ class Tail:
     start: float
     #: ``exponents``, ``coefficients``: Terms; coefficients are those at ``start``.
     exponents: tuple[float, ...]
-    #: ``exponents``, ``coefficients``: Terms; coefficients are those at ``start``.
+    #: See ``exponents``.
     coefficients: tuple[float, ...]
     #: Why this kind was taken.
     reason: str

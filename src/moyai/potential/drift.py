@@ -43,8 +43,7 @@ class NearFieldDrift:
     #: ``horizontal``, ``vertical``: Along x and z [N/m per m2]. The vertical one counts the mean pressure from zero
     #: Bernoulli constant. Shape (omega,).
     horizontal: Array
-    #: ``horizontal``, ``vertical``: Along x and z [N/m per m2]. The vertical one counts the mean pressure from zero
-    #: Bernoulli constant. Shape (omega,).
+    #: See ``horizontal``.
     vertical: Array
     #: About the centre of roll, positive as roll [N m/m per m2]; shape (omega,).
     moment: Array

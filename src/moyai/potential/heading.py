@@ -60,7 +60,7 @@ class HeadingSolution:
     states: WaveStates
     #: ``body``, ``surface``: Nodes of the whole wetted boundary and free surface, on which the potentials are given.
     body: Panels
-    #: ``body``, ``surface``: Nodes of the whole wetted boundary and free surface, on which the potentials are given.
+    #: See ``body``.
     surface: Panels
     #: [kg/m] for translations. Damping is that of the waves sent out (and of the lid), which is exact to a share of
     #: itself however small it is. Shape (omega, radiating, influenced).
@@ -79,7 +79,7 @@ class HeadingSolution:
     radiated_wave: ComplexArray
     #: ``reflection``, ``transmission``: Of the section held fixed, phase at x = 0; shape (omega,).
     reflection: ComplexArray
-    #: ``reflection``, ``transmission``: Of the section held fixed, phase at x = 0; shape (omega,).
+    #: See ``reflection``.
     transmission: ComplexArray
     #: Share of the incident energy that the lid takes when the section is held fixed; shape (omega,).
     lid_loss: Array
@@ -88,8 +88,7 @@ class HeadingSolution:
     #: ``radiation``, ``radiation_surface``: Potentials on the nodes of body and free surface [m2/s per m/s]; shape
     #: (omega, n, mode).
     radiation: ComplexArray
-    #: ``radiation``, ``radiation_surface``: Potentials on the nodes of body and free surface [m2/s per m/s]; shape
-    #: (omega, n, mode).
+    #: See ``radiation``.
     radiation_surface: ComplexArray
     #: The same of the scattered wave [m2/s per m]; shape (omega, n).
     scattered: ComplexArray

@@ -35,8 +35,7 @@ class CircleCoefficients:
     #: ``added_mass``, ``radiation_damping``: a/(rho area) and b/(rho area omega) with the area of the immersed section
     #: (half or whole circle).
     added_mass: float
-    #: ``added_mass``, ``radiation_damping``: a/(rho area) and b/(rho area omega) with the area of the immersed section
-    #: (half or whole circle).
+    #: See ``added_mass``.
     radiation_damping: float
     #: Amplitude of the radiated wave on one side over the amplitude of the motion.
     wave_ratio: float
@@ -150,7 +149,7 @@ class SubmergedCircle:
 
     #: ``added_mass``, ``radiation_damping``: a/(rho pi a^2) and b/(rho pi a^2 omega).
     added_mass: float
-    #: ``added_mass``, ``radiation_damping``: a/(rho pi a^2) and b/(rho pi a^2 omega).
+    #: See ``added_mass``.
     radiation_damping: float
     #: Amplitude of the radiated wave on one side over the amplitude of the motion.
     wave_ratio: float

@@ -36,7 +36,7 @@ class Rule:
     derivative: Array
     #: ``first``, ``last``: Values at t = -1 and t = 1 from node values; shape (p,).
     first: Array
-    #: ``first``, ``last``: Values at t = -1 and t = 1 from node values; shape (p,).
+    #: See ``first``.
     last: Array
 
 
@@ -74,7 +74,7 @@ class Panels:
     order: int
     #: ``u``, ``v``: x + i z and x - i z; conjugate where x is real; shape (nodes,).
     u: ComplexArray
-    #: ``u``, ``v``: x + i z and x - i z; conjugate where x is real; shape (nodes,).
+    #: See ``u``.
     v: ComplexArray
     #: Their derivatives with respect to the parameter t of the panel.
     du: ComplexArray

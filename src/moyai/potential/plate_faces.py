@@ -23,7 +23,7 @@ class PlateTip:
 
     #: ``place``, ``outward``: Where it is [m], and the unit vector along which the plate would go on; shape (2,).
     place: Array
-    #: ``place``, ``outward``: Where it is [m], and the unit vector along which the plate would go on; shape (2,).
+    #: See ``place``.
     outward: Array
     #: Weights that give C of the jump C sqrt(distance) from the values on all nodes of the body [1 / sqrt(m)]; shape
     #: (n,).

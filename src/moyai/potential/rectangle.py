@@ -44,7 +44,7 @@ class RectangleSolution:
 
     #: ``beam``, ``draught``: B and d [m].
     beam: float
-    #: ``beam``, ``draught``: B and d [m].
+    #: See ``beam``.
     draught: float
     #: x, z [m] of the point that roll turns about.
     centre: tuple[float, float]

@@ -130,7 +130,7 @@ class Fields:
     radiated: ComplexArray
     #: ``reflection``, ``transmission``: Of the body held fixed, phase referred to x = 0.
     reflection: complex
-    #: ``reflection``, ``transmission``: Of the body held fixed, phase referred to x = 0.
+    #: See ``reflection``.
     transmission: complex
     #: Value of the wave mode at the surface.
     surface: float

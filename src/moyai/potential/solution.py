@@ -43,18 +43,17 @@ class RadiationDiffraction:
     #: ``infinite_frequency_added_mass``, ``zero_frequency_added_mass``: Limits; NaN where there is none (zero frequency
     #: in infinite depth, modes that displace volume); shape (radiating, influenced).
     infinite_frequency_added_mass: Array
-    #: ``infinite_frequency_added_mass``, ``zero_frequency_added_mass``: Limits; NaN where there is none (zero frequency
-    #: in infinite depth, modes that displace volume); shape (radiating, influenced).
+    #: See ``infinite_frequency_added_mass``.
     zero_frequency_added_mass: Array
     #: Number of nodes.
     unknowns: int
     #: ``status``, ``message``, ``checks``, ``notices``: Whether the identities were met, and their figures.
     status: Status
-    #: ``status``, ``message``, ``checks``, ``notices``: Whether the identities were met, and their figures.
+    #: See ``status``.
     message: str
-    #: ``status``, ``message``, ``checks``, ``notices``: Whether the identities were met, and their figures.
+    #: See ``status``.
     checks: tuple[IdentityCheck, ...]
-    #: ``status``, ``message``, ``checks``, ``notices``: Whether the identities were met, and their figures.
+    #: See ``status``.
     notices: tuple[Notice, ...] = ()
 
     @property

@@ -25,11 +25,9 @@ class DiscreteMemory:
     #: ``old``, ``middle``, ``new``: Weights of the velocities at start, middle and end of the step; ``middle`` is zero
     #: for linear variation; shape (n, m).
     old: ComplexArray
-    #: ``old``, ``middle``, ``new``: Weights of the velocities at start, middle and end of the step; ``middle`` is zero
-    #: for linear variation; shape (n, m).
+    #: See ``old``.
     middle: ComplexArray
-    #: ``old``, ``middle``, ``new``: Weights of the velocities at start, middle and end of the step; ``middle`` is zero
-    #: for linear variation; shape (n, m).
+    #: See ``old``.
     new: ComplexArray
     #: Of the state space; shape (m, n).
     outputs: ComplexArray

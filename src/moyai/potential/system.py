@@ -20,8 +20,8 @@ from moyai.potential.oblique_quadrature import add_helmholtz, add_helmholtz_slop
 from moyai.potential.panels import GAP, PLATE, RAY, gauss_rule
 from moyai.potential.quadrature import add_rankine, add_rankine_slopes
 
-# Stacks of matrices are cut so that one takes about this many bytes
-_STACK_BYTES = 6.0e7
+# Stacks of matrices are cut so that one takes about this many bytes: larger ones are not faster, and several are held
+_STACK_BYTES = 8.0e6
 
 
 @dataclass(frozen=True, eq=False)

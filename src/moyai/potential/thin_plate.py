@@ -48,8 +48,7 @@ class Plate:
     #: ``start``, ``end``: x, z [m]; the start may lie on the still water z = 0, the end may stand on the bed. Both may
     #: be submerged.
     start: tuple[float, float]
-    #: ``start``, ``end``: x, z [m]; the start may lie on the still water z = 0, the end may stand on the bed. Both may
-    #: be submerged.
+    #: See ``start``.
     end: tuple[float, float]
     #: tan(sweep / 4): 0 straight, positive turns counter-clockwise (a hanging plate bulges towards -x), 1 half circle.
     bulge: float = 0.0

@@ -29,7 +29,7 @@ class PlateGrid:
     target: Array
     #: ``first``, ``last``: Range of the nodes that carry unknowns; those before and behind follow from them.
     first: int
-    #: ``first``, ``last``: Range of the nodes that carry unknowns; those before and behind follow from them.
+    #: See ``first``.
     last: int
 
 

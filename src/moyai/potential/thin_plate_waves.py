@@ -58,7 +58,7 @@ class PlateJump:
 
     #: ``points``, ``normals``: Places [m] and unit normals; shape (n, 2).
     points: Array
-    #: ``points``, ``normals``: Places [m] and unit normals; shape (n, 2).
+    #: See ``points``.
     normals: Array
     #: Distance along the plate [m]; shape (n,).
     arc: Array

@@ -33,7 +33,7 @@ class VerticalBarrier:
     radiation_damping: Array
     #: ``reflection``, ``transmission``: Of the barrier held fixed, phase at the barrier; shape (n,).
     reflection: ComplexArray
-    #: ``reflection``, ``transmission``: Of the barrier held fixed, phase at the barrier; shape (n,).
+    #: See ``reflection``.
     transmission: ComplexArray
 
 

@@ -60,7 +60,7 @@ class LeftOut:
     values: Array
     #: ``bias``, ``rms``: Of prediction minus observation in the group, in the unit of the observations.
     bias: float
-    #: ``bias``, ``rms``: Of prediction minus observation in the group, in the unit of the observations.
+    #: See ``bias``.
     rms: float
     count: int
 
@@ -72,12 +72,12 @@ class Calibration:
     parameters: tuple[Parameter, ...]
     #: ``values``, ``errors``: Estimates and standard errors.
     values: Array
-    #: ``values``, ``errors``: Estimates and standard errors.
+    #: See ``values``.
     errors: Array
     covariance: Array
     #: ``prediction``, ``residual``: At the estimate; residual is prediction minus observation.
     prediction: Array
-    #: ``prediction``, ``residual``: At the estimate; residual is prediction minus observation.
+    #: See ``prediction``.
     residual: Array
     #: Of the residual.
     bias: float
@@ -436,7 +436,7 @@ class ProfileOfFit:
     name: str
     #: ``values``, ``squares``: Values of the parameter and the sum of weighted squares.
     values: Array
-    #: ``values``, ``squares``: Values of the parameter and the sum of weighted squares.
+    #: See ``values``.
     squares: Array
     #: Where the sum rises by no more than 3.84 standard variances: 95 % interval; infinite on an open side.
     interval: tuple[float, float]

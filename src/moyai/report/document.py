@@ -28,7 +28,7 @@ class Abscissa:
     key: str
     #: ``label``, ``unit``: Words and unit of the axis, in display units.
     label: str
-    #: ``label``, ``unit``: Words and unit of the axis, in display units.
+    #: See ``label``.
     unit: str = ""
     #: Logarithmic scale.
     log: bool = False
@@ -40,7 +40,7 @@ class Panel:
 
     #: ``label``, ``unit``: Words and unit of the ordinate, in display units.
     label: str
-    #: ``label``, ``unit``: Words and unit of the ordinate, in display units.
+    #: See ``label``.
     unit: str = ""
     #: Range of the axis; found from the data when absent.
     limits: tuple[float, float] | None = None
@@ -371,7 +371,7 @@ class Document:
     subtitle: str
     #: ``status``, ``message``: Status of the result and the sentence behind it.
     status: str
-    #: ``status``, ``message``: Status of the result and the sentence behind it.
+    #: See ``status``.
     message: str
     sections: tuple[Chapter, ...]
     #: For the foot of the page.

@@ -31,11 +31,11 @@ class Pair:
     figure: str
     #: ``label``, ``unit``: Series with its panel, and unit of the values.
     label: str
-    #: ``label``, ``unit``: Series with its panel, and unit of the values.
+    #: See ``label``.
     unit: str
     #: ``x``, ``here``: Abscissa and values of this report.
     x: Array
-    #: ``x``, ``here``: Abscissa and values of this report.
+    #: See ``x``.
     here: Array
     #: Those of the other result.
     x_there: Array

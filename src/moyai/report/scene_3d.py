@@ -149,11 +149,11 @@ class Scene3D:
     thin: NDArray[np.bool_] | None = None
     #: ``faces``, ``markers``, ``bodies``, ``traces``: What else there is; of the traces the highest are kept.
     faces: tuple[Faces, ...] = ()
-    #: ``faces``, ``markers``, ``bodies``, ``traces``: What else there is; of the traces the highest are kept.
+    #: See ``faces``.
     markers: tuple[Marker, ...] = ()
-    #: ``faces``, ``markers``, ``bodies``, ``traces``: What else there is; of the traces the highest are kept.
+    #: See ``faces``.
     bodies: tuple[Body3D, ...] = ()
-    #: ``faces``, ``markers``, ``bodies``, ``traces``: What else there is; of the traces the highest are kept.
+    #: See ``faces``.
     traces: tuple[Trace, ...] = ()
     #: Moving surface; still water when left out.
     waves: Waves3D | Surface3D | None = None

@@ -76,7 +76,7 @@ class FilledInput:
 
     #: ``name``, ``value``: What it is and what was taken.
     name: str
-    #: ``name``, ``value``: What it is and what was taken.
+    #: See ``name``.
     value: str
     #: Other values that were tried.
     varied: str
@@ -104,7 +104,7 @@ class Paper:
     run: Callable[[bool, Progress], Any]
     #: ``figures``, ``filled``: Take the runs; return the figures and the inputs that were filled in.
     figures: Callable[[Any], tuple[PaperFigure, ...]]
-    #: ``figures``, ``filled``: Take the runs; return the figures and the inputs that were filled in.
+    #: See ``figures``.
     filled: Callable[[Any], tuple[FilledInput, ...]]
 
 

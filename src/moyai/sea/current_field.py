@@ -26,9 +26,9 @@ class CurrentField:
     time: Array
     #: ``x``, ``y``, ``z``: Places [m], z from still water upwards; shape (a,), (b,), (c,).
     x: Array
-    #: ``x``, ``y``, ``z``: Places [m], z from still water upwards; shape (a,), (b,), (c,).
+    #: See ``x``.
     y: Array
-    #: ``x``, ``y``, ``z``: Places [m], z from still water upwards; shape (a,), (b,), (c,).
+    #: See ``x``.
     z: Array
     #: [m/s]; shape (t, a, b, c, 3).
     velocity: Array

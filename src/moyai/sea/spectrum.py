@@ -36,11 +36,11 @@ class WindSeaShape:
     peak_enhancement: float = 1.0
     #: ``sigma_low``, ``sigma_high``: Width of the peak below and above omega_p [-].
     sigma_low: float = 0.07
-    #: ``sigma_low``, ``sigma_high``: Width of the peak below and above omega_p [-].
+    #: See ``sigma_low``.
     sigma_high: float = 0.09
     #: ``depth``, ``gravity``: Water of the TMA depth function; infinite depth where it is not applied.
     depth: float = math.inf
-    #: ``depth``, ``gravity``: Water of the TMA depth function; infinite depth where it is not applied.
+    #: See ``depth``.
     gravity: float = math.nan
 
     def __call__(self, omega: Array) -> Array:
@@ -117,7 +117,7 @@ class Spectrum:
     shapes: tuple[WindSeaShape, ...] = ()
     #: ``lower``, ``upper``: Band limits [rad/s]: the spectrum is zero outside.
     lower: float = 0.0
-    #: ``lower``, ``upper``: Band limits [rad/s]: the spectrum is zero outside.
+    #: See ``lower``.
     upper: float = math.inf
 
     def __post_init__(self) -> None:

@@ -59,7 +59,7 @@ class StreamFunctionSolution:
     celerity: float
     #: ``stream``, ``head``: Constants of the kinematic and the dynamic condition.
     stream: float
-    #: ``stream``, ``head``: Constants of the kinematic and the dynamic condition.
+    #: See ``stream``.
     head: float
     #: k [1/m].
     wave_number: float

@@ -12,6 +12,8 @@ from moyai.series.intervals import deviations_along
 
 #: Blocks that a record is cut into, at most and at least; a block holds that many periods or more.
 MOST_BLOCKS, LEAST_BLOCKS, PERIODS = 20, 6, 4.0
+#: Periods below which the largest value of a record tells nothing of a storm.
+LEAST_PERIODS = LEAST_BLOCKS * PERIODS
 
 
 @dataclass(frozen=True)
@@ -22,7 +24,7 @@ class Maximum:
     observed: float
     #: ``mean``, ``deviation``: Over all records of that length, estimated from the maxima of blocks.
     mean: float
-    #: ``mean``, ``deviation``: Over all records of that length, estimated from the maxima of blocks.
+    #: See ``mean``.
     deviation: float
     blocks: int
 
@@ -54,10 +56,28 @@ def maximum_of(time: ArrayLike, values: ArrayLike, period: float) -> Maximum | N
     t, x = np.asarray(time, dtype=float), np.asarray(values, dtype=float)
     if t.size < 2 or not np.isfinite(x).all():
         return None
-    count = min(MOST_BLOCKS, int((t[-1] - t[0]) / (PERIODS * period)))
-    if count < LEAST_BLOCKS:
+    if too_short(t, period):
         return None
+    count = _blocks(t, period)
     highest = np.array([float(part.max()) for part in np.array_split(x, count)])
     mean, deviation = float(highest.mean()), float(highest.std(ddof=1))
     largest = mean + deviation * math.sqrt(6.0) / math.pi * math.log(count)
     return Maximum(float(x.max()), largest, deviation, count)
+
+
+def too_short(time: ArrayLike, period: float) -> bool:
+    """Return whether a record holds fewer than :data:`LEAST_PERIODS` periods: its largest value is one of a few waves.
+
+    Parameters
+    ----------
+    time : array_like
+        Of the record, start-up left out [s].
+    period : float
+        Peak period of the sea [s].
+    """
+    t = np.asarray(time, dtype=float)
+    return bool(t.size < 2 or _blocks(t, period) < LEAST_BLOCKS)
+
+
+def _blocks(time: np.ndarray, period: float) -> int:
+    return min(MOST_BLOCKS, int((time[-1] - time[0]) / (PERIODS * period)))

@@ -32,7 +32,7 @@ class Harmonics:
     periods: int
     #: ``start``, ``end``: First instant used and the instant one step after the last [s].
     start: float
-    #: ``start``, ``end``: First instant used and the instant one step after the last [s].
+    #: See ``start``.
     end: float
 
     @property

@@ -24,11 +24,11 @@ class Estimate:
 
     #: ``value``, ``error``, ``low``, ``high``: Estimate, standard error, bounds.
     value: float
-    #: ``value``, ``error``, ``low``, ``high``: Estimate, standard error, bounds.
+    #: See ``value``.
     error: float
-    #: ``value``, ``error``, ``low``, ``high``: Estimate, standard error, bounds.
+    #: See ``value``.
     low: float
-    #: ``value``, ``error``, ``low``, ``high``: Estimate, standard error, bounds.
+    #: See ``value``.
     high: float
 
     def holds(self, value: float) -> bool:

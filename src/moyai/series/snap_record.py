@@ -33,7 +33,7 @@ class CableSnap:
     name: str
     #: ``peak``, ``peak_time``: Largest tension above the unloaded level [N] and when [s].
     peak: float
-    #: ``peak``, ``peak_time``: Largest tension above the unloaded level [N] and when [s].
+    #: See ``peak``.
     peak_time: float
     #: Steady level after the spike [N].
     plateau: float
@@ -41,7 +41,7 @@ class CableSnap:
     plateau_error: float
     #: ``offset``, ``drift``: What was taken off: level [N] at the first sample and its slope [N/s].
     offset: float
-    #: ``offset``, ``drift``: What was taken off: level [N] at the first sample and its slope [N/s].
+    #: See ``offset``.
     drift: float
     #: Standard deviation of the noise [N].
     noise: float
@@ -61,11 +61,9 @@ class MeasuredSnap:
     #: ``taut_time``, ``peak_time``, ``plateau_start``: [s]; the plateau starts where the summed tension stays within a
     #: tenth of the impact of it.
     taut_time: float
-    #: ``taut_time``, ``peak_time``, ``plateau_start``: [s]; the plateau starts where the summed tension stays within a
-    #: tenth of the impact of it.
+    #: See ``taut_time``.
     peak_time: float
-    #: ``taut_time``, ``peak_time``, ``plateau_start``: [s]; the plateau starts where the summed tension stays within a
-    #: tenth of the impact of it.
+    #: See ``taut_time``.
     plateau_start: float
     #: Of the sum of all cables.
     sum: CableSnap
@@ -75,7 +73,7 @@ class MeasuredSnap:
     sampling_step: float
     #: ``time``, ``tension``: The record without offset and drift: (n,), (cables, n).
     time: Array
-    #: ``time``, ``tension``: The record without offset and drift: (n,), (cables, n).
+    #: See ``time``.
     tension: Array
     #: What makes the numbers doubtful.
     notices: tuple[Notice, ...]

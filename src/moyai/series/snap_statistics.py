@@ -42,7 +42,7 @@ class SnapFit:
     threshold: float
     #: ``shape``, ``scale``: c [-] and a [N].
     shape: Interval
-    #: ``shape``, ``scale``: c [-] and a [N].
+    #: See ``shape``.
     scale: Interval
     #: Peaks above the threshold per hour; exact bounds of Poisson's law.
     rate: Interval

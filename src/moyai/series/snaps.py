@@ -37,8 +37,7 @@ class SnapRecord:
     #: ``slack_level``, ``threshold``: Tension below which a line counts as slack, and peak above which a contact counts
     #: as a snap [N].
     slack_level: float
-    #: ``slack_level``, ``threshold``: Tension below which a line counts as slack, and peak above which a contact counts
-    #: as a snap [N].
+    #: See ``slack_level``.
     threshold: float
     #: Begin and end of every slack interval [s]; shape (k, 2).
     slack: Array

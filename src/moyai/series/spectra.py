@@ -70,7 +70,7 @@ class CrossSpectra:
     degrees_of_freedom: float
     #: ``segments``, ``left_out``: Segments used, and those left out because a sample was missing.
     segments: int
-    #: ``segments``, ``left_out``: Segments used, and those left out because a sample was missing.
+    #: See ``segments``.
     left_out: int
     #: Width of the frequency band that one estimate stands for [Hz].
     resolution: float
@@ -111,7 +111,7 @@ class MeasuredSpectrum:
     degrees_of_freedom: float
     #: ``segments``, ``left_out``: Segments used and left out.
     segments: int = 1
-    #: ``segments``, ``left_out``: Segments used and left out.
+    #: See ``segments``.
     left_out: int = 0
     #: [Hz].
     resolution: float = math.nan

@@ -58,16 +58,14 @@ class Waves:
 
     #: ``start``, ``period``: Opening crossing and duration [s].
     start: Array
-    #: ``start``, ``period``: Opening crossing and duration [s].
+    #: See ``start``.
     period: Array
     #: ``height``, ``crest``, ``trough``: Height, highest and lowest value about the level (trough negative) [unit of
     #: the record].
     height: Array
-    #: ``height``, ``crest``, ``trough``: Height, highest and lowest value about the level (trough negative) [unit of
-    #: the record].
+    #: See ``height``.
     crest: Array
-    #: ``height``, ``crest``, ``trough``: Height, highest and lowest value about the level (trough negative) [unit of
-    #: the record].
+    #: See ``height``.
     trough: Array
     options: WaveOptions
     notices: tuple[Notice, ...] = ()

@@ -90,7 +90,7 @@ class Combination:
     labels: tuple[str, ...]
     #: ``assignments``, ``removals``: What it changes in the base case, in the order of the axes.
     assignments: Assignments = ()
-    #: ``assignments``, ``removals``: What it changes in the base case, in the order of the axes.
+    #: See ``assignments``.
     removals: tuple[str, ...] = ()
     options: Assignments = ()
 

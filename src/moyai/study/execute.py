@@ -33,15 +33,15 @@ class Standing:
 
     #: ``done``, ``total``, ``failed``: Cases; refused ones count as failed.
     done: int
-    #: ``done``, ``total``, ``failed``: Cases; refused ones count as failed.
+    #: See ``done``.
     total: int
-    #: ``done``, ``total``, ``failed``: Cases; refused ones count as failed.
+    #: See ``done``.
     failed: int
     #: Estimated from the rate so far, NaN at the start [s].
     seconds_left: float
     #: ``largest``, ``smallest``: Of the watched response: value and number of the case.
     largest: tuple[float, int] | None
-    #: ``largest``, ``smallest``: Of the watched response: value and number of the case.
+    #: See ``largest``.
     smallest: tuple[float, int] | None
     #: The case that ended last.
     latest: LedgerRecord | None = None

@@ -38,7 +38,7 @@ class ObservationRow:
     changes: tuple[tuple[str, Any], ...]
     #: ``observed``, ``error``: Observation and its standard error (NaN where not given).
     observed: float
-    #: ``observed``, ``error``: Observation and its standard error (NaN where not given).
+    #: See ``observed``.
     error: float
     #: Storm or test.
     group: str

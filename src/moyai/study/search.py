@@ -69,7 +69,7 @@ class LimitRun:
     path: str
     #: ``first``, ``last``: Range, as a case file holds it.
     first: Any
-    #: ``first``, ``last``: Range, as a case file holds it.
+    #: See ``first``.
     last: Any
     #: What must hold.
     limits: tuple[ResponseLimit, ...]
@@ -136,9 +136,9 @@ class OptimiseRun:
     trade_off: str
     #: ``starts``, ``evaluations``, ``seed``: Effort; the starting points are a Latin hypercube.
     starts: int
-    #: ``starts``, ``evaluations``, ``seed``: Effort; the starting points are a Latin hypercube.
+    #: See ``starts``.
     evaluations: int
-    #: ``starts``, ``evaluations``, ``seed``: Effort; the starting points are a Latin hypercube.
+    #: See ``starts``.
     seed: int
     #: What the case brings (``@at_most``).
     options: dict[str, Any] = field(default_factory=dict)

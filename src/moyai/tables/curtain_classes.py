@@ -18,11 +18,11 @@ class CurtainClass:
 
     #: ``name``, ``practice``: Letter or numeral, and whose practice.
     name: str
-    #: ``name``, ``practice``: Letter or numeral, and whose practice.
+    #: See ``name``.
     practice: str
     #: ``significant_height``, ``current``: Largest H_1/3 [m] and current [m/s].
     significant_height: float
-    #: ``significant_height``, ``current``: Largest H_1/3 [m] and current [m/s].
+    #: See ``significant_height``.
     current: float
     #: [m].
     float_diameter: float

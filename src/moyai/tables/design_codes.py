@@ -24,7 +24,7 @@ class CodeRule:
 
     #: ``code``, ``edition``: Name and edition.
     code: str
-    #: ``code``, ``edition``: Name and edition.
+    #: See ``code``.
     edition: str
     #: ``intact``, ``one_lost`` or ``any``.
     condition: Literal["intact", "one_lost", "any"]

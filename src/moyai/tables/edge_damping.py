@@ -18,11 +18,9 @@ class EdgeDampingNumbers:
     #: ``plate_drag``, ``plate_exponent``, ``plate_keulegan_carpenter``: C_D = plate_drag KC^plate_exponent of a thin
     #: plate, and the KC that it is taken at.
     plate_drag: float
-    #: ``plate_drag``, ``plate_exponent``, ``plate_keulegan_carpenter``: C_D = plate_drag KC^plate_exponent of a thin
-    #: plate, and the KC that it is taken at.
+    #: See ``plate_drag``.
     plate_exponent: float
-    #: ``plate_drag``, ``plate_exponent``, ``plate_keulegan_carpenter``: C_D = plate_drag KC^plate_exponent of a thin
-    #: plate, and the KC that it is taken at.
+    #: See ``plate_drag``.
     plate_keulegan_carpenter: float
     #: Turn of the outline below which a vertex is smooth [degrees].
     smallest_turn: float

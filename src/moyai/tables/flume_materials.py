@@ -18,7 +18,7 @@ class FlumeMaterial:
 
     #: ``name``, ``material``: Catalogue name and what it is.
     name: str
-    #: ``name``, ``material``: Catalogue name and what it is.
+    #: See ``name``.
     material: str
     #: Low and high modulus E [Pa].
     modulus: tuple[float, float]

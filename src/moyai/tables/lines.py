@@ -19,7 +19,7 @@ class LineProperties:
 
     #: ``name``, ``material``: Catalogue name and what it is.
     name: str
-    #: ``name``, ``material``: Catalogue name and what it is.
+    #: See ``name``.
     material: str
     #: Nominal diameter d (bar diameter of a chain) [m].
     diameter: float
@@ -34,8 +34,7 @@ class LineProperties:
     #: ``drag_normal``, ``drag_tangential``: Drag coefficients on the nominal diameter [-]: force per length rho/2 C d
     #: u|u|.
     drag_normal: float
-    #: ``drag_normal``, ``drag_tangential``: Drag coefficients on the nominal diameter [-]: force per length rho/2 C d
-    #: u|u|.
+    #: See ``drag_normal``.
     drag_tangential: float
     #: Added-mass coefficients on the displaced volume [-].
     added_mass_normal: float

@@ -18,7 +18,7 @@ class DragEntry:
 
     #: ``drag``, ``inertia``: C_D and C_M [-]; NaN where the table gives none.
     drag: float
-    #: ``drag``, ``inertia``: C_D and C_M [-]; NaN where the table gives none.
+    #: See ``drag``.
     inertia: float
     #: Range of the Reynolds number that it was found in.
     reynolds_low: float

@@ -124,7 +124,7 @@ class NetMaterial:
     density: float
     #: ``modulus``, ``strength``: Low and high, on the nominal section [Pa].
     modulus: tuple[float, float]
-    #: ``modulus``, ``strength``: Low and high, on the nominal section [Pa].
+    #: See ``modulus``.
     strength: tuple[float, float]
     confirmed: bool
     source: str
@@ -193,8 +193,7 @@ class FoulingEntry:
     #: ``diameter_factor``, ``drag_factor``: Fouled over clean twine diameter, or drag; NaN for the one that the source
     #: does not give [-].
     diameter_factor: float
-    #: ``diameter_factor``, ``drag_factor``: Fouled over clean twine diameter, or drag; NaN for the one that the source
-    #: does not give [-].
+    #: See ``diameter_factor``.
     drag_factor: float
     #: Of the growth [kg/m3].
     density: float

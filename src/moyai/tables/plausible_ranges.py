@@ -39,7 +39,7 @@ class PlausibleRange:
     unit: str
     #: ``possible``, ``usual``: Closed ranges; outside the first it is an error, outside the second a warning.
     possible: tuple[float, float]
-    #: ``possible``, ``usual``: Closed ranges; outside the first it is an error, outside the second a warning.
+    #: See ``possible``.
     usual: tuple[float, float]
     #: The quantity in words.
     what: str

@@ -16,7 +16,7 @@ class WaterProperties:
 
     #: ``name``, ``water``: Short name, and which water.
     name: str
-    #: ``name``, ``water``: Short name, and which water.
+    #: See ``name``.
     water: str
     #: [kg/m3].
     density: float

@@ -114,6 +114,7 @@ def test_text_is_text_again(value: str) -> None:
     assert parse_yaml(f"a: {flow({'b': value})}").data == {"a": {"b": value}}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", TEMPLATES)
 def test_every_scalar_and_key_of_a_template_is_changed_alone_or_refused(name: str) -> None:
     """Random changes: the text differs where it should, and setting the old value brings the old text back."""

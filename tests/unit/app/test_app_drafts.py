@@ -46,6 +46,7 @@ def decoded(coded: Any) -> np.ndarray:
     return np.asarray(coded if isinstance(coded, list) else np.frombuffer(base64.b64decode(coded["f4"]), "<f4"), float)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "kind"), [("network", "network"), ("rigid_cage", "cage"), ("quick", "member")])
 def test_numbers_are_those_of_a_fresh_run(tmp_path: Path, name: str, kind: str) -> None:
     text = MEMBER if name == "quick" else template(name)

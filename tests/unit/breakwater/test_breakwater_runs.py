@@ -232,6 +232,7 @@ def test_interrupt_keeps_what_was_done(pontoon_problem, tmp_path):
     assert "motion_amplitude" in back.tree["SWL/frequency/waves"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("lid", [0.0, pytest.param(0.05, marks=pytest.mark.slow)])
 def test_gap_of_a_twin_pontoon_is_told(pontoon_problem, lid):
     hull = twin_pontoon(0.15, 0.3, 0.2, deck_thickness=0.05)
@@ -391,6 +392,7 @@ def test_oblique_regular_waves_in_time_are_those_of_frequency_with_springs(ponto
     assert time.transmission_coefficient.values == pytest.approx(frequency.transmission_coefficient.values, abs=5e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("hull", "draught"),
     [

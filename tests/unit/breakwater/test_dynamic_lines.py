@@ -78,6 +78,7 @@ def unit(tmp_path_factory):
     return assemble(problem, *problem.environment.water_levels[0])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [*range(1), *(pytest.param(s, marks=pytest.mark.slow) for s in range(1, 3))])
 def test_slow_motion_of_the_fairlead_gives_the_tension_of_the_catenary(unit, seed) -> None:
     """A slow circle of random size about rest: a thousandth of the exact line, two at the worst instant."""

@@ -315,6 +315,7 @@ def test_waves_of_no_height_leave_the_cage_at_rest() -> None:
     assert moved.max() < 0.02
 
 
+@pytest.mark.slow
 def test_waves_move_the_cage_and_energy_does_not_appear() -> None:
     model, rest = at_sea(0.3)
     wave = wave_of("linear", 1.2, 5.0, 0.0, SEA, 0.3, 3)

@@ -220,6 +220,7 @@ _TOKENS = st.sampled_from(
 )
 
 
+@pytest.mark.slow
 @settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(st.integers(0, CASE.count(": ") - 1), _TOKENS)
 def test_any_value_anywhere_gives_a_case_or_faults_with_places(index, token):

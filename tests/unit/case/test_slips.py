@@ -75,6 +75,7 @@ def test_what_is_unusual_is_warned_of(name):
     assert any(words in text for text in found), found
 
 
+@pytest.mark.slow
 def test_a_sound_case_is_not_spoken_of():
     assert not [str(fault) for fault in read(CASE).warnings if "usual" in fault.allowed]
     for name, text, folder in [*slips.sources(), *slips.designs()]:

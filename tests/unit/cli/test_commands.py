@@ -247,6 +247,7 @@ def test_wrong_usage_ends_with_two():
         assert runner.invoke(app, arguments).exit_code == 2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("encoding", ["cp932", pytest.param("cp1252", marks=pytest.mark.slow)])
 def test_no_console_encoding_stops_a_command(tmp_path, encoding):
     """Windows consoles: a title that the code page cannot show is printed with replacements."""

@@ -68,6 +68,7 @@ def test_signals_end_a_long_run_with_a_partial_result(case_file, tmp_path, numbe
     assert [path.name for path in out.iterdir()] == ["results.nc"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("closing", [pytest.param(">&-", marks=pytest.mark.slow), ">&- 2>&-", "| true"])
 @pytest.mark.parametrize(
     "command",

@@ -237,6 +237,7 @@ def test_rows_off_the_pace_of_the_wave_are_told() -> None:
     assert not reported and 3 <= count <= 12
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [*range(1), *(pytest.param(s, marks=pytest.mark.slow) for s in range(1, 3))])
 def test_network_and_bodies_at_rest_are_of_one_piece(seed) -> None:
     """The points of the bodies are where the network has them, to the last digit."""

@@ -30,6 +30,7 @@ def model_of(random, mooring=None, memory=None):
     return CumminsModel(inertia, np.diag([0.0, 9000.0, 900.0]), np.diag([30.0, 40.0, 10.0]), memory, mooring)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("seed", "kept"), [(0, 0), (1, 1), *(pytest.param(*pair, marks=pytest.mark.slow) for pair in ((0, 1), (1, 0)))]
 )

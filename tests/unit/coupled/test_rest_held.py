@@ -56,6 +56,7 @@ def test_a_pin_stays_where_it_is(seed):
     assert np.abs(moment).max() < 1e-5 * 17.0 * up.sum()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("held", [pytest.param((0, 1), marks=pytest.mark.slow), (3, 4)])
 def test_motions_that_are_held_stay(held):
     free = np.ones(6, dtype=bool)

@@ -117,6 +117,7 @@ def test_energy_of_random_spans(seed: int) -> None:
     assert np.max(run.history.energy_balance) < 0.01 * total[0]
 
 
+@pytest.mark.slow
 def test_froude_scale_carries_the_peak() -> None:
     """Lengths times 10, EA times 1000: the peak grows by 1000, viscosity of the mesh included."""
     small = snap(CurtainSpan(**BASE), Mesh(12, 4), profile="sag")  # type: ignore[arg-type]
@@ -608,6 +609,7 @@ def changed(text: str, changes: dict[str, str]) -> str:
     return text
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("analyses", ["dynamic", pytest.param("statics, dynamic", marks=pytest.mark.slow)])
 def test_moving_spans_are_held_against_the_strengths(tmp_path: Path, analyses: str) -> None:
     """The table of loads takes the highest tension of a span where it was run."""

@@ -121,6 +121,7 @@ def test_limit_rises_with_strength():
         assert np.all(np.diff(values) >= -1e-9)
 
 
+@pytest.mark.slow
 @SAMPLES
 def test_current_that_keeps_the_depth_rises_with_the_toe_weight(count):
     for curtain in curtains(1, count):

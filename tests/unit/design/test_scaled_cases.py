@@ -41,6 +41,7 @@ def read(text, tmp_path, name="unit.yaml"):
     return load_case(path)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "length", [pytest.param(26.0, marks=pytest.mark.slow), float(np.random.default_rng(11).uniform(5, 60))]
 )

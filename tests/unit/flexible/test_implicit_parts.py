@@ -165,6 +165,7 @@ def ring_network(seed: int) -> Network:
     return Network(Nodes(shape - [0.0, 0.0, 8.0], kind, mass=mass), bars, WATER, rings=(ring,))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("make", [sheet_network, panel_network, ring_network])
 @pytest.mark.parametrize("seed", [0, *(pytest.param(k, marks=pytest.mark.slow) for k in (1, 2))])
 def test_implicit_and_explicit_schemes_meet(make: Callable[[int], Network], seed: int) -> None:

@@ -99,6 +99,7 @@ def test_water_that_goes_along_with_all_nodes_presses_as_water_at_rest() -> None
     np.testing.assert_allclose(along[force:], start[force:], rtol=0.0, atol=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("seed", "convective"),
     [(0, True), (0, False), (3, False), *(pytest.param(s, True, marks=pytest.mark.slow) for s in (1, 2))],
@@ -137,6 +138,7 @@ def test_motion_by_lagranges_equations(seed: int, convective: bool) -> None:
     assert np.max(np.abs(found - wanted[: free.size])) < 2e-4 * moved
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(3))
 def test_energy_is_kept_and_the_problem_may_be_turned(seed: int) -> None:
     network, speed = small_network(np.random.default_rng(seed), True)

@@ -61,6 +61,7 @@ def whole_mass(network: Network, place: np.ndarray) -> np.ndarray:
     return out
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("seed", "own", "water", "speed", "held", "gathered"),
     [

@@ -68,6 +68,7 @@ def test_a_step_of_strain_relaxes_to_the_static_stiffness(method):
     assert found[-1] == pytest.approx(STATIC * 0.015, rel=0.01)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("period", [2.0, 10.0, pytest.param(60.0, marks=pytest.mark.slow)])
 def test_slow_and_quick_swings_have_the_stiffness_and_the_loss_of_the_solid(period):
     network = pulled(rope(), first=10.2)

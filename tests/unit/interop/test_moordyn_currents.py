@@ -53,6 +53,7 @@ def grid():
     return "\n".join(rows)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("kind", "name", "text"),
     [

@@ -39,6 +39,7 @@ FailureID Point Line(s) FailTime FailTen
 """
 
 
+@pytest.mark.slow
 def test_it_is_read_written_and_run(tmp_path):
     (tmp_path / "deck.txt").write_text(DECK)
     deck = read_deck(tmp_path / "deck.txt")

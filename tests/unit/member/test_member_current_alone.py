@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 import moyai
 from moyai.core.errors import CaseError
-from moyai.morison.coefficients import dnv_drag, dnv_steady_drag
+from moyai.morison import sections
+from moyai.morison.coefficients import CoefficientRule, Conditions, dnv_drag, dnv_steady_drag
 
 CASE = """\
 moyai: 1
@@ -88,3 +90,48 @@ def test_steady_drag_is_the_limit_of_the_law_without_its_crest() -> None:
 def test_what_a_current_alone_cannot_be_asked(tmp_path: Path, change: tuple[str, str], said: str) -> None:
     with pytest.raises(CaseError, match=said):
         run(tmp_path, change)
+
+
+RIPPLE = "waves: {name: ripple, kind: regular, height: H, period: 5 s, heading_deg: 30}\ncurrent:"
+
+
+def test_a_ripple_takes_nothing_from_the_drag_of_a_current(tmp_path: Path) -> None:
+    """KC of both together is below 8, where waves alone have less than steady drag."""
+    deep = (
+        "start: {z: -8 m}\n  end: {z: 2 m}\n  support: start",
+        "start: {y: -3 m, z: -5 m}\n  end: {y: 3 m, z: -5 m}",
+    )
+    wide = [deep, ("diameter: 0.8 m", "diameter: 2 m"), ("speed: 2 m/s", "speed: 1.2 m/s")]
+    alone = numbers(run(tmp_path, *wide))["peak_force"]
+    waves = [
+        ("current:", RIPPLE.replace("H", "0.02 m")),
+        ("  kinematic", "  circulation: {purpose: extreme}\n  kinematic"),
+    ]
+    result = run(tmp_path, *wide, *waves)
+    found = numbers(result)
+    assert found["keulegan_carpenter"] < 4.0
+    assert 1.0 < found["peak_force"] / alone < 1.1
+    assert any(notice.code == "drag-current-governs" for notice in result.notices)
+
+
+@pytest.mark.parametrize("share", [0.4, 1.0, 30.0])
+def test_from_four_tenths_of_the_orbital_speed_a_current_has_its_steady_drag(share: float) -> None:
+    steady = dnv_steady_drag(1e-3)
+    assert dnv_drag(3.0, 1e-3, share) == steady > dnv_drag(3.0, 1e-3, 0.39) == dnv_drag(3.0, 1e-3)
+    # above KC of about 8 waves have more: the current takes nothing from it
+    assert dnv_drag(10.0, 1e-3, share) == dnv_drag(10.0, 1e-3) > steady
+
+
+def test_added_mass_in_a_current_is_that_of_the_waves() -> None:
+    circle = sections.circle(1.0)
+    rule = CoefficientRule("dnv_c205", "dnv_c205")
+    flow = Conditions(20.0, 2e6, 1e5, 1e-3, current_ratio=5.0, wave_keulegan_carpenter=1.0)
+    assert rule.at(circle, flow).inertia[0, 0] == 2.0
+    assert rule.at(circle, replace(flow, current_ratio=0.1)).inertia[0, 0] < 1.6
+
+
+def test_a_current_that_nearly_governs_is_warned_of() -> None:
+    flow = Conditions(4.0, 2e6, 1e5, 1e-3, current_ratio=0.3, wave_keulegan_carpenter=3.0)
+    (notice,) = CoefficientRule("dnv_c205").at(sections.circle(1.0), flow).notices
+    assert notice.code == "drag-current-near" and notice.severity == "warning"
+    assert f"{dnv_steady_drag(1e-3) / dnv_drag(4.0, 1e-3):.2g} times" in notice.message

@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
 import xarray as xr
 
 from moyai.core.collected import Collected
-from moyai.core.headline import Criterion, Headline, judge
+from moyai.core.headline import Band, Criterion, Headline, judge
 from moyai.core.validity import IdentityCheck
 from moyai.core.vocabulary import Vocabulary
 from moyai.flexible.sensitivity import PeakSensitivity
 from moyai.structures.network import headlines
-from moyai.structures.network.headlines import DYNAMIC, _band, _Peak, _utilisation
+from moyai.structures.network.headlines import DYNAMIC, _at_most, _band, _Peak, _utilisation
 from moyai.structures.network.refinement import LANDING, lowered
 
 
@@ -65,3 +66,40 @@ def test_one_seed_too_short_stays_open_behind_a_higher_regular_wave(monkeypatch:
         assert [item.where for item in found if item.shown] == ["chain, wave"]
         outcomes.append(judge(found, [limit], computed=True).outcome)
     assert outcomes == ["holds", "not judged"]
+
+
+def test_a_bound_from_above_is_the_end_of_its_chance() -> None:
+    """33.8 kN in the record, up to 54.7 with chance, less on finer meshes: at most 54.7."""
+    record = Headline("line_tension", "highest tension", 33.8e3, "N", band=Band(15.5e3, 54.7e3, "chance"))
+    bound = _at_most(replace(record, bound="at most"))
+    assert (bound.value, bound.band, bound.bound) == (54.7e3, None, "at most") and "33.8 kN, chance" in bound.detail
+    assert _at_most(record) is record
+    for limit, outcome in ((60e3, "holds"), (40e3, "not judged")):
+        found = judge([bound], [Criterion("tension", "line_tension", limit, "at most", "case")], computed=True)
+        assert found.outcome == outcome
+
+
+@pytest.mark.parametrize(
+    ("doubt", "few", "bound"), [(LANDING, False, "at most"), ("", False, ""), ("", True, "at least")]
+)
+def test_a_line_whose_event_was_not_run_again_is_marked(doubt: str, few: bool, bound: str) -> None:
+    """The rope governs and changes by a tenth on finer meshes; the chain bears its highest tension at another time."""
+    again = [[[10e3, 10e3, 11e3, math.nan, math.nan], [math.nan] * 5]]
+    attrs = {"governing storm": "rope", "doubt storm": doubt} | ({"few chain": "'chain' has 4 segments"} if few else {})
+    runs = xr.Dataset(
+        {"line_tension_of_check": (("run", "line", "check"), again)},
+        coords={"run": ["storm"], "line": ["rope", "chain"]}, attrs=attrs,
+    )  # fmt: skip
+    band, words, found = _band({"/SWL/dynamic": runs}, _Peak(5e3, "chain", "SWL", "storm", 12.0, DYNAMIC))
+    assert found == bound and any("mesh and step not checked" in word for word in words)
+    if doubt:
+        assert band is None
+    else:
+        assert band is not None and (band.low, band.high) == pytest.approx((5e3, 6e3)) and "of rope" in band.of
+    own, words, found = _band({"/SWL/dynamic": runs}, _Peak(10e3, "rope", "SWL", "storm", 12.0, DYNAMIC))
+    assert (
+        own is not None
+        and own.high == pytest.approx(12e3)
+        and found == ""
+        and not any("not checked" in w for w in words)
+    )

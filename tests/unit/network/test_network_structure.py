@@ -161,6 +161,7 @@ def test_stiffness_at_a_driven_point_is_the_slope_of_its_pull(tmp_path):
     assert np.allclose(slope, stiffness[:, 0], rtol=0.02, atol=0.01 * abs(stiffness[0, 0]))
 
 
+@pytest.mark.slow
 def test_modes_of_a_taut_weightless_line_are_those_of_a_string(tmp_path):
     # as heavy as the water that it displaces: no weight at any gravity
     string = (
@@ -184,6 +185,7 @@ def test_modes_of_a_taut_weightless_line_are_those_of_a_string(tmp_path):
 DYNAMIC = {"analyses": "[dynamic]", "settings": "{duration: 12 s, output_step: 20 ms, skip: 4 s}"}
 
 
+@pytest.mark.slow
 def test_an_interrupted_run_goes_on_from_its_last_state(tmp_path):
     problem = problem_of(line_case(**DYNAMIC), tmp_path)
     whole = run(problem)
@@ -311,6 +313,7 @@ def test_the_last_good_state_of_a_sound_run_is_its_end(tmp_path):
     assert kept.time == pytest.approx(2.0)
 
 
+@pytest.mark.slow
 def test_a_box_on_slack_chains_floats_at_its_draught(tmp_path):
     text = (
         SITE

@@ -55,3 +55,31 @@ def test_two_anchors_give_a_place_of_its_own(tmp_path):
         path.write_text(CASE.format(heading=0, drawn=8, more=extra[0], lines=extra[1]), encoding="utf-8")
         known[name] = single_anchors(build(load_case(path)))
     assert known == {"one": {"buoy": "anchor"}, "two": {}}
+
+
+SEA = """{{name: storm, kind: jonswap, significant_height: 0.5 m, peak_period: 3 s, peak_enhancement: 3.3,
+        heading_deg: {heading}, duration: 24 s, seed: 2}}"""
+
+
+@pytest.fixture(scope="module")
+def storm():
+    daily = "{{name: daily, kind: regular, height: 0.6 m, period: 4 s, heading_deg: {heading}}}"
+    text = CASE.replace(daily, SEA).replace('"off"}}', '"off", skip: 6 s, realisations: 3}}')
+    return moyai.run(text.format(heading=0, drawn=3.0, more="", lines=""))
+
+
+def test_realisations_of_what_swings_round_one_anchor_are_a_mean_too(storm):
+    found = next(item for item in storm.headlines if item.name == "offset" and item.shown)
+    dynamic, series = storm.tree["SWL/dynamic"].to_dataset(), storm.tree["SWL/time/storm"].to_dataset()
+    each = dynamic["distance_from_anchor_of_realisation"].sel(run="storm", point="buoy").values
+    assert each.size == 3 and found.value == pytest.approx(each.mean()) and "only anchor 'anchor'" in found.detail
+    place = series["point_position"].isel(time=series["time"].values >= 6.0)
+    apart = (place.sel(point="buoy") - place.sel(point="anchor")).sel(axis=["x", "y"])
+    assert each[0] == pytest.approx(float(((apart**2).sum("axis") ** 0.5).max()), rel=1e-9)
+    assert dynamic["distance_from_anchor_of_realisation"].sel(point="anchor").isnull().all()
+
+
+def test_a_code_that_weighs_the_mean_has_it(storm):
+    use = next(item for item in storm.headlines if item.name == "line_utilisation" and item.shown)
+    mean = float(storm.tree["SWL/dynamic"]["line_tension_mean"].sel(run="storm", line="leg"))
+    assert use.mean == pytest.approx(mean / 60e3) and 0.0 < use.mean < use.value

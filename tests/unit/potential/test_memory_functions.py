@@ -59,6 +59,7 @@ def test_power_tails_are_sine_and_cosine_integrals():
     assert np.allclose(left, right, atol=1e-11)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [*range(2), *(pytest.param(s, marks=pytest.mark.slow) for s in range(2, 4))])
 def test_exact_pair(seed):
     # K = exp(-a t)(cos b t + a/b sin b t) has K'(0) = 0 and a rational transform, known with its Hilbert partner
@@ -85,6 +86,7 @@ def test_exact_pair(seed):
         assert check.value < 1e-3, check
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [*range(2), *(pytest.param(s, marks=pytest.mark.slow) for s in range(2, 5))])
 def test_rectangles_obey_causality_with_the_recommended_frequencies(seed):
     water, beam, _, centre, solution = random_rectangle(seed)
@@ -114,6 +116,7 @@ def test_rectangles_obey_causality_with_the_recommended_frequencies(seed):
     assert 0.0 < plan.time_step < 0.1 * plan.length
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "accuracies", [(1e-5, 1e-3, 1e-2), pytest.param((1e-6, 1e-4, 1e-3, 1e-2), marks=pytest.mark.slow)]
 )
@@ -216,6 +219,7 @@ def test_bad_plan_input_is_named():
         recommend_frequencies(water, breadth=1.0, wall_height=1.0, accuracy=0.5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "time",
     [

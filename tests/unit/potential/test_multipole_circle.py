@@ -9,6 +9,7 @@ from moyai.core.errors import InputError
 from moyai.potential.multipole_circle import half_immersed_circle, submerged_circle
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("mode", ["sway", "heave"])
 @pytest.mark.parametrize("seed", [*range(1), *(pytest.param(s, marks=pytest.mark.slow) for s in range(1, 4))])
 def test_half_circle_gives_the_waves_their_energy(mode, seed):

@@ -96,6 +96,7 @@ def test_error_falls_with_the_accuracy_asked_for():
         assert np.abs(found.normal.reflection - exact).max() < accuracy
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("heading", [0.0, pytest.param(0.7, marks=pytest.mark.slow)])
 def test_plates_of_small_thickness_tend_to_thin_ones(heading):
     """Keel plates of a pi-type section, thickness t: the difference falls like t ln t."""

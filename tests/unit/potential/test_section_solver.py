@@ -71,6 +71,7 @@ def test_identities_of_random_sections(seed):
         assert asymmetry.max() < 1e-3 * max(1.0, omega.max())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "seed", [102, 110, *(pytest.param(s, marks=pytest.mark.slow) for s in (100, 101, 103, 105, 106, 226))]
 )
@@ -135,6 +136,7 @@ def test_zero_frequency_in_infinite_depth():
     assert solution.added_mass[0, 0, 0] == pytest.approx(limit[0, 0], rel=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("depth", [4.0, math.inf])
 def test_infinite_frequency_limit_is_approached(depth):
     """Added mass goes to the phi = 0 limit like 1/K for upright sides: the rest falls at least as fast."""

@@ -50,6 +50,7 @@ def rectangle_memory(seed):
     return memory, mass, stiffness
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-3])
 @pytest.mark.parametrize("seed", [1, *(pytest.param(s, marks=pytest.mark.slow) for s in (0, 2, 3, 4, 5))])
 def test_fit_is_accurate_stable_passive_and_right_at_zero_frequency(seed, tolerance):
@@ -73,6 +74,7 @@ def test_fit_is_accurate_stable_passive_and_right_at_zero_frequency(seed, tolera
     assert np.all(states.response(1.0)[0][1, [0, 2]] == 0.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [*range(1), *(pytest.param(s, marks=pytest.mark.slow) for s in range(1, 3))])
 def test_three_coupled_modes_with_a_steady_dashpot_of_rank_one(seed):
     rng = np.random.default_rng(seed)
@@ -152,6 +154,7 @@ def test_slow_steady_motion_meets_the_steady_dashpot():
     assert memory.steady_dashpot[1, 1] > 0.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [1, *(pytest.param(s, marks=pytest.mark.slow) for s in (0, 2, 3))])
 def test_free_decay_of_coupled_modes_is_that_of_the_frequency_integral(seed):
     memory, mass, stiffness = rectangle_memory(10 + seed)

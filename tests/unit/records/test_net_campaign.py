@@ -156,6 +156,7 @@ def test_mistakes_are_told_with_their_place(folder, tmp_path, old, new, words):
     assert "Traceback" not in done.stderr
 
 
+@pytest.mark.slow
 def test_empty_and_short_records(folder, tmp_path):
     place, _ = folder
     text = reduced(place)

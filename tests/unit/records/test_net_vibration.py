@@ -101,6 +101,7 @@ def test_mass_of_what_shakes(mass):
         shaken_mass(0.02, force, np.zeros(2000), Vibration(3.0, 2.5, 3.5))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("keep", [0.0, 0.8, 0.97])
 def test_interval_of_a_correlated_mean_covers(keep):
     rng = np.random.default_rng(11)
@@ -114,6 +115,7 @@ def test_interval_of_a_correlated_mean_covers(keep):
     assert np.mean(widths) == pytest.approx(np.sqrt((1.0 + keep) / (1.0 - keep) / 1500.0), rel=0.2)
 
 
+@pytest.mark.slow
 def test_covariance_of_coefficients_under_slow_noise():
     """Long-run variance of linear estimates against their spread over many records."""
     rng = np.random.default_rng(13)

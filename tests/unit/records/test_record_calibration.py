@@ -24,6 +24,7 @@ def test_linear_problems_are_the_normal_equations():
         np.testing.assert_allclose(found.covariance, np.linalg.inv(weighted.T @ weighted), rtol=1e-3)
 
 
+@pytest.mark.slow
 def test_errors_cover_the_truth_as_often_as_they_say():
     """Anchor law c sqrt(p) with 8 % scatter, 120 times: 95 % intervals hold the truth 90 to 99 times in 100."""
     random = np.random.default_rng(3)

@@ -99,6 +99,7 @@ def test_flags_leave_the_values_and_gaps_are_counted():
     assert {finding.kind for finding in quality.findings} == {"missing", "out of range"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "factor", [9.80665, 1000.0, *(pytest.param(f, marks=pytest.mark.slow) for f in (10.0, 100.0, 57.29578))]
 )

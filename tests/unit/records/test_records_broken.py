@@ -218,6 +218,7 @@ def test_a_wave_whose_tension_has_a_gap_has_no_maximum() -> None:
     assert np.flatnonzero(np.isnan(found.maximum)).tolist() == [3]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("window", "overlap", "bands"),
     [
@@ -242,6 +243,7 @@ def test_more_bands_than_frequencies_are_refused() -> None:
         spectrum_of(1.0, np.sin(np.arange(200.0)), WelchOptions(segment=64.0, bands=40))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "count", [5, pytest.param(8, marks=pytest.mark.slow), pytest.param(25, marks=pytest.mark.slow)]
 )

@@ -164,6 +164,7 @@ def test_a_letter_that_no_font_has_is_found(letter: str) -> None:
     assert len(found["PDF"]) == 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("letter", ["\U0001f9ff", "\U0002a6d6"])
 def test_a_letter_that_no_face_of_figures_has_is_found(letter: str) -> None:
     figure = next(block for block in compose_document(build(), language="ja").blocks() if isinstance(block, Figure))

@@ -27,6 +27,7 @@ def runs(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[str]:
     return found
 
 
+@pytest.mark.slow
 def test_a_case_is_run_once_and_read_as_it_was(runs: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
     case = moyai.load_case(moyai.template("member")).replace("waves", SHORT)
     first, second = (kept_runs.kept_run(case) for _ in range(2))

@@ -99,6 +99,7 @@ def test_measured_points_come_into_the_figure_that_they_name(folder):
     )
 
 
+@pytest.mark.slow
 def test_differences_are_here_less_there_in_one_unit(folder):
     here = read_result(folder / "wide" / "results.nc")
     document = with_others(compose_document(here), here, read_others([folder / "thin" / "results.nc"]))

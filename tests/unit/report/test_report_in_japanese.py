@@ -72,6 +72,7 @@ def test_figures_have_all_their_letters(result: Result) -> None:
     assert drawn_without_boxes(compose_document(result, language="ja")) > 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("result", ["curtain", pytest.param("breakwater", marks=pytest.mark.slow)], indirect=True)
 def test_pdf_word_and_workbook_are_written(result: Result) -> None:
     document = compose_document(result, language="ja")

@@ -59,6 +59,7 @@ def test_most_probable_maximum_is_the_top_of_the_density(law, seed):
     assert found.exceedance(stays) == pytest.approx(frozen.sf(stays), rel=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("law", "shape", "least"),
     [

@@ -17,6 +17,7 @@ from moyai.study.plan import check_cases, load_study
 PAGES = DOCS / "how_to"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("page", "kind", "file", "count"), [
     ("which_chain.md", "breakwater", "chain.yaml", 6), ("how_deep_skirt.md", "curtain", "skirt.yaml", 6),
 ])  # fmt: skip

@@ -233,6 +233,7 @@ def test_bad_scatter_diagrams_are_told(tmp_path, text, word):
         read_scatter(file)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["sobol", pytest.param("latin_hypercube", marks=pytest.mark.slow)])
 def test_samples_follow_their_distributions_and_their_seed(tmp_path, method):
     text = (

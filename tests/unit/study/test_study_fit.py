@@ -119,6 +119,7 @@ def test_a_value_that_could_not_be_written_is_refused_before_the_fit(tmp_path):
         load_fit(write(tmp_path, only_here))
 
 
+@pytest.mark.slow
 def test_the_page_of_a_fit_shows_values_correlations_and_residuals(tmp_path):
     from moyai.report.writer import compose_document, write_report
     from moyai.study.fitting import _result
@@ -152,6 +153,7 @@ def test_the_page_of_a_fit_shows_values_correlations_and_residuals(tmp_path):
     )
 
 
+@pytest.mark.slow
 def test_headings_with_units_are_read_in_their_units(tmp_path):
     path = write(tmp_path, text=TEXT.replace("    units: {{Hs: m, Tp: s}}\n", ""), rows=4)
     table = (tmp_path / "observed.csv").read_text(encoding="utf-8").splitlines()

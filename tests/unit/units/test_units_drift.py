@@ -51,6 +51,7 @@ def test_a_hull_in_still_water_is_pushed_nowhere() -> None:
     assert np.abs(force[:2]).max() < 1e-6 * size
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("heading", [pytest.param(0.0, marks=pytest.mark.slow), 0.6])
 def test_pressures_on_the_hulls_add_up_to_the_far_waves(heading: float) -> None:
     """Held, and moving freely; what is left shrinks with the panels."""

@@ -42,13 +42,12 @@ class PowerLawNet(NetLaw):
 
     #: ``factor``, ``exponent``: A and B.
     factor: float
-    #: ``factor``, ``exponent``: A and B.
+    #: See ``factor``.
     exponent: float
     #: ``lowest``, ``highest``: Range of Re that they were found in: below it the power goes on up to the cap, above it
     #: C_D is held.
     lowest: float = 0.0
-    #: ``lowest``, ``highest``: Range of Re that they were found in: below it the power goes on up to the cap, above it
-    #: C_D is held.
+    #: See ``lowest``.
     highest: float = math.inf
     #: Largest C_D on the area of the twines [-].
     cap: float = 3.0

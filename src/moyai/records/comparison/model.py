@@ -36,8 +36,7 @@ class ModelAgreement:
     #: ``paper_error``, ``paper_error_spread``: Mean and root mean square of (model - observation)/model, the error of
     #: Tabata et al. [-].
     paper_error: float
-    #: ``paper_error``, ``paper_error_spread``: Mean and root mean square of (model - observation)/model, the error of
-    #: Tabata et al. [-].
+    #: See ``paper_error``.
     paper_error_spread: float
 
 

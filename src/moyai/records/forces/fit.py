@@ -151,8 +151,7 @@ class ForceFit:
     #: ``force``, ``residual``: Morison's force by the fit, with mean and harmonics, and what is left [N/m]; shape
     #: (samples,).
     force: Array
-    #: ``force``, ``residual``: Morison's force by the fit, with mean and harmonics, and what is left [N/m]; shape
-    #: (samples,).
+    #: See ``force``.
     residual: Array
     #: Share of the variance of the force that is explained.
     explained: float

@@ -31,7 +31,7 @@ class NetPowerLaw:
     net: str
     #: ``factor``, ``exponent``: A and B.
     factor: float
-    #: ``factor``, ``exponent``: A and B.
+    #: See ``factor``.
     exponent: float
     #: At the confidence asked for.
     factor_interval: tuple[float, float]
@@ -141,13 +141,12 @@ class JointLaw:
     diameter_range: tuple[float, float]
     #: ``count``, ``nets``: Runs and nets.
     count: int
-    #: ``count``, ``nets``: Runs and nets.
+    #: See ``count``.
     nets: int
     #: ``left_out_error``, ``pooled_error``: Root mean square of ln C_D predicted for nets left out, by this law and by
     #: one power law for all.
     left_out_error: float
-    #: ``left_out_error``, ``pooled_error``: Root mean square of ln C_D predicted for nets left out, by this law and by
-    #: one power law for all.
+    #: See ``left_out_error``.
     pooled_error: float
     confidence: float
 

@@ -23,7 +23,7 @@ class Mean:
 
     #: ``value``, ``error``: Mean and its standard error.
     value: float
-    #: ``value``, ``error``: Mean and its standard error.
+    #: See ``value``.
     error: float
     #: Effective number of independent samples less one.
     freedom: float

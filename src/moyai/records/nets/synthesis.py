@@ -20,7 +20,7 @@ class Rig:
     rate: float = 50.0
     #: ``frame_drag_area``, ``frame_volume``: C_D A [m2] and C_M V [m3] of the bare frame.
     frame_drag_area: float = 4e-3
-    #: ``frame_drag_area``, ``frame_volume``: C_D A [m2] and C_M V [m3] of the bare frame.
+    #: See ``frame_drag_area``.
     frame_volume: float = 2e-5
     #: [Hz].
     vibration_frequency: float = 3.0
@@ -33,11 +33,9 @@ class Rig:
     #: ``white_noise``, ``slow_noise``, ``slow_time``: Root mean square of white and of slow noise [N], its correlation
     #: time [s].
     white_noise: float = 0.02
-    #: ``white_noise``, ``slow_noise``, ``slow_time``: Root mean square of white and of slow noise [N], its correlation
-    #: time [s].
+    #: See ``white_noise``.
     slow_noise: float = 0.02
-    #: ``white_noise``, ``slow_noise``, ``slow_time``: Root mean square of white and of slow noise [N], its correlation
-    #: time [s].
+    #: See ``white_noise``.
     slow_time: float = 1.5
     #: Lift over drag [-].
     lift_share: float = 0.0

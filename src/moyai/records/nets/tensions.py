@@ -26,7 +26,7 @@ class EndRecord:
 
     #: ``line``, ``end``: For instance ``shore`` and ``cage``.
     line: str
-    #: ``line``, ``end``: For instance ``shore`` and ``cage``.
+    #: See ``line``.
     end: str
     #: [N]; shape (samples,).
     tension: Array
@@ -82,19 +82,18 @@ class EndTension:
     end: str
     #: ``mean``, ``least``, ``peak``: Over the whole window, as recorded [N].
     mean: float
-    #: ``mean``, ``least``, ``peak``: Over the whole window, as recorded [N].
+    #: See ``mean``.
     least: float
-    #: ``mean``, ``least``, ``peak``: Over the whole window, as recorded [N].
+    #: See ``mean``.
     peak: float
     #: ``mean_peak``, ``peak_deviation``: Mean and standard deviation of the peaks of single periods [N].
     mean_peak: float
-    #: ``mean_peak``, ``peak_deviation``: Mean and standard deviation of the peaks of single periods [N].
+    #: See ``mean_peak``.
     peak_deviation: float
     #: ``first``, ``first_phase``: Amplitude [N] and phase [rad] of the first harmonic, Re(X e^{-i omega t}) about the
     #: start of the window.
     first: float
-    #: ``first``, ``first_phase``: Amplitude [N] and phase [rad] of the first harmonic, Re(X e^{-i omega t}) about the
-    #: start of the window.
+    #: See ``first``.
     first_phase: float
     #: Share of the time below 2 % of the peak [-].
     slack: float

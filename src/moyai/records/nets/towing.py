@@ -57,15 +57,15 @@ class TowCoefficients:
     frame_force: float
     #: ``drag``, ``drag_half_width``, ``drag_error``: C_D on the twines, half of its interval, standard error [-].
     drag: float
-    #: ``drag``, ``drag_half_width``, ``drag_error``: C_D on the twines, half of its interval, standard error [-].
+    #: See ``drag``.
     drag_half_width: float
-    #: ``drag``, ``drag_half_width``, ``drag_error``: C_D on the twines, half of its interval, standard error [-].
+    #: See ``drag``.
     drag_error: float
     #: Effective degrees of freedom.
     freedom: float
     #: ``lift``, ``lift_half_width``: C_L on the same area; NaN where it was not measured.
     lift: float
-    #: ``lift``, ``lift_half_width``: C_L on the same area; NaN where it was not measured.
+    #: See ``lift``.
     lift_half_width: float
 
 

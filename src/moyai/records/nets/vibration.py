@@ -33,9 +33,9 @@ class Vibration:
 
     #: ``frequency``, ``low``, ``high``: Of the line and the band that holds it [Hz].
     frequency: float
-    #: ``frequency``, ``low``, ``high``: Of the line and the band that holds it [Hz].
+    #: See ``frequency``.
     low: float
-    #: ``frequency``, ``low``, ``high``: Of the line and the band that holds it [Hz].
+    #: See ``frequency``.
     high: float
     #: Root mean square of the force in the band, mean over the runs [N].
     amplitude: float = math.nan
@@ -58,11 +58,9 @@ class VibrationSearch:
     #: ``frequency``, ``density``, ``background``: [Hz]; mean density of the runs, each over its own median, and the
     #: smooth one about it [-].
     frequency: Array
-    #: ``frequency``, ``density``, ``background``: [Hz]; mean density of the runs, each over its own median, and the
-    #: smooth one about it [-].
+    #: See ``frequency``.
     density: Array
-    #: ``frequency``, ``density``, ``background``: [Hz]; mean density of the runs, each over its own median, and the
-    #: smooth one about it [-].
+    #: See ``frequency``.
     background: Array
     found: Vibration | None
     #: Prominence from which on an estimate is called a line [-].

@@ -57,8 +57,7 @@ class WaveCoefficients:
     #: ``reynolds``, ``keulegan_carpenter``: Largest speed times d / nu; amplitude of the wave's velocity times its
     #: period over d [-].
     reynolds: float
-    #: ``reynolds``, ``keulegan_carpenter``: Largest speed times d / nu; amplitude of the wave's velocity times its
-    #: period over d [-].
+    #: See ``reynolds``.
     keulegan_carpenter: float
     #: [m/s].
     velocity_amplitude: float
@@ -68,7 +67,7 @@ class WaveCoefficients:
     period: float
     #: ``drag``, ``inertia``: C_D on the area of the twines, C_M on their volume [-].
     drag: float
-    #: ``drag``, ``inertia``: C_D on the area of the twines, C_M on their volume [-].
+    #: See ``drag``.
     inertia: float
     #: Half of the intervals [-].
     drag_half_width: float
@@ -76,9 +75,9 @@ class WaveCoefficients:
     inertia_half_width: float
     #: ``drag_error``, ``inertia_error``, ``correlation``: Standard errors and correlation of both [-].
     drag_error: float
-    #: ``drag_error``, ``inertia_error``, ``correlation``: Standard errors and correlation of both [-].
+    #: See ``drag_error``.
     inertia_error: float
-    #: ``drag_error``, ``inertia_error``, ``correlation``: Standard errors and correlation of both [-].
+    #: See ``drag_error``.
     correlation: float
     #: Whether the interval is narrower than half of the coefficient.
     drag_known: bool
@@ -93,23 +92,18 @@ class WaveCoefficients:
     #: ``lift_amplitude``, ``lift_share``: C_L by the root mean square of lift and of u^2, and rms lift over rms drag
     #: force [-]; NaN without lift.
     lift_amplitude: float
-    #: ``lift_amplitude``, ``lift_share``: C_L by the root mean square of lift and of u^2, and rms lift over rms drag
-    #: force [-]; NaN without lift.
+    #: See ``lift_amplitude``.
     lift_share: float
     #: ``time``, ``velocity``, ``force``, ``modelled``, ``raw``: Record with the frame's force taken off, and the fit
     #: [s], [m/s], [N]; ``raw`` as measured.
     time: Array
-    #: ``time``, ``velocity``, ``force``, ``modelled``, ``raw``: Record with the frame's force taken off, and the fit
-    #: [s], [m/s], [N]; ``raw`` as measured.
+    #: See ``time``.
     velocity: Array
-    #: ``time``, ``velocity``, ``force``, ``modelled``, ``raw``: Record with the frame's force taken off, and the fit
-    #: [s], [m/s], [N]; ``raw`` as measured.
+    #: See ``time``.
     force: Array
-    #: ``time``, ``velocity``, ``force``, ``modelled``, ``raw``: Record with the frame's force taken off, and the fit
-    #: [s], [m/s], [N]; ``raw`` as measured.
+    #: See ``time``.
     modelled: Array
-    #: ``time``, ``velocity``, ``force``, ``modelled``, ``raw``: Record with the frame's force taken off, and the fit
-    #: [s], [m/s], [N]; ``raw`` as measured.
+    #: See ``time``.
     raw: Array
 
 

@@ -72,7 +72,7 @@ class DoubtfulStretch:
     kind: str
     #: ``start``, ``end``: First and last instant [s].
     start: float
-    #: ``start``, ``end``: First and last instant [s].
+    #: See ``start``.
     end: float
     #: Samples.
     count: int
@@ -409,7 +409,7 @@ class ChannelDrift:
     channel: str
     #: ``rate``, ``error``: Change per second and its standard error [unit/s].
     rate: float
-    #: ``rate``, ``error``: Change per second and its standard error [unit/s].
+    #: See ``rate``.
     error: float
     #: Change over the record [unit].
     change: float

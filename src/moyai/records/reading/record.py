@@ -49,7 +49,7 @@ class Record:
     values: Array
     #: ``names``, ``units``: Name and SI unit of each channel.
     names: tuple[str, ...]
-    #: ``names``, ``units``: Name and SI unit of each channel.
+    #: See ``names``.
     units: tuple[str, ...]
     #: Whether ``time`` is a date.
     dated: bool = False

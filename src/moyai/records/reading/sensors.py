@@ -43,9 +43,9 @@ class Sensor:
     quantity: Quantity
     #: ``x``, ``y``, ``z``: Where [m]; z from the mean water level, upwards.
     x: float = 0.0
-    #: ``x``, ``y``, ``z``: Where [m]; z from the mean water level, upwards.
+    #: See ``x``.
     y: float = 0.0
-    #: ``x``, ``y``, ``z``: Where [m]; z from the mean water level, upwards.
+    #: See ``x``.
     z: float = 0.0
 
     @property

@@ -33,7 +33,7 @@ class ColumnSource:
     unit: str = ""
     #: ``scale``, ``offset``: Applied before the unit: ``value * scale + offset``.
     scale: float = 1.0
-    #: ``scale``, ``offset``: Applied before the unit: ``value * scale + offset``.
+    #: See ``scale``.
     offset: float = 0.0
     #: Numbers and words that mean "no value".
     missing: tuple[float | str, ...] = ()

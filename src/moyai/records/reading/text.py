@@ -101,7 +101,7 @@ class TextLayout:
 
     #: ``encoding``, ``delimiter``: As pandas and Python name them.
     encoding: str
-    #: ``encoding``, ``delimiter``: As pandas and Python name them.
+    #: See ``encoding``.
     delimiter: str
     #: Empty where the file has none.
     headings: tuple[str, ...]

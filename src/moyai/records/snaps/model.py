@@ -22,7 +22,7 @@ class SnapRun:
 
     #: ``name``, ``cable``: Of the run, of the material of its cables.
     name: str
-    #: ``name``, ``cable``: Of the run, of the material of its cables.
+    #: See ``name``.
     cable: str
     #: The span; its speed is that of the current.
     impact: Impact
@@ -68,9 +68,9 @@ class Exponents:
     names: tuple[str, ...]
     #: ``values``, ``low``, ``high``: Exponents and their bounds of 95 %.
     values: tuple[float, ...]
-    #: ``values``, ``low``, ``high``: Exponents and their bounds of 95 %.
+    #: See ``values``.
     low: tuple[float, ...]
-    #: ``values``, ``low``, ``high``: Exponents and their bounds of 95 %.
+    #: See ``values``.
     high: tuple[float, ...]
     #: Standard deviation of the logarithm of C_T about the product.
     scatter: float
@@ -83,9 +83,9 @@ class SnapAgreement:
     model: str
     #: ``ratio``, ``low``, ``high``: Geometric mean of model over record, and its bounds of 95 %.
     ratio: float
-    #: ``ratio``, ``low``, ``high``: Geometric mean of model over record, and its bounds of 95 %.
+    #: See ``ratio``.
     low: float
-    #: ``ratio``, ``low``, ``high``: Geometric mean of model over record, and its bounds of 95 %.
+    #: See ``ratio``.
     high: float
     #: Standard deviation of the logarithm of that ratio.
     scatter: float

@@ -39,13 +39,12 @@ class Refraction:
     camera_to_wall: float
     #: ``wall_thickness``, ``wall_index``: Thickness [m] and refractive index of the wall.
     wall_thickness: float
-    #: ``wall_thickness``, ``wall_index``: Thickness [m] and refractive index of the wall.
+    #: See ``wall_thickness``.
     wall_index: float
     #: ``sheet_distance``, ``water_index``: From the inside of the wall to the light sheet [m], and refractive index of
     #: the water.
     sheet_distance: float
-    #: ``sheet_distance``, ``water_index``: From the inside of the wall to the light sheet [m], and refractive index of
-    #: the water.
+    #: See ``sheet_distance``.
     water_index: float
 
     def __post_init__(self) -> None:

@@ -63,7 +63,7 @@ class StreakCampaign:
 
     #: ``title``, ``section``: Title, and the section in words.
     title: str
-    #: ``title``, ``section``: Title, and the section in words.
+    #: See ``title``.
     section: str
     #: Closed outline about the centre of the section [m]; shape (n, 2).
     outline: Array

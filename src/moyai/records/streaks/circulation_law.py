@@ -24,7 +24,7 @@ class MeasuredCirculationLaw:
 
     #: ``coefficient``, ``deviation``: Dimensionless coefficient and its standard error (NaN with one run).
     coefficient: float
-    #: ``coefficient``, ``deviation``: Dimensionless coefficient and its standard error (NaN with one run).
+    #: See ``coefficient``.
     deviation: float
     #: coefficient * f B^2 of each run [m2/s].
     dimensional: Array

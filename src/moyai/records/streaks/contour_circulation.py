@@ -36,18 +36,17 @@ class ContourCirculation:
     #: ``value``, ``deviation``: Circulation of each contour [m2/s] and its standard error from drawn clouds; NaN where
     #: the contour leaves the cloud of particles.
     value: Array
-    #: ``value``, ``deviation``: Circulation of each contour [m2/s] and its standard error from drawn clouds; NaN where
-    #: the contour leaves the cloud of particles.
+    #: See ``value``.
     deviation: Array
     #: ``limit``, ``limit_interval``: Circulation G without the Stokes drift, and its confidence interval [m2/s].
     limit: float
-    #: ``limit``, ``limit_interval``: Circulation G without the Stokes drift, and its confidence interval [m2/s].
+    #: See ``limit``.
     limit_interval: tuple[float, float]
     #: The c of G + c (B/Bc)^4 [m2/s].
     stokes_term: float
     #: ``linear``, ``linear_interval``: Straight line through all contours at Bc/B = 1, as the paper does [m2/s].
     linear: float
-    #: ``linear``, ``linear_interval``: Straight line through all contours at Bc/B = 1, as the paper does [m2/s].
+    #: See ``linear``.
     linear_interval: tuple[float, float]
     #: Level of the intervals.
     confidence: float

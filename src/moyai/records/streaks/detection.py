@@ -21,8 +21,7 @@ class DetectionSettings:
     #: ``threshold``, ``edge_threshold``: A region needs a pixel ``threshold`` and reaches out to ``edge_threshold``
     #: standard deviations of the noise above the background, in the picture smoothed a little.
     threshold: float = 7.0
-    #: ``threshold``, ``edge_threshold``: A region needs a pixel ``threshold`` and reaches out to ``edge_threshold``
-    #: standard deviations of the noise above the background, in the picture smoothed a little.
+    #: See ``threshold``.
     edge_threshold: float = 3.5
     #: Standard deviation of that smoothing [pixels].
     smoothing: float = 1.0

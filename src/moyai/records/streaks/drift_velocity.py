@@ -23,11 +23,11 @@ class StreakChain:
 
     #: ``start_time``, ``end_time``: Instants at which the light goes on and off [s]; shape (streaks,).
     start_time: Array
-    #: ``start_time``, ``end_time``: Instants at which the light goes on and off [s]; shape (streaks,).
+    #: See ``start_time``.
     end_time: Array
     #: ``start``, ``end``: Positions x, z at these instants [m]; shape (streaks, 2).
     start: Array
-    #: ``start``, ``end``: Positions x, z at these instants [m]; shape (streaks, 2).
+    #: See ``start``.
     end: Array
 
     def __post_init__(self) -> None:

@@ -32,7 +32,7 @@ class SectionMap:
     kind: Literal["circle", "rectangle"]
     #: ``breadth``, ``height``: Sizes along x and z [m].
     breadth: float
-    #: ``breadth``, ``height``: Sizes along x and z [m].
+    #: See ``breadth``.
     height: float
     #: f'(infinity), the radius of the circle of equal outer mapping [m].
     scale: float
@@ -173,8 +173,7 @@ class OrbitalFlow:
     #: ``amplitude_x``, ``amplitude_z``: Velocity amplitudes of the undisturbed orbit at the centre, ``u = amplitude_x
     #: cos(omega t)``, ``w = -amplitude_z sin(omega t)`` [m/s].
     amplitude_x: float
-    #: ``amplitude_x``, ``amplitude_z``: Velocity amplitudes of the undisturbed orbit at the centre, ``u = amplitude_x
-    #: cos(omega t)``, ``w = -amplitude_z sin(omega t)`` [m/s].
+    #: See ``amplitude_x``.
     amplitude_z: float
     #: Positive about +y (clockwise with x to the right, z up) [m2/s].
     circulation: float = 0.0

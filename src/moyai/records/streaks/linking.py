@@ -61,7 +61,7 @@ class LinkedChain:
     chain: StreakChain
     #: ``picture``, ``streak``: Picture and number in it of every streak, in the order of time.
     picture: IntArray
-    #: ``picture``, ``streak``: Picture and number in it of every streak, in the order of time.
+    #: See ``picture``.
     streak: IntArray
     #: Pulse that made it.
     pulse: IntArray

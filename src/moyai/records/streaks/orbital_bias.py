@@ -31,8 +31,7 @@ class Orbits:
     #: ``amplitude_x``, ``amplitude_z``: Velocity amplitudes as in :class:`moyai.records.streaks.flow.OrbitalFlow`;
     #: ``amplitude_z`` below 0 for waves towards -x [m/s].
     amplitude_x: float
-    #: ``amplitude_x``, ``amplitude_z``: Velocity amplitudes as in :class:`moyai.records.streaks.flow.OrbitalFlow`;
-    #: ``amplitude_z`` below 0 for waves towards -x [m/s].
+    #: See ``amplitude_x``.
     amplitude_z: float
 
     def drift(self, position: Array, circulation: float) -> tuple[Array, Array]:

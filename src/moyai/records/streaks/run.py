@@ -54,28 +54,23 @@ class DriftCloud:
 
     #: ``position``, ``velocity``: Mean positions [m] and drift velocities [m/s]; shape (particles, 2).
     position: Array
-    #: ``position``, ``velocity``: Mean positions [m] and drift velocities [m/s]; shape (particles, 2).
+    #: See ``position``.
     velocity: Array
     #: ``deviation``, ``residual``: Standard error of a component of the velocity [m/s] and misfit of the ends [m];
     #: shape (particles,).
     deviation: Array
-    #: ``deviation``, ``residual``: Standard error of a component of the velocity [m/s] and misfit of the ends [m];
-    #: shape (particles,).
+    #: See ``deviation``.
     residual: Array
     #: ``streaks``, ``chains``, ``refused``, ``undecided``, ``rejected``: Streaks found, chains linked, chains too short
     #: or too rough for a drift, chains without direction, regions that are no streaks.
     streaks: int = 0
-    #: ``streaks``, ``chains``, ``refused``, ``undecided``, ``rejected``: Streaks found, chains linked, chains too short
-    #: or too rough for a drift, chains without direction, regions that are no streaks.
+    #: See ``streaks``.
     chains: int = 0
-    #: ``streaks``, ``chains``, ``refused``, ``undecided``, ``rejected``: Streaks found, chains linked, chains too short
-    #: or too rough for a drift, chains without direction, regions that are no streaks.
+    #: See ``streaks``.
     refused: int = 0
-    #: ``streaks``, ``chains``, ``refused``, ``undecided``, ``rejected``: Streaks found, chains linked, chains too short
-    #: or too rough for a drift, chains without direction, regions that are no streaks.
+    #: See ``streaks``.
     undecided: int = 0
-    #: ``streaks``, ``chains``, ``refused``, ``undecided``, ``rejected``: Streaks found, chains linked, chains too short
-    #: or too rough for a drift, chains without direction, regions that are no streaks.
+    #: See ``streaks``.
     rejected: int = 0
 
     @property
@@ -364,7 +359,7 @@ class BackgroundDrift:
 
     #: ``mean``, ``gradient``: Drift x, z at z = 0 [m/s] and its growth with z [1/s]; shape (2,).
     mean: Array
-    #: ``mean``, ``gradient``: Drift x, z at z = 0 [m/s] and its growth with z [1/s]; shape (2,).
+    #: See ``mean``.
     gradient: Array
     #: Particles that it was measured from; 0 when it was given.
     particles: int = 0

@@ -25,7 +25,7 @@ class PulseTrain:
 
     #: ``start``, ``duration``: Instants at which the light goes on, and on-times [s]; shape (pulses,).
     start: Array
-    #: ``start``, ``duration``: Instants at which the light goes on, and on-times [s]; shape (pulses,).
+    #: See ``start``.
     duration: Array
     #: Relative brightness of the light; shape (pulses,).
     power: Array

@@ -46,7 +46,7 @@ class BlockResult:
     gaps: tuple[tuple[float, float], ...]
     #: ``lacking``, ``samples``: Samples that gaps lack, and those there are (of the first logger).
     lacking: int
-    #: ``lacking``, ``samples``: Samples that gaps lack, and those there are (of the first logger).
+    #: See ``lacking``.
     samples: int
     #: By channel: statistics of waves.
     waves: dict[str, dict[str, float]] = field(default_factory=dict)

@@ -36,7 +36,7 @@ class Storm:
     days: float
     #: ``peak_height``, ``peak_day``: Highest H1/3 [m] and when [d after the start].
     peak_height: float
-    #: ``peak_height``, ``peak_day``: Highest H1/3 [m] and when [d after the start].
+    #: See ``peak_height``.
     peak_day: float
     #: H1/3 far from the peak [m].
     calm_height: float
@@ -44,7 +44,7 @@ class Storm:
     duration: float
     #: ``angle_start``, ``angle_end``: Angle of the waves from the normal of the curtain, first and last [rad].
     angle_start: float
-    #: ``angle_start``, ``angle_end``: Angle of the waves from the normal of the curtain, first and last [rad].
+    #: See ``angle_start``.
     angle_end: float
 
 
@@ -83,7 +83,7 @@ class CampaignLaws:
     angle_exponent: float = 2.0
     #: ``type_ratio``, ``wire_ratio``: New over conventional type; tension wire over anchor rope.
     type_ratio: float = 0.7
-    #: ``type_ratio``, ``wire_ratio``: New over conventional type; tension wire over anchor rope.
+    #: See ``type_ratio``.
     wire_ratio: float = 0.6
     #: Speed that the slack of the rope takes up before it pulls [m/s].
     slack_speed: float = 0.35
@@ -103,7 +103,7 @@ class CampaignLaws:
     steady_scatter: float = 0.07
     #: ``tide_speed``, ``tide_period``: Amplitude [m/s] and period [s] of the current along the normal.
     tide_speed: float = 0.18
-    #: ``tide_speed``, ``tide_period``: Amplitude [m/s] and period [s] of the current along the normal.
+    #: See ``tide_speed``.
     tide_period: float = 44714.0
     #: Current along the curtain over that along its normal, a quarter of a period later.
     cross_share: float = 0.5

@@ -44,7 +44,7 @@ class MeanCurrents:
     count: Array
     #: ``x``, ``y``: Vector means [m/s]; NaN in blocks with too few samples.
     x: Array
-    #: ``x``, ``y``: Vector means [m/s]; NaN in blocks with too few samples.
+    #: See ``x``.
     y: Array
     #: Mean of the speed [m/s].
     scalar_speed: Array
@@ -117,7 +117,7 @@ class PrincipalAxis:
     heading: float
     #: ``major``, ``minor``: Standard deviations along and across [m/s].
     major: float
-    #: ``major``, ``minor``: Standard deviations along and across [m/s].
+    #: See ``major``.
     minor: float
 
 
@@ -151,11 +151,9 @@ class Profile:
     #: ``exponent``, ``surface_speed``, ``exponent_error``: Power law ``speed = surface_speed (z / top)^exponent``
     #: fitted to the speed along the mean direction; NaN where the profile does not allow it.
     exponent: float
-    #: ``exponent``, ``surface_speed``, ``exponent_error``: Power law ``speed = surface_speed (z / top)^exponent``
-    #: fitted to the speed along the mean direction; NaN where the profile does not allow it.
+    #: See ``exponent``.
     surface_speed: float
-    #: ``exponent``, ``surface_speed``, ``exponent_error``: Power law ``speed = surface_speed (z / top)^exponent``
-    #: fitted to the speed along the mean direction; NaN where the profile does not allow it.
+    #: See ``exponent``.
     exponent_error: float
     #: Mean over the profiled height (x, y) [m/s].
     depth_mean: tuple[float, float]

@@ -31,7 +31,7 @@ class FlumeRecord:
     time: Array
     #: ``names``, ``units``: Name and unit of each channel; the unit is empty where the file states none.
     names: tuple[str, ...]
-    #: ``names``, ``units``: Name and unit of each channel; the unit is empty where the file states none.
+    #: See ``names``.
     units: tuple[str, ...]
     #: Values as stored; missing ones are NaN; shape (samples, channels).
     values: Array
@@ -70,7 +70,7 @@ class FlumeLayout:
     gauges: Mapping[str, float]
     #: ``front``, ``behind``: Gauges that separate incident and reflected waves, and gauges of the transmitted wave.
     front: tuple[str, ...]
-    #: ``front``, ``behind``: Gauges that separate incident and reflected waves, and gauges of the transmitted wave.
+    #: See ``front``.
     behind: tuple[str, ...]
 
     def __post_init__(self) -> None:
@@ -97,7 +97,7 @@ class RegularRun:
 
     #: ``period``, ``wave_number``: Wave period [s] and wave number [rad/m].
     period: float
-    #: ``period``, ``wave_number``: Wave period [s] and wave number [rad/m].
+    #: See ``period``.
     wave_number: float
     #: Useful part of the record.
     window: RecordWindow
@@ -106,14 +106,13 @@ class RegularRun:
     #: ``mean_spread``, ``amplitude_spread``: How much mean and amplitudes move while the whole periods slide in the
     #: window.
     mean_spread: Array
-    #: ``mean_spread``, ``amplitude_spread``: How much mean and amplitudes move while the whole periods slide in the
-    #: window.
+    #: See ``mean_spread``.
     amplitude_spread: Array
     #: Incident and reflected wave; x = 0 at the centre of the model.
     separation: Separation
     #: ``reflection``, ``transmission``: Moduli of the reflected and transmitted over the incident first harmonic.
     reflection: float
-    #: ``reflection``, ``transmission``: Moduli of the reflected and transmitted over the incident first harmonic.
+    #: See ``reflection``.
     transmission: float
     #: The same spread for these (incident in the unit of the gauges).
     reflection_spread: float

@@ -26,7 +26,7 @@ class IrregularSeparation:
     frequency: Array
     #: ``incident``, ``reflected``: Spectra of waves towards +x and -x [m2/Hz]; NaN where the gauges are badly placed.
     incident: Array
-    #: ``incident``, ``reflected``: Spectra of waves towards +x and -x [m2/Hz]; NaN where the gauges are badly placed.
+    #: See ``incident``.
     reflected: Array
     #: Density of what two waves leave unexplained, per gauge [m2/Hz]; NaN with two gauges.
     noise: Array
@@ -37,8 +37,7 @@ class IrregularSeparation:
     #: ``reflection``, ``reflection_error``: Root of the energy ratio over the band, and its standard error over the
     #: segments.
     reflection: float
-    #: ``reflection``, ``reflection_error``: Root of the energy ratio over the band, and its standard error over the
-    #: segments.
+    #: See ``reflection``.
     reflection_error: float
     #: 4 sqrt(m0) over the band [m].
     incident_height: float

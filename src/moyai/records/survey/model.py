@@ -65,7 +65,7 @@ class CurrentUse:
 
     #: ``x``, ``y``: Velocity channels, or speed and direction where ``polar``.
     x: str
-    #: ``x``, ``y``: Velocity channels, or speed and direction where ``polar``.
+    #: See ``x``.
     y: str
     polar: bool = False
     #: Whether the direction is a compass bearing (towards which the current goes).

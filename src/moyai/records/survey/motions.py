@@ -31,11 +31,9 @@ class DecayFit:
     #: ``period_error``, ``damping_error``, ``quadratic_error``: Standard errors, over the half cycles left out one by
     #: one.
     period_error: float
-    #: ``period_error``, ``damping_error``, ``quadratic_error``: Standard errors, over the half cycles left out one by
-    #: one.
+    #: See ``period_error``.
     damping_error: float
-    #: ``period_error``, ``damping_error``, ``quadratic_error``: Standard errors, over the half cycles left out one by
-    #: one.
+    #: See ``period_error``.
     quadratic_error: float
     notices: tuple[Notice, ...] = ()
 

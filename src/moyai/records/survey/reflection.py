@@ -35,8 +35,7 @@ class Separation:
     #: ``incident``, ``reflected``: Complex amplitudes at x = 0 of waves towards +x and -x, in the unit of the gauges;
     #: shape (frequencies,).
     incident: ComplexArray
-    #: ``incident``, ``reflected``: Complex amplitudes at x = 0 of waves towards +x and -x, in the unit of the gauges;
-    #: shape (frequencies,).
+    #: See ``incident``.
     reflected: ComplexArray
     #: Condition number of the 2 x 2 problem: 1 is ideal, infinite is singular; shape (frequencies,).
     condition: Array

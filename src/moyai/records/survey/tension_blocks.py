@@ -35,7 +35,7 @@ class SingleWaves:
     block: NDArray[np.int64]
     #: ``height``, ``period``: Own height [m] and period [s].
     height: Array
-    #: ``height``, ``period``: Own height [m] and period [s].
+    #: See ``height``.
     period: Array
     #: Largest fluctuating tension, between the samples [N]; NaN where there is none; shape (waves, lines).
     top: Array
@@ -49,9 +49,9 @@ class Blocks:
     start: Array
     #: ``maximum_height``, ``significant_height``, ``significant_period``: H_max, H_1/3 [m], T_1/3 [s].
     maximum_height: Array
-    #: ``maximum_height``, ``significant_height``, ``significant_period``: H_max, H_1/3 [m], T_1/3 [s].
+    #: See ``maximum_height``.
     significant_height: Array
-    #: ``maximum_height``, ``significant_height``, ``significant_period``: H_max, H_1/3 [m], T_1/3 [s].
+    #: See ``maximum_height``.
     significant_period: Array
     #: Waves.
     wave_count: Array
@@ -71,7 +71,7 @@ class Blocks:
     mean: Array
     #: ``matched``, ``double``: Waves with a maximum; with a double peak; shape (blocks, lines).
     matched: Array
-    #: ``matched``, ``double``: Waves with a maximum; with a double peak; shape (blocks, lines).
+    #: See ``matched``.
     double: Array
     #: [s]; shape (blocks, lines).
     delay: Array

@@ -223,11 +223,11 @@ class TensionStatistics:
 
     #: ``maximum``, ``tenth``, ``third``, ``mean``: Largest, means of the highest tenth and third, mean of all [N].
     maximum: float
-    #: ``maximum``, ``tenth``, ``third``, ``mean``: Largest, means of the highest tenth and third, mean of all [N].
+    #: See ``maximum``.
     tenth: float
-    #: ``maximum``, ``tenth``, ``third``, ``mean``: Largest, means of the highest tenth and third, mean of all [N].
+    #: See ``maximum``.
     third: float
-    #: ``maximum``, ``tenth``, ``third``, ``mean``: Largest, means of the highest tenth and third, mean of all [N].
+    #: See ``maximum``.
     mean: float
     #: Maxima.
     count: int

@@ -34,7 +34,7 @@ class Ellipse:
     period: float
     #: ``major``, ``minor``: Semi-axes [m/s]; a negative minor axis turns clockwise.
     major: float
-    #: ``major``, ``minor``: Semi-axes [m/s]; a negative minor axis turns clockwise.
+    #: See ``major``.
     minor: float
     #: Of the major axis, in (-pi/2, pi/2] [rad].
     heading: float

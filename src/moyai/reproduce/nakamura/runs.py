@@ -31,20 +31,16 @@ class NakamuraRuns:
     #: ``undamped``, ``damped``, ``drifted``: Frequency domain over :data:`CURVE`: no damping beyond waves; 15 % of
     #: critical; that and the drift force.
     undamped: Result
-    #: ``undamped``, ``damped``, ``drifted``: Frequency domain over :data:`CURVE`: no damping beyond waves; 15 % of
-    #: critical; that and the drift force.
+    #: See ``undamped``.
     damped: Result
-    #: ``undamped``, ``damped``, ``drifted``: Frequency domain over :data:`CURVE`: no damping beyond waves; 15 % of
-    #: critical; that and the drift force.
+    #: See ``undamped``.
     drifted: Result
     #: ``undamped_time``, ``damped_time``, ``drifted_time``: The same in time at the periods of the paper, chains at
     #: rest at every instant.
     undamped_time: Result
-    #: ``undamped_time``, ``damped_time``, ``drifted_time``: The same in time at the periods of the paper, chains at
-    #: rest at every instant.
+    #: See ``undamped_time``.
     damped_time: Result
-    #: ``undamped_time``, ``damped_time``, ``drifted_time``: The same in time at the periods of the paper, chains at
-    #: rest at every instant.
+    #: See ``undamped_time``.
     drifted_time: Result
     #: With drift and chains in motion.
     moving_time: Result

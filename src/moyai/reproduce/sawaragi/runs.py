@@ -42,7 +42,7 @@ class Release:
     motion: SlackTautMotion
     #: ``taut``, ``rise``: Taut instant and time from there to the spike [s].
     taut: float
-    #: ``taut``, ``rise``: Taut instant and time from there to the spike [s].
+    #: See ``taut``.
     rise: float
     #: Sum of both cables [N].
     spike: float

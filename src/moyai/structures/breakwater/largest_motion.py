@@ -61,8 +61,7 @@ class LargestOfPeriods:
     #: ``frequency``, ``statics``: The same sea in the frequency domain, which stands in where the time domain is out of
     #: its range; the unit at rest.
     frequency: xr.Dataset | None
-    #: ``frequency``, ``statics``: The same sea in the frequency domain, which stands in where the time domain is out of
-    #: its range; the unit at rest.
+    #: See ``frequency``.
     statics: xr.Dataset | None
     #: Level and sea.
     where: str

@@ -130,8 +130,7 @@ class Breakwater:
     #: ``wind_drag_coefficient``, ``current_drag_coefficient``: On the area above and below water; needed where there is
     #: wind or current.
     wind_drag_coefficient: float | None = None
-    #: ``wind_drag_coefficient``, ``current_drag_coefficient``: On the area above and below water; needed where there is
-    #: wind or current.
+    #: See ``wind_drag_coefficient``.
     current_drag_coefficient: float | None = None
     #: Damping lid of the gaps between pontoons, fraction epsilon in K (1 + i epsilon).
     gap_damping_lid: float = 0.0

@@ -65,7 +65,7 @@ class SlowDrift:
     damping_ratio: float
     #: ``half_damping``, ``double_damping``: Standard deviation of sway [m] with half and twice that damping.
     half_damping: float
-    #: ``half_damping``, ``double_damping``: Standard deviation of sway [m] with half and twice that damping.
+    #: See ``half_damping``.
     double_damping: float
     #: [rad/s]; shape (k,)
     difference: Array

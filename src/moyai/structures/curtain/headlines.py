@@ -527,9 +527,9 @@ class _Cycles:
 
     #: ``low``, ``top``, ``high``: The number of the sea, its lower waves counted, and the ends of its scatter.
     low: float
-    #: ``low``, ``top``, ``high``: The number of the sea, its lower waves counted, and the ends of its scatter.
+    #: See ``low``.
     top: float
-    #: ``low``, ``top``, ``high``: The number of the sea, its lower waves counted, and the ends of its scatter.
+    #: See ``low``.
     high: float
     #: From the number to the end of its interval.
     reach: float

@@ -50,7 +50,7 @@ class ModelRole:
     reason: str
     #: ``value``, ``limit``: That number and that limit; NaN where the kind of curtain decides.
     value: float = float("nan")
-    #: ``value``, ``limit``: That number and that limit; NaN where the kind of curtain decides.
+    #: See ``value``.
     limit: float = float("nan")
 
 

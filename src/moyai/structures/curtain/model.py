@@ -81,20 +81,15 @@ class Strengths:
     #: ``upper_cable``, ``lower_cable``, ``sheet``, ``joint``, ``anchor_line``, ``anchor``: Cables, joint, line, holding
     #: force of the anchor [N]; sheet [N/m].
     upper_cable: Strength = UNJUDGED
-    #: ``upper_cable``, ``lower_cable``, ``sheet``, ``joint``, ``anchor_line``, ``anchor``: Cables, joint, line, holding
-    #: force of the anchor [N]; sheet [N/m].
+    #: See ``upper_cable``.
     lower_cable: Strength = UNJUDGED
-    #: ``upper_cable``, ``lower_cable``, ``sheet``, ``joint``, ``anchor_line``, ``anchor``: Cables, joint, line, holding
-    #: force of the anchor [N]; sheet [N/m].
+    #: See ``upper_cable``.
     sheet: Strength = UNJUDGED
-    #: ``upper_cable``, ``lower_cable``, ``sheet``, ``joint``, ``anchor_line``, ``anchor``: Cables, joint, line, holding
-    #: force of the anchor [N]; sheet [N/m].
+    #: See ``upper_cable``.
     joint: Strength = UNJUDGED
-    #: ``upper_cable``, ``lower_cable``, ``sheet``, ``joint``, ``anchor_line``, ``anchor``: Cables, joint, line, holding
-    #: force of the anchor [N]; sheet [N/m].
+    #: See ``upper_cable``.
     anchor_line: Strength = UNJUDGED
-    #: ``upper_cable``, ``lower_cable``, ``sheet``, ``joint``, ``anchor_line``, ``anchor``: Cables, joint, line, holding
-    #: force of the anchor [N]; sheet [N/m].
+    #: See ``upper_cable``.
     anchor: Strength = UNJUDGED
     #: Share of the buoyancy that must be left [-].
     least_reserve: float = 0.0
@@ -109,7 +104,7 @@ class Curtain:
 
     #: ``span``, ``length``: Distance of the supports and unstretched length of curtain between them [m].
     span: float
-    #: ``span``, ``length``: Distance of the supports and unstretched length of curtain between them [m].
+    #: See ``span``.
     length: float
     #: Heading of the downstream normal of the span [rad].
     normal: float
@@ -123,7 +118,7 @@ class Curtain:
     floats: FloatLine
     #: ``upper_stiffness``, ``lower_stiffness``: EA of the cables [N]; the lower one 0 where there is none.
     upper_stiffness: float
-    #: ``upper_stiffness``, ``lower_stiffness``: EA of the cables [N]; the lower one 0 where there is none.
+    #: See ``upper_stiffness``.
     lower_stiffness: float
     #: Coefficient with range and blockage.
     drag: DragLaw
@@ -176,8 +171,7 @@ class WaveSettings:
     #: ``settled_periods``, ``analysed_periods``: Periods of regular waves that are left out at least (more until
     #: periods repeat), and those analysed at least.
     settled_periods: int = 4
-    #: ``settled_periods``, ``analysed_periods``: Periods of regular waves that are left out at least (more until
-    #: periods repeat), and those analysed at least.
+    #: See ``settled_periods``.
     analysed_periods: int = 20
     #: [s]; None: chosen by the program.
     time_step: float | None = None
@@ -207,8 +201,7 @@ class AnchorLoadSettings:
     #: ``wire_factor``, ``new_type_factor``: Tension of the wire over that of the rope, and of the new type over the
     #: conventional one [-].
     wire_factor: float = 0.6
-    #: ``wire_factor``, ``new_type_factor``: Tension of the wire over that of the rope, and of the new type over the
-    #: conventional one [-].
+    #: See ``wire_factor``.
     new_type_factor: float = 0.7
     #: H_max over H_1/3 [-].
     height_ratio: float = 1.8
@@ -231,8 +224,7 @@ class LimitSettings:
     #: ``speeds``, ``heights``: Surface speeds [m/s] and significant heights [m] of the table; None: chosen by the
     #: program.
     speeds: tuple[float, ...] | None = None
-    #: ``speeds``, ``heights``: Surface speeds [m/s] and significant heights [m] of the table; None: chosen by the
-    #: program.
+    #: See ``speeds``.
     heights: tuple[float, ...] | None = None
     #: Up to which limits are sought [m/s].
     highest_speed: float = 3.0
@@ -298,11 +290,11 @@ class RecordedSnap:
     file: str
     #: ``release_time``, ``taut_time``, ``peak_time``, ``plateau_start``: [s]; the release may be NaN.
     release_time: float
-    #: ``release_time``, ``taut_time``, ``peak_time``, ``plateau_start``: [s]; the release may be NaN.
+    #: See ``release_time``.
     taut_time: float
-    #: ``release_time``, ``taut_time``, ``peak_time``, ``plateau_start``: [s]; the release may be NaN.
+    #: See ``release_time``.
     peak_time: float
-    #: ``release_time``, ``taut_time``, ``peak_time``, ``plateau_start``: [s]; the release may be NaN.
+    #: See ``release_time``.
     plateau_start: float
     #: Each cable.
     cables: tuple[RecordedCable, ...]

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import product
 from typing import TYPE_CHECKING, Literal
 
@@ -16,9 +16,10 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.core.headline import Band, Bound, Headline, all_judged
 from moyai.core.validity import Notice
-from moyai.core.wording import spoken
+from moyai.core.wording import spoken, spoken_time
 from moyai.morison.coefficient_ranges import CIRCULATION, MeasuredRange, drag_range, inertia_range
 from moyai.morison.coefficients import DNV_CREST, dnv_drag, dnv_steady_drag
+from moyai.series.block_maxima import LEAST_PERIODS, too_short
 from moyai.series.intervals import reach_of_mean
 from moyai.series.realisations import ALONE, alone
 from moyai.structures.member.model import MemberProblem
@@ -59,6 +60,8 @@ class _Largest:
     wave: int
     scatter: Array
     theory: str
+    #: Of its record [s].
+    time: Array = field(default_factory=lambda: np.zeros(0))
 
     @property
     def steady(self) -> bool:
@@ -194,8 +197,17 @@ def _crest(problem: MemberProblem, found: _Largest) -> float:
 
 
 def _bound(found: _Largest) -> Bound:
-    """Return what one realisation of a random sea proves; drag at the crest of its amplification has its band."""
-    return alone(found.scatter) if found.sea.attrs.get("kind") != "regular" else ""
+    """Return what realisations of a random sea prove: one proves no limit kept, and several of a few waves do not."""
+    return "at least" if _few_waves(found) else "" if _regular(found) else alone(found.scatter)
+
+
+def _regular(found: _Largest) -> bool:
+    return found.sea.attrs.get("kind") == "regular"
+
+
+def _few_waves(found: _Largest) -> bool:
+    """Whether the records of a random sea are so short that their largest values are those of a few waves."""
+    return not _regular(found) and found.time.size > 1 and too_short(found.time, found.number("period"))
 
 
 def _crest_text(problem: MemberProblem, found: _Largest) -> str:
@@ -241,7 +253,8 @@ def _all(groups: Mapping[str, xr.Dataset], kind: _Kind) -> Iterator[_Largest]:
         where = ", ".join(part for part in (sea_name, "" if label in ("sea", sea_name) else label, level) if part)
         each = f"{name}_of_realisation"
         scatter = np.asarray(sea.variables[each].values, dtype=float) if each in sea else np.array([value])
-        yield _Largest(where, causes, row, value, sea, wave, scatter, str(series.attrs["theory"]))
+        time = np.asarray(series["time"].values, dtype=float)
+        yield _Largest(where, causes, row, value, sea, wave, scatter, str(series.attrs["theory"]), time)
 
 
 def _largest(groups: Mapping[str, xr.Dataset], kind: _Kind) -> _Largest | None:
@@ -284,18 +297,27 @@ def _causes_text(shares: tuple[float, float, float]) -> str:
 
 def _chance_text(found: _Largest) -> str:
     """Say how uncertain the number is as one of the largest values of a random sea."""
-    if found.sea.attrs.get("kind") == "regular":
+    if _regular(found):
         return ""
     scatter = found.scatter
     if scatter.size < 2:
-        return f"; {ALONE}"
+        return f"; largest of {_length_text(found)}; {ALONE}"
     deviation = spoken(float(scatter.std(ddof=1)), "N", 2, like=found.value)
-    return f"; mean of the largest of {scatter.size} realisations, their standard deviation {deviation}"
+    return (
+        f"; mean of the largest of {scatter.size} realisations, their standard deviation {deviation}; each of "
+        f"{_length_text(found)}"
+    )
+
+
+def _length_text(found: _Largest) -> str:
+    """Say how long the records are, and when they are too short for the largest value of a storm."""
+    few = f", less than {LEAST_PERIODS:g} periods: a longer sea gives more" if _few_waves(found) else ""
+    return f"{spoken_time(float(np.ptp(found.time)))}{few}"
 
 
 def _ends_text(found: _Largest) -> str:
     count = found.scatter.size
-    return f"; mean of {count} realisations" if count > 1 else ""
+    return f"; mean of {count} realisations; each of {_length_text(found)}" if count > 1 else ""
 
 
 def _band(found: _Largest, ranges: tuple[MeasuredRange, ...]) -> Band:

@@ -303,7 +303,9 @@ def _coefficients(
         axes = orbit_amplitudes(fluctuation, rate, omega)
         major = np.sqrt(np.mean(axes[0] ** 2, axis=0))
     large, small = (np.sqrt(np.mean(part**2, axis=0)) for part in axes)
-    speed = major + np.linalg.norm(block.steady[0], axis=-1)
+    drift = np.linalg.norm(block.steady[0], axis=-1)
+    speed = major + drift
+    ratio = np.divide(drift, major, out=np.where(drift > 0.0, math.inf, 0.0), where=major > 0.0)
     number = major * 2.0 * math.pi / omega / width
     # drag laws of steady and wave flow take the largest velocity in KC
     whole_number = speed * 2.0 * math.pi / omega / width
@@ -318,8 +320,9 @@ def _coefficients(
     wet = block.wet.max(axis=0) > 0.0
     for strip in range(count):
         flow = Conditions(
-            float(whole_number[strip]), float(reynolds[strip]), float(beta[strip]), problem.roughness / width
-        )
+            float(whole_number[strip]), float(reynolds[strip]), float(beta[strip]), problem.roughness / width,
+            float(ratio[strip]), float(number[strip]),
+        )  # fmt: skip
         found = problem.rule.at(section, flow)
         drag[strip], inertia[strip] = found.drag, found.inertia
         for notice in found.notices if wet[strip] else ():

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -24,9 +25,11 @@ from moyai.structures.network.realisations import Realisations, left_out, realis
 from moyai.structures.network.refinement import (
     LANDING,
     affordable,
+    band_of,
     check_event,
     check_peak,
     doubt,
+    few_bars,
     lowered,
     not_converged,
     unchecked,
@@ -35,6 +38,7 @@ from moyai.structures.network.resume import Earlier, joined, last_good_state, wi
 from moyai.structures.network.run_notices import capsized, peak_inside, realised_low, run_notices
 from moyai.structures.network.runs import RunPlan, motions_of
 from moyai.structures.network.series import frames_of, kept_nodes, series_of, snaps_of, with_bodies
+from moyai.structures.network.settling import settled
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -49,8 +53,7 @@ class NetworkRun:
     #: ``series``, ``frames``: Time series of lines and points; places of all nodes and tensions of all bars at fewer
     #: times.
     series: xr.Dataset
-    #: ``series``, ``frames``: Time series of lines and points; places of all nodes and tensions of all bars at fewer
-    #: times.
+    #: See ``series``.
     frames: xr.Dataset
     #: By line.
     snaps: Mapping[str, SnapRecord]
@@ -68,6 +71,8 @@ class NetworkRun:
     lowered: bool = False
     #: Largest values of further realisations of its sea.
     realisations: Realisations | None = None
+    #: Lines of so few bars that their peaks are doubtful, and how many.
+    few_bars: Mapping[str, str] = field(default_factory=dict)
 
 
 def options_of(problem: NetworkProblem, plan: RunPlan) -> dict[str, Any]:
@@ -146,12 +151,14 @@ def run(
     series.attrs |= {"skip": plan.skip, "skip_rule": plan.skip_rule}
     if earlier is not None:
         series, frames = joined(earlier.series, series, "time"), joined(earlier.frames, frames, "frame")
+    plan, drift = settled(problem, plan, series, still)
+    series.attrs |= {"skip": plan.skip, "skip_rule": plan.skip_rule, "unsettled": drift.words()}
     snaps = snaps_of(problem, series)
     governing = _governing(series, {line.name: line.breaking_load for line in problem.lines})
     worst = _worst_bar(assembly, history, governing, plan.skip)
     notices = [*history.notices, *run_notices(problem, history, plan, snaps)]
     notices += peak_inside(assembly, series, governing, worst)
-    notices += realised_low(series)
+    notices += realised_low(series) + drift.notices()
     if coupled is not None:
         notices += capsized(series)
     why = doubt(assembly, history, snaps, governing)
@@ -167,20 +174,51 @@ def run(
             message = "interrupted while further realisations were run; the run itself is complete"
             history = replace(history, status="interrupted", message=message)
     notices += left_out(problem, plan, history) if others is None else others.notices()
-    failure, safe = "", False
-    if sensitivity is not None:
-        strand = assembly.lines.get(governing)
-        segments = 0 if strand is None else strand.bars.size
-        failure = not_converged(sensitivity, problem.settings.peak_goal, governing, why, segments)
-        safe = bool(failure) and lowered(sensitivity, problem.settings.peak_goal)
-        if safe:
-            failure += "; finer runs give less, the design is judged at the larger peak"
+    few = {name: said for name in assembly.lines if (said := few_bars(assembly, name))}
+    failure, safe = _failure(problem, assembly, sensitivity, governing, {**few, governing: why})
     prefix = f"{plan.name}: "
     return NetworkRun(
         plan, history, series, frames, snaps, sensitivity, governing,
         tuple(replace(notice, message=f"{prefix}{notice.message}") for notice in notices),
         tuple(replace(check, name=f"{prefix}{check.name}") for check in history.checks), why, failure, safe, others,
+        few,
     )  # fmt: skip
+
+
+def _failure(
+    problem: NetworkProblem,
+    assembly: Assembly,
+    found: PeakSensitivity | None,
+    governing: str,
+    doubts: Mapping[str, str],
+) -> tuple[str, bool]:
+    """Return why a peak is not converged, empty where all are, and whether finer runs give less of each that is not.
+
+    Counted are the governing line and those that finer runs bring as near to their breaking load, or as high.
+    """
+    if found is None:
+        return "", False
+    goal, strengths = problem.settings.peak_goal, {line.name: line.breaking_load for line in problem.lines}
+    every = {**found.lines, governing: found}
+    known = all(math.isfinite(strengths.get(name, math.nan)) for name in assembly.lines)
+    # nets have no breaking load here
+    scale = {name: strengths.get(name, math.inf) if known and assembly.lines else 1.0 for name in every}
+    near = [
+        name
+        for name, one in every.items()
+        if name == governing or band_of(one)[1] / scale[name] >= found.peak / scale[governing]
+    ]
+    failures, safe = [], True
+    for name in sorted(near, key=lambda one: one != governing):
+        strand = assembly.lines.get(name)
+        segments = 0 if strand is None else strand.bars.size
+        words = not_converged(every[name], goal, name, doubts.get(name, ""), segments)
+        if words:
+            failures.append(words)
+            safe = safe and lowered(every[name], goal)
+    if not failures:
+        return "", False
+    return failures[0] + ("; finer runs give less, the design is judged at the larger peak" if safe else ""), safe
 
 
 def _peak_uncertainty(
@@ -218,7 +256,8 @@ def _peak_uncertainty(
         motions, options = motions_of(problem, plan.duration), options_of(problem, plan)
         event = (governing, plan.skip, plan.period, options, reported, why)
         checked = check_event(assembly, history, motions, *event) if LANDING in why else None
-        if checked is None and affordable(history, bool(why)):
+        few = any(few_bars(assembly, name) for name in assembly.lines)
+        if checked is None and affordable(history, bool(why) or few):
             checked = check_peak(
                 assembly, history, motions, governing, starts[0], plan.skip, options, reported, plan.rest_flow
             )

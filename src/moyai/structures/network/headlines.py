@@ -16,11 +16,23 @@ from moyai.core.arrays import Array
 from moyai.core.headline import Band, Bound, Headline, all_judged, unfavourable
 from moyai.core.wording import spoken
 from moyai.flexible.sensitivity import PeakSensitivity
-from moyai.series.block_maxima import PERIODS, Maximum, maximum_of
-from moyai.series.realisations import seeds
+from moyai.series.block_maxima import maximum_of
+from moyai.structures.network.at_rest import rest_headlines
+from moyai.structures.network.chance import (
+    ONE_SEED,
+    irregular,
+    length_of,
+    of_periods,
+    of_record,
+    of_seeds,
+    scatter_of,
+    with_chance,
+    with_seeds,
+)
 from moyai.structures.network.held_rows import held_headlines
 from moyai.structures.network.model import NetworkProblem
 from moyai.structures.network.refinement import LANDING, band_of
+from moyai.structures.network.settling import unsettled
 from moyai.structures.network.single_anchor import single_anchors
 from moyai.structures.network.start_up import ASKED, WAVES
 from moyai.structures.network.summary import LOADS_AGAIN
@@ -30,8 +42,6 @@ if TYPE_CHECKING:
 
 #: Highest tension over that at the ends of its line above which both are reported.
 INSIDE = 1.2
-#: Part by which the highest values of the periods of regular waves may differ where the motion repeats.
-REPEATING = 0.05
 DYNAMIC, REST = "run through time", "at rest"
 _NOT_JUDGED = Headline(
     "not_judged", "Not judged", math.nan, "1", text="one line lost, wear and fatigue, shackles, soil of the anchors",
@@ -41,9 +51,8 @@ _OTHER_DIRECTIONS = replace(
     _NOT_JUDGED, text=f"{_NOT_JUDGED.text}, other directions of current and waves",
     detail="lines square to current and waves may bear several times what lines along them do: run both headings",
 )  # fmt: skip
-_ONE_SEED = "one seed: others may give more"
-#: Key that asks for more realisations.
-MORE = "settings.realisations"
+#: What is said of a line without a breaking load next to lines that have one.
+NO_STRENGTH = "breaking load not given of"
 _MESH = "mesh: twice the segments, and their change continued"
 
 
@@ -71,7 +80,8 @@ def headlines_of(problem: NetworkProblem, groups: Mapping[str, xr.Dataset]) -> t
         What was run, by its place in the result.
     """
     # a run of which nothing counts does not hand its number to the rest
-    peaks = list(_peaks(groups)) if any(_levels(groups, "dynamic")) else list(_rest_peaks(groups))
+    timed = any(_levels(groups, "dynamic"))
+    peaks = list(_peaks(groups)) if timed else list(_rest_peaks(groups))
     peak = max(peaks, key=lambda item: item.value, default=None)
     items: list[Headline] = []
     if peak is not None:
@@ -82,7 +92,7 @@ def headlines_of(problem: NetworkProblem, groups: Mapping[str, xr.Dataset]) -> t
         items += [one for one in others if unfavourable(one) > unfavourable(first) or one.bound != first.bound]
         items += _start_up(groups, peak)
         items += _utilisation(problem, groups, peaks)
-    items += _anchor(groups, peaks)
+    items += _anchor(groups, peaks) if timed else rest_headlines(groups, single_anchors(problem), REST)
     items += held_headlines(problem, groups, DYNAMIC)
     items += _offsets(groups, single_anchors(problem))
     items += _mode(groups)
@@ -131,15 +141,6 @@ def _peak_of(summary: xr.Dataset, of: tuple[str, str], at: tuple[str, str], valu
     return _Peak(value, name, *at, time, DYNAMIC, scatter)
 
 
-def scatter_of(summary: xr.Dataset, name: str, run: str, **of: str) -> Array:
-    """Return a largest value of the realisations of a run; none where fewer than two were run."""
-    if name not in summary:
-        return np.zeros(0)
-    found = np.asarray(summary[name].sel({"run": run, **of}).values)
-    found = found[np.isfinite(found)]
-    return found if found.size > 1 else np.zeros(0)
-
-
 def _rest_peaks(groups: Mapping[str, xr.Dataset]) -> Iterator[_Peak]:
     for level, rest in _levels(groups, "statics"):
         if "line_tension_maximum" not in rest or not rest["line_tension_maximum"].size:
@@ -178,6 +179,7 @@ def _tension(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peak: _P
             detail="; ".join(part for part in details if part),
         )
     ]  # fmt: skip
+    items = [_at_most(item) for item in items]
     if "start_peak" in summary and peak.line in summary["line"].values:
         ends = [float(summary[key].sel(line=peak.line)) for key in ("start_peak", "end_peak")]
         if float(summary["line_tension_maximum"].sel(line=peak.line)) > INSIDE * max(ends):
@@ -237,86 +239,85 @@ def _mesh_and_step(value: float, finer: list[float]) -> Band:
     return Band(min(low, value), max(high, value), words)
 
 
-def _numerical_band(summary: xr.Dataset, peak: _Peak) -> tuple[Band | None, list[str]]:
-    if "sensitivity_peak" in summary and math.isfinite(float(summary["sensitivity_peak"])):
-        finer = ("half_step", "double_mesh", "half_viscosity", "double_viscosity", "damped", "finest")
-        keys = ("sensitivity_peak", *finer)
-        values = [float(summary[key]) for key in keys]
-        if summary.attrs.get(f"governing {peak.run}") == peak.line:
-            # what mesh and step change of one realisation, they change of the mean in proportion
-            share = peak.value / values[0] if peak.scatter.size else 1.0
-            band = _mesh_and_step(peak.value, [share * value for value in (*values[:3], *values[5:])])
-            viscous = [value for value in values[3:5] if math.isfinite(value)]
-            said = f"half and twice the viscosity: {min(viscous):.4g} to {max(viscous):.4g} N" if viscous else ""
-            return band, [said]
-    why = str(summary.attrs.get(f"doubt {peak.run}", ""))
-    return None, [f"mesh and step not checked{': ' + why if why else ''}"]
+def _numerical_band(summary: xr.Dataset, peak: _Peak) -> tuple[Band | None, list[str], Bound]:
+    """Return what mesh and step do to a tension, what is to be said of it, and what an unchecked one proves.
 
-
-def _chance(groups: Mapping[str, xr.Dataset], peak: _Peak) -> tuple[Maximum | None, list[str]]:
-    """Return the uncertainty of one maximum of an irregular sea, and say the height that was realised."""
-    series = groups.get(f"/{peak.level}/time/{peak.run}")
-    if series is None:
-        return None, []
-    if not _irregular(groups, peak.level, peak.run):
-        return _of_periods(series, *_record(series, peak.line)), []
-    late = series.isel(time=series["time"].values >= series["time"].values[0] + series.attrs["skip"])
-    said = []
-    if "surface_elevation" in late:
-        realised = 4.0 * float(late["surface_elevation"].values.std())
-        said.append(f"realised Hs {realised:.2f} m of {series.attrs['wave_height']:.2f} m, seed {series.attrs['seed']}")
-    found: Maximum | None = maximum_of(*_record(series, peak.line), float(series.attrs["period"]))
-    if found is not None:
-        said.append(
-            f"largest of other seeds about {spoken(found.mean, 'N', 3)}, standard deviation "
-            f"{spoken(found.deviation, 'N', 2, like=found.mean)}"
-        )
-    return found, said
-
-
-def _record(series: xr.Dataset, line: str) -> tuple[Array, Array]:
-    """Return time and highest tension since the row before of a line or net, over what counts."""
-    late = series.isel(time=series["time"].values >= series["time"].values[0] + series.attrs["skip"])
-    named = "line" in late and line in late["line"].values
-    key, axis = ("line_tension_peak_since_row", "line") if named else ("net_tension", "net")
-    if key not in late:
-        return np.zeros(0), np.zeros(0)
-    return late["time"].values, late[key].sel({axis: line}).values
-
-
-def _of_periods(series: xr.Dataset, time: Array, values: Array) -> Maximum | None:
-    """Return what the largest of a regular motion that never repeats stands for, ``None`` where it repeats.
-
-    The highest values of its periods are then taken as those of blocks of a record.
+    What mesh and step change of one realisation, they change of the mean in proportion.
     """
-    period = float(series.attrs.get("period", math.nan))
-    if not (math.isfinite(period) and period > 0.0 and time.size > 1 and np.isfinite(values).all()):
-        return None
-    count = int((time[-1] - time[0]) / period + 1e-9)
-    highest = [float(part.max()) for part in np.array_split(values, count)] if count else [0.0]
-    if min(highest) >= (1.0 - REPEATING) * max(highest):
-        return None
-    return maximum_of(time, values, period / PERIODS)
+    first, own = _checked(summary, _governing(summary, peak.run)), _checked(summary, peak.line)
+    governs = _governing(summary, peak.run) == peak.line
+    why = str(summary.attrs.get(f"doubt {peak.run}" if governs else f"few {peak.line}", ""))
+    if own:
+        share = peak.value / own[0] if peak.scatter.size and own[0] > 0.0 else 1.0
+        band = _mesh_and_step(peak.value, [share * value for value in own])
+        viscous = [float(summary[key]) for key in ("half_viscosity", "double_viscosity") if governs and key in summary]
+        viscous = [value for value in viscous if math.isfinite(value)]
+        said = f"half and twice the viscosity: {min(viscous):.4g} to {max(viscous):.4g} N" if viscous else ""
+        return band, [said], ""
+    unchecked = f"mesh and step not checked{': ' + why if why else ''}"
+    lands = LANDING in str(summary.attrs.get(f"doubt {peak.run}", ""))
+    if not first or not first[0] > 0.0 or lands:
+        return None, [unchecked], ""
+    # only the event of the governing line was run again: what the mesh does to it is taken for this one too
+    of = _mesh_and_step(first[0], first)
+    band = of.scaled(peak.value / first[0])
+    words = f"mesh and step: in proportion to the tension of {_governing(summary, peak.run)}"
+    few = f"few {peak.line}" in summary.attrs and "line_tension_of_check" in summary
+    return replace(band, of=words), [unchecked], "at least" if few else ""
+
+
+def _governing(summary: xr.Dataset, run: str) -> str:
+    return str(summary.attrs.get(f"governing {run}", ""))
+
+
+def _checked(summary: xr.Dataset, line: str) -> list[float]:
+    """Return the highest tension of a line or net in the run and in those that check its mesh; none without them."""
+    for kind in ("line", "net"):
+        name = f"{kind}_tension_of_check"
+        if name in summary and line in summary[kind].values:
+            values = [float(value) for value in summary[name].sel({kind: line}).values]
+            if all(map(math.isfinite, values[:3])):
+                return values
+    if "sensitivity_peak" not in summary or "run" not in summary.coords:
+        return []
+    values = [float(summary[key]) for key in ("sensitivity_peak", *LOADS_AGAIN.values())]
+    return values if math.isfinite(values[0]) and _governing(summary, str(summary["run"].values)) == line else []
 
 
 def _utilisation(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peaks: list[_Peak]) -> list[Headline]:
     """Return the highest tension over the breaking load, each line with its own band."""
     breaking = {line.name: line.breaking_load for line in problem.lines if math.isfinite(line.breaking_load)}
-    items = []
+    items, bare = [], [line.name for line in problem.lines if line.name not in breaking]
     for item in peaks:
         load = breaking.get(item.line)
         if load is None:
             continue
         band, _, bound = _band(groups, item)
-        items.append(
-            Headline(
-                "line_utilisation", "highest tension over breaking load", item.value / load, "1",
-                _place(groups, item.level, item.line, item.run), item.model,
-                None if band is None else band.scaled(1.0 / load), bound,
-                detail=f"breaking load {load / 1e3:.4g} kN, without a safety factor",
-            )
+        one = Headline(
+            "line_utilisation", "highest tension over breaking load", item.value / load, "1",
+            _place(groups, item.level, item.line, item.run), item.model,
+            None if band is None else band.scaled(1.0 / load), bound, mean=_mean(groups, item, load),
+            detail=f"breaking load {load / 1e3:.4g} kN, without a safety factor",
         )  # fmt: skip
-    return all_judged(items)
+        items.append(_at_most(one))
+    found = all_judged(items)
+    if found and bare:
+        # one that is not known stays open beside those that keep the limit
+        label, text = "highest tension over breaking load", f"{NO_STRENGTH} {', '.join(bare)}"
+        found.append(Headline("line_utilisation", label, math.nan, "1", text=text, shown=False))
+        found[0] = replace(found[0], detail=f"{found[0].detail}; {text}")
+    return found
+
+
+def _mean(groups: Mapping[str, xr.Dataset], peak: _Peak, load: float) -> float | None:
+    """Return the mean tension of a line over time, over its breaking load; at rest it is the tension."""
+    if peak.model == REST:
+        return peak.value / load
+    summary = groups.get(f"/{peak.level}/dynamic")
+    if summary is None or "line_tension_mean" not in summary:
+        return None
+    found = float(summary["line_tension_mean"].sel(run=peak.run, line=peak.line)) / load
+    return found if math.isfinite(found) else None
 
 
 def _band(groups: Mapping[str, xr.Dataset], peak: _Peak) -> tuple[Band | None, list[str], Bound]:
@@ -327,42 +328,38 @@ def _band(groups: Mapping[str, xr.Dataset], peak: _Peak) -> tuple[Band | None, l
     if peak.model == REST:
         band = _rest_band(groups, peak)
         return band, [] if band else ["mesh not checked"], ""
-    band, details = _numerical_band(groups[f"/{peak.level}/dynamic"].sel(run=peak.run), peak)
-    band, alone = _with_seeds(peak.value, band, peak.scatter), False
-    found, words = (None, []) if peak.scatter.size else _chance(groups, peak)
+    band, details, unproven = _numerical_band(groups[f"/{peak.level}/dynamic"].sel(run=peak.run), peak)
+    band = with_seeds(peak.value, band, peak.scatter)
+    found, words = (None, []) if peak.scatter.size else of_record(groups, peak.level, peak.run, peak.line)
     details += words
     doubt = str(groups[f"/{peak.level}/dynamic"].attrs.get(f"doubt {peak.run}", ""))
     # lumps that land pull harder than the line does: with finer segments it is less
     most: Bound = "at most" if band is None and LANDING in doubt else ""
     details += ["finer segments give less"] if most else []
+    open_end, why = _left_open(groups, peak.level, peak.run, peak.scatter)
+    details += why
     if found is None:
-        alone = not peak.scatter.size and _irregular(groups, peak.level, peak.run)
-        return band, [*details, *([_ONE_SEED] if alone else [])], "at least" if alone else most
-    return _with_chance(peak.value, band, found, _irregular(groups, peak.level, peak.run)), details, most
+        alone = not peak.scatter.size and irregular(groups, peak.level, peak.run)
+        return band, [*details, *([ONE_SEED] if alone else [])], "at least" if alone else open_end or unproven or most
+    of_sea = irregular(groups, peak.level, peak.run)
+    return with_chance(peak.value, band, found, of_sea), details, open_end or unproven or most
 
 
-def _with_chance(value: float, band: Band | None, found: Maximum, irregular: bool = True) -> Band:
-    """Return the band of mesh and step, where there is one, and of the chance of one seed."""
-    low, high, of = (value, value, "") if band is None else (band.low, band.high, band.of)
-    least, highest = found.range
-    return Band(
-        max(min(low, least), 0.0), max(high, highest), "; ".join(filter(None, (of, _of_seeds(found, irregular))))
-    )
+def _at_most(item: Headline) -> Headline:
+    """Return a bound from above with what is judged as its number, where chance lets that be more than the record's."""
+    end = unfavourable(item)
+    if item.bound != "at most" or item.band is None or not end > item.value:
+        return item
+    record = f"{item.value:.3g}" if item.unit == "1" else spoken(item.value, item.unit, 3)
+    said = f"at most: the record has {record}, {item.band.of}"
+    return replace(item, value=end, band=None, detail="; ".join(filter(None, (item.detail, said))))
 
 
-def _with_seeds(value: float, band: Band | None, scatter: Array) -> Band | None:
-    """Return the band of realisations, widened in proportion by that of mesh and step where there is one."""
-    found = seeds(scatter, more=MORE)
-    if found is None or band is None or not value > 0.0:
-        return found or band
-    wider = found.scaled(band.low / value, band.high / value)
-    return replace(wider, of=f"{band.of}; {found.of}")
-
-
-def _irregular(groups: Mapping[str, xr.Dataset], level: str, run: str) -> bool:
-    """Whether a run is through an irregular sea."""
-    series = groups.get(f"/{level}/time/{run}")
-    return series is not None and bool(int(series.attrs.get("irregular", 0)))
+def _left_open(groups: Mapping[str, xr.Dataset], level: str, run: str, scatter: Array) -> tuple[Bound, list[str]]:
+    """Return what a run proves that is too short, or still on its way to its place, and what is to be said of it."""
+    moving = unsettled(groups, level, run)
+    length, bound = length_of(groups, level, run, scatter)
+    return "at least" if moving else bound, [words for words in (length, moving) if words]
 
 
 def mesh_checked(groups: Mapping[str, xr.Dataset]) -> bool:
@@ -399,12 +396,13 @@ def _anchor(groups: Mapping[str, xr.Dataset], peaks: list[_Peak]) -> list[Headli
                         for measure in ("size", "horizontal", "upwards")
                     )
                 said = f"horizontal {parts[0] / 1e3:.3g} kN, upwards {parts[1] / 1e3:.3g} kN, each at its own largest"
-                found.append(
-                    Headline(
-                        "anchor_load", "largest pull on a fixed point", value, "N", _place(groups, level, point, run),
-                        DYNAMIC, own, bound, detail=said,
-                    )
+                open_end, why = _left_open(groups, level, run, scatter)
+                bound, said = open_end or bound, "; ".join([said, *why])
+                one = Headline(
+                    "anchor_load", "largest pull on a fixed point", value, "N", _place(groups, level, point, run),
+                    DYNAMIC, own, bound, detail=said,
                 )  # fmt: skip
+                found.append(_at_most(one))
     return all_judged(found)
 
 
@@ -432,20 +430,20 @@ def _band_of_pull(
         own = Band(low, high, f"mesh and step: in proportion to the tension of {most.line}")
     if scatter is not None and scatter.size:
         mean = float(scatter.mean())
-        return _with_seeds(mean, None if own is None else own.scaled(mean / value), scatter), bound
+        return with_seeds(mean, None if own is None else own.scaled(mean / value), scatter), bound
     series = groups.get(f"/{level}/time/{run}")
     if series is None:
         return own, bound
     late = series.isel(time=series["time"].values >= series["time"].values[0] + series.attrs["skip"])
     load = late["highest_load"].sel(point=point, measure="size").values
-    irregular = _irregular(groups, level, run)
-    if irregular:
+    of_sea = irregular(groups, level, run)
+    if of_sea:
         chance = maximum_of(late["time"].values, load, float(series.attrs["period"]))
     else:
-        chance = _of_periods(series, late["time"].values, load)
+        chance = of_periods(series, late["time"].values, load)
     if chance is None:
-        return own, "at least" if irregular else bound
-    return _with_chance(value, own, chance, irregular), "at most" if own is None and bound == "at most" else ""
+        return own, "at least" if of_sea else bound
+    return with_chance(value, own, chance, of_sea), "at most" if own is None and bound == "at most" else ""
 
 
 def _offsets(groups: Mapping[str, xr.Dataset], anchors: Mapping[str, str]) -> list[Headline]:
@@ -487,12 +485,14 @@ def _offset(
     swinging = _swinging(groups, level, run, name, kind, anchors)
     value, said, away = swinging or (value, said, away)
     scatter = np.zeros(0)
-    if kind == "point" and swinging is None:
-        scatter = scatter_of(groups[f"/{level}/dynamic"], "excursion_of_realisation", run, point=name)
+    if kind == "point":
+        of = "excursion" if swinging is None else "distance_from_anchor"
+        scatter = scatter_of(groups[f"/{level}/dynamic"], f"{of}_of_realisation", run, point=name)
     if scatter.size:
         value = float(scatter.mean())
         found = _moved("offset", value, _place(groups, level, name, run), said, groups, level, run, None)
-        return replace(found, band=_with_seeds(value, None, scatter), bound="", detail=said)
+        open_end, why = _left_open(groups, level, run, scatter)
+        return replace(found, band=with_seeds(value, None, scatter), bound=open_end, detail="; ".join([said, *why]))
     return _moved("offset", value, _place(groups, level, name, run), said, groups, level, run, away)
 
 
@@ -513,12 +513,6 @@ def _swinging(
     return float(counted.max()), f"horizontal distance from its only anchor '{anchor}', round which it swings", away
 
 
-def _of_seeds(found: Maximum, irregular: bool = True) -> str:
-    if not irregular:
-        return f"90 of 100 records as long, estimated from {found.blocks} parts of a motion that does not repeat"
-    return f"90 of 100 seeds, estimated from {found.blocks} blocks of the record of one"
-
-
 def _moved(
     name: str, value: float, where: str, detail: str, groups: Mapping[str, xr.Dataset], level: str, run: str,
     away: Array | None,
@@ -528,17 +522,19 @@ def _moved(
     series = groups.get(f"/{level}/time/{run}")
     band: Band | None = None
     bound: Bound = ""
-    if series is not None and _irregular(groups, level, run):
+    open_end, why = _left_open(groups, level, run, np.zeros(0))
+    detail = "; ".join([detail, *why])
+    if series is not None and irregular(groups, level, run):
         found = None
         if away is not None:
             late = series["time"].values >= series["time"].values[0] + series.attrs["skip"]
             found = maximum_of(series["time"].values[late], away[late], float(series.attrs["period"]))
         if found is None:
-            bound, detail = "at least", f"{detail}; {_ONE_SEED}"
+            bound, detail = "at least", f"{detail}; {ONE_SEED}"
         else:
             low, high = found.range
-            band = Band(max(min(value, low), 0.0), max(value, high), _of_seeds(found))
-    return Headline(name, label, value, unit, where, DYNAMIC, band, bound, detail=detail)
+            band = Band(max(min(value, low), 0.0), max(value, high), of_seeds(found))
+    return Headline(name, label, value, unit, where, DYNAMIC, band, bound or open_end, detail=detail)
 
 
 def _away(groups: Mapping[str, xr.Dataset], level: str, run: str, name: str, kind: str, axes: int) -> Array | None:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.arrays import Array
-from moyai.core.headline import Headline, governing
+from moyai.core.headline import Bound, Headline, governing
 from moyai.flexible.network import Network
 from moyai.structures.network.equilibrium import pulls
 from moyai.structures.network.model import NetworkProblem
@@ -81,13 +81,16 @@ def held_headlines(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], wh
             most, along = float(np.nanmax(size)), float(np.nanmax(np.hypot(pull[:, 0], pull[:, 1])))
             if most == 0.0:
                 continue
+            # one seed, and one that still drifts, can have more
+            bound: Bound = "at least" if int(series.attrs.get("irregular", 0)) or series.attrs.get("unsettled") else ""
             said = f"horizontal {along / 1e3:.3g} kN, downwards {max(-float(np.nanmin(pull[:, 2])), 0.0) / 1e3:.3g} kN"
             if net in widths:
                 said += f"; {most / widths[net]:.3g} N per metre of a row of {widths[net]:.3g} m"
             found.append(
                 Headline(
                     "held_row_load", "largest pull of a net on the row that holds it", most, "N",
-                    ", ".join((net, pieces[2], pieces[0])), where, detail=f"{said}; at the rows of the record",
+                    ", ".join((net, pieces[2], pieces[0])), where, bound=bound,
+                    detail=f"{said}; at the rows of the record",
                 )
             )  # fmt: skip
     return governing(found)

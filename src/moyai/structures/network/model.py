@@ -121,7 +121,7 @@ class NetPlan:
     columns: int
     #: ``along``, ``across``: Materials of inner and edge bars of the rows, and of the columns.
     along: tuple[BarType, BarType]
-    #: ``along``, ``across``: Materials of inner and edge bars of the rows, and of the columns.
+    #: See ``along``.
     across: tuple[BarType, BarType]
     #: Distance of the knots at the start over their unstretched distance [-].
     hanging_ratio: float = 1.0
@@ -249,7 +249,7 @@ class NetworkSettings:
     duration: float | None = None
     output_step: float | None = None
     ramp: float | None = None
-    start: Start = "rest"
+    start: Start | None = None
     resume: Path | None = None
     method: Literal["auto", "explicit", "tr_bdf2", "esdirk4"] = "auto"
     step: float | None = None
@@ -289,6 +289,12 @@ class NetworkProblem:
     failures: tuple[LineFailure, ...] = ()
     #: A current that changes with time, in runs through time.
     current_field: CurrentField | None = None
+
+    @property
+    def start(self) -> Start:
+        """Where runs begin: as asked for, else at rest in the current where there is one."""
+        default: Start = "rest" if self.environment.current is None else "rest_in_current"
+        return self.settings.start or default
 
     @property
     def linear_waves_only(self) -> bool:

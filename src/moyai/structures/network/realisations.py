@@ -18,6 +18,7 @@ from moyai.structures.network.assembly import Assembly
 from moyai.structures.network.equilibrium import around, highest_pulls, named_points
 from moyai.structures.network.model import NetworkProblem
 from moyai.structures.network.runs import RunPlan, flow_of_seed
+from moyai.structures.network.single_anchor import single_anchors
 
 #: Bars times steps, and nodes times waves times evaluations of the sea, that further realisations may take by
 #: themselves, and of a run whose peak is doubtful; realisations at most and, where fewer fit, none.
@@ -38,6 +39,9 @@ class Realisations:
     load: Array
     #: Largest distance of each point from its place in still water [m]; shape (r, points).
     excursion: Array
+    #: Largest horizontal distance of each point from the only fixed point that holds it [m], not a number of others;
+    #: shape (r, points).
+    reach: Array
 
     def notices(self) -> list[Notice]:
         """Say how many could not be run."""
@@ -133,7 +137,8 @@ def realisations_of(
         network, history.time, history.nodes, history.bars, history.position[None], history.tension[None],
         history.tension_peak[None], np.array([history.step]), np.zeros(1, dtype=np.int64),
     )  # fmt: skip
-    rows = [_largest(assembly, own, 0, counted, origin)]
+    anchors = _anchors(problem, assembly)
+    rows = [_largest(assembly, own, 0, counted, origin, anchors)]
     # one after the other in groups, so that the series of all are never in memory
     group = max(1, members_together(network))
     for first in range(1, count, group):
@@ -145,7 +150,7 @@ def realisations_of(
             interval=plan.flow.update_interval, start=begin, step=problem.settings.step,
             safety=1.0 if problem.settings.wave_front else None, keep_nodes=nodes, drag_rate=history.drag_rate,
         )  # fmt: skip
-        rows += [_largest(assembly, found, m, counted, origin) for m in range(len(flows))]
+        rows += [_largest(assembly, found, m, counted, origin, anchors) for m in range(len(flows))]
     progress(f"realisations, {plan.name}", count, count)
     return Realisations(seeds, *(np.array(values) for values in zip(*rows, strict=True)))
 
@@ -156,10 +161,17 @@ def _nodes(assembly: Assembly) -> IntArray:
     return np.union1d(around(assembly.network, dict(zip(names, points, strict=True)))[0], points)
 
 
+def _anchors(problem: NetworkProblem, assembly: Assembly) -> IntArray:
+    """Return the node of the only fixed point that holds each point, -1 where there is none or another."""
+    anchors, nodes = single_anchors(problem), assembly.network.points
+    names, _ = named_points(assembly)
+    return np.array([nodes[anchors[name]] if name in anchors else -1 for name in names], dtype=np.int64)
+
+
 def _largest(
-    assembly: Assembly, runs: Ensemble, member: int, counted: BoolArray, origin: Array
-) -> tuple[Array, Array, Array, Array]:
-    """Return the highest tensions of lines and nets, the largest pulls on points and their excursions of one run."""
+    assembly: Assembly, runs: Ensemble, member: int, counted: BoolArray, origin: Array, anchors: IntArray
+) -> tuple[Array, Array, Array, Array, Array]:
+    """Return the highest tensions of lines and nets, pulls on points, their excursions and their reach of one run."""
     network = assembly.network
     _, points = named_points(assembly)
     pull = runs.tension[member][counted]
@@ -170,4 +182,6 @@ def _largest(
     lines = [float(highest[:, strand.bars].max()) for strand in assembly.lines.values()]
     nets = [float(highest[:, bars].max()) for bars in assembly.net_bars.values()]
     away = np.linalg.norm(place[:, points] - origin, axis=2)
-    return np.array(lines), np.array(nets), loads.max(axis=0), away.max(axis=0)
+    apart = np.linalg.norm((place[:, points] - place[:, anchors])[..., :2], axis=2).max(axis=0)
+    reach = np.where(anchors >= 0, apart, np.nan)
+    return np.array(lines), np.array(nets), loads.max(axis=0), away.max(axis=0), reach

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -43,6 +43,8 @@ LANDING = "segments that land on the bed send fronts along the line"
 #: Bars times steps that the finest mesh of one event may take, diameters below which bars of a line mean nothing, and
 #: the change of a peak that lands with twice the bars below which no finer mesh is run.
 LADDER_WORK, SHORTEST_BAR, LANDED = 3e8, 2.0, 0.1
+#: Values that a further run keeps for the peaks of all lines and nets, at most.
+MOST_VALUES = 40_000_000
 
 
 def doubt(assembly: Assembly, history: History, snaps: Mapping[str, SnapRecord], line: str) -> str:
@@ -67,10 +69,15 @@ def doubt(assembly: Assembly, history: History, snaps: Mapping[str, SnapRecord],
         return landing
     if "wave-front" in codes:
         return "the load rises faster than an elastic wave runs through the line"
+    return few_bars(assembly, line)
+
+
+def few_bars(assembly: Assembly, line: str) -> str:
+    """Say that a line has so few bars that its peak is doubtful whatever the run shows, empty where it has more."""
     strand = assembly.lines.get(line)
-    if strand is not None and strand.bars.size <= FEW_BARS:
-        return f"'{line}' has {strand.bars.size} segment{'s' if strand.bars.size > 1 else ''}"
-    return ""
+    if strand is None or strand.bars.size > FEW_BARS:
+        return ""
+    return f"'{line}' has {strand.bars.size} segment{'s' if strand.bars.size > 1 else ''}"
 
 
 def affordable(history: History, doubtful: bool, share: float = 1.0) -> bool:
@@ -150,18 +157,17 @@ def check_event(
     if not affordable(history, True, share):
         return None
     chosen = {**options, "duration": window.duration}
-    columns = np.flatnonzero(np.isin(history.bars, bars))
-    counted = history.time >= history.time[0] + skip
-    peak = float(np.nanmax(history.tension_peak[counted][:, columns]))
+    peak = _highest(history, bars, skip)
+    every = np.concatenate([bars, *_parts(assembly, history).values()])
     same = simulate(
         history.network, motions, start=window.begin, progress=progress,
-        **{**chosen, "step": history.step, **_kept(assembly, history.network, bars)},
+        **{**chosen, "step": history.step, **_kept(assembly, history.network, every)},
     )  # fmt: skip
     if same.status == "interrupted":
         raise KeyboardInterrupt
     if same.status != "converged":
         return None
-    again, _ = _peaks_of(assembly, same, bars, window.lead)
+    again = _peaks_of(assembly, same, bars, window.lead).peak
     lands = LANDING in why
     if not again > 0.0 or (abs(again / peak - 1.0) > SAME_EVENT and not lands):
         return None
@@ -169,13 +175,19 @@ def check_event(
     if found is None:
         return None
     if lands:
-        found = _down_to_links(found, assembly, same, motions, bars, window, chosen, progress)
+        found = _down_to_links(found, assembly, same, motions, line, window, chosen, progress)
     whole, pulls = highest_of_run(history, _fixed(assembly, history.network), skip), {}
     for name, one in found.pulls.items():
         # the event of the highest tension need not be that of this point
         if one.peak > 0.0 and name in whole and (lands or abs(one.peak / whole[name] - 1.0) <= SAME_EVENT):
             pulls[name] = _in_proportion(one, whole[name] / one.peak, lands)
-    return replace(_in_proportion(found, peak / again, lands), pulls=pulls)
+    own = {}
+    for name, one in found.lines.items():
+        # another line may bear most at another time: what the event says of it is then not of its peak
+        top = peak if name == line else _highest(history, _bars_of(assembly, name), skip)
+        if one.peak > 0.0 and (name == line or abs(one.peak / top - 1.0) <= SAME_EVENT):
+            own[name] = _in_proportion(one, top / one.peak, lands)
+    return replace(_in_proportion(found, peak / again, lands), pulls=pulls, lines=own)
 
 
 def _in_proportion(found: PeakSensitivity, factor: float, lands: bool) -> PeakSensitivity:
@@ -202,11 +214,41 @@ def _kept(assembly: Assembly, network: Network, bars: np.ndarray) -> dict[str, n
     return {"keep_nodes": nodes if nodes.size else np.zeros(1, dtype=np.int64), "keep_bars": np.union1d(bars, own)}
 
 
-def _peaks_of(assembly: Assembly, history: History, bars: np.ndarray, after: float) -> tuple[float, dict[str, float]]:
-    """Return the highest tension of some bars in a run, and the highest pull on each fixed point."""
+@dataclass(frozen=True)
+class _Peaks:
+    """Highest tension of the line that is looked at, pulls on fixed points, highest tensions of lines and nets [N]."""
+
+    peak: float
+    pulls: dict[str, float]
+    lines: dict[str, float] = field(default_factory=dict)
+
+
+def _peaks_of(
+    assembly: Assembly, history: History, bars: np.ndarray, after: float, parts: Mapping[str, np.ndarray] | None = None
+) -> _Peaks:
+    """Return the highest tensions of a run in some bars and in each of ``parts``, and the pull on each fixed point."""
+    lines = {name: _highest(history, own, after) for name, own in (parts or {}).items()}
+    pulls = highest_of_run(history, _fixed(assembly, history.network), after)
+    return _Peaks(_highest(history, bars, after), pulls, lines)
+
+
+def _highest(history: History, bars: np.ndarray, after: float) -> float:
+    """Return the highest tension of some bars in what counts of a run."""
     columns = np.flatnonzero(np.isin(history.bars, bars))
-    peaks = history.tension_peak[history.time >= history.time[0] + after][:, columns]
-    return float(np.nanmax(peaks)), highest_of_run(history, _fixed(assembly, history.network), after)
+    return float(np.nanmax(history.tension_peak[history.time >= history.time[0] + after][:, columns]))
+
+
+def _parts(assembly: Assembly, history: History) -> dict[str, np.ndarray]:
+    """Return the bars of every line and net whose peaks are looked at again: none where they fill the memory."""
+    found = {name: strand.bars for name, strand in assembly.lines.items()} | dict(assembly.net_bars)
+    if 4 * len(history.network.bars) * history.time.size > MOST_VALUES:
+        return {}
+    return {name: bars for name, bars in found.items() if bars.size and np.isin(bars, history.bars).all()}
+
+
+def _cut(bars: np.ndarray, factor: int) -> np.ndarray:
+    """Return the bars of a mesh whose every bar was cut in ``factor``."""
+    return np.concatenate([factor * bars + part for part in range(factor)])
 
 
 def _early(assembly: Assembly, history: History, skip: float) -> dict[str, float]:
@@ -215,16 +257,16 @@ def _early(assembly: Assembly, history: History, skip: float) -> dict[str, float
 
 
 def _down_to_links(
-    found: PeakSensitivity, assembly: Assembly, event: History, motions: Mapping[str, Motion], bars: np.ndarray,
+    found: PeakSensitivity, assembly: Assembly, event: History, motions: Mapping[str, Motion], line: str,
     window: PeakWindow, options: Mapping[str, Any], progress: Progress,
 ) -> PeakSensitivity:  # fmt: skip
     """Cut the bars of an event in four, eight ... as long as its highest tension changes by a tenth each time."""
-    network, factor, last = event.network, 4, found.double_mesh
+    network, factor, last, bars = event.network, 4, found.double_mesh, _bars_of(assembly, line)
     own = network.bars.length[bars] / (SHORTEST_BAR * network.bars.of_type("diameter")[bars])
     most = min(int(np.min(own)), math.isqrt(int(LADDER_WORK / (len(network.bars) * event.steps))))
     while factor <= most:
         finer, state = refined(network, factor, window.begin)
-        kept = np.concatenate([factor * bars + part for part in range(factor)])
+        kept = _cut(bars, factor)
         shorter = {} if options.get("step") is None else {"step": options["step"] / factor}
         chosen = {**options, **shorter, **_kept(assembly, finer, kept)}
         run = simulate(finer, motions, start=state, progress=progress, **chosen)
@@ -232,12 +274,15 @@ def _down_to_links(
             raise KeyboardInterrupt
         if run.status != "converged":
             break
-        peak, pulls = _peaks_of(assembly, run, kept, window.lead)
-        own = {n: replace(one, finest=pulls[n], factor=factor) for n, one in found.pulls.items() if n in pulls}
-        found = replace(found, finest=peak, factor=factor, pulls=own)
-        if abs(peak / last - 1.0) <= LANDED or factor == most:
+        again = _peaks_of(assembly, run, kept, window.lead)
+        pulls = {
+            n: replace(one, finest=again.pulls[n], factor=factor) for n, one in found.pulls.items() if n in again.pulls
+        }
+        of_line = {line: replace(found.lines[line], finest=again.peak, factor=factor)} if line in found.lines else {}
+        found = replace(found, finest=again.peak, factor=factor, pulls=pulls, lines={**found.lines, **of_line})
+        if abs(again.peak / last - 1.0) <= LANDED or factor == most:
             break
-        factor, last = min(2 * factor, most), peak
+        factor, last = min(2 * factor, most), again.peak
     return found
 
 
@@ -268,7 +313,7 @@ def check_peak(
         Of the run itself.
     motions : mapping of str to Motion
     line : str
-        Line or net whose highest tension is compared.
+        Line or net whose highest tension is compared; those of all others come with it.
     begin : State
     skip : float
         Start-up that does not count [s].
@@ -286,49 +331,57 @@ def check_peak(
     bars = _bars_of(assembly, line)
     if not np.isin(history.bars, bars).any() or not (history.time >= history.time[0] + skip).any():
         return None
-    peak, pulls = _peaks_of(assembly, history, bars, skip)
-
+    parts = _parts(assembly, history)
+    own = _peaks_of(assembly, history, bars, skip, parts)
     early = _early(assembly, history, skip)
 
-    def again(network: Network, start: State, kept: np.ndarray, **more: Any) -> tuple[float, dict[str, float]]:
-        chosen = {**options, **more, **_kept(assembly, network, kept)}
+    def again(network: Network, start: State, factor: int = 1, **more: Any) -> _Peaks:
+        kept, of_parts = _cut(bars, factor), {name: _cut(part, factor) for name, part in parts.items()}
+        every = np.unique(np.concatenate([kept, *of_parts.values()]))
+        chosen = {**options, **more, **_kept(assembly, network, every)}
         found = simulate(network, motions, start=start, progress=progress, **chosen)
         if found.status == "interrupted":
             raise KeyboardInterrupt
         if found.status != "converged":
             raise ConvergenceError(found.message, parameter="sensitivity")
-        top, of_points = _peaks_of(assembly, found, kept, skip)
+        made = _peaks_of(assembly, found, kept, skip, of_parts)
         if rest_flow is None:
             # what another mesh makes of a place between its nodes jerks at the start, and friction on the bed keeps it
             begun = _early(assembly, found, skip)
-            of_points = {n: pull for n, pull in of_points.items() if begun.get(n, 0.0) <= JERK * early.get(n, 0.0)}
-        return top, of_points
+            pulls = {n: pull for n, pull in made.pulls.items() if begun.get(n, 0.0) <= JERK * early.get(n, 0.0)}
+            made = replace(made, pulls=pulls)
+        return made
 
     try:
         finer, state = refined_start(history.network, 2, begin, rest_flow)
         shorter = {} if options.get("step") is None else {"step": 0.5 * options["step"]}
-        kept = np.concatenate([2 * bars, 2 * bars + 1])
-        mesh, on_mesh = again(finer, state, kept, **shorter)
+        mesh = again(finer, state, 2, **shorter)
         exact = options.get("safety") == 1.0
-        step, by_step = (peak, pulls) if exact else again(history.network, begin, bars, step=0.5 * history.step)
-        damped, calmed = math.nan, dict[str, float]()
+        step = own if exact else again(history.network, begin, step=0.5 * history.step)
+        calmed = _Peaks(math.nan, {})
         if not exact and damped_bars(finer) is not finer:
             factor = 2
             while factor * bars.size < DAMPED_BARS:
                 factor *= 2
             calm, state = refined_start(history.network, factor, begin, rest_flow)
-            kept = np.concatenate([factor * bars + part for part in range(factor)])
             shorter = {} if options.get("step") is None else {"step": options["step"] / factor}
-            damped, calmed = again(damped_bars(calm), state, kept, **shorter)
+            calmed = again(damped_bars(calm), state, factor, **shorter)
     except (ConvergenceError, InputError):
         return None
-    own = {
-        name: PeakSensitivity(
-            pulls[name], by_step[name], on_mesh[name], math.nan, math.nan, history.step, calmed.get(name, math.nan)
-        )
-        for name in pulls.keys() & by_step.keys() & on_mesh.keys()
-    }  # fmt: skip
-    return PeakSensitivity(peak, step, mesh, math.nan, math.nan, history.step, damped, pulls=own)
+
+    def gathered(kind: str) -> dict[str, PeakSensitivity]:
+        first, half, finer, calm = (getattr(item, kind) for item in (own, step, mesh, calmed))
+        return {
+            name: PeakSensitivity(
+                first[name], half[name], finer[name], math.nan, math.nan, history.step, calm.get(name, math.nan)
+            )
+            for name in first.keys() & half.keys() & finer.keys()
+        }  # fmt: skip
+
+    return PeakSensitivity(
+        own.peak, step.peak, mesh.peak, math.nan, math.nan, history.step, calmed.peak, pulls=gathered("pulls"),
+        lines=gathered("lines"),
+    )  # fmt: skip
 
 
 def change_of(found: PeakSensitivity) -> float:

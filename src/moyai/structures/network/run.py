@@ -203,7 +203,7 @@ def _at_rest(
 ) -> tuple[dict[str, Equilibrium], dict[str, CoupledEquilibrium]]:
     """Find the networks at rest that the analyses need; tell where there is none."""
     wanted = set(problem.settings.analyses)
-    if not ({"statics", "modes"} & wanted) and problem.settings.start == "as_built":
+    if not ({"statics", "modes"} & wanted) and problem.start == "as_built":
         return {}, {}
     conditions: dict[str, Flow] = {"still water": Flow()}
     if problem.environment.current is not None:
@@ -313,7 +313,7 @@ def _dynamic(
     progress: Progress,
 ) -> Iterator[None]:
     rests, hung = at_rest
-    start = problem.settings.start
+    start = problem.start
     condition = "current" if start == "rest_in_current" and problem.environment.current is not None else "still water"
     if start != "as_built" and condition not in rests:
         collected.failures.append(

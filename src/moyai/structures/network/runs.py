@@ -56,6 +56,8 @@ class RunPlan:
     skip_rule: str = ""
     #: In which the network is at rest where the run starts; ``None`` as built.
     rest_flow: Flow | None = None
+    #: Time over which waves, current and motions grow from nothing [s].
+    growth: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,13 +95,14 @@ def run_plans(problem: NetworkProblem, water: Water) -> tuple[RunPlan, ...]:
     InputError
         When there is nothing to tell how long a run should be.
     """
-    found, start = [], problem.settings.start
+    found, start = [], problem.start
     rest = None if start == "as_built" else steady_flow(problem, water) if start == "rest_in_current" else Flow()
     for plan in _plans(problem, water):
         used = [problem.motions[name] for name in _used_motions(problem) if name]
         waves = plan.period if plan.waves is not None else math.nan
         skip, rule = start_up(problem.settings.skip, used, plan.duration, waves)
-        found.append(replace(plan, skip=skip, skip_rule=rule, rest_flow=rest))
+        grown = [plan.flow.ramp, plan.flow.wave_ramp, *(motion.growth(plan.duration) for motion in used)]
+        found.append(replace(plan, skip=skip, skip_rule=rule, rest_flow=rest, growth=max(grown)))
     return tuple(found)
 
 
@@ -152,9 +155,9 @@ def _flow(
         steady_flow(problem, water), waves=waves, stretching=problem.settings.stretching, steep=steep,
         field=problem.current_field,
     )  # fmt: skip
-    if problem.settings.start == "rest_in_current" and waves is not None:
+    if problem.start == "rest_in_current" and waves is not None:
         return replace(flow, wave_ramp=ramp)
-    return flow if problem.settings.start == "rest_in_current" else replace(flow, ramp=ramp)
+    return flow if problem.start == "rest_in_current" else replace(flow, ramp=ramp)
 
 
 def _output_step(problem: NetworkProblem, period: float, duration: float) -> float:

@@ -100,6 +100,7 @@ def series_of(assembly: Assembly, plan: RunPlan, history: History) -> xr.Dataset
         "status": history.status, "message": history.message, "method": history.method, "step": history.step,
         "steps": history.steps, "period": plan.period, "wave_height": plan.wave_height, "heading": plan.heading,
         "irregular": int(plan.irregular), "theory": plan.theory, "seed": plan.seed, "duration": plan.duration,
+        "growth": plan.growth,
     }  # fmt: skip
     return out
 

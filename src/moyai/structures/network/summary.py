@@ -28,6 +28,8 @@ LOADS_AGAIN = {
     "load_half_step": "half_step", "load_double_mesh": "double_mesh", "load_damped": "damped",
     "load_finest": "finest",
 }  # fmt: skip
+#: Runs that check the mesh, and where their peaks are found.
+CHECKS = {"the run itself": "peak", **{key: key for key in LOADS_AGAIN.values()}}
 #: Largest values of realisations in the summary, by their names in :class:`Realisations`, and their dimensions.
 OF_REALISATIONS = {
     "seeds": ("seed_of_realisation", ()),
@@ -35,6 +37,7 @@ OF_REALISATIONS = {
     "net_tension": ("net_tension_maximum_of_realisation", ("net",)),
     "load": ("load_of_realisation", ("point", "measure")),
     "excursion": ("excursion_of_realisation", ("point",)),
+    "reach": ("distance_from_anchor_of_realisation", ("point",)),
 }  # fmt: skip
 #: Motions of bodies in the summary.
 SOLID = ("offset", "mean_offset", "heave_range", "roll_range", "pitch_range", "yaw_range", "highest_lean")
@@ -87,6 +90,7 @@ def summary_dataset(
             pulls: list[dict[str, Any]] = [dict(item.sensitivity.pulls) if item.sensitivity else {} for item in runs]
             values = [[getattr(own.get(name), key, math.nan) for name in names] for own in pulls]
             out[label] = (("run", "point"), np.array(values))
+        out |= _of_checks(runs, {"line": lines, "net": list(assembly.net_bars)})
     out |= _of_realisations(runs)
     if rest is not None and names:
         out["still_place"] = (("point", "axis"), np.asarray(rest))
@@ -95,12 +99,32 @@ def summary_dataset(
     coords: dict[str, Any] = {"run": [item.plan.name for item in runs], "line": lines, "point": names}
     if solids:
         coords["solid"] = solids
+    if any("check" in dims for dims, _ in out.values()):
+        coords["check"] = list(CHECKS)
     if "load_of_realisation" in out:
-        coords |= {"measure": MEASURES, "net": list(assembly.net_bars)}
+        coords["measure"] = MEASURES
+    if {"net_tension_maximum_of_realisation", "net_tension_of_check"} & out.keys():
+        coords["net"] = list(assembly.net_bars)
     made = labelled(xr.Dataset(out, coords=coords))
     made.attrs |= {f"governing {item.plan.name}": item.governing for item in runs}
     made.attrs |= {f"doubt {item.plan.name}": item.doubt for item in runs}
+    made.attrs |= {f"few {name}": said for item in runs for name, said in item.few_bars.items()}
     return made
+
+
+def _of_checks(runs: list[NetworkRun], names: dict[str, list[str]]) -> dict[str, Any]:
+    """Return the highest tension of every line and net in the runs that check the mesh; not a number where none did."""
+    out: dict[str, Any] = {}
+    for kind, of_kind in names.items():
+        values = np.full((len(runs), len(of_kind), len(CHECKS)), math.nan)
+        for row, item in enumerate(runs):
+            for column, name in enumerate(of_kind):
+                found = None if item.sensitivity is None else item.sensitivity.lines.get(name)
+                if found is not None:
+                    values[row, column] = [getattr(found, key) for key in CHECKS.values()]
+        if np.isfinite(values).any():
+            out[f"{kind}_tension_of_check"] = (("run", kind, "check"), values)
+    return out
 
 
 def _of_realisations(runs: list[NetworkRun]) -> dict[str, Any]:

@@ -36,42 +36,27 @@ _LEVELS = 41  # Simpson points over the draught for the current
 
 @dataclass(frozen=True, eq=False)
 class RowAtLevel:
-    """The row at rest at one water level; z = 0 is that level.
+    """The row at rest at one water level; z = 0 is that level."""
 
-    Parameters
-    ----------
-    name : str
-        Of the water level.
-    level : float
-        [m] above datum.
-    water : Water
-    row : FloatingRow
-    section : Section
-    draught : float
-        [m].
-    masses : ndarray (u,)
-        [kg].
-    statics : Hydrostatics
-        Of one unit across its length.
-    centres : ndarray (u, 3)
-        Centres of gravity [m], row axes.
-    joints : tuple of Joint
-    constraint : ndarray (c, m)
-    lines : tuple of tuple of LineElement
-        Of every unit, in row axes counted from its centre of gravity.
-    """
-
+    #: Of the water level.
     name: str
+    #: [m] above datum.
     level: float
     water: Water
     row: FloatingRow
     section: Section
+    #: [m].
     draught: float
+    #: [kg]; shape (u,).
     masses: Array
+    #: Of one unit across its length.
     statics: Hydrostatics
+    #: Centres of gravity [m], row axes; shape (u, 3).
     centres: Array
     joints: tuple[UnitJoint, ...]
+    #: Shape (c, m).
     constraint: Array
+    #: Of every unit, in row axes counted from its centre of gravity.
     lines: tuple[tuple[LineElement, ...], ...]
 
     @property
@@ -322,19 +307,13 @@ def _vector(values: Array) -> tuple[float, float, float]:
 
 @dataclass(frozen=True, eq=False)
 class RowPosition:
-    """The row at rest under steady loads.
+    """The row at rest under steady loads."""
 
-    Parameters
-    ----------
-    position : ndarray (m,)
-        From rest, row axes.
-    load : ndarray (m,)
-    held_load : ndarray (c,)
-        Of the constraints.
-    """
-
+    #: From rest, row axes; shape (m,).
     position: Array
+    #: Shape (m,).
     load: Array
+    #: Of the constraints; shape (c,).
     held_load: Array
 
 

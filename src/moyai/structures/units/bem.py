@@ -46,24 +46,15 @@ def engine_version() -> str:
 
 @dataclass(frozen=True, eq=False)
 class MeshPanels:
-    """A mesh with what a solution needs of it.
-
-    Parameters
-    ----------
-    mesh : PanelMesh
-    modes : ndarray (m, n)
-        Normal displacement of every panel in every motion; zero on lids.
-    symmetry : Symmetry
-    gap_damping : float
-        epsilon of the lids in the gaps.
-    even : bool
-        Whether potentials are taken as even over a panel, as Capytaine does: for comparisons.
-    """
+    """A mesh with what a solution needs of it."""
 
     mesh: PanelMesh
+    #: Normal displacement of every panel in every motion; zero on lids; shape (m, n).
     modes: Array
     symmetry: Symmetry
+    #: epsilon of the lids in the gaps.
     gap_damping: float = 0.0
+    #: Whether potentials are taken as even over a panel, as Capytaine does: for comparisons.
     even: bool = False
 
     @cached_property
@@ -153,34 +144,29 @@ def check_memory(panels: MeshPanels) -> None:
 
 @dataclass(frozen=True, eq=False)
 class Solution:
-    """Everything at one frequency.
+    """Everything at one frequency."""
 
-    Parameters
-    ----------
-    omega, wave_number : float
-        [rad/s], [1/m].
-    added_mass, damping : ndarray (m, m)
-        Of all motions on all: force in row i by motion j.
-    excitation : ndarray (h, m)
-        Force of a wave of unit amplitude, phase at the origin of the row.
-    radiation, diffraction : ndarray (n, m), (n, h)
-        Potential on the panels per unit displacement and per unit wave amplitude, incident wave left out; in gaps the
-        sources of the damped surface.
-    radiated, scattered : ndarray (m, directions), (h, directions)
-        Amplitude A of the far waves A sqrt(2 / (pi k R)) e^{i (k R - pi/4)}, per unit displacement and amplitude.
-    haskind : ndarray (6,)
-        Largest departure of the excitation from that of the radiation alone, a kind of motion.
-    """
-
+    #: ``omega``, ``wave_number``: [rad/s], [1/m].
     omega: float
+    #: See ``omega``.
     wave_number: float
+    #: ``added_mass``, ``damping``: Of all motions on all: force in row i by motion j; shape (m, m).
     added_mass: Array
+    #: See ``added_mass``.
     damping: Array
+    #: Force of a wave of unit amplitude, phase at the origin of the row; shape (h, m).
     excitation: ComplexArray
+    #: ``radiation``, ``diffraction``: Potential on the panels per unit displacement and per unit wave amplitude,
+    #: incident wave left out; in gaps the sources of the damped surface; shapes (n, m) and (n, h).
     radiation: ComplexArray
+    #: See ``radiation``.
     diffraction: ComplexArray
+    #: ``radiated``, ``scattered``: Amplitude A of the far waves A sqrt(2 / (pi k R)) e^{i (k R - pi/4)}, per unit
+    #: displacement and amplitude; shapes (m, directions) and (h, directions).
     radiated: ComplexArray
+    #: See ``radiated``.
     scattered: ComplexArray
+    #: Largest departure of the excitation from that of the radiation alone, a kind of motion; shape (6,).
     haskind: Array
 
     def among(self, columns: IntArray) -> Solution:

@@ -40,15 +40,9 @@ STIFFNESS_REPORTED, STIFFNESS_REFUSED = 0.02, 0.1
 
 @dataclass(frozen=True, eq=False)
 class FileOfRow:
-    """What a file says of the row at one level.
+    """What a file says of the row at one level."""
 
-    Parameters
-    ----------
-    hydro : RowHydrodynamics
-        At the frequencies and headings of the seas.
-    notices : tuple of Notice
-    """
-
+    #: At the frequencies and headings of the seas.
     hydro: RowHydrodynamics
     notices: tuple[Notice, ...]
 

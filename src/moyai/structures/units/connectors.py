@@ -23,36 +23,23 @@ _RANK = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class UnitJoint:
-    """One connector at one place.
+    """One connector at one place."""
 
-    Parameters
-    ----------
-    name : str
-        Of the connector with its units, counted from 1.
-    connector : Connector
-    pair : tuple of (int, int)
-    place : ndarray (3,)
-        [m], row axes.
-    relative : ndarray (6, m)
-        Relative motion of all motions of all units.
-    held : ndarray (c, 6)
-        Directions of the relative motion that are held.
-    span : float
-        Distance of its ends at rest [m].
-    frame : ndarray (3, 3)
-        From row axes to those of the gap.
-    from_end_to_end : ndarray (3,)
-        Unit vector from the near end to the far end at rest, the same axes; zero where they meet.
-    """
-
+    #: Of the connector with its units, counted from 1.
     name: str
     connector: Connector
     pair: tuple[int, int]
+    #: [m], row axes; shape (3,).
     place: Array
+    #: Relative motion of all motions of all units; shape (6, m).
     relative: Array
+    #: Directions of the relative motion that are held; shape (c, 6).
     held: Array
+    #: Distance of its ends at rest [m].
     span: float
+    #: From row axes to those of the gap; shape (3, 3).
     frame: Array
+    #: Unit vector from the near end to the far end at rest, the same axes; zero where they meet; shape (3,).
     from_end_to_end: Array
 
     @property

@@ -27,28 +27,21 @@ _EDGE = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class UnitFace:
-    """An end or a side of a unit in plan, row axes.
+    """An end or a side of a unit in plan, row axes."""
 
-    Parameters
-    ----------
-    unit : int
-        Counted from 0.
-    kind : int
-        0: the end at +y, 1: the side at +x, 2: the side at -x, 3: the end at -y.
-    middle : ndarray (2,)
-        On the axis of the unit [m].
-    normal, along : ndarray (2,)
-        Outward, and along it, so that (along, normal, up) is right-handed.
-    low, high : float
-        Where it begins and ends along ``along`` from ``middle`` [m].
-    """
-
+    #: Counted from 0.
     unit: int
+    #: 0: the end at +y, 1: the side at +x, 2: the side at -x, 3: the end at -y.
     kind: int
+    #: On the axis of the unit [m]; shape (2,).
     middle: Array
+    #: ``normal``, ``along``: Outward, and along it, so that (along, normal, up) is right-handed; shape (2,).
     normal: Array
+    #: See ``normal``.
     along: Array
+    #: ``low``, ``high``: Where it begins and ends along ``along`` from ``middle`` [m].
     low: float
+    #: See ``low``.
     high: float
 
     @property
@@ -80,19 +73,15 @@ class UnitFace:
 
 @dataclass(frozen=True, eq=False)
 class Meeting:
-    """Two faces that face each other, and the points in plan where a connector on their axes stands.
+    """Two faces that face each other, and the points in plan where a connector on their axes stands."""
 
-    Parameters
-    ----------
-    near, far : Face
-        The gap leads from the near one to the far one.
-    start, end : ndarray (2,)
-        Points of both [m].
-    """
-
+    #: ``near``, ``far``: The gap leads from the near one to the far one.
     near: UnitFace
+    #: See ``near``.
     far: UnitFace
+    #: ``start``, ``end``: Points of both [m]; shape (2,).
     start: Array
+    #: See ``start``.
     end: Array
 
     @property

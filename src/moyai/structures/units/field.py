@@ -28,25 +28,19 @@ LINE_POINTS = 41
 
 @dataclass(frozen=True, eq=False)
 class MapPoints:
-    """Where the waves are computed.
+    """Where the waves are computed."""
 
-    Parameters
-    ----------
-    x, y : ndarray
-        Of the map [m].
-    points : ndarray (p, 2)
-        Map (y slowest), named points, line; all of them.
-    wet : ndarray (p,) of bool
-        Whether a point lies outside of all units.
-    named, line : slice
-        Where named points and the line stand.
-    """
-
+    #: ``x``, ``y``: Of the map [m].
     x: Array
+    #: See ``x``.
     y: Array
+    #: Map (y slowest), named points, line; all of them; shape (p, 2).
     points: Array
+    #: Whether a point lies outside of all units; shape (p,).
     wet: NDArray[np.bool_]
+    #: ``named``, ``line``: Where named points and the line stand.
     named: slice
+    #: See ``named``.
     line: slice
 
 
@@ -79,17 +73,11 @@ def _inside(points: Array, corners: Array) -> NDArray[np.bool_]:
 
 @dataclass(frozen=True, eq=False)
 class WaveField:
-    """Elevation at points (p,) for every frequency that was solved, row axes.
+    """Elevation at points (p,) for every frequency that was solved, row axes."""
 
-    Parameters
-    ----------
-    radiated : list of ndarray (p, m)
-        Per unit displacement.
-    diffracted : list of ndarray (p, h)
-        Incident and scattered, per unit wave amplitude.
-    """
-
+    #: Per unit displacement; shape (p, m).
     radiated: tuple[ComplexArray, ...]
+    #: Incident and scattered, per unit wave amplitude; shape (p, h).
     diffracted: tuple[ComplexArray, ...]
 
 

@@ -22,32 +22,21 @@ from moyai.structures.units.links import displacement, hold_together
 
 @dataclass(frozen=True, eq=False)
 class Gap:
-    """The water between two units that face each other.
+    """The water between two units that face each other."""
 
-    Parameters
-    ----------
-    name : str
-        With the numbers of the units, counted from 1.
-    pair : tuple of (int, int)
-        Units, counted from 0.
-    width : float
-        Least clearance of a corner at rest [m].
-    along : ndarray (corners, 3)
-        From the first unit to the second, row axes.
-    arms : ndarray (2, corners, 3)
-        Points that touch, from the centres of their units [m], row axes.
-    weight : ndarray (corners,)
-        Width over the clearance of a corner: closings are those of a gap of this width.
-    bend : float
-        1 where turns count to second order, 0 where the units are held together along their gap.
-    """
-
+    #: With the numbers of the units, counted from 1.
     name: str
+    #: Units, counted from 0.
     pair: tuple[int, int]
+    #: Least clearance of a corner at rest [m].
     width: float
+    #: From the first unit to the second, row axes; shape (corners, 3).
     along: Array
+    #: Points that touch, from the centres of their units [m], row axes; shape (2, corners, 3).
     arms: Array
+    #: Width over the clearance of a corner: closings are those of a gap of this width; shape (corners,).
     weight: Array
+    #: 1 where turns count to second order, 0 where the units are held together along their gap.
     bend: float
 
     def rows(self, size: int) -> Array:

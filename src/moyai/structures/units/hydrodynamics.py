@@ -40,36 +40,23 @@ RECENT_BYTES = 200_000_000
 
 @dataclass(frozen=True, eq=False)
 class RowHydrodynamics:
-    """Coefficients of all units at one water level.
+    """Coefficients of all units at one water level."""
 
-    Parameters
-    ----------
-    panels : Panels or None
-        None of coefficients from a file.
-    water : Water
-    centres : ndarray (u, 3)
-        Centres of gravity [m], row axes; motions are about them.
-    headings : ndarray (h,)
-        [rad].
-    solutions : tuple of Solution
-        In rising frequency.
-    checks : tuple of IdentityCheck
-    drift : ndarray (f, h, 3) or None
-        Mean drift of the whole row that a file holds [N/m2], [N m/m2].
-    band : RowHydrodynamics or None
-        All frequencies of the file.
-    source : str
-        Program and file.
-    """
-
+    #: None of coefficients from a file.
     panels: MeshPanels | None
     water: Water
+    #: Centres of gravity [m], row axes; motions are about them; shape (u, 3).
     centres: Array
+    #: [rad]; shape (h,).
     headings: Array
+    #: In rising frequency.
     solutions: tuple[Solution, ...]
     checks: tuple[IdentityCheck, ...]
+    #: Mean drift of the whole row that a file holds [N/m2], [N m/m2]; shape (f, h, 3).
     drift: Array | None = None
+    #: All frequencies of the file.
     band: RowHydrodynamics | None = None
+    #: Program and file.
     source: str = ""
 
     @cached_property

@@ -48,18 +48,11 @@ def _holds(joint: UnitJoint) -> bool:
 
 @dataclass(frozen=True, eq=False)
 class Work:
-    """How curves are worked about the mean position.
+    """How curves are worked about the mean position."""
 
-    Parameters
-    ----------
-    width : float
-        Half width [m] that their corners are rounded over at least.
-    sizes : ndarray (links,)
-        Amplitude in regular waves, standard deviation in a sea [m]; empty at rest.
-    regular : bool
-    """
-
+    #: Half width [m] that their corners are rounded over at least.
     width: float
+    #: Amplitude in regular waves, standard deviation in a sea [m]; empty at rest; shape (links,).
     sizes: Array = field(default_factory=lambda: np.zeros(0))
     regular: bool = False
 
@@ -70,43 +63,28 @@ class Work:
 
 @dataclass(frozen=True, eq=False)
 class Link:
-    """One curve between two ends, in row axes.
+    """One curve between two ends, in row axes."""
 
-    Parameters
-    ----------
-    joint : int
-        Number of its connector.
-    number : int
-        Its own.
-    curve : Curve
-    side : float
-        ``PULLS``, ``PUSHES`` or ``BOTH``.
-    damping : float
-        Of its dashpot [N s/m].
-    pair : tuple of (int, int)
-        Units that it joins, counted from 0.
-    arms : ndarray (2, 3)
-        Its ends from the centres of both units [m].
-    axis : ndarray (3,)
-        Direction at rest, from the near end to the far end.
-    span : float
-        Distance of the ends at rest [m]; zero of a curve that keeps its direction.
-    frame : ndarray (3, 3)
-        From row axes to those of the gap.
-    bend : float
-        1 where turns count to second order, 0 where units are held together along their gap.
-    """
-
+    #: Number of its connector.
     joint: int
+    #: Its own.
     number: int
     curve: Curve
+    #: ``PULLS``, ``PUSHES`` or ``BOTH``.
     side: float
+    #: Of its dashpot [N s/m].
     damping: float
+    #: Units that it joins, counted from 0.
     pair: tuple[int, int]
+    #: Its ends from the centres of both units [m]; shape (2, 3).
     arms: Array
+    #: Direction at rest, from the near end to the far end; shape (3,).
     axis: Array
+    #: Distance of the ends at rest [m]; zero of a curve that keeps its direction.
     span: float
+    #: From row axes to those of the gap; shape (3, 3).
     frame: Array
+    #: 1 where turns count to second order, 0 where units are held together along their gap.
     bend: float
 
     def _ends(self, position: Array) -> tuple[tuple[float, Array, Array], ...]:

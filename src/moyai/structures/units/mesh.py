@@ -38,20 +38,13 @@ LEAST_GAP = 0.1
 
 @dataclass(frozen=True, eq=False)
 class PanelMesh:
-    """Panels of all units.
+    """Panels of all units."""
 
-    Parameters
-    ----------
-    corners : ndarray (n, 4, 3)
-        [m].
-    unit : ndarray (n,) of int
-        Unit that a panel belongs to; of a lid in a gap the unit before it.
-    part : ndarray (n,) of int
-        ``HULL``, ``LID`` (still water inside of a hull) or ``GAP`` (water surface between two units).
-    """
-
+    #: [m]; shape (n, 4, 3).
     corners: Array
+    #: Unit that a panel belongs to; of a lid in a gap the unit before it; shape (n,).
     unit: IntArray
+    #: ``HULL``, ``LID`` (still water inside of a hull) or ``GAP`` (water surface between two units); shape (n,).
     part: IntArray
 
     @property

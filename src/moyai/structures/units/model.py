@@ -105,128 +105,88 @@ class Curve:
 @checks_words
 @dataclass(frozen=True)
 class Connector:
-    """A connector between neighbours.
-
-    Parameters
-    ----------
-    name : str
-    kind : str
-        ``rigid`` holds all six relative motions, ``hinge`` all but the turn about its axis, ``ball`` the three
-        translations; ``spring`` has stiffness and damping of 6 x 6; ``rubber``, ``chain`` and ``fender`` have a
-        curve of force over elongation, along one direction or from end to end.
-    pairs : tuple of (int, int)
-        Units that it joins, counted from 0.
-    x, above_keel : float
-        Where: across from the centre line and above the keel [m]; along, the middle of the gap.
-    axis : tuple of three float
-        Axis of a hinge, direction of a curve, in axes of the gap.
-    stiffness, damping : ndarray (6, 6) or None
-        Of a spring [N/m, N, N m], [N s/m, N s, N m s].
-    curve : Curve or None
-    linear_damping : float
-        Of a curve, per rate of elongation [N s/m].
-    breaking_load : float
-        Largest resultant force [N]; infinite where it is not known.
-    endurance : EnduranceCurve or None
-        Cycles that it bears over the range of its force [N].
-    end_to_end : bool
-        Whether chain or rubber is drawn between its ends in space; else a curve acts along ``axis`` alone.
-    """
+    """A connector between neighbours."""
 
     name: str
+    #: ``rigid`` holds all six relative motions, ``hinge`` all but the turn about its axis, ``ball`` the three
+    #: translations; ``spring`` has stiffness and damping of 6 x 6; ``rubber``, ``chain`` and ``fender`` have a curve of
+    #: force over elongation, along one direction or from end to end.
     kind: ConnectorKind
+    #: Units that it joins, counted from 0.
     pairs: tuple[tuple[int, int], ...]
+    #: ``x``, ``above_keel``: Where: across from the centre line and above the keel [m]; along, the middle of the gap.
     x: float = 0.0
+    #: See ``x``.
     above_keel: float = 0.0
+    #: Axis of a hinge, direction of a curve, in axes of the gap.
     axis: tuple[float, float, float] = (1.0, 0.0, 0.0)
+    #: ``stiffness``, ``damping``: Of a spring [N/m, N, N m], [N s/m, N s, N m s]; shape (6, 6).
     stiffness: Array | None = None
+    #: See ``stiffness``.
     damping: Array | None = None
     curve: Curve | None = None
+    #: Of a curve, per rate of elongation [N s/m].
     linear_damping: float = 0.0
+    #: Largest resultant force [N]; infinite where it is not known.
     breaking_load: float = math.inf
+    #: Cycles that it bears over the range of its force [N].
     endurance: EnduranceCurve | None = None
+    #: Whether chain or rubber is drawn between its ends in space; else a curve acts along ``axis`` alone.
     end_to_end: bool = False
 
 
 @dataclass(frozen=True)
 class UnitLine:
-    """Identical lines of one unit; a spring of a laboratory has ``stiffness`` and no segments.
-
-    Parameters
-    ----------
-    name : str
-    count : int
-    units : tuple of int
-        Units that have it, counted from 0.
-    fairlead : tuple of three float
-        x across, y along from the middle of the unit, z above the keel [m].
-    anchor : tuple of three float
-        x, y from the middle of the unit, in its axes [m]; z above the bed, of a spring from still water at datum.
-    segments, clumps, bed_friction
-        As of :class:`moyai.mooring.Line`.
-    stiffness, pretension : float
-        Of a spring [N/m], [N].
-    bar_types : tuple of BarType
-        What the segments are made of, for a line in motion; empty where a segment does not tell enough.
-    clump_bodies : tuple of (float, float)
-        Mass [kg] and volume [m3] of the clumps.
-    """
+    """Identical lines of one unit; a spring of a laboratory has ``stiffness`` and no segments."""
 
     name: str
     count: int
+    #: Units that have it, counted from 0.
     units: tuple[int, ...]
+    #: x across, y along from the middle of the unit, z above the keel [m].
     fairlead: tuple[float, float, float]
+    #: x, y from the middle of the unit, in its axes [m]; z above the bed, of a spring from still water at datum.
     anchor: tuple[float, float, float]
+    #: ``segments``, ``clumps``, ``bed_friction``: As of :class:`moyai.mooring.Line`.
     segments: tuple[Segment, ...] = ()
+    #: See ``segments``.
     clumps: tuple[Clump, ...] = ()
+    #: See ``segments``.
     bed_friction: float = 0.0
+    #: ``stiffness``, ``pretension``: Of a spring [N/m], [N].
     stiffness: float = 0.0
+    #: See ``stiffness``.
     pretension: float = 0.0
+    #: What the segments are made of, for a line in motion; empty where a segment does not tell enough.
     bar_types: tuple[BarType, ...] = ()
+    #: Mass [kg] and volume [m3] of the clumps.
     clump_bodies: tuple[tuple[float, float], ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
 class FloatingRow:
-    """Equal units in a row, their connectors and lines.
+    """Equal units in a row, their connectors and lines."""
 
-    Parameters
-    ----------
-    hull : Hull
-        Section, keel to deck.
-    length : float
-        Of one unit [m].
-    draught : float
-        At the first water level [m].
-    centre_of_gravity_above_keel : float
-        [m].
-    gyradii : tuple of three float
-        Of pitch (about x), roll (about y) and yaw about the centre of gravity [m].
-    placements : tuple of Placement
-    connectors : tuple of Connector
-    lines : tuple of UnitLine
-    damping_fraction : ndarray (6,)
-        Fraction of critical damping of every motion of a unit, beyond wave radiation.
-    linear_damping : ndarray (6,)
-        Damping of a unit beyond wave radiation [N s/m, N m s].
-    viscous_factor : float
-        What the damping by eddies at the edges of the section is multiplied with; 0 where it is not computed.
-    gap_damping_lid : float
-        epsilon of the lids in the gaps; 0 for none.
-    wind_drag_coefficient, current_drag_coefficient : float or None
-    """
-
+    #: Section, keel to deck.
     hull: Hull
+    #: Of one unit [m].
     length: float
+    #: At the first water level [m].
     draught: float
+    #: [m].
     centre_of_gravity_above_keel: float
+    #: Of pitch (about x), roll (about y) and yaw about the centre of gravity [m].
     gyradii: tuple[float, float, float]
     placements: tuple[Placement, ...]
     connectors: tuple[Connector, ...] = ()
     lines: tuple[UnitLine, ...] = ()
+    #: Fraction of critical damping of every motion of a unit, beyond wave radiation; shape (6,).
     damping_fraction: Array = field(default_factory=lambda: np.zeros(6))
+    #: Damping of a unit beyond wave radiation [N s/m, N m s]; shape (6,).
     linear_damping: Array = field(default_factory=lambda: np.zeros(6))
+    #: What the damping by eddies at the edges of the section is multiplied with; 0 where it is not computed.
     viscous_factor: float = 0.0
+    #: epsilon of the lids in the gaps; 0 for none.
     gap_damping_lid: float = 0.0
     wind_drag_coefficient: float | None = None
     current_drag_coefficient: float | None = None
@@ -252,111 +212,71 @@ class FloatingRow:
 
 @dataclass(frozen=True)
 class MapArea:
-    """Where the waves are computed: rectangle [m] in the frame of the row, cells, named points, a line behind.
-
-    Parameters
-    ----------
-    x, y : tuple of two float
-    cells : tuple of two int
-        Along x and y.
-    points : tuple of (str, float, float)
-        Name, x, y.
-    line : tuple of four float or None
-        x, y of both ends of the line that transmission is averaged over.
-    """
+    """Where the waves are computed: rectangle [m] in the frame of the row, cells, named points, a line behind."""
 
     x: tuple[float, float]
     y: tuple[float, float]
+    #: Along x and y.
     cells: tuple[int, int]
+    #: Name, x, y.
     points: tuple[tuple[str, float, float], ...] = ()
+    #: x, y of both ends of the line that transmission is averaged over.
     line: tuple[float, float, float, float] | None = None
 
 
 @dataclass(frozen=True)
 class UnitTimeSettings:
-    """How the time domain is run; ``None`` means that the program chooses.
+    """How the time domain is run; ``None`` means that the program chooses."""
 
-    Parameters
-    ----------
-    time_step : float or None
-        [s].
-    ramp : float or None
-        Length of the cosine ramp of the waves [s].
-    duration : float or None
-        Simulated time of regular waves [s] (irregular seas carry their own).
-    analysed_periods : int
-        Whole periods at the end that are analysed in regular waves.
-    realisations : int
-        Of every irregular sea.
-    memory_frequencies : int
-        Frequencies over the band that the memory of the water is fitted to, those of the seas among them.
-    """
-
+    #: [s].
     time_step: float | None = None
+    #: Length of the cosine ramp of the waves [s].
     ramp: float | None = None
+    #: Simulated time of regular waves [s] (irregular seas carry their own).
     duration: float | None = None
+    #: Whole periods at the end that are analysed in regular waves.
     analysed_periods: int = 10
+    #: Of every irregular sea.
     realisations: int = 5
+    #: Frequencies over the band that the memory of the water is fitted to, those of the seas among them.
     memory_frequencies: int = 24
 
 
 @checks_words
 @dataclass(frozen=True)
 class UnitSettings:
-    """Which analyses are run and how.
+    """Which analyses are run and how."""
 
-    Parameters
-    ----------
-    analyses : tuple of str
-    panel_size : float
-        Largest step of the panels [m].
-    frequencies : tuple of float or None
-        Angular frequencies of the coefficients [rad/s]; ``None``: from the seas.
-    frequency_count : int
-        Number of frequencies of each irregular sea where they follow from the seas.
-    drift : bool
-        Whether the mean drift force moves the row.
-    section_compare : bool
-        Whether the two-dimensional section is computed next to the row.
-    time : TimeSettings
-    nominal : bool
-        Whether the band of the damping is left out, and seas take coefficients at round frequencies, which serve
-        the next sea as well: for drafts.
-    """
-
+    #: Largest step of the panels [m].
     panel_size: float
     analyses: tuple[Analysis, ...] = ("statics", "frequency", "map")
+    #: Angular frequencies of the coefficients [rad/s]; ``None``: from the seas.
     frequencies: tuple[float, ...] | None = None
+    #: Number of frequencies of each irregular sea where they follow from the seas.
     frequency_count: int = 20
+    #: Whether the mean drift force moves the row.
     drift: bool = True
+    #: Whether the two-dimensional section is computed next to the row.
     section_compare: bool = True
     time: UnitTimeSettings = field(default_factory=UnitTimeSettings)
+    #: Whether the band of the damping is left out, and seas take coefficients at round frequencies, which serve the
+    #: next sea as well: for drafts.
     nominal: bool = False
 
 
 @dataclass(frozen=True)
 class RowCoefficients:
-    """Coefficients of all units together from the file of another program.
-
-    Parameters
-    ----------
-    program : str
-    path : Path
-    options : mapping
-        Of the reader.
-    bodies : tuple of str
-        Bodies of the file in the order of the units; empty for that of the file.
-    origin : tuple of two float
-        Origin of the axes of the file in those of the row [m].
-    heading : float
-        From the x axis of the row to that of the file [rad].
-    """
+    """Coefficients of all units together from the file of another program."""
 
     program: str
     path: Path
+    #: Of the reader.
     options: Mapping[str, Any] = field(default_factory=dict)
+    #: Bodies of the file in the order of the units; empty for that of the file.
     bodies: tuple[str, ...] = ()
+    #: Origin of the axes of the file in those of the row [m].
     origin: tuple[float, float] = (0.0, 0.0)
+    #: From the x axis of the row to that of the file [rad].
     heading: float = 0.0
 
 

@@ -31,23 +31,15 @@ _POWER = 2.0 / 3.0
 
 @dataclass(frozen=True, eq=False)
 class Waterline:
-    """Sides of hull panels in the still water surface.
+    """Sides of hull panels in the still water surface."""
 
-    Parameters
-    ----------
-    panel : ndarray (w,) of int
-        Panel of each side.
-    middle : ndarray (w, 3)
-        [m].
-    normal : ndarray (w, 2)
-        Level unit normal into the water.
-    length : ndarray (w,)
-        [m].
-    """
-
+    #: Panel of each side; shape (w,).
     panel: IntArray
+    #: [m]; shape (w, 3).
     middle: Array
+    #: Level unit normal into the water; shape (w, 2).
     normal: Array
+    #: [m]; shape (w,).
     length: Array
 
 
@@ -70,36 +62,27 @@ def waterline_of(panels: MeshPanels) -> Waterline:
 
 @dataclass(frozen=True, eq=False)
 class SharpEdges:
-    """Panels at sharp edges and those next to them, with the powers of the distance through three centres.
+    """Panels at sharp edges and those next to them, with the powers of the distance through three centres."""
 
-    Parameters
-    ----------
-    panel : ndarray (e,) of int
-    axis : ndarray (e,) of int
-        Direction of the panel that runs to the edge.
-    sign : ndarray (e,)
-        1 where the distance from the edge grows along the axis, else -1.
-    place, inward : ndarray (e, 3)
-        Middle of the edge [m] and unit vector from it over the hull.
-    near, far : ndarray (e,)
-        Distance of its sides from the edge [m].
-    centres : ndarray (e, 3) of int
-        Panels through whose centres the powers are drawn.
-    reach : ndarray (e, 3)
-        Distance of the centres from the edge [m].
-    factors : ndarray (e, 2, 3)
-        Of the powers 2/3 and 4/3, from the values there.
-    """
-
+    #: Shape (e,).
     panel: IntArray
+    #: Direction of the panel that runs to the edge; shape (e,).
     axis: IntArray
+    #: 1 where the distance from the edge grows along the axis, else -1; shape (e,).
     sign: Array
+    #: ``place``, ``inward``: Middle of the edge [m] and unit vector from it over the hull; shape (e, 3).
     place: Array
+    #: See ``place``.
     inward: Array
+    #: ``near``, ``far``: Distance of its sides from the edge [m]; shape (e,).
     near: Array
+    #: See ``near``.
     far: Array
+    #: Panels through whose centres the powers are drawn; shape (e, 3).
     centres: IntArray
+    #: Distance of the centres from the edge [m]; shape (e, 3).
     reach: Array
+    #: Of the powers 2/3 and 4/3, from the values there; shape (e, 2, 3).
     factors: Array
 
     def powers(self, potential: ComplexArray, carried: ComplexArray) -> tuple[ComplexArray, ComplexArray, ComplexArray]:
@@ -175,11 +158,6 @@ class NearField:
     The drift is a sum over products of linear quantities: velocity by velocity and displacement by velocity on every
     hull panel, powers by powers at the edges, elevation by elevation along the waterline. It is summed for the motions
     asked for; of a wave that was asked for often, every pair of motions is summed once and the drift follows from them.
-
-    Parameters
-    ----------
-    at : RowAtLevel
-    panels : Panels
     """
 
     at: RowAtLevel

@@ -23,18 +23,11 @@ from moyai.structures.units.viscous import Eddies, LinearEddies
 
 @dataclass(frozen=True, eq=False)
 class RowModel:
-    """The row at one level with its coefficients, about one position of rest.
-
-    Parameters
-    ----------
-    at : RowAtLevel
-    hydro : RowHydrodynamics
-    position : ndarray (m,)
-        Mean position that lines and curves are taken at.
-    """
+    """The row at one level with its coefficients, about one position of rest."""
 
     at: RowAtLevel
     hydro: RowHydrodynamics
+    #: Mean position that lines and curves are taken at; shape (m,).
     position: Array
 
     @cached_property
@@ -50,26 +43,18 @@ class RowModel:
 
 @dataclass(frozen=True, eq=False)
 class RowWaves:
-    """What waves of given frequencies do to the row, wherever it comes to rest: the turns of a sea share it.
-
-    Parameters
-    ----------
-    at : RowAtLevel
-    omega : ndarray (n,)
-        [rad/s].
-    added_mass, damping : ndarray (n, m, m)
-        Of the waves that the units make.
-    excitation : ndarray (n, h, m)
-        Per metre of amplitude.
-    water : ndarray (n, h, k)
-        Undisturbed wave in the measures of eddies; empty without them.
-    """
+    """What waves of given frequencies do to the row, wherever it comes to rest: the turns of a sea share it."""
 
     at: RowAtLevel
+    #: [rad/s]; shape (n,).
     omega: Array
+    #: ``added_mass``, ``damping``: Of the waves that the units make; shape (n, m, m).
     added_mass: Array
+    #: See ``added_mass``.
     damping: Array
+    #: Per metre of amplitude; shape (n, h, m).
     excitation: ComplexArray
+    #: Undisturbed wave in the measures of eddies; empty without them; shape (n, h, k).
     water: ComplexArray
 
     @classmethod
@@ -96,28 +81,19 @@ class RowWaves:
 
 @dataclass(frozen=True, eq=False)
 class RowResponse:
-    """Transfer functions at frequencies (n,) and headings (h,).
+    """Transfer functions at frequencies (n,) and headings (h,)."""
 
-    Parameters
-    ----------
-    omega : ndarray (n,)
-    motion : ndarray (n, h, m)
-        Row axes, about the centres of gravity.
-    relative : ndarray (n, h, joints, 6)
-        Relative motion of every connector.
-    load : ndarray (n, h, joints, 6)
-        Load of every connector on the unit before it.
-    tension : ndarray (n, h, lines)
-        [N/m], linear about the mean position.
-    dissipated : ndarray (n, h)
-        Mean power that damping beyond waves takes [W/m2].
-    """
-
+    #: Shape (n,).
     omega: Array
+    #: Row axes, about the centres of gravity; shape (n, h, m).
     motion: ComplexArray
+    #: Relative motion of every connector; shape (n, h, joints, 6).
     relative: ComplexArray
+    #: Load of every connector on the unit before it; shape (n, h, joints, 6).
     load: ComplexArray
+    #: [N/m], linear about the mean position; shape (n, h, lines).
     tension: ComplexArray
+    #: Mean power that damping beyond waves takes [W/m2]; shape (n, h).
     dissipated: Array
 
 
@@ -256,24 +232,16 @@ def gaussian_stiffness(curve: Curve, mean: float, deviation: float) -> float:
 
 @dataclass(frozen=True, eq=False)
 class FarWaves:
-    """Far waves of the moving row at frequencies of the coefficients.
+    """Far waves of the moving row at frequencies of the coefficients."""
 
-    Parameters
-    ----------
-    amplitude : ndarray (f, h, directions)
-        As of :class:`moyai.structures.units.bem.Solution`, motions included.
-    forward : ndarray (f, h)
-        The same in the direction of the incident wave.
-    drift : ndarray (f, h, 3)
-        Mean force along x, y [N/m2] and moment about z [N m/m2] per amplitude squared [eq:units-drift].
-    balance : ndarray (f, h)
-        Energy that the row takes by its far waves, less what its damping takes, over the incident flux on its length
-        [eq:units-energy].
-    """
-
+    #: As of :class:`moyai.structures.units.bem.Solution`, motions included; shape (f, h, directions).
     amplitude: ComplexArray
+    #: The same in the direction of the incident wave; shape (f, h).
     forward: ComplexArray
+    #: Mean force along x, y [N/m2] and moment about z [N m/m2] per amplitude squared [eq:units-drift]; shape (f, h, 3).
     drift: Array
+    #: Energy that the row takes by its far waves, less what its damping takes, over the incident flux on its length
+    #: [eq:units-energy]; shape (f, h).
     balance: Array
 
 

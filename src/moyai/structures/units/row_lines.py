@@ -29,17 +29,11 @@ class LinesAt:
 
 @dataclass(frozen=True, eq=False)
 class RowLines:
-    """Lines of all units.
+    """Lines of all units."""
 
-    Parameters
-    ----------
-    lines : tuple of tuple of LineElement
-        Of every unit, counted from its centre of gravity.
-    water_depth : float
-        Below the centres of gravity [m].
-    """
-
+    #: Of every unit, counted from its centre of gravity.
     lines: tuple[tuple[LineElement, ...], ...]
+    #: Below the centres of gravity [m].
     water_depth: float
     _last: dict[bytes, LinesAt] = field(default_factory=dict, repr=False)
 

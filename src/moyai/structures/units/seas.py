@@ -108,46 +108,31 @@ def columns_of(hydro: RowHydrodynamics, headings: Array) -> IntArray:
 
 @dataclass(frozen=True, eq=False)
 class SeaAnswer:
-    """A sea over the row.
+    """A sea over the row."""
 
-    Parameters
-    ----------
-    rest : RowPosition
-        Under wind, current and mean drift.
-    drift : ndarray (3,)
-        Mean drift of the whole row [N, N, N m].
-    pushed : ndarray (m,)
-        The same as loads on the units.
-    unit_drift : ndarray (f, h, m)
-        Of the units per amplitude squared, at the frequencies and headings of ``coarse``; empty of regular waves.
-    coarse : RowResponse
-        At the frequencies of the coefficients; of regular waves in all headings that were solved, of an irregular sea
-        in its own.
-    far : FarWaves
-        Of ``coarse``.
-    fine : RowResponse
-        At the frequencies of the statistics, headings of the sea; of regular waves at their period.
-    density : ndarray (n, h)
-        Of the sea at the fine frequencies [m2 s/rad]; empty for regular waves.
-    headings : ndarray (h,)
-        Of the sea [rad].
-    curve_stiffness : ndarray (joints,)
-        That stands for the curves of connectors [N/m].
-    work : Work
-        How curves are worked about ``rest``.
-    converged : bool
-    """
-
+    #: Under wind, current and mean drift.
     rest: RowPosition
+    #: Mean drift of the whole row [N, N, N m]; shape (3,).
     drift: Array
+    #: The same as loads on the units; shape (m,).
     pushed: Array
+    #: Of the units per amplitude squared, at the frequencies and headings of ``coarse``; empty of regular waves; shape
+    #: (f, h, m).
     unit_drift: Array
+    #: At the frequencies of the coefficients; of regular waves in all headings that were solved, of an irregular sea in
+    #: its own.
     coarse: RowResponse
+    #: Of ``coarse``.
     far: FarWaves
+    #: At the frequencies of the statistics, headings of the sea; of regular waves at their period.
     fine: RowResponse
+    #: Of the sea at the fine frequencies [m2 s/rad]; empty for regular waves; shape (n, h).
     density: Array
+    #: Of the sea [rad]; shape (h,).
     headings: Array
+    #: That stands for the curves of connectors [N/m]; shape (joints,).
     curve_stiffness: Array
+    #: How curves are worked about ``rest``.
     work: Work
     converged: bool
 

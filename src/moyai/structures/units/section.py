@@ -28,20 +28,13 @@ PLANAR = (0, 2, 4)
 
 @dataclass(frozen=True, eq=False)
 class SectionAnswer:
-    """The section at frequencies (n,) and headings (h,), per unit wave amplitude.
+    """The section at frequencies (n,) and headings (h,), per unit wave amplitude."""
 
-    Parameters
-    ----------
-    transmission : ndarray (n, h)
-        Absolute.
-    motion : ndarray (n, h, 3)
-        Sway, heave, roll.
-    drift : ndarray (n, h)
-        Mean force across on the length of one unit [N/m2].
-    """
-
+    #: Absolute; shape (n, h).
     transmission: Array
+    #: Sway, heave, roll; shape (n, h, 3).
     motion: ComplexArray
+    #: Mean force across on the length of one unit [N/m2]; shape (n, h).
     drift: Array
 
     def placed(self, columns: IntArray, count: int) -> SectionAnswer:

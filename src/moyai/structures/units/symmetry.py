@@ -14,17 +14,11 @@ from moyai.structures.units.mesh import PanelMesh
 
 @dataclass(frozen=True, eq=False)
 class Symmetry:
-    """Mirrors that map a mesh onto itself.
+    """Mirrors that map a mesh onto itself."""
 
-    Parameters
-    ----------
-    mirrors : tuple of (bool, bool)
-        One entry an element of the group: whether x, whether y changes its sign; the identity first.
-    images : ndarray (group, q) of int
-        Panel of the whole mesh that is the image of panel q of the part, under each element.
-    """
-
+    #: One entry an element of the group: whether x, whether y changes its sign; the identity first.
     mirrors: tuple[tuple[bool, bool], ...]
+    #: Panel of the whole mesh that is the image of panel q of the part, under each element; shape (group, q).
     images: IntArray
 
     @property

@@ -31,20 +31,14 @@ _ROWS = 200
 
 @dataclass(frozen=True, eq=False)
 class Variation:
-    """How quantities vary over the panels of a mesh.
+    """How quantities vary over the panels of a mesh."""
 
-    Parameters
-    ----------
-    frame : ndarray (n, 2, 3)
-        Reciprocal of the two directions of every panel [-]: s and t of a point are frame @ (point - centre) [m].
-    slopes : tuple of sparse (n, n)
-        Factors of s, t, s^2, t^2 [1/m, 1/m, 1/m2, 1/m2] from the values at the centres.
-    areas : ndarray (n,)
-        That give the integral of a smooth quantity from its values at the centres [m2].
-    """
-
+    #: Reciprocal of the two directions of every panel [-]: s and t of a point are frame @ (point - centre) [m]; shape
+    #: (n, 2, 3).
     frame: Array
+    #: Factors of s, t, s^2, t^2 [1/m, 1/m, 1/m2, 1/m2] from the values at the centres.
     slopes: tuple[csr_array, ...]
+    #: That give the integral of a smooth quantity from its values at the centres [m2]; shape (n,).
     areas: Array
 
 

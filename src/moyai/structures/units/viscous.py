@@ -25,20 +25,13 @@ STRIPS = 3
 
 @dataclass(frozen=True, eq=False)
 class Eddies:
-    """Quadratic drag of all edges on all strips of a row.
+    """Quadratic drag of all edges on all strips of a row."""
 
-    Parameters
-    ----------
-    drag : QuadraticDamping
-        Rows (k, m) in all motions of all units, row axes.
-    points : ndarray (k, p, 3)
-        Where a measure takes the velocity [m], row axes; z from still water.
-    directions : ndarray (k, p, 3)
-        Its weighted directions there.
-    """
-
+    #: Rows (k, m) in all motions of all units, row axes.
     drag: QuadraticDamping
+    #: Where a measure takes the velocity [m], row axes; z from still water; shape (k, p, 3).
     points: Array
+    #: Its weighted directions there; shape (k, p, 3).
     directions: Array
 
     def water_motion(self, omega: Array, heading: Array, depth: float, gravity: float) -> ComplexArray:
@@ -96,17 +89,10 @@ def eddies_of(at: RowAtLevel) -> Eddies | None:
 
 @dataclass(frozen=True, eq=False)
 class LinearEddies:
-    """The drag of eddies linearised for one sea.
-
-    Parameters
-    ----------
-    eddies : Eddies
-    size : ndarray (k,)
-        Amplitude (regular waves) or standard deviation (a sea) of each measure [m/s, with weights].
-    regular : bool
-    """
+    """The drag of eddies linearised for one sea."""
 
     eddies: Eddies
+    #: Amplitude (regular waves) or standard deviation (a sea) of each measure [m/s, with weights]; shape (k,).
     size: Array
     regular: bool
 

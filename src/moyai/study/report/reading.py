@@ -63,7 +63,7 @@ class StudyPages:
     axes: tuple[AxisLabels, ...]
     #: ``status``, ``message``: Of every case, flat.
     status: NDArray[Any]
-    #: ``status``, ``message``: Of every case, flat.
+    #: See ``status``.
     message: NDArray[Any]
     governing: tuple[GoverningCase, ...]
     watch: str

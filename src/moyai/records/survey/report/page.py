@@ -238,14 +238,9 @@ def _key_figures(result: Result, clock: _PageClock) -> list[Block]:
 
 
 def _block_table(
-    tree: Any,
-    clock: _PageClock,
-    group: str,
-    key: str,
-    title: str,
-    columns: Sequence[tuple[str, str]],
+    tree: Any, clock: _PageClock, group: str, key: str, title: str, columns: Sequence[tuple[str, str]],
     place: int | None,
-) -> Table:
+) -> Table:  # fmt: skip
     """Return a table of blocks; ``place`` chooses the gauge or line."""
     out = [clock.column()]
     for name, label in columns:

@@ -65,11 +65,9 @@ class LinesInMotion:
     #: ``network_step``, ``body_step``, ``passes``: Steps of network and body [s], runs of the network per step of the
     #: body.
     network_step: float
-    #: ``network_step``, ``body_step``, ``passes``: Steps of network and body [s], runs of the network per step of the
-    #: body.
+    #: See ``network_step``.
     body_step: float
-    #: ``network_step``, ``body_step``, ``passes``: Steps of network and body [s], runs of the network per step of the
-    #: body.
+    #: See ``network_step``.
     passes: float
     nodes_in_all: int
     checks: tuple[IdentityCheck, ...] = ()

@@ -137,9 +137,9 @@ class SeaOfRun:
     current: Current | None
     #: ``ramp``, ``begin``, ``period``: Ramp, begin of the analysis, typical wave period [s].
     ramp: float
-    #: ``ramp``, ``begin``, ``period``: Ramp, begin of the analysis, typical wave period [s].
+    #: See ``ramp``.
     begin: float
-    #: ``ramp``, ``begin``, ``period``: Ramp, begin of the analysis, typical wave period [s].
+    #: See ``ramp``.
     period: float
 
 

@@ -23,7 +23,7 @@ class Pipe:
 
     #: ``diameter``, ``wall_thickness``: Outer diameter and wall [m].
     diameter: float
-    #: ``diameter``, ``wall_thickness``: Outer diameter and wall [m].
+    #: See ``diameter``.
     wall_thickness: float
     #: Of the wall [kg/m3].
     density: float
@@ -33,9 +33,9 @@ class Pipe:
     poisson_ratio: float
     #: ``drag_normal``, ``drag_tangential``, ``added_mass``: On the outer diameter, on the displaced volume [-].
     drag_normal: float
-    #: ``drag_normal``, ``drag_tangential``, ``added_mass``: On the outer diameter, on the displaced volume [-].
+    #: See ``drag_normal``.
     drag_tangential: float
-    #: ``drag_normal``, ``drag_tangential``, ``added_mass``: On the outer diameter, on the displaced volume [-].
+    #: See ``drag_normal``.
     added_mass: float
     #: What the pipe carries or holds: brackets, walkway, ballast, water inside [kg/m].
     extra_mass_per_length: float = 0.0

@@ -202,7 +202,7 @@ class FlexibleCage:
     kinematic_viscosity: float
     #: ``rows``, ``columns``: Cages along y and along x.
     rows: int = 1
-    #: ``rows``, ``columns``: Cages along y and along x.
+    #: See ``rows``.
     columns: int = 1
     #: Whether cages shelter those downstream of them.
     array_wake: bool = True

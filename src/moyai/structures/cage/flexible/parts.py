@@ -57,7 +57,7 @@ class LinePart:
 
     #: ``name``, ``kind``: Kind: ``anchor``, ``bridle``, ``frame`` or ``buoy``.
     name: str
-    #: ``name``, ``kind``: Kind: ``anchor``, ``bridle``, ``frame`` or ``buoy``.
+    #: See ``name``.
     kind: str
     #: Index into the strands of the network, from the anchor, frame corner or lower end upwards.
     strand: int

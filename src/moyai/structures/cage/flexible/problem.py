@@ -45,8 +45,7 @@ class FlexibleSettings:
     #: ``slack_share``, ``snap_factor``: A line counts as slack below this share of its mean tension, and a peak after
     #: slack as a snap above this multiple of it.
     slack_share: float = 0.05
-    #: ``slack_share``, ``snap_factor``: A line counts as slack below this share of its mean tension, and a peak after
-    #: slack as a snap above this multiple of it.
+    #: See ``slack_share``.
     snap_factor: float = 2.0
 
 

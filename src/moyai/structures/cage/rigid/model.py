@@ -77,7 +77,7 @@ class RigidCageSettings:
     analyses: tuple[Analysis, ...] = ("statics", "time", "sensitivity")
     #: ``periods``, ``settled_periods``: Wave periods that are run, and the last ones that numbers are taken from.
     periods: int = 40
-    #: ``periods``, ``settled_periods``: Wave periods that are run, and the last ones that numbers are taken from.
+    #: See ``periods``.
     settled_periods: int = 20
     #: Periods over which the waves grow.
     ramp_periods: float = 5.0
@@ -91,8 +91,7 @@ class RigidCageSettings:
     #: ``stiffness_factors``, ``stiffnesses``: Line stiffnesses of ``sensitivity``: multiples, or values [N/m] that take
     #: their place.
     stiffness_factors: tuple[float, ...] = (1.0 / 3.0, 1.0, 10.0 / 3.0, 10.0)
-    #: ``stiffness_factors``, ``stiffnesses``: Line stiffnesses of ``sensitivity``: multiples, or values [N/m] that take
-    #: their place.
+    #: See ``stiffness_factors``.
     stiffnesses: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:

@@ -41,7 +41,7 @@ class Floats:
     mass: float
     #: ``drag``, ``added_mass``: C_d on the disc of the sphere, C_a on its volume [-].
     drag: float
-    #: ``drag``, ``added_mass``: C_d on the disc of the sphere, C_a on its volume [-].
+    #: See ``drag``.
     added_mass: float
 
     def __post_init__(self) -> None:
@@ -64,7 +64,7 @@ class Patches:
 
     #: ``points``, ``normals``: Middles from the middle of the cage [m]; unit normals, either side; shape (n, 3).
     points: Array
-    #: ``points``, ``normals``: Middles from the middle of the cage [m]; unit normals, either side; shape (n, 3).
+    #: See ``points``.
     normals: Array
     #: Outline areas [m2]; shape (n,).
     areas: Array
@@ -196,7 +196,7 @@ class PointWeight:
     volume: float
     #: ``drag``, ``added_mass``: C_d and C_a of a sphere of that volume [-].
     drag: float
-    #: ``drag``, ``added_mass``: C_d and C_a of a sphere of that volume [-].
+    #: See ``drag``.
     added_mass: float
 
 

@@ -27,9 +27,9 @@ class RigidCageEquilibrium:
 
     #: ``x``, ``z``, ``theta``: Centre of gravity [m] above still water, rotation [rad].
     x: float
-    #: ``x``, ``z``, ``theta``: Centre of gravity [m] above still water, rotation [rad].
+    #: See ``x``.
     z: float
-    #: ``x``, ``z``, ``theta``: Centre of gravity [m] above still water, rotation [rad].
+    #: See ``x``.
     theta: float
     #: At the attachment [N]; shape (lines,).
     tension: Array

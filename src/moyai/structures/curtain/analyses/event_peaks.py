@@ -62,7 +62,7 @@ class EventPeak:
     value: float
     #: ``low``, ``high``: Lowest and highest of all runs.
     low: float
-    #: ``low``, ``high``: Lowest and highest of all runs.
+    #: See ``low``.
     high: float
     #: Highest upper end of the one-sided 95 % intervals of the means; the value where there is one realisation.
     judged: float

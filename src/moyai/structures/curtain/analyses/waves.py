@@ -52,8 +52,7 @@ class WaveAnswer:
     #: ``maximum_tension``, ``highest_tension``: Of both cables together [N]: the number of the sea, and the upper end
     #: of its scatter.
     maximum_tension: float
-    #: ``maximum_tension``, ``highest_tension``: Of both cables together [N]: the number of the sea, and the upper end
-    #: of its scatter.
+    #: See ``maximum_tension``.
     highest_tension: float
     notices: tuple[Notice, ...]
 

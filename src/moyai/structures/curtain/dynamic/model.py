@@ -54,7 +54,7 @@ class CurtainSpan:
 
     #: ``span``, ``length``: Distance of the supports and unstretched length of cables and skirt between them [m].
     span: float
-    #: ``span``, ``length``: Distance of the supports and unstretched length of cables and skirt between them [m].
+    #: See ``span``.
     length: float
     #: Of the skirt along itself, unstretched [m].
     skirt_length: float
@@ -62,13 +62,12 @@ class CurtainSpan:
     chord: float
     #: ``upper_stiffness``, ``lower_stiffness``: EA [N]; 0 for no lower cable.
     upper_stiffness: float
-    #: ``upper_stiffness``, ``lower_stiffness``: EA [N]; 0 for no lower cable.
+    #: See ``upper_stiffness``.
     lower_stiffness: float
     #: ``upper_mass``, ``lower_mass``: Per length, of the upper cable with floats and fittings and of the lower one with
     #: ballast [kg/m].
     upper_mass: float
-    #: ``upper_mass``, ``lower_mass``: Per length, of the upper cable with floats and fittings and of the lower one with
-    #: ballast [kg/m].
+    #: See ``upper_mass``.
     lower_mass: float
     #: ``sheet_stiffness``, ``span_stiffness``, ``shear_stiffness``: Of the sheet along its depth, along the span and in
     #: shear [N/m]; the last two 0 for a sheet that is slack along the span (a ten-thousandth of the first then keeps
@@ -78,13 +77,9 @@ class CurtainSpan:
     sheet_mass: float
     #: Displaced by lower cable and ballast per length [m2].
     lower_volume: float = 0.0
-    #: ``sheet_stiffness``, ``span_stiffness``, ``shear_stiffness``: Of the sheet along its depth, along the span and in
-    #: shear [N/m]; the last two 0 for a sheet that is slack along the span (a ten-thousandth of the first then keeps
-    #: its columns in order).
+    #: See ``sheet_stiffness``.
     span_stiffness: float = 0.0
-    #: ``sheet_stiffness``, ``span_stiffness``, ``shear_stiffness``: Of the sheet along its depth, along the span and in
-    #: shear [N/m]; the last two 0 for a sheet that is slack along the span (a ten-thousandth of the first then keeps
-    #: its columns in order).
+    #: See ``sheet_stiffness``.
     shear_stiffness: float = 0.0
     #: Per area [m].
     sheet_volume: float = 0.0

@@ -32,11 +32,9 @@ class PeakUncertainty:
     #: ``half_step``, ``half_mesh``, ``double_viscosity``: With half the step, half as many cells both ways, twice the
     #: viscosity of cables and skirt.
     half_step: float = math.nan
-    #: ``half_step``, ``half_mesh``, ``double_viscosity``: With half the step, half as many cells both ways, twice the
-    #: viscosity of cables and skirt.
+    #: See ``half_step``.
     half_mesh: float = math.nan
-    #: ``half_step``, ``half_mesh``, ``double_viscosity``: With half the step, half as many cells both ways, twice the
-    #: viscosity of cables and skirt.
+    #: See ``half_step``.
     double_viscosity: float = math.nan
     #: In waves: with sections of added mass that keep the normals of the just-taut span.
     held_normals: float = math.nan

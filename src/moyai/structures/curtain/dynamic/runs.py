@@ -39,7 +39,7 @@ class DynamicSettings:
     sheet_volume: float = math.nan
     #: ``span_stiffness``, ``shear_stiffness``: Of the sheet along the span and in shear [N/m].
     span_stiffness: float = 0.0
-    #: ``span_stiffness``, ``shear_stiffness``: Of the sheet along the span and in shear [N/m].
+    #: See ``span_stiffness``.
     shear_stiffness: float = 0.0
     #: Of lower cable and ballast [kg/m3].
     ballast_density: float = 7850.0
@@ -52,8 +52,7 @@ class DynamicSettings:
     #: ``settled_periods``, ``analysed_periods``: Periods left out after the ramp of one period, and periods of regular
     #: waves that count.
     settled_periods: int = 6
-    #: ``settled_periods``, ``analysed_periods``: Periods left out after the ramp of one period, and periods of regular
-    #: waves that count.
+    #: See ``settled_periods``.
     analysed_periods: int = 10
     #: Peak periods that count around the highest crest of an irregular sea.
     wave_count: int = 8
@@ -68,8 +67,7 @@ class DynamicSettings:
     #: ``slack_level``, ``threshold``: Of the snap statistics [N]; None: 1 % of the highest tension, twice the mean of
     #: the taut times.
     slack_level: float | None = None
-    #: ``slack_level``, ``threshold``: Of the snap statistics [N]; None: 1 % of the highest tension, twice the mean of
-    #: the taut times.
+    #: See ``slack_level``.
     threshold: float | None = None
     #: Whether peaks are taken from the span where it is not asked for and an upright plate only bounds them.
     by_default: bool = True

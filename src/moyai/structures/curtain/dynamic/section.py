@@ -21,7 +21,7 @@ class SectionMesh:
 
     #: ``x``, ``z``: Places from the upper edge down, downstream and up [m]; shape (k,).
     x: Array
-    #: ``x``, ``z``: Places from the upper edge down, downstream and up [m]; shape (k,).
+    #: See ``x``.
     z: Array
     #: Per metre of span: normal (downstream) unknowns first, then vertical ones [kg/m]; shape (2 k, 2 k).
     added_mass: Array

@@ -25,9 +25,9 @@ class PlateMass:
 
     #: ``upper``, ``cross``, ``lower``: M_uu, M_ul, M_ll: force on an edge per acceleration of an edge.
     upper: float
-    #: ``upper``, ``cross``, ``lower``: M_uu, M_ul, M_ll: force on an edge per acceleration of an edge.
+    #: See ``upper``.
     cross: float
-    #: ``upper``, ``cross``, ``lower``: M_uu, M_ul, M_ll: force on an edge per acceleration of an edge.
+    #: See ``upper``.
     lower: float
 
     @property

@@ -43,7 +43,7 @@ class Impact:
     draught: float
     #: ``upper_stiffness``, ``lower_stiffness``: EA of the upper and the lower cable [N]; model A takes their sum.
     upper_stiffness: float
-    #: ``upper_stiffness``, ``lower_stiffness``: EA of the upper and the lower cable [N]; model A takes their sum.
+    #: See ``upper_stiffness``.
     lower_stiffness: float
     #: Speed U0 of the curtain when it becomes taut [m/s].
     speed: float
@@ -328,11 +328,9 @@ class ImpactNumbers:
     #: ``tension_coefficient``, ``cauchy_number``, ``froude_number``: C_T = T/(rho U^2 B d/2), C_E = sqrt(EA/rho)/(h
     #: sqrt(gh)), Fr = U/sqrt(gh).
     tension_coefficient: float
-    #: ``tension_coefficient``, ``cauchy_number``, ``froude_number``: C_T = T/(rho U^2 B d/2), C_E = sqrt(EA/rho)/(h
-    #: sqrt(gh)), Fr = U/sqrt(gh).
+    #: See ``tension_coefficient``.
     cauchy_number: float
-    #: ``tension_coefficient``, ``cauchy_number``, ``froude_number``: C_T = T/(rho U^2 B d/2), C_E = sqrt(EA/rho)/(h
-    #: sqrt(gh)), Fr = U/sqrt(gh).
+    #: See ``tension_coefficient``.
     froude_number: float
 
 

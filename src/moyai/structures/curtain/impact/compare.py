@@ -43,8 +43,7 @@ class ModelTension:
     #: ``upper_tension``, ``lower_tension``: Largest tension of each cable [N]; NaN where the model does not tell them
     #: apart.
     upper_tension: float = math.nan
-    #: ``upper_tension``, ``lower_tension``: Largest tension of each cable [N]; NaN where the model does not tell them
-    #: apart.
+    #: See ``upper_tension``.
     lower_tension: float = math.nan
     #: Largest tension of the skirt [N/m]; NaN where the model has none.
     skirt_tension: float = math.nan

@@ -37,8 +37,7 @@ class CableContact:
     #: ``peak_time``, ``end``: When the tension is largest, and when the cable is slack again [s]; NaN where the series
     #: stops before.
     peak_time: float
-    #: ``peak_time``, ``end``: When the tension is largest, and when the cable is slack again [s]; NaN where the series
-    #: stops before.
+    #: See ``peak_time``.
     end: float
 
     @property

@@ -25,11 +25,11 @@ class ModelError:
     model: str
     #: ``tension``, ``observed_tension``: Impact tension of the model and of the record [N].
     tension: float
-    #: ``tension``, ``observed_tension``: Impact tension of the model and of the record [N].
+    #: See ``tension``.
     observed_tension: float
     #: ``time``, ``observed_time``: Rise times [s]; NaN where there is none.
     time: float
-    #: ``time``, ``observed_time``: Rise times [s]; NaN where there is none.
+    #: See ``time``.
     observed_time: float
 
     @property

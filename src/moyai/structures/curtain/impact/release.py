@@ -21,8 +21,7 @@ class SlackPhase:
     #: ``position``, ``speed_at_release``: Where mid-span was let go [m], downstream of the line between the supports,
     #: and how fast [m/s].
     position: float
-    #: ``position``, ``speed_at_release``: Where mid-span was let go [m], downstream of the line between the supports,
-    #: and how fast [m/s].
+    #: See ``position``.
     speed_at_release: float
     #: From release to the taut instant [s].
     duration: float
@@ -139,13 +138,13 @@ class Snap:
     motion: SlackTautMotion
     #: ``taut_time``, ``peak_time``: When the cable becomes taut and when its tension is largest [s].
     taut_time: float
-    #: ``taut_time``, ``peak_time``: When the cable becomes taut and when its tension is largest [s].
+    #: See ``taut_time``.
     peak_time: float
     #: At the taut instant [m/s].
     start_speed: float
     #: ``peak_tension``, ``plateau_tension``: Largest tension and that of the steady current [N], sums of both cables.
     peak_tension: float
-    #: ``peak_tension``, ``plateau_tension``: Largest tension and that of the steady current [N], sums of both cables.
+    #: See ``peak_tension``.
     plateau_tension: float
     #: A warning where the series ends before the plateau.
     notices: tuple[Notice, ...]

@@ -51,7 +51,7 @@ class SettledCycles:
     multiple: int
     #: ``first``, ``count``: Periods left out, and periods that count.
     first: int
-    #: ``first``, ``count``: Periods left out, and periods that count.
+    #: See ``first``.
     count: int
     #: Largest tension of each period that counts, both cables together [N].
     peaks: Array

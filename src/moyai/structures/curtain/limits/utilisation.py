@@ -63,17 +63,13 @@ class Requirements:
     #: ``upper_cable``, ``lower_cable``, ``sheet``, ``anchor_line``, ``anchor``: Cables [N], sheet [N/m], line [N],
     #: horizontal holding force of the anchor [N].
     upper_cable: Strength
-    #: ``upper_cable``, ``lower_cable``, ``sheet``, ``anchor_line``, ``anchor``: Cables [N], sheet [N/m], line [N],
-    #: horizontal holding force of the anchor [N].
+    #: See ``upper_cable``.
     lower_cable: Strength
-    #: ``upper_cable``, ``lower_cable``, ``sheet``, ``anchor_line``, ``anchor``: Cables [N], sheet [N/m], line [N],
-    #: horizontal holding force of the anchor [N].
+    #: See ``upper_cable``.
     sheet: Strength
-    #: ``upper_cable``, ``lower_cable``, ``sheet``, ``anchor_line``, ``anchor``: Cables [N], sheet [N/m], line [N],
-    #: horizontal holding force of the anchor [N].
+    #: See ``upper_cable``.
     anchor_line: Strength
-    #: ``upper_cable``, ``lower_cable``, ``sheet``, ``anchor_line``, ``anchor``: Cables [N], sheet [N/m], line [N],
-    #: horizontal holding force of the anchor [N].
+    #: See ``upper_cable``.
     anchor: Strength
     #: Share of the buoyancy that must be left [-].
     least_reserve: float
@@ -180,7 +176,7 @@ class CurtainSite:
     current: Callable[[float], CurrentProfile]
     #: ``flow_heading``, ``chord_normal``: Of the flow and of the downstream normal of the span [rad].
     flow_heading: float
-    #: ``flow_heading``, ``chord_normal``: Of the flow and of the downstream normal of the span [rad].
+    #: See ``flow_heading``.
     chord_normal: float
     #: Share of the held flow that goes under the toe [-].
     passing_fraction: float

@@ -128,8 +128,7 @@ class EnergyCalibration:
     #: ``calculated``, ``observed``: Amplitudes sqrt(T_e (T_e + 2 T)) of the rope [N], which is T_e where there is no
     #: pretension.
     calculated: Array
-    #: ``calculated``, ``observed``: Amplitudes sqrt(T_e (T_e + 2 T)) of the rope [N], which is T_e where there is no
-    #: pretension.
+    #: See ``calculated``.
     observed: Array
 
     @property

@@ -203,7 +203,7 @@ class StepError:
     count_change: int
     #: ``largest_change``, ``mean_change``: Relative changes of the largest tension and of the mean of all snaps.
     largest_change: float
-    #: ``largest_change``, ``mean_change``: Relative changes of the largest tension and of the mean of all snaps.
+    #: See ``largest_change``.
     mean_change: float
     #: When the runs part: first contact that is off by more than half of its rise [s]; infinite where they do not.
     parted: float

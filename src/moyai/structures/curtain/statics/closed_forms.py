@@ -220,7 +220,7 @@ class CableSolution:
 
     #: ``span``, ``length``: Distance of the supports B and unstretched length l [m].
     span: Array
-    #: ``span``, ``length``: Distance of the supports B and unstretched length l [m].
+    #: See ``span``.
     length: Array
     #: sigma [N/m], load per length where the cable lies across the current.
     line_load: Array
@@ -313,7 +313,7 @@ class SkirtArc:
 
     #: ``chord``, ``length``: Straight distance of the edges d0 and unstretched length d [m].
     chord: Array
-    #: ``chord``, ``length``: Straight distance of the edges d0 and unstretched length d [m].
+    #: See ``chord``.
     length: Array
     #: sigma_s [N/m2].
     pressure: Array

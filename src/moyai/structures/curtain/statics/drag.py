@@ -24,8 +24,7 @@ class DragLaw:
     #: ``blockage``, ``coefficients``: Points of C_D [-] over the blockage d/h [-], increasing; linear between, constant
     #: outside.
     blockage: tuple[float, ...]
-    #: ``blockage``, ``coefficients``: Points of C_D [-] over the blockage d/h [-], increasing; linear between, constant
-    #: outside.
+    #: See ``blockage``.
     coefficients: tuple[float, ...]
     #: Multipliers (low, high) of the coefficient that bound what is known, for instance (0.8, 1.4).
     range: tuple[float, float]

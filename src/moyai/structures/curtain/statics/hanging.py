@@ -46,7 +46,7 @@ class HangingCurtain:
 
     #: ``span``, ``length``: Distance of the supports and unstretched length of curtain between them [m].
     span: float
-    #: ``span``, ``length``: Distance of the supports and unstretched length of curtain between them [m].
+    #: See ``span``.
     length: float
     #: Section.
     skirt: Skirt
@@ -55,8 +55,7 @@ class HangingCurtain:
     #: ``upper_stiffness``, ``lower_stiffness``: EA of the cables at top and toe [N]; the lower one counts only for a
     #: held toe.
     upper_stiffness: float
-    #: ``upper_stiffness``, ``lower_stiffness``: EA of the cables at top and toe [N]; the lower one counts only for a
-    #: held toe.
+    #: See ``upper_stiffness``.
     lower_stiffness: float
     #: Whether a lower cable as long as the upper one keeps the toe under the top.
     toe: Literal["free", "held"]

@@ -27,8 +27,7 @@ class SectionLaw:
     #: ``effective_depth``, ``flare``: Vertical reach and downstream reach of the toe [m]; NaN where the law has no
     #: solution.
     effective_depth: float
-    #: ``effective_depth``, ``flare``: Vertical reach and downstream reach of the toe [m]; NaN where the law has no
-    #: solution.
+    #: See ``effective_depth``.
     flare: float
     #: Force per span along the skirt at its top [N/m].
     top_tension: float
@@ -119,7 +118,7 @@ class PlanLaw:
     sag: float
     #: ``downstream_end_force``, ``inward_end_force``: Force on each support, downstream and along the span [N].
     downstream_end_force: float
-    #: ``downstream_end_force``, ``inward_end_force``: Force on each support, downstream and along the span [N].
+    #: See ``downstream_end_force``.
     inward_end_force: float
 
 

@@ -44,8 +44,7 @@ class PlanLoad:
     #: ``angle``, ``ratio``: Points of c in p = P c cos^2 over the local angle from across the flow [rad]; a smooth
     #: curve between, constant outside. A single point means a constant c.
     angle: Array
-    #: ``angle``, ``ratio``: Points of c in p = P c cos^2 over the local angle from across the flow [rad]; a smooth
-    #: curve between, constant outside. A single point means a constant c.
+    #: See ``angle``.
     ratio: Array
 
     def __post_init__(self) -> None:
@@ -167,7 +166,7 @@ class PlanShape:
     axial_stiffness: float
     #: ``y``, ``x``: Along the span from the first support and downstream of the line between the supports [m].
     y: Array
-    #: ``y``, ``x``: Along the span from the first support and downstream of the line between the supports [m].
+    #: See ``y``.
     x: Array
     #: Stretched length from the first support [m].
     arc: Array

@@ -77,7 +77,7 @@ class SectionShape:
     arc: Array
     #: ``x``, ``z``: Downstream of the top and height above still water [m].
     x: Array
-    #: ``x``, ``z``: Downstream of the top and height above still water [m].
+    #: See ``x``.
     z: Array
     #: Along the skirt per span [N/m].
     tension: Array
@@ -86,14 +86,13 @@ class SectionShape:
     #: ``top_load``, ``toe_hold``: Horizontal force per span of the current on the top and on the lower cable [N/m]; the
     #: latter 0 for a free toe.
     top_load: float
-    #: ``top_load``, ``toe_hold``: Horizontal force per span of the current on the top and on the lower cable [N/m]; the
-    #: latter 0 for a free toe.
+    #: See ``top_load``.
     toe_hold: float
     #: Vertical force per span by which the skirt pulls its floats down [N/m].
     top_pull: float
     #: ``drag_coefficient``, ``blockage``: In use [-]; no blockage in infinite depth.
     drag_coefficient: float
-    #: ``drag_coefficient``, ``blockage``: In use [-]; no blockage in infinite depth.
+    #: See ``drag_coefficient``.
     blockage: float
     #: Miss of the top over the length [-].
     residual: float
@@ -137,7 +136,7 @@ class Pressure:
 
     #: ``low``, ``step``: Lowest height of the grid and its step [m].
     low: float
-    #: ``low``, ``step``: Lowest height of the grid and its step [m].
+    #: See ``low``.
     step: float
     #: [N/m2].
     values: Array

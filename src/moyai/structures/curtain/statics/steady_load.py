@@ -109,7 +109,7 @@ class SteadyLoad:
     causes: tuple[SteadyState, ...]
     #: ``lowest``, ``highest``: Everything together that lowers, and that raises, the load.
     lowest: SteadyState
-    #: ``lowest``, ``highest``: Everything together that lowers, and that raises, the load.
+    #: See ``lowest``.
     highest: SteadyState
     #: Largest load per length that loads normal to the sheet can put on a skirt whose toe swings [N/m]; infinite where
     #: the toe is held.

@@ -172,10 +172,10 @@ class NetworkSettingsKeys(Block):
     ramp: NonNegativeDuration | None = Field(
         default=None, description="Time over which waves and current grow. Default: one period of the waves, or 0."
     )
-    start: Literal["rest", "rest_in_current", "as_built"] = Field(
-        default="rest",
+    start: Literal["rest", "rest_in_current", "as_built"] | None = Field(
+        default=None,
         description="Where a run begins: at rest in still water, at rest in the current (which then stands from the "
-        "start), or as built.",
+        "start), or as built. Default: rest_in_current where there is a steady current, else rest.",
     )
     resume: FileName | None = Field(
         default=None,
@@ -197,7 +197,8 @@ class NetworkSettingsKeys(Block):
     skip: NonNegativeDuration | None = Field(
         default=None,
         description="Beginning of each run that peaks and statistics leave out. Default: one mean period of a motion "
-        "that swings and begins displaced or at speed; five periods of waves, at most a quarter of the run; else 0.",
+        "that swings and begins displaced or at speed; five periods of waves, at most a quarter of the run; else 0; "
+        "where what floats drifts longer to its mean place, until it stands there, at most half of the run.",
     )
     sensitivity: Truth = Field(
         default=False,

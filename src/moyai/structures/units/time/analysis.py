@@ -52,21 +52,13 @@ _MOST_TURNS, _MOST_GAPS = 2, 8
 
 @dataclass(frozen=True)
 class SeaInTime:
-    """What a sea gave.
+    """What a sea gave."""
 
-    Parameters
-    ----------
-    groups : dict
-        Datasets by the end of their path.
-    notices : list of Notice
-    status : str
-    message : str
-        Of the run that did not come to its end.
-    """
-
+    #: Datasets by the end of their path.
     groups: dict[str, xr.Dataset]
     notices: list[Notice]
     status: str
+    #: Of the run that did not come to its end.
     message: str = ""
 
 

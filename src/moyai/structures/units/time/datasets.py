@@ -141,31 +141,21 @@ def _damage(at: RowAtLevel, time: Array, loads: Array) -> Array:
 
 @dataclass(frozen=True)
 class KeptRun:
-    """What is kept of a run: its numbers, its record, how it ended.
+    """What is kept of a run: its numbers, its record, how it ended."""
 
-    Parameters
-    ----------
-    numbers : dict
-        As :func:`run_numbers` gives them, means over the parts of a motion that does not repeat.
-    series : Dataset
-    seed : int
-    status, message : str
-    contacts : bool
-        As of :class:`moyai.structures.units.time.seas.SeaRun`.
-    change, growth : float
-        As of the same.
-    parts : tuple of dict
-        Numbers of each part of a motion that does not repeat; none of others.
-    """
-
+    #: As :func:`run_numbers` gives them, means over the parts of a motion that does not repeat.
     numbers: Numbers
     series: xr.Dataset
     seed: int
     status: str
     message: str
+    #: As of :class:`moyai.structures.units.time.seas.SeaRun`.
     contacts: bool
+    #: ``change``, ``growth``: As of the same.
     change: float
+    #: See ``change``.
     growth: float
+    #: Numbers of each part of a motion that does not repeat; none of others.
     parts: tuple[Numbers, ...]
 
     @classmethod

@@ -41,25 +41,20 @@ BARS, MOST_BARS, DAMPING, AT_REST = 30, 120, 0.1, 0.02
 
 @dataclass(frozen=True, eq=False)
 class Carried:
-    """What a rerun needs of a run with lines at rest.
+    """What a rerun needs of a run with lines at rest."""
 
-    Parameters
-    ----------
-    time : ndarray (n,)
-    position, velocity : ndarray (n, m)
-        Of all motions.
-    tension : ndarray (n, lines)
-    waves : WaveComponents
-    begin, period : float
-        Of the analysis, of the peak [s].
-    """
-
+    #: Shape (n,).
     time: Array
+    #: ``position``, ``velocity``: Of all motions; shape (n, m).
     position: Array
+    #: See ``position``.
     velocity: Array
+    #: Shape (n, lines).
     tension: Array
     waves: WaveComponents
+    #: ``begin``, ``period``: Of the analysis, of the peak [s].
     begin: float
+    #: See ``begin``.
     period: float
 
 

@@ -36,29 +36,19 @@ _SHARPEST = 0.3
 
 @dataclass(frozen=True, eq=False)
 class RowMemory:
-    """Memory force ``-Re(sum_k R_k z_k)`` with ``z_k' = p_k z_k + v`` [eq:units-memory].
+    """Memory force ``-Re(sum_k R_k z_k)`` with ``z_k' = p_k z_k + v`` [eq:units-memory]."""
 
-    Parameters
-    ----------
-    poles : ndarray (k,)
-        One of each conjugate pair, real parts negative [1/s].
-    residues : ndarray (k, m, m)
-        Symmetric; the partner of a complex pole is in.
-    infinite_added_mass : ndarray (m, m)
-        That goes with them.
-    error : float
-        Largest error over the band, over the largest response of the pair of motions.
-    least_damping : float
-        Smallest eigenvalue of the damping over all frequencies, in the same measure.
-    error_outside : float
-        As ``error``, outside of the band of the waves as well.
-    """
-
+    #: One of each conjugate pair, real parts negative [1/s]; shape (k,).
     poles: ComplexArray
+    #: Symmetric; the partner of a complex pole is in; shape (k, m, m).
     residues: ComplexArray
+    #: That goes with them; shape (m, m).
     infinite_added_mass: Array
+    #: Largest error over the band, over the largest response of the pair of motions.
     error: float
+    #: Smallest eigenvalue of the damping over all frequencies, in the same measure.
     least_damping: float
+    #: As ``error``, outside of the band of the waves as well.
     error_outside: float
 
     @property

@@ -32,21 +32,13 @@ SECONDS_BETWEEN_LOOKS = 0.3
 
 @dataclass(frozen=True, eq=False)
 class RowInTime:
-    """The row at one level with the memory of its water [eq:units-cummins].
-
-    Parameters
-    ----------
-    at : RowAtLevel
-    memory : RowMemory
-    position : ndarray (m,)
-        Mean position, where lines have the stiffness that damping is a fraction of, and where runs start.
-    damping_frequency : float
-        Frequency [rad/s] whose added mass a fraction of critical damping is taken with.
-    """
+    """The row at one level with the memory of its water [eq:units-cummins]."""
 
     at: RowAtLevel
     memory: RowMemory
+    #: Mean position, where lines have the stiffness that damping is a fraction of, and where runs start; shape (m,).
     position: Array
+    #: Frequency [rad/s] whose added mass a fraction of critical damping is taken with.
     damping_frequency: float
 
     def __post_init__(self) -> None:
@@ -244,41 +236,31 @@ def _driven(advance: Any, steps: int, step: float, progress: Progress, name: str
 @checks_words
 @dataclass(frozen=True, eq=False)
 class RowRun:
-    """Motions and loads over time.
-
-    Parameters
-    ----------
-    model : RowInTime
-    time : ndarray (n,)
-    load : ndarray (n, m)
-    reduced, velocity, acceleration : ndarray (n, r)
-        Of the motions that the constraints leave.
-    held_memory : ndarray (n, c)
-        Force of the memory on the constraints.
-    line_force : ndarray (n, m)
-    tension : ndarray (n, lines)
-        At the fairleads.
-    link_force : ndarray (n, j)
-        Of the curves of connectors, pulling positive.
-    time_step : float
-    status, message : str
-    water : ndarray (n, k)
-        Motion of the waves in the measures of the edges.
-    """
+    """Motions and loads over time."""
 
     model: RowInTime
+    #: Shape (n,).
     time: Array
+    #: Shape (n, m).
     load: Array
+    #: ``reduced``, ``velocity``, ``acceleration``: Of the motions that the constraints leave; shape (n, r).
     reduced: Array
+    #: See ``reduced``.
     velocity: Array
+    #: See ``reduced``.
     acceleration: Array
+    #: Force of the memory on the constraints; shape (n, c).
     held_memory: Array
+    #: Shape (n, m).
     line_force: Array
+    #: At the fairleads; shape (n, lines).
     tension: Array
+    #: Of the curves of connectors, pulling positive; shape (n, j).
     link_force: Array
     time_step: float
     status: Status
     message: str
+    #: Motion of the waves in the measures of the edges; shape (n, k).
     water: Array
 
     @cached_property

@@ -45,22 +45,13 @@ _RESOLVED = 0.99
 
 @dataclass(frozen=True, eq=False)
 class Water3D:
-    """The water around the row in time.
-
-    Parameters
-    ----------
-    at : RowAtLevel
-    hydro : RowHydrodynamics
-        Over the band of the memory.
-    memory : RowMemory
-    steady : ndarray (m,)
-        Wind and current.
-    settings : Settings
-    """
+    """The water around the row in time."""
 
     at: RowAtLevel
+    #: Over the band of the memory.
     hydro: RowHydrodynamics
     memory: RowMemory
+    #: Wind and current; shape (m,).
     steady: Array
     settings: UnitSettings
 
@@ -72,46 +63,30 @@ class Water3D:
 
 @dataclass(frozen=True, eq=False)
 class SeaRun:
-    """One run with its waves.
-
-    Parameters
-    ----------
-    run : RowRun
-    waves : WaveComponents
-        Incident waves.
-    elevation : ndarray (n,)
-        Theirs at the origin of the row [m].
-    ramp : float
-        Length of their ramp [s].
-    begin : float
-        Of the analysis [s].
-    omega : float
-        Of regular waves [rad/s]; of an irregular sea that of its peak.
-    seed : int
-        Of an irregular sea; -1 of regular waves.
-    contacts : bool
-        Whether the step resolves the contacts of stiff connectors.
-    end : float
-        Of the analysis [s].
-    change : float
-        Of a regular motion from one period to the next, over its size; by when it repeats, where it does later.
-    every : int
-        Periods after which it repeats.
-    growth : float
-        Of that change a period, 0 where it falls: a combination resonance of the lines begins small.
-    """
+    """One run with its waves."""
 
     run: RowRun
+    #: Incident waves.
     waves: WaveComponents
+    #: Theirs at the origin of the row [m]; shape (n,).
     elevation: Array
+    #: Length of their ramp [s].
     ramp: float
+    #: Of the analysis [s].
     begin: float
+    #: Of regular waves [rad/s]; of an irregular sea that of its peak.
     omega: float
+    #: Of an irregular sea; -1 of regular waves.
     seed: int = -1
+    #: Whether the step resolves the contacts of stiff connectors.
     contacts: bool = True
+    #: Of the analysis [s].
     end: float = math.inf
+    #: Of a regular motion from one period to the next, over its size; by when it repeats, where it does later.
     change: float = 0.0
+    #: Of that change a period, 0 where it falls: a combination resonance of the lines begins small.
     growth: float = 0.0
+    #: Periods after which it repeats.
     every: int = 1
 
     @property

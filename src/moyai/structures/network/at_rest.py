@@ -1,0 +1,88 @@
+"""Pulls on fixed points and offsets of a network at rest, where nothing was run through time."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from moyai.core.headline import Band, Headline, all_judged
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+def rest_headlines(groups: Mapping[str, xr.Dataset], anchors: Mapping[str, str], model: str) -> list[Headline]:
+    """Return the largest pull on a fixed point and the largest offset of a network at rest.
+
+    Parameters
+    ----------
+    groups : mapping of str to xarray.Dataset
+        Of the result.
+    anchors : mapping of str to str
+        Only fixed point that holds a point, by the point.
+    model : str
+        Model in words.
+    """
+    levels = [path.strip("/").split("/")[0] for path in groups if path.endswith("/statics")]
+    pulls, offsets = [], []
+    for level in levels:
+        said = level if len(levels) > 1 else ""
+        pulls += list(_pulls(groups[f"/{level}/statics"], groups[f"/{level}/network"], said, model))
+        offsets += list(_offsets(groups[f"/{level}/statics"], groups[f"/{level}/network"], anchors, said, model))
+    return [*all_judged(pulls), *all_judged(offsets)]
+
+
+def _pulls(rest: xr.Dataset, network: xr.Dataset, level: str, model: str) -> Iterator[Headline]:
+    for condition in (str(name) for name in rest["condition"].values):
+        for point in _of_kind(network, "fixed"):
+            load = rest["load"].sel(condition=condition, point=point).values
+            value = float(np.linalg.norm(load))
+            if not value > 0.0:
+                continue
+            detail = f"horizontal {math.hypot(*load[:2]) / 1e3:.3g} kN, upwards {max(float(load[2]), 0.0) / 1e3:.3g} kN"
+            band = _band(rest, condition, value)
+            yield Headline(
+                "anchor_load", "largest pull on a fixed point at rest", value, "N",
+                ", ".join(filter(None, (point, condition, level))), model, band,
+                detail=detail if band else f"{detail}; mesh not checked",
+            )  # fmt: skip
+
+
+def _band(rest: xr.Dataset, condition: str, value: float) -> Band | None:
+    """Return what twice the segments do to the tension of the line that they change most, in proportion."""
+    if "double_mesh" not in rest:
+        return None
+    own, finer = (rest[key].sel(condition=condition).values for key in ("line_tension_maximum", "double_mesh"))
+    usable = np.isfinite(own) & np.isfinite(finer) & (own > 0.0)
+    if not usable.any():
+        return None
+    change = np.concatenate([[1.0], finer[usable] / own[usable], 2.0 * finer[usable] / own[usable] - 1.0])
+    return Band(value * max(float(change.min()), 0.0), value * float(change.max()), "mesh: as the tension of the lines")
+
+
+def _offsets(
+    rest: xr.Dataset, network: xr.Dataset, anchors: Mapping[str, str], level: str, model: str
+) -> Iterator[Headline]:
+    if "current" not in rest["condition"].values or "still water" not in rest["condition"].values:
+        return
+    place = rest["point_position"]
+    now, still = (place.sel(condition=condition) for condition in ("current", "still water"))
+    for point in _of_kind(network, "free"):
+        anchor = anchors.get(point)
+        if anchor is None:
+            value = float(np.linalg.norm(now.sel(point=point).values - still.sel(point=point).values))
+            said = "from its place in still water, heave included"
+        else:
+            value = float(np.linalg.norm((now.sel(point=point).values - now.sel(point=anchor).values)[:2]))
+            said = f"horizontal distance from its only anchor '{anchor}', round which it swings"
+        yield Headline(
+            "offset", "largest offset of a body or buoy", value, "m",
+            ", ".join(filter(None, (point, "current", level))), model, detail=said,
+        )  # fmt: skip
+
+
+def _of_kind(network: xr.Dataset, kind: str) -> list[str]:
+    return [str(n) for n, own in zip(network["point"].values, network["point_kind"].values, strict=True) if own == kind]

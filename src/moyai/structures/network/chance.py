@@ -1,0 +1,151 @@
+"""What chance does to the largest values of a run: one record, realisations of a sea, motions that do not repeat."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from moyai.core.arrays import Array
+from moyai.core.headline import Band, Bound
+from moyai.core.wording import spoken, spoken_time
+from moyai.series.block_maxima import LEAST_PERIODS, PERIODS, Maximum, maximum_of, too_short
+from moyai.series.realisations import seeds
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+#: Part by which the highest values of the periods of regular waves may differ where the motion repeats.
+REPEATING = 0.05
+ONE_SEED = "one seed: others may give more"
+#: Key that asks for more realisations.
+MORE = "settings.realisations"
+
+
+def series_of_run(groups: Mapping[str, xr.Dataset], level: str, run: str) -> xr.Dataset | None:
+    """Return the record of a run over time."""
+    return groups.get(f"/{level}/time/{run}")
+
+
+def irregular(groups: Mapping[str, xr.Dataset], level: str, run: str) -> bool:
+    """Whether a run is through an irregular sea."""
+    series = series_of_run(groups, level, run)
+    return series is not None and bool(int(series.attrs.get("irregular", 0)))
+
+
+def counted(series: xr.Dataset) -> xr.Dataset:
+    """Return the part of a record that counts."""
+    return series.isel(time=series["time"].values >= series["time"].values[0] + series.attrs["skip"])
+
+
+def scatter_of(summary: xr.Dataset, name: str, run: str, **of: str) -> Array:
+    """Return a largest value of the realisations of a run; none where fewer than two were run."""
+    if name not in summary:
+        return np.zeros(0)
+    found = np.asarray(summary[name].sel({"run": run, **of}).values)
+    found = found[np.isfinite(found)]
+    return found if found.size > 1 else np.zeros(0)
+
+
+def length_of(groups: Mapping[str, xr.Dataset], level: str, run: str, scatter: Array) -> tuple[str, Bound]:
+    """Say in how long records of an irregular sea the largest values were found, and what they prove.
+
+    Realisations of records too short to tell the chance of one prove as little as one does: the largest of a storm is
+    that of a longer record.
+
+    Returns
+    -------
+    str
+        Empty for other runs.
+    bound
+        ``at least`` where the records are too short.
+    """
+    series = series_of_run(groups, level, run)
+    if series is None or not irregular(groups, level, run):
+        return "", ""
+    time, period = counted(series)["time"].values, float(series.attrs["period"])
+    if time.size < 2:
+        return "", ""
+    lasts = spoken_time(float(time[-1] - time[0]))
+    words = f"largest in {lasts}"
+    if scatter.size:
+        words = f"mean of the largest of {scatter.size} records of {lasts}"
+    if not too_short(time, period):
+        return words, ""
+    return f"{words}, less than {LEAST_PERIODS:g} periods: a longer sea gives more", "at least"
+
+
+def of_record(groups: Mapping[str, xr.Dataset], level: str, run: str, line: str) -> tuple[Maximum | None, list[str]]:
+    """Return the uncertainty of the highest tension of one record, and say the height that was realised."""
+    series = series_of_run(groups, level, run)
+    if series is None:
+        return None, []
+    if not irregular(groups, level, run):
+        return of_periods(series, *_record(series, line)), []
+    late, said = counted(series), []
+    if "surface_elevation" in late:
+        realised = 4.0 * float(late["surface_elevation"].values.std())
+        said.append(f"realised Hs {realised:.2f} m of {series.attrs['wave_height']:.2f} m, seed {series.attrs['seed']}")
+    found: Maximum | None = maximum_of(*_record(series, line), float(series.attrs["period"]))
+    if found is not None:
+        said.append(
+            f"largest of other seeds about {spoken(found.mean, 'N', 3)}, standard deviation "
+            f"{spoken(found.deviation, 'N', 2, like=found.mean)}"
+        )
+    return found, said
+
+
+def _record(series: xr.Dataset, line: str) -> tuple[Array, Array]:
+    """Return time and highest tension since the row before of a line or net, over what counts."""
+    late = counted(series)
+    named = "line" in late and line in late["line"].values
+    key, axis = ("line_tension_peak_since_row", "line") if named else ("net_tension", "net")
+    if key not in late:
+        return np.zeros(0), np.zeros(0)
+    return late["time"].values, late[key].sel({axis: line}).values
+
+
+def of_periods(series: xr.Dataset, time: Array, values: Array) -> Maximum | None:
+    """Return what the largest of a regular motion that never repeats stands for, ``None`` where it repeats.
+
+    The highest values of its periods are then taken as those of blocks of a record; periods in which waves or motions
+    still grow are none of them, where enough are left without.
+    """
+    period = float(series.attrs.get("period", math.nan))
+    if not (math.isfinite(period) and period > 0.0 and time.size > 1 and np.isfinite(values).all()):
+        return None
+    count = int((time[-1] - time[0]) / period + 1e-9)
+    highest = [float(part.max()) for part in np.array_split(values, count)] if count else [0.0]
+    if min(highest) >= (1.0 - REPEATING) * max(highest):
+        return None
+    grown = time >= float(series["time"].values[0]) + float(series.attrs.get("growth", 0.0))
+    found = maximum_of(time[grown], values[grown], period / PERIODS)
+    if found is None:
+        return maximum_of(time, values, period / PERIODS)
+    return replace(found, observed=float(values.max()))
+
+
+def with_chance(value: float, band: Band | None, found: Maximum, of_sea: bool = True) -> Band:
+    """Return the band of mesh and step, where there is one, and of the chance of one record."""
+    low, high, of = (value, value, "") if band is None else (band.low, band.high, band.of)
+    least, highest = found.range
+    return Band(max(min(low, least), 0.0), max(high, highest), "; ".join(filter(None, (of, of_seeds(found, of_sea)))))
+
+
+def with_seeds(value: float, band: Band | None, scatter: Array) -> Band | None:
+    """Return the band of realisations, widened in proportion by that of mesh and step where there is one."""
+    found = seeds(scatter, more=MORE)
+    if found is None or band is None or not value > 0.0:
+        return found or band
+    wider = found.scaled(band.low / value, band.high / value)
+    return replace(wider, of=f"{band.of}; {found.of}")
+
+
+def of_seeds(found: Maximum, of_sea: bool = True) -> str:
+    """Say of what chance a band is."""
+    if not of_sea:
+        return f"90 of 100 records as long, estimated from {found.blocks} parts of a motion that does not repeat"
+    return f"90 of 100 seeds, estimated from {found.blocks} blocks of the record of one"
