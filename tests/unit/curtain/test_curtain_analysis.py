@@ -8,16 +8,21 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from moyai.case.builder import build
 from moyai.case.reader import load_case
 from moyai.core.errors import InputError
 from moyai.core.results import read_result
+from moyai.structures.curtain import headlines
+from moyai.structures.curtain.analyses import loads
 from moyai.structures.curtain.analyses.dynamic import SpanLoad
 from moyai.structures.curtain.analyses.limits import fastest_water, sea_loads
 from moyai.structures.curtain.analyses.loads import loads_dataset
 from moyai.structures.curtain.assembly import assemble
+from moyai.structures.curtain.hierarchy import CYCLES, IMPACT, ModelRole
 from moyai.structures.curtain.limits.utilisation import utilisation
+from moyai.structures.curtain.model import COMPONENTS
 from moyai.structures.curtain.run import run
 from moyai.structures.curtain.seas.loads import drag_curve
 from moyai.structures.curtain.statics.steady_load import QUANTITIES
@@ -588,3 +593,37 @@ def test_reserve_of_the_floats_at_slack_water_has_the_band_of_the_toe(tmp_path: 
     assert found.band is not None and "weight of the toe" in found.band.of
     assert [found.band.low, found.value, found.band.high] == pytest.approx(ends, abs=2e-3)
     assert found.band.low == pytest.approx(ends[0], rel=1e-9)
+
+
+def test_waves_keep_their_load_where_an_impact_in_a_weaker_current_leads(small):
+    """The impact leads by its value; the cycles may be judged at a higher end, which needs their load and their sea."""
+    problem, _ = small
+    unit = assemble(problem, "SWL", 0.0)
+    roles = (ModelRole(IMPACT, "governs", "", ""), ModelRole(CYCLES, "governs", "", ""))
+    unknown = (math.nan,) * 3
+    rows = [loads._row(unit, name, unknown, math.nan, unknown, "", "") for name in COMPONENTS if name != "skirt"]
+    here = loads._row(unit, "skirt", (100.0, 90.0, 110.0), 50.0, (20.0,) * 3, "slack and taut cycles, storm", "impact")
+    rows.insert(COMPONENTS.index("skirt"), here)
+    weaker = loads._row(unit, "skirt", (40.0,) * 3, 0.0, (120.0, 120.0, 140.0), "", "impact, in a weaker current")
+    skirt = loads._table(unit, rows, {}, roles, {"skirt": [weaker]}).sel(component="skirt")
+    assert float(skirt["governing_load"]) == pytest.approx(160.0)
+    assert float(skirt["steady_load"] + skirt["wave_load"]) == pytest.approx(150.0)
+    assert float(skirt["steady_high"] + skirt["wave_load"]) == pytest.approx(160.0)
+    assert str(skirt["wave_source"].values) == "slack and taut cycles, storm"
+
+
+@pytest.mark.parametrize(("value", "other"), [(60.6e3, 62.2e3), (62.2e3, 60.6e3)])
+def test_every_model_of_waves_is_judged_at_its_own_end(value, other):
+    """The energy model and the cycles of a held curtain: whichever leads, both loads are there to be judged."""
+    row = xr.Dataset(
+        {
+            "steady_load": 10e3, "steady_high": 12e3, "wave_load": value - 10e3, "second_wave_load": other - 10e3,
+            "governing_load": value, "governing": "steady and wave", "wave_source": "energy model, storm",
+            "second_wave_source": "slack and taut cycles, storm", "utilisation": value / 200e3, "load_bound": "",
+            "capacity": 200e3,
+        }
+    )  # fmt: skip
+    (found,) = headlines._other_waves(headlines._Load("SWL", "anchor line", row, None))
+    assert found.value == pytest.approx(other) and found.used == pytest.approx(other / 200e3)
+    assert found.words("wave_source") == "slack and taut cycles, storm" and not found.bound
+    assert found.number("governing_high") == pytest.approx(other + 2e3)

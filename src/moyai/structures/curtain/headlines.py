@@ -159,7 +159,7 @@ def _failing(found: Sequence[Headline], criteria: Sequence[Criterion]) -> set[st
 
 
 def _loads_of(groups: Groups, level: str) -> Iterator[_Load]:
-    """Yield the governing load of every component, and the other runs of the whole span that may be judged higher."""
+    """Yield the governing load of every component, and other runs and models of waves that may be judged higher."""
     table = groups.get(f"/{level}/loads")
     if table is None:
         return
@@ -167,8 +167,22 @@ def _loads_of(groups: Groups, level: str) -> Iterator[_Load]:
         load = _Load(level, str(component), table.isel(component=number), None)
         if math.isfinite(load.value):
             yield replace(load, band=_band(groups, load))
-            for other in _other_runs(groups, load):
+            for other in (*_other_runs(groups, load), *_other_waves(load)):
                 yield replace(other, band=_band(groups, other))
+
+
+def _other_waves(load: _Load) -> Iterator[_Load]:
+    """Yield the load by the model of waves that does not lead: its own end may be the higher one."""
+    # results of older versions do not have it
+    second = load.number("second_wave_load") if "second_wave_load" in load.row else math.nan
+    if math.isfinite(second) and load.words("governing") in ("steady and wave", "steady and impact"):
+        whole = load.number("steady_load") + second
+        more = load.number("steady_high") - load.number("steady_load")
+        yield replace(load, other={
+            "governing": "steady and wave", "wave_load": second, "wave_source": load.words("second_wave_source"),
+            "governing_load": whole, "governing_high": whole + (more if math.isfinite(more) else 0.0), "load_bound": "",
+            "utilisation": load.number("utilisation") * whole / load.value,
+        })  # fmt: skip
 
 
 def _other_runs(groups: Groups, load: _Load) -> Iterator[_Load]:

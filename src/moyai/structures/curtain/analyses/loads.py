@@ -99,7 +99,14 @@ def loads_dataset(
         if component == "skirt" and proportions is not None and proportions.skirt is None:
             hit = math.nan
         ends = (1.0, 1.0) if answer is None else answer.uncertainty
-        rows.append(_row(unit, component, steady, wave, (hit, ends[0] * hit, ends[1] * hit), best.source, name))
+        row = _row(unit, component, steady, wave, (hit, ends[0] * hit, ends[1] * hit), best.source, name)
+        # what another model makes of waves may be judged at a higher end
+        others = [item for item in sources if model_of(item.source) != model_of(best.source)]
+        second = max(others, key=lambda item: getattr(item.loads, field), default=_Added(AddedLoads(), ""))
+        more = factor * getattr(second.loads, field)
+        if row["wave_source"] and more > 0.0 and role_of(roles, model_of(second.source)) == "governs":
+            row |= {"second_wave_load": more, "second_wave_source": second.source}
+        rows.append(row)
     weaker = _in_weaker_current(unit, settings, answer)
     return _table(unit, rows, moved, roles, weaker), tuple(notices)
 
@@ -160,7 +167,7 @@ def _table(
             found = _decided(unit, other, NOT_MOVED, plate)
             high = float(found["governing_high"])
             if high > float(decided[number]["governing_high"]):
-                decided[number] = found
+                decided[number] = _with_waves_of(found, decided[number])
             elif (
                 decided[number]["load_bound"] == "at most"
                 and row["component"] != "joint"
@@ -182,6 +189,24 @@ def _table(
         attrs={"governing_component": "" if governing is None else str(governing["component"])},
     )
     return labelled(data)
+
+
+def _with_waves_of(row: dict[str, float | str], other: dict[str, float | str]) -> dict[str, float | str]:
+    """Return a row in a weaker current with what waves make of the load in the current of the case.
+
+    The impact in the weaker current leads by its value; the waves may be judged at a higher end, which counts the upper
+    end of the steady part in the current of the case.
+    """
+    still, above = float(row["steady_load"]), float(other["steady_high"]) - float(other["steady_load"])
+    whole = float(other["steady_load"]) + float(other["wave_load"])
+    if not (other["wave_source"] and math.isfinite(whole)):
+        return row
+    high = still + above if above > float(row["steady_high"]) - still else row["steady_high"]
+    second = float(other["second_wave_load"]) + float(other["steady_load"]) - still
+    return row | {
+        "wave_load": whole - still, "wave_source": other["wave_source"], "steady_high": high,
+        "second_wave_load": second, "second_wave_source": other["second_wave_source"],
+    }  # fmt: skip
 
 
 def _decided(
@@ -395,5 +420,7 @@ def _row(
         "safety_factor": strength.safety_factor if judged and there else math.nan,
         "load_unit": _UNITS.get(component, "N"),
         "wave_source": source if there and wave > 0.0 else "",
+        "second_wave_load": math.nan,
+        "second_wave_source": "",
         "impact_source": struck if there and hit > 0.0 else "",
     }
