@@ -11,7 +11,7 @@ import xarray as xr
 import moyai
 from moyai.core.results import Result
 from moyai.structures.network.chance import of_periods
-from moyai.structures.network.settling import DRIFTED, Drift, drift_of
+from moyai.structures.network.settling import DRIFTED, Drift, drift_of, drift_of_all
 
 CASE = """
 moyai: 1
@@ -137,3 +137,18 @@ def test_what_swings_about_its_place_has_arrived() -> None:
         for irregular in (False, True)
     ]  # fmt: skip
     assert [one.point for one in found] == ["", ""]
+
+
+def test_realisations_together_show_a_drift_that_one_hides():
+    rng = np.random.default_rng(3)
+    parts, count = np.arange(5.0), 20
+    swing = rng.normal(0.0, 2.0, (count, 5, 1))
+    out, excursion = np.abs(2.0 * parts[:, None] + swing), np.full((count, 1), 12.0)
+    free, led = np.array([False]), np.array([True])
+    found = drift_of_all(out, excursion, ["buoy"], free, 100.0)
+    assert found.point == "buoy" and found.moved == pytest.approx(2.0, rel=0.3) and found.within == pytest.approx(20.0)
+    assert "still moves" in found.words() and found.notices()
+    still = np.abs(3.0 + swing)
+    assert not drift_of_all(still, excursion, ["buoy"], free, 100.0).point
+    assert not drift_of_all(out, excursion, ["buoy"], led, 100.0).point
+    assert not drift_of_all(out[:1], excursion[:1], ["buoy"], free, 100.0).point

@@ -18,6 +18,7 @@ from moyai.structures.network.assembly import Assembly
 from moyai.structures.network.equilibrium import around, highest_pulls, named_points
 from moyai.structures.network.model import NetworkProblem
 from moyai.structures.network.runs import RunPlan, flow_of_seed
+from moyai.structures.network.settling import PARTS_IN_A_SEA
 from moyai.structures.network.single_anchor import single_anchors
 
 #: Bars times steps, and nodes times waves times evaluations of the sea, that further realisations may take by
@@ -42,6 +43,9 @@ class Realisations:
     #: Largest horizontal distance of each point from the only fixed point that holds it [m], not a number of others;
     #: shape (r, points).
     reach: Array
+    #: Distance of the mean place of each point in each fifth of what counts from that in still water [m]; shape (r, 5,
+    #: points).
+    way: Array
 
     def notices(self) -> list[Notice]:
         """Say how many could not be run."""
@@ -170,8 +174,8 @@ def _anchors(problem: NetworkProblem, assembly: Assembly) -> IntArray:
 
 def _largest(
     assembly: Assembly, runs: Ensemble, member: int, counted: BoolArray, origin: Array, anchors: IntArray
-) -> tuple[Array, Array, Array, Array, Array]:
-    """Return the highest tensions of lines and nets, pulls on points, their excursions and their reach of one run."""
+) -> tuple[Array, Array, Array, Array, Array, Array]:
+    """Return the highest tensions of lines and nets, pulls on points, their excursions, reach and way of one run."""
     network = assembly.network
     _, points = named_points(assembly)
     pull = runs.tension[member][counted]
@@ -184,4 +188,6 @@ def _largest(
     away = np.linalg.norm(place[:, points] - origin, axis=2)
     apart = np.linalg.norm((place[:, points] - place[:, anchors])[..., :2], axis=2).max(axis=0)
     reach = np.where(anchors >= 0, apart, np.nan)
-    return np.array(lines), np.array(nets), loads.max(axis=0), away.max(axis=0), reach
+    means = np.array([part.mean(axis=0) for part in np.array_split(place[:, points], PARTS_IN_A_SEA)])
+    way = np.linalg.norm(means - origin, axis=2)
+    return np.array(lines), np.array(nets), loads.max(axis=0), away.max(axis=0), reach, way

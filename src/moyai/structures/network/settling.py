@@ -25,6 +25,8 @@ PARTS, LEAST_PARTS = 24, 6
 STANDING, SCATTER = 0.02, 3.0
 #: The same change from the first to the last fifth of a random record, in which means move by chance.
 STANDING_IN_A_SEA = 0.1
+#: Parts of a random record.
+PARTS_IN_A_SEA = 5
 #: Way from the first to the last of the means over the way along them all, above which they move on and do not swing.
 STRAIGHT = 0.8
 #: Change of the highest tension in a steady current that still counts as the same, over the highest of all.
@@ -147,7 +149,7 @@ def _still_moving(
     time: Array, place: Array, names: list[str], scale: float, period: float, after: float, irregular: bool
 ) -> tuple[str, float, float]:
     """Return the point whose mean moves on one way through all that counts, how far in its last part, and its time."""
-    parts = 5 if irregular else 4
+    parts = PARTS_IN_A_SEA if irregular else 4
     means, ends = _means(time, place, period, after, parts)
     if len(means) < parts:
         return "", 0.0, 0.0
@@ -162,6 +164,39 @@ def _still_moving(
         return "", 0.0, 0.0
     most = int(np.argmax(size))
     return names[most], float(np.linalg.norm(steps[-1][most])), float(ends[-1] - ends[-2])
+
+
+def drift_of_all(way: Array, excursion: Array, names: list[str], led: BoolArray, duration: float) -> Drift:
+    """Return what realisations of a sea show together of the way of their points: one alone moves to and fro by chance.
+
+    A point is on its way where the distance of its mean place from that in still water grows, on average over the
+    realisations, from the first fifth of the record to the last by more than a tenth of the largest excursion and by
+    more than three standard errors.
+
+    Parameters
+    ----------
+    way : ndarray, shape (realisations, parts, points)
+        That distance [m].
+    excursion : ndarray, shape (realisations, points)
+        Largest distance [m].
+    names : list of str
+        Of the points.
+    led : ndarray of bool, shape (points,)
+        Whether a motion of the case leads the point.
+    duration : float
+        Of what counts [s].
+    """
+    sound = np.isfinite(way).all(axis=(1, 2)) & np.isfinite(excursion).all(axis=1)
+    if np.count_nonzero(sound) < 2 or led.all():
+        return Drift()
+    change = (way[:, -1] - way[:, 0])[sound]
+    mean, error = change.mean(axis=0), change.std(axis=0, ddof=1) / math.sqrt(len(change))
+    scale = float(excursion[sound].max())
+    size = np.where(~led & (mean > np.maximum(STANDING_IN_A_SEA * scale, SCATTER * error)), mean, 0.0)
+    if not size.any():
+        return Drift()
+    most, steps = int(np.argmax(size)), way.shape[1] - 1
+    return Drift(0.0, names[most], float(mean[most]) / steps, duration / way.shape[1])
 
 
 def unsettled(groups: Mapping[str, xr.Dataset], level: str, run: str) -> str:
