@@ -25,8 +25,9 @@ PARTS, LEAST_PARTS = 24, 6
 STANDING, SCATTER = 0.02, 3.0
 #: The same change from the first to the last fifth of a random record, in which means move by chance.
 STANDING_IN_A_SEA = 0.1
-#: Parts of a random record.
-PARTS_IN_A_SEA = 5
+#: Parts of a random record, and standard errors of the mean over realisations above which its change is no chance: a
+#: false alarm in forty leaves a number "at least".
+PARTS_IN_A_SEA, NO_CHANCE = 5, 2.0
 #: Way from the first to the last of the means over the way along them all, above which they move on and do not swing.
 STRAIGHT = 0.8
 #: Change of the highest tension in a steady current that still counts as the same, over the highest of all.
@@ -171,7 +172,7 @@ def drift_of_all(way: Array, excursion: Array, names: list[str], led: BoolArray,
 
     A point is on its way where the distance of its mean place from that in still water grows, on average over the
     realisations, from the first fifth of the record to the last by more than a tenth of the largest excursion and by
-    more than three standard errors.
+    more than two standard errors.
 
     Parameters
     ----------
@@ -192,7 +193,7 @@ def drift_of_all(way: Array, excursion: Array, names: list[str], led: BoolArray,
     change = (way[:, -1] - way[:, 0])[sound]
     mean, error = change.mean(axis=0), change.std(axis=0, ddof=1) / math.sqrt(len(change))
     scale = float(excursion[sound].max())
-    size = np.where(~led & (mean > np.maximum(STANDING_IN_A_SEA * scale, SCATTER * error)), mean, 0.0)
+    size = np.where(~led & (mean > np.maximum(STANDING_IN_A_SEA * scale, NO_CHANCE * error)), mean, 0.0)
     if not size.any():
         return Drift()
     most, steps = int(np.argmax(size)), way.shape[1] - 1
