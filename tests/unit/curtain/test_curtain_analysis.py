@@ -627,3 +627,5 @@ def test_every_model_of_waves_is_judged_at_its_own_end(value, other):
     assert found.value == pytest.approx(other) and found.used == pytest.approx(other / 200e3)
     assert found.words("wave_source") == "slack and taut cycles, storm" and not found.bound
     assert found.number("governing_high") == pytest.approx(other + 2e3)
+    bound = headlines._Load("SWL", "anchor line", row.assign(load_bound="at most"), None)
+    assert not list(headlines._other_waves(bound))

@@ -175,7 +175,9 @@ def _other_waves(load: _Load) -> Iterator[_Load]:
     """Yield the load by the model of waves that does not lead: its own end may be the higher one."""
     # results of older versions do not have it
     second = load.number("second_wave_load") if "second_wave_load" in load.row else math.nan
-    if math.isfinite(second) and load.words("governing") in ("steady and wave", "steady and impact"):
+    # next to a bound it would stand as a value that is less than what may come
+    alone = not load.bound and load.words("governing") in ("steady and wave", "steady and impact")
+    if alone and math.isfinite(second):
         whole = load.number("steady_load") + second
         more = load.number("steady_high") - load.number("steady_load")
         yield replace(load, other={
