@@ -136,3 +136,43 @@ def test_a_net_without_points_has_realisations_of_its_tension() -> None:
     dynamic = _storm(run(NET))
     assert dynamic["net_tension_maximum_of_realisation"].sel(net="wall").size == 2
     assert "load_of_realisation" not in dynamic
+
+
+@pytest.mark.filterwarnings("error::RuntimeWarning")
+def test_a_record_of_a_few_rows_shows_no_way_and_no_warning_of_numpy() -> None:
+    result = run(CASE.replace("realisations: 4", "realisations: 2, output_step: 8 s"))
+    assert _headline(result, "offset").value > 0.0
+    assert not any(notice.code == "still-drifting" for notice in result.notices)
+
+
+DRIFTING = """
+moyai: 1
+title: Buoy that drifts in a sea without a current
+site: {water_depth: 18 m, density: 1025 kg/m3, gravity: 9.81 m/s2}
+waves: {kind: jonswap, name: storm, significant_height: 0.8 m, peak_period: 4.5 s, peak_enhancement: 3.3,
+        heading_deg: 0, seed: 5, duration: 150 s}
+structure:
+  kind: network
+  line_types:
+    rope: {diameter: 36 mm, mass: 0.8 kg/m, axial_stiffness: 600 kN, damping_ratio: 0.3, drag_normal: 1.2,
+           drag_tangential: 0.02, added_mass_normal: 1.0, breaking_load: 150 kN}
+  points:
+    anchor: {kind: fixed, position: [0, 0, bed]}
+    buoy: {kind: sphere, position: [2 m, 0, 0], diameter: 1.6 m, mass: 600 kg, drag_coefficient: 0.6,
+           added_mass_coefficient: 0.5}
+  lines:
+    rode: {start: anchor, end: buoy, type: rope, length: 30 m, segments: 16}
+analyses: [dynamic]
+settings: {mesh_check: off, realisations: 20}
+criteria: {greatest_offset: 15 m}
+"""
+
+
+@pytest.mark.slow
+def test_a_buoy_on_its_way_in_a_sea_without_a_current_is_not_judged() -> None:
+    """In ten minutes it goes 17 to 20 m; the first realisation of 150 s goes to and fro and hides it."""
+    result = run(DRIFTING)
+    assert any(notice.code == "still-drifting" for notice in result.notices)
+    offset = _headline(result, "offset")
+    assert offset.bound == "at least" and offset.value < 15.0
+    assert result.verdict.outcome == "not judged"

@@ -38,7 +38,7 @@ from moyai.structures.network.resume import Earlier, joined, last_good_state, wi
 from moyai.structures.network.run_notices import capsized, peak_inside, realised_low, run_notices
 from moyai.structures.network.runs import RunPlan, motions_of
 from moyai.structures.network.series import frames_of, kept_nodes, series_of, snaps_of, with_bodies
-from moyai.structures.network.settling import drift_of_all, settled
+from moyai.structures.network.settling import drift_of_all, led_points, settled
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -176,10 +176,8 @@ def run(
     notices += left_out(problem, plan, history) if others is None else others.notices()
     if others is not None and not drift.point and problem.current_field is None:
         names = [str(name) for name in series["point"].values]
-        driven = {point.name for point in problem.points if point.kind == "driven"}
-        drift = drift_of_all(
-            others.way, others.excursion, names, np.array([name in driven for name in names]), plan.duration - plan.skip
-        )
+        led = led_points(problem, names)
+        drift = drift_of_all(others.way, others.excursion, names, led, plan.duration - plan.skip)
         series.attrs["unsettled"] = drift.words()
         notices += drift.notices()
     few = {name: said for name in assembly.lines if (said := few_bars(assembly, name))}

@@ -188,6 +188,8 @@ def _largest(
     away = np.linalg.norm(place[:, points] - origin, axis=2)
     apart = np.linalg.norm((place[:, points] - place[:, anchors])[..., :2], axis=2).max(axis=0)
     reach = np.where(anchors >= 0, apart, np.nan)
-    means = np.array([part.mean(axis=0) for part in np.array_split(place[:, points], PARTS_IN_A_SEA)])
-    way = np.linalg.norm(means - origin, axis=2)
+    # too few rows for parts show no way
+    parts = np.array_split(place[:, points], PARTS_IN_A_SEA)
+    means = [part.mean(axis=0) if len(part) else np.full(origin.shape, np.nan) for part in parts]
+    way = np.linalg.norm(np.array(means) - origin, axis=2)
     return np.array(lines), np.array(nets), loads.max(axis=0), away.max(axis=0), reach, way

@@ -206,6 +206,12 @@ def unsettled(groups: Mapping[str, xr.Dataset], level: str, run: str) -> str:
     return "" if series is None else str(series.attrs.get("unsettled", ""))
 
 
+def led_points(problem: NetworkProblem, names: list[str]) -> BoolArray:
+    """Return which points a motion of the case leads."""
+    driven = {point.name for point in problem.points if point.kind == "driven"}
+    return np.array([name in driven for name in names], dtype=bool)
+
+
 def settled(problem: NetworkProblem, plan: RunPlan, series: xr.Dataset, origin: Array | None) -> tuple[RunPlan, Drift]:
     """Return the plan with the way to the mean place left out, where the case leaves that to the program, and the rest.
 
@@ -223,12 +229,11 @@ def settled(problem: NetworkProblem, plan: RunPlan, series: xr.Dataset, origin: 
     if problem.current_field is not None or problem.failures or not series.sizes["point"]:
         return plan, Drift()
     names, place = [str(name) for name in series["point"].values], series["point_position"].values
-    driven = {point.name for point in problem.points if point.kind == "driven"}
     pull = None
     if plan.waves is None and not problem.motions and "line_tension_peak_since_row" in series:
         pull = np.nan_to_num(series["line_tension_peak_since_row"].values)
     found = drift_of(
-        series["time"].values, place, place[0] if origin is None else origin, np.array([n in driven for n in names]),
+        series["time"].values, place, place[0] if origin is None else origin, led_points(problem, names),
         period=plan.period, skip=plan.skip, irregular=plan.irregular, names=names, pull=pull,
     )  # fmt: skip
     away = problem.environment.current is not None and problem.start != "rest_in_current"
