@@ -9,9 +9,8 @@ import pytest
 
 from moyai.mooring.catenary import solve_catenary
 from moyai.mooring.lines import Line, LineType, Segment
-from moyai.mooring.planar import PlanarLineSystem
 from moyai.mooring.shoji import solve_shoji
-from moyai.mooring.system import LineSystem
+from moyai.mooring.system import LineSystem, PlanarLineSystem
 
 TABLE = np.loadtxt(Path(__file__).parent / "data" / "nakamura_chain_offsets.txt")
 REACH, RISE, LENGTH, AXIAL, WEIGHT = 1.925, 0.267, 1.975, 2.14e4, 1.122

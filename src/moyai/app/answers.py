@@ -6,21 +6,19 @@ import json
 from collections.abc import Awaitable, Callable
 from dataclasses import asdict
 from functools import wraps
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from starlette.requests import Request
 from starlette.responses import Response
 
 from moyai.app.messages import message
 from moyai.app.security import BodyTooLarge
+from moyai.app.state import App
 from moyai.core.errors import CaseError, Fault, MoyaiError, system_words
 from moyai.language import spoken_in
 from moyai.language.faults import spoken_fault
 
-if TYPE_CHECKING:
-    from moyai.app.server import App
-
-Endpoint = Callable[["App", Request], Awaitable[Response]]
+Endpoint = Callable[[App, Request], Awaitable[Response]]
 
 
 def json_answer(content: dict[str, Any], status: int = 200) -> Response:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import json
 from collections.abc import AsyncIterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
 from urllib.parse import quote
 
 from starlette.requests import Request
@@ -16,14 +16,12 @@ from moyai.app.documents import OpenCase, stem_of
 from moyai.app.gallery import gallery
 from moyai.app.messages import STALE, Wish
 from moyai.app.pins import renamed, with_pin
+from moyai.app.state import App
 from moyai.case.form import form_of
 from moyai.case.text_changes import with_key, with_scalar, without_key
 from moyai.case.yaml_reader import CaseDocument, parse_yaml
 from moyai.core.errors import InputError
 from moyai.core.kinds import kind_named
-
-if TYPE_CHECKING:
-    from moyai.app.server import App
 
 
 async def _gallery(app: App, request: Request) -> Response:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-from typing import TYPE_CHECKING
 
 from starlette.requests import Request
 from starlette.responses import FileResponse, Response
@@ -14,12 +13,10 @@ from moyai.app.folder import within
 from moyai.app.job import FILES
 from moyai.app.job_process import Order
 from moyai.app.security import REPORT_POLICY
+from moyai.app.state import App
 from moyai.app.study_jobs import refuse_foreign_base
 from moyai.report.on_demand import MADE, made, so_far
 from moyai.study.cases_so_far import case_text, table_of
-
-if TYPE_CHECKING:
-    from moyai.app.server import App
 
 _DOWNLOADS = {"results.nc": "application/x-netcdf", "case.yaml": "text/yaml; charset=utf-8"}
 

@@ -102,7 +102,8 @@ def serve(folder: Folder, first: str, run: Run, *, port: int, browser: bool, say
     import uvicorn
 
     from moyai.app.security import Secrets
-    from moyai.app.server import App, create
+    from moyai.app.server import create
+    from moyai.app.state import App
 
     listener = open_socket(port)
     number = listener.getsockname()[1]

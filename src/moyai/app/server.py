@@ -15,14 +15,9 @@ from starlette.routing import Route
 
 from moyai.app import case_addresses, job_addresses
 from moyai.app.answers import answering
-from moyai.app.documents import Documents
-from moyai.app.folder import Folder
-from moyai.app.jobs import Jobs
-from moyai.app.pins import Run
-from moyai.app.security import Guard, Secrets
+from moyai.app.security import Guard
+from moyai.app.state import App
 from moyai.app.words import marked, page_words
-from moyai.app.worker import DraftWorker
-from moyai.language import require_language
 from moyai.report.encoding import page_json
 
 _SCRIPTS = (
@@ -31,31 +26,6 @@ _SCRIPTS = (
 )  # fmt: skip
 _OWN = ("app.css", *(f"{name}.js" for name in _SCRIPTS))
 _TYPES = {"css": "text/css", "js": "text/javascript", "html": "text/html"}
-
-
-class App:
-    """State of one start: the folder, open cases, jobs, the process of the drafts.
-
-    Parameters
-    ----------
-    folder : Folder
-    run : callable
-        Runs a case; a function of a module.
-    secrets_ : Secrets
-    first : str
-        Case file that the page opens at once, relative to the folder; empty for the gallery.
-    language : str
-        Of the page and its messages, and of reports whose case names none.
-    """
-
-    def __init__(self, folder: Folder, run: Run, secrets_: Secrets, first: str = "", language: str = "en") -> None:
-        self.folder = folder
-        self.secrets = secrets_
-        self.first = first
-        self.language = require_language(language)
-        self.documents = Documents(folder)
-        self.jobs = Jobs(run, folder=folder)
-        self.worker = DraftWorker(run, language)
 
 
 @cache

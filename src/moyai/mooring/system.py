@@ -10,18 +10,15 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array
-from moyai.core.errors import ConvergenceError, InputError
+from moyai.core.errors import InputError
+from moyai.mooring.balance import newton_with_line_search
 from moyai.mooring.lines import LineElement, LineState, Vector
 from moyai.mooring.rotations import cross_matrix, rotation_matrix, spin_of_angle_rates
-
-if TYPE_CHECKING:
-    from moyai.mooring.planar import PlanarLineSystem
 
 DEGREES_OF_FREEDOM = ("surge", "sway", "heave", "roll", "pitch", "yaw")
 
@@ -226,9 +223,7 @@ class LineSystem:
         return evaluate
 
     def planar(self) -> PlanarLineSystem:
-        """Return the view in x-z: sway x, heave z, roll positive about +y (see :mod:`moyai.mooring.planar`)."""
-        from moyai.mooring.planar import PlanarLineSystem
-
+        """Return the view in x-z: sway x, heave z, roll positive about +y (see :class:`PlanarLineSystem`)."""
         return PlanarLineSystem(self)
 
     @cached_property
@@ -263,112 +258,6 @@ class LineSystem:
         return np.array([force] * 3 + [moment] * 3)
 
 
-def newton_with_line_search(
-    imbalance: Callable[[Array], Array],
-    jacobian: Callable[[Array], Array],
-    start: Array,
-    scale: Array,
-    free: list[int],
-    tolerance: float,
-    most: int = 100,
-) -> tuple[Array, float, int]:
-    """Solve ``imbalance(position) = 0`` in the ``free`` components by damped Newton steps.
-
-    Steps follow the Jacobian, are shortened until the scaled imbalance falls, and lean to steepest descent
-    (Levenberg-Marquardt) where the Jacobian is singular, for instance while all lines are slack.
-
-    Raises
-    ------
-    ConvergenceError
-        After ``most`` steps without success.
-    """
-    position = np.array(start, dtype=float)
-    weight = 1.0 / scale[free]
-    value = imbalance(position)[free] * weight
-    norm = float(np.linalg.norm(value))
-    damping = 0.0
-    for iteration in range(most):
-        if float(np.max(np.abs(value), initial=0.0)) <= tolerance:
-            return position, float(np.max(np.abs(value), initial=0.0)), iteration
-        matrix = jacobian(position)[np.ix_(free, free)] * weight[:, None]
-        columns = np.linalg.norm(matrix, axis=0)
-        safe = np.where(columns > 0.0, columns, max(float(columns.max()), 1e-300))
-        scaled = matrix / safe
-        accepted = False
-        for _ in range(12 if float(columns.max()) > 0.0 else 0):
-            system = np.vstack([scaled, np.sqrt(damping) * np.eye(len(free))])
-            step = np.linalg.lstsq(system, np.concatenate([-value, np.zeros(len(free))]), rcond=1e-14)[0] / safe
-            for shrink in (1.0, 0.5, 0.2, 0.05):
-                trial = position.copy()
-                trial[free] += shrink * step
-                trial_value = imbalance(trial)[free] * weight
-                trial_norm = float(np.linalg.norm(trial_value))
-                if trial_norm < norm * (1.0 - 1e-4 * shrink):
-                    accepted = True
-                    break
-            if accepted:
-                break
-            damping = max(10.0 * damping, 1e-8)
-        if not accepted:
-            held = _push_until_held(imbalance, position, free, weight, norm)
-            if held is None:
-                break
-            trial, trial_value = held
-            trial_norm = float(np.linalg.norm(trial_value))
-            damping = 0.0
-        position, value, norm = trial, trial_value, trial_norm
-        damping = 0.0 if damping < 1e-7 else 0.1 * damping
-    worst = float(np.max(np.abs(value)))
-    if worst <= 1e3 * tolerance:  # rounding of stiff lines
-        return position, worst, most
-    raise ConvergenceError(
-        f"no equilibrium of the moored body: imbalance {worst:.2e} of the largest load remains",
-        parameter="load",
-        remedy="check that the lines and hydrostatics can carry the load, or start nearer",
-    )
-
-
-def _push_until_held(
-    imbalance: Callable[[Array], Array],
-    position: Array,
-    free: list[int],
-    weight: Array,
-    norm: float,
-) -> tuple[Array, Array] | None:
-    """Move the body with the imbalance, through slack lines that feel nothing, until something pulls back.
-
-    Returns a position of smaller imbalance and that imbalance (scaled), or None when nothing ever holds the body.
-    """
-    scaled = imbalance(position)[free] * weight
-    way = scaled * weight / float(np.max(weight))
-
-    def at(length: float) -> tuple[Array, Array]:
-        trial = position.copy()
-        trial[free] += length * way
-        return trial, imbalance(trial)[free] * weight
-
-    free_run, length = 0.0, 1e-3 / max(float(np.max(np.abs(way))), 1e-300)
-    for _ in range(60):
-        trial, value = at(length)
-        if float(np.linalg.norm(value)) < norm * (1.0 - 1e-9):
-            return trial, value
-        if float(value @ scaled) < 0.0:  # gone too far: something pulls back harder than the load
-            break
-        free_run, length = length, 1.5 * length
-    else:
-        return None
-    for _ in range(80):
-        middle = 0.5 * (free_run + length)
-        trial, value = at(middle)
-        if float(np.linalg.norm(value)) < norm * (1.0 - 1e-9):
-            return trial, value
-        if float(value @ scaled) < 0.0:
-            length = middle
-        else:
-            free_run = middle
-    return None
-
-
 def direction_vector(direction: str | ArrayLike, names: Sequence[str]) -> Array:
     """Return a direction given by name or by components."""
     if isinstance(direction, str):
@@ -393,3 +282,107 @@ def _positions(position: ArrayLike) -> Array:
     if not np.all(np.isfinite(array)):
         raise InputError("position holds NaN or infinity", parameter="position")
     return array
+
+
+PLANAR_DEGREES_OF_FREEDOM = ("sway", "heave", "roll")
+_KEPT = [0, 2, 4]
+
+
+@dataclass(frozen=True)
+class PlanarLineSystem:
+    """Line system of a body that moves in the x-z plane; positions and forces have 3 components.
+
+    Sway x, heave z, roll positive about +y, as the breakwater literature counts them: roll theta moves a body point
+    (x, z) to (x cos + z sin, -x sin + z cos), to first order by theta (z, -x); it is the pitch of the 3-D view. Forces
+    out of the plane are left out; lines in mirror-image pairs have none.
+    """
+
+    #: The lines in space; their y coordinates are honoured, all copies and all lines count.
+    system: LineSystem
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the lines, in the order of every ``tension`` array."""
+        return self.system.names
+
+    def states(self, position: ArrayLike) -> dict[str, LineState]:
+        """Solve every line for positions (n, 3) or (3,)."""
+        return self.system.states(_space(position))
+
+    def forces(self, position: ArrayLike, about: tuple[float, float] = (0.0, 0.0)) -> Array:
+        """Return (F_x, F_z, M_y) (..., 3) [N, N m] of all lines on the body, moment about the body point (x, z)."""
+        return self.system.forces(_space(position), (about[0], 0.0, about[1]))[..., _KEPT]
+
+    def tensions(self, position: ArrayLike) -> Array:
+        """Return fairlead tensions (..., lines) [N] of one copy of every line."""
+        return self.system.tensions(_space(position))
+
+    def stiffness(self, position: ArrayLike, about: tuple[float, float] = (0.0, 0.0)) -> Array:
+        """Return the tangent stiffness (..., 3, 3) for sway, heave of the point ``about``, and roll.
+
+        It is symmetric at every position when the bed is frictionless.
+        """
+        full = self.system.stiffness(_space(position), (about[0], 0.0, about[1]))
+        return full[..., _KEPT, :][..., :, _KEPT]
+
+    def restoring_curve(
+        self, direction: str | ArrayLike, offsets: ArrayLike, position: ArrayLike = (0.0, 0.0, 0.0)
+    ) -> RestoringCurve:
+        """Move the body along ``direction`` (``sway``, ``heave``, ``roll`` or 3 numbers) from ``position``."""
+        unit = direction_vector(direction, PLANAR_DEGREES_OF_FREEDOM)
+        steps = np.atleast_1d(np.asarray(offsets, dtype=float))
+        path = np.asarray(position, dtype=float) + steps[:, None] * unit
+        return RestoringCurve(steps, unit, self.forces(path), self.tensions(path), self.stiffness(path))
+
+    def equilibrium(
+        self,
+        load: ArrayLike,
+        hydrostatic_stiffness: ArrayLike | None = None,
+        *,
+        start: ArrayLike = (0.0, 0.0, 0.0),
+        subtract_rest_force: bool = False,
+        tolerance: float = 1e-10,
+    ) -> MooringEquilibrium:
+        """Find where line force + load - hydrostatic stiffness x position vanishes; see :meth:`LineSystem.equilibrium`.
+
+        Raises
+        ------
+        ConvergenceError
+            When no equilibrium is found.
+        """
+        load = np.asarray(load, dtype=float)
+        hydrostatic = (
+            np.zeros((3, 3)) if hydrostatic_stiffness is None else np.asarray(hydrostatic_stiffness, dtype=float)
+        )
+        evaluate = self.system.evaluator()
+
+        def planar_force(position: Array) -> Array:
+            return evaluate(_space(position))[0][_KEPT]
+
+        def planar_stiffness(position: Array) -> Array:
+            return evaluate(_space(position))[1][np.ix_(_KEPT, _KEPT)]
+
+        rest = planar_force(np.zeros(3)) if subtract_rest_force else np.zeros(3)
+        first = np.asarray(start, dtype=float)
+        scale = self.system._load_scale(_space(first), _space(load))[_KEPT]
+        position, residual, steps = newton_with_line_search(
+            lambda x: planar_force(x) - rest + load - hydrostatic @ x,
+            lambda x: -planar_stiffness(x) - hydrostatic,
+            first,
+            scale,
+            [0, 1, 2],
+            tolerance,
+        )
+        return MooringEquilibrium(
+            position, planar_force(position), self.tensions(position), planar_stiffness(position), residual, steps
+        )
+
+
+def _space(planar: ArrayLike) -> Array:
+    """Put (x, z, about y) into six components."""
+    array = np.asarray(planar, dtype=float)
+    if array.shape[-1:] != (3,):
+        raise InputError(f"shape {array.shape}", parameter="position", allowed="last axis of 3: sway, heave, roll")
+    out = np.zeros((*array.shape[:-1], 6))
+    out[..., _KEPT] = array
+    return out

@@ -9,9 +9,8 @@ import numpy as np
 from moyai.core.validation import ValidationCase
 from moyai.mooring.catenary import solve_catenary
 from moyai.mooring.lines import Clump, Line, LineType, Segment
-from moyai.mooring.planar import PlanarLineSystem
 from moyai.mooring.shoji import solve_shoji
-from moyai.mooring.system import LineSystem
+from moyai.mooring.system import LineSystem, PlanarLineSystem
 
 _NAKAMURA = "Nakamura, Ohmori and Ide: chain of the model, by an independent prototype"
 

@@ -25,7 +25,8 @@ from starlette.testclient import TestClient
 
 from moyai.app.folder import Folder
 from moyai.app.security import Secrets
-from moyai.app.server import App, create
+from moyai.app.server import create
+from moyai.app.state import App
 from moyai.case.sliders import COMMON
 
 PORT = 8766

@@ -19,7 +19,8 @@ from starlette.testclient import TestClient
 
 from moyai.app.folder import Folder
 from moyai.app.security import REPORT_POLICY, Secrets
-from moyai.app.server import App, create
+from moyai.app.server import create
+from moyai.app.state import App
 
 PORT = 8766
 

@@ -14,7 +14,7 @@ from moyai.coupled.hulls import box_hull, cylinder_hull
 from moyai.coupled.rigid import RigidBody
 from moyai.interop.read import read_coefficients
 from moyai.sea.water import Water
-from moyai.structures.network.bodies import BodyPlan
+from moyai.structures.network.body_plan import BodyPlan
 from moyai.structures.network.coefficients import hydrostatic_stiffness
 from moyai.structures.network.run import run
 

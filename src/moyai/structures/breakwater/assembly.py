@@ -13,8 +13,7 @@ from moyai.core.remembered import Remembered, key_of_objects
 from moyai.core.validity import Notice
 from moyai.floating.statics import Hydrostatics, body_to_site, find_equilibrium, hydrostatics, inertia_matrix
 from moyai.mooring.lines import Line, LineElement, SpringLine
-from moyai.mooring.planar import PlanarLineSystem
-from moyai.mooring.system import LineSystem
+from moyai.mooring.system import LineSystem, PlanarLineSystem
 from moyai.potential.sections import Section
 from moyai.sea.water import Water
 from moyai.structures.breakwater.model import (

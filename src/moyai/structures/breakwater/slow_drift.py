@@ -13,8 +13,8 @@ from moyai.floating.damping import LinearDamping
 from moyai.floating.irregular import integration_weights
 from moyai.floating.modes import added_mass_function, damping_function, natural_modes
 from moyai.structures.breakwater.assembly import FloatingUnit
+from moyai.structures.breakwater.frequency.about_rest import natural_added_mass
 from moyai.structures.breakwater.frequency.model import FrequencyModel
-from moyai.structures.breakwater.viscous_damping import natural_added_mass
 
 WAVE_POINTS = 600  # frequencies of the waves over which the force spectrum is integrated
 REACH = 4.0  # difference frequencies up to so many natural frequencies of sway

@@ -4,117 +4,26 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, Literal
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
+from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
-from moyai.core.options import checks_words
 from moyai.core.progress import Progress
-from moyai.coupled.assembly import BodyAssembly, RodPart, VolumePart
+from moyai.coupled.assembly import RodPart
 from moyai.coupled.bodies import BodyHistory, BodyState
 from moyai.coupled.equilibrium import CoupledEquilibrium, find_coupled_equilibrium
-from moyai.coupled.hulls import box_hull, cylinder_hull
 from moyai.coupled.rigid import RigidBody
 from moyai.coupled.simulate import CoupledHistory, simulate_coupled
-from moyai.coupled.wave_loads import WaveLoads
 from moyai.flexible.flow import Flow
 from moyai.flexible.network import Network
 from moyai.flexible.refine import more_viscous, with_viscosity
 from moyai.flexible.result import History, State
 from moyai.flexible.sensitivity import PeakSensitivity, refined_start
-from moyai.mooring.rotations import rotation_matrix
-from moyai.sea.water import Water
-from moyai.structures.network.coefficients import BodyCoefficients
-
-if TYPE_CHECKING:
-    from moyai.structures.network.model import NetworkProblem
-
-Triple = tuple[float, float, float]
-
-
-@checks_words
-@dataclass(frozen=True)
-class BodyPlan:
-    """A box, an upright cylinder (their axes start at the middle), or an assembly of rods and volumes in its axes."""
-
-    name: str
-    shape: Literal["box", "cylinder", "assembly"]
-    #: Along its axes; of a cylinder diameter, diameter, height [m].
-    size: Triple
-    #: Of an assembly without its parts [kg].
-    mass: float
-    #: About the centre of gravity, roll, pitch, yaw [kg m2].
-    inertia: Triple
-    #: From the middle [m].
-    centre_of_gravity: Triple
-    #: Of the middle at the start, z above still water [m].
-    position: Triple
-    #: Roll, pitch, yaw at the start [rad].
-    rotation: Triple
-    #: Points that lines meet, from the middle [m].
-    points: Mapping[str, Triple]
-    #: Coefficients along its axes [-].
-    drag: Triple
-    #: Coefficients along its axes [-].
-    added_mass: Triple
-    #: Along and about its axes [N s/m, N m s].
-    linear_damping: tuple[float, ...] = (0.0,) * 6
-    #: Surge, sway, heave, roll, pitch, yaw.
-    free: tuple[bool, ...] = (True,) * 6
-    #: Of an assembly.
-    parts: tuple[RodPart | VolumePart, ...] = ()
-    #: Place in its axes that stays where it is at the start [m].
-    pin: Triple | None = None
-    #: Drag coefficient times area times arm squared about its axes [m5].
-    turning_drag: Triple = (0.0, 0.0, 0.0)
-    #: File with the loads of the waves on it in place of ``added_mass``.
-    coefficients: BodyCoefficients | None = None
-    #: What was read from there.
-    loads: WaveLoads | None = None
-
-    def body(self, water: Water) -> RigidBody:
-        """Return the body of :mod:`moyai.coupled`.
-
-        Raises
-        ------
-        InputError
-            For an assembly without mass or inertia, and for rods that lean from its axes.
-        """
-        if self.shape == "assembly":
-            return self._assembled(water)
-        bottom = -0.5 * self.size[2]
-        if self.shape == "box":
-            lumps = box_hull(
-                self.size, bottom=bottom, drag=self.drag, added_mass=self.added_mass, density=water.density
-            )
-        else:
-            lumps = cylinder_hull(
-                self.size[0], self.size[2], bottom=bottom, drag=(self.drag[0], self.drag[2]),
-                added_mass=(self.added_mass[0], self.added_mass[2]), density=water.density,
-            )  # fmt: skip
-        if self.loads is not None:
-            # buoyancy and inertia of the water come with the coefficients; drag stays
-            lumps = replace(lumps, volume=np.zeros(len(lumps)), added_mass=np.zeros((len(lumps), 3)))
-        return RigidBody(
-            self.name, self.mass, np.array(self.inertia), np.array(self.centre_of_gravity), np.array(self.position),
-            np.array(self.rotation), dict(self.points), lumps, linear_damping=np.array(self.linear_damping),
-            loads=self.loads, free=self.free, pin=self.pin,
-        )  # fmt: skip
-
-    def _assembled(self, water: Water) -> RigidBody:
-        made = BodyAssembly(water.density)
-        made.add_mass(self.mass, self.centre_of_gravity, np.diag(self.inertia))
-        for part in self.parts:
-            made.add(part, self.name)
-        turning = 0.5 * water.density * np.array(self.turning_drag)
-        return made.body(
-            self.name, self.position, rotation_matrix(self.rotation),
-            {name: np.array(place) for name, place in self.points.items()},
-            linear_damping=np.array(self.linear_damping), quadratic_damping=np.concatenate([np.zeros(3), turning]),
-            free=self.free, pin=self.pin,
-        )  # fmt: skip
+from moyai.structures.network.body_plan import BodyPlan
+from moyai.structures.network.model import NetworkProblem
 
 
 def drawn_parts(bodies: Sequence[BodyPlan]) -> dict[str, tuple[Any, ...]]:
@@ -269,3 +178,9 @@ def coupled_sensitivity(
     progress("sensitivity", 5, 5)
     half, mesh_peak, less, more = peaks
     return PeakSensitivity(peak, half, mesh_peak, less, more, steps[0])
+
+
+def lean_of(angles: Array) -> Array:
+    """Return the angle between the axis of a body and the vertical [rad] from its roll, pitch and yaw (..., 3)."""
+    values: Array = np.arccos(np.clip(np.cos(angles[..., 0]) * np.cos(angles[..., 1]), -1.0, 1.0))
+    return values

@@ -4,49 +4,28 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
-from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
-from moyai.core.options import checks_words
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.coupled.wave_loads import WaveLoads
 from moyai.sea.water import Water
+from moyai.structures.network.body_plan import BodyPlan
+from moyai.structures.network.model import NetworkProblem
+from moyai.structures.network.runs import RunPlan
 
 if TYPE_CHECKING:
     import xarray as xr
-
-    from moyai.structures.network.bodies import BodyPlan
-    from moyai.structures.network.model import NetworkProblem
-    from moyai.structures.network.runs import RunPlan
 
 
 #: Depth of the water over that of the coefficients, apart from one, from which a run says so.
 DEPTH_APART = 0.02
 #: Breadth of a body over the length of the waves from which they are not those of an undisturbed sea (Morison's range).
 SMALL_BODY = 0.2
-
-
-@checks_words
-@dataclass(frozen=True)
-class BodyCoefficients:
-    """Where the loads of the waves on a body are."""
-
-    program: Literal["capytaine", "wamit", "nemoh"]
-    #: File or folder.
-    path: Path
-    #: Of the upright body that they were computed for [m].
-    draught: float
-    #: Origin of the axes of the file, x and y from the middle of the body [m].
-    origin: tuple[float, float] = (0.0, 0.0)
-    #: Whether the damping becomes a memory.
-    memory: bool = True
-    #: Of the reader.
-    options: Mapping[str, Any] = field(default_factory=dict)
 
 
 def water_plane(plan: BodyPlan) -> tuple[float, float, float]:

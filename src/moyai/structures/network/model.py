@@ -19,7 +19,7 @@ from moyai.sea.current_field import CurrentField
 from moyai.sea.environment import Environment
 from moyai.sea.kinematics import Stretching
 from moyai.sea.water import Water
-from moyai.structures.network.bodies import BodyPlan
+from moyai.structures.network.body_plan import BodyPlan
 
 Analysis = Literal["statics", "modes", "dynamic"]
 Place = tuple[float, float, float]

@@ -20,7 +20,7 @@ from moyai.flexible.network import DRIVEN, FIXED
 from moyai.flexible.result import State
 from moyai.flexible.statics import Equilibrium, solve_equilibrium
 from moyai.structures.network.assembly import Assembly, assemble
-from moyai.structures.network.bodies import drawn_parts, rest_of
+from moyai.structures.network.bodies import drawn_parts, lean_of, rest_of
 from moyai.structures.network.coefficients import loads_on_time, with_coefficients
 from moyai.structures.network.dynamics import NetworkRun
 from moyai.structures.network.dynamics import run as run_through_time
@@ -39,7 +39,7 @@ from moyai.structures.network.model import NetworkProblem
 from moyai.structures.network.resume import earlier_run, read_earlier
 from moyai.structures.network.run_notices import OVER, overturned, wet_in_air
 from moyai.structures.network.runs import run_plans, steady_flow, theory_limit
-from moyai.structures.network.summary import contacts_dataset, lean_of, summary_dataset
+from moyai.structures.network.summary import contacts_dataset, summary_dataset
 from moyai.structures.network.variables import VOCABULARY, labelled
 
 if TYPE_CHECKING:

@@ -18,9 +18,9 @@ from moyai.flexible.result import History
 from moyai.sea.validity import check_realised_height
 from moyai.series.snaps import SnapRecord
 from moyai.structures.network.assembly import Assembly
+from moyai.structures.network.bodies import lean_of
 from moyai.structures.network.model import NetworkProblem
 from moyai.structures.network.runs import RunPlan
-from moyai.structures.network.summary import lean_of
 
 if TYPE_CHECKING:
     import xarray as xr

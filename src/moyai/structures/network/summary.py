@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from moyai.core.arrays import Array
 from moyai.structures.network.assembly import Assembly
+from moyai.structures.network.bodies import lean_of
 from moyai.structures.network.equilibrium import MEASURES, named_points
 from moyai.structures.network.model import NetworkProblem
 from moyai.structures.network.noise import without_noise
@@ -205,12 +206,6 @@ def _point_summary(item: NetworkRun, names: list[str], rest: Array | None) -> di
         origin = rest[number] if rest is not None else place[0]
         out["excursion"].append(float(np.nanmax(np.linalg.norm(place - origin, axis=1))))
     return out
-
-
-def lean_of(angles: Array) -> Array:
-    """Return the angle between the axis of a body and the vertical [rad] from its roll, pitch and yaw (..., 3)."""
-    values: Array = np.arccos(np.clip(np.cos(angles[..., 0]) * np.cos(angles[..., 1]), -1.0, 1.0))
-    return values
 
 
 def _solid_summary(item: NetworkRun, rest: Array | None) -> dict[str, Array]:

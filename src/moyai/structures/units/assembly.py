@@ -14,8 +14,9 @@ from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.validity import Notice
 from moyai.floating.statics import Hydrostatics, hydrostatics
+from moyai.mooring.balance import newton_with_line_search
 from moyai.mooring.lines import Line, LineElement, SpringLine
-from moyai.mooring.system import LineSystem, newton_with_line_search
+from moyai.mooring.system import LineSystem
 from moyai.potential.sections import Section
 from moyai.sea.environment import Environment
 from moyai.sea.water import Water

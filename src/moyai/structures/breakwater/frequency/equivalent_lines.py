@@ -16,10 +16,9 @@ from moyai.floating.damping import QuadraticDamping
 from moyai.floating.drift import DriftedMotions
 from moyai.floating.far_field import drift_force_per_amplitude_squared, far_field
 from moyai.floating.frequency import dynamic_stiffness, solve_scaled
-from moyai.structures.breakwater.frequency.model import FrequencyModel
+from moyai.structures.breakwater.frequency.model import FrequencyModel, water_motion
 from moyai.structures.breakwater.lines.drag import line_drag_rows
 from moyai.structures.breakwater.lines.driven import DrivenLines, LinesOfUnit
-from moyai.structures.breakwater.viscous_damping import water_motion
 
 #: Change of motion and offset, over the largest motion, at which the balance has settled.
 TOLERANCE = 5e-4

@@ -24,9 +24,17 @@ from moyai.floating.irregular import (
 )
 from moyai.floating.offset import mean_offset
 from moyai.structures.breakwater.assembly import FloatingUnit
+from moyai.structures.breakwater.frequency.about_rest import (
+    band_factors,
+    band_words,
+    equivalent_variables,
+    natural_added_mass,
+    scaled_damping,
+)
 from moyai.structures.breakwater.frequency.model import (
     FrequencyModel,
     FrequencyResult,
+    water_motion,
 )
 from moyai.structures.breakwater.hydrodynamics import spread_headings
 from moyai.structures.breakwater.model import IrregularSea
@@ -37,14 +45,6 @@ from moyai.structures.breakwater.responses import (
 from moyai.structures.breakwater.settings import MODES
 from moyai.structures.breakwater.slow_drift import SlowDrift, combined_extremes, slow_drift
 from moyai.structures.breakwater.variables import VOCABULARY
-from moyai.structures.breakwater.viscous_damping import (
-    band_factors,
-    band_words,
-    equivalent_variables,
-    natural_added_mass,
-    scaled_damping,
-    water_motion,
-)
 
 if TYPE_CHECKING:
     pass

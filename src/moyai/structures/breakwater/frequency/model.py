@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from moyai.core.arrays import Array
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.progress import Progress
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.floating.coefficients import Hydrodynamics
@@ -20,7 +20,7 @@ from moyai.structures.breakwater.assembly import FloatingUnit
 from moyai.structures.breakwater.hydrodynamics import UnitHydrodynamics
 from moyai.structures.breakwater.lines.drag import line_drag_rows, line_inertia
 from moyai.structures.breakwater.settings import MODES, LineDynamics
-from moyai.structures.breakwater.viscous_damping import unit_drag_rows, water_motion
+from moyai.structures.breakwater.viscous_damping import own_water_motion, unit_drag_rows
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -187,3 +187,11 @@ def motion_ratio(unit: FloatingUnit, amplitude: Array, height: float) -> Array:
 
 def worst_status(status: tuple[str, ...]) -> str:
     return "converged" if all(item == "converged" for item in status) else "not_converged"
+
+
+def water_motion(model: FrequencyModel, omega: Array, headings: Array) -> ComplexArray | None:
+    """Return the undisturbed wave in the measures of the model's quadratic damping (n, h, k); ``None``: still water."""
+    if model.quadratic is None or not model.unit.breakwater.damping.viscous:
+        return None
+    own = own_water_motion(model.unit, omega[:, None], np.asarray(headings, dtype=float)[None, :])
+    return np.concatenate([np.zeros((*own.shape[:2], model.rows_of_lines)), own], axis=2)

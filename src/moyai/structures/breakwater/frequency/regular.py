@@ -13,6 +13,13 @@ from moyai.core.validity import IdentityCheck
 from moyai.floating.coefficients import Hydrodynamics
 from moyai.floating.drift import DriftedMotions
 from moyai.floating.far_field import far_field
+from moyai.structures.breakwater.frequency.about_rest import (
+    band_factors,
+    band_words,
+    equivalent_variables,
+    motions_about_rest,
+    scaled_damping,
+)
 from moyai.structures.breakwater.frequency.equivalent_lines import about_led_lines
 from moyai.structures.breakwater.frequency.model import (
     FrequencyModel,
@@ -33,13 +40,6 @@ from moyai.structures.breakwater.responses import (
 from moyai.structures.breakwater.screening import transmission_macagno, transmission_ruol, transmission_wiegel
 from moyai.structures.breakwater.settings import MODES
 from moyai.structures.breakwater.variables import VOCABULARY
-from moyai.structures.breakwater.viscous_damping import (
-    band_factors,
-    band_words,
-    equivalent_variables,
-    motions_about_rest,
-    scaled_damping,
-)
 
 if TYPE_CHECKING:
     pass

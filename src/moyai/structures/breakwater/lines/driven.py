@@ -11,7 +11,7 @@ from moyai.core.arrays import Array, ComplexArray
 from moyai.flexible.flow import Current
 from moyai.flexible.sea_table import sea_of_lines
 from moyai.flexible.stepping import SteppedNetwork
-from moyai.mooring.planar import PlanarLineSystem
+from moyai.mooring.system import PlanarLineSystem
 from moyai.sea.components import WaveComponents
 from moyai.sea.dispersion import wave_number
 from moyai.structures.breakwater.assembly import FloatingUnit

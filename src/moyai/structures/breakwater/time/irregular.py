@@ -22,6 +22,7 @@ from moyai.floating.time import CumminsModel, Simulation
 from moyai.sea.irregular import realisation_seed, synthesise
 from moyai.series.zero_crossing import zero_crossing
 from moyai.structures.breakwater.assembly import FloatingUnit
+from moyai.structures.breakwater.frequency.about_rest import about_rest_in_sea, natural_added_mass
 from moyai.structures.breakwater.frequency.model import FrequencyModel
 from moyai.structures.breakwater.hydrodynamics import SECTOR
 from moyai.structures.breakwater.lines.events import EventSettings, movable, out_of_range, with_lines_in_motion
@@ -36,7 +37,7 @@ from moyai.structures.breakwater.slow_drift import LEAST_CYCLES
 from moyai.structures.breakwater.time.lines import STATISTICS, lines_at_rest, motion_summary
 from moyai.structures.breakwater.time.model import SeaOfRun, TimeResult, TimeRun, linear_damping, run_with_lines
 from moyai.structures.breakwater.variables import labelled
-from moyai.structures.breakwater.viscous_damping import about_rest_in_sea, in_moving_water, natural_added_mass
+from moyai.structures.breakwater.viscous_damping import in_moving_water
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -28,11 +28,10 @@ from moyai.sea.states import ComponentSea, RegularSea, SeaState
 from moyai.sea.water import Water
 from moyai.structures.network import model
 from moyai.structures.network.assembly import mesh_bars, sphere
-from moyai.structures.network.bodies import BodyPlan
+from moyai.structures.network.body_plan import BodyCoefficients, BodyPlan
 from moyai.structures.network.case import schema_bodies as bodies
 from moyai.structures.network.case import schema_parts as parts
 from moyai.structures.network.case.schema import ElevationRecord, NetworkCase, WavesOneByOne
-from moyai.structures.network.coefficients import BodyCoefficients
 from moyai.tables.lines import line_type
 
 #: Points of the table of a circular motion per turn.

@@ -17,7 +17,7 @@ from moyai.interop.write_orcaflex_vessel import FloatingBox
 if TYPE_CHECKING:
     from moyai.case.reader import Case
     from moyai.sea.water import Water
-    from moyai.structures.network.bodies import BodyPlan
+    from moyai.structures.network.body_plan import BodyPlan
     from moyai.structures.network.model import NetworkProblem
 
 #: Heights at which a current is written.
