@@ -40,7 +40,7 @@ _ROW, _LEFT, _WIDTH, _HEAD = 15, 30, 460, 46
 def computed(folder: Path, *, quick: bool) -> list[dict[str, Any]]:
     """Return the records of all cases; they stand in the folder then."""
     import moyai
-    from moyai.cli.validation import choose, compute, topics
+    from moyai.validation import choose, compute, topics
 
     given = os.environ.get("MOYAI_VALIDATION")
     if given:
@@ -195,7 +195,7 @@ class Validation(_FromResults):
 
     def run(self) -> list[nodes.Node]:
         """Return the figure, the command and the table."""
-        from moyai.cli.validation import topics
+        from moyai.validation import topics
 
         wanted = self.arguments[0].split()
         unknown = set(wanted) - set(topics())

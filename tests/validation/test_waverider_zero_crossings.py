@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from moyai.series import wave_statistics
-from moyai.series.zero_crossing import zero_crossing
+from moyai.series.zero_crossing import split_waves
 
 pytestmark = pytest.mark.shared_data
 
@@ -24,7 +24,7 @@ RECORDS = {
 
 def cycles_of(shared_data, hour):
     heave = np.genfromtxt(shared_data / "buoy_displacement" / f"buoy}}2005-07-01T{hour}Z.raw", delimiter=",")[:, 1]
-    return zero_crossing(np.arange(heave.size) / 1.28, heave, mean_level=0.0)
+    return split_waves(np.arange(heave.size) / 1.28, heave, mean_level=0.0)
 
 
 @pytest.mark.parametrize("hour", ["00h00", "00h30"])

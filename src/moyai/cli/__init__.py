@@ -1,1 +1,4 @@
-"""The command line: thin, no physics."""
+"""The command line: thin, no physics.
+
+It hands out no names: from Python use :mod:`moyai` and the packages that the commands call.
+"""

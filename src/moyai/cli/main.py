@@ -438,7 +438,7 @@ def validate(
 
             print_statements(paper, as_json=as_json, quiet=quiet)
             raise typer.Exit(OK)
-        from moyai.cli.validation import choose, compute
+        from moyai.validation import choose, compute
 
         with progress_bars(quiet) as progress:
             from moyai.cli.tables import outcome_line, print_outcome_count

@@ -18,11 +18,11 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from moyai.case.derived import Number
-    from moyai.cli.validation import Outcome
     from moyai.core.headline import Criterion
     from moyai.core.results import Result
     from moyai.report.document import Document
     from moyai.report.document import Table as ReportTable
+    from moyai.validation import Outcome
 
 
 def _table(*columns: tuple[str, str]) -> Table:

@@ -1,1 +1,38 @@
 """Measured records: reading them, and what is found in surveys, force tests, net tests and streak images."""
+
+from typing import TYPE_CHECKING
+
+from moyai.core.exports import exports
+
+if TYPE_CHECKING:
+    from moyai.records.calibration import Parameter as Parameter
+    from moyai.records.calibration import calibrate as calibrate
+    from moyai.records.comparison.run import compare_result as compare_result
+    from moyai.records.forces.fit import Setup as Setup
+    from moyai.records.forces.identification import identify as identify
+    from moyai.records.forces.record import ForceRecord as ForceRecord
+    from moyai.records.nets.campaign import measure_nets as measure_nets
+    from moyai.records.nets.case.build import load_nets as load_nets
+    from moyai.records.reading.reader import read_record as read_record
+    from moyai.records.reading.sources import ColumnSource as ColumnSource
+    from moyai.records.reading.sources import LoggerSource as LoggerSource
+    from moyai.records.reading.sources import TimeSource as TimeSource
+    from moyai.records.survey.case.build import load_survey as load_survey
+    from moyai.records.survey.run import run_survey as run_survey
+else:
+    __getattr__, __dir__, __all__ = exports(
+        __name__,
+        {
+            "calibration": "Parameter calibrate",
+            "comparison.run": "compare_result",
+            "forces.fit": "Setup",
+            "forces.identification": "identify",
+            "forces.record": "ForceRecord",
+            "nets.campaign": "measure_nets",
+            "nets.case.build": "load_nets",
+            "reading.reader": "read_record",
+            "reading.sources": "ColumnSource LoggerSource TimeSource",
+            "survey.case.build": "load_survey",
+            "survey.run": "run_survey",
+        },
+    )

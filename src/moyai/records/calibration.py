@@ -212,6 +212,7 @@ def calibrate(
     observed : array_like
         Observations.
     parameters : sequence of Parameter
+        What is unknown, in the order of ``values``.
     error : array_like or float, optional
         Standard errors of the observations; without them all weigh alike and the scatter tells the error.
     groups : sequence of str, optional
@@ -224,10 +225,12 @@ def calibrate(
         Relative change of a parameter by which slopes are found in the search; a simulation with some noise of its
         own wants more, 1e-3 perhaps.
     progress : Progress
+        Called after every draw.
 
     Returns
     -------
     Calibration
+        Values with their errors and covariance, and what each group says when it is left out.
 
     Raises
     ------
@@ -236,6 +239,15 @@ def calibrate(
         predictions or none.
     ConvergenceError
         When the least squares do not converge.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.records import Parameter, calibrate
+    >>> speed, drag = np.array([0.5, 1.0, 1.5, 2.0]), [0.26, 1.01, 2.24, 4.0]
+    >>> found = calibrate(lambda values: values[0] * speed**2, drag, [Parameter("k", 0.5, 0.0, 10.0)])
+    >>> found.values.round(2).tolist()
+    [1.0]
     """
     data = np.asarray(observed, dtype=float).reshape(-1)
     count, size = data.size, len(parameters)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from moyai.series.zero_crossing import zero_crossing
+from moyai.series.zero_crossing import split_waves
 
 
 def envelope_indices(values: ArrayLike, bins: int) -> NDArray[np.int64]:
@@ -116,5 +116,5 @@ def mean_crossing_period(time: ArrayLike, values: ArrayLike) -> float:
     times, record = times[known], record[known]
     if record.size < 3:
         return float("nan")
-    waves = zero_crossing(times, record)
+    waves = split_waves(times, record)
     return float(waves.period.mean()) if len(waves) else float("nan")

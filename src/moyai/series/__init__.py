@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from moyai.series.wave_statistics import rayleigh_expected_maximum as rayleigh_expected_maximum
     from moyai.series.zero_crossing import Waves as Waves
     from moyai.series.zero_crossing import find_waves as find_waves
+    from moyai.series.zero_crossing import split_waves as split_waves
 else:
     __getattr__, __dir__, __all__ = exports(
         __name__,
@@ -30,6 +31,6 @@ else:
             "rainflow": "count_cycles",
             "snaps": "find_snaps",
             "wave_statistics": "rayleigh_expected_maximum",
-            "zero_crossing": "Waves find_waves",
+            "zero_crossing": "Waves find_waves split_waves",
         },
     )

@@ -17,7 +17,7 @@ from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.series.extremes import ExtremeFit, refit
 from moyai.series.intervals import Interval, reflected_interval
-from moyai.series.zero_crossing import zero_crossing
+from moyai.series.zero_crossing import split_waves
 
 SLACK_SHARE = 0.1
 """Share of the mean tension below which a line counts as slack: lifting slings are kept above a tenth of their static
@@ -52,7 +52,7 @@ def peaks_of(series: ArrayLike, *, slack_share: float = SLACK_SHARE) -> tuple[Ar
     if x.size < 3:
         return nothing
     mean = float(np.mean(x))
-    waves = zero_crossing(np.arange(x.size, dtype=float), x, mean_level=mean)
+    waves = split_waves(np.arange(x.size, dtype=float), x, mean_level=mean)
     if not len(waves):
         return nothing
     # The trough that a peak rises from lies in the wave before it; before the first wave, in what goes before it

@@ -319,7 +319,7 @@ def _notices(
     return tuple(notices)
 
 
-def zero_crossing(
+def split_waves(
     time: ArrayLike, values: ArrayLike, *, mean_level: float | None = None, parabolic: bool = False
 ) -> Waves:
     """Split a series without gaps, such as a simulated one, into the waves between its up-crossings.
@@ -350,9 +350,9 @@ def zero_crossing(
     Examples
     --------
     >>> import numpy as np
-    >>> from moyai.series.zero_crossing import zero_crossing
+    >>> from moyai.series import split_waves
     >>> time = np.arange(0.0, 30.0, 0.01)
-    >>> waves = zero_crossing(time, 0.5 * np.sin(2.0 * np.pi * (time - 1.0) / 5.0), mean_level=0.0)
+    >>> waves = split_waves(time, 0.5 * np.sin(2.0 * np.pi * (time - 1.0) / 5.0), mean_level=0.0)
     >>> waves.height.round(3).tolist(), waves.period.round(3).tolist()
     ([1.0, 1.0, 1.0, 1.0, 1.0], [5.0, 5.0, 5.0, 5.0, 5.0])
     """

@@ -74,6 +74,7 @@ def run_study(
     Parameters
     ----------
     study : Study
+        As :func:`moyai.study.load_study` reads it.
     folder : Path
         Folder of the results; the same folder and study go on where they were stopped.
     run : callable
@@ -85,6 +86,7 @@ def run_study(
     retry_failed : bool
         Run cases again that failed before.
     progress : Progress
+        Called within the cases.
     watch : callable, optional
         Called with the standing after every case.
 
@@ -98,6 +100,21 @@ def run_study(
     InputError
         When the folder holds another study, the disk is full, the cluster is out of reach, or the first case that
         ends keeps no response of the name that is watched; cases that ended are kept.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import mkdtemp
+    >>> import moyai
+    >>> from moyai.study import load_study, run_study
+    >>> folder = Path(mkdtemp())
+    >>> _ = (folder / "base.yaml").write_text(moyai.template("network"), encoding="utf-8")
+    >>> text = "moyai: 1\\nstudy:\\n  base: base.yaml\\n  set: {analyses: [statics]}\\n"
+    >>> text += "  variations: [{grid: {current.speed: [0.5, 1.0]}}]\\n"
+    >>> _ = (folder / "study.yaml").write_text(text, encoding="utf-8")
+    >>> result = run_study(load_study(folder / "study.yaml"), folder / "out", moyai.run, workers=1)
+    >>> result.status
+    'converged'
     """
     ledger = Ledger(folder, study.key, study.title)
     try:

@@ -66,10 +66,37 @@ class StudyFit:
 def load_fit(path: str | os.PathLike[str]) -> StudyFit:
     """Read a fit file and check that its cases can be built.
 
+    Parameters
+    ----------
+    path : path-like
+        YAML file.
+
+    Returns
+    -------
+    StudyFit
+        What :func:`moyai.study.run_fit` takes.
+
     Raises
     ------
     CaseError
         With every fault at once.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import mkdtemp
+    >>> import moyai
+    >>> from moyai.study import load_fit
+    >>> folder = Path(mkdtemp())
+    >>> _ = (folder / "base.yaml").write_text(moyai.template("network"), encoding="utf-8")
+    >>> _ = (folder / "observed.csv").write_text("V [m/s],T [N]\\n0.5,2000\\n1.0,2400\\n1.5,3100\\n", encoding="utf-8")
+    >>> text = "moyai: 1\\nfit:\\n  base: base.yaml\\n  set: {analyses: [statics]}\\n"
+    >>> text += "  parameters: {'structure.points.buoy.drag_coefficient': {from: 0.1, to: 2}}\\n"
+    >>> text += "  observations: {file: observed.csv, columns: {V: current.speed}, observed: T,\\n"
+    >>> text += "    response: 'SWL/statics/line_tension_maximum[line=mooring]'}\\n"
+    >>> _ = (folder / "fit.yaml").write_text(text, encoding="utf-8")
+    >>> len(load_fit(folder / "fit.yaml").rows)
+    3
     """
     document = read_yaml(path)
     block: fit_schema.FitBlock = read_block(document, fit_schema.FitFile).fit
@@ -126,15 +153,19 @@ def run_fit(fit: StudyFit, run: RunCase, progress: Progress = silent) -> tuple[R
 
     Parameters
     ----------
-    fit : Fit
+    fit : StudyFit
+        As :func:`moyai.study.load_fit` reads it.
     run : callable
         ``run(case, progress)``.
     progress : Progress
+        Called after every run.
 
     Returns
     -------
-    Result, Calibration
-        The result's group ``/fit`` holds parameters, covariance, observations and predictions.
+    result : Result
+        Its group ``/fit`` holds parameters, covariance, observations and predictions.
+    found : Calibration
+        Values with their errors.
 
     Raises
     ------
@@ -142,6 +173,24 @@ def run_fit(fit: StudyFit, run: RunCase, progress: Progress = silent) -> tuple[R
         When a case fails inside the bounds.
     ConvergenceError
         When the fit does not settle.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import mkdtemp
+    >>> import moyai
+    >>> from moyai.study import load_fit, run_fit
+    >>> folder = Path(mkdtemp())
+    >>> _ = (folder / "base.yaml").write_text(moyai.template("network"), encoding="utf-8")
+    >>> _ = (folder / "observed.csv").write_text("V [m/s],T [N]\\n0.5,2000\\n1.0,2400\\n1.5,3100\\n", encoding="utf-8")
+    >>> text = "moyai: 1\\nfit:\\n  base: base.yaml\\n  set: {analyses: [statics]}\\n"
+    >>> text += "  parameters: {'structure.points.buoy.drag_coefficient': {from: 0.1, to: 2}}\\n"
+    >>> text += "  observations: {file: observed.csv, columns: {V: current.speed}, observed: T,\\n"
+    >>> text += "    response: 'SWL/statics/line_tension_maximum[line=mooring]'}\\n"
+    >>> _ = (folder / "fit.yaml").write_text(text, encoding="utf-8")
+    >>> result, found = run_fit(load_fit(folder / "fit.yaml"), moyai.run)
+    >>> found.values.round(2).tolist()                               # C_D of the buoy
+    [1.27]
     """
     known: dict[tuple[float, ...], Array] = {}
     unit = ["1"]

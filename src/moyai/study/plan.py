@@ -97,15 +97,31 @@ def load_study(path: str | os.PathLike[str], progress: Progress = silent) -> Stu
     path : path-like
         YAML file.
     progress : Progress
+        Called after every case that was checked.
 
     Returns
     -------
     Study
+        What :func:`moyai.study.run_study` takes.
 
     Raises
     ------
     CaseError
         With every fault of the study file, or of the cases, at once.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import mkdtemp
+    >>> import moyai
+    >>> from moyai.study import load_study
+    >>> folder = Path(mkdtemp())
+    >>> _ = (folder / "base.yaml").write_text(moyai.template("network"), encoding="utf-8")
+    >>> text = "moyai: 1\\nstudy:\\n  base: base.yaml\\n  set: {analyses: [statics]}\\n"
+    >>> text += "  variations: [{grid: {current.speed: [0.5, 1.0]}}]\\n"
+    >>> _ = (folder / "study.yaml").write_text(text, encoding="utf-8")
+    >>> load_study(folder / "study.yaml").shape
+    (2,)
     """
     document = read_yaml(path)
     check_kind(document)

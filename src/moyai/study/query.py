@@ -276,10 +276,36 @@ def _number(text: str, name: str, unit: str) -> float:
 def read_study_results(path: Path) -> StudyTable:
     """Read the results of a study: its folder, ``study.nc`` or ``study.zarr``.
 
+    Parameters
+    ----------
+    path : Path
+        Of the folder or the file.
+
+    Returns
+    -------
+    StudyTable
+        With a row a case.
+
     Raises
     ------
     InputError
         When there is nothing of the kind.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import mkdtemp
+    >>> import moyai
+    >>> from moyai.study import load_study, read_study_results, run_study
+    >>> folder = Path(mkdtemp())
+    >>> _ = (folder / "base.yaml").write_text(moyai.template("network"), encoding="utf-8")
+    >>> text = "moyai: 1\\nstudy:\\n  base: base.yaml\\n  set: {analyses: [statics]}\\n"
+    >>> text += "  variations: [{grid: {current.speed: [0.5, 1.0]}}]\\n"
+    >>> _ = (folder / "study.yaml").write_text(text, encoding="utf-8")
+    >>> result = run_study(load_study(folder / "study.yaml"), folder / "out", moyai.run, workers=1)
+    >>> _ = result.write(folder / "out" / "study.nc")
+    >>> read_study_results(folder / "out").names
+    ['speed']
     """
     from moyai.core.results import read_result
     from moyai.study.zarr_file import read_zarr

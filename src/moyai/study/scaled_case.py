@@ -75,12 +75,27 @@ def scale_case(case: Case, scale: Scale, *, from_model: bool = False, digits: in
     digits : int
         Significant digits of the new figures.
 
+    Returns
+    -------
+    ScaledCase
+        The new file, read again, and every quantity that changed.
+
     Raises
     ------
     InputError
         A file or a make is named whose figures would not follow, or one figure is shared between quantities.
     CaseError
         The new figures are out of the range of the schema.
+
+    Examples
+    --------
+    >>> import moyai
+    >>> from moyai.design import Scale
+    >>> from moyai.study import scale_case
+    >>> prototype = moyai.load_case(moyai.template("breakwater"))
+    >>> model = scale_case(prototype, Scale(length=20.0, density=1.025, gravity=1.0)).case
+    >>> prototype.model.structure.draught, model.model.structure.draught     # [m]
+    (3.0, 0.15)
     """
     if not 3 <= digits <= 17:
         raise InputError(f"{digits} significant digits", path="digits", allowed="3 to 17")

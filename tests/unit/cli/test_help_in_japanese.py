@@ -96,9 +96,9 @@ def test_exit_codes_are_those_of_the_command() -> None:
 
 def test_cases_of_validation_are_said_in_japanese() -> None:
     from moyai.cli.tables import outcome_line
-    from moyai.cli.validation import Outcome
     from moyai.core.validation import ValidationCase
     from moyai.language import spoken_in
+    from moyai.validation import Outcome
 
     name = "mooring: inextensible line on the bed, H [N]"
     case = ValidationCase(name, "MoorPy test case", lambda: 1.0, 2.0, 0.01)

@@ -6,14 +6,14 @@ import math
 import pytest
 from typer.testing import CliRunner
 
-from moyai.cli import validation
+from moyai import validation
 from moyai.cli.main import app
 from moyai.cli.tables import outcome_line
-from moyai.cli.validation import choose, compute, topics
 from moyai.core.errors import InputError
 from moyai.core.validation import ValidationCase
 from moyai.language import said, spoken_in
 from moyai.language.words import latin_words, numbers
+from moyai.validation import choose, compute, topics
 
 runner = CliRunner()
 

@@ -13,7 +13,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from moyai.cli import validation
+from moyai import validation
 from moyai.core.validation import ValidationCase
 
 pytest.importorskip("sphinx")

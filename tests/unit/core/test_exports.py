@@ -24,6 +24,11 @@ def test_the_front_door_has_five_calls():
     assert all(callable(getattr(moyai, name)) for name in dir(moyai))
 
 
+def test_every_package_but_the_commands_and_the_page_hands_out_its_names():
+    silent = {package.name for package in iter_modules(moyai.__path__, "moyai.") if package.ispkg} - set(PACKAGES)
+    assert silent == {"moyai.app", "moyai.cli"}
+
+
 @pytest.mark.parametrize("name", PACKAGES)
 def test_every_name_is_found_in_its_module(name):
     package = import_module(name)

@@ -8,7 +8,7 @@ import pytest
 from moyai.core.errors import InputError
 from moyai.records.survey.tension_blocks import analyse_blocks
 from moyai.records.survey.tensions import find_delay, split_tension, tension_statistics, wave_maxima
-from moyai.series.zero_crossing import zero_crossing
+from moyai.series.zero_crossing import split_waves
 
 
 def pulses(seed, *, count=150, period=6.0, step=0.1, delay=0.0, width=0.15):
@@ -52,7 +52,7 @@ def test_low_pass_follows_the_tide():
 @pytest.mark.parametrize("delay", [0.0, 1.3, -0.9])
 def test_every_wave_gets_its_own_maximum(seed, delay):
     time, elevation, force, tops = pulses(seed, delay=delay)
-    waves = zero_crossing(time, elevation)
+    waves = split_waves(time, elevation)
     found_delay = find_delay(time, elevation, force - np.median(force), longest=2.5)
     assert found_delay == pytest.approx(delay, abs=0.1)
     found = wave_maxima(time, force, waves.start, waves.period, delay=found_delay)

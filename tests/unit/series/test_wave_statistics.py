@@ -11,12 +11,12 @@ from moyai.core.errors import InputError
 from moyai.sea import irregular, spectra
 from moyai.sea.water import Water
 from moyai.series import wave_statistics
-from moyai.series.zero_crossing import zero_crossing
+from moyai.series.zero_crossing import split_waves
 
 
 def test_cycles_of_a_sine():
     time = np.arange(0.0, 100.0, 0.01)
-    cycles = zero_crossing(time, 3.0 + 2.0 * np.sin(2.0 * math.pi * (time - 0.3) / 8.0), mean_level=3.0)
+    cycles = split_waves(time, 3.0 + 2.0 * np.sin(2.0 * math.pi * (time - 0.3) / 8.0), mean_level=3.0)
     assert len(cycles) == 12
     np.testing.assert_allclose(cycles.period, 8.0, atol=1e-4)
     np.testing.assert_allclose(cycles.start, 0.3 + 8.0 * np.arange(12), atol=1e-4)
@@ -38,7 +38,7 @@ def test_planted_waves_are_found_again():
         periods.append(4 * quarter * 0.5)
     # one more cycle of descent opens the first and closes the last crossing
     series = np.concatenate([[-0.5], *pieces, [0.5]])
-    cycles = zero_crossing(np.arange(series.size) * 0.5, series, mean_level=0.0)
+    cycles = split_waves(np.arange(series.size) * 0.5, series, mean_level=0.0)
     np.testing.assert_allclose(cycles.height, heights, rtol=1e-12)
     np.testing.assert_allclose(cycles.period, periods, rtol=1e-12)
     order = np.sort(heights)[::-1]
@@ -50,8 +50,8 @@ def test_planted_waves_are_found_again():
 def test_parabolic_crests_recover_what_sampling_lost():
     time = np.arange(0.0, 200.0, 0.5)
     series = np.cos(2.0 * math.pi * time / 5.3 + 0.2)
-    plain = zero_crossing(time, series, mean_level=0.0)
-    fine = zero_crossing(time, series, mean_level=0.0, parabolic=True)
+    plain = split_waves(time, series, mean_level=0.0)
+    fine = split_waves(time, series, mean_level=0.0, parabolic=True)
     assert abs(fine.height.mean() - 2.0) < 0.1 * abs(plain.height.mean() - 2.0)
 
 
@@ -96,7 +96,7 @@ def test_narrow_sea_has_rayleigh_heights():
     narrow = spectra.Spectrum(omega, 1.0 - ((omega - 0.8) / 0.05) ** 2 + 1e-12, "narrow")
     sea = irregular.synthesise(narrow, Water(math.inf, 1025.0, 9.81), duration=80000.0, time_step=0.5, seed=4)
     time = np.arange(160000) * 0.5
-    cycles = zero_crossing(time, sea.elevation(time), parabolic=True)
+    cycles = split_waves(time, sea.elevation(time), parabolic=True)
     assert cycles.significant_height() == pytest.approx(4.0043 * math.sqrt(narrow.variance), rel=0.01)
     assert cycles.period.mean() == pytest.approx(narrow.zero_crossing_period, rel=1e-3)
 
@@ -111,11 +111,11 @@ def test_narrow_sea_has_rayleigh_heights():
 )
 def test_bad_series_are_named(time, values, message):
     with pytest.raises(InputError, match=message):
-        zero_crossing(time, values)
+        split_waves(time, values)
 
 
 def test_a_series_without_cycles():
-    cycles = zero_crossing(np.arange(10.0), np.arange(10.0))
+    cycles = split_waves(np.arange(10.0), np.arange(10.0))
     assert len(cycles) == 0
     assert math.isnan(cycles.significant_height())
     assert math.isnan(cycles.significant_period())

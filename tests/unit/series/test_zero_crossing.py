@@ -9,7 +9,7 @@ import pytest
 from moyai.core.errors import InputError
 from moyai.series.detrend import Detrend, detrended, slow_part, slow_response
 from moyai.series.wave_statistics import fit_rayleigh, fit_weibull
-from moyai.series.zero_crossing import WaveOptions, find_waves, share_of, zero_crossing
+from moyai.series.zero_crossing import WaveOptions, find_waves, share_of, split_waves
 
 
 def sea(random, size=6000, step=0.5, height=2.0, period=7.0):
@@ -50,7 +50,7 @@ def test_against_an_independent_count(seed, band):
     np.testing.assert_allclose(waves.period, np.diff(instants), atol=1e-9)
     np.testing.assert_allclose(waves.height, heights, atol=1e-12)
     if band == 0.0:
-        other = zero_crossing(time, values, mean_level=0.0)
+        other = split_waves(time, values, mean_level=0.0)
         np.testing.assert_allclose(waves.height, other.height, atol=1e-12)
 
 

@@ -111,6 +111,20 @@ def compare_result(
     ------
     InputError
         With the variables or columns there are.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import mkdtemp
+    >>> import xarray as xr
+    >>> from moyai.core import Result
+    >>> from moyai.records import compare_result
+    >>> gauge = xr.Dataset({"elevation": ("time", [0.0, 0.5, 0.0], {"units": "m"})}, {"time": [0.0, 1.0, 2.0]})
+    >>> file = Path(mkdtemp()) / "gauge.csv"
+    >>> _ = file.write_text("time [s],elevation [cm]\\n0,0\\n1,40\\n2,0\\n", encoding="utf-8")
+    >>> found = compare_result(Result(xr.DataTree.from_dict({"/gauge": gauge})), file)
+    >>> next(iter(found.tree.children.values()))["observed"].values.tolist()
+    [0.0, 0.4, 0.0]
     """
     import xarray as xr
 

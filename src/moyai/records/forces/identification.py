@@ -90,17 +90,32 @@ def identify(record: ForceRecord, setup: Setup) -> Identification:
     Parameters
     ----------
     record : ForceRecord
+        Force and velocity at equal times.
     setup : Setup
+        Water, section, widths and methods.
 
     Returns
     -------
     Identification
+        Coefficients with their intervals by method and component.
 
     Raises
     ------
     InputError
         When the record is shorter than a period, too coarse or does not repeat itself with its period, or the widths
         do not match its components.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.records import ForceRecord, Setup, identify
+    >>> time, omega = np.arange(0.0, 10.0, 0.02), 2.0 * np.pi
+    >>> velocity, rate = 0.1 * np.cos(omega * time), -0.1 * omega * np.sin(omega * time)
+    >>> force = 1000.0 * 0.0016 * 1.7 * rate + 500.0 * 0.045 * 1.3 * velocity * abs(velocity)
+    >>> setup = Setup(density=1000.0, area=0.0016, widths=(0.045,), period=1.0, methods=("least_squares",))
+    >>> found = identify(ForceRecord(time, force, velocity, rate), setup).fit("least_squares")
+    >>> round(found.inertia.value, 3), round(found.drag.value, 3)
+    (1.7, 1.3)
     """
     if len(setup.widths) != record.components:
         raise InputError(

@@ -124,12 +124,36 @@ def measure_nets(campaign: NetCampaign, progress: Progress = silent) -> NetFindi
     Parameters
     ----------
     campaign : NetCampaign
+        As :func:`moyai.records.load_nets` reads it.
     progress : Progress
+        Called after every run.
+
+    Returns
+    -------
+    NetFindings
+        Coefficients of every run with their intervals, the law of every net and that of all together.
 
     Raises
     ------
     InputError
         With the name of the run that cannot be used, and why.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import mkdtemp
+    >>> from moyai.records import load_nets, measure_nets
+    >>> folder = Path(mkdtemp())
+    >>> text = "moyai: 1\\ntitle: Nets\\npanel_area: 0.066\\npanel_z: -0.2\\nwater_depth: 0.45\\ngravity: 9.81\\n"
+    >>> text += "density: 1000\\nkinematic_viscosity: 1.1e-6\\nnets: [{name: A, table: A}]\\nruns:\\n"
+    >>> for net, force in (("none", 0.2), ("A", 1.1)):
+    ...     rows = [f"{0.05 * n},{force + 0.01 * (n % 2)}" for n in range(400)]
+    ...     _ = (folder / f"{net}.csv").write_text("\\n".join(["time [s],force [N]", *rows]), encoding="utf-8")
+    ...     text += f"  - {{name: {net}, net: {net}, kind: still_water, file: {net}.csv, speed: 0.3}}\\n"
+    >>> _ = (folder / "nets.yaml").write_text(text + "columns: {time: time, force: force}\\n", encoding="utf-8")
+    >>> found = measure_nets(load_nets(folder / "nets.yaml")[0])
+    >>> round(found.towing[0].drag, 2)                               # C_D on the area of the twines
+    1.33
     """
     still = [run for run in campaign.runs if run.kind == "still_water"]
     moving = [run for run in campaign.runs if run.kind != "still_water"]

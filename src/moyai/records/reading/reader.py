@@ -58,12 +58,14 @@ def read_record(source: LoggerSource, *, start: float = -math.inf, end: float = 
     Parameters
     ----------
     source : LoggerSource
+        Files, columns and clock.
     start, end : float
         Part to keep [s].
 
     Returns
     -------
     Record
+        Times and channels in SI units.
 
     Raises
     ------
@@ -74,8 +76,7 @@ def read_record(source: LoggerSource, *, start: float = -math.inf, end: float = 
     --------
     >>> from pathlib import Path
     >>> from tempfile import mkdtemp
-    >>> from moyai.records.reading.reader import read_record
-    >>> from moyai.records.reading.sources import ColumnSource, LoggerSource, TimeSource
+    >>> from moyai.records import ColumnSource, LoggerSource, TimeSource, read_record
     >>> file = Path(mkdtemp()) / "logger.csv"
     >>> _ = file.write_text("t [s],level [cm]\\n0.0,10.0\\n0.5,-20.0\\n", encoding="utf-8")
     >>> record = read_record(LoggerSource("gauge", (file,), (ColumnSource("level", "level"),), TimeSource(("t",))))

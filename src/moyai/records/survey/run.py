@@ -36,12 +36,14 @@ MOST_SLIPS = 10
 
 
 def run_survey(survey: Survey, progress: Progress = silent, *, rows: int = CHUNK_ROWS) -> Result:
-    """Work a survey off in bounded memory.
+    """Evaluate a survey in bounded memory.
 
     Parameters
     ----------
     survey : Survey
+        As :func:`moyai.records.load_survey` reads it.
     progress : Progress
+        Called after every block.
     rows : int
         Rows read at a time.
 
@@ -55,6 +57,23 @@ def run_survey(survey: Survey, progress: Progress = silent, *, rows: int = CHUNK
     ------
     InputError
         With file, row and column of what cannot be read.
+
+    Examples
+    --------
+    >>> import math
+    >>> from pathlib import Path
+    >>> from tempfile import mkdtemp
+    >>> from moyai.records import load_survey, run_survey
+    >>> folder = Path(mkdtemp())
+    >>> rows = [f"{0.5 * n},{math.sin(0.5 * n)}" for n in range(1200)]
+    >>> _ = (folder / "gauge.csv").write_text("\\n".join(["t [s],level [m]", *rows]), encoding="utf-8")
+    >>> text = "moyai: 1\\ntitle: Gauge\\nloggers:\\n- {name: gauge, file: gauge.csv, time: {column: t, unit: s},\\n"
+    >>> text += "   channels: [{name: level, column: level, kind: elevation}]}\\n"
+    >>> text += "blocks: {length: 5 min}\\nwaves: {channels: [level]}\\n"
+    >>> _ = (folder / "survey.yaml").write_text(text, encoding="utf-8")
+    >>> result = run_survey(load_survey(folder / "survey.yaml"))
+    >>> result.tree["waves"]["third_height"].values.round(1).tolist()    # H1/3 of two blocks [m]
+    [[2.0], [2.0]]
     """
     found: list[BlockResult] = []
     notices: list[Notice] = []

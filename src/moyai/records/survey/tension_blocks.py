@@ -20,7 +20,7 @@ from moyai.core.options import checks_words
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
 from moyai.records.survey.tensions import SteadyRule, find_delay, split_tension, tension_statistics, wave_maxima
-from moyai.series.zero_crossing import Waves, zero_crossing
+from moyai.series.zero_crossing import Waves, split_waves
 
 _SOURCE = "Tabata et al., field observation of mooring forces of a new-type silt curtain"
 # Rise of a snap: what a logger must resolve
@@ -164,7 +164,7 @@ def analyse_blocks(
         if not (np.isfinite(eta[part]).all() and np.isfinite(lines[:, part]).all()):
             lost += 1
             continue
-        cycles = zero_crossing(t[part], eta[part], parabolic=True)
+        cycles = split_waves(t[part], eta[part], parabolic=True)
         if len(cycles) < least_waves:
             lost += 1
             continue

@@ -16,7 +16,7 @@ from moyai.records.survey.tension_blocks import Blocks, analyse_blocks
 from moyai.sea.irregular import synthesise
 from moyai.sea.spectra import jonswap
 from moyai.sea.water import Water
-from moyai.series.zero_crossing import zero_crossing
+from moyai.series.zero_crossing import split_waves
 from moyai.structures.curtain.seas.anchor_energy import EnergyModel
 from moyai.structures.curtain.seas.energy_by_wave import WaveCalibration, calibrate_by_wave
 from moyai.structures.curtain.seas.squared_velocity import effective_height
@@ -77,7 +77,7 @@ def _pulls(
     rng: np.random.Generator, scatter: float,
 ) -> Array:  # fmt: skip
     """Return one short pull for every wave, at its crest."""
-    waves = zero_crossing(time, elevation, parabolic=True)
+    waves = split_waves(time, elevation, parabolic=True)
     acting = effective_height(waves.height, np.full(len(waves), angle), "paper", 1.0)
     speed = model.float_speed(acting, np.maximum(waves.period, 1.0), flow, WATER)
     size = model.fluctuating_tension(speed, pretension) * np.maximum(

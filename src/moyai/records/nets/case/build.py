@@ -40,10 +40,17 @@ _NEEDED = ("density", "kinematic_viscosity", "gravity", "water_depth", "panel_z"
 def load_nets(path: str | os.PathLike[str]) -> tuple[NetCampaign, CaseDocument, tuple[Notice, ...]]:
     """Read a file of ``moyai measure nets`` with its records.
 
+    Parameters
+    ----------
+    path : path-like
+        YAML, UTF-8; records are found next to it.
+
     Returns
     -------
     campaign : NetCampaign
-    document : Document
+        Nets, runs and how they are read, for :func:`moyai.records.measure_nets`.
+    document : CaseDocument
+        The file as it was read.
     notices : tuple of Notice
         Misprints of the table's rows that are used.
 
@@ -51,6 +58,23 @@ def load_nets(path: str | os.PathLike[str]) -> tuple[NetCampaign, CaseDocument, 
     ------
     CaseError
         With every fault at once, each with line and column.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import mkdtemp
+    >>> from moyai.records import load_nets
+    >>> folder = Path(mkdtemp())
+    >>> text = "moyai: 1\\ntitle: Nets\\npanel_area: 0.066\\npanel_z: -0.2\\nwater_depth: 0.45\\ngravity: 9.81\\n"
+    >>> text += "density: 1000\\nkinematic_viscosity: 1.1e-6\\nnets: [{name: A, table: A}]\\nruns:\\n"
+    >>> for net, force in (("none", 0.2), ("A", 1.1)):
+    ...     rows = [f"{0.05 * n},{force + 0.01 * (n % 2)}" for n in range(400)]
+    ...     _ = (folder / f"{net}.csv").write_text("\\n".join(["time [s],force [N]", *rows]), encoding="utf-8")
+    ...     text += f"  - {{name: {net}, net: {net}, kind: still_water, file: {net}.csv, speed: 0.3}}\\n"
+    >>> _ = (folder / "nets.yaml").write_text(text + "columns: {time: time, force: force}\\n", encoding="utf-8")
+    >>> campaign, _, _ = load_nets(folder / "nets.yaml")
+    >>> [(run.name, run.speed) for run in campaign.runs]
+    [('none', 0.3), ('A', 0.3)]
     """
     document = read_yaml(path)
     model: NetsFile = read_block(document, NetsFile)

@@ -47,11 +47,28 @@ def load_survey(path: str | os.PathLike[str]) -> Survey:
     Returns
     -------
     Survey
+        What :func:`moyai.records.run_survey` takes.
 
     Raises
     ------
     CaseError
         With every fault of the file at once, each with line and column.
+
+    Examples
+    --------
+    >>> import math
+    >>> from pathlib import Path
+    >>> from tempfile import mkdtemp
+    >>> from moyai.records import load_survey
+    >>> folder = Path(mkdtemp())
+    >>> rows = [f"{0.5 * n},{math.sin(0.5 * n)}" for n in range(1200)]
+    >>> _ = (folder / "gauge.csv").write_text("\\n".join(["t [s],level [m]", *rows]), encoding="utf-8")
+    >>> text = "moyai: 1\\ntitle: Gauge\\nloggers:\\n- {name: gauge, file: gauge.csv, time: {column: t, unit: s},\\n"
+    >>> text += "   channels: [{name: level, column: level, kind: elevation}]}\\n"
+    >>> text += "blocks: {length: 5 min}\\nwaves: {channels: [level]}\\n"
+    >>> _ = (folder / "survey.yaml").write_text(text, encoding="utf-8")
+    >>> [logger.name for logger in load_survey(folder / "survey.yaml").loggers]
+    ['gauge']
     """
     document = read_yaml(path)
     model: RecordsFile = read_block(document, RecordsFile)

@@ -20,7 +20,7 @@ from moyai.floating.frequency import solve_motions
 from moyai.floating.memory import StateSpaceMemory
 from moyai.floating.time import CumminsModel, Simulation
 from moyai.sea.irregular import realisation_seed, synthesise
-from moyai.series.zero_crossing import zero_crossing
+from moyai.series.zero_crossing import split_waves
 from moyai.structures.breakwater.assembly import FloatingUnit
 from moyai.structures.breakwater.frequency.about_rest import about_rest_in_sea, natural_added_mass
 from moyai.structures.breakwater.frequency.model import FrequencyModel
@@ -531,4 +531,4 @@ def _transmission(model: FrequencyModel, run: Simulation, sea: IrregularSea, ram
 
 def _significant(time: Array, series: Array) -> Array:
     """Return the mean of the highest third of the zero-up-crossing double amplitudes of each column."""
-    return np.array([zero_crossing(time, column).significant_height() for column in series.T])
+    return np.array([split_waves(time, column).significant_height() for column in series.T])

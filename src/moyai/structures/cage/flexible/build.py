@@ -334,7 +334,27 @@ def panel_law(model: FlexibleCage) -> PanelLaw:
 
 
 def build_cage(model: FlexibleCage) -> CageNetwork:
-    """Return the network of a flexible cage, without shelter (see :mod:`moyai.structures.cage.flexible.wake`)."""
+    """Return the network of a flexible cage, without shelter (see :mod:`moyai.structures.cage.flexible.wake`).
+
+    Parameters
+    ----------
+    model : FlexibleCage
+        At one water level: ``at_level`` of the problem that :func:`moyai.case.build` makes of a case.
+
+    Returns
+    -------
+    CageNetwork
+        The network, and which of its nodes and bars belong to which part.
+
+    Examples
+    --------
+    >>> import moyai
+    >>> from moyai.case import build
+    >>> from moyai.structures import build_cage
+    >>> model = build(moyai.load_case(moyai.template("cage"))).at_level(0.0)
+    >>> len(build_cage(model).cages)
+    1
+    """
     work = _Assembly()
     cages = [_net(work, model, index, centre) for index, centre in enumerate(model.centres)]
     sinkers = [node for cage in cages for node in _sinkers(work, model, cage)]

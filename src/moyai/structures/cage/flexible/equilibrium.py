@@ -69,20 +69,40 @@ def solve_rest(
     Parameters
     ----------
     model : FlexibleCage
+        At one water level.
     built : CageNetwork
-        Of :func:`moyai.structures.cage.flexible.build.build_cage`.
+        Of :func:`moyai.structures.build_cage`.
     current : Current, optional
+        Still water without one.
     start : State, optional
         Rest in a similar current.
     near : sequence of State
         Rests of cages that differ little, for a draft: a few steps of Newton's method from the best of them are enough,
         to a thousandth of the largest tension; where they fail it is as if there were none.
     progress : Progress
+        Called within the search.
+
+    Returns
+    -------
+    CageEquilibrium
+        Places, tensions and what the water brings to every part.
 
     Raises
     ------
     ConvergenceError
         When it does not come near rest.
+
+    Examples
+    --------
+    >>> import moyai
+    >>> from moyai.case import build
+    >>> from moyai.structures import build_cage, solve_rest
+    >>> model = build(moyai.load_case(moyai.template("cage"))).at_level(0.0)
+    >>> built = build_cage(model)
+    >>> rest = solve_rest(model, built, None)
+    >>> cage = built.cages[0]
+    >>> round(float(cage.volume(rest.state.position)) / cage.rest_volume, 2)     # of its volume without water
+    1.01
     """
     network, flow = sheltered(model, built, current), Flow(current=current)
     if alike := [one for one in near if one.position.shape == network.nodes.position.shape]:
@@ -178,7 +198,28 @@ def ring_shape(cage: CageParts, position: Array, built: Array) -> tuple[Array, f
 
 
 def horizontal_balance(rest: CageEquilibrium) -> tuple[Array, Array]:
-    """Return the drag on all parts (parts, 3) and the pull on all holds, summed (3) [N]: they agree at rest."""
+    """Return the drag on all parts and the pull on all holds: they agree at rest.
+
+    Parameters
+    ----------
+    rest : CageEquilibrium
+        Of :func:`moyai.structures.solve_rest`.
+
+    Returns
+    -------
+    tuple of ndarray
+        Drag (parts, 3) and the sum of the pulls (3) [N].
+
+    Examples
+    --------
+    >>> import moyai
+    >>> from moyai.case import build
+    >>> from moyai.structures import build_cage, horizontal_balance, solve_rest
+    >>> model = build(moyai.load_case(moyai.template("cage"))).at_level(0.0)
+    >>> drag, pull = horizontal_balance(solve_rest(model, build_cage(model), None))
+    >>> bool(abs(drag).max() < 1.0)                                  # in still water [N]
+    True
+    """
     position = rest.state.position
     water = Flow(current=rest.current).at(0.0, position.T)
     split = drag_split(rest.built, rest.network, position, np.zeros_like(position), water)

@@ -38,6 +38,17 @@ def model_cage(*, patches: int = 3, weighed_with_floats: bool = False, drag: boo
         Read the 291.05 gf as the whole cage; its frame then is lighter than any metal.
     drag : bool
         False leaves all drag out.
+
+    Returns
+    -------
+    RigidCage
+        The model cage of the paper.
+
+    Examples
+    --------
+    >>> from moyai.structures import model_cage
+    >>> round(model_cage().mass, 3)                                  # net, frame and floats [kg]
+    0.364
     """
     faces = box_patches(SIDE, SIDE, SIDE, ("sides", "bottom"), patches)
     floats = Floats(box_floats(SIDE, SIDE, 0.5 * SIDE, 3), FLOAT_DIAMETER, FLOAT_MASS, 0.6 if drag else 0.0, 0.5)
@@ -72,12 +83,29 @@ def taut_lines(
     Parameters
     ----------
     cage : RigidCage
+        Of :func:`moyai.structures.model_cage`.
     kind : str
         From the top corners to the opposite anchors, or from the bottom corners outward.
     anchor_distance, pull_down : float
         [m].
     stiffness : float
         [N/m].
+
+    Returns
+    -------
+    tuple of CageLine
+        Offshore and shore line.
+
+    Raises
+    ------
+    InputError
+        For another kind.
+
+    Examples
+    --------
+    >>> from moyai.structures import model_cage, taut_lines
+    >>> len(taut_lines(model_cage()))
+    2
     """
     crossed = kind == "crossed_top"
     plans = tuple(

@@ -254,10 +254,31 @@ def _settle(packed: PackedCage, place: Array, size: float, held: tuple[int, ...]
 def free_floating(cage: RigidCage, water: Water, kinematic_viscosity: float) -> RigidCageEquilibrium:
     """Return the cage floating without lines in still water, at x = 0 of its middle.
 
+    Parameters
+    ----------
+    cage : RigidCage
+        In its own axes.
+    water : Water
+        In which it floats.
+    kinematic_viscosity : float
+        Of the water [m2/s].
+
+    Returns
+    -------
+    RigidCageEquilibrium
+        Place, immersion and forces.
+
     Raises
     ------
     InputError
         When it sinks.
+
+    Examples
+    --------
+    >>> from moyai.structures import free_floating, model_cage
+    >>> from moyai.structures.cage.rigid.matsubara import VISCOSITY, WATER
+    >>> round(free_floating(model_cage(), WATER, VISCOSITY).immersion, 3)
+    0.806
     """
     require_floating(cage, water)
     packed = pack(cage, (), water, kinematic_viscosity)
@@ -276,12 +297,41 @@ def rest_with_lines(
 ) -> RigidCageEquilibrium:
     """Return the moored cage at rest in still water or a current.
 
+    Parameters
+    ----------
+    cage : RigidCage
+        In its own axes.
+    lines : tuple of CageLine
+        Between its corners and the bed.
+    water : Water
+        In which it floats.
+    kinematic_viscosity : float
+        Of the water [m2/s].
+    current : CurrentProfile, optional
+        Still water without one.
+    start : ndarray, optional
+        Place from which the search begins.
+
+    Returns
+    -------
+    RigidCageEquilibrium
+        Place, immersion, tensions and forces.
+
     Raises
     ------
     InputError
         When a current carries a cage without lines away.
     ConvergenceError
         When no rest is found.
+
+    Examples
+    --------
+    >>> from moyai.structures import model_cage, rest_with_lines, taut_lines
+    >>> from moyai.structures.cage.rigid.matsubara import VISCOSITY, WATER
+    >>> cage = model_cage()
+    >>> rest = rest_with_lines(cage, taut_lines(cage, pull_down=0.011, stiffness=2000.0), WATER, VISCOSITY)
+    >>> (rest.tension / 9.81e-3).round(1).tolist()                   # [gf]
+    [53.5, 53.5]
     """
     packed = pack(cage, lines, water, kinematic_viscosity, current=current)
     flowing = bool(np.abs(packed.current[1]).max() > 0.0)

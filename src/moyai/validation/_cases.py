@@ -57,7 +57,19 @@ class Outcome:
 
 
 def topics() -> tuple[str, ...]:
-    """Return the names of all modules of :mod:`moyai.validation`."""
+    """Return the names of all modules of :mod:`moyai.validation`.
+
+    Returns
+    -------
+    tuple of str
+        In the order of the alphabet.
+
+    Examples
+    --------
+    >>> from moyai.validation import topics
+    >>> "mooring" in topics()
+    True
+    """
     import moyai.validation as package
 
     names = [module.name for module in pkgutil.iter_modules(package.__path__) if not module.name.startswith("_")]
@@ -67,10 +79,26 @@ def topics() -> tuple[str, ...]:
 def choose(wanted: Iterable[str]) -> list[tuple[str, ValidationCase]]:
     """Return the cases of the wanted topics, all of them when none is named.
 
+    Parameters
+    ----------
+    wanted : iterable of str
+        Topics.
+
+    Returns
+    -------
+    list of (str, ValidationCase)
+        Topic and case.
+
     Raises
     ------
     InputError
         For a topic that does not exist.
+
+    Examples
+    --------
+    >>> from moyai.validation import choose
+    >>> {topic for topic, _ in choose(["mooring"])}
+    {'mooring'}
     """
     known = topics()
     names = list(wanted)
@@ -104,8 +132,20 @@ def compute(
     chosen : list of (str, ValidationCase)
         Topic and case.
     progress : Progress
+        Called before every case.
     ended : callable
         Takes each outcome as its case ends.
+
+    Returns
+    -------
+    list of Outcome
+        In the order of the cases.
+
+    Examples
+    --------
+    >>> from moyai.validation import choose, compute
+    >>> [outcome.passed for outcome in compute(choose(["mooring"])[:1])]
+    [True]
     """
     outcomes = []
     for index, (topic, case) in enumerate(chosen):
