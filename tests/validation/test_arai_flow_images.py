@@ -9,6 +9,7 @@ import math
 
 import numpy as np
 import pytest
+from synthetic_pictures import Optics, synthesise
 
 from moyai.core.errors import InputError
 from moyai.records.streaks.circulation_law import fit_circulation_law, inertia_reduction
@@ -30,7 +31,6 @@ from moyai.records.streaks.flow import (
 )
 from moyai.records.streaks.linking import LinkingSettings, link_exposure, link_frames
 from moyai.records.streaks.run import RunSettings, drift_of_chains, streaks_in_world
-from moyai.records.streaks.synthesis import Optics, synthesise
 from moyai.records.streaks.timing import regular_pulses
 
 BREADTH, FREQUENCY = 0.045, 0.95

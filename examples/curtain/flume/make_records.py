@@ -14,11 +14,11 @@ import sys
 from pathlib import Path
 
 import numpy as np
+from synthetic_snaps import SnapLogger, made_record
 
 from moyai.case.reader import read_block
 from moyai.case.yaml_reader import read_yaml
 from moyai.records.snaps.case.schema import SnapRunsFile
-from moyai.records.snaps.synthesis import SnapLogger, made_record
 from moyai.sea.water import Water
 from moyai.structures.curtain.impact.cable import Impact
 

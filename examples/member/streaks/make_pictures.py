@@ -12,10 +12,10 @@ from pathlib import Path
 
 import imageio.v3 as imageio
 import numpy as np
+from synthetic_pictures import Optics, synthesise
 
 from moyai.records.streaks.camera_calibration import RayCamera, Refraction
 from moyai.records.streaks.flow import OrbitalFlow, circle_map, rectangle_map
-from moyai.records.streaks.synthesis import Optics, synthesise
 from moyai.records.streaks.timing import regular_pulses
 
 BREADTH = 0.045

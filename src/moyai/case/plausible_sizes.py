@@ -6,7 +6,6 @@ Each comes with the keys that it follows from, so that one slip is reported once
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -94,12 +93,3 @@ def fastest_water(model: Any, periods: Periods) -> FastestWater | None:
     speed = math.pi * height / period + current
     keys = (*of, *((("current", "speed"),) if current else ()))
     return FastestWater(speed, 2.0 * math.pi**2 * height / period**2, keys)
-
-
-def nested(rows: Any, base: KeyPath) -> Iterator[tuple[KeyPath, float]]:
-    """Yield every number of nested tuples with its path."""
-    for index, row in enumerate(rows):
-        if isinstance(row, (tuple, list)):
-            yield from nested(row, (*base, index))
-        elif row is not None:
-            yield (*base, index), float(row)

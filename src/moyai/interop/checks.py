@@ -10,7 +10,7 @@ import xarray as xr
 
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.interop.bodies import each_body
-from moyai.sea.dispersion import group_velocity, wave_number
+from moyai.sea.dispersion import wave_number
 
 
 def check_coefficients(dataset: xr.Dataset, *, tolerance: float = 0.05) -> tuple[IdentityCheck, ...]:
@@ -156,27 +156,3 @@ def check_time_convention(dataset: xr.Dataset) -> tuple[Notice, ...]:
                     )
                 )
     return tuple(notices)
-
-
-def haskind_damping_axisymmetric(dataset: xr.Dataset) -> xr.DataArray:
-    """Return the damping that the exciting force implies for a body of revolution about the vertical.
-
-    Equation [eq:haskind-axisymmetric]: energy radiated by a motion follows from the force that waves exert in it. Surge
-    needs waves along x. Water of any depth.
-
-    Returns
-    -------
-    xarray.DataArray
-        Surge, heave and pitch damping, dims ``omega, radiating_dof``.
-    """
-    omega = dataset["omega"].values
-    depth, gravity, density = float(dataset["water_depth"]), float(dataset["g"]), float(dataset["rho"])
-    number = np.asarray(wave_number(omega, depth, gravity))
-    speed = np.asarray(group_velocity(omega, depth, gravity))
-    along = dataset["excitation_force"].sel(wave_direction=0.0, method="nearest", tolerance=1e-6)
-    names = ["Surge", "Heave", "Pitch"]
-    # The force varies as cos(direction) for surge and pitch: its square has the mean 1/2
-    mean = np.array([0.5, 1.0, 0.5])
-    squares = np.abs(along.sel(influenced_dof=names).values) ** 2
-    values = number[:, None] * squares * mean / (4.0 * density * gravity * speed[:, None])
-    return xr.DataArray(values, dims=("omega", "radiating_dof"), coords={"omega": omega, "radiating_dof": names})

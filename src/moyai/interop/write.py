@@ -18,7 +18,6 @@ _WRITERS: dict[str, Callable[[xr.Dataset], dict[str, bytes]]] = {
     "nemoh": nemoh_files,
     "wamit": wamit_files,
 }
-PROGRAMS = tuple(_WRITERS)
 """Programs whose files can be written."""
 
 

@@ -90,32 +90,3 @@ def breaking_limit(period: float, water: Water, current_along_wave: float = 0.0)
     if 2.0 * math.pi * water.depth / length > math.pi:
         return BreakingLimit(miche, "deep-water limit 0.142 L", "Michell (1893)")
     return BreakingLimit(miche, "Miche 0.142 L tanh kh", "Miche (1944)")
-
-
-def require_below_breaking(height: float, period: float, water: Water, current_along_wave: float = 0.0) -> None:
-    """Raise when a regular wave is higher than breaking allows.
-
-    Parameters
-    ----------
-    height, period : float
-        Wave height [m] and period [s].
-    water : Water
-        Depth and gravity.
-    current_along_wave : float
-        Uniform current along the heading [m/s].
-
-    Raises
-    ------
-    InputError
-        With the number, the limit and the criterion.
-    """
-    limit = breaking_limit(period, water, current_along_wave)
-    if not (math.isfinite(height) and height >= 0.0):
-        raise InputError(f"wave height is {height:g} m", parameter="height", allowed="at least 0 m")
-    if height > limit.height:
-        raise InputError(
-            f"a wave of height {height:.4g} m and period {period:.4g} s breaks ({limit.criterion})",
-            parameter="height",
-            allowed=f"at most {limit.height:.4g} m",
-            remedy="lower the wave, lengthen the period, or check the water depth",
-        )

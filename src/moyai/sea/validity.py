@@ -21,7 +21,6 @@ from moyai.sea.breaking import (
     linear_wavelength,
     mccowan_height,
     miche_height,
-    require_below_breaking,
 )
 from moyai.sea.nonlinear import stokes_coefficients
 from moyai.sea.permanent_wave import Theory
@@ -40,7 +39,6 @@ __all__ = [
     "mccowan_height",
     "miche_height",
     "recommended_theory",
-    "require_below_breaking",
 ]
 
 #: Neglected harmonic over first harmonic at which the next order is recommended.

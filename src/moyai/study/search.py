@@ -7,7 +7,7 @@ its failures like any other.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
@@ -293,6 +293,3 @@ def _si_name(unit: str) -> str:
     from moyai.study.axes import si_symbol
 
     return (si_symbol(parse_quantity(f"1 {unit}").unit.dimension) if unit else "") or "1"
-
-
-Runner = Callable[[Case, Progress], Any]

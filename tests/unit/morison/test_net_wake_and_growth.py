@@ -9,7 +9,6 @@ import pytest
 
 from moyai.core.errors import InputError
 from moyai.morison.net_fouling import check_fouling, diameter_for_drag, foul, foul_by_name
-from moyai.morison.net_grouping import group_twines
 from moyai.morison.net_law_names import Net, available_net_laws, net_law
 from moyai.morison.net_wake import WAKE_LAWS, speed_through, wake_factor
 
@@ -99,55 +98,3 @@ def test_growth_that_cannot_be(factor, density, words):
         foul(Net(2e-3, 2e-2), factor, density)
     with pytest.raises(InputError, match="between 0 and 1"):
         foul(Net(2e-3, 2e-2, solidity_listed=0.5), 2.5, 1100.0)
-
-
-@pytest.mark.parametrize("knotted", [False, True])
-def test_grouping_conserves_area_stiffness_and_mass(knotted):
-    rng = np.random.default_rng(9)
-    for _ in range(20):
-        net = Net(rng.uniform(0.5e-3, 3e-3), rng.uniform(8e-3, 3e-2), knotted=knotted)
-        density, modulus = rng.uniform(900, 8000), rng.uniform(1e8, 1e11)
-        width, height = rng.uniform(0.5, 20.0, 2)
-        columns, rows = (int(n) for n in rng.integers(1, 30, 2))
-        across, up = width / columns, height / rows
-
-        def bar(spacing, net=net, density=density, modulus=modulus):
-            return group_twines(net, spacing, density=density, modulus=modulus)
-
-        # edges of the panel take bars of half the width
-        bars = (
-            (bar(across), (columns - 1) * rows, up),
-            (bar(0.5 * across), 2 * rows, up),
-            (bar(up), (rows - 1) * columns, across),
-            (bar(0.5 * up), 2 * columns, across),
-        )
-        area = width * height
-
-        def total(name, bars=bars):
-            return sum(getattr(bar, name) * count * length for bar, count, length in bars)
-
-        assert total("projected_diameter") == pytest.approx(net.solidity * area, rel=1e-12)
-        assert total("mass_per_length") == pytest.approx(density * net.volume_per_area * area, rel=1e-12)
-        assert total("volume_per_length") == pytest.approx(net.volume_per_area * area, rel=1e-12)
-        # stiffness of a level cut through the upright bars
-        cut = sum(bar.axial_stiffness * count / rows for bar, count, _ in bars[:2])
-        twines = width / net.mesh_pitch
-        assert cut == pytest.approx(twines * modulus * math.pi / 4.0 * net.twine_diameter**2, rel=1e-12)
-        assert {bar.reynolds_diameter for bar, *_ in bars} == {net.twine_diameter}
-
-
-def test_grouped_diameters():
-    net = Net(2e-3, 2e-2)
-    bar = group_twines(net, 0.2, density=1140.0, modulus=1e9)
-    assert bar.count == pytest.approx(10.0)
-    assert bar.material_diameter == pytest.approx(math.sqrt(10.0) * 2e-3)
-    assert bar.projected_diameter == pytest.approx(10.0 * 2e-3 * (1.0 - 0.05))
-    one = group_twines(net, net.mesh_pitch, density=1140.0, modulus=1e9)
-    assert one.material_diameter == net.twine_diameter
-    weighed = group_twines(net, 0.2, density=1140.0, modulus=1e9, mass_per_area=0.5)
-    assert weighed.mass_per_length == pytest.approx(0.05)
-    assert weighed.submerged_weight_per_length(1000.0, 10.0) == pytest.approx(0.05 * 140.0 / 1140.0 * 10.0)
-    for changed in ({"spacing": 0.0}, {"density": -1.0}, {"modulus": math.nan}, {"mass_per_area": 0.0}):
-        values = {"spacing": 0.2, "density": 1140.0, "modulus": 1e9, **changed}
-        with pytest.raises(InputError):
-            group_twines(net, **values)

@@ -9,7 +9,7 @@ from scipy.signal import butter, sosfiltfilt
 
 from moyai.core.errors import InputError
 from moyai.records.forces.fit import _bootstrap
-from moyai.records.forces.identification import METHODS, ForceRecord, Setup, equivalent_work, identify
+from moyai.records.forces.identification import METHODS, ForceRecord, Setup, identify
 from moyai.records.forces.record import acceleration_of
 from moyai.records.forces.result import identification_result
 from moyai.records.forces.waves import orbital_motion
@@ -74,19 +74,6 @@ def test_clean_records_give_the_coefficients_to_nine_digits(seed):
         assert fit.explained > 1.0 - 1e-9
     free = identify(record, replace(setup, period=None, methods=("least_squares",)))
     assert free.period == pytest.approx(setup.period, rel=1e-6)
-
-
-@pytest.mark.parametrize("seed", range(4))
-def test_equivalent_work_of_complex_amplitudes(seed):
-    """The formula of the paper on exact first harmonics."""
-    rng = np.random.default_rng(seed)
-    inertia, drag, omega = rng.uniform(0.5, 3, 3)
-    velocity = complex(*rng.normal(size=2))
-    rho, area, width = 1025.0, 0.3, 0.6
-    force = rho * area * inertia * (-1j * omega * velocity)
-    force += 0.5 * rho * width * drag * 8 / (3 * math.pi) * abs(velocity) * velocity
-    found = equivalent_work(force, velocity, omega, density=rho, area=area, width=width)
-    assert found == pytest.approx((inertia, drag), rel=1e-12)
 
 
 @pytest.mark.parametrize("seed", range(3))

@@ -77,10 +77,16 @@ def test_series_of_incident_and_reflected_waves(seed):
     assert np.std(reflected[inner] - truth_back[inner]) < 0.02 * truth_back.std()
 
 
+def goda_suzuki(positions, amplitudes, k):
+    """Incident and reflected amplitudes at x = 0 of two gauges in closed form."""
+    (x1, x2), (first, second) = positions, np.moveaxis(amplitudes, -1, 0)
+    denominator = 2j * np.sin(k * (x2 - x1))
+    incident = (second * np.exp(-1j * k * x1) - first * np.exp(-1j * k * x2)) / denominator
+    return incident, (first * np.exp(1j * k * x2) - second * np.exp(1j * k * x1)) / denominator
+
+
 def test_two_gauges_are_goda_and_suzuki():
     """At every frequency of one segment the energies are those of the closed form."""
-    from moyai.records.survey.reflection import goda_suzuki
-
     gauges, _, _ = flume(7, 0.4, 2.0, (0.0, 0.45))
     options = WelchOptions(window="rectangular", overlap=0.0)
     found = separate_irregular(STEP, gauges, (0.0, 0.45), WATER, options, **BAND)

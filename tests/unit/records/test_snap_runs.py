@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from synthetic_snaps import SnapLogger, made_record
 from typer.testing import CliRunner
 
 from moyai.cli.main import app
@@ -17,7 +18,6 @@ from moyai.records.snaps.case.build import load_snaps
 from moyai.records.snaps.curves import model_curves
 from moyai.records.snaps.report.page import GENERATED
 from moyai.records.snaps.run import NUMBERS, _agreement, _exponents, measure_snaps
-from moyai.records.snaps.synthesis import SnapLogger, made_record
 from moyai.sea.water import Water
 from moyai.structures.curtain.impact.cable import Impact, impact_numbers, peak_by_energy
 

@@ -6,6 +6,7 @@ import math
 import imageio.v3 as imageio
 import numpy as np
 import pytest
+from synthetic_pictures import Optics, synthesise
 from typer.testing import CliRunner
 
 from moyai.cli.main import app
@@ -16,7 +17,6 @@ from moyai.records.streaks.camera_calibration import RayCamera, Refraction
 from moyai.records.streaks.campaign import measure_campaign
 from moyai.records.streaks.case.build import load_streaks
 from moyai.records.streaks.flow import OrbitalFlow, circle_map
-from moyai.records.streaks.synthesis import Optics, synthesise
 from moyai.records.streaks.timing import regular_pulses
 
 PERIOD, BREADTH = 1.0, 0.03

@@ -30,9 +30,6 @@ from moyai.records.forces.notices import (
 )
 from moyai.records.forces.record import ForceRecord, acceleration_of, noise_cut, period_of, without_noise
 
-_SPEED_FACTOR = 8.0 / (3.0 * math.pi)
-
-
 #: Share of noise in the variance of a derivative from which it is cut off, and that may be left
 NOISE_REPORTED, NOISE_LEFT = 0.01, 0.02
 
@@ -63,25 +60,6 @@ class Identification:
             if entry.method == method and entry.component == component:
                 return entry
         raise InputError(f"no fit by '{method}' of component {component}", parameter="method")
-
-
-def equivalent_work(
-    force: complex, velocity: complex, omega: float, *, density: float, area: float, width: float
-) -> tuple[float, float]:
-    """Return C_M and C_D from first harmonics, the drag by equal work [eq:identification-fourier].
-
-    Parameters
-    ----------
-    force, velocity : complex
-        Amplitudes of Re(X e^{-i omega t}) [N/m], [m/s].
-    omega : float
-        [rad/s].
-    density, area, width : float
-        [kg/m3], [m2], [m].
-    """
-    ratio = force / velocity
-    inertia = -ratio.imag / (density * area * omega)
-    return inertia, ratio.real / (0.5 * density * width * _SPEED_FACTOR * abs(velocity))
 
 
 def identify(record: ForceRecord, setup: Setup) -> Identification:
@@ -268,6 +246,5 @@ __all__ = [
     "ForceRecord",
     "Identification",
     "Setup",
-    "equivalent_work",
     "identify",
 ]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
-from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -23,8 +22,6 @@ from moyai.records.streaks.drift_interpolation import (
     trend,
 )
 from moyai.records.streaks.orbital_bias import Orbits, orbital_bias
-
-Extrapolation = Literal["stokes", "linear"]
 
 
 @dataclass(frozen=True, eq=False)

@@ -137,19 +137,3 @@ def separate_waves(
 
 def _spacings(positions: Array) -> str:
     return ", ".join(f"{spacing:.4g}" for spacing in np.diff(np.sort(positions)))
-
-
-def goda_suzuki(
-    positions: ArrayLike, amplitudes: ArrayLike, wave_number: ArrayLike
-) -> tuple[ComplexArray, ComplexArray]:
-    """Return incident and reflected amplitudes at x = 0 of two gauges in closed form; equation [eq:goda-suzuki].
-
-    Kept next to the least squares as their independent check.
-    """
-    x1, x2 = np.asarray(positions, dtype=float)
-    first, second = np.moveaxis(np.atleast_2d(np.asarray(amplitudes, dtype=complex)), -1, 0)
-    k = np.atleast_1d(np.asarray(wave_number, dtype=float))
-    denominator = 2j * np.sin(k * (x2 - x1))
-    incident = (second * np.exp(-1j * k * x1) - first * np.exp(-1j * k * x2)) / denominator
-    reflected = (first * np.exp(1j * k * x2) - second * np.exp(1j * k * x1)) / denominator
-    return incident, reflected

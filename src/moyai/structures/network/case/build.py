@@ -34,8 +34,6 @@ from moyai.structures.network.case import schema_parts as parts
 from moyai.structures.network.case.schema import ElevationRecord, NetworkCase, WavesOneByOne
 from moyai.tables.lines import line_type
 
-#: Points of the table of a circular motion per turn.
-_CIRCLE_POINTS = 400
 #: How far a plane bed reaches [m].
 _REACH = 1e4
 #: Motions of a body, in the order of its degrees of freedom.

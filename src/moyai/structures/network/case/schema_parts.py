@@ -43,7 +43,6 @@ Viscosity = Annotated[
 ]
 BendingStiffness = Annotated[float, QuantityOf(quantities.BENDING_STIFFNESS, least=0.0)]
 Area = Annotated[float, QuantityOf(quantities.AREA, least=0.0)]
-SectionArea = Annotated[float, QuantityOf(quantities.AREA, above=0.0)]
 NonNegativeDuration = Annotated[float, QuantityOf(quantities.TIME, least=0.0)]
 Strain = Annotated[float, QuantityOf(quantities.NUMBER, least=0.0)]
 Pull = Annotated[float, QuantityOf(quantities.FORCE, least=0.0)]
