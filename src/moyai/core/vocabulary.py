@@ -127,6 +127,8 @@ class Vocabulary:
     open_groups: tuple[str, ...] = ()
     #: Names that a group holds whenever its analysis was run to its end, by a regular expression of its path.
     always: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    #: Names that a run writes together, by the same: a group that holds one of such a set holds all of it.
+    together: Mapping[str, tuple[tuple[str, ...], ...]] = field(default_factory=dict)
 
     @classmethod
     def of(
@@ -138,7 +140,8 @@ class Vocabulary:
         patterns: Mapping[str, str] | None = None,
         parts: Mapping[str, Vocabulary] | None = None,
         open_groups: tuple[str, ...] = (),
-        always: Mapping[str, tuple[str, ...]] | None = None,
+        always: Mapping[str, str | tuple[str, ...]] | None = None,
+        together: Mapping[str, tuple[str, ...]] | None = None,
     ) -> Vocabulary:
         """Return a vocabulary of the common concepts and a kind's own.
 
@@ -149,13 +152,15 @@ class Vocabulary:
             Unit and long name by name. A common concept may have closer words here, never another unit.
         labels : mapping, optional
             Long names of texts and of numbers that only count entries along a dimension.
-        patterns, parts, open_groups, always
+        patterns, parts, open_groups
             As in the class.
+        always, together
+            As in the class; names are separated by blanks, or stand in a tuple.
 
         Raises
         ------
         ValueError
-            When a common concept has another unit, or ``always`` names what is not declared.
+            When a common concept has another unit, or ``always`` or ``together`` name what is not declared.
         """
         variables = dict(COMMON)
         texts = {name: (NO_UNIT, words) for name, words in (labels or {}).items()}
@@ -164,8 +169,13 @@ class Vocabulary:
             if common is not None and units != common.units:
                 raise ValueError(f"{kind}: '{name}' has the unit '{units}', the common concept '{common.units}'")
             variables[name] = Variable(name, units, words, () if common is None else common.dims)
-        made = cls(kind, variables, patterns or {}, parts or {}, open_groups, always or {})
-        undeclared = sorted({name for names in made.always.values() for name in names} - variables.keys())
+        held = {
+            path: tuple(names.split()) if isinstance(names, str) else names for path, names in (always or {}).items()
+        }
+        sets = {path: tuple(tuple(names.split()) for names in every) for path, every in (together or {}).items()}
+        made = cls(kind, variables, patterns or {}, parts or {}, open_groups, held, sets)
+        wanted = (*held.values(), *(names for every in sets.values() for names in every))
+        undeclared = sorted({name for names in wanted for name in names} - variables.keys())
         if undeclared:
             raise ValueError(f"{kind}: {', '.join(undeclared)} must always be there and is not declared")
         return made
@@ -206,6 +216,10 @@ class Vocabulary:
         if not held.data_vars or held.attrs.get("status", "converged") != "converged":
             return ()
         wanted = [name for pattern, own in self.always.items() if re.fullmatch(pattern, place) for name in own]
+        for names in (
+            names for pattern, every in self.together.items() if re.fullmatch(pattern, place) for names in every
+        ):
+            wanted += names if any(name in held.variables for name in names) else ()
         return tuple(
             name
             for name in dict.fromkeys(wanted)
@@ -323,5 +337,6 @@ def joined(kind: str, parts: Iterable[Vocabulary]) -> Vocabulary:
             {**out.parts, **part.parts},
             (*out.open_groups, *part.open_groups),
             {**out.always, **part.always},
+            {**out.together, **part.together},
         )
     return out

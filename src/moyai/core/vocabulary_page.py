@@ -17,8 +17,8 @@ _HEAD = """# Variables of a result
 <!-- made by: python -m moyai.core.vocabulary_page docs/result_variables.md -->
 
 Name, unit and meaning of every variable and label that a result may hold, in SI units.
-[Layout of a result](result_layout.md) says in which group and along which dimensions they stand. A bold name stands in
-every group whose analysis ran to its end.
+[Layout of a result](result_layout.md) says in which group and along which dimensions they stand. A bold name is never
+missing where the analysis that writes it ran to its end.
 """
 #: Root attributes that tell models of a kind apart, for :meth:`moyai.core.kinds.Kind.vocabulary_of`.
 _MODELS: tuple[dict[str, str], ...] = ({}, {"cage_model": "rigid"}, {"cage_model": "flexible"})

@@ -5,6 +5,7 @@ The numbers are those of three uncoupled oscillators with invented coefficients;
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 import numpy as np
@@ -322,6 +323,26 @@ def notices() -> tuple[Notice, ...]:
     )  # fmt: skip
 
 
+def completed(groups: dict[str, xr.Dataset]) -> dict[str, xr.Dataset]:
+    """Return groups with all that a run would hold: not-a-number, and no steady load, where nothing is made up."""
+    out = {}
+    for path, group in groups.items():
+        while missing := VOCABULARY.absent(path, group):
+            blank = {}
+            for name in missing:
+                along = [dim for dim, words in OF_DIMENSION.items() if re.search(words, name)]
+                dims = [dim for dim in ("period", *along[:1]) if dim in group.sizes]
+                blank[name] = (dims, np.full([group.sizes[dim] for dim in dims], 0.0 if "steady" in name else np.nan))
+            group = group.assign(blank)
+        out[path] = group
+    return out
+
+
+#: Words in the names of what a run holds of every line and every motion.
+OF_DIMENSION = {
+    "line": "tension|anchor|fairlead|grounded|utilisation|slack|snap|contact|rise|line",
+    "dof": "motion|mean_offset|excursion|equivalent_damping|steady",
+}
 #: Levels of a small result.
 ONE = (("LWL", 0.0),)
 
@@ -367,7 +388,7 @@ def build(
             "roll": variable(("point",), [0.2, 0.4, 0.9, 0.6, 0.3], "1", "roll"),
         }
     )
-    tree = xr.DataTree.from_dict(VOCABULARY.close(groups))
+    tree = xr.DataTree.from_dict(VOCABULARY.close(completed(groups)))
     tree.attrs.update(structure="breakwater", title=title, case_hash="5b0f9c2e77aa41d0", case_text=CASE_TEXT)
     checks = (
         IdentityCheck("energy balance of the fixed section", 3.1e-9, 1e-6, "|R|² + |T|² = 1"),

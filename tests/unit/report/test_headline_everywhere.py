@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
+from renamed import unmissed
 from tonnes_force import assert_same_numbers, left_in_si
 from typer.testing import CliRunner
 
@@ -249,3 +250,21 @@ def test_a_result_without_its_governing_number_has_no_report(
     tree = xr.DataTree.from_dict(groups)
     with pytest.raises(InputError, match=f"'{path.strip('/')}' of the result lacks .*'{name}'"):
         compose_document(replace(journal.result, tree=tree))
+
+
+#: What a run may hold and may lack, each on conditions of its own.
+OPTIONAL: dict[str, set[str]] = {
+    "breakwater": {"maximum_utilisation"},  # without lines there is none
+    "cage": set(),
+    "rigid_cage": set(),
+    "network": {"line_tension_of_check", "still_place", "surface_elevation"},
+    "member": set(),
+}
+
+
+def test_whatever_is_renamed_is_missed(travelled: tuple[Journey, Journal], request: pytest.FixtureRequest) -> None:
+    """Every variable of a real run, not the governing one alone: a table that loses a column says so."""
+    kind = request.node.callspec.params["travelled"]
+    if kind == "curtain":
+        pytest.skip("the curtain names what governs alone")
+    assert unmissed(travelled[1].result) == OPTIONAL[kind]

@@ -26,7 +26,7 @@ from moyai.report.writer import compose_document, write_report
 from moyai.structures.breakwater.headlines import headlines
 from moyai.structures.breakwater.report.page import compose
 from moyai.structures.breakwater.report.reading import all_numbers, governing_entry, water_levels
-from moyai.structures.breakwater.variables import ALWAYS
+from moyai.structures.breakwater.variables import VOCABULARY
 
 VOID = {"meta", "link", "br", "img", "input", "hr"}
 
@@ -213,9 +213,10 @@ def test_single_variables_may_be_absent_or_unknown(result: Result) -> None:
         groups = {}
         for node in result.tree.subtree:
             data = node.to_dataset(inherit=False)
-            always = {name for path, own in ALWAYS.items() if re.fullmatch(path, node.path) for name in own}
-            drop = [name for name in data.data_vars if random.random() < 0.2 and name not in always]
-            data = data.drop_vars(drop)
+            for name in data.data_vars:
+                without = data.drop_vars(name)
+                if random.random() < 0.2 and not VOCABULARY.absent(node.path, without):
+                    data = without
             for name in data.data_vars:
                 if random.random() < 0.1 and np.issubdtype(data[name].dtype, np.floating):
                     data[name] = (data[name].dims, np.full(data[name].shape, np.nan), data[name].attrs)

@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from japanese import compared
+from renamed import unmissed
 
 pytest.importorskip("capytaine", reason="Capytaine is not installed")
 
@@ -40,6 +41,12 @@ def folder(tmp_path_factory):
 @pytest.fixture(scope="module")
 def result(folder):
     return run(problem(), store=DatasetStore(folder))
+
+
+@pytest.mark.slow
+def test_whatever_is_renamed_is_missed(result):
+    # of regular waves in time, and of irregular ones
+    assert sorted(unmissed(result)) == ["motion_amplitude", "seed_of_realisation"]
 
 
 @pytest.mark.slow

@@ -185,12 +185,92 @@ LABELS: dict[str, str] = {
 }
 
 # Names that a group holds whenever its analysis was run
-ALWAYS: dict[str, tuple[str, ...]] = {
-    "/[^/]+/statics": ("draught", "metacentric_height", "natural_period", "breaking_load"),
-    "/[^/]+/mooring": ("restoring_force", "vertical_force"),
-    "/[^/]+/rao": ("rao",),
-    "/[^/]+/frequency/[^/]+": ("line_tension_maximum", "line_tension_mean", "mean_offset", "mean_drift_force"),
-    "/[^/]+/time/[^/]+": ("line_tension_maximum", "line_tension_mean"),
+
+#: What a group holds whenever its analysis was run to its end.
+ALWAYS = {
+    "/[^/]+/statics": (
+        "draught body_mass displaced_mass line_vertical_pull imbalance heel metacentric_height freeboard "
+        "centre_of_gravity_x centre_of_gravity_z beam section_height unit_length steady_force "
+        "steady_force_of_wind steady_force_of_current steady_offset hydrostatic_stiffness mooring_stiffness "
+        "inertia_matrix outline_x outline_z natural_period natural_period_without_lines mode_shape damping_ratio "
+        "breaking_load"
+    ),
+    "/[^/]+/mooring": (
+        "restoring_force vertical_force line_tension line_horizontal_tension line_anchor_vertical_tension "
+        "mooring_stiffness"
+    ),
+    "/[^/]+/rao": (
+        "rao period wavelength wavelength_over_beam transmission_macagno transmission_wiegel transmission_ruol"
+    ),
+    "/[^/]+/frequency/[^/]+": (
+        "omega line_tension_maximum line_tension_mean maximum_anchor_vertical_tension mean_offset mean_drift_force "
+        "equivalent_damping equivalent_damping_fraction"
+    ),
+    "/[^/]+/memory": (
+        "velocity_kernel acceleration_kernel added_mass radiation_damping infinite_frequency_added_mass steady_dashpot"
+    ),
+    "/[^/]+/time/[^/]+": "line_tension_maximum line_tension_mean",
+    "/[^/]+/time/[^/]+/[^/]+": "position tension surface_elevation",
+    "/[^/]+/time/[^/]+/[^/]+/contacts": (
+        "line_number contact_time slack_before contact_peak peak_time rise_time is_snap"
+    ),
+}
+#: What one statement of a run writes: a group holds all of it or none.
+TOGETHER = {
+    "/[^/]+/statics": (
+        (
+            "fairlead_tension anchor_tension horizontal_tension fairlead_vertical_tension anchor_vertical_tension "
+            "grounded_length line_count unstretched_length breaking_load utilisation fairlead_x fairlead_z anchor_x "
+            "anchor_z line_x line_z"
+        ),
+        "line_shape_x line_shape_z",
+    ),
+    "/[^/]+/rao": (
+        (
+            "reflection_coefficient transmission_coefficient dissipation drift_coefficient "
+            "mean_drift_force_per_amplitude_squared"
+        ),
+    ),
+    "/[^/]+/frequency/[^/]+": (
+        ("reflection_coefficient transmission_coefficient transmission_coefficient_low transmission_coefficient_high"),
+        "dissipation drift_coefficient mean_drift_force_per_amplitude_squared",
+        (
+            "wavelength wavelength_over_beam rao motion_amplitude motion_amplitude_low motion_amplitude_high "
+            "motion_ratio mooring_stiffness relative_elevation tension_amplitude line_tension_minimum"
+        ),
+        (
+            "wave_spectrum response_spectrum significant_height significant_motion significant_motion_low "
+            "significant_motion_high most_probable_maximum_motion mean_zero_crossing_period significant_tension "
+            "most_probable_maximum_tension maximum_anchor_horizontal_tension least_grounded_length largest_offset "
+            "overtopping_share significant_relative_elevation"
+        ),
+        "transmitted_significant_height transmitted_spectrum",
+        (
+            "slow_motion_deviation slow_sway_deviation_half_damping slow_sway_deviation_double_damping "
+            "slow_sway_period slow_sway_damping_ratio"
+        ),
+    ),
+    "/[^/]+/time/[^/]+": (
+        (
+            "mean_offset maximum_motion mean_drift_force lines_in_motion line_tension_maximum line_tension_mean "
+            "maximum_anchor_vertical_tension "
+            "maximum_anchor_horizontal_tension least_grounded_length maximum_utilisation"
+        ),
+        (
+            "motion_amplitude motion_ratio wavelength_over_beam line_tension_minimum damping_work energy_to_harmonics "
+            "harmonic_radiation"
+        ),
+        "significant_motion significant_tension significant_height",
+        "maximum_excursion maximum_excursion_of_realisation line_tension_maximum_of_realisation seed_of_realisation",
+        "slack_time longest_slack contact_count snap_count largest_snap least_rise_time",
+    ),
+    "/[^/]+/time/[^/]+/[^/]+": (
+        (
+            "anchor_tension_history anchor_uplift grounded_length_history moving_line_x moving_line_z "
+            "line_tension_peak_since_row"
+        ),
+        "position_lines_at_rest tension_lines_at_rest",
+    ),
 }
 
 VOCABULARY = Vocabulary.of(
@@ -200,5 +280,6 @@ VOCABULARY = Vocabulary.of(
     parts={".*/hydrodynamics(_oblique)?": POTENTIAL},
     open_groups=("/measured",),
     always=ALWAYS,
+    together=TOGETHER,
 )
 labelled = VOCABULARY.describe

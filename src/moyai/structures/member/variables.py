@@ -92,15 +92,40 @@ LABELS: dict[str, str] = {
 }
 
 # Names that a group holds whenever its analysis was run
-ALWAYS: dict[str, tuple[str, ...]] = {
-    "/[^/]+/waves/[^/]+": (
-        "maximum_force",
-        "maximum_total_force",
-        "maximum_end_force",
-        "maximum_bending_moment",
-        "keulegan_carpenter",
+
+#: What a group holds whenever its analysis was run to its end.
+ALWAYS = {
+    "/[^/]+/member": (
+        "area width height length inclination principal_angle inertia_error strip_x strip_y strip_z outline_x "
+        "outline_z axis_direction ideal_inertia_coefficient principal_inertia_coefficient"
     ),
-    "/[^/]+/time/[^/]+/[^/]+": ("force", "inertia_force", "drag_force"),
+    "/[^/]+/sweep": (
+        "inertia_coefficient planar_inertia_coefficient laminar_inertia_coefficient circulation "
+        "laminar_circulation magnus_force_per_length arai_inertia_coefficient arai_circulation "
+        "chaplin_inertia_coefficient chaplin_circulation otsuka_inertia_coefficient otsuka_circulation"
+    ),
+    "/[^/]+/waves/[^/]+": (
+        "period wave_height wavelength keulegan_carpenter coefficient_keulegan_carpenter reynolds beta "
+        "orbit_ratio velocity_amplitude inertia_coefficient plain_inertia_coefficient "
+        "effective_inertia_coefficient drag_coefficient circulation settled_circulation laminar_circulation "
+        "maximum_force mean_force force_deviation maximum_total_force maximum_moment maximum_end_force "
+        "maximum_bending_moment maximum_bending_moment_along maximum_strip_force strip_keulegan_carpenter "
+        "strip_reynolds wet_share"
+    ),
+    "/[^/]+/time/[^/]+/[^/]+": (
+        "surface_elevation force inertia_force inertia_end_force inertia_bending_moment drag_force drag_end_force "
+        "drag_bending_moment magnus_force magnus_end_force magnus_bending_moment circulation"
+    ),
+    "/[^/]+/surface/[^/]+": "near_surface_inertia_coefficient near_surface_change radiation_ratio",
+}
+#: What one statement of a run writes: a group holds all of it or none.
+TOGETHER = {
+    "/[^/]+/waves/[^/]+": (
+        (
+            "maximum_total_force_of_realisation maximum_end_force_of_realisation "
+            "maximum_bending_moment_of_realisation seed_of_realisation"
+        ),
+    ),
 }
 
 VOCABULARY = Vocabulary.of(
@@ -108,5 +133,6 @@ VOCABULARY = Vocabulary.of(
     VARIABLES,
     labels=LABELS,
     always=ALWAYS,
+    together=TOGETHER,
 )
 labelled = VOCABULARY.describe

@@ -154,10 +154,55 @@ LABELS: dict[str, str] = {
 }
 
 # Names that a group holds whenever its analysis was run
-ALWAYS: dict[str, tuple[str, ...]] = {
-    "/[^/]+/statics": ("position", "tension", "line_tension_maximum"),
-    "/[^/]+/dynamic": ("line_tension_maximum", "line_tension_mean"),
-    "/[^/]+/time/[^/]+": ("line_tension_peak_since_row", "kinetic_energy", "work"),
+
+#: What a group holds whenever its analysis was run to its end.
+ALWAYS = {
+    "/[^/]+/network": (
+        "node_position node_mass bar_start bar_end bar_length bar_line bar_thin line_length line_weight "
+        "line_segments wave_speed travel_time breaking_load point_node point_kind point_diameter body_node "
+        "body_height body_volume body_mass"
+    ),
+    "/[^/]+/statics": "position tension residual point_position load line_tension_maximum",
+    "/[^/]+/modes": "mode_frequency mode_period mode_shape longest_period_double_mesh",
+    "/[^/]+/dynamic": "line_tension_maximum line_tension_mean",
+    "/[^/]+/time/[^/]+": (
+        "kinetic_energy elastic_energy work point_position load highest_load line_tension_peak_since_row"
+    ),
+    "/[^/]+/time/[^/]+/frames": "position tension final_position final_velocity",
+    "/[^/]+/time/[^/]+/contacts": ("contact_line contact_time contact_slack contact_peak contact_rise is_snap"),
+}
+#: What one statement of a run writes: a group holds all of it or none.
+TOGETHER = {
+    "/[^/]+/network": (
+        "solid_size solid_shape",
+        "solid_part_solid solid_part_start solid_part_end solid_part_diameter",
+    ),
+    "/[^/]+/statics": (
+        "line_tension_maximum line_tension_minimum start_tension end_tension",
+        "solid_position solid_angle",
+    ),
+    "/[^/]+/dynamic": (
+        (
+            "line_tension_maximum peak_time start_peak end_peak line_tension_mean deviation utilisation slack_time "
+            "slack_share contacts snaps snap_threshold largest_snap shortest_rise"
+        ),
+        "load_peak load_horizontal load_upwards load_downwards excursion",
+        ("offset mean_offset heave_range roll_range pitch_range yaw_range highest_lean"),
+        (
+            "sensitivity_peak half_step double_mesh half_viscosity double_viscosity discretisation_error "
+            "viscosity_effect damped finest"
+        ),
+        "load_half_step load_double_mesh load_damped load_finest",
+    ),
+    "/[^/]+/time/[^/]+": (
+        ("line_tension_peak_since_row line_tension_minimum start_tension end_tension start_highest end_highest"),
+        "solid_position solid_angle",
+    ),
+    "/[^/]+/time/[^/]+/frames": (
+        "wave_amplitude wave_omega wave_number wave_heading wave_phase",
+        "solid_position solid_rotation",
+        "final_motion final_memory final_poles",
+    ),
 }
 
 VOCABULARY = Vocabulary.of(
@@ -165,5 +210,6 @@ VOCABULARY = Vocabulary.of(
     VARIABLES,
     labels=LABELS,
     always=ALWAYS,
+    together=TOGETHER,
 )
 labelled = VOCABULARY.describe

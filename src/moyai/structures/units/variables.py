@@ -201,13 +201,88 @@ LABELS: dict[str, str] = {
 }
 
 # Names that a group holds whenever its analysis was run
-ALWAYS: dict[str, tuple[str, ...]] = {
-    "/[^/]+/statics": ("draught", "freeboard", "unit_x", "plan_x"),
-    "/[^/]+/frequency/[^/]+": ("mean_offset", "mean_drift"),
-    "/[^/]+/map/[^/]+": ("wave_height_ratio",),
-    "/[^/]+/time/[^/]+": ("mean_offset", "connector_resultant_largest", "line_tension_maximum"),
-    "/[^/]+/time/[^/]+/[^/]+": ("position", "tension"),
+
+#: What a group holds whenever its analysis was run to its end.
+ALWAYS = {
+    "/[^/]+/statics": (
+        "draught freeboard metacentric_height unit_mass unit_x unit_y unit_heading plan_x plan_y anchor_x "
+        "anchor_y anchor_z fairlead_x fairlead_y fairlead_z line_unit mooring_x mooring_y mooring_z outline_x "
+        "outline_z unit_centre_z breaking_load anchor_curve_tension anchor_curve_horizontal_tension "
+        "anchor_curve_vertical_tension anchor_curve_grounded_length line_tension_mean anchor_horizontal_tension "
+        "anchor_vertical_tension grounded_length connector_x connector_y connector_z connector_breaking_load "
+        "connector_endurance_exponent curve_lowest curve_highest gap_width least_distance gap_closing_steady "
+        "steady_offset steady_force_of_wind steady_force_of_current"
+    ),
+    "/[^/]+/hydrodynamics": ("wave_number added_mass radiation_damping excitation_force hydrostatic_stiffness"),
+    "/[^/]+/frequency/[^/]+": (
+        "mean_offset largest_offset mean_drift mean_drift_of_unit connector_force_mean connector_moment_mean "
+        "connector_force_largest connector_moment_largest connector_resultant_largest "
+        "connector_stiffness_of_curve elongation_lowest elongation_highest stretch_across relative_motion_largest "
+        "relative_turn_largest gap_closing_largest line_tension_mean line_tension_maximum connector_loses_contact "
+        "least_distance hulls_meet drift_per_amplitude_squared"
+    ),
+    "/[^/]+/map/[^/]+": (
+        "wave_height_ratio wave_height_ratio_of_point wave_height_ratio_of_line point_x point_y line_x line_y "
+        "transmission_coefficient section_transmission"
+    ),
+    "/[^/]+/memory": "memory_pole memory_residue infinite_frequency_added_mass added_mass radiation_damping",
+    "/[^/]+/time/[^/]+": (
+        "mean_offset largest_offset maximum_motion connector_force_mean connector_moment_mean "
+        "connector_force_largest connector_moment_largest connector_resultant_largest "
+        "connector_moment_resultant_largest connector_damage_rate elongation_lowest elongation_highest "
+        "stretch_across relative_motion_largest relative_turn_largest gap_motion_largest gap_closing_largest "
+        "line_tension_mean line_tension_maximum line_tension_minimum least_distance hulls_meet "
+        "anchor_horizontal_tension_lines_at_rest anchor_vertical_tension_lines_at_rest "
+        "grounded_length_lines_at_rest line_tension_of_anchor_loads"
+    ),
+    "/[^/]+/time/[^/]+/[^/]+": (
+        "position connector_force connector_moment tension surface_elevation wave_amplitude wave_omega "
+        "wave_number wave_heading wave_phase"
+    ),
+}
+#: The ends of a number over the band of the damping.
+_BANDS = tuple(
+    f"{name} {name[:-4]}_high" for name in VARIABLES if name.endswith("_low") and f"{name[:-4]}_high" in VARIABLES
+)
+#: What one statement of a run writes: a group holds all of it or none.
+TOGETHER = {
+    "/[^/]+/frequency/[^/]+": (
+        "wave_height rao motion_amplitude connector_force_amplitude connector_moment_amplitude tension_amplitude",
+        (
+            "significant_height peak_period significant_motion most_probable_maximum_motion "
+            "connector_significant_force connector_significant_moment"
+        ),
+        (
+            "anchor_horizontal_tension_lines_at_rest anchor_vertical_tension_lines_at_rest "
+            "grounded_length_lines_at_rest line_tension_of_anchor_loads"
+        ),
+        "maximum_anchor_horizontal_tension maximum_anchor_vertical_tension least_grounded_length",
+        *_BANDS,
+    ),
+    "/[^/]+/map/[^/]+": (
+        "section_motion_ratio section_drift_ratio",
+        *_BANDS,
+    ),
+    "/[^/]+/time/[^/]+": (
+        "significant_motion significant_height",
+        (
+            "connector_resultant_largest_of_realisation connector_moment_largest_of_realisation "
+            "connector_moment_resultant_largest_of_realisation line_tension_maximum_of_realisation "
+            "largest_offset_of_realisation gap_motion_largest_of_realisation gap_closing_largest_of_realisation "
+            "connector_damage_rate_of_realisation maximum_motion_of_realisation "
+            "anchor_horizontal_tension_lines_at_rest_of_realisation "
+            "anchor_vertical_tension_lines_at_rest_of_realisation "
+            "grounded_length_lines_at_rest_of_realisation line_tension_of_anchor_loads_of_realisation"
+        ),
+        "maximum_anchor_horizontal_tension maximum_anchor_vertical_tension least_grounded_length",
+        (
+            "maximum_anchor_horizontal_tension_of_realisation maximum_anchor_vertical_tension_of_realisation "
+            "least_grounded_length_of_realisation"
+        ),
+        "line_tension_maximum_lines_at_rest lines_in_motion",
+        *_BANDS,
+    ),
 }
 
-VOCABULARY = Vocabulary.of("units", VARIABLES, labels=LABELS, always=ALWAYS)
+VOCABULARY = Vocabulary.of("units", VARIABLES, labels=LABELS, always=ALWAYS, together=TOGETHER)
 labelled = VOCABULARY.describe

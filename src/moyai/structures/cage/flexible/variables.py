@@ -106,14 +106,46 @@ LABELS: dict[str, str] = {
 }
 
 # Names that a group holds whenever its analysis was run
-ALWAYS: dict[str, tuple[str, ...]] = {
-    "/[^/]+/statics": ("volume_share", "total_drag", "net_deflection", "line_tension_maximum"),
-    "/[^/]+/laws": ("law_volume_share", "law_drag", "law_line_tension_maximum"),
+
+#: What a group holds whenever its analysis was run to its end.
+ALWAYS = {
+    "/[^/]+/cage": (
+        "node_rest bar_start bar_end bar_kind bar_line panel_corners collar_nodes rest_volume net_area net_mass "
+        "submerged_weight reserve_buoyancy solidity breaking_load anchor_node buoy_node sinker_node"
+    ),
+    "/[^/]+/statics": (
+        "current_speed volume_share drag drag_along total_drag pull balance residual collar_place collar_ovality "
+        "collar_warp net_tension net_deflection bottom_lift position tension tension_lower tension_upper "
+        "line_tension_maximum utilisation worst_volume_share worst_net_deflection worst_net_tension "
+        "worst_line_tension_maximum worst_utilisation worst_drag"
+    ),
+    "/[^/]+/laws": (
+        "normal_drag_coefficient law_line_tension law_volume_share law_drag law_line_tension_maximum "
+        "law_net_tension law_offset law_residual law_anchor_pull law_collar_stress"
+    ),
     "/[^/]+/time/[^/]+/[^/]+": (
-        "volume_minimum",
-        "line_tension_maximum",
-        "line_tension_mean",
-        "line_tension_peak_since_row",
+        "volume_share volume_mean volume_minimum collar_place collar_range net_tension_peak_since_row "
+        "wave_elevation drag drag_mean drag_largest position tension line_tension_maximum line_tension_mean "
+        "line_tension_peak_since_row"
+    ),
+    "/[^/]+/sensitivity/[^/]+": "value",
+    "/[^/]+/laws_in_waves/[^/]+/[^/]+": "value",
+}
+#: What one statement of a run writes: a group holds all of it or none.
+TOGETHER = {
+    "/[^/]+/statics": (
+        "anchor_pull anchor_uplift worst_anchor_pull worst_anchor_uplift",
+        (
+            "collar_stress collar_axial collar_in_plane collar_out_of_plane collar_torsion collar_stress_largest "
+            "worst_collar_stress"
+        ),
+    ),
+    "/[^/]+/time/[^/]+/[^/]+": (
+        (
+            "line_tension line_tension_lower line_tension_peak_since_row line_tension_maximum_lower line_uplift_lower "
+            "line_tension_mean line_tension_minimum line_tension_maximum utilisation slack_share snaps snap_peak"
+        ),
+        "collar_stress collar_stress_largest",
     ),
 }
 
@@ -122,5 +154,6 @@ VOCABULARY = Vocabulary.of(
     VARIABLES,
     labels=LABELS,
     always=ALWAYS,
+    together=TOGETHER,
 )
 described = VOCABULARY.describe

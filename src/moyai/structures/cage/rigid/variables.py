@@ -83,10 +83,29 @@ LABELS: dict[str, str] = {
 }
 
 # Names that a group holds whenever its analysis was run
-ALWAYS: dict[str, tuple[str, ...]] = {
-    "/[^/]+/statics": ("rest_x", "rest_z", "tension_at_rest"),
-    "/[^/]+/waves/[^/]+": ("range", "line_tension_maximum", "line_tension_mean", "slack_share"),
-    "/[^/]+/time/[^/]+/[^/]+": ("sway", "heave", "roll", "line_tension_peak_since_row"),
+
+#: What a group holds whenever its analysis was run to its end.
+ALWAYS = {
+    "/[^/]+/cage": (
+        "mass mass_without_floats solid_volume float_volume enclosed_volume centre_of_gravity_x "
+        "centre_of_gravity_z inertia submerged_weight reserve_buoyancy net_area solidity solidity_listed "
+        "outline_x outline_z float_x float_z float_diameter"
+    ),
+    "/[^/]+/statics": (
+        "rest_x rest_z rest_roll immersion residual tension_at_rest line_length line_stiffness attachment_x "
+        "attachment_z anchor_x anchor_z line_submerged_weight breaking_load stiffness natural_period "
+        "natural_shape"
+    ),
+    "/[^/]+/waves/[^/]+": (
+        "period wave_height wavelength orbit_ratio range largest_range mean maximum minimum deviation "
+        "first_harmonic first_phase range_ratio drift_velocity line_tension_minimum line_tension_mean "
+        "line_tension_maximum line_tension_mean_peak slack_share steps_per_period"
+    ),
+    "/[^/]+/time/[^/]+/[^/]+": "surface_elevation sway heave roll tension line_tension_peak_since_row",
+    "/[^/]+/laws(_in_waves/[^/]+/[^/]+)?": (
+        "normal_drag_coefficient law_line_tension_maximum law_line_tension law_offset"
+    ),
+    "/[^/]+/sensitivity/[^/]+": "line_tension_maximum line_tension_mean_peak range",
 }
 
 VOCABULARY = Vocabulary.of(
