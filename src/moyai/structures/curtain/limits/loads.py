@@ -31,6 +31,8 @@ from moyai.structures.curtain.snaps.snap_table import SnapTable
 _PAPER_RATIO = 1.0
 #: Step of the logarithm of the speed between chords that are solved, and the chord of a straight skirt over its length.
 _STEP, _STRAIGHT = 0.1, 1.0 - 1e-9
+#: Part of the current of the case below which the water is slack [-].
+_SLACK = 1e-3
 #: Of the seas that snaps are looked for in; peak periods that are run of them.
 _PEAK_ENHANCEMENT, _PERIODS = 3.3, 300.0
 #: Acting over given height below which waves run along the curtain and draw it taut nowhere.
@@ -48,17 +50,29 @@ def impact_load(unit: LevelCurtain, answer: ImpactAnswer, settings: CurtainSetti
         answer.design_tension / peak_by_energy(answer.impact).tension,
         answer.shares,
         ratio,
-        answer.skirt,
+        answer.skirt or _straight_skirt(unit),
         unit.hanging.anchor_slope,
         answer.uncertainty,
         _skirt_in_current(unit, settings, answer),
     )
 
 
+def _straight_skirt(unit: LevelCurtain) -> BulgedSkirt | None:
+    """Return the skirt of a curtain that is held at both edges and hangs straight without a current, else ``None``."""
+    skirt = unit.curtain.skirt
+    hangs = unit.curtain.toe == "held" and unit.surface_speed == 0.0 and not unit.site.on_bed
+    if not hangs or math.isinf(skirt.stiffness) or skirt.length > unit.water.depth:
+        return None
+    return BulgedSkirt(skirt.length, skirt.length * _STRAIGHT, skirt.stiffness)
+
+
 def _skirt_in_current(
     unit: LevelCurtain, settings: CurtainSettings, answer: ImpactAnswer
 ) -> Callable[[float], BulgedSkirt | None] | None:
-    """Return the skirt at any speed of the water along the normal [m/s]; None where its chord is given or not known."""
+    """Return the skirt at any speed of the water along the normal [m/s]; None where its chord is given or not known.
+
+    At slack water it hangs straight.
+    """
     known = answer.skirt
     if known is None or settings.impact.chord is not None or not unit.normal_speed > 0.0:
         return None
@@ -76,6 +90,8 @@ def _skirt_in_current(
         )  # fmt: skip
 
     def at(speed: float) -> BulgedSkirt:
+        if not speed > _SLACK * unit.normal_speed:
+            return replace(known, chord=known.length * _STRAIGHT)
         # counted from the current of the case: a model in another size finds the same
         place = math.log(speed / unit.normal_speed) / _STEP
         below = math.floor(place)
