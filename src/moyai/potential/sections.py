@@ -12,7 +12,6 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
@@ -372,13 +371,6 @@ class Section:
     def surface_piercing(self) -> bool:
         """Whether any outline is cut by the still water."""
         return bool(self.waterlines)
-
-    def to_site(self, points: ArrayLike) -> Array:
-        """Return points (n, 2) of the body frame in the frame of the site, for instance a fairlead [m]."""
-        values: Array = _turned(np.atleast_2d(np.asarray(points, dtype=float)), self.heel) + np.array(
-            [self.offset, -self.draught]
-        )
-        return values
 
     def symmetry_axis(self) -> float | None:
         """Return x [m] of the upright line about which the wetted boundary is its own mirror image, or None."""

@@ -86,16 +86,6 @@ class SnapFit:
             )
         return self._interval(lambda shape, scale, rate: _mode(self.law, shape, scale, max(rate * hours, 1.0)))
 
-    def maximum_not_exceeded(self, hours: float, probability: float) -> Interval:
-        """Return the tension that the largest in so many hours stays below with a probability [N]."""
-        _check_hours(hours)
-        if not 0.0 < probability < 1.0:
-            raise InputError(f"probability is {probability:g}", parameter="probability", allowed="between 0 and 1")
-        lack = -math.log(probability)
-        return self._interval(
-            lambda shape, scale, rate: _excess_at(self.law, min(lack / (rate * hours), 1.0), shape, scale)
-        )
-
     def _distribution(self, shape: float, scale: float) -> ExtremeFit:
         return ExtremeFit(_FAMILY[self.law], self.threshold, scale, shape, self.peaks.size, math.nan)
 

@@ -109,9 +109,8 @@ def run_study(
     >>> from moyai.study import load_study, run_study
     >>> folder = Path(mkdtemp())
     >>> _ = (folder / "base.yaml").write_text(moyai.template("network"), encoding="utf-8")
-    >>> text = "moyai: 1\\nstudy:\\n  base: base.yaml\\n  set: {analyses: [statics]}\\n"
-    >>> text += "  variations: [{grid: {current.speed: [0.5, 1.0]}}]\\n"
-    >>> _ = (folder / "study.yaml").write_text(text, encoding="utf-8")
+    >>> text = "{base: base.yaml, set: {analyses: [statics]}, variations: [{grid: {current.speed: [0.5, 1.0]}}]}"
+    >>> _ = (folder / "study.yaml").write_text(f"moyai: 1\\nstudy: {text}\\n", encoding="utf-8")
     >>> result = run_study(load_study(folder / "study.yaml"), folder / "out", moyai.run, workers=1)
     >>> result.status
     'converged'

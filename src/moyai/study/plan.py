@@ -117,9 +117,8 @@ def load_study(path: str | os.PathLike[str], progress: Progress = silent) -> Stu
     >>> from moyai.study import load_study
     >>> folder = Path(mkdtemp())
     >>> _ = (folder / "base.yaml").write_text(moyai.template("network"), encoding="utf-8")
-    >>> text = "moyai: 1\\nstudy:\\n  base: base.yaml\\n  set: {analyses: [statics]}\\n"
-    >>> text += "  variations: [{grid: {current.speed: [0.5, 1.0]}}]\\n"
-    >>> _ = (folder / "study.yaml").write_text(text, encoding="utf-8")
+    >>> text = "{base: base.yaml, set: {analyses: [statics]}, variations: [{grid: {current.speed: [0.5, 1.0]}}]}"
+    >>> _ = (folder / "study.yaml").write_text(f"moyai: 1\\nstudy: {text}\\n", encoding="utf-8")
     >>> load_study(folder / "study.yaml").shape
     (2,)
     """

@@ -56,13 +56,11 @@ def load_survey(path: str | os.PathLike[str]) -> Survey:
 
     Examples
     --------
-    >>> import math
     >>> from pathlib import Path
     >>> from tempfile import mkdtemp
     >>> from moyai.records import load_survey
     >>> folder = Path(mkdtemp())
-    >>> rows = [f"{0.5 * n},{math.sin(0.5 * n)}" for n in range(1200)]
-    >>> _ = (folder / "gauge.csv").write_text("\\n".join(["t [s],level [m]", *rows]), encoding="utf-8")
+    >>> _ = (folder / "gauge.csv").write_text("t [s],level [m]\\n0.0,0.1\\n0.5,0.2\\n", encoding="utf-8")
     >>> text = "moyai: 1\\ntitle: Gauge\\nloggers:\\n- {name: gauge, file: gauge.csv, time: {column: t, unit: s},\\n"
     >>> text += "   channels: [{name: level, column: level, kind: elevation}]}\\n"
     >>> text += "blocks: {length: 5 min}\\nwaves: {channels: [level]}\\n"
