@@ -11,9 +11,9 @@ from moyai.core.progress import Progress
 from moyai.core.remembered import Remembered, key_of_objects
 from moyai.core.results import Result
 from moyai.sea.spectra import jonswap
-from moyai.structures.breakwater import hydrodynamics, viscous_damping
+from moyai.structures.breakwater import hydrodynamics
 from moyai.structures.breakwater import run as running
-from moyai.structures.breakwater.frequency import regular
+from moyai.structures.breakwater.frequency import about_rest, regular
 from moyai.structures.breakwater.frequency.model import FrequencyModel, FrequencyResult
 from moyai.structures.breakwater.model import BreakwaterProblem, Damping, IrregularSea, RegularSea
 
@@ -28,7 +28,7 @@ def forget() -> None:
         running._REGULAR,
         hydrodynamics._SOLVED,
         hydrodynamics._BANDS,
-        viscous_damping._NATURAL,
+        about_rest._NATURAL,
     ):
         kept.clear()
 
