@@ -13,7 +13,7 @@ from moyai.core.headline import UNCONFIRMED, Band, Criterion, Headline, Verdict,
 from moyai.core.results import Result
 from moyai.core.validity import Notice
 from moyai.report.document import KeyFigures, NoticeBlock, Paragraph, Table
-from moyai.report.first_page import badges
+from moyai.report.first_page import badges, criteria_table
 from moyai.report.headlines import band_text, headline_figures
 from moyai.report.html import least_width, render_html
 from moyai.report.input_line import input_line
@@ -263,3 +263,21 @@ def test_what_bounds_a_part_of_the_loads_proves_nothing_of_the_rest() -> None:
         assert found.outcome == "not judged" and "seas were not run" in found.message
     more = [replace(plain, value=0.4, bound=bound) for bound in ("", "at least")]
     assert all(judge([item], [criterion], computed=True, left_out="x").outcome == "does not hold" for item in more)
+
+
+def test_no_tile_and_no_row_holds_of_a_computation_that_did_not_converge() -> None:
+    """A snap that the mesh changes: three rows read "holds" in green under "not judged"."""
+    light = Headline("line_utilisation", "Use", 0.1, "1", "rode, storm")
+    pull = Headline("anchor_uplift", "Pull", 9e3, "N", "anchor, storm", band=Band(8e3, 10e3, "mesh"))
+    result = synthetic_result.build(duration=60.0)
+    verdict = judge([light, pull], [FACTOR, UPLIFT], computed=False)
+    found = replace(result, headlines=(light, pull), verdict=verdict)
+    first, second = headline_figures(found).items
+    assert (first.judgement, second.judgement) == ("caution", "bad")
+    assert first.detail.endswith("factor of safety 10.0, asked at least 2.00; not judged: the computation did not "
+                                 "converge inside its range")  # fmt: skip
+    assert "not judged" not in second.detail
+    table = criteria_table(found)
+    outcomes, places = (next(one.values for one in table.columns if one.label == name) for name in ("Outcome", "Where"))
+    assert list(outcomes) == ["does not hold", "not judged"]
+    assert places[1] == "the computation did not converge inside its range; judged on rode, storm"
