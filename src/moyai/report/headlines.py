@@ -163,7 +163,10 @@ def _asked(headline: Headline, item: Judgement, like: float) -> str:
             else (f" where it is judged{place}, {own} at the value shown")
         )
         return f"factor of safety {found}{here}, asked {limit}"
-    return f"limit {limit}" if plain else f"limit {limit}, judged at {found.removeprefix(f'{item.bound} ')}{place}"
+    if plain:
+        return f"limit {limit}"
+    end = found.removeprefix(f"{item.bound} ")
+    return f"limit {limit}, judged at {end}{place}" if item.outcome != "not judged" else f"limit {limit}, against {end}"
 
 
 def _known(headline: Headline, open_one: Judgement, item: Judgement | None, like: float) -> str:
