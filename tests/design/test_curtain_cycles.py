@@ -10,7 +10,7 @@ import xarray as xr
 
 import moyai
 from moyai.core.headline import unfavourable
-from moyai.structures.curtain.headlines import _Cycles
+from moyai.structures.curtain.seas.cycles_of_sea import SeaCycles
 
 CASE = """moyai: 1
 title: Held toe with a heavy chain
@@ -74,14 +74,32 @@ def test_a_higher_wave_is_no_gentler_than_the_lower_ones_of_its_train(judged):
     assert high > 0.85 * low
 
 
+@pytest.mark.slow
+def test_the_sheet_in_the_storm_is_judged_in_weaker_currents_too(tmp_path: Path) -> None:
+    """A skirt that hangs straighter bears more of the same snap; the half of a current comes with all of it."""
+    found = {}
+    for speed in (0.3, 0.15):
+        text = CASE.format(waves=STORM, analyses="statics, waves").replace("speed: 0.15", f"speed: {speed}")
+        (tmp_path / "case.yaml").write_text(text, encoding="utf-8")
+        result = moyai.run(moyai.load_case(tmp_path / "case.yaml"))
+        row = result.tree["SWL/loads"].to_dataset(inherit=False).sel(component="skirt")
+        sheet = [one for one in result.headlines if one.name == "fabric_utilisation"]
+        ends = max(one.value for one in sheet), max(unfavourable(one) for one in sheet)
+        found[speed] = (*ends, float(row["steady_load"] + row["wave_load"]) / 160e3)
+    # in the full current the storm itself takes less of the sheet than in half of it
+    assert found[0.3][2] < 0.8 * found[0.15][2]
+    # 2 % for the steps of the currents
+    assert found[0.3][0] > 0.98 * max(found[0.15][0], found[0.15][2]) and found[0.3][1] > 0.98 * found[0.15][1]
+
+
 def test_cycles_are_judged_at_the_end_of_their_mean():
     sea = xr.Dataset({"maximum_tension": 10.0, "maximum_tension_low": 8.0, "maximum_tension_high": 13.0})
-    found = _Cycles.of(sea.assign(realisation_tension=("seed", [8.0, 9.0, 13.0])))
+    found = SeaCycles.of(sea.assign(realisation_tension=("seed", [8.0, 9.0, 13.0])))
     # Johnson's interval of three skewed values, one-sided 95 %: 4.899 standard errors
     assert found.judged == pytest.approx(10.0 + 4.8994 * np.std([8.0, 9.0, 13.0], ddof=1) / np.sqrt(3.0), rel=1e-4)
     names = ("maximum_tension", "maximum_tension_low", "maximum_tension_high")
     train = xr.Dataset({name: ("period", [7.0, 6.0]) for name in names})
-    assert _Cycles.of(train).judged == 7.0
+    assert SeaCycles.of(train).judged == 7.0
     lower = {"lower_wave_tension": [24.0, 3.0], "lower_wave_height": [0.4, 0.2], "judged_tension": [26.0, 6.0]}
-    found = _Cycles.of(train.assign({name: ("period", values) for name, values in lower.items()}))
+    found = SeaCycles.of(train.assign({name: ("period", values) for name, values in lower.items()}))
     assert (found.top, found.judged, found.low) == (24.0, 26.0, 7.0) and "0.4 m" in found.words

@@ -5,8 +5,8 @@ from __future__ import annotations
 import difflib
 import math
 import re
-from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar, Literal, Self
+from dataclasses import dataclass, fields
+from typing import Annotated, Any, ClassVar, Literal, Self, TypeVar
 
 from pydantic import (
     BaseModel,
@@ -27,6 +27,9 @@ from moyai.core import quantities
 from moyai.core.errors import InputError
 from moyai.core.quantities import QuantityKind, to_si
 from moyai.tables.plausible_ranges import kind_bounds
+
+#: Settings of an analysis, a dataclass.
+Filled = TypeVar("Filled")
 
 
 def refuse(message: str, *, allowed: str = "", remedy: str = "") -> PydanticCustomError:
@@ -250,6 +253,15 @@ class Block(BaseModel):
     def changed(self, **values: Any) -> Self:
         """Return the block with other values, which are not checked."""
         return self.model_copy(update=values)
+
+    def fill(self, kind: type[Filled], **others: Any) -> Filled:
+        """Return the settings of an analysis, from the keys of the same names and from ``others``.
+
+        A key that is absent leaves the default of the settings.
+        """
+        names = {one.name for one in fields(kind)} & type(self).model_fields.keys() - others.keys()  # type: ignore[arg-type]
+        given = {name: value for name in names if (value := getattr(self, name)) is not None}
+        return kind(**given, **others)
 
     @classmethod
     def key_names(cls) -> tuple[str, ...]:

@@ -588,11 +588,16 @@ def test_reserve_of_the_floats_at_slack_water_has_the_band_of_the_toe(tmp_path: 
     text = text.replace("analyses: [statics, impact, waves, anchor_loads, limits]", "analyses: [statics]")
     text = text.replace("  anchors: {line_length: 25 m, axial_stiffness: 2 MN, breaking_load: 100 kN, "
                         "holding_force: 60 kN}\n", "")  # fmt: skip
-    found = next(item for item in run(problem_of(tmp_path, text)).headlines if item.name == "float_reserve")
+    result = run(problem_of(tmp_path, text))
+    found = next(item for item in result.headlines if item.name == "float_reserve")
     ends = [(900.0 - 90.0 - factor * 180.0 - 12.0) / 900.0 for factor in (1.4, 1.0, 0.8)]
     assert found.band is not None and "weight of the toe" in found.band.of
     assert [found.band.low, found.value, found.band.high] == pytest.approx(ends, abs=2e-3)
     assert found.band.low == pytest.approx(ends[0], rel=1e-9)
+    # the table of loads has the same
+    row = result.tree["SWL/loads"].to_dataset(inherit=False).sel(component="float")
+    loads_at = [float(row[name]) for name in ("steady_high", "steady_load", "steady_low")]
+    assert [1.0 - load / 900.0 for load in loads_at] == pytest.approx(ends, abs=2e-3)
 
 
 def test_waves_keep_their_load_where_an_impact_in_a_weaker_current_leads(small):
@@ -627,5 +632,10 @@ def test_every_model_of_waves_is_judged_at_its_own_end(value, other):
     assert found.value == pytest.approx(other) and found.used == pytest.approx(other / 200e3)
     assert found.words("wave_source") == "slack and taut cycles, storm" and not found.bound
     assert found.number("governing_high") == pytest.approx(other + 2e3)
+    # where an impact leads, both are
+    struck = row.assign(governing="steady and impact", impact_load=60e3, governing_load=70e3)
+    both = list(headlines._other_waves(headlines._Load("SWL", "anchor line", struck, None)))
+    assert [one.value for one in both] == pytest.approx([value, other])
+    assert both[0].words("wave_source") == "energy model, storm"
     bound = headlines._Load("SWL", "anchor line", row.assign(load_bound="at most"), None)
     assert not list(headlines._other_waves(bound))

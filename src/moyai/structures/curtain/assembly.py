@@ -59,6 +59,12 @@ class LevelCurtain:
         square = self.site.current(1.0).depth_mean_squared(-self.depth, 0.0, self.curtain.normal)
         return math.sqrt(square)
 
+    def slack_float_load(self, toe_factor: float = 1.0) -> float:
+        """Return what the floats bear at slack water, per length [N/m], with a factor on the weight of the toe [-]."""
+        skirt, floats = self.hanging.skirt, self.hanging.floats
+        toe = skirt.toe_load if skirt.length < self.water.depth else 0.0
+        return floats.weight + max(skirt.submerged_weight * self.depth + toe_factor * toe, 0.0)
+
     @property
     def normal_speed(self) -> float:
         """Mean over the skirt of the current's component along the normal [m/s]."""

@@ -11,11 +11,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.headline import Band, Bound, Criterion, Headline, also_judged, judge, saying_what_is_open, unfavourable
-from moyai.series.intervals import reach_of_mean
-from moyai.structures.curtain.analyses.event_peaks import COMPONENTS, ceiling_of, event_band, open_events
+from moyai.structures.curtain.analyses.event_peaks import (
+    COMPONENTS,
+    ceiling_of,
+    event_band,
+    open_events,
+    reach_of_periods,
+)
 from moyai.structures.curtain.governing import model_of
-from moyai.structures.curtain.hierarchy import SPAN, STATICS
+from moyai.structures.curtain.hierarchy import CYCLES, SPAN, STATICS
 from moyai.structures.curtain.limit_headlines import REMEDY, limit_headlines
+from moyai.structures.curtain.seas.cycles_of_sea import SeaCycles
 from moyai.structures.curtain.steady_headlines import (
     Groups,
     at_rest,
@@ -46,15 +52,18 @@ _STEADY_NAMES = {
 #: Energy factors that fitted the measured anchor lines of the field and of the flume [-]
 ENERGY_FACTORS = (0.2, 0.5)
 _NOT_JUDGED = Headline(
-    "not_judged", "Not judged", math.nan, "1",
-    text="wear and fatigue, one line lost, seams and eyelets, waves in weaker currents",
+    "not_judged", "Not judged", math.nan, "1", text="wear and fatigue, one line lost, seams and eyelets",
     detail="ageing, fouling and fatigue of the sheet and its ropes, a curtain with one anchor line lost, stress at "
-    "seams and eyelets, and the holding of an anchor in its soil are not computed; waves in currents weaker than that "
-    "of the case are computed at half of it alone, where the whole span is run by default",
+    "seams and eyelets, and the holding of an anchor in its soil are not computed",
 )  # fmt: skip
 #: Key that asks for more realisations.
 _MORE = "settings.waves.realisations"
-_NO_SEA = replace(_NOT_JUDGED, text=f"{_NOT_JUDGED.text}, irregular seas")
+#: Groups that a level has where waves were run.
+_IN_WAVES = ("waves", "dynamic", "weaker_currents")
+_WEAKER = (
+    "waves in currents weaker than that of the case are computed at half of it alone, where the whole span is run by "
+    "default"
+)
 _MISSING = "'settings.impact.chord' and a skirt that stretches, or 'dynamic' in 'analyses'"
 
 
@@ -112,7 +121,7 @@ class _Load:
     def source(self) -> str:
         """What the load comes from: sea, run or impact."""
         how = self.words("governing").rpartition(" ")[2]
-        return self.words(f"{how}_source") if how in ("wave", "impact", "dynamic") else "in the current alone"
+        return self.words(f"{how}_source") if how in ("wave", "impact", "weaker", "dynamic") else "in the current alone"
 
 
 def curtain_headlines(
@@ -167,23 +176,36 @@ def _loads_of(groups: Groups, level: str) -> Iterator[_Load]:
         load = _Load(level, str(component), table.isel(component=number), None)
         if math.isfinite(load.value):
             yield replace(load, band=_band(groups, load))
-            for other in (*_other_runs(groups, load), *_other_waves(load)):
+            for other in (*_other_runs(groups, load), *_other_waves(load), *_in_weaker(load)):
                 yield replace(other, band=_band(groups, other))
 
 
 def _other_waves(load: _Load) -> Iterator[_Load]:
-    """Yield the load by the model of waves that does not lead: its own end may be the higher one."""
-    # results of older versions do not have it
-    second = load.number("second_wave_load") if "second_wave_load" in load.row else math.nan
-    # next to a bound it would stand as a value that is less than what may come
-    alone = not load.bound and load.words("governing") in ("steady and wave", "steady and impact")
-    if alone and math.isfinite(second):
-        whole = load.number("steady_load") + second
+    """Yield the loads in waves by the models that do not lead: their own ends may be the higher ones."""
+    names = {"steady and wave": ("second_wave",), "steady and impact": ("wave", "second_wave")}
+    # next to a bound they would stand as values that are less than what may come
+    for name in () if load.bound else names.get(load.words("governing"), ()):
+        # results of older versions do not have the second one
+        adds = load.number(f"{name}_load") if f"{name}_load" in load.row else math.nan
+        if not adds > 0.0:
+            continue
+        whole = load.number("steady_load") + adds
         more = load.number("steady_high") - load.number("steady_load")
         yield replace(load, other={
-            "governing": "steady and wave", "wave_load": second, "wave_source": load.words("second_wave_source"),
+            "governing": "steady and wave", "wave_load": adds, "wave_source": load.words(f"{name}_source"),
             "governing_load": whole, "governing_high": whole + (more if math.isfinite(more) else 0.0), "load_bound": "",
             "utilisation": load.number("utilisation") * whole / load.value,
+        })  # fmt: skip
+
+
+def _in_weaker(load: _Load) -> Iterator[_Load]:
+    """Yield the load in a weaker current whose end is the highest, or that proves what a bound does not."""
+    # results of older versions do not have it
+    value = load.number("weaker_load") if "weaker_load" in load.row else math.nan
+    if math.isfinite(value):
+        yield replace(load, other={
+            "governing": "steady and weaker", "governing_load": value, "governing_high": load.number("weaker_high"),
+            "load_bound": "", "utilisation": load.number("utilisation") * value / load.value,
         })  # fmt: skip
 
 
@@ -314,27 +336,13 @@ def _used(loads: Sequence[_Load]) -> Iterator[tuple[float, Headline]]:
             for one, headline in each
             if one is not shown
         ]
-        for other in also_judged(first, [*others, *_in_weaker(name, label, known)]):
+        for other in also_judged(first, others):
             yield shown.number("utilisation"), other
 
 
 def _end(item: Headline) -> float:
     """Return the end of a number that is judged, minus infinity where it is not known."""
     return unfavourable(item) if math.isfinite(item.value) else -math.inf
-
-
-def _in_weaker(name: str, label: str, loads: Sequence[_Load]) -> Iterator[Headline]:
-    """Yield what an impact in a weaker current takes of a strength, where the load of the case is a bound."""
-    for load in loads:
-        # results of older versions do not have it
-        high = load.number("weaker_high") if "weaker_high" in load.row else math.nan
-        if math.isfinite(high):
-            strength = load.number("capacity")
-            value = load.number("weaker_load") / strength
-            yield Headline(
-                name, label, value, "1", where=f"{load.component}, {load.words('weaker_source')}: {load.level}",
-                model=load.model, band=Band(value, high / strength, "the impact and the steady part"),
-            )  # fmt: skip
 
 
 def _used_headline(name: str, label: str, load: _Load) -> Headline:
@@ -371,41 +379,23 @@ def _band(groups: Groups, load: _Load) -> Band | None:
         return _steady_band(groups, load)
     if how == "steady and impact":
         return _impact_band(groups, load)
+    if how == "steady and weaker":
+        return Band(value, load.number("governing_high"), "what adds in the weaker current, and the steady part there")
     return None
 
 
 def _impact_band(groups: Groups, load: _Load) -> Band | None:
     """Return what the bands of the steady part and of the impact make of their sum."""
     steady = _steady_band(groups, load)
-    if steady is None:
+    low, high = (load.number(f"impact_{end}") + load.number(f"steady_{end}") for end in ("low", "high"))
+    if steady is None or not (math.isfinite(low) and math.isfinite(high)):
         return None
-    value, part = load.number("governing_load"), load.number("steady_load")
-    name = _STEADY_NAMES.get(load.component)
-    current = part if name is None else at_rest(groups[f"/{load.level}/statics"], name)
-    # a pretension above the load of the current stays where it is
-    least = part if part > current * (1.0 + 1e-9) else 0.0
-    low, high = (
-        load.number(end) + max(still, least)
-        for end, still in (("impact_low", steady.low), ("impact_high", steady.high))
-    )
-    of = f"impact: the models that count, start speed over drag and place of release; steady part: {steady.of}"
-    waves = _judged_in_waves(groups, load)
-    if waves > max(high, value):
-        # the impact leads by its value, the cycles by the end at which they are judged
-        of += "; upper end: slack and taut cycles at the 95 % end of their mean"
-    return Band(min(low, value), max(high, value, waves), of)
-
-
-def _judged_in_waves(groups: Groups, load: _Load) -> float:
-    """Return the end at which a component would be judged in slack and taut cycles alone; minus infinity without."""
-    kind, _, sea = load.words("wave_source").partition(", ")
-    table = groups.get(f"/{load.level}/waves/{sea}")
-    if kind != "slack and taut cycles" or table is None or not _Cycles.of(table).top > 0.0:
-        return -math.inf
-    whole = load.number("steady_load") + load.number("wave_load")
-    more = load.number("steady_high") - load.number("steady_load")
-    worst = max(_Cycles.of(data).judged for path, data in groups.items() if _is_cycles(path, data, load.level))
-    return whole * worst / _Cycles.of(table).top + (more if math.isfinite(more) else 0.0)
+    of = "impact: the models that count, start speed over drag and place of release"
+    if model_of(load.words("impact_source")) == CYCLES:
+        # waves in a weaker current
+        of = "waves: judged at the 95 % end of the mean of their realisations"
+    value = load.value
+    return Band(min(low, value), max(high, value), f"{of}; steady part: {steady.of}")
 
 
 def _moving_band(groups: Groups, load: _Load, value: float) -> Band | None:
@@ -424,14 +414,18 @@ def _moving_band(groups: Groups, load: _Load, value: float) -> Band | None:
     factor = value / float(run["line_tension_maximum"].values[row])
     others = [factor * float(run[name].values[row]) for name in ("line_half_mesh", "line_half_step")]
     known = [other for other in others if math.isfinite(other)]
+    reach = reach_of_periods(run, line) if run.attrs.get("regular") else 1.0
     if known:
-        return Band(min(value, *known), max(value, *known), "with half the cells and with half the step")
+        return Band(min(value, *known), max(reach * value, *known), "with half the cells and with half the step")
     if not run.attrs.get("regular"):
         return None
     peaks = factor * _period_peaks(run, row)
     if peaks.size < 2:
         return None
-    return Band(float(peaks.mean()), value, f"{peaks.size} periods, mean to highest", decides=False)
+    of = f"{peaks.size} periods, mean to highest"
+    if reach > 1.0:
+        of = f"{peaks.size} periods that do not repeat, mean to the highest of 95 of 100 records"
+    return Band(float(peaks.mean()), reach * value, of, decides=reach > 1.0)
 
 
 def _mesh_band(table: xr.Dataset, load: _Load, value: float) -> Band | None:
@@ -509,11 +503,11 @@ def _wave_band(groups: Groups, load: _Load) -> Band | None:
     part = "steady part: drag, weights, flow under the toe and what the skirt's ends hold"
     if kind != "slack and taut cycles" or table is None:
         return Band(whole - less, upper, part) if upper > whole else None
-    own = _Cycles.of(table)
+    own = SeaCycles.of(table)
     if not own.top > 0.0:
         return None
     # the cycles give the whole of a component's load in proportion to the sum of the cables
-    seas = [_Cycles.of(data) for path, data in groups.items() if _is_cycles(path, data, load.level)]
+    seas = [SeaCycles.of(data) for path, data in groups.items() if _is_cycles(path, data, load.level)]
     worst = max(seas, key=lambda one: one.judged)
     high = max(one.high for one in seas)
     if own.low == high == worst.judged == own.top:
@@ -529,53 +523,18 @@ def _wave_band(groups: Groups, load: _Load) -> Band | None:
 
 def _not_judged(groups: Groups) -> Headline:
     """Return what is not judged; a sea pulls harder than regular waves as high as its highest."""
-    kinds = {data.attrs.get("kind") for path, data in groups.items() if path.split("/")[2:3] == ["waves"]}
-    return _NO_SEA if "regular" in kinds and "irregular" not in kinds else _NOT_JUDGED
+    parts = {part: [data for path, data in groups.items() if path.split("/")[2:3] == [part]] for part in _IN_WAVES}
+    kinds = {data.attrs.get("kind") for data in parts["waves"]}
+    text, detail = _NOT_JUDGED.text, _NOT_JUDGED.detail
+    if any(parts.values()) and not parts["weaker_currents"]:
+        text, detail = f"{text}, waves in weaker currents", f"{detail}; {_WEAKER}"
+    if "regular" in kinds and "irregular" not in kinds:
+        text += ", irregular seas"
+    return replace(_NOT_JUDGED, text=text, detail=detail)
 
 
 def _is_cycles(path: str, data: xr.Dataset, level: str) -> bool:
     return path.startswith(f"/{level}/waves/") and path.count("/") == 3 and "maximum_tension" in data
-
-
-@dataclass(frozen=True)
-class _Cycles:
-    """Slack and taut cycles of a sea, sums of both cables [N]."""
-
-    #: ``low``, ``top``, ``high``: The number of the sea, its lower waves counted, and the ends of its scatter.
-    low: float
-    #: See ``low``.
-    top: float
-    #: See ``low``.
-    high: float
-    #: From the number to the end of its interval.
-    reach: float
-    words: str
-    #: Realisations that the interval is of; none of regular waves.
-    count: int = 0
-
-    @property
-    def judged(self) -> float:
-        """At which criteria are judged."""
-        return self.top + self.reach
-
-    @classmethod
-    def of(cls, table: xr.Dataset) -> _Cycles:
-        """Take them from the group of a sea."""
-        tops, lows, highs = (np.atleast_1d(table[f"maximum_tension{end}"].values) for end in ("", "_low", "_high"))
-        row = int(np.argmax(tops))
-        top, low, high = float(tops[row]), float(lows[row]), float(highs.max())
-        # results of older versions do not have it
-        lower = table["lower_wave_tension"].values if "lower_wave_tension" in table else np.zeros(1)
-        if float(lower.max()) > top:
-            top = float(lower.max())
-            height = float(table["lower_wave_height"].values[int(np.argmax(lower))])
-            words = f"a lower wave of the train, of {height:.3g} m, pulls hardest"
-            return cls(low, top, max(top, high), float(table["judged_tension"].max()) - top, words)
-        if "realisation_tension" not in table:
-            reach = float(table["judged_tension"].max()) - top if "judged_tension" in table else 0.0
-            return cls(low, top, high, reach, "largest of 100 periods")
-        scatter = table["realisation_tension"].values
-        return cls(low, top, high, reach_of_mean(scatter), f"{scatter.size} realisations", scatter.size)
 
 
 def _steady_band(groups: Groups, load: _Load) -> Band | None:

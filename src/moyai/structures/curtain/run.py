@@ -22,6 +22,7 @@ from moyai.structures.curtain.analyses.rose import rose_dataset
 from moyai.structures.curtain.analyses.span_peaks import peaks_wanted, span_peaks
 from moyai.structures.curtain.analyses.statics import require_current, statics_checks, statics_groups, statics_notices
 from moyai.structures.curtain.analyses.waves import wave_answer
+from moyai.structures.curtain.analyses.weaker_currents import weaker_waves
 from moyai.structures.curtain.assembly import LevelCurtain, assemble
 from moyai.structures.curtain.headlines import curtain_headlines
 from moyai.structures.curtain.hierarchy import CYCLES, hierarchy, hierarchy_dataset, role_of
@@ -136,6 +137,10 @@ def _level_steps(
         collected.checks.extend(anchor_checks(unit, loads))
         collected.notices.extend(anchor_notices(unit, settings.anchor_loads, waves))
         yield
+    weaker = weaker_waves(unit, settings, seas, progress) if "waves" in settings.analyses else None
+    if weaker is not None:
+        collected.groups[f"{root}/weaker_currents"] = weaker
+        yield
     moved: DynamicAnswer | None = None
     if "dynamic" in settings.analyses and settings.dynamic is not None:
         moved = dynamic_answer(unit, settings, seas, progress)
@@ -168,7 +173,7 @@ def _level_steps(
         # snaps in waves load the components in the proportions of an impact at the current's speed
         proportions = solve_impact(unit, settings.impact, unit.normal_speed or 1.0)
     table, notices = loads_dataset(
-        unit, settings, waves, tuple(oscillator), answer, proportions, curve, tensions, roles
+        unit, settings, waves, tuple(oscillator), answer, proportions, curve, tensions, roles, weaker
     )
     collected.groups[f"{root}/loads"] = table
     collected.notices.extend(notices)

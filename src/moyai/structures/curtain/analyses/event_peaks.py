@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,6 +12,7 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.core.validity import Notice
 from moyai.core.wording import spoken
+from moyai.series.block_maxima import PERIODS, maximum_of
 from moyai.series.intervals import reach_of_mean, student_quantile
 
 if TYPE_CHECKING:
@@ -26,7 +27,8 @@ COMPONENTS: Mapping[str, str] = {
 }
 #: Change of a tension from one mesh to the other, over the larger, beyond which the mesh does not carry it [-]
 MESH_CHANGE = 0.2
-
+#: Part by which the highest values of periods may differ where a motion in regular waves repeats [-]
+REPEATING = 0.05
 
 #: What the growth of a tension with the cells is continued to, over the cells of the finest mesh: some 0.2 m, the
 #: spacing of eyelets, within which seams bear and not the sheet; and its steepest power, that near a point load.
@@ -52,6 +54,8 @@ class EventSample:
     peaks: Mapping[str, float]
     #: Event whose scatter over realisations and growth with the cells are this one's, where it is not run as often.
     like: str = ""
+    #: By component: largest of as many periods in 95 of 100 records, over the highest found [-]; 1 where they repeat.
+    reach: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -126,6 +130,7 @@ def event_peak(samples: Sequence[EventSample], event: str, component: str) -> Ev
     most = _peaks(max(by_mesh.values(), key=len), component)
     # the interval of a mesh with the smaller mean and fewer realisations may reach higher
     judged = max(mean[mesh] + reach_of_mean(_peaks(items, component), alike=most) for mesh, items in by_mesh.items())
+    judged = max([judged, *(item.peaks[component] * item.reach.get(component, 1.0) for item in mine)])
     found = EventPeak(
         mean[counting], float(every.min()), float(every.max()), judged,
         by_mesh[counting][0].run, alone=own.size == 1 and by_mesh[counting][0].seed != 0,
@@ -190,6 +195,32 @@ def _shared_means(by_mesh: Mapping[tuple[int, int], Sequence[EventSample]], comp
     return [
         float(np.mean(_peaks([item for item in items if item.seed in shared], component))) for items in by_mesh.values()
     ]
+
+
+def reach_of_periods(run: xr.Dataset, component: str) -> float:
+    """Return the largest tension of as many periods in 95 of 100 records, over the highest found; 1 where they repeat.
+
+    Parameters
+    ----------
+    run : Dataset
+        A run in regular waves, of which the periods that count are taken as blocks of a record.
+    component : str
+    """
+    period = float(run.attrs["period"])
+    time = run["time"].values
+    late = time >= float(run.attrs["counted_from"])
+    reach = 1.0
+    for row, line in enumerate(run["line"].values):
+        if not str(line).startswith(component) or not late.any():
+            continue
+        values = run["line_tension_peak_since_row"].values[row][late]
+        count = max(int((time[late][-1] - time[late][0]) / period + 1e-9), 1)
+        highest = [float(part.max()) for part in np.array_split(values, count)]
+        # blocks of one period each: their largest values are those of the chaotic motion, not of a sea
+        found = maximum_of(time[late], values, period / PERIODS)
+        if found is not None and max(highest) > 0.0 and min(highest) < (1.0 - REPEATING) * max(highest):
+            reach = max(reach, found.range[1] / float(values.max()))
+    return reach
 
 
 def _peaks(samples: Sequence[EventSample], component: str) -> Array:
@@ -361,5 +392,6 @@ __all__ = [
     "mesh_notices",
     "open_events",
     "open_peaks",
+    "reach_of_periods",
     "unresolved_end",
 ]

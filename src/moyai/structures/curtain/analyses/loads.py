@@ -5,18 +5,20 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from operator import attrgetter
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.structures.curtain.analyses.anchor import rope_model, steady_tension
 from moyai.structures.curtain.analyses.dynamic import SpanLoad
 from moyai.structures.curtain.analyses.impact import ImpactAnswer
-from moyai.structures.curtain.analyses.limits import impact_load
+from moyai.structures.curtain.analyses.weaker_currents import weaker_cycles, weaker_impacts
 from moyai.structures.curtain.assembly import LevelCurtain
 from moyai.structures.curtain.governing import governing_load, model_of
-from moyai.structures.curtain.hierarchy import CREST, CYCLES, IMPACT, ModelRole, hierarchy, role_of, upright_in
+from moyai.structures.curtain.hierarchy import CREST, CYCLES, IMPACT, ModelRole, hierarchy, role_of
+from moyai.structures.curtain.limits.loads import impact_load
 from moyai.structures.curtain.limits.utilisation import AddedLoads, Strength
 from moyai.structures.curtain.model import COMPONENTS, CurtainSettings
 from moyai.structures.curtain.seas.loads import DragCurve, increase
@@ -61,6 +63,7 @@ def loads_dataset(
     curve: DragCurve,
     moved: DynamicLoads = NOT_MOVED,
     roles: tuple[ModelRole, ...] = (),
+    weaker_waves: xr.Dataset | None = None,
 ) -> tuple[xr.Dataset, tuple[Notice, ...]]:
     """Return the group ``loads`` and its notices.
 
@@ -82,6 +85,8 @@ def loads_dataset(
         Highest tension of a component in runs of the whole span [N, N/m] and the run in which it stands.
     roles : tuple of ModelRole
         What each model counts for; the hierarchy of the case when left out.
+    weaker_waves : Dataset, optional
+        Slack and taut cycles in weaker currents.
     """
     statics = unit.statics if unit.surface_speed > 0.0 else None
     roles = roles or hierarchy(unit, settings)
@@ -107,7 +112,7 @@ def loads_dataset(
         if row["wave_source"] and more > 0.0 and role_of(roles, model_of(second.source)) == "governs":
             row |= {"second_wave_load": more, "second_wave_source": second.source}
         rows.append(row)
-    weaker = _in_weaker_current(unit, settings, answer)
+    weaker = _weaker_rows(unit, settings, answer, proportions, weaker_waves)
     return _table(unit, rows, moved, roles, weaker), tuple(notices)
 
 
@@ -118,38 +123,31 @@ def dynamic_loads_dataset(unit: LevelCurtain, moved: DynamicLoads) -> xr.Dataset
     return _table(unit, rows, moved, ())
 
 
-#: Parts of the strongest current in which an upright plate governs, at which the impact is held against its own.
-_WEAKER = (0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0)
-
-
-def _in_weaker_current(
-    unit: LevelCurtain, settings: CurtainSettings, answer: ImpactAnswer | None
+def _weaker_rows(
+    unit: LevelCurtain,
+    settings: CurtainSettings,
+    answer: ImpactAnswer | None,
+    proportions: ImpactAnswer | None,
+    waves: xr.Dataset | None,
 ) -> dict[str, list[dict[str, float | str]]]:
-    """Return the rows of the impact in weaker currents than that of the case, up to the strongest of an upright plate.
-
-    Weaker currents come with every stronger one, twice a tide: where the current of the case leaves the plate as a
-    bound alone, its load in the weaker current is a value all the same, and a skirt that hangs straighter may bear more
-    in a weaker one [eq:curtain-hierarchy].
-    """
-    top = 0.0 if answer is None or unit.nominal else upright_in(unit)
-    if answer is None or not top > 0.0:
-        return {}
-    load = impact_load(unit, answer, settings)
+    """Return by component the rows of impact and waves in weaker currents that are highest, by value or by end."""
+    found = [] if answer is None else list(weaker_impacts(unit, settings, answer))
+    if proportions is not None and waves is not None:
+        found.extend(weaker_cycles(unit, settings, proportions, waves))
     rows: dict[str, list[dict[str, float | str]]] = {}
-    for part in _WEAKER:
-        speed = part * top
-        if speed >= unit.surface_speed:
-            continue
-        there = replace(unit, surface_speed=speed)
-        struck = load.at(unit.unit_normal_speed * speed)
-        source = f"impact, model {answer.design_model}, in a weaker current of {speed:.3g} m/s"
-        for component in COMPONENTS:
-            hit = _factor(unit, component) * getattr(struck, _FIELDS[component])
-            if component == "skirt" and answer.skirt is None:
-                continue
-            ends = (hit, answer.uncertainty[0] * hit, answer.uncertainty[1] * hit)
-            steady = _steady(there, component)
-            rows.setdefault(component, []).append(_row(unit, component, steady, 0.0, ends, "", source))
+    for component in COMPONENTS if found else ():
+        known = [one for one in found if component != "float" and (component != "skirt" or one.sheet)]
+        factor, field = _factor(unit, component), attrgetter(_FIELDS[component])
+        ends = {
+            id(top): top
+            for end in ("value", "high")
+            for top in sorted(known, key=lambda one: field(getattr(one, end)) + field(one.still))[-1:]
+        }
+        for weaker in ends.values():
+            value, low, high = (factor * field(load) for load in (weaker.value, weaker.low, weaker.high))
+            steady = _steady(weaker.unit, component)
+            row = _row(unit, component, steady, 0.0, (value, low, high), "", weaker.source)
+            rows.setdefault(component, []).append(row)
     return rows
 
 
@@ -160,25 +158,21 @@ def _table(
     import xarray as xr
 
     decided = [_decided(unit, row, moved, roles) for row in rows]
-    plate = (ModelRole(IMPACT, "governs", "", ""),)
+    plate = tuple(ModelRole(model, "governs", "", "") for model in (IMPACT, CYCLES))
     for number, row in enumerate(decided):
-        least: dict[str, Any] = {"weaker_load": math.nan, "weaker_high": math.nan, "weaker_source": ""}
-        for other in [] if row["component"] == "float" else weaker.get(str(row["component"]), []):
-            found = _decided(unit, other, NOT_MOVED, plate)
-            high = float(found["governing_high"])
-            if high > float(decided[number]["governing_high"]):
-                decided[number] = _with_waves_of(found, decided[number])
-            elif (
-                decided[number]["load_bound"] == "at most"
-                and row["component"] != "joint"
-                and not high <= least["weaker_high"]
-            ):
-                # a value below a bound: the bound proves nothing that it passes, the value does
-                least = {
-                    "weaker_load": found["governing_load"], "weaker_high": high,
-                    "weaker_source": other["impact_source"],
-                }  # fmt: skip
-        decided[number] = decided[number] | least
+        slower = [_decided(unit, other, NOT_MOVED, plate) for other in weaker.get(str(row["component"]), [])]
+        largest = max(slower, key=_value, default=row)
+        if _value(largest) > _value(row):
+            decided[number] = row = _with_waves_of(largest, row)
+        # a value below a bound: the bound proves nothing that it passes, the value does
+        bound = row["load_bound"] == "at most"
+        highest = max(slower, key=_end, default=row)
+        counts = bool(slower) and (row["component"] != "joint" if bound else _end(highest) > _end(row))
+        decided[number] = row | {
+            "weaker_load": highest["governing_load"] if counts else math.nan,
+            "weaker_high": highest["governing_high"] if counts else math.nan,
+            "weaker_source": highest["impact_source"] if counts else "",
+        }
     rows = _with_joint(unit, decided, frozenset(name for name, span in moved.items() if span.open))
     columns = {key: [row[key] for row in rows] for key in rows[0]}
     known = [row for row in rows if math.isfinite(row["utilisation"])]  # type: ignore[arg-type]
@@ -191,6 +185,14 @@ def _table(
     return labelled(data)
 
 
+def _value(row: Mapping[str, float | str]) -> float:
+    return float(row["governing_load"])
+
+
+def _end(row: Mapping[str, float | str]) -> float:
+    return float(row["governing_high"])
+
+
 def _with_waves_of(row: dict[str, float | str], other: dict[str, float | str]) -> dict[str, float | str]:
     """Return a row in a weaker current with what waves make of the load in the current of the case.
 
@@ -199,7 +201,7 @@ def _with_waves_of(row: dict[str, float | str], other: dict[str, float | str]) -
     """
     still, above = float(row["steady_load"]), float(other["steady_high"]) - float(other["steady_load"])
     whole = float(other["steady_load"]) + float(other["wave_load"])
-    if not (other["wave_source"] and math.isfinite(whole)):
+    if other["load_bound"] == "at most" or not (other["wave_source"] and math.isfinite(whole)):
         return row
     high = still + above if above > float(row["steady_high"]) - still else row["steady_high"]
     second = float(other["second_wave_load"]) + float(other["steady_load"]) - still
@@ -274,6 +276,10 @@ def _with_joint(
                 row["load_bound"] = row["load_bound"] or "at most"
             if used and math.isfinite(float(row["capacity"])):
                 row[used] = strength.utilisation(sum(known))
+        ends = [[float(cable.get(end, math.nan)) for end in ("governing_high", "weaker_high")] for cable in cables]
+        most = sum(max((end for end in both if math.isfinite(end)), default=0.0) for both in ends)
+        if most > 0.0 and "weaker_high" in row:
+            row |= {name: min(float(row[name]), most) for name in ("weaker_load", "weaker_high")}
     return rows
 
 
@@ -358,21 +364,25 @@ _STEADY = {
 
 def _steady(unit: LevelCurtain, component: str) -> tuple[float, float, float]:
     """Return the steady load of a component with the lower and upper end of its band."""
-    skirt, floats = unit.curtain.skirt, unit.curtain.floats
+    skirt = unit.curtain.skirt
     pulled = 0.0
     if component in ("anchor line", "anchor") and unit.curtain.anchors is not None:
         pulled = (unit.curtain.anchors.pretension or 0.0) * (_factor(unit, "anchor") if component == "anchor" else 1.0)
     if unit.surface_speed == 0.0:
-        hanging = skirt.toe_load + skirt.submerged_weight * skirt.length
         still = {
             "skirt": skirt.toe_load + max(skirt.submerged_weight, 0.0) * skirt.length,
-            "float": floats.weight + hanging,
+            "float": unit.slack_float_load(),
         }
         return (max(still.get(component, 0.0), pulled),) * 3
     steady, name = unit.steady, _STEADY[component]
     per = unit.curtain.joint_distance if component == "joint" else 1.0
-    low, high = steady.band(name)
-    given, low, high = (max(per * value, pulled) for value in (steady.governing.quantity(name), low, high))
+    ends = [steady.governing.quantity(name), *steady.band(name)]
+    least = [pulled] * 3
+    if component == "float" and unit.hanging.toe == "free":
+        # the current bears part of the weight of a skirt that flares; slack water comes twice a tide
+        lightest, heaviest = unit.curtain.toe_range
+        least = [unit.slack_float_load(factor) for factor in (1.0, min(lightest, 1.0), max(heaviest, 1.0))]
+    given, low, high = (max(per * value, other) for value, other in zip(ends, least, strict=True))
     return given, low, high
 
 

@@ -29,6 +29,7 @@ from moyai.structures.curtain.analyses.event_peaks import (
     leading_end,
     mesh_notices,
     open_peaks,
+    reach_of_periods,
 )
 from moyai.structures.curtain.assembly import LevelCurtain
 from moyai.structures.curtain.dynamic.checks import crumples, run_checks, run_notices
@@ -100,7 +101,8 @@ def span_peaks(
             return found.stopped(by_name[name])
     if unit.surface_speed > 0.0 and "waves" in settings.analyses:
         there = replace(unit, surface_speed=_WEAKER_CURRENT * unit.surface_speed)
-        leading = {event for event, _ in governing_peaks(found.samples).values()}
+        ends = [leading_end(found.samples, component) for component in COMPONENTS]
+        leading = {event for event, _ in [*governing_peaks(found.samples).values(), *filter(None, ends)]}
         alone = plans_of(there, replace(settings, analyses=("waves",)), seas, span)
         weaker = {plan.name: ((0, plan),) for plan in alone} | _realisations(there, settings, seas, span)
         for name, several in weaker.items():
@@ -190,7 +192,8 @@ class _Runs:
         plan = replace(plan, name=name)
         data, row = run_dataset(run, given, None, plan)
         peaks = {component: row[key] for component, key in COMPONENTS.items()}
-        self.samples.append(EventSample(event, name, (mesh.along, mesh.down), seed, peaks, like))
+        reach = {component: reach_of_periods(data, component) for component in peaks if plan.regular}
+        self.samples.append(EventSample(event, name, (mesh.along, mesh.down), seed, peaks, like, reach))
         self.checks.extend(run_checks(run, place))
         if name not in self.rows:
             self.rows[name] = row

@@ -177,11 +177,9 @@ def _at_slack_water(unit: LevelCurtain) -> dict[str, float]:
     name = "slack_float_reserve_ratio"
     if hanging.toe != "free":
         return {"slack_toe_gap": gap} | dict.fromkeys((name, f"{name}_low", f"{name}_high"), math.nan)
-    toe = skirt.toe_load if skirt.length < depth else 0.0
-    sheet = skirt.submerged_weight * min(skirt.length, depth)
     lightest, heaviest = unit.curtain.toe_range
     left = {
-        end: (floats.buoyancy - floats.weight - max(sheet + factor * toe, 0.0)) / floats.buoyancy
+        end: 1.0 - unit.slack_float_load(factor) / floats.buoyancy
         for end, factor in (("", 1.0), ("_low", max(heaviest, 1.0)), ("_high", min(lightest, 1.0)))
     }
     return {"slack_toe_gap": gap} | {f"{name}{end}": value for end, value in left.items()}

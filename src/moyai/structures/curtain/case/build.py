@@ -293,50 +293,20 @@ def settings_of(model: schema.CurtainCase, environment: Environment) -> CurtainS
     impact, cycles, loads, limits = given.impact, given.waves, given.anchor_loads, given.limits
     anchor_loads = None
     if loads is not None and loads.float_mass is not None:
-        anchor_loads = AnchorLoadSettings(
-            loads.energy_factor,
-            loads.float_mass,
-            loads.orbital_factor,
-            loads.wire_factor,
-            loads.new_type_factor,
-            loads.height_ratio,
-            loads.direction_rule,
-            loads.pretension,
-        )
-    # along the normal the waves load a curtain most, whatever the seas of the case and their order
-    angle = math.radians(limits.wave_angle_deg or 0.0)
+        anchor_loads = loads.fill(AnchorLoadSettings, rule=loads.direction_rule)
+    step = limits.rose_step_deg
     return CurtainSettings(
         analyses=model.analyses,
-        impact=ImpactSettings(
-            impact.start,
-            impact.start_speed,
-            impact.release_position,
-            impact.draught,
-            impact.chord,
-            impact.cables,
-            impact.time_step,
-        ),
-        waves=WaveSettings(
-            cycles.settled_periods,
-            cycles.analysed_periods,
-            cycles.time_step,
-            cycles.velocity,
-            cycles.slowest_contact,
-            cycles.exceedance,
-            cycles.hours,
-            cycles.realisations,
-        ),
+        impact=impact.fill(ImpactSettings),
+        waves=cycles.fill(WaveSettings, slowest=cycles.slowest_contact, law=cycles.exceedance),
         anchor_loads=anchor_loads,
-        limits=LimitSettings(
-            _values(limits.speeds),
-            _values(limits.heights),
-            limits.highest_speed,
-            limits.highest_height,
-            3.86 if limits.period_factor is None else limits.period_factor,
-            limits.period,
-            math.remainder(angle, 2.0 * math.pi),
-            limits.impact,
-            None if limits.rose_step_deg is None else math.radians(limits.rose_step_deg),
+        limits=limits.fill(
+            LimitSettings,
+            speeds=_values(limits.speeds),
+            heights=_values(limits.heights),
+            # along the normal the waves load a curtain most, whatever the seas of the case and their order
+            wave_angle=math.remainder(math.radians(limits.wave_angle_deg or 0.0), 2.0 * math.pi),
+            rose_step=None if step is None else math.radians(step),
         ),
         dynamic=dynamic_settings(model),
     )
@@ -368,25 +338,14 @@ def dynamic_settings(model: schema.CurtainCase) -> DynamicSettings | None:
     if mass is None and skirt.film is not None:
         film = flume_material(skirt.film.material)
         mass, volume = film.density * skirt.film.thickness, skirt.film.thickness
-    return DynamicSettings(
+    return given.fill(
+        DynamicSettings,
         mesh=Mesh(*cells, given.cable_viscosity, given.skirt_damping_time),
         sheet_mass=mass,
         sheet_volume=volume,
-        span_stiffness=given.span_stiffness,
-        shear_stiffness=given.shear_stiffness,
-        ballast_density=given.ballast_density,
-        float_height=given.float_height,
         support_mass=support,
         profile=given.start_profile,
-        settled_periods=given.settled_periods,
-        analysed_periods=given.analysed_periods,
-        wave_count=given.wave_count,
-        duration=given.duration,
-        start=given.start,
-        sensitivity=given.sensitivity,
-        slack_level=given.slack_level,
         threshold=given.snap_threshold,
-        by_default=given.by_default,
     )
 
 

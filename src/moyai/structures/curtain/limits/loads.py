@@ -31,6 +31,8 @@ from moyai.structures.curtain.snaps.snap_table import SnapTable
 _PAPER_RATIO = 1.0
 #: Step of the logarithm of the speed between chords that are solved, and the chord of a straight skirt over its length.
 _STEP, _STRAIGHT = 0.1, 1.0 - 1e-9
+#: Part of the current of the case below which the water is slack [-].
+_SLACK = 1e-3
 #: Of the seas that snaps are looked for in; peak periods that are run of them.
 _PEAK_ENHANCEMENT, _PERIODS = 3.3, 300.0
 #: Acting over given height below which waves run along the curtain and draw it taut nowhere.
@@ -58,7 +60,10 @@ def impact_load(unit: LevelCurtain, answer: ImpactAnswer, settings: CurtainSetti
 def _skirt_in_current(
     unit: LevelCurtain, settings: CurtainSettings, answer: ImpactAnswer
 ) -> Callable[[float], BulgedSkirt | None] | None:
-    """Return the skirt at any speed of the water along the normal [m/s]; None where its chord is given or not known."""
+    """Return the skirt at any speed of the water along the normal [m/s]; None where its chord is given or not known.
+
+    At slack water it hangs straight.
+    """
     known = answer.skirt
     if known is None or settings.impact.chord is not None or not unit.normal_speed > 0.0:
         return None
@@ -76,6 +81,8 @@ def _skirt_in_current(
         )  # fmt: skip
 
     def at(speed: float) -> BulgedSkirt:
+        if not speed > _SLACK * unit.normal_speed:
+            return replace(known, chord=known.length * _STRAIGHT)
         # counted from the current of the case: a model in another size finds the same
         place = math.log(speed / unit.normal_speed) / _STEP
         below = math.floor(place)

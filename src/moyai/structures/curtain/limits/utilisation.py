@@ -114,6 +114,10 @@ class AddedLoads:
             max(self.line_load, other.line_load),
         )
 
+    def times(self, factor: float) -> AddedLoads:
+        """Return the loads times a factor [-]."""
+        return AddedLoads(*(factor * load for load in astuple(self)))
+
     def plus(self, other: AddedLoads) -> AddedLoads:
         """Return the sum of the loads of each component."""
         return AddedLoads(*map(sum, zip(astuple(self), astuple(other), strict=True)))

@@ -134,7 +134,8 @@ def _waves(level: CurtainLevel) -> Sequence[Block | None]:
         blocks = tuple(block for block in found if block is not None)
         if blocks:
             options.append(Option(sea.name, blocks))
-    return (Choice("sea", "Sea state", tuple(options)),) if options else ()
+    chosen = (Choice("sea", "Sea state", tuple(options)),) if options else ()
+    return (*chosen, sea_tables.weaker_table(level))
 
 
 def _anchors(level: CurtainLevel) -> Sequence[Block | None]:

@@ -98,6 +98,27 @@ def irregular_table(level: CurtainLevel, sea: Group) -> Table | None:
     )
 
 
+def weaker_table(level: CurtainLevel) -> Table | None:
+    """Return slack and taut cycles of the seas in weaker currents than that of the case."""
+    group = level.part("weaker_currents")
+    names, speed = group.labels("sea"), group.real("weaker_current", "weaker_current")
+    tops, judged = (group.real(name, "sea", "weaker_current") for name in ("maximum_tension", "judged_tension"))
+    if speed is None or tops is None or judged is None:
+        return None
+    columns = [Column("Current", [float(value) for value in speed], "m/s")]
+    for row, name in enumerate(names):
+        columns.append(Column(f"Tension in {name}", [float(value) for value in tops[row]], "N"))
+        columns.append(Column("Judged at", [float(value) for value in judged[row]], "N"))
+    return Table(
+        key(level, "weaker currents"),
+        "Slack and taut in weaker currents",
+        tuple(columns),
+        note="Tension of both cables: the mean over the realisations of a sea, or that of regular waves. Weaker "
+        "currents come with every stronger one, twice a tide. The sheet hangs straighter in them and bears more of the "
+        "same tension.",
+    )
+
+
 def contact_table(level: CurtainLevel, sea: Group, run: Group) -> Table | None:
     """Return the largest snaps of a run."""
     tension, time = run.real("contact_tension", "contact"), run.real("contact_time", "contact")

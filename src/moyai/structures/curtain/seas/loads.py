@@ -95,6 +95,11 @@ def _loads(statics: CurtainStatics) -> tuple[float, float, float, float, float]:
     )
 
 
+def steady_loads(statics: CurtainStatics) -> AddedLoads:
+    """Return the loads of a curtain at rest."""
+    return AddedLoads(*_loads(statics))
+
+
 def _beyond(statics: CurtainStatics, factors: AddedLoads) -> AddedLoads:
     """Return what steady loads have at the upper end of their band beyond their value."""
     return AddedLoads(*((factor - 1.0) * load for factor, load in zip(astuple(factors), _loads(statics), strict=True)))
@@ -143,9 +148,12 @@ class ImpactLoad:
         skirt = self.skirt if self.skirt_at is None else self.skirt_at(speed)
         return self._of(self.factor * peak_by_energy(impact).tension, skirt)
 
-    def of_tension(self, tension: float) -> AddedLoads:
-        """Return the loads that go with a sum of the cable tensions [N]; both spans of a support act at once."""
-        return self._of(tension, self.skirt)
+    def of_tension(self, tension: float, speed: float | None = None) -> AddedLoads:
+        """Return the loads that go with a sum of the cable tensions [N]; both spans of a support act at once.
+
+        The skirt is that of a speed of the water along the normal [m/s], or that of the case.
+        """
+        return self._of(tension, self.skirt if speed is None or self.skirt_at is None else self.skirt_at(speed))
 
     def _of(self, tension: float, skirt: BulgedSkirt | None) -> AddedLoads:
         b = taut_shape(self.impact.span_ratio)
@@ -218,7 +226,7 @@ class SeaLoads:
             tension = table.tension(
                 speed, significant_height, judged=self.judged, known=self.known, other_seeds=self.other_seeds
             )
-            struck = proportions.of_tension(tension)
+            struck = proportions.of_tension(tension, current)
             if self.energy is not None and not self.upright:
                 # the energy model was fitted to anchor lines of free toes; fixed supports would overload them
                 struck = replace(struck, anchor_line=0.0)

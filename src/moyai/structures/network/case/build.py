@@ -140,16 +140,12 @@ def _current_field(case: NetworkCase, folder: Path) -> CurrentField | None:
 
 def _settings(case: NetworkCase, folder: Path) -> model.NetworkSettings:
     given = case.settings
-    return model.NetworkSettings(
-        analyses=case.analyses, duration=given.duration, output_step=given.output_step, ramp=given.ramp,
-        start=given.start, resume=None if given.resume is None else folder / given.resume, method=given.method,
-        step=given.step, wave_front=given.wave_front, tolerance=given.tolerance, stretching=given.stretching,
-        skip=given.skip, sensitivity=given.sensitivity,
-        mesh_check="off" if case.structure.failures else given.mesh_check, peak_goal=given.peak_goal,
-        realisations=given.realisations,
-        slack_level=given.slack_level,
-        snap_threshold=given.snap_threshold, modes=given.modes, stiffness_step=given.stiffness_step,
-    )  # fmt: skip
+    return given.fill(
+        model.NetworkSettings,
+        analyses=case.analyses,
+        resume=None if given.resume is None else folder / given.resume,
+        mesh_check="off" if case.structure.failures else given.mesh_check,
+    )
 
 
 def _sea(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -217,14 +218,13 @@ def settings_of(model: schema.UnitsCase, row: FloatingRow, environment: Environm
         frequencies = given.frequencies.spread(given.frequencies.first, given.frequencies.last, given.frequencies.count)
     elif not isinstance(given.frequencies, str):
         frequencies = tuple(given.frequencies)
-    settings = UnitSettings(
+    settings = given.fill(
+        UnitSettings,
         panel_size=given.panel_size or 0.0,
         analyses=model.analyses,
         frequencies=frequencies,
-        frequency_count=given.frequency_count,
-        drift=given.drift,
         section_compare=given.compare_with_section,
-        time=UnitTimeSettings(**given.time.model_dump()),
+        time=given.time.fill(UnitTimeSettings),
     )
     if given.panel_size is not None:
         return settings
@@ -234,4 +234,4 @@ def settings_of(model: schema.UnitsCase, row: FloatingRow, environment: Environm
         depth = environment.water.depth + min(level for _, level in environment.water_levels)
         k = float(wave_number(float(omega.max()), depth, environment.water.gravity))
         size = min(size, 2.0 * math.pi / (k * _WAVE_PANELS))
-    return UnitSettings(**{**vars(settings), "panel_size": float(f"{size:.3g}")})
+    return replace(settings, panel_size=float(f"{size:.3g}"))

@@ -1,0 +1,141 @@
+"""Impact and waves in weaker currents than that of the case, which come with every stronger one, twice a tide.
+
+A skirt that is held at both edges hangs straighter in a weaker current, and a straighter sheet bears more of the same
+snap. Where the current of the case leaves an upright plate as a bound alone, its load in a weaker current in which it
+stays upright is a value all the same [eq:curtain-hierarchy].
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from moyai.core.progress import Progress, silent
+from moyai.sea.states import SeaState
+from moyai.structures.curtain.analyses.impact import ImpactAnswer
+from moyai.structures.curtain.analyses.waves import wave_answer
+from moyai.structures.curtain.assembly import LevelCurtain
+from moyai.structures.curtain.hierarchy import upright_in
+from moyai.structures.curtain.limits.loads import impact_load
+from moyai.structures.curtain.limits.utilisation import AddedLoads
+from moyai.structures.curtain.model import CurtainSettings
+from moyai.structures.curtain.seas.cycles_of_sea import SeaCycles
+from moyai.structures.curtain.seas.loads import increase, steady_loads
+from moyai.structures.curtain.variables import labelled
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+#: Parts of the strongest current in which an upright plate governs, at which the impact is held against its own.
+_OF_IMPACT = (0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0)
+#: Step of the currents in which the waves are run, over the speed of a long wave over the skirt's depth [-]: that of a
+#: stronger current holds those of a weaker one.
+_STEP_OF_WAVES = 0.008
+
+
+@dataclass(frozen=True)
+class WeakerLoads:
+    """What adds to the steady loads of a curtain in a weaker current, with its lower and upper end."""
+
+    #: The curtain in that current.
+    unit: LevelCurtain
+    #: Where it is from.
+    source: str
+    #: ``value``, ``low``, ``high``: What it adds.
+    value: AddedLoads
+    #: See ``value``.
+    low: AddedLoads
+    #: See ``value``.
+    high: AddedLoads
+    #: Whether the load of the sheet is known.
+    sheet: bool
+
+    @cached_property
+    def still(self) -> AddedLoads:
+        """The loads at rest in that current."""
+        return steady_loads(self.unit.statics) if self.unit.surface_speed > 0.0 else AddedLoads()
+
+
+def _strongest(unit: LevelCurtain) -> float:
+    """Return the strongest current up to that of the case in which an upright plate governs [m/s]; 0 for none."""
+    return 0.0 if unit.nominal else upright_in(unit)
+
+
+def _currents_of_waves(unit: LevelCurtain) -> tuple[float, ...]:
+    """Return the weaker currents in which the waves are run [m/s], slack water the first."""
+    top, step = _strongest(unit), _STEP_OF_WAVES * math.sqrt(unit.water.gravity * unit.depth)
+    weaker = [number * step for number in range(int(top / step) + 1)] if top > 0.0 else []
+    return tuple(speed for speed in weaker if speed < unit.surface_speed)
+
+
+def _said(unit: LevelCurtain) -> str:
+    speed = unit.surface_speed
+    return f"in a weaker current of {speed:.3g} m/s" if speed > 0.0 else "at slack water"
+
+
+def weaker_impacts(unit: LevelCurtain, settings: CurtainSettings, answer: ImpactAnswer) -> Iterator[WeakerLoads]:
+    """Yield the impact in weaker currents."""
+    load = impact_load(unit, answer, settings)
+    low, high = answer.uncertainty
+    top = _strongest(unit)
+    for part in _OF_IMPACT:
+        if not 0.0 < part * top < unit.surface_speed:
+            continue
+        there = replace(unit, surface_speed=part * top)
+        struck = load.at(unit.unit_normal_speed * there.surface_speed)
+        source = f"impact, model {answer.design_model}, {_said(there)}"
+        yield WeakerLoads(there, source, struck, struck.times(low), struck.times(high), answer.skirt is not None)
+
+
+def weaker_waves(
+    unit: LevelCurtain, settings: CurtainSettings, seas: Sequence[SeaState], progress: Progress
+) -> xr.Dataset | None:
+    """Return slack and taut cycles of the seas in weaker currents, ``None`` where no upright plate governs there.
+
+    Parameters
+    ----------
+    unit : LevelCurtain
+    settings : CurtainSettings
+    seas : sequence of SeaState
+    progress : Progress
+        Called after every current.
+    """
+    import xarray as xr
+
+    speeds = _currents_of_waves(unit)
+    if not speeds or not seas:
+        return None
+    slower = [replace(unit, surface_speed=speed) for speed in speeds]
+    rows: dict[str, list[list[float]]] = {"maximum_tension": [], "maximum_tension_low": [], "judged_tension": []}
+    for sea in seas:
+        found = []
+        for number, there in enumerate(slower):
+            progress(f"weaker currents, {sea.name}", number, len(slower))
+            found.append(SeaCycles.of(wave_answer(there, settings, sea, silent).groups[""]))
+        for name, ends in zip(rows, ("top", "low", "judged"), strict=True):
+            rows[name].append([float(getattr(one, ends)) for one in found])
+    coords = {"sea": [sea.name for sea in seas], "weaker_current": list(speeds)}
+    return labelled(xr.Dataset({name: (tuple(coords), values) for name, values in rows.items()}, coords=coords))
+
+
+def weaker_cycles(
+    unit: LevelCurtain, settings: CurtainSettings, proportions: ImpactAnswer, table: xr.Dataset
+) -> Iterator[WeakerLoads]:
+    """Yield what slack and taut cycles add in weaker currents, by the table of :func:`weaker_waves`."""
+    load = impact_load(unit, proportions, settings)
+    for number, speed in enumerate(table["weaker_current"].values):
+        there, column = replace(unit, surface_speed=float(speed)), table.isel(weaker_current=number)
+        for sea in column["sea"].values:
+            ends = []
+            for name in ("maximum_tension", "maximum_tension_low", "judged_tension"):
+                tension = float(column[name].sel(sea=sea))
+                whole = load.of_tension(tension, unit.unit_normal_speed * there.surface_speed)
+                ends.append(increase(whole, there.statics) if there.surface_speed > 0.0 else whole)
+            source = f"slack and taut cycles, {sea}, {_said(there)}"
+            yield WeakerLoads(there, source, ends[0], ends[1], ends[2], proportions.skirt is not None)
+
+
+__all__ = ["WeakerLoads", "weaker_cycles", "weaker_impacts", "weaker_waves"]

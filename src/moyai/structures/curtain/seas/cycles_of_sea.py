@@ -1,0 +1,57 @@
+"""What slack and taut cycles of a sea come to: its number, its scatter and the end at which criteria are judged."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from moyai.series.intervals import reach_of_mean
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+@dataclass(frozen=True)
+class SeaCycles:
+    """Slack and taut cycles of a sea, sums of both cables [N]."""
+
+    #: ``low``, ``top``, ``high``: The number of the sea, its lower waves counted, and the ends of its scatter.
+    low: float
+    #: See ``low``.
+    top: float
+    #: See ``low``.
+    high: float
+    #: From the number to the end of its interval.
+    reach: float
+    words: str
+    #: Realisations that the interval is of; none of regular waves.
+    count: int = 0
+
+    @property
+    def judged(self) -> float:
+        """At which criteria are judged."""
+        return self.top + self.reach
+
+    @classmethod
+    def of(cls, table: xr.Dataset) -> SeaCycles:
+        """Take them from the group of a sea."""
+        tops, lows, highs = (np.atleast_1d(table[f"maximum_tension{end}"].values) for end in ("", "_low", "_high"))
+        row = int(np.argmax(tops))
+        top, low, high = float(tops[row]), float(lows[row]), float(highs.max())
+        # results of older versions do not have it
+        lower = table["lower_wave_tension"].values if "lower_wave_tension" in table else np.zeros(1)
+        if float(lower.max()) > top:
+            top = float(lower.max())
+            height = float(table["lower_wave_height"].values[int(np.argmax(lower))])
+            words = f"a lower wave of the train, of {height:.3g} m, pulls hardest"
+            return cls(low, top, max(top, high), float(table["judged_tension"].max()) - top, words)
+        if "realisation_tension" not in table:
+            reach = float(table["judged_tension"].max()) - top if "judged_tension" in table else 0.0
+            return cls(low, top, high, reach, "largest of 100 periods")
+        scatter = table["realisation_tension"].values
+        return cls(low, top, high, reach_of_mean(scatter), f"{scatter.size} realisations", scatter.size)
+
+
+__all__ = ["SeaCycles"]
