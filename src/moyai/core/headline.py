@@ -214,8 +214,11 @@ def all_judged(candidates: Iterable[Headline], sense: Sense = "at most") -> list
     kept = governing(sorted(items, key=lambda item: not item.bound), sense)
     for bound in sorted({item.bound for item in items} - {""}):
         alike = governing((item for item in items if item.bound == bound), sense)
-        known = {one.where for one in kept if one.bound == bound}
-        kept += [replace(item, shown=False, sea="") for item in alike if item.where not in known]
+        known = {one.where for one in kept if one.bound == bound and one.role != "weighed"}
+        more = [replace(item, shown=False, sea="") for item in alike if item.where not in known]
+        # a bound that every criterion judges stands once
+        places = {item.where for item in more if item.role != "weighed"}
+        kept = [one for one in kept if not (one.role == "weighed" and one.where in places)] + more
     return kept
 
 

@@ -256,6 +256,9 @@ def test_what_only_a_code_with_a_factor_on_the_mean_needs_is_judged_by_such_a_co
         "hoist, short",
         "leash, long",
     }
+    # one of which a bound alone is known stays open for every criterion, and stands once
+    bounded = all_judged([uses[0], replace(uses[2], bound="at least")])
+    assert [(item.where, item.role) for item in bounded] == [("hoist, short", ""), ("leash, long", "")]
     # a line that fails in one sea has no row that holds in another
     behind = replace(uses[1], shown=False, role="failing")
     for criterion in (plain, weighed):
