@@ -17,10 +17,12 @@ from moyai.core.results import read_result
 from moyai.structures.curtain import headlines
 from moyai.structures.curtain.analyses import loads
 from moyai.structures.curtain.analyses.dynamic import SpanLoad
+from moyai.structures.curtain.analyses.impact import solve_impact
 from moyai.structures.curtain.analyses.limits import fastest_water, sea_loads
 from moyai.structures.curtain.analyses.loads import loads_dataset
 from moyai.structures.curtain.assembly import assemble
 from moyai.structures.curtain.hierarchy import CYCLES, IMPACT, ModelRole
+from moyai.structures.curtain.limits.loads import impact_load
 from moyai.structures.curtain.limits.utilisation import utilisation
 from moyai.structures.curtain.model import COMPONENTS
 from moyai.structures.curtain.run import run
@@ -639,3 +641,23 @@ def test_every_model_of_waves_is_judged_at_its_own_end(value, other):
     assert both[0].words("wave_source") == "energy model, storm"
     bound = headlines._Load("SWL", "anchor line", row.assign(load_bound="at most"), None)
     assert not list(headlines._other_waves(bound))
+
+
+def test_a_skirt_that_is_held_hangs_straight_without_a_current(small):
+    """Nothing can be straighter: the share of the sheet in a snap is known, and no less than with a bulge."""
+    problem, _ = small
+    held = replace(problem.curtain, toe="held", lower_stiffness=60e3)
+    problem = replace(problem, curtain=held)
+    unit = assemble(problem, "SWL", 0.0)
+    still = replace(unit, surface_speed=0.0)
+    answer = solve_impact(still, problem.settings.impact, 0.3)
+    assert answer.skirt is None
+    load = impact_load(still, answer, problem.settings)
+    bulged = impact_load(unit, solve_impact(unit, problem.settings.impact, 0.3), problem.settings)
+    tension = 5e3
+    assert load.of_tension(tension).sheet > bulged.of_tension(tension).sheet > 0.0
+    # a straight sheet that stretches: T^3 = EA p^2 d^2 / 24
+    pressure = load.of_tension(tension).line_load / unit.curtain.skirt.length
+    length, stiffness = unit.curtain.skirt.length, unit.curtain.skirt.stiffness
+    by_hand = (stiffness * (pressure * length) ** 2 / 24.0) ** (1.0 / 3.0)
+    assert load.of_tension(tension).sheet == pytest.approx(by_hand, rel=0.05)

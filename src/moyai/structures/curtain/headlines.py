@@ -526,7 +526,8 @@ def _not_judged(groups: Groups) -> Headline:
     parts = {part: [data for path, data in groups.items() if path.split("/")[2:3] == [part]] for part in _IN_WAVES}
     kinds = {data.attrs.get("kind") for data in parts["waves"]}
     text, detail = _NOT_JUDGED.text, _NOT_JUDGED.detail
-    if any(parts.values()) and not parts["weaker_currents"]:
+    flows = any(float(data.attrs.get("surface_speed", 0.0)) > 0.0 for data in groups.values())
+    if flows and any(parts.values()) and not parts["weaker_currents"]:
         text, detail = f"{text}, waves in weaker currents", f"{detail}; {_WEAKER}"
     if "regular" in kinds and "irregular" not in kinds:
         text += ", irregular seas"

@@ -211,6 +211,7 @@ def _header(unit: LevelCurtain) -> xr.Dataset:
         attrs={
             "water_level": unit.level,
             "water_depth": unit.water.depth,
+            "surface_speed": unit.surface_speed,
             "normal_heading": unit.curtain.normal,
             "anchor_slope": unit.hanging.anchor_slope,
             "toe": "on the bed" if resting else toe,

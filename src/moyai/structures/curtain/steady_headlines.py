@@ -69,6 +69,13 @@ def steady_headlines(groups: Groups, levels: Sequence[str]) -> Iterator[Headline
     yield from governing(found)
 
 
+#: What waves do to a number of the current, which they leave out.
+_IN_WAVES = {
+    "effective_depth": "without waves, which lift the skirt for part of their period",
+    "toe_clearance": "under still water, in the trough of a wave less",
+}
+
+
 def depth_headlines(groups: Groups, levels: Sequence[str]) -> Iterator[Headline]:
     wanted: tuple[tuple[str, str, str, str], ...] = (
         ("effective_depth", "Effective depth", "effective_depth", "m"),
@@ -89,8 +96,9 @@ def depth_headlines(groups: Groups, levels: Sequence[str]) -> Iterator[Headline]
                 detail = f"at slack water; {_plain(value, unit)} in the current" + (f", {detail}" if detail else "")
             if slack is not None:
                 value, band = _with_slack(value, band, slack)
-            if name == "toe_clearance" and any(path.startswith(f"/{level}/waves/") for path in groups):
-                detail = "; ".join(filter(None, (detail, "under still water, in the trough of a wave less")))
+            in_waves = any(path.startswith((f"/{level}/waves/", f"/{level}/dynamic")) for path in groups)
+            if in_waves and name in _IN_WAVES:
+                detail = "; ".join(filter(None, (detail, _IN_WAVES[name])))
             found.append(
                 Headline(
                     name, label, value, unit, where=level, model=STATICS, band=band, detail=detail, without_waves=True

@@ -101,7 +101,7 @@ def loads_dataset(
         best = max(sources, key=lambda item: getattr(item.loads, field), default=_Added(AddedLoads(), ""))
         factor = _factor(unit, component)
         wave, hit = factor * getattr(best.loads, field), factor * getattr(struck, field)
-        if component == "skirt" and proportions is not None and proportions.skirt is None:
+        if component == "skirt" and proportions is not None and impact_load(unit, proportions, settings).skirt is None:
             hit = math.nan
         ends = (1.0, 1.0) if answer is None else answer.uncertainty
         row = _row(unit, component, steady, wave, (hit, ends[0] * hit, ends[1] * hit), best.source, name)

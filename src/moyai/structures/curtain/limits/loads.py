@@ -50,11 +50,20 @@ def impact_load(unit: LevelCurtain, answer: ImpactAnswer, settings: CurtainSetti
         answer.design_tension / peak_by_energy(answer.impact).tension,
         answer.shares,
         ratio,
-        answer.skirt,
+        answer.skirt or _straight_skirt(unit),
         unit.hanging.anchor_slope,
         answer.uncertainty,
         _skirt_in_current(unit, settings, answer),
     )
+
+
+def _straight_skirt(unit: LevelCurtain) -> BulgedSkirt | None:
+    """Return the skirt of a curtain that is held at both edges and hangs straight without a current, else ``None``."""
+    skirt = unit.curtain.skirt
+    hangs = unit.curtain.toe == "held" and unit.surface_speed == 0.0 and not unit.site.on_bed
+    if not hangs or math.isinf(skirt.stiffness) or skirt.length > unit.water.depth:
+        return None
+    return BulgedSkirt(skirt.length, skirt.length * _STRAIGHT, skirt.stiffness)
 
 
 def _skirt_in_current(
