@@ -426,7 +426,7 @@ def test_the_plate_in_a_weaker_current_decides_where_the_whole_span_gives_less(t
     row = table.sel(component="anchor line")
     speed = models.upright_in(unit)
     assert 0.25 < speed < 0.45 and models.straight_share(unit, speed) >= models.STRAIGHT
-    assert f"in a weaker current of {speed:.3g} m/s" in str(row["impact_source"].values)
+    assert f"in a weaker current of {speed:.3g} m/s" in str(row["governing_source"].values)
     assert row["load_bound"] == "" and float(row["governing_high"]) > float(row["governing_load"])
     there = impact_load(unit, answer, problem.settings).at(unit.unit_normal_speed * speed)
     steady = unit.site.statics(unit.hanging, speed).anchor_line_tension

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from pathlib import Path
 
 import pytest
@@ -64,6 +65,25 @@ def test_held_toe_limits_lie_between_states_that_hold_and_that_do_not(tmp_path: 
         assert below.verdict.outcome == "holds", below.verdict.message
     above = run(tmp_path, "[statics, impact, waves, anchor_loads]", height=1.3 * height)
     assert above.verdict.outcome == "does not hold", above.verdict.message
+
+
+def test_the_wave_height_that_a_sheet_bears_is_that_of_weaker_currents(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """In 0.25 m/s the skirt hangs slacker than in 0.1 m/s and bears more: the limit is where the state gives way."""
+    strong = CASE
+    for part, weak, high in (
+        ("holding_force", 120, 900),
+        ("breaking_load", 300, 3000),
+        ("distance: 10 m, strength", 180, 900),
+    ):
+        strong = strong.replace(f"{part}: {weak} kN", f"{part}: {high} kN")
+    monkeypatch.setattr(sys.modules[__name__], "CASE", strong.replace("strength: 160 kN/m", "strength: 28 kN/m"))
+    result = run(tmp_path, "[statics, waves, limits]", speed=0.25)
+    height = next(item.value for item in result.headlines if item.name == "limit_wave_height")
+    below, above = (run(tmp_path, "[statics, waves]", speed=0.25, height=part * height) for part in (0.8, 1.25))
+    assert below.verdict.outcome == "holds", below.verdict.message
+    assert above.verdict.outcome == "does not hold" and "sheet" in above.verdict.message
 
 
 def test_joints_are_judged_at_the_upper_end_of_impact_and_steady_part(tmp_path: Path) -> None:

@@ -8,17 +8,29 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
+from moyai.core.judgements import (
+    NOT_COMPUTED,
+    holding,
+    narrow,
+    of_parts,
+    open_reason,
+    opened,
+    said,
+    worded,
+    writable,
+)
+from moyai.core.judgements import UNCONFIRMED as UNCONFIRMED
+from moyai.core.judgements import Bound as Bound
+from moyai.core.judgements import Criterion as Criterion
+from moyai.core.judgements import Judgement as Judgement
+from moyai.core.judgements import Outcome as Outcome
+from moyai.core.judgements import Sense as Sense
 from moyai.core.options import checks_words
-from moyai.core.wording import spoken
 
-Bound = Literal["", "at most", "at least"]
-Sense = Literal["at most", "at least"]
-Outcome = Literal["holds", "does not hold", "not judged"]
-UNCONFIRMED = "not confirmed against the standard"
-"""What the source of a criterion says of values that nobody has yet held against the standard itself."""
+Role = Literal["", "weighed", "failing"]
 SEAS_LEFT_OUT = "the seas of the case were not run"
 """What a run says that has seas and no analysis that runs them."""
 MOST_REALISATIONS = 100
@@ -108,15 +120,22 @@ class Headline:
     without_waves: bool = False
     #: Significant digits that it and its band are known to: two where chance or rounding decides the third.
     digits: int = 3
+    #: Line, anchor or body that it is of: where it fails a criterion, none of its other values is said to hold.
+    part: str = ""
+    #: What judges it: every criterion where empty; "weighed": codes alone that weigh the mean and the varying part
+    #: apart; "failing": every criterion, and a failure alone is listed; one of "", "weighed", "failing".
+    role: Role = ""
+    #: Why only a bound is known, where that is to be said with the criterion.
+    bound_by: str = ""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "label", self.label[:1].upper() + self.label[1:])
 
     def as_dict(self) -> dict[str, Any]:
         """Return a JSON-ready mapping (numbers that are not finite become text)."""
-        record = {**vars(self), "value": _writable(self.value)}
+        record = {**vars(self), "value": writable(self.value)}
         if self.band is not None:
-            record["band"] = {**vars(self.band), "low": _writable(self.band.low), "high": _writable(self.band.high)}
+            record["band"] = {**vars(self.band), "low": writable(self.band.low), "high": writable(self.band.high)}
         return record
 
     @classmethod
@@ -166,7 +185,7 @@ def governing(candidates: Iterable[Headline], sense: Sense = "at most") -> list[
     if sign * end > sign * own:
         if widest.where != shown.where and abs(end - own) > 1e-3 * abs(own):
             # the band of the number shown is not the one that is judged
-            words = f"{'up' if sense == 'at most' else 'down'} to {_worded(end, shown.unit)} at {widest.where}"
+            words = f"{'up' if sense == 'at most' else 'down'} to {worded(end, shown.unit)} at {widest.where}"
             found = [replace(shown, detail="; ".join(filter(None, (shown.detail, words))))]
         found.append(replace(widest, shown=False, sea=""))
     return found + (_varying_more(items, found) if sense == "at most" else [])
@@ -180,7 +199,7 @@ def _varying_more(items: list[Headline], kept: list[Headline]) -> list[Headline]
             continue
         least = item.mean
         if all((one.where, one.value) != (item.where, item.value) for one in kept):
-            found.append(replace(item, shown=False, sea=""))
+            found.append(replace(item, shown=False, sea="", role="weighed"))
     return found
 
 
@@ -195,8 +214,11 @@ def all_judged(candidates: Iterable[Headline], sense: Sense = "at most") -> list
     kept = governing(sorted(items, key=lambda item: not item.bound), sense)
     for bound in sorted({item.bound for item in items} - {""}):
         alike = governing((item for item in items if item.bound == bound), sense)
-        known = {one.where for one in kept if one.bound == bound}
-        kept += [replace(item, shown=False, sea="") for item in alike if item.where not in known]
+        known = {one.where for one in kept if one.bound == bound and one.role != "weighed"}
+        more = [replace(item, shown=False, sea="") for item in alike if item.where not in known]
+        # a bound that every criterion judges stands once
+        places = {item.where for item in more if item.role != "weighed"}
+        kept = [one for one in kept if not (one.role == "weighed" and one.where in places)] + more
     return kept
 
 
@@ -210,7 +232,7 @@ def saying_what_is_open(items: Iterable[Headline]) -> list[Headline]:
     if not behind or found[0].bound:
         return found
     worst = max(behind, key=lambda item: item.value)
-    words = f"more is possible at {worst.where}: at least {_worded(worst.value, worst.unit)} there"
+    words = f"more is possible at {worst.where}: at least {worded(worst.value, worst.unit)} there"
     return [replace(found[0], detail="; ".join(filter(None, (found[0].detail, words)))), *found[1:]]
 
 
@@ -247,92 +269,6 @@ def also_judged(shown: Headline, others: Iterable[Headline], sense: Sense = "at 
         if worse or (own != kind(shown) and (open_end or shown.bound)):
             kept.append(replace(worst, shown=False, sea=""))
     return kept
-
-
-@checks_words
-@dataclass(frozen=True)
-class Criterion:
-    """What a headline has to keep."""
-
-    #: Key of the criterion in the case file.
-    name: str
-    #: Name of the headline that is judged.
-    headline: str
-    #: In the unit of the headline.
-    limit: float
-    #: One of "at most", "at least".
-    sense: Sense
-    #: Who set the limit: the case file, a code with its table, or the default of the structure.
-    source: str
-    #: Words for the reader; the headline's own label where empty.
-    label: str = ""
-    #: Unit of the limit; ``%`` for a ratio that is shown in per cent.
-    unit: str = "1"
-    #: Name of the sea state that it is asked in; empty for the governing value.
-    sea: str = ""
-    #: Whether the limit is one over a factor of safety, which is what people want to read.
-    as_factor: bool = False
-    #: Weight of the mean of a value over time, that of its varying part being 1 (codes with partial factors).
-    mean_weight: float = 1.0
-    #: Whether the program assumed it: the case file does not name it.
-    assumed: bool = False
-    #: Analysis whose numbers it is for; empty: of any.
-    analysis: str = ""
-
-    @property
-    def words(self) -> str:
-        """The criterion in words, with its sea."""
-        text = self.label or self.name.replace("_", " ")
-        return f"{text} in {self.sea}" if self.sea else text
-
-    def shown(self, value: float) -> float:
-        """Return a value as people read it: the factor of safety in place of the utilisation."""
-        if not self.as_factor:
-            return value
-        return math.inf if value == 0.0 else 1.0 / value
-
-
-@checks_words
-@dataclass(frozen=True)
-class Judgement:
-    """A criterion with the value it was judged at and the outcome; ``reason`` says why it was not judged.
-
-    ``bound`` is that of the value.
-    """
-
-    criterion: Criterion
-    value: float
-    outcome: Outcome
-    reason: str = ""
-    bound: Bound = ""
-    #: See :attr:`Headline.judged_on`.
-    judged_on: str = ""
-    #: What would decide a limit that lies between a mean over realisations and the end of its interval.
-    remedy: str = ""
-
-    @property
-    def shown_bound(self) -> Bound:
-        """The bound of the value as people read it: a load of at most so much is a factor of at least so much."""
-        if not self.bound or not self.criterion.as_factor:
-            return self.bound
-        return "at least" if self.bound == "at most" else "at most"
-
-    def as_dict(self) -> dict[str, Any]:
-        """Return a JSON-ready mapping."""
-        record = asdict(self)
-        record["value"] = _writable(self.value)
-        record["criterion"]["limit"] = _writable(self.criterion.limit)
-        return record
-
-    @classmethod
-    def from_dict(cls, record: Mapping[str, Any]) -> Judgement:
-        """Undo :meth:`as_dict`."""
-        given = record["criterion"]
-        criterion = Criterion(**{**given, "limit": float(given["limit"])})
-        return cls(
-            criterion, float(record["value"]), record["outcome"], record.get("reason", ""), record.get("bound", ""),
-            record.get("judged_on", ""), record.get("remedy", ""),
-        )  # fmt: skip
 
 
 @checks_words
@@ -382,6 +318,7 @@ def judge(
     """
     numbers = tuple(headlines)
     found: list[Judgement] = []
+    further: list[Judgement] = []
     for criterion in criteria:
         members = _judged_by(criterion, numbers)
         if criterion.analysis:
@@ -391,100 +328,44 @@ def judge(
             members = given
         if not members:
             found.append(Judgement(criterion, math.nan, "not judged", _absent(criterion)))
-        found.extend(_distinct([_judge_part(criterion, member, left_out) for member in members]))
-    judgements = tuple(found)
+        worst, others = of_parts(
+            (member.part, member.role != "failing", _judge_part(criterion, member, left_out)) for member in members
+        )
+        found.extend(worst)
+        further.extend(others)
     failing = [item for item in found if item.outcome == "does not hold"]
+    judgements = tuple([*found, *further] if computed else opened([*found, *further], NOT_COMPUTED))
     if failing:
-        doubt = "" if computed else "; the computation did not converge inside its range"
+        doubt = "" if computed else f"; {NOT_COMPUTED}"
         return Verdict("does not hold", "; ".join(map(said, failing)) + doubt, judgements)
     if not found:
         return Verdict("not judged", "no criterion is given", ())
     if not computed:
-        return Verdict("not judged", "the computation did not converge inside its range", judgements)
+        return Verdict("not judged", NOT_COMPUTED, judgements)
     open_ones = [item for item in found if item.outcome == "not judged"]
     if open_ones:
         reasons: dict[str, list[str]] = {}
         for item in open_ones:
-            reasons.setdefault(_open_reason(item), []).append(item.criterion.words)
+            reasons.setdefault(open_reason(item), []).append(item.criterion.words)
         message = "; ".join(f"{', '.join(dict.fromkeys(names))}: {reason}" for reason, names in reasons.items())
         return Verdict("not judged", message, judgements)
-    return Verdict("holds", _holding([item.criterion for item in found]) + _narrow(found), judgements)
-
-
-def _distinct(found: list[Judgement]) -> list[Judgement]:
-    """Return of the judgements of one criterion that say the same on the same ground the worst one, the first of twins.
-
-    Values not judged stay unless they agree.
-    """
-    kept: list[Judgement] = []
-    for item in found:
-        sign = 1.0 if item.criterion.sense == "at most" else -1.0
-        for place, other in enumerate(kept):
-            same = (item.outcome, item.bound, item.judged_on) == (other.outcome, other.bound, other.judged_on)
-            close = math.isclose(item.value, other.value, rel_tol=1e-3)
-            if same and (close or item.outcome != "not judged"):
-                if not close and sign * item.value > sign * other.value:
-                    kept[place] = item
-                break
-        else:
-            kept.append(item)
-    return kept
-
-
-def _holding(criteria: list[Criterion]) -> str:
-    """Return the sentence of a design that holds: how many criteria, how many of them assumed, and on what word."""
-    kept = {(item.name, item.sea): item for item in criteria}
-    count, assumed = len(kept), sum(item.assumed for item in kept.values())
-    words = "the criterion holds" if count == 1 else f"all {count} criteria hold"
-    if assumed:
-        several = "all" if assumed == count else f"{assumed} of them"
-        words += ", a default of moyai" if count == 1 else f", {several} defaults of moyai"
-    if any(UNCONFIRMED in item.source for item in criteria):
-        words += "; factors of a standard that were not confirmed against it"
-    return words
-
-
-def _narrow(found: list[Judgement]) -> str:
-    """Return which criteria were judged on a part of what is uncertain."""
-    kept = dict.fromkeys((item.criterion.words, item.judged_on) for item in found if item.judged_on)
-    return "".join(f"; {words} judged on {on}" for words, on in kept)
+    return Verdict("holds", holding([item.criterion for item in found]) + narrow(found), judgements)
 
 
 def left_open(verdict: Verdict, reason: str) -> Verdict:
     """Return a verdict after something turned out to be left out: what held is not judged, for this reason."""
-    return verdict if verdict.outcome != "holds" else Verdict("not judged", reason, verdict.judgements)
+    rows = tuple(opened(verdict.judgements, reason))
+    return Verdict("not judged", reason, rows) if verdict.outcome == "holds" else replace(verdict, judgements=rows)
 
 
 def without_computation(verdict: Verdict) -> Verdict:
     """Return a verdict after the computation turned out to lie outside its range: what held is not judged."""
-    return left_open(verdict, "the computation did not converge inside its range")
-
-
-def said(item: Judgement) -> str:
-    """Return a judgement as half a sentence: ``effective depth 1.99 m is below 4 m``."""
-    criterion = item.criterion
-    if item.outcome == "not judged":
-        return f"{criterion.words} is not judged: {item.reason}"
-    # A factor of safety is read upside down: it has to stay above its limit
-    upward = (criterion.sense == "at most") != criterion.as_factor
-    holds = item.outcome == "holds"
-    relation = ("at most" if upward else "at least") if holds else ("above" if upward else "below")
-    size = max(abs(value) if math.isfinite(value) else 0.0 for value in (item.value, criterion.limit))
-    found, limit = (_spoken(criterion, value, size) for value in (item.value, criterion.limit))
-    # by a code that weighs the mean another line than the one shown may be the worst
-    place = item.reason if criterion.mean_weight != 1.0 else ""
-    words = ", ".join(filter(None, (place, item.remedy)))
-    return f"{criterion.words} {found} is {relation} {limit}" + (f" ({words})" if words else "")
-
-
-def _open_reason(item: Judgement) -> str:
-    """Return why a criterion is not judged, by a code that weighs the mean with the line that leaves it open."""
-    weighed = item.criterion.mean_weight != 1.0 and item.judged_on
-    return f"{item.reason} ({item.judged_on})" if weighed else item.reason
+    return left_open(verdict, NOT_COMPUTED)
 
 
 def _judged_by(criterion: Criterion, numbers: tuple[Headline, ...]) -> list[Headline]:
-    named = [headline for headline in numbers if headline.name == criterion.headline]
+    weighs = criterion.mean_weight != 1.0
+    named = [item for item in numbers if item.name == criterion.headline and (weighs or item.role != "weighed")]
     if not criterion.sea:
         return [headline for headline in named if headline.shown or not headline.sea]
     return [headline for headline in named if headline.sea == criterion.sea]
@@ -535,8 +416,9 @@ def _judge_one(criterion: Criterion, headline: Headline) -> Judgement:
     proves = not headline.bound or (headline.bound == criterion.sense) == good
     if not proves:
         found = Judgement(criterion, value, "not judged", "", headline.bound)
-        judged_on = headline.judged_on or headline.where
-        return replace(found, reason=f"only a bound is known ({found.shown_bound} this value)", judged_on=judged_on)
+        reason = f"only a bound is known ({found.shown_bound} this value)"
+        reason = "; ".join(filter(None, (reason, headline.bound_by)))
+        return replace(found, reason=reason, judged_on=headline.judged_on or headline.where)
     outcome: Outcome = "holds" if good else "does not hold"
     remedy = "" if good else _more_realisations(criterion, headline, value)
     return Judgement(criterion, value, outcome, headline.where, headline.bound, headline.judged_on, remedy)
@@ -576,24 +458,3 @@ def _judge_parts(criterion: Criterion, headline: Headline, value: float) -> Judg
         known = "only a bound is known (at most this value)"
         return Judgement(criterion, max(weighed), "not judged", known, judged_on=where)
     return Judgement(criterion, max(weighed), "holds" if max(weighed) <= limit else "does not hold", where)
-
-
-def _spoken(criterion: Criterion, value: float, size: float) -> str:
-    return _worded(criterion.shown(value), criterion.unit, size)
-
-
-def _worded(value: float, unit: str, size: float | None = None) -> str:
-    """Return a number with its unit; forces in the unit that fits ``size``."""
-    if unit == "1":
-        return f"{value:.3g}"
-    if unit == "%":
-        return f"{100.0 * value:.3g} %"
-    if unit == "rad":
-        return f"{math.degrees(value):.3g} deg"
-    if unit.startswith("N"):
-        return spoken(value, unit, 3, like=value if size is None else size)
-    return f"{value:.3g} {unit}"
-
-
-def _writable(value: float) -> float | str:
-    return value if math.isfinite(value) else str(value)

@@ -27,6 +27,8 @@ class MeasuredRange:
     #: See ``below``.
     above: float
     source: str
+    #: What moved its allowance, in words.
+    note: str = ""
 
     def holds(self, keulegan_carpenter: float, reynolds: float) -> bool:
         """Whether a flow lies inside the range."""

@@ -8,6 +8,7 @@ from dataclasses import replace
 from typing import Literal
 
 from moyai.core.headline import Criterion, Headline, Judgement, unfavourable
+from moyai.core.judgements import NOT_COMPUTED
 from moyai.core.results import Result
 from moyai.report.document import KeyFigure, KeyFigures
 from moyai.report.first_page import largest_by_unit, limit_and_found
@@ -132,6 +133,7 @@ def _figure(headline: Headline, judged: list[Judgement], scale: Mapping[str, flo
     share = _share(worst.criterion, worst.value)
     known = max((item for item in judged if item.outcome == "holds"), key=_nearness, default=None)
     words = [_asked(headline, worst, like), _known(headline, worst, known, like) if judgement == "caution" else ""]
+    words.append(f"not judged: {NOT_COMPUTED}" if worst.reason == NOT_COMPUTED else "")
     detail = "; ".join(part for part in (detail, *words) if part)
     return KeyFigure(headline.label, headline_text(headline, like), detail, share, judgement)
 
@@ -161,7 +163,10 @@ def _asked(headline: Headline, item: Judgement, like: float) -> str:
             else (f" where it is judged{place}, {own} at the value shown")
         )
         return f"factor of safety {found}{here}, asked {limit}"
-    return f"limit {limit}" if plain else f"limit {limit}, judged at {found.removeprefix(f'{item.bound} ')}{place}"
+    if plain:
+        return f"limit {limit}"
+    end = found.removeprefix(f"{item.bound} ")
+    return f"limit {limit}, judged at {end}{place}" if item.outcome != "not judged" else f"limit {limit}, against {end}"
 
 
 def _known(headline: Headline, open_one: Judgement, item: Judgement | None, like: float) -> str:

@@ -17,11 +17,14 @@ from moyai.core.headline import (
     Headline,
     Judgement,
     Verdict,
+    all_judged,
     also_judged,
     governing,
     judge,
+    left_open,
 )
 from moyai.core.results import read_result
+from moyai.core.validity import Notice
 from moyai.core.vocabulary import Vocabulary
 
 MOST = Criterion("transmission", "transmission", 0.5, "at most", "case file")
@@ -202,3 +205,76 @@ def test_of_what_stands_behind_a_number_each_kind_is_judged_once() -> None:
     # with a bound every value counts, and of bounds alike the worst alone
     assert also_judged(replace(alone, value=6.0), [smaller, alone]) == [replace(smaller, shown=False)]
     assert also_judged(unknown, [replace(unknown, text="not known at HWL")]) == []
+
+
+def test_no_row_holds_of_a_computation_that_cannot_be_judged() -> None:
+    """What is broken stays broken, with its doubt; what was kept is not judged, row by row."""
+    numbers = [transmission(0.4, where="storm"), Headline("effective_depth", "depth", 3.0, "m")]
+    verdict = judge(numbers, [MOST, LEAST], computed=False)
+    kept, broken = verdict.judgements
+    assert (kept.outcome, kept.value, kept.judged_on) == ("not judged", 0.4, "storm")
+    assert "did not converge" in kept.reason and broken.outcome == "does not hold"
+    assert [item.outcome for item in judge(numbers, [MOST, LEAST], computed=True).judgements] == [
+        "holds", "does not hold",
+    ]  # fmt: skip
+    assert Verdict.from_dict(verdict.as_dict()) == verdict
+
+
+def test_no_row_holds_of_what_turns_out_to_be_left_out_or_outside_its_range() -> None:
+    for values, outcome in (((0.4, 5.0), "not judged"), ((0.4, 3.0), "does not hold")):
+        numbers = [transmission(values[0]), Headline("effective_depth", "depth", values[1], "m")]
+        held = judge(numbers, [MOST, LEAST], computed=True)
+        verdict = left_open(held, "not run: water level LWL")
+        assert verdict.outcome == outcome
+        assert (verdict.judgements[0].outcome, verdict.judgements[0].reason) == (
+            "not judged", "not run: water level LWL",
+        )  # fmt: skip
+    collected = Collected()
+    result = collected.close(
+        Vocabulary.of("s", {}), {"title": "t", "case_hash": "h", "structure": "s"}, headlines=[transmission(0.4)],
+        criteria=[MOST],
+    )  # fmt: skip
+    assert [item.outcome for item in result.verdict.judgements] == ["holds"]
+    beyond = result.with_notices(Notice("beyond", "outside of the range", severity="error"))
+    assert [item.outcome for item in beyond.verdict.judgements] == ["not judged"]
+
+
+def _use(line: str, sea: str, value: float, mean: float, **more: object) -> Headline:
+    return Headline("use", "Use", value, "1", f"{line}, {sea}", mean=mean, part=line, **more)  # type: ignore[arg-type]
+
+
+def test_what_only_a_code_with_a_factor_on_the_mean_needs_is_judged_by_such_a_code_alone() -> None:
+    """The leash fails a factor of 3 in short waves behind the hoist: its light load in long waves is no answer."""
+    uses = [_use("hoist", "short", 0.46, 0.10), _use("leash", "short", 0.41, 0.11), _use("leash", "long", 0.08, 0.05)]
+    plain = Criterion("factor", "use", 1.0 / 3.0, "at most", "case", as_factor=True)
+    found = all_judged(uses)
+    assert [item.where for item in found] == ["hoist, short", "leash, long"] and found[1].role == "weighed"
+    rows = judge(found, [plain], computed=True).judgements
+    assert [(item.reason, item.outcome) for item in rows] == [("hoist, short", "does not hold")]
+    weighed = replace(plain, mean_weight=0.5)
+    assert {item.reason for item in judge(found, [weighed], computed=True).judgements} == {
+        "hoist, short",
+        "leash, long",
+    }
+    # one of which a bound alone is known stays open for every criterion, and stands once
+    bounded = all_judged([uses[0], replace(uses[2], bound="at least")])
+    assert [(item.where, item.role) for item in bounded] == [("hoist, short", ""), ("leash, long", "")]
+    # a line that fails in one sea has no row that holds in another
+    behind = replace(uses[1], shown=False, role="failing")
+    for criterion in (plain, weighed):
+        verdict = judge([*found, behind], [criterion], computed=True)
+        rows = {item.reason: item.outcome for item in verdict.judgements}
+        assert rows == {"hoist, short": "does not hold", "leash, short": "does not hold"}
+        assert verdict.message.count("is below") == 1
+    # one that is listed where it fails is no row where it holds
+    light = replace(behind, value=0.2)
+    assert [item.reason for item in judge([*found, light], [plain], computed=True).judgements] == ["hoist, short"]
+
+
+def test_the_worst_of_the_lines_that_fail_have_rows() -> None:
+    uses = [_use(f"line {k}", "storm", 0.5 + 0.01 * k, 0.1, role="failing", shown=False) for k in range(20)]
+    shown = _use("line 20", "storm", 0.8, 0.1)
+    limit = Criterion("factor", "use", 0.4, "at most", "case")
+    rows = judge([shown, *uses], [limit], computed=True).judgements
+    assert [item.reason for item in rows[:3]] == ["line 20, storm", "line 19, storm", "line 18, storm"]
+    assert len(rows) == 9

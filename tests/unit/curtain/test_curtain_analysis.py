@@ -21,11 +21,13 @@ from moyai.structures.curtain.analyses.impact import solve_impact
 from moyai.structures.curtain.analyses.limits import fastest_water, sea_loads
 from moyai.structures.curtain.analyses.loads import loads_dataset
 from moyai.structures.curtain.assembly import assemble
+from moyai.structures.curtain.governing import WEAKER
 from moyai.structures.curtain.hierarchy import CYCLES, IMPACT, ModelRole
 from moyai.structures.curtain.limits.loads import impact_load
 from moyai.structures.curtain.limits.utilisation import utilisation
 from moyai.structures.curtain.model import COMPONENTS
 from moyai.structures.curtain.run import run
+from moyai.structures.curtain.seas.cycles_of_sea import SeaCycles
 from moyai.structures.curtain.seas.loads import drag_curve
 from moyai.structures.curtain.statics.steady_load import QUANTITIES
 from moyai.structures.curtain.variables import VARIABLES
@@ -661,3 +663,69 @@ def test_a_skirt_that_is_held_hangs_straight_without_a_current(small):
     length, stiffness = unit.curtain.skirt.length, unit.curtain.skirt.stiffness
     by_hand = (stiffness * (pressure * length) ** 2 / 24.0) ** (1.0 / 3.0)
     assert load.of_tension(tension).sheet == pytest.approx(by_hand, rel=0.05)
+
+
+def test_a_pretension_pulls_the_floats_down_and_stands_below_an_impact(small):
+    """20 kN at a slope of 4 m over 25 m, in a span of 12 m: it is more than the line bears in the current."""
+    problem, _ = small
+    anchors = replace(problem.curtain.anchors, pretension=20e3)
+    pulled = assemble(replace(problem, curtain=replace(problem.curtain, anchors=anchors)), "SWL", 0.0)
+    plain = assemble(problem, "SWL", 0.0)
+    slope = pulled.hanging.anchor_slope
+    own = plain.statics.anchor_line_tension
+    more = (20e3 - own) * math.sin(slope) / plain.curtain.span
+    assert own < 20e3
+    assert plain.statics.float_reserve - pulled.statics.float_reserve == pytest.approx(more, rel=1e-9)
+    assert pulled.slack_float_load() - plain.slack_float_load() == pytest.approx(20e3 * math.sin(slope) / 12.0)
+    answer = solve_impact(plain, problem.settings.impact)
+    curve = drag_curve(plain, fastest_water(plain, problem.settings, ()))
+    found = [
+        sea_loads(unit, problem.settings, answer, curve).added(unit.statics, 0.0, unit.surface_speed, unit.water)
+        for unit in (plain, pulled)
+    ]
+    # on the current's own tension: the impact, and below it what the pretension has beyond that tension
+    assert found[1].anchor_line - found[0].anchor_line == pytest.approx(20e3 - own, rel=1e-9)
+
+
+def test_the_impact_keeps_its_end_where_waves_in_a_weaker_current_lead(small):
+    problem, _ = small
+    unit = assemble(problem, "SWL", 0.0)
+    roles = (ModelRole(IMPACT, "governs", "", ""), ModelRole(CYCLES, "governs", "", ""))
+    unknown, waves = (math.nan,) * 3, "slack and taut cycles, s"
+    rows = [loads._row(unit, name, unknown, math.nan, unknown, "", "") for name in COMPONENTS if name != "skirt"]
+    here = loads._row(
+        unit, "skirt", (20.0, 15.0, 25.0), 50.0, (100.0, 80.0, 180.0), "slack and taut cycles, s", "impact"
+    )
+    rows.insert(COMPONENTS.index("skirt"), here)
+    weaker = loads._row(unit, "skirt", (10.0,) * 3, 0.0, (120.0, 110.0, 130.0), "", f"{waves}, in a weaker current")
+    table = loads._table(unit, rows, {}, roles, {"skirt": [weaker]})
+    skirt = table.sel(component="skirt")
+    assert float(skirt["governing_load"]) == pytest.approx(130.0) and str(skirt["governing"].values) == WEAKER
+    assert float(skirt["case_load"]) == pytest.approx(120.0) and float(skirt["case_high"]) == pytest.approx(205.0)
+    found = list(headlines._loads_of({"/SWL/loads": table}, "SWL"))
+    assert {one.value for one in found} >= {130.0, 120.0}
+    assert max(one.number("governing_high") for one in found) == pytest.approx(205.0)
+
+
+def test_a_chord_that_is_given_bends_no_skirt_in_a_weaker_current(small):
+    problem, _ = small
+    skirt = replace(problem.curtain.skirt, stiffness=500e3)
+    held = replace(problem.curtain, toe="held", lower_stiffness=60e3, skirt=skirt)
+    unit = assemble(replace(problem, curtain=held), "SWL", 0.0)
+    given = replace(problem.settings, impact=replace(problem.settings.impact, chord=0.97 * skirt.length))
+    found = {}
+    for settings in (problem.settings, given):
+        load = impact_load(unit, solve_impact(unit, settings.impact, 0.3), settings)
+        found[settings.impact.chord] = [load.skirt_at(part * unit.normal_speed).chord for part in (1.0, 0.5, 0.0)]
+    own, with_chord = found.values()
+    assert with_chord[0] == pytest.approx(0.97 * skirt.length)
+    assert all(mine >= free - 1e-12 for mine, free in zip(with_chord[1:], own[1:], strict=True))
+    assert with_chord[2] == pytest.approx(skirt.length, rel=1e-6)
+
+
+def test_cycles_are_judged_at_the_upper_end_of_the_drag_too():
+    names = ("maximum_tension", "maximum_tension_low", "maximum_tension_high")
+    sea = xr.Dataset({name: ("period", [7.0, 6.0]) for name in names})
+    found = SeaCycles.of(sea.assign(strong_drag_tension=8.4))
+    assert (found.top, found.judged) == (7.0, 8.4) and found.of_strong_drag == pytest.approx(1.2)
+    assert SeaCycles.of(sea.assign(strong_drag_tension=6.0)).judged == 7.0

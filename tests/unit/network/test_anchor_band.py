@@ -87,3 +87,30 @@ def test_the_chance_of_a_record_is_that_of_the_pull(motion: str) -> None:
     # the tension by its own record
     (tension, _, _) = _band(groups, peak)
     assert tension is not None and tension.high == pytest.approx(max(40.0, 8.0 * found.range[1]))
+
+
+@pytest.mark.parametrize("irregular", [0, 1])
+def test_the_pull_of_a_snap_whose_mesh_was_not_checked_is_at_least(irregular: int) -> None:
+    """The chance of a record says nothing of the mesh; a check of the mesh of the pull itself does."""
+    time = np.linspace(0.0, 600.0, 6001)
+    load = np.abs(np.random.default_rng(4).normal(5.0, 1.0, time.size))
+    series = xr.Dataset(
+        {
+            "highest_load": (("time", "point", "measure"), load[:, None, None]),
+            "line_tension_peak_since_row": (("time", "line"), 8.0 * load[:, None]),
+        },
+        coords={"time": time, "point": ["anchor"], "measure": ["size"], "line": ["rope"]},
+        attrs={"skip": 0.0, "period": 4.0, "irregular": irregular},
+    )
+    for doubt, checked, bound in (("a slack line snaps taut", False, "at least"), ("", False, ""),
+                                  ("a slack line snaps taut", True, "")):  # fmt: skip
+        summary = xr.Dataset(
+            {name: (("run", "point"), [[8.6]]) for name in ("load_half_step", "load_double_mesh") if checked},
+            coords={"run": ["storm"], "point": ["anchor"], "line": ["rope"]},
+            attrs={"governing storm": "rope", "doubt storm": doubt},
+        )
+        groups = {"/SWL/dynamic": summary, "/SWL/time/storm": series}
+        band, found = _band_of_pull(
+            groups, ("SWL", "storm", "anchor"), 8.5, _Peak(40.0, "rope", "SWL", "storm", 12.0, DYNAMIC)
+        )
+        assert band is not None and found == bound

@@ -16,15 +16,21 @@ from moyai.core.vocabulary import Vocabulary
 from moyai.flexible.sensitivity import PeakSensitivity
 from moyai.structures.network import headlines
 from moyai.structures.network.headlines import DYNAMIC, _at_most, _band, _Peak, _utilisation
+from moyai.structures.network.mesh_band import doubt_of
 from moyai.structures.network.refinement import LANDING, lowered
 
 
-@pytest.mark.parametrize(("doubt", "bound"), [(LANDING, "at most"), (f"it snaps; {LANDING}", "at most"), ("few", "")])
-def test_an_unchecked_peak_of_landing_segments_is_at_most(doubt: str, bound: str) -> None:
+@pytest.mark.parametrize(
+    ("doubt", "bound"),
+    [(LANDING, "at most"), (f"it snaps; {LANDING}", "at most"), ("a slack line snaps taut", "at least"), ("", "")],
+)
+def test_a_doubtful_peak_that_was_not_run_again_is_a_bound(doubt: str, bound: str) -> None:
+    """Finer segments that land pull less; of snaps, fronts and few segments nobody knows how much more there is."""
     runs = xr.Dataset({"tension": ("run", [9e3])}, coords={"run": ["storm"]}, attrs={"doubt storm": doubt})
     peak = _Peak(9e3, "chain", "SWL", "storm", 12.0, DYNAMIC)
     band, words, found = _band({"/SWL/dynamic": runs}, peak)
-    assert band is None and found == bound and ("finer segments give less" in words) == bool(bound)
+    assert band is None and found == bound and ("finer segments give less" in words) == (bound == "at most")
+    assert any(word.startswith("mesh and step not checked") for word in words)
 
 
 def test_finer_runs_that_give_less_leave_a_peak_on_the_safe_side() -> None:
@@ -103,3 +109,50 @@ def test_a_line_whose_event_was_not_run_again_is_marked(doubt: str, few: bool, b
         and found == ""
         and not any("not checked" in w for w in words)
     )
+
+
+def test_a_snap_whose_mesh_was_not_checked_keeps_no_limit(monkeypatch: pytest.MonkeyPatch) -> None:
+    """547 N of a snap were 1052 with half the step: 10 kN prove that 4 kN are broken, not that 20 are kept."""
+    monkeypatch.setattr(headlines, "_place", lambda groups, level, *words: ", ".join(words))
+    problem = SimpleNamespace(lines=[SimpleNamespace(name="rope", breaking_load=40e3)])
+    peaks = [_Peak(10e3, "rope", "SWL", "storm", 12.0, DYNAMIC)]
+    for doubt, outcomes in (
+        ("", ["holds", "does not hold"]),
+        ("a slack line snaps taut", ["not judged", "does not hold"]),
+    ):
+        attrs = {"governing storm": "rope", "doubt storm": doubt}
+        runs = xr.Dataset({"tension": ("run", [10e3])}, coords={"run": ["storm"]}, attrs=attrs)
+        found = _utilisation(problem, {"/SWL/dynamic": runs}, peaks)
+        limits = [Criterion("factor", "line_utilisation", limit, "at most", "case") for limit in (0.5, 0.1)]
+        rows = judge(found, limits, computed=True).judgements
+        assert [item.outcome for item in rows] == outcomes
+        if doubt:
+            assert rows[0].reason.endswith("mesh and step not checked: a slack line snaps taut")
+            assert "mesh and step not checked: a slack line snaps taut" in found[0].detail
+
+
+def test_a_snap_is_the_doubt_of_every_line_and_few_segments_are_that_of_their_own() -> None:
+    runs = xr.Dataset(attrs={"governing storm": "rope", "doubt storm": "a slack line snaps taut", "few chain": "few"})
+    assert {doubt_of(runs, "storm", line) for line in ("rope", "wire", "chain")} == {"a slack line snaps taut"}
+    runs = xr.Dataset(attrs={"governing storm": "rope", "doubt storm": "3 segments", "few rope": "3 segments"})
+    assert [doubt_of(runs, "storm", line) for line in ("rope", "wire")] == ["3 segments", ""]
+
+
+def test_the_worst_sea_of_a_line_that_fails_stands_behind_the_line_that_governs(monkeypatch) -> None:
+    """Hoist and leash snap in short waves: the leash fails too, and its light load in long waves is no row."""
+    monkeypatch.setattr(headlines, "_place", lambda groups, level, *words: ", ".join(words))
+    monkeypatch.setattr(headlines, "_band", lambda groups, peak: (None, [], ""))
+    monkeypatch.setattr(headlines, "_mean", lambda groups, peak, load: 0.2 * peak.value / load)
+    problem = SimpleNamespace(lines=[SimpleNamespace(name=name, breaking_load=120e3) for name in ("hoist", "leash")])
+    values = {("hoist", "short"): 55e3, ("leash", "short"): 48e3, ("hoist", "long"): 17e3, ("leash", "long"): 9.6e3}
+    peaks = [_Peak(value, line, "SWL", run, 12.0, DYNAMIC) for (line, run), value in values.items()]
+    found = _utilisation(problem, {}, peaks)
+    assert [item.where for item in found if item.shown] == ["hoist, short"]
+    limit = Criterion("factor", "line_utilisation", 1.0 / 3.0, "at most", "case", as_factor=True)
+    rows = judge(found, [limit], computed=True).judgements
+    assert [(item.reason, item.outcome) for item in rows] == [
+        ("hoist, short", "does not hold"), ("leash, short", "does not hold"),
+    ]  # fmt: skip
+    assert [item.reason for item in judge(found, [replace(limit, limit=0.5)], computed=True).judgements] == [
+        "hoist, short"
+    ]

@@ -10,7 +10,8 @@ import xarray as xr
 
 import moyai
 from moyai.core.results import Result
-from moyai.structures.network.chance import of_periods
+from moyai.structures.network.chance import chance_of, length_of, of_periods
+from moyai.structures.network.headlines import _moved
 from moyai.structures.network.settling import DRIFTED, Drift, drift_of, drift_of_all
 
 CASE = """
@@ -152,3 +153,48 @@ def test_realisations_together_show_a_drift_that_one_hides():
     assert not drift_of_all(still, excursion, ["buoy"], free, 100.0).point
     assert not drift_of_all(out, excursion, ["buoy"], led, 100.0).point
     assert not drift_of_all(out[:1], excursion[:1], ["buoy"], free, 100.0).point
+
+
+def _record(skip: float, growth: float, duration: float, **more: float) -> xr.Dataset:
+    time = np.linspace(0.0, duration, int(20 * duration) + 1)
+    attrs = {"skip": skip, "growth": growth, "period": 4.0, "irregular": 1, "wave_height": 1.0, "seed": 1} | more
+    return xr.Dataset(coords={"time": time}, attrs=attrs)
+
+
+def test_the_periods_of_a_record_are_counted_from_the_end_of_its_ramp() -> None:
+    """110 s of Tp 4 s after a skip of 12 s are 24.5 periods; with a ramp of 80 s 7.5 of them are at full motion."""
+    load = np.abs(np.random.default_rng(7).normal(5.0, 1.0, 2201))
+    for growth, words, bound in (
+        (4.0, "largest in 98 s", ""),
+        (80.0, "largest in 30 s, less than 24 periods", "at least"),
+    ):
+        series = _record(12.0, growth, 110.0)
+        said, proven = length_of({"/SWL/time/storm": series}, "SWL", "storm", np.zeros(0))
+        assert said.startswith(words) and proven == bound
+        assert (chance_of(series, load) is None) == bool(bound)
+    # a long record: what the ramp holds back is no part of its chance
+    series = _record(12.0, 80.0, 410.0)
+    load = np.abs(np.random.default_rng(7).normal(5.0, 1.0, series["time"].size))
+    load[series["time"].values < 80.0] *= 0.2
+    found = chance_of(series, load)
+    late = chance_of(series.assign_attrs(skip=80.0), load)
+    assert found is not None and late is not None and found.range == late.range
+
+
+def test_an_offset_has_the_chance_of_a_motion_whose_tension_never_repeats() -> None:
+    """Snaps of 30 to 43 kN, offsets that differ by a fiftieth: the offset of another record is another one too."""
+    series = _record(8.0, 4.0, 48.0, irregular=0)
+    time = series["time"].values
+    part = np.minimum((time / 4.0).astype(int), 11)
+    swing = np.abs(np.sin(math.pi * time / 4.0))
+    snaps = np.array([1.0, 20.0, 30.0, 34.0, 43.0, 31.0, 38.0, 36.0, 42.0, 33.0, 40.0, 35.0])[part] * swing
+    away = (5.4 + 0.1 * np.array([0, 0, 0.3, 0.7, 0.1, 1.0, 0.4, 0.6, 0.2, 0.8, 0.5, 0.9])[part]) * swing
+    snapping = series.assign(line_tension_peak_since_row=(("time", "line"), snaps[:, None]))
+    steady = series.assign(line_tension_peak_since_row=(("time", "line"), (40.0 * swing)[:, None]))
+    assert chance_of(series, away, as_tension=True) is None and chance_of(steady, away, as_tension=True) is None
+    assert chance_of(snapping, away) is None
+    found = chance_of(snapping, away, as_tension=True)
+    assert found is not None and found.range[0] < 5.5 < found.range[1] < 5.7
+    item = _moved("offset", 5.5, "top", "", {"/SWL/time/short": snapping}, "SWL", "short", away)
+    assert item.band is not None and item.band.high == found.range[1] and "does not repeat" in item.band.of
+    assert _moved("offset", 5.5, "top", "", {"/SWL/time/short": steady}, "SWL", "short", away).band is None

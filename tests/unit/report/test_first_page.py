@@ -13,7 +13,7 @@ from moyai.core.headline import UNCONFIRMED, Band, Criterion, Headline, Verdict,
 from moyai.core.results import Result
 from moyai.core.validity import Notice
 from moyai.report.document import KeyFigures, NoticeBlock, Paragraph, Table
-from moyai.report.first_page import badges
+from moyai.report.first_page import badges, criteria_table
 from moyai.report.headlines import band_text, headline_figures
 from moyai.report.html import least_width, render_html
 from moyai.report.input_line import input_line
@@ -263,3 +263,24 @@ def test_what_bounds_a_part_of_the_loads_proves_nothing_of_the_rest() -> None:
         assert found.outcome == "not judged" and "seas were not run" in found.message
     more = [replace(plain, value=0.4, bound=bound) for bound in ("", "at least")]
     assert all(judge([item], [criterion], computed=True, left_out="x").outcome == "does not hold" for item in more)
+
+
+def test_no_tile_and_no_row_holds_of_a_computation_that_did_not_converge() -> None:
+    """A snap that the mesh changes: three rows read "holds" in green under "not judged"."""
+    light = Headline("line_utilisation", "Use", 0.1, "1", "rode, storm")
+    depth = Headline("depth", "Depth", 5.0, "m", "calm", band=Band(4.5, 5.5, "drag"))
+    pull = Headline("anchor_uplift", "Pull", 9e3, "N", "anchor, storm", band=Band(8e3, 10e3, "mesh"))
+    result = synthetic_result.build(duration=60.0)
+    least = Criterion("least_depth", "depth", 4.0, "at least", "case file", "depth", "m")
+    verdict = judge([light, pull, depth], [FACTOR, UPLIFT, least], computed=False)
+    found = replace(result, headlines=(light, pull, depth), verdict=verdict)
+    first, second, third = headline_figures(found).items
+    assert [one.judgement for one in (first, second, third)] == ["caution", "bad", "caution"]
+    assert first.detail.endswith("factor of safety 10.0, asked at least 2.00; not judged: the computation did not "
+                                 "converge inside its range")  # fmt: skip
+    assert "not judged" not in second.detail
+    assert "limit at least 4.00 m, against 4.50 m; not judged: the computation did not converge" in third.detail
+    table = criteria_table(found)
+    outcomes, places = (next(one.values for one in table.columns if one.label == name) for name in ("Outcome", "Where"))
+    assert list(outcomes) == ["does not hold", "not judged", "not judged"]
+    assert places[1] == "the computation did not converge inside its range; judged on rode, storm"

@@ -14,7 +14,7 @@ from moyai.sea.current import CurrentProfile, PowerLawCurrent, TabulatedCurrent,
 from moyai.sea.water import Water
 from moyai.structures.curtain.limits.utilisation import CurtainSite, Requirements, drowning_speed
 from moyai.structures.curtain.model import UNJUDGED, Curtain, CurtainProblem
-from moyai.structures.curtain.statics.hanging import CurtainStatics, HangingCurtain
+from moyai.structures.curtain.statics.hanging import CurtainStatics, HangingCurtain, pull_of_lines
 from moyai.structures.curtain.statics.on_bed import lies_on_bed
 from moyai.structures.curtain.statics.steady_load import SteadyLoad, given_alone, steady_load
 
@@ -63,7 +63,8 @@ class LevelCurtain:
         """Return what the floats bear at slack water, per length [N/m], with a factor on the weight of the toe [-]."""
         skirt, floats = self.hanging.skirt, self.hanging.floats
         toe = skirt.toe_load if skirt.length < self.water.depth else 0.0
-        return floats.weight + max(skirt.submerged_weight * self.depth + toe_factor * toe, 0.0)
+        hanging = max(skirt.submerged_weight * self.depth + toe_factor * toe, 0.0)
+        return floats.weight + hanging + pull_of_lines(self.hanging, 0.0)
 
     @property
     def normal_speed(self) -> float:
@@ -169,6 +170,7 @@ def assemble(problem: CurtainProblem, name: str, level: float) -> LevelCurtain:
         anchor_slope=0.0 if anchors is None else anchors.slope_in(water.depth),
         drag=curtain.drag,
         law=curtain.law,
+        pretension=0.0 if anchors is None else anchors.pretension or 0.0,
     )
     given = problem.environment.current
     profile = currents.uniform(1.0, curtain.normal) if given is None else _in_water(given, water)

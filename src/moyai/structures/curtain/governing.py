@@ -15,6 +15,9 @@ _SOURCES = {
     "impact": IMPACT,
 }
 
+#: What governs where the load in a weaker current than that of the case is the larger one
+WEAKER = "in a weaker current"
+
 Row = Mapping[str, float | str]
 
 
@@ -63,4 +66,4 @@ def governing_load(row: Row, roles: Iterable[ModelRole]) -> dict[str, float | st
     }
 
 
-__all__ = ["governing_load", "model_of"]
+__all__ = ["WEAKER", "governing_load", "model_of"]

@@ -18,7 +18,7 @@ from moyai.structures.curtain.analyses.event_peaks import (
     open_events,
     reach_of_periods,
 )
-from moyai.structures.curtain.governing import model_of
+from moyai.structures.curtain.governing import WEAKER, model_of
 from moyai.structures.curtain.hierarchy import CYCLES, SPAN, STATICS
 from moyai.structures.curtain.limit_headlines import REMEDY, limit_headlines
 from moyai.structures.curtain.seas.cycles_of_sea import SeaCycles
@@ -79,10 +79,16 @@ class _Load:
     other: Mapping[str, float | str] = field(default_factory=dict)
 
     def number(self, name: str) -> float:
-        return float(self.other[name] if name in self.other else self.row.variables[name].values)
+        """A number of the row; NaN for one that results of older versions do not have."""
+        if name in self.other:
+            return float(self.other[name])
+        return float(self.row.variables[name].values) if name in self.row.variables else math.nan
 
     def words(self, name: str) -> str:
-        return str(self.other[name] if name in self.other else self.row.variables[name].values)
+        """Words of the row; empty likewise."""
+        if name in self.other:
+            return str(self.other[name])
+        return str(self.row.variables[name].values) if name in self.row.variables else ""
 
     @property
     def value(self) -> float:
@@ -174,6 +180,14 @@ def _loads_of(groups: Groups, level: str) -> Iterator[_Load]:
         return
     for number, component in enumerate(table["component"].values):
         load = _Load(level, str(component), table.isel(component=number), None)
+        if load.words("governing") == WEAKER:
+            # the load in the weaker current, and below that of the case with all that is judged with it
+            yield from (replace(one, band=_band(groups, one)) for one in _in_weaker(load, "governing"))
+            load = replace(load, other={
+                "governing": load.words("case_governing"), "governing_load": load.number("case_load"),
+                "governing_high": load.number("case_high"), "load_bound": load.words("case_bound"),
+                "utilisation": load.number("utilisation") * load.number("case_load") / load.value,
+            })  # fmt: skip
         if math.isfinite(load.value):
             yield replace(load, band=_band(groups, load))
             for other in (*_other_runs(groups, load), *_other_waves(load), *_in_weaker(load)):
@@ -185,8 +199,7 @@ def _other_waves(load: _Load) -> Iterator[_Load]:
     names = {"steady and wave": ("second_wave",), "steady and impact": ("wave", "second_wave")}
     # next to a bound they would stand as values that are less than what may come
     for name in () if load.bound else names.get(load.words("governing"), ()):
-        # results of older versions do not have the second one
-        adds = load.number(f"{name}_load") if f"{name}_load" in load.row else math.nan
+        adds = load.number(f"{name}_load")
         if not adds > 0.0:
             continue
         whole = load.number("steady_load") + adds
@@ -198,14 +211,14 @@ def _other_waves(load: _Load) -> Iterator[_Load]:
         })  # fmt: skip
 
 
-def _in_weaker(load: _Load) -> Iterator[_Load]:
-    """Yield the load in a weaker current whose end is the highest, or that proves what a bound does not."""
-    # results of older versions do not have it
-    value = load.number("weaker_load") if "weaker_load" in load.row else math.nan
+def _in_weaker(load: _Load, which: str = "weaker") -> Iterator[_Load]:
+    """Yield the load in a weaker current whose end is the highest, or the largest one, which governs."""
+    value = load.number(f"{which}_load")
     if math.isfinite(value):
         yield replace(load, other={
-            "governing": "steady and weaker", "governing_load": value, "governing_high": load.number("weaker_high"),
-            "load_bound": "", "utilisation": load.number("utilisation") * value / load.value,
+            "governing": "steady and weaker", "governing_load": value, "governing_high": load.number(f"{which}_high"),
+            "weaker_source": load.words(f"{which}_source"), "load_bound": "",
+            "utilisation": load.number("utilisation") * value / load.value,
         })  # fmt: skip
 
 
@@ -380,7 +393,11 @@ def _band(groups: Groups, load: _Load) -> Band | None:
     if how == "steady and impact":
         return _impact_band(groups, load)
     if how == "steady and weaker":
-        return Band(value, load.number("governing_high"), "what adds in the weaker current, and the steady part there")
+        high = load.number("governing_high")
+        of = "what adds in the weaker current, and the steady part there"
+        if load.model.endswith(CYCLES):
+            of = "judged end of the cycles in the weaker current, and the steady part there"
+        return Band(value, high, of)
     return None
 
 
@@ -391,9 +408,6 @@ def _impact_band(groups: Groups, load: _Load) -> Band | None:
     if steady is None or not (math.isfinite(low) and math.isfinite(high)):
         return None
     of = "impact: the models that count, start speed over drag and place of release"
-    if model_of(load.words("impact_source")) == CYCLES:
-        # waves in a weaker current
-        of = "waves: judged at the 95 % end of the mean of their realisations"
     value = load.value
     return Band(min(low, value), max(high, value), f"{of}; steady part: {steady.of}")
 
@@ -513,6 +527,8 @@ def _wave_band(groups: Groups, load: _Load) -> Band | None:
     if own.low == high == worst.judged == own.top:
         return Band(whole - less, upper, part) if upper > whole else None
     words = ", ".join(dict.fromkeys((own.words, worst.words)))
+    if worst.of_strong_drag > 1.0:
+        words += ", drag coefficient at the upper end of its range"
     return Band(
         whole * own.low / own.top - less, max(whole * high / own.top + more, upper),
         f"{words}; {part}; judged at the 95 % end of the mean", decides=False,

@@ -21,13 +21,14 @@ from moyai.structures.curtain.analyses.record import record_dataset, record_rati
 from moyai.structures.curtain.analyses.rose import rose_dataset
 from moyai.structures.curtain.analyses.span_peaks import peaks_wanted, span_peaks
 from moyai.structures.curtain.analyses.statics import require_current, statics_checks, statics_groups, statics_notices
-from moyai.structures.curtain.analyses.waves import wave_answer
+from moyai.structures.curtain.analyses.waves import wave_answer, with_strong_drag
 from moyai.structures.curtain.analyses.weaker_currents import weaker_waves
 from moyai.structures.curtain.assembly import LevelCurtain, assemble
 from moyai.structures.curtain.headlines import curtain_headlines
 from moyai.structures.curtain.hierarchy import CYCLES, hierarchy, hierarchy_dataset, role_of
 from moyai.structures.curtain.limit_headlines import weaker_currents
 from moyai.structures.curtain.model import CurtainProblem
+from moyai.structures.curtain.seas.cycles_of_sea import SeaCycles
 from moyai.structures.curtain.seas.loads import drag_curve
 from moyai.structures.curtain.seas.states import DesignWave, design_waves, longest_sea, significant_height
 from moyai.structures.curtain.variables import VOCABULARY
@@ -120,16 +121,22 @@ def _level_steps(
         plate.extend(_numbered(collected, impact_notices(unit, settings.impact, answer)))
         progress(f"impact, {unit.name}", 1, 1)
         yield
-    oscillator: list[tuple[str, float]] = []
+    oscillator: list[tuple[str, float, float]] = []
+    strong: dict[str, float] = {}
     if "waves" in settings.analyses:
         for sea in seas:
             found = wave_answer(unit, settings, sea, progress)
+            # a bound is the upper end of what it varies with: a mean bounds nothing
+            bounds = role_of(roles, CYCLES) == "bound"
+            if not (bounds or unit.nominal):
+                found = with_strong_drag(unit, settings, sea, found)
             for name, data in found.groups.items():
                 collected.groups[f"{root}/waves/{sea.name}" + (f"/{name}" if name else "")] = data
             plate.extend(_numbered(collected, found.notices))
-            # a bound is the upper end of what it varies with: a mean bounds nothing
-            bounds = role_of(roles, CYCLES) == "bound"
-            oscillator.append((sea.name, found.highest_tension if bounds else found.maximum_tension))
+            cycles = SeaCycles.of(found.groups[""])
+            strong[sea.name] = cycles.of_strong_drag
+            top = found.highest_tension if bounds else found.maximum_tension
+            oscillator.append((sea.name, top, top if bounds else cycles.judged))
             yield
     if "anchor_loads" in settings.analyses and settings.anchor_loads is not None and waves:
         loads = anchor_dataset(unit, settings.anchor_loads, settings.limits, waves)
@@ -137,7 +144,7 @@ def _level_steps(
         collected.checks.extend(anchor_checks(unit, loads))
         collected.notices.extend(anchor_notices(unit, settings.anchor_loads, waves))
         yield
-    weaker = weaker_waves(unit, settings, seas, progress) if "waves" in settings.analyses else None
+    weaker = weaker_waves(unit, settings, seas, progress, strong) if "waves" in settings.analyses else None
     if weaker is not None:
         collected.groups[f"{root}/weaker_currents"] = weaker
         yield
@@ -181,7 +188,7 @@ def _level_steps(
     if "limits" in settings.analyses:
         lost = _lost_depth(collected.groups.get(f"{root}/statics"), unit.depth)
         collected.groups[f"{root}/limits"] = limits_dataset(
-            unit, settings, proportions, curve, progress, lost, longest_sea(seas)
+            unit, settings, proportions, curve, progress, lost, longest_sea(seas), max(strong.values(), default=1.0)
         )
         yield
         if settings.limits.rose_step is not None:

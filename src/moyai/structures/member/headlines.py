@@ -18,7 +18,14 @@ from moyai.core.headline import Band, Bound, Headline, all_judged
 from moyai.core.validity import Notice
 from moyai.core.wording import spoken, spoken_time
 from moyai.morison.coefficient_ranges import CIRCULATION, MeasuredRange, drag_range, inertia_range
-from moyai.morison.coefficients import DNV_CREST, dnv_drag, dnv_steady_drag
+from moyai.morison.coefficients import (
+    DNV_CREST,
+    DNV_CURRENT,
+    DNV_NEAR_CURRENT,
+    dnv_added_mass,
+    dnv_drag,
+    dnv_steady_drag,
+)
 from moyai.series.block_maxima import LEAST_PERIODS, too_short
 from moyai.series.intervals import reach_of_mean
 from moyai.series.realisations import ALONE, alone
@@ -179,13 +186,44 @@ def _range_notices(problem: MemberProblem, found: _Largest) -> Iterator[Notice]:
 def _ranges(problem: MemberProblem, found: _Largest) -> tuple[MeasuredRange, ...]:
     """Return the ranges of drag, inertia and, where it is counted, the circulation.
 
-    Where the drag of DNV-RP-C205 keeps the crest of its amplification, the steady drag is its lower end.
+    Where the drag of DNV-RP-C205 keeps the crest of its amplification, the steady drag is its lower end. Where a
+    current nears the speed from which its laws are those of steady flow, the upper ends go towards theirs.
     """
-    drag, crest = drag_range(problem.rule), _crest(problem, found)
+    drag, inertia, crest = drag_range(problem.rule), inertia_range(problem.rule), _crest(problem, found)
     if crest > 1.0:
         drag = replace(drag, below=1.0 - (1.0 - drag.below) / crest)
-    items = (drag, inertia_range(problem.rule))
-    return (*items, CIRCULATION) if problem.circulation.counted else items
+    drag, inertia = _towards_steady_flow(problem, found, (drag, inertia))
+    return (drag, inertia, CIRCULATION) if problem.circulation.counted else (drag, inertia)
+
+
+def _towards_steady_flow(
+    problem: MemberProblem, found: _Largest, ranges: tuple[MeasuredRange, MeasuredRange]
+) -> tuple[MeasuredRange, MeasuredRange]:
+    """Return the ranges of drag and inertia with upper ends near those of steady flow [eq:morison-near-current].
+
+    The laws of DNV-RP-C205 jump where a current comes to :data:`DNV_CURRENT` of the orbital speed. From
+    :data:`DNV_NEAR_CURRENT` on the upper ends go in proportion from those in waves to those beyond, so that the force
+    that is judged does not jump.
+    """
+    if found.steady:
+        return ranges
+    number, of_waves = found.number(_COEFFICIENTS), found.number(_CIRCULATION)
+    ratio = number / of_waves - 1.0 if of_waves > 0.0 else math.inf
+    if not DNV_NEAR_CURRENT < ratio < DNV_CURRENT:
+        return ranges
+    part = (ratio - DNV_NEAR_CURRENT) / (DNV_CURRENT - DNV_NEAR_CURRENT)
+    roughness = problem.roughness / problem.member.placed_section.breadth
+    most = [1.0, 1.0]
+    if problem.rule.drag == "dnv_c205":
+        most[0] = max(dnv_steady_drag(roughness) / dnv_drag(number, roughness), 1.0)
+    if problem.rule.inertia == "dnv_c205":
+        most[1] = (1.0 + dnv_added_mass(of_waves, roughness)) / (1.0 + dnv_added_mass(number, roughness))
+    note = f"upper ends towards steady flow, as the current is {ratio:.2g} times the orbital speed"
+    drag, inertia = (
+        replace(one, above=(1.0 + one.above) * (1.0 + part * (more - 1.0)) - 1.0, note=note) if more > 1.0 else one
+        for one, more in zip(ranges, most, strict=True)
+    )
+    return drag, inertia
 
 
 def _crest(problem: MemberProblem, found: _Largest) -> float:
@@ -339,6 +377,7 @@ def _band(found: _Largest, ranges: tuple[MeasuredRange, ...]) -> Band:
         words.append(f"C_M -{100 * ranges[1].below:.0f} to +{100 * ranges[1].above:.0f} %")
     if len(ranges) > 2:
         words.append(f"circulation ±{100 * ranges[2].above:.0f} %")
+    words += dict.fromkeys(item.note for item in ranges if item.note)
     own = float(np.linalg.norm(found.causes.sum(axis=0), axis=1)[found.row])
     scatter = found.scatter
     if scatter.size < 2 or own == 0.0:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from moyai.core.arrays import Array
+from moyai.core.arrays import Array, BoolArray
 from moyai.core.headline import Band, Bound
 from moyai.core.wording import spoken, spoken_time
 from moyai.series.block_maxima import LEAST_PERIODS, PERIODS, Maximum, maximum_of, too_short
@@ -36,9 +36,15 @@ def irregular(groups: Mapping[str, xr.Dataset], level: str, run: str) -> bool:
     return series is not None and bool(int(series.attrs.get("irregular", 0)))
 
 
+def _rows(series: xr.Dataset, full: bool = False) -> BoolArray:
+    """Return which rows of a record count; with ``full`` those alone after waves, current and motions have grown."""
+    begin = max(float(series.attrs["skip"]), float(series.attrs.get("growth", 0.0)) if full else 0.0)
+    return np.asarray(series["time"].values >= series["time"].values[0] + begin)
+
+
 def counted(series: xr.Dataset) -> xr.Dataset:
     """Return the part of a record that counts."""
-    return series.isel(time=series["time"].values >= series["time"].values[0] + series.attrs["skip"])
+    return series.isel(time=_rows(series))
 
 
 def scatter_of(summary: xr.Dataset, name: str, run: str, **of: str) -> Array:
@@ -54,7 +60,7 @@ def length_of(groups: Mapping[str, xr.Dataset], level: str, run: str, scatter: A
     """Say in how long records of an irregular sea the largest values were found, and what they prove.
 
     Realisations of records too short to tell the chance of one prove as little as one does: the largest of a storm is
-    that of a longer record.
+    that of a longer record. Periods in which waves, current and motions still grow are none of theirs.
 
     Returns
     -------
@@ -64,12 +70,10 @@ def length_of(groups: Mapping[str, xr.Dataset], level: str, run: str, scatter: A
         ``at least`` where the records are too short.
     """
     series = series_of_run(groups, level, run)
-    if series is None or not irregular(groups, level, run):
+    if series is None or not irregular(groups, level, run) or np.count_nonzero(_rows(series)) < 2:
         return "", ""
-    time, period = counted(series)["time"].values, float(series.attrs["period"])
-    if time.size < 2:
-        return "", ""
-    lasts = spoken_time(float(time[-1] - time[0]))
+    time, period = series["time"].values[_rows(series, full=True)], float(series.attrs["period"])
+    lasts = spoken_time(float(np.ptp(time)) if time.size else 0.0)
     words = f"largest in {lasts}"
     if scatter.size:
         words = f"mean of the largest of {scatter.size} records of {lasts}"
@@ -83,13 +87,14 @@ def of_record(groups: Mapping[str, xr.Dataset], level: str, run: str, line: str)
     series = series_of_run(groups, level, run)
     if series is None:
         return None, []
+    values = _record(series, line)
+    found = None if values is None else chance_of(series, values)
     if not irregular(groups, level, run):
-        return of_periods(series, *_record(series, line)), []
+        return found, []
     late, said = counted(series), []
     if "surface_elevation" in late:
         realised = 4.0 * float(late["surface_elevation"].values.std())
         said.append(f"realised Hs {realised:.2f} m of {series.attrs['wave_height']:.2f} m, seed {series.attrs['seed']}")
-    found: Maximum | None = maximum_of(*_record(series, line), float(series.attrs["period"]))
     if found is not None:
         said.append(
             f"largest of other seeds about {spoken(found.mean, 'N', 3)}, standard deviation "
@@ -98,17 +103,41 @@ def of_record(groups: Mapping[str, xr.Dataset], level: str, run: str, line: str)
     return found, said
 
 
-def _record(series: xr.Dataset, line: str) -> tuple[Array, Array]:
-    """Return time and highest tension since the row before of a line or net, over what counts."""
-    late = counted(series)
-    named = "line" in late and line in late["line"].values
+def _record(series: xr.Dataset, line: str) -> Array | None:
+    """Return the highest tension since the row before of a line or net; None where it is not kept."""
+    named = "line" in series and line in series["line"].values
     key, axis = ("line_tension_peak_since_row", "line") if named else ("net_tension", "net")
-    if key not in late:
-        return np.zeros(0), np.zeros(0)
-    return late["time"].values, late[key].sel({axis: line}).values
+    return np.asarray(series[key].sel({axis: line}).values) if key in series else None
 
 
-def of_periods(series: xr.Dataset, time: Array, values: Array) -> Maximum | None:
+def chance_of(series: xr.Dataset, values: Array, *, as_tension: bool = False) -> Maximum | None:
+    """Return what the largest of a record stands for: one seed of an irregular sea, or a motion that does not repeat.
+
+    ``None`` where too little of the record is at full motion, or a motion of regular waves repeats.
+
+    Parameters
+    ----------
+    series : xarray.Dataset
+        Of the whole run.
+    values : ndarray, shape (rows,)
+        A load or an offset in it.
+    as_tension : bool
+        Whether a motion in which the highest tension does not repeat counts, though these values nearly do.
+    """
+    if int(series.attrs.get("irregular", 0)):
+        grown = _rows(series, full=True)
+        return maximum_of(series["time"].values[grown], values[grown], float(series.attrs["period"]))
+    late = _rows(series)
+    time = series["time"].values[late]
+    found = of_periods(series, time, values[late])
+    if found is None and as_tension and "line_tension_peak_since_row" in series and series.sizes["line"]:
+        highest = series["line_tension_peak_since_row"].values[late].max(axis=1)
+        if of_periods(series, time, highest) is not None:
+            return of_periods(series, time, values[late], 0.0)
+    return found
+
+
+def of_periods(series: xr.Dataset, time: Array, values: Array, repeating: float = REPEATING) -> Maximum | None:
     """Return what the largest of a regular motion that never repeats stands for, ``None`` where it repeats.
 
     The highest values of its periods are then taken as those of blocks of a record; periods in which waves or motions
@@ -119,7 +148,7 @@ def of_periods(series: xr.Dataset, time: Array, values: Array) -> Maximum | None
         return None
     count = int((time[-1] - time[0]) / period + 1e-9)
     highest = [float(part.max()) for part in np.array_split(values, count)] if count else [0.0]
-    if min(highest) >= (1.0 - REPEATING) * max(highest):
+    if min(highest) >= (1.0 - repeating) * max(highest):
         return None
     grown = time >= float(series["time"].values[0]) + float(series.attrs.get("growth", 0.0))
     found = maximum_of(time[grown], values[grown], period / PERIODS)

@@ -258,7 +258,7 @@ def _peak_uncertainty(
             found = _sensitivity(problem, assembly, plan, starts, made, worst, reported)
             return found, list(found.notices()), history
         if problem.settings.mesh_check == "off" or coupled is not None:
-            return None, [unchecked(why)] if why else [], history
+            return None, [unchecked(why, off=coupled is None)] if why else [], history
         motions, options = motions_of(problem, plan.duration), options_of(problem, plan)
         event = (governing, plan.skip, plan.period, options, reported, why)
         checked = check_event(assembly, history, motions, *event) if LANDING in why else None

@@ -13,16 +13,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from moyai.core.arrays import Array
-from moyai.core.headline import Band, Bound, Headline, all_judged, unfavourable
+from moyai.core.headline import Band, Bound, Headline, all_judged, governing, unfavourable
 from moyai.core.wording import spoken
-from moyai.flexible.sensitivity import PeakSensitivity
-from moyai.series.block_maxima import maximum_of
 from moyai.structures.network.at_rest import rest_headlines
 from moyai.structures.network.chance import (
     ONE_SEED,
+    chance_of,
     irregular,
     length_of,
-    of_periods,
     of_record,
     of_seeds,
     scatter_of,
@@ -30,8 +28,9 @@ from moyai.structures.network.chance import (
     with_seeds,
 )
 from moyai.structures.network.held_rows import held_headlines
+from moyai.structures.network.mesh_band import UNCHECKED, mesh_and_step, numerical_band
 from moyai.structures.network.model import NetworkProblem
-from moyai.structures.network.refinement import LANDING, band_of
+from moyai.structures.network.refinement import LANDING
 from moyai.structures.network.settling import unsettled
 from moyai.structures.network.single_anchor import single_anchors
 from moyai.structures.network.start_up import ASKED, WAVES
@@ -176,7 +175,7 @@ def _tension(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peak: _P
     items = [
         Headline(
             "line_tension", "highest tension", peak.value, "N", where, model, band, bound,
-            detail="; ".join(part for part in details if part),
+            detail="; ".join(part for part in details if part), part=peak.line, bound_by=_unchecked(details),
         )
     ]  # fmt: skip
     items = [_at_most(item) for item in items]
@@ -231,59 +230,6 @@ def _start_up(groups: Mapping[str, xr.Dataset], peak: _Peak) -> list[Headline]:
     ]  # fmt: skip
 
 
-def _mesh_and_step(value: float, finer: list[float]) -> Band:
-    """Return the band of a peak: ``finer`` as in :class:`PeakSensitivity`, without step."""
-    of, half, mesh, damped, finest = finer
-    low, high = band_of(PeakSensitivity(of, half, mesh, math.nan, math.nan, math.nan, damped, finest))
-    words = "mesh and step: half the step, twice the segments, undamped and damped, and their change continued"
-    return Band(min(low, value), max(high, value), words)
-
-
-def _numerical_band(summary: xr.Dataset, peak: _Peak) -> tuple[Band | None, list[str], Bound]:
-    """Return what mesh and step do to a tension, what is to be said of it, and what an unchecked one proves.
-
-    What mesh and step change of one realisation, they change of the mean in proportion.
-    """
-    first, own = _checked(summary, _governing(summary, peak.run)), _checked(summary, peak.line)
-    governs = _governing(summary, peak.run) == peak.line
-    why = str(summary.attrs.get(f"doubt {peak.run}" if governs else f"few {peak.line}", ""))
-    if own:
-        share = peak.value / own[0] if peak.scatter.size and own[0] > 0.0 else 1.0
-        band = _mesh_and_step(peak.value, [share * value for value in own])
-        viscous = [float(summary[key]) for key in ("half_viscosity", "double_viscosity") if governs and key in summary]
-        viscous = [value for value in viscous if math.isfinite(value)]
-        said = f"half and twice the viscosity: {min(viscous):.4g} to {max(viscous):.4g} N" if viscous else ""
-        return band, [said], ""
-    unchecked = f"mesh and step not checked{': ' + why if why else ''}"
-    lands = LANDING in str(summary.attrs.get(f"doubt {peak.run}", ""))
-    if not first or not first[0] > 0.0 or lands:
-        return None, [unchecked], ""
-    # only the event of the governing line was run again: what the mesh does to it is taken for this one too
-    of = _mesh_and_step(first[0], first)
-    band = of.scaled(peak.value / first[0])
-    words = f"mesh and step: in proportion to the tension of {_governing(summary, peak.run)}"
-    few = f"few {peak.line}" in summary.attrs and "line_tension_of_check" in summary
-    return replace(band, of=words), [unchecked], "at least" if few else ""
-
-
-def _governing(summary: xr.Dataset, run: str) -> str:
-    return str(summary.attrs.get(f"governing {run}", ""))
-
-
-def _checked(summary: xr.Dataset, line: str) -> list[float]:
-    """Return the highest tension of a line or net in the run and in those that check its mesh; none without them."""
-    for kind in ("line", "net"):
-        name = f"{kind}_tension_of_check"
-        if name in summary and line in summary[kind].values:
-            values = [float(value) for value in summary[name].sel({kind: line}).values]
-            if all(map(math.isfinite, values[:3])):
-                return values
-    if "sensitivity_peak" not in summary or "run" not in summary.coords:
-        return []
-    values = [float(summary[key]) for key in ("sensitivity_peak", *LOADS_AGAIN.values())]
-    return values if math.isfinite(values[0]) and _governing(summary, str(summary["run"].values)) == line else []
-
-
 def _utilisation(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peaks: list[_Peak]) -> list[Headline]:
     """Return the highest tension over the breaking load, each line with its own band."""
     breaking = {line.name: line.breaking_load for line in problem.lines if math.isfinite(line.breaking_load)}
@@ -292,21 +238,35 @@ def _utilisation(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peak
         load = breaking.get(item.line)
         if load is None:
             continue
-        band, _, bound = _band(groups, item)
+        band, said, bound = _band(groups, item)
+        doubtful = _unchecked(said)
         one = Headline(
             "line_utilisation", "highest tension over breaking load", item.value / load, "1",
             _place(groups, item.level, item.line, item.run), item.model,
             None if band is None else band.scaled(1.0 / load), bound, mean=_mean(groups, item, load),
-            detail=f"breaking load {load / 1e3:.4g} kN, without a safety factor",
+            detail="; ".join(filter(None, (f"breaking load {load / 1e3:.4g} kN, without a safety factor", doubtful))),
+            part=item.line, bound_by=doubtful,
         )  # fmt: skip
         items.append(_at_most(one))
     found = all_judged(items)
+    known = {(one.part, one.where) for one in found if one.role != "weighed"}
+    for line in breaking:
+        # of each other line the worst, for the one who strengthens the line that decides
+        own = governing(one for one in items if one.part == line)
+        worst = max(own, key=unfavourable, default=None)
+        if worst is not None and (line, worst.where) not in known:
+            found.append(replace(worst, shown=False, role="failing"))
     if found and bare:
         # one that is not known stays open beside those that keep the limit
         label, text = "highest tension over breaking load", f"{NO_STRENGTH} {', '.join(bare)}"
         found.append(Headline("line_utilisation", label, math.nan, "1", text=text, shown=False))
         found[0] = replace(found[0], detail=f"{found[0].detail}; {text}")
     return found
+
+
+def _unchecked(said: list[str]) -> str:
+    """Return of what is said of a tension that its peak is doubtful and was not checked, empty where it is not."""
+    return next((one for one in said if one.startswith(f"{UNCHECKED}: ") and LANDING not in one), "")
 
 
 def _mean(groups: Mapping[str, xr.Dataset], peak: _Peak, load: float) -> float | None:
@@ -328,11 +288,12 @@ def _band(groups: Mapping[str, xr.Dataset], peak: _Peak) -> tuple[Band | None, l
     if peak.model == REST:
         band = _rest_band(groups, peak)
         return band, [] if band else ["mesh not checked"], ""
-    band, details, unproven = _numerical_band(groups[f"/{peak.level}/dynamic"].sel(run=peak.run), peak)
+    summary = groups[f"/{peak.level}/dynamic"].sel(run=peak.run)
+    band, details, unproven = numerical_band(summary, peak.run, peak.line, peak.value, bool(peak.scatter.size))
     band = with_seeds(peak.value, band, peak.scatter)
     found, words = (None, []) if peak.scatter.size else of_record(groups, peak.level, peak.run, peak.line)
     details += words
-    doubt = str(groups[f"/{peak.level}/dynamic"].attrs.get(f"doubt {peak.run}", ""))
+    doubt = str(summary.attrs.get(f"doubt {peak.run}", ""))
     # lumps that land pull harder than the line does: with finer segments it is less
     most: Bound = "at most" if band is None and LANDING in doubt else ""
     details += ["finer segments give less"] if most else []
@@ -397,10 +358,11 @@ def _anchor(groups: Mapping[str, xr.Dataset], peaks: list[_Peak]) -> list[Headli
                     )
                 said = f"horizontal {parts[0] / 1e3:.3g} kN, upwards {parts[1] / 1e3:.3g} kN, each at its own largest"
                 open_end, why = _left_open(groups, level, run, scatter)
-                bound, said = open_end or bound, "; ".join([said, *why])
+                doubtful = "" if most is None or bound != "at least" else _unchecked(_band(groups, most)[1])
+                bound, said = open_end or bound, "; ".join(filter(None, [said, *why, doubtful]))
                 one = Headline(
                     "anchor_load", "largest pull on a fixed point", value, "N", _place(groups, level, point, run),
-                    DYNAMIC, own, bound, detail=said,
+                    DYNAMIC, own, bound, detail=said, part=point, bound_by=doubtful,
                 )  # fmt: skip
                 found.append(_at_most(one))
     return all_judged(found)
@@ -420,11 +382,13 @@ def _band_of_pull(
     level, run, point = at
     summary = groups[f"/{level}/dynamic"].sel(run=run)
     bound: Bound = "" if most is None else _band(groups, most)[2]
-    mesh = None if most is None else _numerical_band(summary, most)[0]
+    mesh, unproven = None, bound
+    if most is not None:
+        mesh, _, unproven = numerical_band(summary, run, most.line, most.value, bool(most.scatter.size))
     finer = [value, *(float(summary[key].sel(point=point)) if key in summary else math.nan for key in LOADS_AGAIN)]
     own: Band | None = None
     if all(map(math.isfinite, finer[1:3])):
-        own = _mesh_and_step(value, finer)
+        own, unproven = mesh_and_step(value, finer), ""
     elif mesh is not None and most is not None and most.value > 0.0:
         low, high = (value * end / most.value for end in (mesh.low, mesh.high))
         own = Band(low, high, f"mesh and step: in proportion to the tension of {most.line}")
@@ -434,16 +398,11 @@ def _band_of_pull(
     series = groups.get(f"/{level}/time/{run}")
     if series is None:
         return own, bound
-    late = series.isel(time=series["time"].values >= series["time"].values[0] + series.attrs["skip"])
-    load = late["highest_load"].sel(point=point, measure="size").values
     of_sea = irregular(groups, level, run)
-    if of_sea:
-        chance = maximum_of(late["time"].values, load, float(series.attrs["period"]))
-    else:
-        chance = of_periods(series, late["time"].values, load)
+    chance = chance_of(series, series["highest_load"].sel(point=point, measure="size").values)
     if chance is None:
         return own, "at least" if of_sea else bound
-    return with_chance(value, own, chance, of_sea), "at most" if own is None and bound == "at most" else ""
+    return with_chance(value, own, chance, of_sea), "at most" if own is None and bound == "at most" else unproven
 
 
 def _offsets(groups: Mapping[str, xr.Dataset], anchors: Mapping[str, str]) -> list[Headline]:
@@ -517,23 +476,23 @@ def _moved(
     name: str, value: float, where: str, detail: str, groups: Mapping[str, xr.Dataset], level: str, run: str,
     away: Array | None,
 ) -> Headline:  # fmt: skip
-    """Return an offset or lean; of an irregular sea with the chance of its seed, or as a bound without it."""
+    """Return an offset or lean with the chance of its seed or of a motion that does not repeat.
+
+    Of an irregular sea it is a bound where that is not known.
+    """
     label, unit = {"offset": ("largest offset of a body or buoy", "m"), "lean": ("largest lean", "rad")}[name]
     series = groups.get(f"/{level}/time/{run}")
     band: Band | None = None
     bound: Bound = ""
     open_end, why = _left_open(groups, level, run, np.zeros(0))
     detail = "; ".join([detail, *why])
-    if series is not None and irregular(groups, level, run):
-        found = None
-        if away is not None:
-            late = series["time"].values >= series["time"].values[0] + series.attrs["skip"]
-            found = maximum_of(series["time"].values[late], away[late], float(series.attrs["period"]))
-        if found is None:
-            bound, detail = "at least", f"{detail}; {ONE_SEED}"
-        else:
-            low, high = found.range
-            band = Band(max(min(value, low), 0.0), max(value, high), of_seeds(found))
+    of_sea = irregular(groups, level, run)
+    found = None if series is None or away is None else chance_of(series, away, as_tension=True)
+    if found is not None:
+        low, high = found.range
+        band = Band(max(min(value, low), 0.0), max(value, high), of_seeds(found, of_sea))
+    elif of_sea:
+        bound, detail = "at least", f"{detail}; {ONE_SEED}"
     return Headline(name, label, value, unit, where, DYNAMIC, band, bound or open_end, detail=detail)
 
 

@@ -452,11 +452,13 @@ def not_converged(found: PeakSensitivity, goal: float, line: str, why: str, segm
     )
 
 
-def unchecked(why: str) -> Notice:
-    """Return the notice of a doubtful peak that was too costly to run again."""
+def unchecked(why: str, off: bool = False) -> Notice:
+    """Return the notice of a doubtful peak that was too costly to run again, or whose check is switched off."""
     return Notice(
         "peak-not-checked",
-        f"{why}; twice the segments and half the step were not run: they would take too long",
+        f"{why}; twice the segments and half the step were not run: the check of the mesh is off"
+        if off
+        else f"{why}; twice the segments and half the step were not run: they would take too long",
         severity="warning",
         remedy="settings.sensitivity: true runs them all the same",
     )

@@ -17,6 +17,7 @@ from moyai.core.headline import Bound
 from moyai.core.progress import Progress
 from moyai.sea.breaking import breaking_limit
 from moyai.structures.curtain.analyses.impact import ImpactAnswer
+from moyai.structures.curtain.analyses.weaker_currents import currents_of_waves
 from moyai.structures.curtain.assembly import LevelCurtain
 from moyai.structures.curtain.hierarchy import CYCLES, IMPACT, STRAIGHT, Role, hierarchy, role_of
 from moyai.structures.curtain.limits.loads import fastest_water, impact_load, sea_loads
@@ -45,6 +46,7 @@ def limits_dataset(
     progress: Progress,
     lost_depth: float = 1.0,
     duration: float | None = None,
+    strong_drag: float = 1.0,
 ) -> xr.Dataset:
     """Return the group ``limits``: largest height for currents up to each speed, and the utilisation over both.
 
@@ -64,9 +66,11 @@ def limits_dataset(
         with what it loses in the current that was found.
     duration : float, optional
         See :func:`sea_loads`.
+    strong_drag : float
+        See :func:`sea_loads`.
     """
     duration = 3600.0 * settings.waves.hours if duration is None else duration
-    loads = sea_loads(unit, settings, answer, curve, duration)
+    loads = sea_loads(unit, settings, answer, curve, duration, strong_drag)
     counted = CountedLimits(unit, settings, loads, duration)
     most, most_bound = counted.speed()
     speeds = _speeds(unit, settings, most)
@@ -414,13 +418,17 @@ def _jump(unit: LevelCurtain, counted: CountedLimits, found: _FoundLimits) -> st
 
 def _speeds(unit: LevelCurtain, settings: CurtainSettings, limit: Limit) -> tuple[float, ...]:
     """Return the speeds of the table: as given, or up past the limit, with the limit and the current of the case."""
+    weaker: tuple[float, ...] = ()
+    if "waves" in settings.analyses:
+        # in them the sheet hangs straighter and may bear more; at slack water there is no shape to speak of
+        weaker = tuple(speed for speed in currents_of_waves(unit) if speed > 0.0)
     if settings.limits.speeds is not None:
-        # a table begins at a current: without one there is no shape to speak of
-        return tuple(max(speed, 1e-3) for speed in settings.limits.speeds)
+        return tuple(sorted({max(speed, 1e-3) for speed in settings.limits.speeds}.union(weaker)))
     top = max(1.2 * limit.value, unit.surface_speed, 0.1)
     top = min(top, settings.limits.highest_speed)
     even = np.linspace(0.0, _round_up(top), _SPEED_COUNT)[1:]
     values = [float(value) for value in even]
+    values += [speed for speed in weaker if min(abs(speed - value) for value in values) > 0.1 * speed]
     if unit.surface_speed > 0.0 and min(abs(unit.surface_speed - value) for value in values) > 1e-9:
         values.append(unit.surface_speed)
     if limit.reached and limit.value > 0.0:

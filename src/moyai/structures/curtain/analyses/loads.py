@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from operator import attrgetter
 from types import MappingProxyType
@@ -16,7 +16,7 @@ from moyai.structures.curtain.analyses.dynamic import SpanLoad
 from moyai.structures.curtain.analyses.impact import ImpactAnswer
 from moyai.structures.curtain.analyses.weaker_currents import weaker_cycles, weaker_impacts
 from moyai.structures.curtain.assembly import LevelCurtain
-from moyai.structures.curtain.governing import governing_load, model_of
+from moyai.structures.curtain.governing import WEAKER, governing_load, model_of
 from moyai.structures.curtain.hierarchy import CREST, CYCLES, IMPACT, ModelRole, hierarchy, role_of
 from moyai.structures.curtain.limits.loads import impact_load
 from moyai.structures.curtain.limits.utilisation import AddedLoads, Strength
@@ -25,6 +25,7 @@ from moyai.structures.curtain.seas.loads import DragCurve, increase
 from moyai.structures.curtain.seas.squared_velocity import squared_velocity
 from moyai.structures.curtain.seas.states import DesignWave
 from moyai.structures.curtain.statics.hanging import CurtainStatics
+from moyai.structures.curtain.statics.steady_load import drag_factors
 from moyai.structures.curtain.variables import labelled
 
 if TYPE_CHECKING:
@@ -51,13 +52,18 @@ class _Added:
 
     loads: AddedLoads
     source: str
+    #: At the end at which they are judged.
+    high: AddedLoads
+
+
+_NOTHING = _Added(AddedLoads(), "", AddedLoads())
 
 
 def loads_dataset(
     unit: LevelCurtain,
     settings: CurtainSettings,
     waves: tuple[DesignWave, ...],
-    oscillator: tuple[tuple[str, float], ...],
+    oscillator: tuple[tuple[str, float, float], ...],
     answer: ImpactAnswer | None,
     proportions: ImpactAnswer | None,
     curve: DragCurve,
@@ -73,8 +79,9 @@ def loads_dataset(
     settings : Settings
     waves : tuple of DesignWave
         All waves of the case.
-    oscillator : tuple of (str, float)
-        Sea state and largest sum of the cable tensions in it [N], where slack and taut cycles were run.
+    oscillator : tuple of (str, float, float)
+        Sea state, largest sum of the cable tensions in it [N] and the end at which that is judged, where slack and taut
+        cycles were run.
     answer : ImpactAnswer or None
         None where the impact was not asked for.
     proportions : ImpactAnswer or None
@@ -98,16 +105,19 @@ def loads_dataset(
     for component in COMPONENTS:
         steady = _steady(unit, component)
         field = _FIELDS[component]
-        best = max(sources, key=lambda item: getattr(item.loads, field), default=_Added(AddedLoads(), ""))
+        best = max(sources, key=lambda item: getattr(item.loads, field), default=_NOTHING)
         factor = _factor(unit, component)
         wave, hit = factor * getattr(best.loads, field), factor * getattr(struck, field)
         if component == "skirt" and proportions is not None and impact_load(unit, proportions, settings).skirt is None:
             hit = math.nan
         ends = (1.0, 1.0) if answer is None else answer.uncertainty
         row = _row(unit, component, steady, wave, (hit, ends[0] * hit, ends[1] * hit), best.source, name)
+        alike = role_of(roles, model_of(best.source))
+        highs = [getattr(one.high, field) for one in sources if role_of(roles, model_of(one.source)) == alike]
+        row["wave_high"] = max([wave, *(factor * high for high in highs)])
         # what another model makes of waves may be judged at a higher end
         others = [item for item in sources if model_of(item.source) != model_of(best.source)]
-        second = max(others, key=lambda item: getattr(item.loads, field), default=_Added(AddedLoads(), ""))
+        second = max(others, key=lambda item: getattr(item.loads, field), default=_NOTHING)
         more = factor * getattr(second.loads, field)
         if row["wave_source"] and more > 0.0 and role_of(roles, model_of(second.source)) == "governs":
             row |= {"second_wave_load": more, "second_wave_source": second.source}
@@ -161,18 +171,7 @@ def _table(
     plate = tuple(ModelRole(model, "governs", "", "") for model in (IMPACT, CYCLES))
     for number, row in enumerate(decided):
         slower = [_decided(unit, other, NOT_MOVED, plate) for other in weaker.get(str(row["component"]), [])]
-        largest = max(slower, key=_value, default=row)
-        if _value(largest) > _value(row):
-            decided[number] = row = _with_waves_of(largest, row)
-        # a value below a bound: the bound proves nothing that it passes, the value does
-        bound = row["load_bound"] == "at most"
-        highest = max(slower, key=_end, default=row)
-        counts = bool(slower) and (row["component"] != "joint" if bound else _end(highest) > _end(row))
-        decided[number] = row | {
-            "weaker_load": highest["governing_load"] if counts else math.nan,
-            "weaker_high": highest["governing_high"] if counts else math.nan,
-            "weaker_source": highest["impact_source"] if counts else "",
-        }
+        decided[number] = _with_weaker(row, slower)
     rows = _with_joint(unit, decided, frozenset(name for name, span in moved.items() if span.open))
     columns = {key: [row[key] for row in rows] for key in rows[0]}
     known = [row for row in rows if math.isfinite(row["utilisation"])]  # type: ignore[arg-type]
@@ -185,29 +184,28 @@ def _table(
     return labelled(data)
 
 
-def _value(row: Mapping[str, float | str]) -> float:
-    return float(row["governing_load"])
+def _with_weaker(row: dict[str, float | str], weaker: Sequence[dict[str, float | str]]) -> dict[str, float | str]:
+    """Return a row with what weaker currents make of its load: the largest value governs, the highest end is judged.
 
-
-def _end(row: Mapping[str, float | str]) -> float:
-    return float(row["governing_high"])
-
-
-def _with_waves_of(row: dict[str, float | str], other: dict[str, float | str]) -> dict[str, float | str]:
-    """Return a row in a weaker current with what waves make of the load in the current of the case.
-
-    The impact in the weaker current leads by its value; the waves may be judged at a higher end, which counts the upper
-    end of the steady part in the current of the case.
+    What is made in the current of the case is kept next to it, for all of it is judged.
     """
-    still, above = float(row["steady_load"]), float(other["steady_high"]) - float(other["steady_load"])
-    whole = float(other["steady_load"]) + float(other["wave_load"])
-    if other["load_bound"] == "at most" or not (other["wave_source"] and math.isfinite(whole)):
+    largest = max(weaker, key=lambda one: float(one["governing_load"]), default=row)
+    highest = max(weaker, key=lambda one: float(one["governing_high"]), default=row)
+    bound = row["load_bound"] == "at most"
+    # a value below a bound: the bound proves nothing that it passes, the value does
+    counts = bool(weaker) and (bound or float(highest["governing_high"]) > float(row["governing_high"]))
+    row = row | {
+        "case_load": row["governing_load"], "case_high": row["governing_high"], "case_governing": row["governing"],
+        "case_bound": row["load_bound"], "governing_source": "",
+        "weaker_load": highest["governing_load"] if counts else math.nan,
+        "weaker_high": highest["governing_high"] if counts else math.nan,
+        "weaker_source": highest["impact_source"] if counts else "",
+    }  # fmt: skip
+    if largest is row or not float(largest["governing_load"]) > float(row["governing_load"]):
         return row
-    high = still + above if above > float(row["steady_high"]) - still else row["steady_high"]
-    second = float(other["second_wave_load"]) + float(other["steady_load"]) - still
-    return row | {
-        "wave_load": whole - still, "wave_source": other["wave_source"], "steady_high": high,
-        "second_wave_load": second, "second_wave_source": other["second_wave_source"],
+    names = ("governing_load", "governing_high", "load_bound", "utilisation", "utilisation_high")
+    return row | {name: largest[name] for name in names} | {
+        "governing": WEAKER, "governing_source": largest["impact_source"]
     }  # fmt: skip
 
 
@@ -226,11 +224,14 @@ def _decided(
     governing, steady, high = (float(row[key]) for key in ("governing_load", "steady_load", "steady_high"))
     # the upper end of the steady load is added to what waves add; with a moving span it counts where it alone is more
     above = governing - steady + high
-    if row["governing"] == "steady and impact":
-        above += float(row["impact_high"]) - float(row["impact_load"])
-    elif row["governing"] == "steady and wave" and role_of(roles, IMPACT) == "governs":
+    if row["governing"] in ("steady and impact", "steady and wave"):
         # the larger of the values is shown; the other one may reach higher
-        above = max(above, high + float(row["impact_high"]))
+        ends = {IMPACT: row["impact_high"], model_of(str(row["wave_source"])): row["wave_high"]}
+        leads = model_of(str(row["impact_source" if row["governing"] == "steady and impact" else "wave_source"]))
+        above = max(
+            [above]
+            + [high + float(end) for model, end in ends.items() if model == leads or role_of(roles, model) == "governs"]
+        )
     if row["governing"] == "dynamic":
         above = max(one for one in (governing, high, factor * span.judged) if math.isfinite(one))
     if row["load_bound"] == "at most":
@@ -269,6 +270,8 @@ def _with_joint(
             ("governing_high", "governing_high", "utilisation_high"),
         ):  # fmt: skip
             known = [float(cable[end]) for cable in cables if math.isfinite(float(cable[end]))]
+            if end == "governing_high":
+                known = [_highest_end(cable) for cable in cables if _highest_end(cable) > 0.0]
             if not known or not float(row[load]) > sum(known):
                 continue
             row[load] = sum(known)
@@ -276,11 +279,16 @@ def _with_joint(
                 row["load_bound"] = row["load_bound"] or "at most"
             if used and math.isfinite(float(row["capacity"])):
                 row[used] = strength.utilisation(sum(known))
-        ends = [[float(cable.get(end, math.nan)) for end in ("governing_high", "weaker_high")] for cable in cables]
-        most = sum(max((end for end in both if math.isfinite(end)), default=0.0) for both in ends)
+        most = sum(_highest_end(cable) for cable in cables)
         if most > 0.0 and "weaker_high" in row:
             row |= {name: min(float(row[name]), most) for name in ("weaker_load", "weaker_high")}
     return rows
+
+
+def _highest_end(row: Mapping[str, float | str]) -> float:
+    """Return the highest end of a load in any current; 0 where none is known."""
+    ends = [float(row.get(name, math.nan)) for name in ("governing_high", "case_high", "weaker_high")]
+    return max((end for end in ends if math.isfinite(end)), default=0.0)
 
 
 def _without_snap(row: dict[str, float | str]) -> bool:
@@ -294,7 +302,7 @@ def _wave_sources(
     settings: CurtainSettings,
     waves: tuple[DesignWave, ...],
     statics: CurtainStatics | None,
-    oscillator: tuple[tuple[str, float], ...],
+    oscillator: tuple[tuple[str, float, float], ...],
     proportions: ImpactAnswer | None,
     curve: DragCurve,
     *,
@@ -305,6 +313,7 @@ def _wave_sources(
     notices: list[Notice] = []
     anchor = settings.anchor_loads
     rule, ratio = settings.direction
+    strong = 1.0 if unit.nominal else drag_factors(unit.hanging.drag)[1]
     speeds = []
     for wave in waves:
         acting = wave.effective_height(rule, ratio)
@@ -317,26 +326,27 @@ def _wave_sources(
             text = f"{unit.name}, {wave.name}: the drag under the crest is left out: {error.fault.message}"
             notices.append(Notice("curtain-wave-drag", text, speed, remedy="give more toe weight"))
             continue
-        sources.append(
-            _Added(whole if statics is None else increase(whole, statics), f"drag under the crest, {wave.name}")
-        )
+        more = whole if statics is None else increase(whole, statics)
+        # a load goes with the drag coefficient
+        sources.append(_Added(more, f"drag under the crest, {wave.name}", more.times(strong)))
     if anchor is not None and unit.curtain.anchors is not None and "anchor_loads" in settings.analyses:
         model, pull = rope_model(unit, anchor), steady_tension(unit, anchor)
         for wave in waves:
             acting = wave.effective_height(rule, ratio)
             moving = model.float_speed(acting, wave.period, unit.normal_speed, unit.water)
             rise = float(model.fluctuating_tension(moving, pull))
-            sources.append(_Added(AddedLoads(anchor_line=rise), f"energy model, {wave.name}"))
+            lifted = AddedLoads(anchor_line=rise)
+            sources.append(_Added(lifted, f"energy model, {wave.name}", lifted))
     if proportions is not None:
         turned = impact_load(unit, proportions, settings)
         with_energy = any(item.source.startswith("energy model") for item in sources)
-        for name, tension in oscillator:
-            whole = turned.of_tension(tension)
+        for name, *ends in oscillator:
+            found = [turned.of_tension(tension) for tension in ends]
             if with_energy and not upright:
                 # the energy model was fitted to anchor lines of free toes; fixed supports would overload them
-                whole = replace(whole, anchor_line=0.0)
-            more = whole if statics is None else increase(whole, statics)
-            sources.append(_Added(more, f"slack and taut cycles, {name}"))
+                found = [replace(whole, anchor_line=0.0) for whole in found]
+            more, most = (whole if statics is None else increase(whole, statics) for whole in found)
+            sources.append(_Added(more, f"slack and taut cycles, {name}", most))
     return sources, notices
 
 
@@ -423,6 +433,7 @@ def _row(
         "steady_low": low if there else math.nan,
         "steady_high": high if there else math.nan,
         "wave_load": wave if there else math.nan,
+        "wave_high": wave if there else math.nan,
         "impact_load": hit if there else math.nan,
         "impact_low": hit_low if there else math.nan,
         "impact_high": hit_high if there else math.nan,

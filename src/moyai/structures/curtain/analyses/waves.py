@@ -11,7 +11,7 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
-from moyai.core.progress import Progress
+from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
 from moyai.core.wording import spoken
 from moyai.sea import dispersion
@@ -25,8 +25,10 @@ from moyai.structures.curtain.impact.cable import Impact, speed_factor
 from moyai.structures.curtain.impact.cycles import CableContact, SlackTautMotion, slack_sag
 from moyai.structures.curtain.impact.settling import SettledCycles, settled_cycles
 from moyai.structures.curtain.model import CurtainSettings, WaveSettings
+from moyai.structures.curtain.seas.cycles_of_sea import SeaCycles
 from moyai.structures.curtain.snaps.events import SeaSnaps, snaps_in_sea, suggested_time_step
 from moyai.structures.curtain.snaps.flow import SkirtFlow, check_samples, depth_mean_factor, flow_over_skirt
+from moyai.structures.curtain.statics.steady_load import drag_factors
 from moyai.structures.curtain.variables import labelled
 
 if TYPE_CHECKING:
@@ -79,6 +81,15 @@ def wave_answer(unit: LevelCurtain, settings: CurtainSettings, sea: SeaState, pr
     answer = _irregular(unit, settings.waves, sea, impact)
     progress(f"slack and taut, {sea.name}", 1, 1)
     return answer
+
+
+def with_strong_drag(unit: LevelCurtain, settings: CurtainSettings, sea: SeaState, found: WaveAnswer) -> WaveAnswer:
+    """Return the answer with the judged tension that the upper end of the drag coefficient gives [N]."""
+    factor = drag_factors(unit.hanging.drag)[1]
+    strong = replace(unit, hanging=replace(unit.hanging, drag=unit.hanging.drag.scaled(factor)))
+    judged = SeaCycles.of(wave_answer(strong, settings, sea, silent).groups[""]).judged
+    table = labelled(found.groups[""].assign(strong_drag_tension=judged))
+    return replace(found, groups={**found.groups, "": table})
 
 
 def velocity_amplitude(unit: LevelCurtain, sea: RegularSea, period: float, settings: WaveSettings) -> float:

@@ -8,7 +8,7 @@ stays upright is a value all the same [eq:curtain-hierarchy].
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -64,7 +64,7 @@ def _strongest(unit: LevelCurtain) -> float:
     return 0.0 if unit.nominal else upright_in(unit)
 
 
-def _currents_of_waves(unit: LevelCurtain) -> tuple[float, ...]:
+def currents_of_waves(unit: LevelCurtain) -> tuple[float, ...]:
     """Return the weaker currents in which the waves are run [m/s], slack water the first."""
     top, step = _strongest(unit), _STEP_OF_WAVES * math.sqrt(unit.water.gravity * unit.depth)
     weaker = [number * step for number in range(int(top / step) + 1)] if top > 0.0 else []
@@ -91,7 +91,11 @@ def weaker_impacts(unit: LevelCurtain, settings: CurtainSettings, answer: Impact
 
 
 def weaker_waves(
-    unit: LevelCurtain, settings: CurtainSettings, seas: Sequence[SeaState], progress: Progress
+    unit: LevelCurtain,
+    settings: CurtainSettings,
+    seas: Sequence[SeaState],
+    progress: Progress,
+    strong_drag: Mapping[str, float] | None = None,
 ) -> xr.Dataset | None:
     """Return slack and taut cycles of the seas in weaker currents, ``None`` where no upright plate governs there.
 
@@ -102,21 +106,24 @@ def weaker_waves(
     seas : sequence of SeaState
     progress : Progress
         Called after every current.
+    strong_drag : mapping, optional
+        What the upper end of the drag coefficient makes of the judged tension of a sea, in the current of the case.
     """
     import xarray as xr
 
-    speeds = _currents_of_waves(unit)
+    speeds = currents_of_waves(unit)
     if not speeds or not seas:
         return None
     slower = [replace(unit, surface_speed=speed) for speed in speeds]
     rows: dict[str, list[list[float]]] = {"maximum_tension": [], "maximum_tension_low": [], "judged_tension": []}
     for sea in seas:
         found = []
+        strong = 1.0 if strong_drag is None else strong_drag.get(sea.name, 1.0)
         for number, there in enumerate(slower):
             progress(f"weaker currents, {sea.name}", number, len(slower))
             found.append(SeaCycles.of(wave_answer(there, settings, sea, silent).groups[""]))
-        for name, ends in zip(rows, ("top", "low", "judged"), strict=True):
-            rows[name].append([float(getattr(one, ends)) for one in found])
+        for name, ends, factor in zip(rows, ("top", "low", "judged"), (1.0, 1.0, strong), strict=True):
+            rows[name].append([factor * float(getattr(one, ends)) for one in found])
     coords = {"sea": [sea.name for sea in seas], "weaker_current": list(speeds)}
     return labelled(xr.Dataset({name: (tuple(coords), values) for name, values in rows.items()}, coords=coords))
 
@@ -138,4 +145,4 @@ def weaker_cycles(
             yield WeakerLoads(there, source, ends[0], ends[1], ends[2], proportions.skirt is not None)
 
 
-__all__ = ["WeakerLoads", "weaker_cycles", "weaker_impacts", "weaker_waves"]
+__all__ = ["WeakerLoads", "currents_of_waves", "weaker_cycles", "weaker_impacts", "weaker_waves"]

@@ -69,21 +69,27 @@ def _straight_skirt(unit: LevelCurtain) -> BulgedSkirt | None:
 def _skirt_in_current(
     unit: LevelCurtain, settings: CurtainSettings, answer: ImpactAnswer
 ) -> Callable[[float], BulgedSkirt | None] | None:
-    """Return the skirt at any speed of the water along the normal [m/s]; None where its chord is given or not known.
+    """Return the skirt at any speed of the water along the normal [m/s]; None where its chord is not known.
 
     At slack water it hangs straight.
     """
     known = answer.skirt
-    if known is None or settings.impact.chord is not None or not unit.normal_speed > 0.0:
+    if known is None or not unit.normal_speed > 0.0:
         return None
+    # a chord that is given is that in the current of the case: in a weaker one the skirt hangs no less straight
+    given, free = settings.impact.chord, replace(settings.impact, chord=None)
 
     @cache
     def chord(step: int) -> float:
         there = replace(unit, surface_speed=unit.surface_speed * math.exp(step * _STEP))
         try:
-            found = bulging_skirt(there, settings.impact)
+            found = bulging_skirt(there, free)
         except (InputError, ConvergenceError):
             found = None
+        if given is not None and (found is None or there.surface_speed >= unit.surface_speed):
+            return given if there.surface_speed >= unit.surface_speed else known.length * _STRAIGHT
+        if given is not None and found is not None:
+            return max(given, found.chord)
         # nearly straight where the arc is not resolved, as deep as in the case where there is no equilibrium
         return known.length * _STRAIGHT if found is None and there.surface_speed < unit.surface_speed else (
             known.chord if found is None else found.chord
@@ -136,6 +142,7 @@ def sea_loads(
     answer: ImpactAnswer | None,
     curve: DragCurve,
     duration: float | None = None,
+    strong_drag: float = 1.0,
 ) -> SeaLoads:
     """Return what any sea adds to the steady loads.
 
@@ -149,6 +156,8 @@ def sea_loads(
         Loads at rest, up to :func:`fastest_water`.
     duration : float, optional
         Of a sea [s]; that of ``settings.waves.hours`` when left out.
+    strong_drag : float
+        What the upper end of the drag coefficient makes of snaps in waves [-].
     """
     limits, anchor = settings.limits, settings.anchor_loads
     asked = "impact" in settings.analyses
@@ -170,6 +179,7 @@ def sea_loads(
         snaps=None
         if answer is None
         else (_snaps(unit, settings, answer, lasting), impact_load(unit, answer, settings)),
+        strong_drag=strong_drag,
     )
 
 

@@ -157,6 +157,7 @@ def components(level: CurtainLevel) -> tuple[Component, ...]:
     capacity, factor, used = column("capacity"), column("safety_factor"), column("utilisation")
     units = words(group, "load_unit", "component", len(names))
     governing = words(group, "governing", "component", len(names))
+    weaker = words(group, "governing_source", "component", len(names))
     bounds = words(group, "load_bound", "component", len(names))
     sources = [words(group, f"{what}_source", "component", len(names)) for what in ("wave", "impact", "dynamic")]
     return tuple(
@@ -167,7 +168,7 @@ def components(level: CurtainLevel) -> tuple[Component, ...]:
             float(capacity[row]),
             float(factor[row]),
             float(used[row]),
-            governing[row],
+            weaker[row] or governing[row],
             (sources[0][row], sources[1][row], sources[2][row]),
             bounds[row],
         )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -28,15 +28,29 @@ class SeaCycles:
     words: str
     #: Realisations that the interval is of; none of regular waves.
     count: int = 0
+    #: What the judged end is with the drag coefficient at the upper end of its range [N].
+    strong_drag: float = 0.0
 
     @property
     def judged(self) -> float:
         """At which criteria are judged."""
-        return self.top + self.reach
+        return max(self.top + self.reach, self.strong_drag)
+
+    @property
+    def of_strong_drag(self) -> float:
+        """What the upper end of the drag coefficient makes of the judged end [-]."""
+        return self.judged / (self.top + self.reach) if self.top + self.reach > 0.0 else 1.0
 
     @classmethod
     def of(cls, table: xr.Dataset) -> SeaCycles:
         """Take them from the group of a sea."""
+        found = cls._at_value(table)
+        # results of older versions do not have it
+        strong = float(table["strong_drag_tension"]) if "strong_drag_tension" in table else 0.0
+        return replace(found, strong_drag=strong)
+
+    @classmethod
+    def _at_value(cls, table: xr.Dataset) -> SeaCycles:
         tops, lows, highs = (np.atleast_1d(table[f"maximum_tension{end}"].values) for end in ("", "_low", "_high"))
         row = int(np.argmax(tops))
         top, low, high = float(tops[row]), float(lows[row]), float(highs.max())

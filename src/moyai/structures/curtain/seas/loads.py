@@ -199,6 +199,8 @@ class SeaLoads:
     upright: bool = False
     #: Whether snaps count at the upper end of the interval of their mean.
     judged: bool = False
+    #: What the upper end of the drag coefficient makes of that end [-].
+    strong_drag: float = 1.0
     #: Whether they count at that end as other seeds may give it.
     other_seeds: bool = False
     #: Whether snaps are those of the heights that were run already: at least so much above them.
@@ -226,6 +228,7 @@ class SeaLoads:
             tension = table.tension(
                 speed, significant_height, judged=self.judged, known=self.known, other_seeds=self.other_seeds
             )
+            tension *= self.strong_drag if self.judged else 1.0
             struck = proportions.of_tension(tension, current)
             if self.energy is not None and not self.upright:
                 # the energy model was fitted to anchor lines of free toes; fixed supports would overload them
@@ -237,16 +240,17 @@ class SeaLoads:
         float_speed = self.energy.float_speed(height, self.period(significant_height), current, water)
         steady = statics.anchor_line_tension if self.pretension is None else self.pretension
         rise = float(self.energy.fluctuating_tension(float_speed, steady))
-        return found.larger(AddedLoads(anchor_line=self._lacking(statics) + rise))
+        return found.larger(AddedLoads(anchor_line=rise))
 
     def _lacking(self, statics: CurtainStatics) -> float:
-        """Return what a given pretension has beyond the tension in the current alone [N]."""
-        return max(self.steady - statics.anchor_line_tension, 0.0)
+        """Return what a given pretension has beyond the tension in the current alone, at its end that counts [N]."""
+        factor = 1.0 if self.steady_factors is None else self.steady_factors.anchor_line
+        return max(self.steady - factor * statics.anchor_line_tension, 0.0)
 
     def added(self, statics: CurtainStatics, significant_height: float, speed: float, water: Water) -> AddedLoads:
         """Return what waves and impact add at a surface speed [m/s], the larger for each component."""
         found = self.waves(statics, significant_height, speed, water)
-        found = found.larger(AddedLoads(anchor_line=self._lacking(statics)))
         if self.impact is not None:
             found = found.larger(self.impact.at(self.normal_ratio * speed))
+        found = found.plus(AddedLoads(anchor_line=self._lacking(statics)))
         return found if self.steady_factors is None else found.plus(_beyond(statics, self.steady_factors))

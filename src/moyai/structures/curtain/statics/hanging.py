@@ -67,6 +67,8 @@ class HangingCurtain:
     law: LoadLaw
     #: Coefficient of the load along the sheet, both faces together [-].
     friction: float = 0.0
+    #: Tension that every anchor line has at least [N].
+    pretension: float = 0.0
 
     def __post_init__(self) -> None:
         if not 0.0 <= self.anchor_slope < 0.5 * math.pi:
@@ -179,6 +181,12 @@ def solve_statics(
     return supported(curtain, section, flow_heading - turn, plan, toe, lower_share=section.toe_hold / section.load)
 
 
+def pull_of_lines(curtain: HangingCurtain, anchor_force: float) -> float:
+    """Return the downward pull of the anchor lines on the floats [N/m], by the force on an anchor or the pretension."""
+    slope = curtain.anchor_slope
+    return max(anchor_force * math.tan(slope), curtain.pretension * math.sin(slope)) / curtain.span
+
+
 def supported(
     curtain: HangingCurtain,
     section: SectionShape,
@@ -209,7 +217,7 @@ def supported(
     lean = abs(plan.inward_end_forces[0] - plan.inward_end_forces[1])
     inner = math.hypot(first + second, lean)
     lone = max(math.hypot(down, along) for down, along in zip((first, second), plan.inward_end_forces))
-    down_pull = section.top_pull + inner * math.tan(curtain.anchor_slope) / curtain.span
+    down_pull = section.top_pull + pull_of_lines(curtain, inner)
     return CurtainStatics(
         curtain=curtain,
         section=section,

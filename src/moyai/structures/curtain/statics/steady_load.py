@@ -17,7 +17,7 @@ import numpy as np
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.sea.water import Water
 from moyai.structures.curtain.statics.drag import DragLaw
-from moyai.structures.curtain.statics.hanging import CurtainStatics, HangingCurtain
+from moyai.structures.curtain.statics.hanging import CurtainStatics, HangingCurtain, pull_of_lines
 from moyai.structures.curtain.statics.section import LoadLaw
 
 #: Drag coefficients of flat skirts and booms that sources give [-]: used where the case gives no range of its own
@@ -69,9 +69,10 @@ class SteadyState:
         borne = scale * _borne(statics)
         # of the float line's own load per that of the section
         more = (borne + self.extra) / borne
-        slope, buoyancy = statics.curtain.anchor_slope, statics.curtain.floats.buoyancy
+        buoyancy = statics.curtain.floats.buoyancy
         carried = buoyancy - statics.float_reserve
-        further = (scale * more - 1.0) * statics.anchor_force * math.tan(slope) / statics.curtain.span
+        further = pull_of_lines(statics.curtain, scale * more * statics.anchor_force)
+        further -= pull_of_lines(statics.curtain, statics.anchor_force)
         plain = {
             "line_load": scale * section.load + self.extra,
             "sheet_tension": scale * section.sheet_tension,
