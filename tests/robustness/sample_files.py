@@ -310,6 +310,12 @@ def _case_of_deck(folder: Path) -> Any:
     return case_text(_deck(folder), duration=1.0, folder=folder)
 
 
+def _output(folder: Path) -> Any:
+    from moyai.interop.moordyn_output import read_output
+
+    return read_output(folder / "a.out")
+
+
 DECK = """--- header
 a line
 ---------------------- LINE TYPES ----------------------
@@ -335,6 +341,7 @@ FairTen1
 END
 ------------------------- need this line ------------------
 """
+OUTPUT = "Time FairTen1\n(s) (N)\n" + "".join(f"{0.1 * n:.2f} {1000 + n}\n" for n in range(40))
 POINTS = "# measured\nperiod [s], sway [m]\n" + "".join(f"{n}.5, {0.1 * n:.3f}\n" for n in range(1, 20))
 SPECTRUM = "frequency,density\n" + "".join(f"{0.05 * n:.2f},{0.3 * n:.3f}\n" for n in range(1, 20))
 SCATTER = "height,5,6,7\n1,10,20,5\n2,3,8,9\n3,0,1,2\n"
@@ -372,5 +379,6 @@ KINDS: dict[str, Kind] = {
     ),
     "deck": Kind(_text("a.dat", DECK.replace("ˆ", "^")), _deck),
     "deck_with_files": Kind(_deck_with_files, _case_of_deck),
+    "deck_output": Kind(_text("a.out", OUTPUT), _output),
     "result": Kind(_result, _read_result),
 }  # fmt: skip

@@ -19,6 +19,7 @@ from moyai.flexible.simulation import simulate
 from moyai.flexible.statics import solve_equilibrium
 from moyai.interop.moordyn_deck import write_deck
 from moyai.interop.moordyn_network import to_network, water_of
+from moyai.interop.moordyn_output import read_output
 from moyai.interop.moordyn_reader import read_deck
 from moyai.interop.moordyn_waves import wave_components
 from moyai.mooring.catenary import solve_catenary
@@ -250,3 +251,10 @@ def test_chains_with_a_heaving_fairlead(decks, name, tolerance):
         assert fairlead == pytest.approx(1e3 * stored[100:, 3], rel=tolerance)
         swing.append(np.ptp(end_tension(network, history, last=False)[200:]))
     assert swing[0] < 1e3 * np.ptp(stored[100:, 4]) < swing[1]
+
+
+def test_output_of_moordyn_in_openfast(decks):
+    output = read_output(decks / "openfast_output/Test.MD.out")
+    assert (output.time.size, output.time[-1]) == (4801, 60.0)
+    assert list(output.channels) == [f"{end}TEN{k}" for end in ("FAIR", "ANCH") for k in (1, 2, 3)]
+    assert output.channel("FairTen2").max() == 1.603e6

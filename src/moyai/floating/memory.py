@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from scipy.interpolate import CubicSpline
 
 from moyai.core.arrays import Array, ComplexArray
-from moyai.core.errors import InputError
+from moyai.core.errors import ConvergenceError, InputError
 from moyai.floating.arrays import finite, increasing
 
 
@@ -123,6 +123,42 @@ class StateSpaceMemory:
             np.ascontiguousarray(fit.inputs, dtype=np.complex128),
             np.ascontiguousarray(fit.outputs, dtype=np.complex128),
             np.zeros((size, size)) if dashpot is None else np.asarray(dashpot, dtype=float),
+        )
+
+    @classmethod
+    def from_matrices(
+        cls, a: ArrayLike, b: ArrayLike, c: ArrayLike, feedthrough: ArrayLike | None = None, tolerance: float = 1e-6
+    ) -> StateSpaceMemory:
+        """Diagonalise a real model ``z' = a z + b v``, ``F = -(c z + feedthrough v)``.
+
+        Raises
+        ------
+        ConvergenceError
+            When the eigenvectors of ``a`` are so nearly parallel that the modal form no longer gives its kernel.
+        """
+        matrix, inputs, outputs = (np.atleast_2d(np.asarray(item, dtype=float)) for item in (a, b, c))
+        size = outputs.shape[0]
+        if matrix.size == 0:
+            return cls.none(size)
+        poles, vectors = np.linalg.eig(matrix)
+        modal_inputs = np.linalg.solve(vectors, inputs.astype(np.complex128))
+        modal_outputs = outputs @ vectors
+        spread = float(np.linalg.cond(vectors))
+        size_of = float(np.max(np.abs(outputs)) * np.max(np.abs(inputs))) or 1.0
+        lost = float(np.max(np.abs((modal_outputs @ modal_inputs).real - outputs @ inputs))) / size_of
+        if not lost <= tolerance or spread * np.finfo(float).eps > tolerance:
+            raise ConvergenceError(
+                f"the memory's state-space model has no usable modal form (eigenvectors of condition {spread:.2g})",
+                remedy="fit with fewer states, or use the convolution",
+            )
+        keep = poles.imag >= 0.0
+        factor = np.where(poles[keep].imag > 0.0, 2.0, 1.0)
+        dashpot = np.zeros((size, size)) if feedthrough is None else np.asarray(feedthrough, dtype=float)
+        return cls(
+            np.ascontiguousarray(poles[keep].astype(np.complex128)),
+            np.ascontiguousarray(modal_inputs[keep].astype(np.complex128)),
+            np.ascontiguousarray((modal_outputs[:, keep] * factor).astype(np.complex128)),
+            dashpot,
         )
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array, ComplexArray
+from moyai.core.compiled import njit
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.core.single import plain
@@ -104,8 +105,27 @@ class WaveComponents:
         -------
         float or ndarray, shape (*time.shape, *points.shape)
             Elevation above still water [m]; a float for one instant at one point.
+
+        See Also
+        --------
+        elevation_along : one point for each time.
         """
         return plain(self.respond(self.travel(x, y), time))
+
+    def elevation_along(self, time: ArrayLike, x: ArrayLike, y: ArrayLike) -> Array:
+        """Return the elevation [m] along a track: time [s], x and y [m] broadcast together point by point."""
+        t, px, py = np.broadcast_arrays(*(np.asarray(item, float) for item in (time, x, y)))
+        out = np.empty(t.size)
+        _along_track(
+            self.omega,
+            self.amplitude,
+            self.phase,
+            self.heading,
+            self.wave_number,
+            *(np.ascontiguousarray(item).reshape(-1) for item in (px, py, t)),
+            out,
+        )
+        return out.reshape(t.shape)
 
     def respond(self, transfer: ArrayLike, time: ArrayLike) -> Array:
         """Return the time series of linear responses to this sea.
@@ -276,3 +296,24 @@ class WaveComponents:
         )
         direction = np.stack([np.cos(self.heading), np.sin(self.heading)], axis=-1)
         return np.asarray(drift @ direction)
+
+
+@njit(cache=True, error_model="numpy")
+def _along_track(
+    omega: Array,
+    amplitude: Array,
+    phase: Array,
+    heading: Array,
+    wave_number: Array,
+    x: Array,
+    y: Array,
+    t: Array,
+    out: Array,
+) -> None:
+    cosines, sines = np.cos(heading), np.sin(heading)
+    for n in range(t.size):
+        total = 0.0
+        for i in range(omega.size):
+            along = x[n] * cosines[i] + y[n] * sines[i]
+            total += amplitude[i] * math.cos(wave_number[i] * along - omega[i] * t[n] + phase[i])
+        out[n] = total

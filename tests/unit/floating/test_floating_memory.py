@@ -5,8 +5,33 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from moyai.core.errors import InputError
+from moyai.core.errors import ConvergenceError, InputError
 from moyai.floating.memory import ConvolutionMemory, StateSpaceMemory
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_modal_form_of_a_random_real_model_has_its_kernel(seed: int) -> None:
+    from scipy.linalg import expm
+
+    rng = np.random.default_rng(seed)
+    states, modes = 7, 3
+    a = rng.normal(size=(states, states)) - 4.0 * np.eye(states)
+    b, c = rng.normal(size=(states, modes)), rng.normal(size=(modes, states))
+    memory = StateSpaceMemory.from_matrices(a, b, c, 0.3 * np.eye(modes))
+    for time in (0.0, 0.3, 1.1):
+        assert np.allclose(memory.kernel(time)[0], c @ expm(a * time) @ b, atol=1e-10)
+    omega = 1.7
+    exact = c @ np.linalg.solve(-1j * omega * np.eye(states) - a, b.astype(complex)) + 0.3 * np.eye(modes)
+    assert np.allclose(memory.transfer(omega)[0], exact)
+    assert len(memory.poles) <= states
+
+
+def test_defective_and_growing_models_are_refused() -> None:
+    jordan = np.array([[-1.0, 1.0], [0.0, -1.0]])
+    with pytest.raises((ConvergenceError, np.linalg.LinAlgError)):
+        StateSpaceMemory.from_matrices(jordan, np.array([[0.0], [1.0]]), np.array([[1.0, 0.0]]))
+    with pytest.raises(InputError, match="grows"):
+        StateSpaceMemory.from_matrices([[0.1]], [[1.0]], [[1.0]])
 
 
 def test_truncation_keeps_the_damping_of_zero_frequency() -> None:

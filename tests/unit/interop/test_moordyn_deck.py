@@ -3,6 +3,7 @@
 import pytest
 
 from moyai.core.errors import CaseError, InputError
+from moyai.interop.moordyn_output import read_output
 from moyai.interop.moordyn_reader import read_deck
 from moyai.interop.moordyn_records import StiffnessTable
 
@@ -246,3 +247,30 @@ def test_current_profile(tmp_path):
     written(tmp_path, f"{head}-40 0.1 0 0\n0 0.5 0.2 0.3\n", "current_profile.txt")
     fault = faults_of(tmp_path, text)[0]
     assert (fault.file, fault.line) == ("current_profile.txt", 5) and "vertical current" in fault.message
+
+
+def test_output_in_si_units(tmp_path):
+    output = read_output(
+        written(tmp_path, "Time FairTen1 Point2px Rod1Roll\n(s) (kN) (m) (deg)\n0.0 1.5 2.0 180\n0.5 2.5 2.1 90\n")
+    )
+    assert list(output.time) == [0.0, 0.5]
+    assert list(output.channel("fairten1")) == [1500.0, 2500.0]
+    assert output.channel("Rod1Roll")[0] == pytest.approx(3.141592653589793)
+    with pytest.raises(InputError, match="FairTen1, Point2px"):
+        output.channel("FairTen2")
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("Time A\n(s) (N)\n0 1\n1\n", ":4: 1 columns"),
+        ("Time A\n(s) (N)\n0 1\n1 x\n", ":4: 2 columns, 1 of them"),
+        ("Time A A\n(s) (N) (N)\n0 1 2\n", "stands twice"),
+        ("Time A\n(s) (stone)\n0 1\n", "unit 'stone'"),
+        ("0 1\n1 2\n", "starts with Time"),
+        ("Time A\n(s) (N)\n", "no rows"),
+    ],
+)
+def test_faulty_output(tmp_path, text, words):
+    with pytest.raises(InputError, match=words):
+        read_output(written(tmp_path, text))

@@ -116,7 +116,7 @@ def test_rayleigh_amplitudes_have_the_spectrum_as_their_mean():
     np.testing.assert_array_equal(random.phase, plain.phase)
 
 
-def test_the_ways_to_sum_agree():
+def test_three_ways_to_sum_agree():
     sea = irregular.synthesise(
         spectra.jonswap(2.0, 8.0, 3.3), WATER, duration=1200.0, time_step=0.2, seed=4, heading=0.4
     )
@@ -126,8 +126,10 @@ def test_the_ways_to_sum_agree():
     recurrence = apart.elevation(time, 12.0, -5.0)
     shuffled = time[::-1].copy()
     direct = apart.elevation(shuffled, 12.0, -5.0)[::-1]
+    track = apart.elevation_along(time, 12.0, -5.0)
     np.testing.assert_allclose(recurrence, fourier, atol=1e-10)
     np.testing.assert_allclose(direct, fourier, atol=1e-10)
+    np.testing.assert_allclose(track, fourier, atol=1e-10)
     assert time_sum.uniform_step(time) == pytest.approx(0.2)
     assert time_sum.uniform_step(shuffled) is None
     assert time_sum.uniform_step(np.concatenate([time, [time[-1] + 0.1]])) is None
@@ -139,6 +141,8 @@ def test_shapes_are_times_by_points():
     assert sea.elevation(np.zeros((2, 3)), np.zeros(4), 1.0).shape == (2, 3, 4)
     assert sea.velocity(np.zeros(2), np.zeros((4, 1)), np.zeros(5), -1.0).shape == (2, 4, 5, 3)
     assert sea.stokes_drift(np.array([0.0, -3.0])).shape == (2, 2)
+    track = sea.elevation_along(np.array([0.0, 1.0]), np.array([0.0, 5.0]), 0.0)
+    np.testing.assert_allclose(track[1], sea.elevation(1.0, 5.0), atol=1e-12)
 
 
 def test_responses_and_envelope():
