@@ -49,11 +49,11 @@ def governing_load(row: Row, roles: Iterable[ModelRole]) -> dict[str, float | st
         return {"governing_load": math.nan, "governing": "", "load_bound": ""}
     # what dips for an instant comes up again: floats are judged at rest
     added = {} if row["component"] == "float" else {"wave": row["wave_load"], "impact": row["impact_load"]}
-    what, more = max(
-        ((name, float(value)) for name, value in added.items() if float(value) > 0.0),
-        key=lambda item: item[1],
-        default=("", 0.0),
-    )
+    counted = {name: float(value) for name, value in added.items() if float(value) > 0.0}
+    if "impact" in counted and role_of(known, model_of(str(row["impact_source"]))) == "bound":
+        # a bound stands at its upper end, whatever a value comes to
+        counted["impact"] = max(counted["impact"], float(row.get("impact_high", counted["impact"])))
+    what, more = max(counted.items(), key=lambda item: item[1], default=("", 0.0))
     # a snap that is run and loads the component in a way that the data do not tell leaves a bound from below
     missing = "at least" if any(math.isnan(float(value)) for value in added.values()) else ""
     if not what:

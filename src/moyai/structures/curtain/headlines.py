@@ -21,6 +21,7 @@ from moyai.structures.curtain.analyses.event_peaks import (
 from moyai.structures.curtain.governing import WEAKER, model_of
 from moyai.structures.curtain.hierarchy import CYCLES, SPAN, STATICS
 from moyai.structures.curtain.limit_headlines import REMEDY, limit_headlines
+from moyai.structures.curtain.seas.anchor_energy import ENERGY_FACTORS
 from moyai.structures.curtain.seas.cycles_of_sea import SeaCycles
 from moyai.structures.curtain.steady_headlines import (
     Groups,
@@ -49,8 +50,6 @@ _STEADY_NAMES = {
     "upper cable": "upper_tension", "lower cable": "lower_tension", "skirt": "sheet_tension",
     "anchor line": "anchor_line_tension", "anchor": "anchor_force",
 }  # fmt: skip
-#: Energy factors that fitted the measured anchor lines of the field and of the flume [-]
-ENERGY_FACTORS = (0.2, 0.5)
 _NOT_JUDGED = Headline(
     "not_judged", "Not judged", math.nan, "1", text="wear and fatigue, one line lost, seams and eyelets",
     detail="ageing, fouling and fatigue of the sheet and its ropes, a curtain with one anchor line lost, stress at "
@@ -403,13 +402,15 @@ def _band(groups: Groups, load: _Load) -> Band | None:
 
 def _impact_band(groups: Groups, load: _Load) -> Band | None:
     """Return what the bands of the steady part and of the impact make of their sum."""
-    steady = _steady_band(groups, load)
+    steady, reached = _steady_band(groups, load), load.number("governing_high")
     low, high = (load.number(f"impact_{end}") + load.number(f"steady_{end}") for end in ("low", "high"))
-    if steady is None or not (math.isfinite(low) and math.isfinite(high)):
+    if not (math.isfinite(low) and math.isfinite(high)):
         return None
+    high = max(high, reached if math.isfinite(reached) else high)
     of = "impact: the models that count, start speed over drag and place of release"
     value = load.value
-    return Band(min(low, value), max(high, value), f"{of}; steady part: {steady.of}")
+    of += "" if steady is None else f"; steady part: {steady.of}"
+    return Band(min(low, value), max(high, value), of)
 
 
 def _moving_band(groups: Groups, load: _Load, value: float) -> Band | None:
@@ -489,7 +490,11 @@ def _energy_band(groups: Groups, load: _Load) -> Band | None:
     rise = wave / slope
     energy = rise * (rise + 2.0 * held)
     ends = [steady + slope * (math.hypot(held, math.sqrt(energy * m / given)) - held) for m in ENERGY_FACTORS]
-    return Band(min(whole, *ends), max(whole, *ends), "energy factor 0.2 (field) to 0.5 (flume)")
+    # upper end of the steady part, and of what else governs
+    more, reached = load.number("steady_high") - steady, load.number("governing_high")
+    high = max(whole, *ends) + (more if math.isfinite(more) else 0.0)
+    of = "energy factor 0.2 (field) to 0.5 (flume)"
+    return Band(min(whole, *ends), max(high, reached if math.isfinite(reached) else 0.0), of)
 
 
 def _period_peaks(run: xr.Dataset, row: int) -> NDArray[np.float64]:

@@ -126,17 +126,17 @@ def _level_steps(
     if "waves" in settings.analyses:
         for sea in seas:
             found = wave_answer(unit, settings, sea, progress)
-            # a bound is the upper end of what it varies with: a mean bounds nothing
-            bounds = role_of(roles, CYCLES) == "bound"
-            if not (bounds or unit.nominal):
+            if not unit.nominal:
                 found = with_strong_drag(unit, settings, sea, found)
             for name, data in found.groups.items():
                 collected.groups[f"{root}/waves/{sea.name}" + (f"/{name}" if name else "")] = data
             plate.extend(_numbered(collected, found.notices))
             cycles = SeaCycles.of(found.groups[""])
             strong[sea.name] = cycles.of_strong_drag
-            top = found.highest_tension if bounds else found.maximum_tension
-            oscillator.append((sea.name, top, top if bounds else cycles.judged))
+            # a bound is the upper end of what it varies with: a mean bounds nothing
+            bounds = role_of(roles, CYCLES) == "bound"
+            top = max(found.highest_tension, cycles.judged) if bounds else found.maximum_tension
+            oscillator.append((sea.name, top, max(top, cycles.judged)))
             yield
     if "anchor_loads" in settings.analyses and settings.anchor_loads is not None and waves:
         loads = anchor_dataset(unit, settings.anchor_loads, settings.limits, waves)

@@ -24,6 +24,7 @@ from moyai.structures.curtain.limits.loads import fastest_water, impact_load, se
 from moyai.structures.curtain.limits.search import Limit
 from moyai.structures.curtain.limits.utilisation import AddedLoads, height_limit, speed_limit, utilisation
 from moyai.structures.curtain.model import CurtainSettings
+from moyai.structures.curtain.seas.anchor_energy import ENERGY_FACTORS
 from moyai.structures.curtain.seas.loads import DragCurve, SeaLoads
 from moyai.structures.curtain.statics.hanging import CurtainStatics
 from moyai.structures.curtain.statics.steady_load import drag_factors
@@ -151,7 +152,10 @@ def _severe(unit: LevelCurtain, loads: SeaLoads) -> SeaLoads:
     impact = loads.impact
     if impact is not None:
         impact = replace(impact, factor=max(impact.uncertainty[1], 1.0) * impact.factor)
-    return replace(loads, impact=impact, judged=True, steady_factors=_steady_factors(unit))
+    energy = loads.energy
+    if energy is not None:
+        energy = replace(energy, energy_factor=max(energy.energy_factor, *ENERGY_FACTORS))
+    return replace(loads, impact=impact, judged=True, energy=energy, steady_factors=_steady_factors(unit))
 
 
 def _steady_factors(unit: LevelCurtain) -> AddedLoads | None:
@@ -338,6 +342,9 @@ def _design_height(
         rows.append(counted.height(own))
     # where several are alike, the one nearest to the current of the case
     limit, bound = min(reversed(rows), key=lambda row: row[0].value)
+    if not bound and any(other == "at least" for _, other in rows):
+        # in another current the height is not known: it may be less
+        bound = "at most"
     data["design_limit_height"] = ((), limit.value)
     return {
         "design_limit_governing": limit.governing,

@@ -113,7 +113,8 @@ def loads_dataset(
         ends = (1.0, 1.0) if answer is None else answer.uncertainty
         row = _row(unit, component, steady, wave, (hit, ends[0] * hit, ends[1] * hit), best.source, name)
         alike = role_of(roles, model_of(best.source))
-        highs = [getattr(one.high, field) for one in sources if role_of(roles, model_of(one.source)) == alike]
+        counted = (alike, "governs")
+        highs = [getattr(one.high, field) for one in sources if role_of(roles, model_of(one.source)) in counted]
         row["wave_high"] = max([wave, *(factor * high for high in highs)])
         # what another model makes of waves may be judged at a higher end
         others = [item for item in sources if model_of(item.source) != model_of(best.source)]
@@ -260,7 +261,7 @@ def _with_joint(
     for row in rows:
         if row["component"] != "joint":
             continue
-        if any(cable["governing"] == "dynamic" for cable in cables) and _without_snap(row):
+        if any(cable.get("case_governing", cable["governing"]) == "dynamic" for cable in cables) and _without_snap(row):
             alone = any(cable["load_bound"] == "at least" or cable["component"] in open_lines for cable in cables)
             row["governing_load"] = row["governing_high"] = math.nan if alone else math.inf
             row["load_bound"] = "" if alone else "at most"
@@ -292,9 +293,9 @@ def _highest_end(row: Mapping[str, float | str]) -> float:
 
 
 def _without_snap(row: dict[str, float | str]) -> bool:
-    """Whether the load of a row is that of the current or of a drag under the crest."""
-    what = str(row["governing"]).rpartition(" ")[2]
-    return what == "steady" or (what == "wave" and model_of(str(row["wave_source"])) == CREST)
+    """Whether the load of a row knows no snap in waves: that of the current, an impact in it, drag under a crest."""
+    what = str(row.get("case_governing", row["governing"])).rpartition(" ")[2]
+    return what in ("steady", "impact") or (what == "wave" and model_of(str(row["wave_source"])) == CREST)
 
 
 def _wave_sources(

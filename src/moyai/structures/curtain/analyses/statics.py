@@ -380,7 +380,9 @@ def _section_miss(unit: LevelCurtain, current: CurrentProfile) -> float:
 
 def _float_miss(statics: CurtainStatics) -> float:
     curtain = statics.curtain
-    lines = max(statics.anchor_line_tension, curtain.pretension) * math.sin(curtain.anchor_slope) / curtain.span
+    tight = max(statics.anchor_line_tension, curtain.pretension)
+    lee = tight - statics.anchor_line_tension
+    lines = (tight + lee) * math.sin(curtain.anchor_slope) / curtain.span
     total = curtain.floats.weight + statics.section.top_pull + lines + statics.float_reserve
     return abs(total / curtain.floats.buoyancy - 1.0)
 

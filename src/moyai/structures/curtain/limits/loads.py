@@ -26,6 +26,7 @@ from moyai.structures.curtain.seas.loads import DragCurve, ImpactLoad, SeaLoads
 from moyai.structures.curtain.seas.squared_velocity import effective_height, squared_velocity
 from moyai.structures.curtain.seas.states import DesignWave
 from moyai.structures.curtain.snaps.snap_table import SnapTable
+from moyai.structures.curtain.statics.steady_load import drag_factors
 
 #: Without impact at a standstill the start speed keeps this ratio to the water's [-]
 _PAPER_RATIO = 1.0
@@ -180,6 +181,7 @@ def sea_loads(
         if answer is None
         else (_snaps(unit, settings, answer, lasting), impact_load(unit, answer, settings)),
         strong_drag=strong_drag,
+        strong_crest=1.0 if unit.nominal else drag_factors(unit.hanging.drag)[1],
     )
 
 

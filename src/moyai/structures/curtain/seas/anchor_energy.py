@@ -27,6 +27,10 @@ FITTING_RULES: tuple[FittingRule, ...] = ("mean_zero", "least_relative_error", "
 _SOURCE = "Tabata et al., equations (3) to (5)"
 
 
+#: Energy factors that fitted the measured anchor lines of the field and of the flume [-]
+ENERGY_FACTORS = (0.2, 0.5)
+
+
 @dataclass(frozen=True)
 class EnergyModel:
     """Float on an anchor rope that turns its speed into stretch."""

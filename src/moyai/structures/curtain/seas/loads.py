@@ -201,6 +201,8 @@ class SeaLoads:
     judged: bool = False
     #: What the upper end of the drag coefficient makes of that end [-].
     strong_drag: float = 1.0
+    #: What it makes of the drag under the crest [-].
+    strong_crest: float = 1.0
     #: Whether they count at that end as other seeds may give it.
     other_seeds: bool = False
     #: Whether snaps are those of the heights that were run already: at least so much above them.
@@ -222,7 +224,7 @@ class SeaLoads:
         if significant_height <= 0.0:
             return AddedLoads()
         moving, current = self.water_speed(significant_height, speed, water), self.normal_ratio * speed
-        found = increase(self.drag.at(moving), statics)
+        found = increase(self.drag.at(moving), statics).times(self.strong_crest if self.judged else 1.0)
         if self.snaps is not None:
             table, proportions = self.snaps
             tension = table.tension(

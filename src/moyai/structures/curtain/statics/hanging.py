@@ -182,9 +182,12 @@ def solve_statics(
 
 
 def pull_of_lines(curtain: HangingCurtain, anchor_force: float) -> float:
-    """Return the downward pull of the anchor lines on the floats [N/m], by the force on an anchor or the pretension."""
-    slope = curtain.anchor_slope
-    return max(anchor_force * math.tan(slope), curtain.pretension * math.sin(slope)) / curtain.span
+    """Return the downward pull of the anchor lines on the floats [N/m] by the force of the current on an anchor [N].
+
+    Where the pretension is more than the line needs, a line on the other side bears the rest and pulls as well.
+    """
+    needed = anchor_force / math.cos(curtain.anchor_slope)
+    return (needed + 2.0 * max(curtain.pretension - needed, 0.0)) * math.sin(curtain.anchor_slope) / curtain.span
 
 
 def supported(
