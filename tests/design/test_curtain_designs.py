@@ -27,6 +27,7 @@ from moyai.structures.curtain.analyses.impact import solve_impact
 from moyai.structures.curtain.analyses.limits import impact_load
 from moyai.structures.curtain.analyses.loads import loads_dataset
 from moyai.structures.curtain.assembly import assemble
+from moyai.structures.curtain.seas.cycles_of_sea import SeaCycles
 from moyai.structures.curtain.seas.loads import drag_curve
 
 GRAVITY, STEEL, SEA = 9.81, 7850.0, 1025.0
@@ -300,13 +301,17 @@ def test_daily_waves_do_not_count_the_release(designs, tmp_path: Path) -> None:
     storm = result.tree["/SWL/waves/storm"].to_dataset()
     assert float(storm["maximum_tension"]) > numbers[0].max()
     cable = headline(late, "cable_tension")
-    seas = [float(late.tree[f"/SWL/waves/{name}"]["maximum_tension"].max()) for name in ("daily", "storm")]
+    # the end at which a sea is judged: one realisation has no scatter, the drag is at the upper end of its range
+    seas = [
+        SeaCycles.of(late.tree[f"/SWL/waves/{name}"].to_dataset(inherit=False)).judged for name in ("daily", "storm")
+    ]
     # the upper cable alone; the table holds the share of the lower one too, a 1e-6 of its EA where the toe is free;
     # as a bound it stands at the upper end of the steady part
     row = late.tree["/SWL/loads"].to_dataset().sel(component="upper cable")
     more = float(row["steady_high"] - row["steady_load"])
     assert cable.bound == "at most" and 0.0 < more < 0.02 * cable.value
-    assert cable.value == pytest.approx(max(seas) + more, rel=1e-5) and "storm" in cable.where
+    assert cable.value == pytest.approx(max(seas) + more, rel=1e-5)
+    assert ("daily", "storm")[int(np.argmax(seas))] in cable.where
 
 
 @pytest.mark.slow
@@ -332,7 +337,7 @@ def test_the_whole_span_gives_the_peaks_of_a_snap_by_default(designs, tmp_path: 
 
 
 def test_bounds_are_one_number_at_the_upper_end(designs) -> None:
-    """A bound is that of the worst realisation: it has no mean next to it and no band."""
+    """A bound is no less than the worst realisation, nor than the end at which the mean of them is judged."""
     _, result = designs("strong current")
     for found in result.headlines:
         if found.bound == "at most":
@@ -341,7 +346,8 @@ def test_bounds_are_one_number_at_the_upper_end(designs) -> None:
     storm = result.tree["/SWL/waves/storm"].to_dataset()
     top, high = float(storm["maximum_tension"]), float(storm["maximum_tension_high"])
     added = float(loads["wave_load"]) + float(loads["steady_load"])
-    assert high > top and added == pytest.approx(high, rel=0.02)
+    judged = SeaCycles.of(storm).judged
+    assert high > top and added == pytest.approx(max(high, judged), rel=1e-3)
 
 
 @pytest.mark.parametrize("name", FREE)
