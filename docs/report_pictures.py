@@ -83,8 +83,10 @@ def measured(kind: str, folder: str, file: str) -> Callable[[], Any]:
         with elsewhere() as place:
             shutil.copytree(ROOT / "examples" / folder, place / "example")
             with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
-                with mock.patch.object(sys, "argv", ["make_records.py"]):
-                    runpy.run_path(str(place / "example" / "make_records.py"), run_name="__main__")
+                # as Python does for a script: its folder stands first in the path
+                here = str(place / "example")
+                with mock.patch.object(sys, "argv", ["make_records.py"]), mock.patch("sys.path", [here, *sys.path]):
+                    runpy.run_path(f"{here}/make_records.py", run_name="__main__")
                 code = app(["measure", kind, str(place / "example" / file), "-o", "out"], standalone_mode=False)
             if code:
                 raise RuntimeError(f"moyai measure {kind} of the example ends with {code}")
