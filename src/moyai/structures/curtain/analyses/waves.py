@@ -84,10 +84,15 @@ def wave_answer(unit: LevelCurtain, settings: CurtainSettings, sea: SeaState, pr
 
 
 def with_strong_drag(unit: LevelCurtain, settings: CurtainSettings, sea: SeaState, found: WaveAnswer) -> WaveAnswer:
-    """Return the answer with the judged tension that the upper end of the drag coefficient gives [N]."""
+    """Return the answer with the judged tension that the upper end of the drag coefficient gives [N].
+
+    Both ends of the drag coefficient run the same waves: the ratio of their tensions hardly knows which seeds they are.
+    """
     factor = drag_factors(unit.hanging.drag)[1]
     strong = replace(unit, hanging=replace(unit.hanging, drag=unit.hanging.drag.scaled(factor)))
-    judged = SeaCycles.of(wave_answer(strong, settings, sea, silent).groups[""]).judged
+    own = SeaCycles.of(found.groups[""])
+    high = SeaCycles.of(wave_answer(strong, settings, sea, silent).groups[""])
+    judged = own.judged * high.top / own.top if own.top > 0.0 else high.judged
     table = labelled(found.groups[""].assign(strong_drag_tension=judged))
     return replace(found, groups={**found.groups, "": table})
 
