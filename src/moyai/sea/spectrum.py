@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from functools import partial
+from functools import cached_property, partial
 from types import MappingProxyType
 from typing import Any
 
@@ -230,7 +230,7 @@ class Spectrum:
         """Significant height H_m0 = 4 sqrt(m_0) [m]."""
         return 4.0 * math.sqrt(self.moment(0))
 
-    @property
+    @cached_property
     def peak_omega(self) -> float:
         """Frequency of the largest density [rad/s]: of the formula, or the largest entry of a table."""
         if not self.shapes:

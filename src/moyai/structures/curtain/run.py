@@ -21,7 +21,7 @@ from moyai.structures.curtain.analyses.record import record_dataset, record_rati
 from moyai.structures.curtain.analyses.rose import rose_dataset
 from moyai.structures.curtain.analyses.span_peaks import peaks_wanted, span_peaks
 from moyai.structures.curtain.analyses.statics import require_current, statics_checks, statics_groups, statics_notices
-from moyai.structures.curtain.analyses.waves import wave_answer, with_strong_drag
+from moyai.structures.curtain.analyses.waves import still_flows, wave_answer, with_strong_drag
 from moyai.structures.curtain.analyses.weaker_currents import weaker_waves
 from moyai.structures.curtain.assembly import LevelCurtain, assemble
 from moyai.structures.curtain.headlines import curtain_headlines
@@ -31,6 +31,7 @@ from moyai.structures.curtain.model import CurtainProblem
 from moyai.structures.curtain.seas.cycles_of_sea import SeaCycles
 from moyai.structures.curtain.seas.loads import drag_curve
 from moyai.structures.curtain.seas.states import DesignWave, design_waves, longest_sea, significant_height
+from moyai.structures.curtain.snaps.flow import SkirtFlow
 from moyai.structures.curtain.variables import VOCABULARY
 
 if TYPE_CHECKING:
@@ -123,11 +124,13 @@ def _level_steps(
         yield
     oscillator: list[tuple[str, float, float]] = []
     strong: dict[str, float] = {}
+    flows: dict[str, tuple[SkirtFlow, ...]] = {}
     if "waves" in settings.analyses:
+        flows = {sea.name: still_flows(unit, settings.waves, sea) for sea in seas}
         for sea in seas:
-            found = wave_answer(unit, settings, sea, progress)
+            found = wave_answer(unit, settings, sea, progress, flows[sea.name])
             if not unit.nominal:
-                found = with_strong_drag(unit, settings, sea, found)
+                found = with_strong_drag(unit, settings, sea, found, flows[sea.name])
             for name, data in found.groups.items():
                 collected.groups[f"{root}/waves/{sea.name}" + (f"/{name}" if name else "")] = data
             plate.extend(_numbered(collected, found.notices))
@@ -144,7 +147,7 @@ def _level_steps(
         collected.checks.extend(anchor_checks(unit, loads))
         collected.notices.extend(anchor_notices(unit, settings.anchor_loads, waves))
         yield
-    weaker = weaker_waves(unit, settings, seas, progress, strong) if "waves" in settings.analyses else None
+    weaker = weaker_waves(unit, settings, seas, progress, strong, flows) if "waves" in settings.analyses else None
     if weaker is not None:
         collected.groups[f"{root}/weaker_currents"] = weaker
         yield

@@ -11,12 +11,11 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
-from moyai.core.progress import Progress, silent
+from moyai.core.progress import Progress
 from moyai.core.validity import Notice
 from moyai.core.wording import spoken
 from moyai.sea import dispersion
 from moyai.sea.breaking import linear_wavelength
-from moyai.sea.components import WaveComponents
 from moyai.sea.states import IrregularSea, RegularSea, SeaState
 from moyai.series.snap_statistics import SnapFit, fit_snaps
 from moyai.structures.curtain.analyses.impact import drag_coefficient, impact_of
@@ -59,7 +58,13 @@ class WaveAnswer:
     notices: tuple[Notice, ...]
 
 
-def wave_answer(unit: LevelCurtain, settings: CurtainSettings, sea: SeaState, progress: Progress) -> WaveAnswer:
+def wave_answer(
+    unit: LevelCurtain,
+    settings: CurtainSettings,
+    sea: SeaState,
+    progress: Progress,
+    flows: Sequence[SkirtFlow] = (),
+) -> WaveAnswer:
     """Run the slack and taut curtain through a sea state.
 
     Parameters
@@ -68,6 +73,8 @@ def wave_answer(unit: LevelCurtain, settings: CurtainSettings, sea: SeaState, pr
     settings : Settings
     sea : RegularSea or IrregularSea
     progress : Progress
+    flows : sequence of SkirtFlow, optional
+        What :func:`still_flows` gives for the sea, where it is known.
 
     Raises
     ------
@@ -78,12 +85,38 @@ def wave_answer(unit: LevelCurtain, settings: CurtainSettings, sea: SeaState, pr
     if isinstance(sea, RegularSea):
         return _regular(unit, settings.waves, sea, impact, progress)
     progress(f"slack and taut, {sea.name}", 0, 1)
-    answer = _irregular(unit, settings.waves, sea, impact)
+    answer = _irregular(unit, settings.waves, sea, impact, flows or still_flows(unit, settings.waves, sea))
     progress(f"slack and taut, {sea.name}", 1, 1)
     return answer
 
 
-def with_strong_drag(unit: LevelCurtain, settings: CurtainSettings, sea: SeaState, found: WaveAnswer) -> WaveAnswer:
+def sea_cycles(
+    unit: LevelCurtain, settings: CurtainSettings, sea: SeaState, flows: Sequence[SkirtFlow] = ()
+) -> SeaCycles:
+    """Return what :func:`wave_answer` says of the tension in a sea, without its series and the law of its snaps.
+
+    Parameters
+    ----------
+    unit, settings, sea
+        As there.
+    flows : sequence of SkirtFlow, optional
+        What :func:`still_flows` gives for the sea, where it is known.
+    """
+    import xarray as xr
+
+    impact = impact_of(unit, settings.impact, unit.normal_speed or _NO_SPEED)
+    if isinstance(sea, RegularSea):
+        rows = [_settled(unit, settings.waves, sea, period, impact)[-1] for period in sea.periods]
+        return SeaCycles.of(xr.Dataset({name: ("period", [row[name] for row in rows]) for name in rows[0]}))
+    drawn = realisations(sea, settings.waves.realisations)
+    flows = flows or still_flows(unit, settings.waves, sea)
+    snaps = [realisation(unit, settings.waves, one, impact, flow) for one, flow in zip(drawn, flows, strict=True)]
+    return SeaCycles.of(xr.Dataset(_tops(np.array([largest_tension(found, left_out(sea)) for found in snaps]))))
+
+
+def with_strong_drag(
+    unit: LevelCurtain, settings: CurtainSettings, sea: SeaState, found: WaveAnswer, flows: Sequence[SkirtFlow] = ()
+) -> WaveAnswer:
     """Return the answer with the judged tension that the upper end of the drag coefficient gives [N].
 
     Both ends of the drag coefficient run the same waves: the ratio of their tensions hardly knows which seeds they are.
@@ -91,7 +124,7 @@ def with_strong_drag(unit: LevelCurtain, settings: CurtainSettings, sea: SeaStat
     factor = drag_factors(unit.hanging.drag)[1]
     strong = replace(unit, hanging=replace(unit.hanging, drag=unit.hanging.drag.scaled(factor)))
     own = SeaCycles.of(found.groups[""])
-    high = SeaCycles.of(wave_answer(strong, settings, sea, silent).groups[""])
+    high = sea_cycles(strong, settings, sea, flows)
     judged = own.judged * high.top / own.top if own.top > 0.0 else high.judged
     table = labelled(found.groups[""].assign(strong_drag_tension=judged))
     return replace(found, groups={**found.groups, "": table})
@@ -117,31 +150,12 @@ def _regular(
     rows: list[dict[str, float]] = []
     groups: dict[str, xr.Dataset] = {}
     notices: list[Notice] = []
-    drag = drag_coefficient(unit, impact.draught)
     for index, period in enumerate(sea.periods):
         progress(f"slack and taut, {sea.name}", index, len(sea.periods))
         amplitude = velocity_amplitude(unit, sea, period, settings)
-        found, *lower = (
-            settled_cycles(
-                impact,
-                drag_coefficient=drag,
-                current=unit.normal_speed,
-                velocity_amplitude=part * amplitude,
-                period=period,
-                least_settled=settings.settled_periods,
-                least_analysed=settings.analysed_periods,
-                time_step=settings.time_step,
-            )
-            for part in (1.0, *_LOWER)
-        )
+        found, ends = _settled(unit, settings, sea, period, impact)
         counted = [c for c in found.motion.contacts if c.time >= found.begin and abs(c.speed) >= settings.slowest]
-        rows.append(_row(impact, found, counted, amplitude))
-        tensions = [item.tension for item in lower]
-        rows[-1] |= {
-            "lower_wave_tension": max(tensions),
-            "lower_wave_height": _LOWER[int(np.argmax(tensions))] * sea.height,
-            "judged_tension": max(item.judged for item in (found, *lower)),
-        }
+        rows.append(ends | _row(impact, found, counted, amplitude))
         groups[f"T {period:g} s"] = _series(
             found.motion,
             counted,
@@ -163,6 +177,36 @@ def _regular(
     return WaveAnswer(groups, top, max(top, *(row["maximum_tension_high"] for row in rows)), tuple(notices))
 
 
+def _settled(
+    unit: LevelCurtain, settings: WaveSettings, sea: RegularSea, period: float, impact: Impact
+) -> tuple[SettledCycles, dict[str, float]]:
+    """Run a period at its height and at lower ones; return the former, and what :class:`SeaCycles` reads of all."""
+    amplitude, drag = velocity_amplitude(unit, sea, period, settings), drag_coefficient(unit, impact.draught)
+    found, *lower = (
+        settled_cycles(
+            impact,
+            drag_coefficient=drag,
+            current=unit.normal_speed,
+            velocity_amplitude=part * amplitude,
+            period=period,
+            least_settled=settings.settled_periods,
+            least_analysed=settings.analysed_periods,
+            time_step=settings.time_step,
+        )
+        for part in (1.0, *_LOWER)
+    )
+    low, high = found.scatter
+    tensions = [item.tension for item in lower]
+    return found, {
+        "maximum_tension": found.tension,
+        "maximum_tension_low": low,
+        "maximum_tension_high": high,
+        "lower_wave_tension": max(tensions),
+        "lower_wave_height": _LOWER[int(np.argmax(tensions))] * sea.height,
+        "judged_tension": max(item.judged for item in (found, *lower)),
+    }
+
+
 def _shown(found: SettledCycles) -> tuple[float, float]:
     """Return the stretch that is kept: six periods, or one repetition, about the period whose peak is the number."""
     width = max(6, found.multiple)
@@ -176,14 +220,10 @@ def _row(impact: Impact, found: SettledCycles, contacts: list[CableContact], amp
     largest = max(first, key=lambda contact: contact.tension, default=None)
     tension = found.motion.tension[found.motion.time >= found.begin]
     factor = float(speed_factor(impact.span_ratio)) * math.sqrt(impact.deep_mass * impact.stiffness)
-    low, high = found.scatter
     return {
         "velocity_amplitude": amplitude,
         "excursion": amplitude * found.period / math.pi,
         "threshold_excursion": 2.0 * slack_sag(impact),
-        "maximum_tension": found.tension,
-        "maximum_tension_low": low,
-        "maximum_tension_high": high,
         "mean_tension": float(tension.mean()),
         "first_contact_tension": found.of_contacts(first),
         "later_contact_tension": found.of_contacts(contact for contact in contacts if not contact.first),
@@ -256,15 +296,16 @@ def left_out(sea: IrregularSea) -> float:
     return min(_TRANSIENT * sea.spectrum.peak_period, 0.2 * sea.duration)
 
 
-def _irregular(unit: LevelCurtain, settings: WaveSettings, sea: IrregularSea, impact: Impact) -> WaveAnswer:
+def _irregular(
+    unit: LevelCurtain, settings: WaveSettings, sea: IrregularSea, impact: Impact, flows: Sequence[SkirtFlow]
+) -> WaveAnswer:
     """Run several realisations of a sea: their mean largest tension counts, and all their snaps make the law."""
     import xarray as xr
 
     peak = sea.spectrum.peak_period
     transient = left_out(sea)
-    drawn = [replace(sea, seed=sea.seed + number) for number in range(settings.realisations)]
-    runs = [realisation(unit, settings, one, impact, waves_of(unit, settings, one)) for one in drawn]
-    snaps = [found for found, _ in runs]
+    drawn = realisations(sea, settings.realisations)
+    snaps = [realisation(unit, settings, one, impact, flow) for one, flow in zip(drawn, flows, strict=True)]
     tops = np.array([largest_tension(found, transient) for found in snaps])
     tensions = np.concatenate([found.snap_tension for found in snaps])
     hours = sum(found.hours for found in snaps)
@@ -274,9 +315,6 @@ def _irregular(unit: LevelCurtain, settings: WaveSettings, sea: IrregularSea, im
     later = np.array([found.later_tension.max() if found.later_tension.size else 0.0 for found in snaps])
     scalars = {
         "significant_height": sea.spectrum.significant_height,
-        "maximum_tension": float(tops.mean()),
-        "maximum_tension_low": float(tops.min()),
-        "maximum_tension_high": float(tops.max()),
         "realisations": float(tops.size),
         "mean_tension": float(
             np.mean([found.motion.tension[found.motion.time >= transient].mean() for found in snaps])
@@ -294,19 +332,18 @@ def _irregular(unit: LevelCurtain, settings: WaveSettings, sea: IrregularSea, im
         "left_out": transient,
         **_maximum(fit, settings.hours),
     }
-    data: dict[str, Any] = {name: ((), value) for name, value in scalars.items()}
+    data: dict[str, Any] = {name: ((), value) for name, value in scalars.items()} | _tops(tops)
     data["contact_tension_sorted"] = ("snap", peaks)
     data["exceedance"] = ("snap", np.arange(1, peaks.size + 1) / (peaks.size + 1.0))
     fitted = np.full(peaks.size, math.nan) if fit is None else fit.exceedance(peaks)
     data["fitted_exceedance"] = ("snap", fitted)
-    data["realisation_tension"] = ("seed", tops)
     across = math.asin(abs(math.sin(sea.heading - unit.curtain.normal)))
     attrs = {
         "kind": "irregular", "law": settings.law, "seed": sea.seed, "peak_period": peak, "angle_from_normal": across,
     }  # fmt: skip
     # shown is the realisation whose largest tension is nearest to the mean
     typical = int(np.argmin(np.abs(tops - tops.mean())))
-    shown, flow = runs[typical]
+    shown, flow = snaps[typical], flows[typical].in_current(unit.normal_speed)
     after = shown.motion.time >= transient
     top = float(shown.motion.time[after][int(np.argmax(shown.motion.tension[after]))])
     window = (max(top - _WINDOW * peak, transient), top + _WINDOW * peak)
@@ -325,13 +362,35 @@ def _irregular(unit: LevelCurtain, settings: WaveSettings, sea: IrregularSea, im
     return WaveAnswer(groups, float(tops.mean()), float(tops.max()), (*reported, *notices))
 
 
-def waves_of(unit: LevelCurtain, settings: WaveSettings, sea: IrregularSea) -> WaveComponents:
-    """Return the waves of a realisation, whatever the current."""
+def _tops(tops: Array) -> dict[str, Any]:
+    """Return the variables of an irregular sea that :class:`SeaCycles` reads."""
+    return {
+        "maximum_tension": ((), float(tops.mean())),
+        "maximum_tension_low": ((), float(tops.min())),
+        "maximum_tension_high": ((), float(tops.max())),
+        "realisation_tension": ("seed", tops),
+    }
+
+
+def realisations(sea: IrregularSea, count: int) -> tuple[IrregularSea, ...]:
+    """Return a sea with its own seed and those that follow."""
+    return tuple(replace(sea, seed=sea.seed + number) for number in range(count))
+
+
+def still_flows(unit: LevelCurtain, settings: WaveSettings, sea: SeaState) -> tuple[SkirtFlow, ...]:
+    """Return the waves that the skirt feels in every realisation of an irregular sea, without a current."""
+    if isinstance(sea, RegularSea):
+        return ()
+    return tuple(still_flow(unit, settings, one) for one in realisations(sea, settings.realisations))
+
+
+def still_flow(unit: LevelCurtain, settings: WaveSettings, sea: IrregularSea) -> SkirtFlow:
+    """Return the waves that the skirt feels in one realisation, without a current."""
     from moyai.sea.irregular import synthesise
 
     step = _step(settings, sea)
     check_samples(sea.duration, step)
-    return synthesise(
+    waves = synthesise(
         sea.spectrum,
         unit.water,
         duration=sea.duration,
@@ -340,6 +399,17 @@ def waves_of(unit: LevelCurtain, settings: WaveSettings, sea: IrregularSea) -> W
         spreading=sea.spreading,
         time_step=step,
     )
+    return flow_over_skirt(
+        waves,
+        unit.water,
+        draught=unit.depth,
+        normal_heading=unit.curtain.normal,
+        current=0.0,
+        duration=sea.duration,
+        time_step=step,
+        velocity=settings.velocity,
+        span=unit.curtain.span if sea.spreading is not None or _oblique(unit, sea) else 0.0,
+    )
 
 
 def _step(settings: WaveSettings, sea: IrregularSea) -> float:
@@ -347,32 +417,23 @@ def _step(settings: WaveSettings, sea: IrregularSea) -> float:
 
 
 def realisation(
-    unit: LevelCurtain, settings: WaveSettings, sea: IrregularSea, impact: Impact, waves: WaveComponents
-) -> tuple[SeaSnaps, SkirtFlow]:
-    """Run one realisation; it starts just taut downstream where a current holds it there."""
-    flow = flow_over_skirt(
-        waves,
-        unit.water,
-        draught=unit.depth,
-        normal_heading=unit.curtain.normal,
-        current=unit.normal_speed,
-        duration=sea.duration,
-        time_step=_step(settings, sea),
-        velocity=settings.velocity,
-        span=unit.curtain.span if sea.spreading is not None or _oblique(unit, sea) else 0.0,
-    )
+    unit: LevelCurtain, settings: WaveSettings, sea: IrregularSea, impact: Impact, flow: SkirtFlow
+) -> SeaSnaps:
+    """Run one realisation in the waves of :func:`still_flow`.
+
+    It starts just taut downstream where a current holds it there.
+    """
     start = None
     if unit.normal_speed != 0.0:
         start = (math.copysign(slack_sag(impact), unit.normal_speed), 0.0)
-    snaps = snaps_in_sea(
+    return snaps_in_sea(
         impact,
-        flow,
+        flow.in_current(unit.normal_speed),
         drag_coefficient=drag_coefficient(unit, impact.draught),
         slowest=settings.slowest,
         transient=left_out(sea),
         start=start,
     )
-    return snaps, flow
 
 
 def largest_tension(snaps: SeaSnaps, transient: float) -> float:

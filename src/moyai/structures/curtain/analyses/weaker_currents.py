@@ -13,17 +13,17 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from moyai.core.progress import Progress, silent
+from moyai.core.progress import Progress
 from moyai.sea.states import SeaState
 from moyai.structures.curtain.analyses.impact import ImpactAnswer
-from moyai.structures.curtain.analyses.waves import wave_answer
+from moyai.structures.curtain.analyses.waves import sea_cycles, still_flows
 from moyai.structures.curtain.assembly import LevelCurtain
 from moyai.structures.curtain.hierarchy import upright_in
 from moyai.structures.curtain.limits.loads import impact_load
 from moyai.structures.curtain.limits.utilisation import AddedLoads
 from moyai.structures.curtain.model import CurtainSettings
-from moyai.structures.curtain.seas.cycles_of_sea import SeaCycles
 from moyai.structures.curtain.seas.loads import increase, steady_loads
+from moyai.structures.curtain.snaps.flow import SkirtFlow
 from moyai.structures.curtain.variables import labelled
 
 if TYPE_CHECKING:
@@ -96,6 +96,7 @@ def weaker_waves(
     seas: Sequence[SeaState],
     progress: Progress,
     strong_drag: Mapping[str, float] | None = None,
+    flows: Mapping[str, Sequence[SkirtFlow]] | None = None,
 ) -> xr.Dataset | None:
     """Return slack and taut cycles of the seas in weaker currents, ``None`` where no upright plate governs there.
 
@@ -108,6 +109,8 @@ def weaker_waves(
         Called after every current.
     strong_drag : mapping, optional
         What the upper end of the drag coefficient makes of the judged tension of a sea, in the current of the case.
+    flows : mapping, optional
+        What :func:`moyai.structures.curtain.analyses.waves.still_flows` gives for the seas by name.
     """
     import xarray as xr
 
@@ -118,10 +121,11 @@ def weaker_waves(
     rows: dict[str, list[list[float]]] = {"maximum_tension": [], "maximum_tension_low": [], "judged_tension": []}
     for sea in seas:
         found = []
+        still = still_flows(unit, settings.waves, sea) if flows is None else flows[sea.name]
         strong = 1.0 if strong_drag is None else strong_drag.get(sea.name, 1.0)
         for number, there in enumerate(slower):
             progress(f"weaker currents, {sea.name}", number, len(slower))
-            found.append(SeaCycles.of(wave_answer(there, settings, sea, silent).groups[""]))
+            found.append(sea_cycles(there, settings, sea, still))
         for name, ends, factor in zip(rows, ("top", "low", "judged"), (1.0, 1.0, strong), strict=True):
             rows[name].append([factor * float(getattr(one, ends)) for one in found])
     coords = {"sea": [sea.name for sea in seas], "weaker_current": list(speeds)}

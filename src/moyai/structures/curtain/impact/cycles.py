@@ -208,15 +208,15 @@ def _contacts(table: Array, time: Array, wave: Array) -> tuple[CableContact, ...
     crossings = np.flatnonzero(above[:-1] != above[1:])
     step = time[1] - time[0]
     when = time[crossings] + step * wave[crossings] / (wave[crossings] - wave[crossings + 1])
-    turns = {1: when[~above[crossings]], -1: when[above[crossings]]}
-    found: list[CableContact] = []
-    for begin, speed, end, top, tension, number in table:
-        side = int(number)
-        fresh = not found or found[-1].side != side
-        if not fresh:
-            place = int(np.searchsorted(turns[side], begin)) - 1
-            fresh = place >= 0 and turns[side][place] > found[-1].time
-        found.append(
-            CableContact(float(begin), float(speed), float(tension), side, bool(fresh), float(top), float(end))
-        )
-    return tuple(found)
+    begin, side = table[:, 0], table[:, 5].astype(np.int64)
+    turned = np.full(len(table), -math.inf)
+    for toward, turns in ((1, when[~above[crossings]]), (-1, when[above[crossings]])):
+        place = np.searchsorted(turns, begin) - 1
+        known = (side == toward) & (place >= 0)
+        turned[known] = turns[place[known]]
+    first = np.ones(len(table), dtype=bool)
+    first[1:] = (side[1:] != side[:-1]) | (turned[1:] > begin[:-1])
+    return tuple(
+        CableContact(start, speed, tension, int(number), fresh, top, end)
+        for (start, speed, end, top, tension, number), fresh in zip(table.tolist(), first.tolist(), strict=True)
+    )

@@ -12,12 +12,11 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.sea.breaking import breaking_limit
-from moyai.sea.components import WaveComponents
 from moyai.sea.spectra import goda_peak_period, jonswap
 from moyai.sea.states import IrregularSea
 from moyai.structures.curtain.analyses.anchor import rope_model
 from moyai.structures.curtain.analyses.impact import ImpactAnswer, bulging_skirt
-from moyai.structures.curtain.analyses.waves import largest_tension, left_out, realisation, waves_of
+from moyai.structures.curtain.analyses.waves import largest_tension, left_out, realisation, still_flow
 from moyai.structures.curtain.assembly import LevelCurtain
 from moyai.structures.curtain.impact.cable import peak_by_energy
 from moyai.structures.curtain.impact.skirt import BulgedSkirt
@@ -25,6 +24,7 @@ from moyai.structures.curtain.model import CurtainSettings
 from moyai.structures.curtain.seas.loads import DragCurve, ImpactLoad, SeaLoads
 from moyai.structures.curtain.seas.squared_velocity import effective_height, squared_velocity
 from moyai.structures.curtain.seas.states import DesignWave
+from moyai.structures.curtain.snaps.flow import SkirtFlow
 from moyai.structures.curtain.snaps.snap_table import SnapTable
 from moyai.structures.curtain.statics.steady_load import drag_factors
 
@@ -195,8 +195,8 @@ def _snaps(unit: LevelCurtain, settings: CurtainSettings, answer: ImpactAnswer, 
         return highest <= breaking_limit(limits.period_of(height), unit.water).height
 
     @cache
-    def seas(height: float) -> tuple[tuple[IrregularSea, WaveComponents], ...]:
-        """Return the realisations of a height, which are those of every current."""
+    def seas(height: float) -> tuple[tuple[IrregularSea, SkirtFlow], ...]:
+        """Return the realisations of a height and the waves that the skirt feels in them, whatever the current."""
         acting = float(effective_height(height, limits.wave_angle, rule, 1.0))
         period = goda_peak_period(limits.period_of(height), _PEAK_ENHANCEMENT)
         spectrum = jonswap(acting, period, _PEAK_ENHANCEMENT)
@@ -204,7 +204,7 @@ def _snaps(unit: LevelCurtain, settings: CurtainSettings, answer: ImpactAnswer, 
             IrregularSea("sea", spectrum, unit.curtain.normal, duration=min(duration, _PERIODS * period), seed=seed)
             for seed in range(1, 1 + max(given.realisations, 2))
         ]
-        return tuple((sea, waves_of(unit, given, sea)) for sea in drawn)
+        return tuple((sea, still_flow(unit, given, sea)) for sea in drawn)
 
     def realise(speed: float, height: float) -> Array:
         if not float(effective_height(height, limits.wave_angle, rule, 1.0)) > _ALONG * height:
@@ -212,8 +212,8 @@ def _snaps(unit: LevelCurtain, settings: CurtainSettings, answer: ImpactAnswer, 
         there = replace(unit, surface_speed=speed)
         tops = np.array(
             [
-                largest_tension(realisation(there, given, sea, answer.impact, waves)[0], left_out(sea))
-                for sea, waves in seas(height)
+                largest_tension(realisation(there, given, sea, answer.impact, flow), left_out(sea))
+                for sea, flow in seas(height)
             ]
         )
         # the largest of a longer sea, by Gumbel's law of the largest of shorter ones

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, get_args
 
 import numpy as np
@@ -61,6 +61,10 @@ class SkirtFlow:
     def time_step(self) -> float:
         """Step of the grid [s]."""
         return float(self.time[1] - self.time[0])
+
+    def in_current(self, current: float) -> SkirtFlow:
+        """Return the same waves in another current along the normal [m/s]."""
+        return replace(self, speed=self.speed + (current - self.current), current=current)
 
     @property
     def table(self) -> Array:
