@@ -222,7 +222,8 @@ def test_a_height_proved_by_few_seeds_says_what_others_may_give() -> None:
 )
 def test_breaking_above_a_plate_that_is_a_bound_proves_no_height(monkeypatch, role, height, bound):
     """The plate knows neither sheet nor anchors of a free toe: a ceiling that it does not reach is no limit."""
-    loads = SimpleNamespace(impact=object(), snaps=object())
+    loads = SimpleNamespace(impact=object(), snaps=(object(), object()))
+    monkeypatch.setattr(CountedLimits, "_knows_sheet", lambda *_: True)
     monkeypatch.setattr(CountedLimits, "role", lambda self, speed: role)
     monkeypatch.setattr(CountedLimits, "loads_in", lambda self, speed: loads)
     monkeypatch.setattr(CountedLimits, "_judged", lambda self, *_: (Limit(height, "breaking"), ""))

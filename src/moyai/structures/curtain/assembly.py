@@ -14,6 +14,7 @@ from moyai.sea.current import CurrentProfile, PowerLawCurrent, TabulatedCurrent,
 from moyai.sea.water import Water
 from moyai.structures.curtain.limits.utilisation import CurtainSite, Requirements, drowning_speed
 from moyai.structures.curtain.model import UNJUDGED, Curtain, CurtainProblem
+from moyai.structures.curtain.seas.drift import drift_speed
 from moyai.structures.curtain.statics.hanging import CurtainStatics, HangingCurtain, pull_of_lines
 from moyai.structures.curtain.statics.on_bed import lies_on_bed
 from moyai.structures.curtain.statics.steady_load import SteadyLoad, given_alone, steady_load
@@ -42,6 +43,9 @@ class LevelCurtain:
     surface_speed: float
     #: Without band: :attr:`moyai.structures.curtain.model.Settings.nominal`.
     nominal: bool = False
+    #: Of a case without a current: the one as strong as the drift of its waves [m/s]
+    #: (:mod:`moyai.structures.curtain.seas.drift`); 0 with one.
+    drift_speed: float = 0.0
 
     @property
     def flow_angle(self) -> float:
@@ -174,8 +178,13 @@ def assemble(problem: CurtainProblem, name: str, level: float) -> LevelCurtain:
     )
     given = problem.environment.current
     profile = currents.uniform(1.0, curtain.normal) if given is None else _in_water(given, water)
-    reference = _reference_speed(profile, min(curtain.skirt.length, water.depth))
-    heading = _heading(profile, min(curtain.skirt.length, water.depth), curtain.normal)
+    depth = min(curtain.skirt.length, water.depth)
+    reference = _reference_speed(profile, depth)
+    heading = _heading(profile, depth, curtain.normal)
+    drift = 0.0
+    if given is None:
+        coefficient = curtain.drag.coefficient(0.0 if math.isinf(water.depth) else depth / water.depth)
+        drift = drift_speed(problem.environment.sea_states, curtain.normal, depth, coefficient, water)
 
     def family(speed: float) -> CurrentProfile:
         return scaled_current(profile, speed / reference)
@@ -189,6 +198,7 @@ def assemble(problem: CurtainProblem, name: str, level: float) -> LevelCurtain:
         site=CurtainSite(water, family, heading, curtain.normal, curtain.passing_fraction, on_bed=long),
         surface_speed=0.0 if given is None else reference,
         nominal=problem.settings.nominal,
+        drift_speed=drift,
     )
 
 

@@ -278,7 +278,7 @@ def _at_rest_words(load: _Load, groups: Groups) -> str:
     name = _STEADY_NAMES.get(load.component, "")
     current = math.nan if statics is None else at_rest(statics, name)
     if load.component.startswith("anchor") and steady > current * (1.0 + 1e-9):
-        return f"pretension {kilo(steady)}, more than the {kilo(current)} of the current"
+        return f"steady {kilo(steady)}: the pretension, and what the line bears of the {kilo(current)} of the current"
     return f"steady {kilo(steady)}"
 
 
@@ -567,8 +567,11 @@ def _steady_band(groups: Groups, load: _Load) -> Band | None:
         # the load of a stretch of the curtain goes with the load per length
         band, value = statics_band(statics, "line_load"), at_rest(statics, "line_load")
         return None if band is None or not value > 0.0 else band.scaled(load.number("steady_load") / value)
-    name = _STEADY_NAMES.get(load.component)
-    return None if name is None else statics_band(statics, name)
+    band = statics_band(statics, _STEADY_NAMES.get(load.component, ""))
+    if band is not None and load.component.startswith("anchor"):
+        # a pretension bears part of it
+        band = replace(band, low=load.number("steady_low"), high=load.number("steady_high"))
+    return band
 
 
 def _span_holds(loads: Sequence[_Load], level: str) -> bool:

@@ -89,7 +89,7 @@ def limit_headlines(groups: Groups, levels: Sequence[str], span_holds: Callable[
         if key == "speed_limit" and table.attrs.get("with_impact") and governing in _STRUCK:
             details.append("with the impact when the current draws the curtain taut")
         if bound == "at most":
-            details.append("no snap is counted: add 'waves' or 'dynamic' to 'analyses'")
+            details.append(_left_out(table, waves))
         found_at = limit
         if key != "speed_limit" and table.attrs.get("with_snaps"):
             lasting = float(table.attrs.get("sea_duration", math.nan)) / 60.0
@@ -100,6 +100,10 @@ def limit_headlines(groups: Groups, levels: Sequence[str], span_holds: Callable[
             details.append("no depth is asked for: 'least_effective_depth' of 'criteria' has no default")
         if jump := str(table.attrs.get("limit_jump", "")) if key == "design_limit" else "":
             details.append(jump)
+        if bound == "at most" and governing == "not reached":
+            yield Headline(name, label, math.nan, unit, where=f"{where}: {level}", detail="; ".join(details),
+                           text="not known", without_waves=not waves)  # fmt: skip
+            continue
         band = _band(table, key, limit)
         if key != "speed_limit" and limit > 0.0 and not _deep_enough(groups, level):
             limit, details = (
@@ -110,7 +114,7 @@ def limit_headlines(groups: Groups, levels: Sequence[str], span_holds: Callable[
             # a bound that fails proves nothing about the curtain, and in waves it bounds neither sheet nor anchors
             words = f"the load of an upright plate, a bound, is already too much for the {governing} without waves"
             if limit > 0.0:
-                words = "an upright plate bounds neither the sheet nor the anchors of a free toe in waves"
+                words = "an upright plate, a bound, bounds neither the sheet nor the anchors in waves"
             run = groups.get(f"/{level}/dynamic")
             more = REMEDY if run is None else "the whole span is run in the seas of the case alone, to be run in others"
             if waves and run is not None and (oblique := _all_oblique(groups, level)):
@@ -141,6 +145,15 @@ def limit_headlines(groups: Groups, levels: Sequence[str], span_holds: Callable[
             detail="; ".join(details),
             text="" if limit > 0.0 else "none", without_waves=not waves,
         )  # fmt: skip
+
+
+def _left_out(table: xr.Dataset, waves: bool) -> str:
+    """Say why a limit can only be lower."""
+    if table.attrs.get("with_snaps" if waves else "with_impact"):
+        return "the load of a snap on the sheet, or that of snaps in another current, is not known"
+    if waves:
+        return "no snap is counted: add 'waves' or 'dynamic' to 'analyses'"
+    return "no impact is counted: add 'impact' to 'analyses', which takes a current"
 
 
 def _of_other_seeds(table: xr.Dataset, limit: float) -> list[str]:
@@ -177,7 +190,7 @@ def weaker_currents(groups: Groups, found: Sequence[Headline]) -> tuple[Criterio
     Weaker currents come with every stronger one, twice a tide. Nothing is asked where the limit is a bound or holds.
     """
     limit = next((item for item in found if item.name == "limit_current"), None)
-    if limit is None or limit.bound or not math.isfinite(limit.value):
+    if limit is None or limit.bound == "at least" or not math.isfinite(limit.value):
         return ()
     level = limit.where.rpartition(": ")[2]
     own = _in_the_case(groups, level, "speed_limit")

@@ -252,6 +252,13 @@ def _result(problem: CurtainProblem, collected: _Collected) -> Result:
     # an impact, and the whole span that is run by default for it, are those of the current alone
     in_seas = bool({"waves", "dynamic"} & set(problem.settings.analyses))
     more = weaker_currents(collected.groups, found) if problem.criteria else ()
+    # floats are asked to float where they were looked at
+    named = {item.name for item in found}
+    asked = [
+        item
+        for item in problem.criteria
+        if not (item.assumed and item.headline == "float_reserve") or item.headline in named
+    ]
     fulfilled = "all identities hold" if collected.checks else "done; these analyses have no identity to hold"
     if any(notice.code == "span-mesh" for notice in collected.notices):
         fulfilled += "; peaks of the whole span move with the mesh, see the warning"
@@ -262,7 +269,7 @@ def _result(problem: CurtainProblem, collected: _Collected) -> Result:
         notices=_placed(collected, len(levels)),
         headlines=found,
         fulfilled=fulfilled,
-        criteria=(*problem.criteria, *more),
+        criteria=(*asked, *more),
         left_out=_NOT_MOVED if problem.environment.sea_states and not in_seas else "",
     )
 

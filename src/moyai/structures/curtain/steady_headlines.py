@@ -86,6 +86,8 @@ def depth_headlines(groups: Groups, levels: Sequence[str]) -> Iterator[Headline]
         found = []
         for level in levels:
             statics = groups.get(f"/{level}/statics")
+            if statics is None and name == "float_reserve":
+                found += _floats_at_slack_water(groups, level, name, label)
             value = math.nan if statics is None else at_rest(statics, key)
             if statics is None or not math.isfinite(value):
                 continue
@@ -105,6 +107,18 @@ def depth_headlines(groups: Groups, levels: Sequence[str]) -> Iterator[Headline]
                 )
             )
         yield from governing(found, "at least")
+
+
+def _floats_at_slack_water(groups: Groups, level: str, name: str, label: str) -> list[Headline]:
+    """Return the reserve of the floats of a case without a current, by its table of loads."""
+    loads, whole = groups.get(f"/{level}/loads"), groups.get(f"/{level}")
+    if loads is None or whole is None or float(whole.attrs["surface_speed"]) > 0.0:
+        return []
+    row = loads.sel(component="float")
+    value = 1.0 - float(row["steady_load"]) / float(row["capacity"])
+    if not math.isfinite(value):
+        return []
+    return [Headline(name, label, value, "1", where=level, model=STATICS, detail="at slack water", without_waves=True)]
 
 
 class _Slack(NamedTuple):

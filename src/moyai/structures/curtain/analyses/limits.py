@@ -23,9 +23,9 @@ from moyai.structures.curtain.hierarchy import CYCLES, IMPACT, STRAIGHT, Role, h
 from moyai.structures.curtain.limits.loads import fastest_water, impact_load, sea_loads
 from moyai.structures.curtain.limits.search import Limit
 from moyai.structures.curtain.limits.utilisation import AddedLoads, height_limit, speed_limit, utilisation
-from moyai.structures.curtain.model import CurtainSettings
+from moyai.structures.curtain.model import UNJUDGED, CurtainSettings
 from moyai.structures.curtain.seas.anchor_energy import ENERGY_FACTORS
-from moyai.structures.curtain.seas.loads import DragCurve, SeaLoads
+from moyai.structures.curtain.seas.loads import DragCurve, ImpactLoad, SeaLoads
 from moyai.structures.curtain.statics.hanging import CurtainStatics
 from moyai.structures.curtain.statics.steady_load import drag_factors
 from moyai.structures.curtain.variables import labelled
@@ -222,20 +222,34 @@ class CountedLimits:
                 unit.hanging, unit.site, unit.requirements, highest=highest, waves=loads, solved=self.solved
             )
 
-        return self._judged(find, lambda limit: limit.value, self.loads.impact is not None)
+        limit, bound = self._judged(find, lambda limit: limit.value, self.loads.impact is not None)
+        impact = self.loads.impact
+        if limit.value > 0.0 and (impact is None or not self._knows_sheet(impact, limit.value)):
+            # whatever an impact adds, on the sheet or at all, lowers the limit
+            return limit, "at most"
+        return limit, bound
 
     def height(self, speed: float) -> tuple[Limit, Bound]:
         """Return the largest significant height in a current [m/s], and whether it is a bound."""
         limit, bound = self._judged(lambda loads: self._height(loads, speed), lambda _: speed, self.with_plate)
-        steady = ("effective depth", "floats", "no equilibrium", "breaking")
-        if self.loads_in(speed).snaps is None and limit.governing not in steady:
-            # a steady drag knows no snap: the limit can only be lower
+        snaps = self.loads_in(speed).snaps
+        if limit.value > 0.0 and snaps is None:
+            # a steady drag knows no snap: the limit can only be lower, whatever sets it
+            return limit, "at most"
+        if limit.value > 0.0 and snaps is not None and bound == "" and not self._knows_sheet(snaps[1], speed):
             return limit, "at most"
         if limit.value > 0.0 and self.with_plate and self.role(speed) == "bound":
             # a plate that is but a bound knows neither sheet nor anchors: breaking, depth or the end of the search
             # above it prove nothing in waves
             return limit, "at least"
         return limit, bound
+
+    def _knows_sheet(self, struck: ImpactLoad, speed: float) -> bool:
+        """Whether the load of the sheet in a snap is known in a current [m/s], or the sheet is not judged."""
+        if self.unit.curtain.strengths.sheet is UNJUDGED:
+            return True
+        at = struck.skirt_at
+        return (struck.skirt if at is None else at(self.loads.normal_ratio * speed)) is not None
 
     def _height(self, loads: SeaLoads, speed: float) -> Limit:
         unit, highest = self.unit, self.settings.limits.highest_height
@@ -342,7 +356,7 @@ def _design_height(
         rows.append(counted.height(own))
     # where several are alike, the one nearest to the current of the case
     limit, bound = min(reversed(rows), key=lambda row: row[0].value)
-    if not bound and any(other == "at least" for _, other in rows):
+    if not bound and limit.value > 0.0 and any(other for _, other in rows):
         # in another current the height is not known: it may be less
         bound = "at most"
     data["design_limit_height"] = ((), limit.value)

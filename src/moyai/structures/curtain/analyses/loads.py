@@ -21,10 +21,10 @@ from moyai.structures.curtain.hierarchy import CREST, CYCLES, IMPACT, ModelRole,
 from moyai.structures.curtain.limits.loads import impact_load
 from moyai.structures.curtain.limits.utilisation import AddedLoads, Strength
 from moyai.structures.curtain.model import COMPONENTS, CurtainSettings
-from moyai.structures.curtain.seas.loads import DragCurve, increase
+from moyai.structures.curtain.seas.loads import DragCurve, increase, on_lines
 from moyai.structures.curtain.seas.squared_velocity import squared_velocity
 from moyai.structures.curtain.seas.states import DesignWave
-from moyai.structures.curtain.statics.hanging import CurtainStatics
+from moyai.structures.curtain.statics.hanging import CurtainStatics, tight_line
 from moyai.structures.curtain.statics.steady_load import drag_factors
 from moyai.structures.curtain.variables import labelled
 
@@ -99,7 +99,13 @@ def loads_dataset(
     roles = roles or hierarchy(unit, settings)
     upright = role_of(roles, CYCLES) == "governs"
     sources, notices = _wave_sources(unit, settings, waves, statics, oscillator, proportions, curve, upright=upright)
-    struck = AddedLoads() if answer is None else impact_load(unit, answer, settings).of_tension(answer.design_tension)
+    force, most = _line_force(unit)
+    pretension = unit.hanging.pretension
+    ends = (1.0, 1.0) if answer is None else answer.uncertainty
+    struck = [AddedLoads()] * 3
+    if answer is not None:
+        whole = impact_load(unit, answer, settings).of_tension(answer.design_tension)
+        struck = [on_lines(whole.times(share), at, pretension) for share, at in zip((1.0, *ends), (force, force, most))]
     name = "" if answer is None else f"impact, model {answer.design_model}"
     rows = []
     for component in COMPONENTS:
@@ -107,11 +113,10 @@ def loads_dataset(
         field = _FIELDS[component]
         best = max(sources, key=lambda item: getattr(item.loads, field), default=_NOTHING)
         factor = _factor(unit, component)
-        wave, hit = factor * getattr(best.loads, field), factor * getattr(struck, field)
+        wave, hits = factor * getattr(best.loads, field), [factor * getattr(hit, field) for hit in struck]
         if component == "skirt" and proportions is not None and impact_load(unit, proportions, settings).skirt is None:
-            hit = math.nan
-        ends = (1.0, 1.0) if answer is None else answer.uncertainty
-        row = _row(unit, component, steady, wave, (hit, ends[0] * hit, ends[1] * hit), best.source, name)
+            hits = [math.nan] * 3
+        row = _row(unit, component, steady, wave, (hits[0], hits[1], hits[2]), best.source, name)
         alike = role_of(roles, model_of(best.source))
         counted = (alike, "governs")
         highs = [getattr(one.high, field) for one in sources if role_of(roles, model_of(one.source)) in counted]
@@ -155,7 +160,10 @@ def _weaker_rows(
             for top in sorted(known, key=lambda one: field(getattr(one, end)) + field(one.still))[-1:]
         }
         for weaker in ends.values():
-            value, low, high = (factor * field(load) for load in (weaker.value, weaker.low, weaker.high))
+            force, most = _line_force(weaker.unit)
+            pretension = unit.hanging.pretension
+            loads = zip((weaker.value, weaker.low, weaker.high), (force, force, most), strict=True)
+            value, low, high = (factor * field(on_lines(load, at, pretension)) for load, at in loads)
             steady = _steady(weaker.unit, component)
             row = _row(unit, component, steady, 0.0, (value, low, high), "", weaker.source)
             rows.setdefault(component, []).append(row)
@@ -315,6 +323,7 @@ def _wave_sources(
     anchor = settings.anchor_loads
     rule, ratio = settings.direction
     strong = 1.0 if unit.nominal else drag_factors(unit.hanging.drag)[1]
+    (force, most), pretension = _line_force(unit), unit.hanging.pretension
     speeds = []
     for wave in waves:
         acting = wave.effective_height(rule, ratio)
@@ -329,7 +338,8 @@ def _wave_sources(
             continue
         more = whole if statics is None else increase(whole, statics)
         # a load goes with the drag coefficient
-        sources.append(_Added(more, f"drag under the crest, {wave.name}", more.times(strong)))
+        value, high = on_lines(more, force, pretension), on_lines(more.times(strong), most, pretension)
+        sources.append(_Added(value, f"drag under the crest, {wave.name}", high))
     if anchor is not None and unit.curtain.anchors is not None and "anchor_loads" in settings.analyses:
         model, pull = rope_model(unit, anchor), steady_tension(unit, anchor)
         for wave in waves:
@@ -346,8 +356,9 @@ def _wave_sources(
             if with_energy and not upright:
                 # the energy model was fitted to anchor lines of free toes; fixed supports would overload them
                 found = [replace(whole, anchor_line=0.0) for whole in found]
-            more, most = (whole if statics is None else increase(whole, statics) for whole in found)
-            sources.append(_Added(more, f"slack and taut cycles, {name}", most))
+            more, end = (whole if statics is None else increase(whole, statics) for whole in found)
+            value, high = on_lines(more, force, pretension), on_lines(end, most, pretension)
+            sources.append(_Added(value, f"slack and taut cycles, {name}", high))
     return sources, notices
 
 
@@ -373,12 +384,20 @@ _STEADY = {
 }
 
 
+def _line_force(unit: LevelCurtain) -> tuple[float, float]:
+    """Return the force of the current along an anchor line [N] and the upper end of its band, 0 without a current."""
+    if unit.surface_speed == 0.0:
+        return 0.0, 0.0
+    steady, name = unit.steady, _STEADY["anchor line"]
+    return steady.governing.quantity(name), steady.band(name)[1]
+
+
 def _steady(unit: LevelCurtain, component: str) -> tuple[float, float, float]:
     """Return the steady load of a component with the lower and upper end of its band."""
     skirt = unit.curtain.skirt
     pulled = 0.0
-    if component in ("anchor line", "anchor") and unit.curtain.anchors is not None:
-        pulled = (unit.curtain.anchors.pretension or 0.0) * (_factor(unit, "anchor") if component == "anchor" else 1.0)
+    if component in ("anchor line", "anchor"):
+        pulled = unit.hanging.pretension * (_factor(unit, "anchor") if component == "anchor" else 1.0)
     if unit.surface_speed == 0.0:
         still = {
             "skirt": skirt.toe_load + max(skirt.submerged_weight, 0.0) * skirt.length,
@@ -387,13 +406,13 @@ def _steady(unit: LevelCurtain, component: str) -> tuple[float, float, float]:
         return (max(still.get(component, 0.0), pulled),) * 3
     steady, name = unit.steady, _STEADY[component]
     per = unit.curtain.joint_distance if component == "joint" else 1.0
-    ends = [steady.governing.quantity(name), *steady.band(name)]
-    least = [pulled] * 3
-    if component == "float" and unit.hanging.toe == "free":
+    ends = [per * steady.governing.quantity(name), *(per * end for end in steady.band(name))]
+    if component == "float":
         # the current bears part of the weight of a skirt that flares; slack water comes twice a tide
         lightest, heaviest = unit.curtain.toe_range
         least = [unit.slack_float_load(factor) for factor in (1.0, min(lightest, 1.0), max(heaviest, 1.0))]
-    given, low, high = (max(per * value, other) for value, other in zip(ends, least, strict=True))
+        ends = [max(value, other) for value, other in zip(ends, least, strict=True)]
+    given, low, high = (tight_line(value, pulled) for value in ends)
     return given, low, high
 
 

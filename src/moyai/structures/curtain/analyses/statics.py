@@ -168,15 +168,13 @@ def _at_slack_water(unit: LevelCurtain) -> dict[str, float]:
     """Return toe clearance and float reserve of a curtain that hangs straight down without a current.
 
     The flared skirt of a curtain in its current stands higher, and the load bears part of its weight: both numbers
-    are on the favourable side there. The reserve is NaN for a held toe, whose pull without a current the case does not
-    tell. Its ends are those of the range of the toe's weight.
+    are on the favourable side there. Its ends are those of the range of the toe's weight; of a held toe it is as if the
+    lower cable bore nothing of it.
     """
     hanging, depth = unit.hanging, unit.water.depth
     skirt, floats = hanging.skirt, hanging.floats
     gap = math.nan if math.isinf(depth) else max(depth - skirt.length, 0.0)
     name = "slack_float_reserve_ratio"
-    if hanging.toe != "free":
-        return {"slack_toe_gap": gap} | dict.fromkeys((name, f"{name}_low", f"{name}_high"), math.nan)
     lightest, heaviest = unit.curtain.toe_range
     left = {
         end: 1.0 - unit.slack_float_load(factor) / floats.buoyancy
@@ -380,9 +378,7 @@ def _section_miss(unit: LevelCurtain, current: CurrentProfile) -> float:
 
 def _float_miss(statics: CurtainStatics) -> float:
     curtain = statics.curtain
-    tight = max(statics.anchor_line_tension, curtain.pretension)
-    lee = tight - statics.anchor_line_tension
-    lines = (tight + lee) * math.sin(curtain.anchor_slope) / curtain.span
+    lines = max(statics.anchor_line_tension, 2.0 * curtain.pretension) * math.sin(curtain.anchor_slope) / curtain.span
     total = curtain.floats.weight + statics.section.top_pull + lines + statics.float_reserve
     return abs(total / curtain.floats.buoyancy - 1.0)
 

@@ -65,14 +65,21 @@ def _strongest(unit: LevelCurtain) -> float:
 
 
 def currents_of_waves(unit: LevelCurtain) -> tuple[float, ...]:
-    """Return the weaker currents in which the waves are run [m/s], slack water the first."""
+    """Return the weaker currents in which the waves are run [m/s], slack water the first.
+
+    Without a current they are those up to the one that is as strong as the drift of the waves.
+    """
     top, step = _strongest(unit), _STEP_OF_WAVES * math.sqrt(unit.water.gravity * unit.depth)
     weaker = [number * step for number in range(int(top / step) + 1)] if top > 0.0 else []
-    return tuple(speed for speed in weaker if speed < unit.surface_speed)
+    if unit.surface_speed > 0.0:
+        return tuple(speed for speed in weaker if speed < unit.surface_speed)
+    return (*(speed for speed in weaker if 0.0 < speed < top), top) if top > 0.0 else ()
 
 
 def _said(unit: LevelCurtain) -> str:
     speed = unit.surface_speed
+    if unit.drift_speed > 0.0:
+        return f"in a drift with the waves, as in a current of {speed:.3g} m/s"
     return f"in a weaker current of {speed:.3g} m/s" if speed > 0.0 else "at slack water"
 
 
@@ -87,7 +94,7 @@ def weaker_impacts(unit: LevelCurtain, settings: CurtainSettings, answer: Impact
         there = replace(unit, surface_speed=part * top)
         struck = load.at(unit.unit_normal_speed * there.surface_speed)
         source = f"impact, model {answer.design_model}, {_said(there)}"
-        yield WeakerLoads(there, source, struck, struck.times(low), struck.times(high), answer.skirt is not None)
+        yield WeakerLoads(there, source, struck, struck.times(low), struck.times(high), load.skirt is not None)
 
 
 def weaker_waves(
@@ -146,7 +153,7 @@ def weaker_cycles(
                 whole = load.of_tension(tension, unit.unit_normal_speed * there.surface_speed)
                 ends.append(increase(whole, there.statics) if there.surface_speed > 0.0 else whole)
             source = f"slack and taut cycles, {sea}, {_said(there)}"
-            yield WeakerLoads(there, source, ends[0], ends[1], ends[2], proportions.skirt is not None)
+            yield WeakerLoads(there, source, ends[0], ends[1], ends[2], load.skirt is not None)
 
 
 __all__ = ["WeakerLoads", "currents_of_waves", "weaker_cycles", "weaker_impacts", "weaker_waves"]

@@ -26,6 +26,8 @@ from moyai.core.headline import Criterion
 
 CURTAIN_SOURCE = "default of moyai: practice of silt curtains, rope 3, sheet and belts 3 to 5, anchor 1.2 to 2; no code"
 
+AFLOAT_SOURCE = "default of moyai: afloat"
+
 CURTAIN_FACTORS = {
     "cable": ("cable_utilisation", "factor of safety of the cables", 3.0),
     "sheet": ("fabric_utilisation", "factor of safety of the sheet", 4.0),
@@ -97,8 +99,11 @@ def criteria(model: Any, given: Any) -> Iterator[Criterion]:
         ("least_float_reserve", "float_reserve", "%", "reserve of the floats"),
     ):
         limit = curtain_limit(model, key)
+        asked = None if isinstance(model.criteria, str) else getattr(model.criteria, key)
         if limit > 0.0:
             yield Criterion(key, headline, limit, "at least", CASE, words, unit)
+        elif key == "least_float_reserve" and asked is None:
+            yield Criterion(key, headline, 0.0, "at least", AFLOAT_SOURCE, words, unit, assumed=True)
     yield from given_criteria(given)
 
 

@@ -185,7 +185,9 @@ class Anchors(Block):
         default=None, description="Horizontal force that the anchor holds; without it not judged."
     )
     pretension: Annotated[float, QuantityOf(quantities.FORCE, least=0.0)] | None = Field(
-        default=None, description="Steady tension for the anchor loads in waves; absent: that of the statics."
+        default=None,
+        description="Tension of every line without a load, lines on both sides; absent: none, and for the anchor loads "
+        "in waves that of the statics.",
     )
 
 

@@ -163,8 +163,7 @@ def sea_loads(
     limits, anchor = settings.limits, settings.anchor_loads
     asked = "impact" in settings.analyses
     lasting = 3600.0 * settings.waves.hours if duration is None else duration
-    lines = unit.curtain.anchors
-    with_lines = anchor is not None and lines is not None and "anchor_loads" in settings.analyses
+    with_lines = anchor is not None and unit.curtain.anchors is not None and "anchor_loads" in settings.analyses
     return SeaLoads(
         period=limits.period_of,
         angle=limits.wave_angle,
@@ -175,7 +174,7 @@ def sea_loads(
         drag=curve,
         energy=rope_model(unit, anchor) if with_lines and anchor is not None else None,
         pretension=_pretension(unit, settings),
-        steady=0.0 if lines is None or lines.pretension is None else lines.pretension,
+        line_pretension=unit.hanging.pretension,
         impact=impact_load(unit, answer, settings) if answer is not None and asked and limits.impact else None,
         snaps=None
         if answer is None

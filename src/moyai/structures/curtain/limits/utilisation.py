@@ -24,7 +24,13 @@ from moyai.sea.water import Water
 from moyai.structures.curtain.limits.search import Limit, search
 from moyai.structures.curtain.seas.anchor_energy import EnergyModel
 from moyai.structures.curtain.seas.squared_velocity import DirectionRule, effective_height
-from moyai.structures.curtain.statics.hanging import CurtainStatics, HangingCurtain, loaded_section, solve_statics
+from moyai.structures.curtain.statics.hanging import (
+    CurtainStatics,
+    HangingCurtain,
+    loaded_section,
+    solve_statics,
+    tight_line,
+)
 from moyai.structures.curtain.statics.on_bed import solve_on_bed
 from moyai.structures.curtain.statics.plan import PlanLoad
 from moyai.structures.curtain.statics.section import SectionShape
@@ -452,7 +458,9 @@ def anchor_spacing(
             statics = site.statics(replace(curtain, span=span, length=ratio * span), speed)
         except (InputError, ConvergenceError):
             return math.inf, "no equilibrium"
-        parts = utilisation(SteadyState("", statics), required, wave_tension)
+        force = statics.anchor_line_tension
+        held = tight_line(force, curtain.pretension) - force
+        parts = utilisation(SteadyState("", statics), required, held + wave_tension)
         return _worst({name: load_factor * parts[name] for name in _BY_SPAN})
 
     return search(worst, longest, start=0.01 * longest)

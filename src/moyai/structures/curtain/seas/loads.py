@@ -26,7 +26,7 @@ from moyai.structures.curtain.limits.utilisation import AddedLoads
 from moyai.structures.curtain.seas.anchor_energy import EnergyModel
 from moyai.structures.curtain.seas.squared_velocity import DirectionRule, effective_height, squared_velocity
 from moyai.structures.curtain.snaps.snap_table import SnapTable
-from moyai.structures.curtain.statics.hanging import CurtainStatics
+from moyai.structures.curtain.statics.hanging import CurtainStatics, tight_line
 
 _CURVE_POINTS = 31
 
@@ -117,6 +117,20 @@ def increase(whole: AddedLoads, statics: CurtainStatics) -> AddedLoads:
     )
 
 
+def on_lines(more: AddedLoads, force: float, pretension: float) -> AddedLoads:
+    """Return loads with what they add to the tighter of two lines that bear a force [N] from both sides already.
+
+    Parameters
+    ----------
+    more : AddedLoads
+        Whose ``anchor_line`` adds to the force.
+    force, pretension : float
+        See :func:`moyai.structures.curtain.statics.hanging.tight_line`.
+    """
+    line = tight_line(force + more.anchor_line, pretension) - tight_line(force, pretension)
+    return replace(more, anchor_line=line)
+
+
 @dataclass(frozen=True)
 class ImpactLoad:
     """Loads of an impact at any start speed, in the proportions of the case."""
@@ -189,8 +203,8 @@ class SeaLoads:
     energy: EnergyModel | None = None
     #: Steady tension that the energy model takes [N]; None: that of the statics.
     pretension: float | None = None
-    #: Tension that the anchor line has at least [N], where the case gives a pretension.
-    steady: float = 0.0
+    #: Tension of every anchor line without a load [N], where the case gives a pretension.
+    line_pretension: float = 0.0
     #: An impact in the current, without waves.
     impact: ImpactLoad | None = None
     #: Slack and taut cycles, and how their tension goes to the components.
@@ -220,7 +234,7 @@ class SeaLoads:
         return math.sqrt(float(squared_velocity(height, period, current, self.depth, water)))
 
     def waves(self, statics: CurtainStatics, significant_height: float, speed: float, water: Water) -> AddedLoads:
-        """Return what waves of a significant height [m] add at a surface speed [m/s]."""
+        """Return what drag and snaps of a significant height [m] add at a surface speed [m/s]."""
         if significant_height <= 0.0:
             return AddedLoads()
         moving, current = self.water_speed(significant_height, speed, water), self.normal_ratio * speed
@@ -236,23 +250,27 @@ class SeaLoads:
                 # the energy model was fitted to anchor lines of free toes; fixed supports would overload them
                 struck = replace(struck, anchor_line=0.0)
             found = found.larger(increase(struck, statics))
-        if self.energy is None:
-            return found
+        return found
+
+    def _rise(self, statics: CurtainStatics, significant_height: float, speed: float, water: Water) -> float:
+        """Return what waves add to the anchor line by the energy model [N]."""
+        if self.energy is None or significant_height <= 0.0:
+            return 0.0
+        current = self.normal_ratio * speed
         height = effective_height(significant_height, self.angle, self.rule, self.height_ratio)
         float_speed = self.energy.float_speed(height, self.period(significant_height), current, water)
         steady = statics.anchor_line_tension if self.pretension is None else self.pretension
-        rise = float(self.energy.fluctuating_tension(float_speed, steady))
-        return found.larger(AddedLoads(anchor_line=rise))
-
-    def _lacking(self, statics: CurtainStatics) -> float:
-        """Return what a given pretension has beyond the tension in the current alone, at its end that counts [N]."""
-        factor = 1.0 if self.steady_factors is None else self.steady_factors.anchor_line
-        return max(self.steady - factor * statics.anchor_line_tension, 0.0)
+        return float(self.energy.fluctuating_tension(float_speed, steady))
 
     def added(self, statics: CurtainStatics, significant_height: float, speed: float, water: Water) -> AddedLoads:
-        """Return what waves and impact add at a surface speed [m/s], the larger for each component."""
+        """Return what waves, impact and pretension add at a surface speed [m/s], the larger for each component."""
         found = self.waves(statics, significant_height, speed, water)
         if self.impact is not None:
             found = found.larger(self.impact.at(self.normal_ratio * speed))
-        found = found.plus(AddedLoads(anchor_line=self._lacking(statics)))
+        force, pretension = statics.anchor_line_tension, self.line_pretension
+        if self.steady_factors is not None:
+            force *= self.steady_factors.anchor_line
+        rise = self._rise(statics, significant_height, speed, water)
+        line = max(tight_line(force + found.anchor_line, pretension), tight_line(force, pretension) + rise) - force
+        found = replace(found, anchor_line=line)
         return found if self.steady_factors is None else found.plus(_beyond(statics, self.steady_factors))

@@ -67,7 +67,7 @@ class HangingCurtain:
     law: LoadLaw
     #: Coefficient of the load along the sheet, both faces together [-].
     friction: float = 0.0
-    #: Tension that every anchor line has at least [N].
+    #: Tension of every anchor line without a load [N].
     pretension: float = 0.0
 
     def __post_init__(self) -> None:
@@ -181,13 +181,29 @@ def solve_statics(
     return supported(curtain, section, flow_heading - turn, plan, toe, lower_share=section.toe_hold / section.load)
 
 
+def tight_line(force: float, pretension: float) -> float:
+    """Return the tension of the tighter of two alike lines that hold a support from both sides [N].
+
+    While neither is slack the one gains half of the force and the other loses it; beyond twice the pretension the one
+    bears all of it [eq:curtain-pretension].
+
+    Parameters
+    ----------
+    force : float
+        Along the lines [N].
+    pretension : float
+        Tension of each line without a force [N]; 0 for a line on one side.
+    """
+    return max(force, pretension + 0.5 * force)
+
+
 def pull_of_lines(curtain: HangingCurtain, anchor_force: float) -> float:
     """Return the downward pull of the anchor lines on the floats [N/m] by the force of the current on an anchor [N].
 
-    Where the pretension is more than the line needs, a line on the other side bears the rest and pulls as well.
+    Lines with a pretension pull with twice that until one of them is slack.
     """
-    needed = anchor_force / math.cos(curtain.anchor_slope)
-    return (needed + 2.0 * max(curtain.pretension - needed, 0.0)) * math.sin(curtain.anchor_slope) / curtain.span
+    along = max(anchor_force / math.cos(curtain.anchor_slope), 2.0 * curtain.pretension)
+    return along * math.sin(curtain.anchor_slope) / curtain.span
 
 
 def supported(
