@@ -138,11 +138,11 @@ def _reference(text: str) -> float | None:
 
 
 @reads("a NetCDF file")
-def netcdf_unit(path: Path, column: str) -> str:
-    """Return the unit attribute of a variable, empty where there is none."""
+def netcdf_units(path: Path, columns: Sequence[str]) -> list[str]:
+    """Return the unit attributes of variables, empty where there is none."""
     with _netcdf(path) as dataset:
-        name = _entry(column)[0]
-        return str(dataset.variables[name].attrs.get("units", "")) if name in dataset.variables else ""
+        held, names = dataset.variables, [_entry(column)[0] for column in columns]
+        return [str(held[name].attrs.get("units", "")) if name in held else "" for name in names]
 
 
 # --------------------------------------------------------------------------------------------------- Parquet

@@ -112,7 +112,7 @@ def read_chunks(source: LoggerSource, rows: int = CHUNK_ROWS) -> Iterator[Record
     for path in source.files:
         if not path.is_file():
             raise InputError(f"no such file: {path}", parameter="files")
-        units = [_unit_of(path, source, column) for column in source.columns]
+        units = _units_of(path, source)
         clock.open(path)
         for raw in _raw(path, source, rows):
             values = np.column_stack(
@@ -159,16 +159,22 @@ def _raw(path: Path, source: LoggerSource, rows: int) -> Iterator[RawChunk]:
     yield from readers[form](path, names, rows)
 
 
-def _unit_of(path: Path, source: LoggerSource, column: ColumnSource) -> tuple[Unit, str]:
-    """Return the unit of a column and its SI symbol; what the file states and the configuration says must agree."""
-    form = source.format_of(path)
-    stated = ""
-    if form == "csv":
-        stated = stated_unit(path, source, column.column)
-    elif form == "netcdf":
-        stated = read_arrays.netcdf_unit(path, str(column.column))
+def _units_of(path: Path, source: LoggerSource) -> list[tuple[Unit, str]]:
+    """Return the units of all columns and their SI symbols."""
+    form, columns = source.format_of(path), source.columns
+    if form == "netcdf":
+        stated = read_arrays.netcdf_units(path, [str(column.column) for column in columns])
+    elif form == "csv":
+        stated = [stated_unit(path, source, column.column) for column in columns]
     elif form == "parquet":
-        stated = read_arrays.parquet_unit(path, str(column.column))
+        stated = [read_arrays.parquet_unit(path, str(column.column)) for column in columns]
+    else:
+        stated = [""] * len(columns)
+    return [_unit_of(path, form, column, unit) for column, unit in zip(columns, stated, strict=True)]
+
+
+def _unit_of(path: Path, form: str, column: ColumnSource, stated: str) -> tuple[Unit, str]:
+    """Return the unit of a column and its SI symbol; what the file states and the configuration says must agree."""
     place = f"{path.name}, column '{column.column}'"
     own = _parsed(_spelled(stated)) if stated else None
     if column.unit:
@@ -242,7 +248,7 @@ class _LoggerClock:
             return
         column = str(self.time.columns[0])
         if form == "netcdf":
-            self.file_has_epoch = " since " in read_arrays.netcdf_unit(path, column)
+            self.file_has_epoch = " since " in read_arrays.netcdf_units(path, [column])[0]
         elif form == "parquet":
             self.file_has_epoch, zone = read_arrays.parquet_stamps(path, column)
             if zone and self.time.utc_offset != 0.0:

@@ -248,12 +248,12 @@ def _crests(time: Array, elevation: Array, start: Array, end: Array) -> Array:
 
 def _pulses(laws: CampaignLaws, time: Array, centre: Array, top: Array) -> Array:
     """Return half sines of the given tops; where two meet, the larger one counts."""
-    out = np.zeros(time.size)
-    half = 0.5 * laws.pulse
-    for middle, value in zip(centre, top, strict=True):
-        first, last = np.searchsorted(time, (middle - half, middle + half))
-        shape = value * np.cos(0.5 * math.pi * (time[first:last] - middle) / half)
-        out[first:last] = np.maximum(out[first:last], shape)
+    out, half = np.zeros(time.size), 0.5 * laws.pulse
+    first, last = np.searchsorted(time, centre - half), np.searchsorted(time, centre + half)
+    place = first[:, None] + np.arange(int(np.max(last - first, initial=0)))
+    wave, column = np.nonzero(place < last[:, None])
+    place = place[wave, column]
+    np.maximum.at(out, place, top[wave] * np.cos(0.5 * math.pi * (time[place] - centre[wave]) / half))
     return out
 
 

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
+from moyai.records.survey.tension_kernel import largest_of_waves
 from moyai.series.detrend import slow_part
 from moyai.series.wave_statistics import significant
 
@@ -129,46 +130,25 @@ def wave_maxima(
     count = first.size
     usual = float(np.median(np.diff(t))) if t.size > 1 else math.inf
     maximum, top, when = (np.full(count, np.nan) for _ in range(3))
-    double = np.zeros(count, dtype=bool)
-    for i in range(count):
-        part = values[low[i] : high[i]]
-        # a wave whose window is cut by the end of the record is no wave of this record
-        if part.size < 2 or last[i] + delay > t[-1] or first[i] + delay < t[0] - 1e-9:
-            continue
-        # where samples lack, the largest may be among them
-        if part.size < 0.9 * (last[i] - first[i]) / usual - 2.0:
-            continue
-        place = int(part.argmax())
-        maximum[i], when[i] = part[place], t[low[i] + place]
-        top[i] = _top(values, low[i] + place)
-        double[i] = _second_peak(part, place)
+    place, double = np.zeros(count, dtype=np.int64), np.zeros(count, dtype=bool)
+    largest_of_waves(values, low, high, _DOUBLE, place, double)
+    # a wave whose window is cut by the end of the record is no wave of this record
+    whole = (high - low >= 2) & (last + delay <= t[-1]) & (first + delay >= t[0] - 1e-9)
+    # where samples lack, the largest may be among them
+    whole &= high - low >= 0.9 * (last - first) / usual - 2.0
+    found = place[whole]
+    maximum[whole], when[whole], top[whole] = values[found], t[found], _tops(values, found)
+    double &= whole
     return WaveTensions(maximum, top, when, double, delay)
 
 
-def _top(values: Array, place: int) -> float:
-    """Return the top of the parabola through a largest sample and its neighbours; the sample where there is none."""
-    middle = float(values[place])
-    if not 0 < place < values.size - 1:
-        return middle
-    left, right = float(values[place - 1]), float(values[place + 1])
+def _tops(values: Array, place: NDArray[np.int64]) -> Array:
+    """Return tops of parabolas through largest samples and their neighbours; the sample where there is none."""
+    middle = values[place]
+    left, right = values[np.maximum(place - 1, 0)], values[np.minimum(place + 1, values.size - 1)]
     bend = left - 2.0 * middle + right
-    if bend >= 0.0 or max(left, right) > middle:
-        return middle
-    return middle - (right - left) ** 2 / (8.0 * bend)
-
-
-def _second_peak(part: Array, place: int) -> bool:
-    """Return whether another peak near the first stands behind a valley of less than half of it."""
-    top = float(part[place])
-    if top <= 0.0:
-        return False
-    for side in (part[:place][::-1], part[place + 1 :]):
-        if side.size:
-            below = side < 0.5 * top
-            first = int(below.argmax())
-            if below[first] and side[first:].max() > _DOUBLE * top:
-                return True
-    return False
+    bent = (place > 0) & (place < values.size - 1) & (bend < 0.0) & (np.maximum(left, right) <= middle)
+    return np.where(bent, middle - (right - left) ** 2 / (8.0 * np.where(bent, bend, 1.0)), middle)
 
 
 def find_delay(time: ArrayLike, elevation: ArrayLike, fluctuating: ArrayLike, *, longest: float) -> float:

@@ -84,9 +84,10 @@ def _pulls(
         1.0 + scatter * rng.standard_normal(len(waves)), 0.1
     )
     out = np.zeros(time.size)
-    for start, period, top in zip(waves.start, waves.period, size):
-        centre, width = start + 0.25 * period, 0.05 * period
-        near = slice(*np.searchsorted(time, [centre - 5.0 * width, centre + 5.0 * width]))
+    centres, widths = waves.start + 0.25 * waves.period, 0.05 * waves.period
+    ends = (np.searchsorted(time, centres + 5.0 * side * widths) for side in (-1.0, 1.0))
+    for centre, width, top, first, last in zip(centres, widths, size, *ends):
+        near = slice(first, last)
         out[near] += top * np.exp(-0.5 * ((time[near] - centre) / width) ** 2)
     return out
 
