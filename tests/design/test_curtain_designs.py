@@ -430,7 +430,7 @@ def test_the_plate_in_a_weaker_current_decides_where_the_whole_span_gives_less(t
     moved = {name: SpanLoad(1.0, "storm") for name in ("upper cable", "lower cable", "anchor line")}
     table, _ = loads_dataset(unit, problem.settings, (), (), answer, answer, curve, moved)
     row = table.sel(component="anchor line")
-    speed = models.upright_in(unit)
+    speed = models.upright_in(unit, unit.surface_speed)
     assert 0.25 < speed < 0.45 and models.straight_share(unit, speed) >= models.STRAIGHT
     assert f"in a weaker current of {speed:.3g} m/s" in str(row["governing_source"].values)
     assert row["load_bound"] == "" and float(row["governing_high"]) > float(row["governing_load"])

@@ -110,11 +110,28 @@ def test_a_held_curtain_without_a_current_snaps_as_it_drifts(tmp_path: Path) -> 
     table = next(group for group in still.tree.subtree if group.path.endswith("weaker_currents"))
     speeds = table["weaker_current"].values
     assert speeds.min() > 0.0 and len(speeds) > 1
-    slow = CURRENT.replace("0.3 m/s", f"{speeds[0]:.17g} m/s")
-    moving = run(tmp_path, "statics, waves", waves=WAVES, current=slow)
+    alone = headline(still, "anchor_load").value
+    for speed in (0.01, speeds[0]):
+        moving = run(tmp_path, "statics, waves", waves=WAVES, current=CURRENT.replace("0.3 m/s", f"{speed:.17g} m/s"))
+        # a current weaker than the drift changes nothing but its own steady part
+        assert headline(moving, "anchor_load").value == pytest.approx(alone, rel=0.02)
     own = next(group for group in moving.tree.subtree if group.path.endswith("waves/daily"))
     assert float(table["maximum_tension"][0, 0]) == pytest.approx(float(own["maximum_tension"].max()), rel=1e-9)
-    assert headline(still, "anchor_load").value >= headline(moving, "anchor_load").value * (1.0 - 1e-9) > 0.0
+
+
+def test_a_limit_of_a_free_toe_by_a_plate_is_no_ceiling(tmp_path: Path) -> None:
+    """A plate bounds the load of a free toe from above: the current that it allows is held at least."""
+    found = run(tmp_path, "statics, impact, limits", current=CURRENT, toe="free", holding="40 kN")
+    limit = headline(found, "limit_current")
+    assert limit.bound != "at most"
+
+
+def test_floats_are_judged_where_no_statics_are_asked_for(tmp_path: Path) -> None:
+    heavy = {"pretension": "34 kN", "holding": "200 kN"}
+    for analyses, more in (("waves", {"waves": WAVES}), ("impact", {"current": CURRENT.replace("0.3 m/s", "0.6 m/s")})):
+        found = run(tmp_path, analyses, toe="free", **heavy, **more)
+        assert headline(found, "float_reserve").value < 0.0
+        assert "reserve of the floats" in found.verdict.message
 
 
 def test_limits_without_snaps_are_at_most(tmp_path: Path) -> None:

@@ -43,8 +43,8 @@ class LevelCurtain:
     surface_speed: float
     #: Without band: :attr:`moyai.structures.curtain.model.Settings.nominal`.
     nominal: bool = False
-    #: Of a case without a current: the one as strong as the drift of its waves [m/s]
-    #: (:mod:`moyai.structures.curtain.seas.drift`); 0 with one.
+    #: Of the current as strong as the drift of the waves of the case [m/s]
+    #: (:mod:`moyai.structures.curtain.seas.drift`).
     drift_speed: float = 0.0
 
     @property
@@ -181,10 +181,8 @@ def assemble(problem: CurtainProblem, name: str, level: float) -> LevelCurtain:
     depth = min(curtain.skirt.length, water.depth)
     reference = _reference_speed(profile, depth)
     heading = _heading(profile, depth, curtain.normal)
-    drift = 0.0
-    if given is None:
-        coefficient = curtain.drag.coefficient(0.0 if math.isinf(water.depth) else depth / water.depth)
-        drift = drift_speed(problem.environment.sea_states, curtain.normal, depth, coefficient, water)
+    coefficient = curtain.drag.coefficient(0.0 if math.isinf(water.depth) else depth / water.depth)
+    drift = drift_speed(problem.environment.sea_states, curtain.normal, depth, coefficient, water)
 
     def family(speed: float) -> CurrentProfile:
         return scaled_current(profile, speed / reference)

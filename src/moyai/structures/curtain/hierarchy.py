@@ -140,12 +140,9 @@ def straight_share(unit: LevelCurtain, surface: float) -> float:
     return min(1.0, float(section.effective_depth) / unit.depth)
 
 
-def upright_in(unit: LevelCurtain) -> float:
-    """Return the largest surface speed up to that of the case in which an upright plate governs [m/s]; 0 for none.
-
-    Without a current it is that of the drift of the waves.
-    """
-    curtain, own = unit.curtain, unit.surface_speed or unit.drift_speed
+def upright_in(unit: LevelCurtain, own: float) -> float:
+    """Return the largest surface speed up to a given one in which an upright plate governs [m/s]; 0 for none."""
+    curtain = unit.curtain
     if curtain.toe == "free" or curtain.lower_stiffness <= 0.0 or own <= 0.0:
         return 0.0
     if straight_share(unit, own) >= STRAIGHT:

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 Groups = Mapping[str, "xr.Dataset"]
 _TOE = "weight of the toe at slack water"
+#: Steady load of the floats at the ends of its band.
+_ENDS = ("steady_low", "steady_load", "steady_high")
 
 
 def kilo(value: float, unit: str = "N") -> str:
@@ -87,7 +89,7 @@ def depth_headlines(groups: Groups, levels: Sequence[str]) -> Iterator[Headline]
         for level in levels:
             statics = groups.get(f"/{level}/statics")
             if statics is None and name == "float_reserve":
-                found += _floats_at_slack_water(groups, level, name, label)
+                found += _floats_of_loads(groups, level, name, label)
             value = math.nan if statics is None else at_rest(statics, key)
             if statics is None or not math.isfinite(value):
                 continue
@@ -109,16 +111,19 @@ def depth_headlines(groups: Groups, levels: Sequence[str]) -> Iterator[Headline]
         yield from governing(found, "at least")
 
 
-def _floats_at_slack_water(groups: Groups, level: str, name: str, label: str) -> list[Headline]:
-    """Return the reserve of the floats of a case without a current, by its table of loads."""
+def _floats_of_loads(groups: Groups, level: str, name: str, label: str) -> list[Headline]:
+    """Return the reserve of the floats by the table of loads, where no statics were asked for."""
     loads, whole = groups.get(f"/{level}/loads"), groups.get(f"/{level}")
-    if loads is None or whole is None or float(whole.attrs["surface_speed"]) > 0.0:
+    if loads is None or whole is None:
         return []
     row = loads.sel(component="float")
-    value = 1.0 - float(row["steady_load"]) / float(row["capacity"])
+    high, value, low = (1.0 - float(row[end]) / float(row["capacity"]) for end in _ENDS)
     if not math.isfinite(value):
         return []
-    return [Headline(name, label, value, "1", where=level, model=STATICS, detail="at slack water", without_waves=True)]
+    flows = float(whole.attrs["surface_speed"]) > 0.0
+    band = Band(low, high, _TOE if not flows else f"drag and {_TOE}") if low < high else None
+    detail = "the less of that in the current and at slack water" if flows else "at slack water"
+    return [Headline(name, label, value, "1", where=level, model=STATICS, band=band, detail=detail, without_waves=True)]
 
 
 class _Slack(NamedTuple):

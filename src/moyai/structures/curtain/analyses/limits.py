@@ -133,7 +133,7 @@ def _design_ends(strict: CountedLimits, speeds: tuple[float, ...]) -> dict[str, 
     """
     import xarray as xr
 
-    own, low, lower = strict.unit.surface_speed, math.nan, math.nan
+    own, low, lower = _strongest(strict.unit, strict.settings), math.nan, math.nan
     if own > 0.0:
         within = {speed for speed in speeds if speed < own * (1.0 - 1e-9)} | {own}
 
@@ -224,7 +224,7 @@ class CountedLimits:
 
         limit, bound = self._judged(find, lambda limit: limit.value, self.loads.impact is not None)
         impact = self.loads.impact
-        if limit.value > 0.0 and (impact is None or not self._knows_sheet(impact, limit.value)):
+        if limit.value > 0.0 and (impact is None or (bound == "" and not self._knows_sheet(impact, limit.value))):
             # whatever an impact adds, on the sheet or at all, lowers the limit
             return limit, "at most"
         return limit, bound
@@ -245,8 +245,11 @@ class CountedLimits:
         return limit, bound
 
     def _knows_sheet(self, struck: ImpactLoad, speed: float) -> bool:
-        """Whether the load of the sheet in a snap is known in a current [m/s], or the sheet is not judged."""
-        if self.unit.curtain.strengths.sheet is UNJUDGED:
+        """Whether the load of the sheet in a snap is known in a current [m/s].
+
+        That of a free toe is one of the whole span; a sheet without a strength is not judged.
+        """
+        if self.unit.curtain.toe == "free" or self.unit.curtain.strengths.sheet is UNJUDGED:
             return True
         at = struck.skirt_at
         return (struck.skirt if at is None else at(self.loads.normal_ratio * speed)) is not None
@@ -333,6 +336,7 @@ def _limits_group(
                 "limit_jump": _jump(unit, counted, found),
                 "least_effective_depth": unit.requirements.least_depth,
                 "wave_angle": limits.wave_angle,
+                "drift_governs": int(_strongest(unit, settings) > unit.surface_speed),
                 "with_impact": int(loads.impact is not None),
                 "with_snaps": int(loads.snaps is not None),
                 "sea_duration": counted.duration,
@@ -347,7 +351,7 @@ def _design_height(
     unit: LevelCurtain, counted: CountedLimits, found: _FoundLimits, alone: Array, data: dict[str, Any]
 ) -> dict[str, str]:
     """Add the height held in currents up to that of the case, and return what sets it and whether it is a bound."""
-    own = unit.surface_speed
+    own = _strongest(unit, counted.settings)
     if own <= 0.0:
         data["design_limit_height"] = ((), math.nan)
         return {"design_limit_governing": "", "design_limit_bound": "", "design_limit_note": ""}
@@ -435,6 +439,12 @@ def _jump(unit: LevelCurtain, counted: CountedLimits, found: _FoundLimits) -> st
                 "the snap of an upright plate is a value below and a bound above, and the heights may jump there"
             )
     return ""
+
+
+def _strongest(unit: LevelCurtain, settings: CurtainSettings) -> float:
+    """Return the current up to which a height must be held [m/s]: that of the case, or as strong as its drift."""
+    drift = currents_of_waves(unit) if "waves" in settings.analyses else ()
+    return max(unit.surface_speed, *drift, 0.0)
 
 
 def _speeds(unit: LevelCurtain, settings: CurtainSettings, limit: Limit) -> tuple[float, ...]:

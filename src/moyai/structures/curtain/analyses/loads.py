@@ -398,20 +398,19 @@ def _steady(unit: LevelCurtain, component: str) -> tuple[float, float, float]:
     pulled = 0.0
     if component in ("anchor line", "anchor"):
         pulled = unit.hanging.pretension * (_factor(unit, "anchor") if component == "anchor" else 1.0)
+    lightest, heaviest = unit.curtain.toe_range
+    floats = [unit.slack_float_load(factor) for factor in (1.0, min(lightest, 1.0), max(heaviest, 1.0))]
     if unit.surface_speed == 0.0:
-        still = {
-            "skirt": skirt.toe_load + max(skirt.submerged_weight, 0.0) * skirt.length,
-            "float": unit.slack_float_load(),
-        }
-        return (max(still.get(component, 0.0), pulled),) * 3
+        if component == "float":
+            return floats[0], floats[1], floats[2]
+        hangs = skirt.toe_load + max(skirt.submerged_weight, 0.0) * skirt.length if component == "skirt" else 0.0
+        return (max(hangs, pulled),) * 3
     steady, name = unit.steady, _STEADY[component]
     per = unit.curtain.joint_distance if component == "joint" else 1.0
     ends = [per * steady.governing.quantity(name), *(per * end for end in steady.band(name))]
     if component == "float":
         # the current bears part of the weight of a skirt that flares; slack water comes twice a tide
-        lightest, heaviest = unit.curtain.toe_range
-        least = [unit.slack_float_load(factor) for factor in (1.0, min(lightest, 1.0), max(heaviest, 1.0))]
-        ends = [max(value, other) for value, other in zip(ends, least, strict=True)]
+        ends = [max(value, other) for value, other in zip(ends, floats, strict=True)]
     given, low, high = (tight_line(value, pulled) for value in ends)
     return given, low, high
 

@@ -114,18 +114,24 @@ def sea_cycles(
     return SeaCycles.of(xr.Dataset(_tops(np.array([largest_tension(found, left_out(sea)) for found in snaps]))))
 
 
-def with_strong_drag(
-    unit: LevelCurtain, settings: CurtainSettings, sea: SeaState, found: WaveAnswer, flows: Sequence[SkirtFlow] = ()
-) -> WaveAnswer:
-    """Return the answer with the judged tension that the upper end of the drag coefficient gives [N].
+def strong_tension(
+    unit: LevelCurtain, settings: CurtainSettings, sea: SeaState, own: SeaCycles, flows: Sequence[SkirtFlow] = ()
+) -> float:
+    """Return the judged tension with the drag coefficient at the upper end of its range [N], ``own`` without.
 
-    Both ends of the drag coefficient run the same waves: the ratio of their tensions hardly knows which seeds they are.
+    Both ends run the same waves: the ratio of their tensions hardly knows which seeds they are.
     """
     factor = drag_factors(unit.hanging.drag)[1]
     strong = replace(unit, hanging=replace(unit.hanging, drag=unit.hanging.drag.scaled(factor)))
-    own = SeaCycles.of(found.groups[""])
     high = sea_cycles(strong, settings, sea, flows)
-    judged = own.judged * high.top / own.top if own.top > 0.0 else high.judged
+    return own.judged * high.top / own.top if own.top > 0.0 else high.judged
+
+
+def with_strong_drag(
+    unit: LevelCurtain, settings: CurtainSettings, sea: SeaState, found: WaveAnswer, flows: Sequence[SkirtFlow] = ()
+) -> WaveAnswer:
+    """Return the answer with the judged tension that the upper end of the drag coefficient gives [N]."""
+    judged = strong_tension(unit, settings, sea, SeaCycles.of(found.groups[""]), flows)
     table = labelled(found.groups[""].assign(strong_drag_tension=judged))
     return replace(found, groups={**found.groups, "": table})
 

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 from moyai.core.progress import Progress
 from moyai.sea.states import SeaState
 from moyai.structures.curtain.analyses.impact import ImpactAnswer
-from moyai.structures.curtain.analyses.waves import sea_cycles, still_flows
+from moyai.structures.curtain.analyses.waves import sea_cycles, still_flows, strong_tension
 from moyai.structures.curtain.assembly import LevelCurtain
 from moyai.structures.curtain.hierarchy import upright_in
 from moyai.structures.curtain.limits.loads import impact_load
@@ -59,26 +59,24 @@ class WeakerLoads:
         return steady_loads(self.unit.statics) if self.unit.surface_speed > 0.0 else AddedLoads()
 
 
-def _strongest(unit: LevelCurtain) -> float:
-    """Return the strongest current up to that of the case in which an upright plate governs [m/s]; 0 for none."""
-    return 0.0 if unit.nominal else upright_in(unit)
-
-
 def currents_of_waves(unit: LevelCurtain) -> tuple[float, ...]:
     """Return the weaker currents in which the waves are run [m/s], slack water the first.
 
-    Without a current they are those up to the one that is as strong as the drift of the waves.
+    Those up to the one that is as strong as the drift of the waves are among them, also where the case has a weaker
+    one, or none.
     """
-    top, step = _strongest(unit), _STEP_OF_WAVES * math.sqrt(unit.water.gravity * unit.depth)
-    weaker = [number * step for number in range(int(top / step) + 1)] if top > 0.0 else []
-    if unit.surface_speed > 0.0:
-        return tuple(speed for speed in weaker if speed < unit.surface_speed)
-    return (*(speed for speed in weaker if 0.0 < speed < top), top) if top > 0.0 else ()
+    own = unit.surface_speed
+    top = 0.0 if unit.nominal else upright_in(unit, max(own, unit.drift_speed))
+    if not top > 0.0:
+        return ()
+    step = _STEP_OF_WAVES * math.sqrt(unit.water.gravity * unit.depth)
+    speeds = {number * step for number in range(int(top / step) + 1)} | {top}
+    return tuple(sorted(speed for speed in speeds if abs(speed - own) > 1e-6 * top))
 
 
-def _said(unit: LevelCurtain) -> str:
-    speed = unit.surface_speed
-    if unit.drift_speed > 0.0:
+def _said(speed: float, own: float) -> str:
+    """Say in which current the load is, next to that of the case [m/s]."""
+    if speed > own:
         return f"in a drift with the waves, as in a current of {speed:.3g} m/s"
     return f"in a weaker current of {speed:.3g} m/s" if speed > 0.0 else "at slack water"
 
@@ -87,13 +85,13 @@ def weaker_impacts(unit: LevelCurtain, settings: CurtainSettings, answer: Impact
     """Yield the impact in weaker currents."""
     load = impact_load(unit, answer, settings)
     low, high = answer.uncertainty
-    top = _strongest(unit)
+    top = 0.0 if unit.nominal else upright_in(unit, unit.surface_speed)
     for part in _OF_IMPACT:
         if not 0.0 < part * top < unit.surface_speed:
             continue
         there = replace(unit, surface_speed=part * top)
         struck = load.at(unit.unit_normal_speed * there.surface_speed)
-        source = f"impact, model {answer.design_model}, {_said(there)}"
+        source = f"impact, model {answer.design_model}, {_said(there.surface_speed, unit.surface_speed)}"
         yield WeakerLoads(there, source, struck, struck.times(low), struck.times(high), load.skirt is not None)
 
 
@@ -133,6 +131,9 @@ def weaker_waves(
         for number, there in enumerate(slower):
             progress(f"weaker currents, {sea.name}", number, len(slower))
             found.append(sea_cycles(there, settings, sea, still))
+        if slower[-1].surface_speed > unit.surface_speed and found[-1].judged > 0.0:
+            # as strong as the drift: the case's own, weaker current says little of it
+            strong = max(strong, strong_tension(slower[-1], settings, sea, found[-1], still) / found[-1].judged)
         for name, ends, factor in zip(rows, ("top", "low", "judged"), (1.0, 1.0, strong), strict=True):
             rows[name].append([factor * float(getattr(one, ends)) for one in found])
     coords = {"sea": [sea.name for sea in seas], "weaker_current": list(speeds)}
@@ -152,7 +153,7 @@ def weaker_cycles(
                 tension = float(column[name].sel(sea=sea))
                 whole = load.of_tension(tension, unit.unit_normal_speed * there.surface_speed)
                 ends.append(increase(whole, there.statics) if there.surface_speed > 0.0 else whole)
-            source = f"slack and taut cycles, {sea}, {_said(there)}"
+            source = f"slack and taut cycles, {sea}, {_said(there.surface_speed, unit.surface_speed)}"
             yield WeakerLoads(there, source, ends[0], ends[1], ends[2], load.skirt is not None)
 
 
