@@ -16,6 +16,7 @@ from moyai.case.reader import Case, case_of, read_block
 from moyai.case.yaml_reader import CaseDocument, KeyPath, dotted, read_yaml
 from moyai.core.errors import CaseError, Fault, InputError
 from moyai.core.progress import Progress, silent
+from moyai.core.version import VERSION
 from moyai.study import schema
 from moyai.study.axes import Axis, Combination, Point, StudyBase, combinations, varied, without
 from moyai.study.plan_faults import check_kind, check_names, check_search, place_of, unknown_keys
@@ -332,10 +333,8 @@ def _read_base(document: CaseDocument, base_path: Path) -> CaseDocument:
 
 def _key(study: Study, hashes: str) -> str:
     """Return the hash of the study: cases in their order, what is kept, the version of the program."""
-    from moyai import __version__
-
     content = {
-        "version": __version__,
+        "version": VERSION,
         "cases": hashes,
         "points": [[axis.name, [[point.label, point.assignments, point.removals] for point in axis.points]]
                    for axis in study.axes],
