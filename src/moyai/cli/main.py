@@ -157,8 +157,7 @@ def check(file: CaseFile, units: Units = None, language: Language = None, as_jso
     """Report all errors of a case file at once, and the numbers that follow from it."""
     with guard(as_json, language):
         from moyai.case.criteria import criteria_of
-        from moyai.case.derived import derived_numbers
-        from moyai.case.reader import load_case
+        from moyai.case.reader import derived_numbers, load_case
 
         case = load_case(file)
         _speak_as(case, language)
