@@ -13,9 +13,10 @@ from test_vtk import scene
 from typer.testing import CliRunner
 
 from moyai.cli.main import app
+from moyai.report.animation_3d import animation_3d
 from moyai.report.document import Chapter, Document
 from moyai.report.gltf import MOMENTS, SHAPES, TUBES, document_gltf, scene_glb
-from moyai.report.scene_3d import Faces, Scene3D, Waves3D, animation_3d
+from moyai.report.scene_3d import Faces, Scene3D, Waves3D
 
 Y_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
 

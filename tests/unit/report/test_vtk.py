@@ -10,8 +10,9 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
+from moyai.report.animation_3d import animation_3d
 from moyai.report.document import Chapter, Document
-from moyai.report.scene_3d import Body3D, Faces, Scene3D, animation_3d
+from moyai.report.scene_3d import Body3D, Faces, Scene3D
 from moyai.report.vtk import document_vtk, frame_vtp
 from moyai.report.writer import write_report
 
