@@ -25,10 +25,10 @@ from moyai.core.wording import counted
 from moyai.records.calibration import Calibration, Parameter, calibrate
 from moyai.study import fit_schema
 from moyai.study.axes import Combination, varied
-from moyai.study.plan import RunCase
+from moyai.study.definition import RunCase
 from moyai.study.responses import find_response, read_response
+from moyai.study.rows_of_files import column_of, read_rows
 from moyai.study.variations import common_unit
-from moyai.study.variations_of_files import column_of, read_rows
 
 
 @dataclass(frozen=True)
