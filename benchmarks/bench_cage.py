@@ -14,7 +14,7 @@ import time
 from collections.abc import Callable
 from dataclasses import replace
 
-from moyai.flexible.network import Bed
+from moyai.flexible.bed import Bed
 from moyai.morison.net_law_names import Net, net_law
 from moyai.sea.current import uniform
 from moyai.sea.water import Water

@@ -8,8 +8,8 @@ from functools import lru_cache
 import numpy as np
 
 from moyai.core.validation import ValidationCase
+from moyai.flexible.bed import Bed
 from moyai.flexible.mesh_groups import group_meshes
-from moyai.flexible.network import Bed
 from moyai.flexible.panels import NetPanels, PanelLaw, forces_on_panels
 from moyai.flexible.ring_kernel import ring_forces
 from moyai.flexible.rings import Ring, RingArrays

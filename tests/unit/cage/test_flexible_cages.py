@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from moyai.core.errors import InputError
+from moyai.flexible.bed import Bed
 from moyai.flexible.flow import Flow
 from moyai.flexible.mesh_groups import group_meshes
-from moyai.flexible.network import Bed
 from moyai.flexible.panels import panel_areas
 from moyai.morison.net_law_names import Net, net_law
 from moyai.morison.net_wake import wake_factor

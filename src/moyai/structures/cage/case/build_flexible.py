@@ -11,7 +11,7 @@ from pathlib import Path
 from moyai.case.build_sea import current_of
 from moyai.case.criteria import criteria_of
 from moyai.core.errors import InputError
-from moyai.flexible.network import Bed
+from moyai.flexible.bed import Bed
 from moyai.morison.net_fouling import foul, foul_by_name
 from moyai.morison.net_law_names import Net, net_law
 from moyai.sea.environment import Environment

@@ -9,8 +9,9 @@ from itertools import pairwise
 import numpy as np
 
 from moyai.core.arrays import Array, IntArray
+from moyai.flexible.elements import FIXED, FREE, SPHERE, Bars, BarType, Nodes, Strand
 from moyai.flexible.mesh_groups import group_meshes
-from moyai.flexible.network import FIXED, FREE, SPHERE, Bars, BarType, Network, Nodes, Strand
+from moyai.flexible.network import Network
 from moyai.flexible.panels import NetPanels, PanelLaw, panel_areas
 from moyai.flexible.rings import Ring
 from moyai.structures.cage.flexible.collar import Pipe

@@ -8,7 +8,7 @@ from typing import Literal
 
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
-from moyai.flexible.network import Bed
+from moyai.flexible.bed import Bed
 from moyai.morison.net_law_names import Net, NetLaw
 from moyai.sea.water import Water
 from moyai.structures.cage.flexible.collar import Collar, Pipe
