@@ -18,16 +18,9 @@ from moyai.sea.current import uniform
 from moyai.sea.water import Water
 from moyai.structures.cage.flexible.build import build_cage
 from moyai.structures.cage.flexible.collar import Collar, Pipe
+from moyai.structures.cage.flexible.design import CageDesign, CageNet, Sinkers, WakeName
 from moyai.structures.cage.flexible.equilibrium import horizontal_balance, solve_rest
-from moyai.structures.cage.flexible.model import (
-    CageDesign,
-    CageMesh,
-    CageNet,
-    FixedCollar,
-    FlexibleCage,
-    Sinkers,
-    WakeName,
-)
+from moyai.structures.cage.flexible.model import CageMesh, FixedCollar, FlexibleCage
 
 _VISCOSITY = 1.14e-6
 

@@ -15,7 +15,9 @@ from moyai.flexible.network import Network
 from moyai.flexible.panels import NetPanels, PanelLaw, panel_areas
 from moyai.flexible.rings import Ring
 from moyai.structures.cage.flexible.collar import Pipe
-from moyai.structures.cage.flexible.model import CageDesign, FlexibleCage, GridMooring
+from moyai.structures.cage.flexible.design import CageDesign
+from moyai.structures.cage.flexible.grid_mooring import GridMooring
+from moyai.structures.cage.flexible.model import FlexibleCage
 from moyai.structures.cage.flexible.parts import CageNetwork, CageParts, LinePart, enclosed_volume
 from moyai.tables.lines import LineProperties
 
