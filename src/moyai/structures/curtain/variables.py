@@ -414,6 +414,8 @@ LABELS: dict[str, str] = {
 
 #: Other runs of the whole span through time, and of each of its cables and lines.
 TRIALS = ("half_step", "half_mesh", "extrapolated", "double_viscosity", "held_normals")
+#: Groups of runs of the whole span: the name of one in a weaker current ends in "m/s".
+_RUN = "/[^/]+/dynamic/[^/]+(/s)?"
 #: Names that a group holds whenever its analysis was run to its end.
 ALWAYS = {
     "/record": (
@@ -489,14 +491,12 @@ ALWAYS = {
         "both_peak both_peak_time upper_peak lower_peak anchor_peak skirt_peak "
         + " ".join(f"{trial}_peak" for trial in TRIALS)
     ),
-    "/[^/]+/dynamic/[^/]+": (
+    _RUN: (
         "line_tension_peak_since_row both_tension kinetic_energy elastic_energy energy_balance mid_span_x mid_toe_x "
         "mid_toe_z line_tension_maximum line_peak_time slack_share line_contacts line_snaps slack_level snap_threshold "
         "snap_rise_time " + " ".join(f"line_{trial}" for trial in TRIALS)
     ),
-    "/[^/]+/dynamic/[^/]+/frames": (
-        "node_position bar_tension triangle_tension bar_nodes triangle_nodes frame_time bar_line"
-    ),
+    f"{_RUN}/frames": ("node_position bar_tension triangle_tension bar_nodes triangle_nodes frame_time bar_line"),
 }
 #: What one statement of a run writes: a group holds all of it or none.
 TOGETHER = {
@@ -527,7 +527,7 @@ TOGETHER = {
             "sample_seed"
         ),
     ),
-    "/[^/]+/dynamic/[^/]+/frames": ("wave_amplitude wave_omega wave_wave_number wave_heading wave_phase",),
+    f"{_RUN}/frames": ("wave_amplitude wave_omega wave_wave_number wave_heading wave_phase",),
 }
 
 VOCABULARY = Vocabulary.of(
