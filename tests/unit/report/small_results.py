@@ -47,7 +47,7 @@ title: Curtain at the outfall
 site: {water_depth: 8 m, water_levels: {HWL: 1.2 m, LWL: 0 m}, density: 1025 kg/m3, gravity: 9.81 m/s2}
 current: {speed: 0.25 m/s, heading_deg: 10}
 waves:
-  - {name: swell, kind: regular, height: 0.5 m, periods: [4 s, 6 s], heading_deg: 0}
+  - {name: swell, kind: regular, height: 0.5 m, period: 4 s, heading_deg: 0}
   - {name: storm, kind: jonswap, significant_height: 0.7 m, significant_period: 4 s, peak_enhancement: 3.3,
      heading_deg: 20, duration: 2 min, seed: 1}
 structure:
