@@ -49,7 +49,7 @@ current: {speed: 0.25 m/s, heading_deg: 10}
 waves:
   - {name: swell, kind: regular, height: 0.5 m, period: 4 s, heading_deg: 0}
   - {name: storm, kind: jonswap, significant_height: 0.7 m, significant_period: 4 s, peak_enhancement: 3.3,
-     heading_deg: 20, duration: 2 min, seed: 1}
+     heading_deg: 20, duration: 90 s, seed: 1}
 structure:
   kind: curtain
   span: 20 m
