@@ -14,15 +14,16 @@ import time
 from collections.abc import Callable
 from dataclasses import replace
 
-from moyai.flexible.network import Bed
+from moyai.flexible.bed import Bed
 from moyai.morison.net_law_names import Net, net_law
 from moyai.sea.current import uniform
 from moyai.sea.water import Water
 from moyai.structures.cage.flexible.build import build_cage
 from moyai.structures.cage.flexible.collar import Collar, Pipe
+from moyai.structures.cage.flexible.design import CageDesign, CageNet
 from moyai.structures.cage.flexible.equilibrium import solve_rest
 from moyai.structures.cage.flexible.grid_mooring import Buoy, GridMooring
-from moyai.structures.cage.flexible.model import CageDesign, CageMesh, CageNet, FlexibleCage
+from moyai.structures.cage.flexible.model import CageMesh, FlexibleCage
 from moyai.structures.cage.flexible.problem import FlexibleSettings
 from moyai.structures.cage.flexible.time import run_cage
 from moyai.structures.cage.rigid.waves import regular_wave

@@ -19,9 +19,10 @@ from moyai.coupled.equilibrium import find_coupled_equilibrium
 from moyai.coupled.planar import PlanarBody
 from moyai.coupled.planar_march import PlanarMarch
 from moyai.coupled.simulate import simulate_coupled
+from moyai.flexible.bed import Bed
 from moyai.flexible.build import NetworkBuilder
+from moyai.flexible.elements import BarType
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import BarType, Bed
 from moyai.flexible.simulation import simulate
 from moyai.floating.forcing import RegularForcing
 from moyai.floating.memory import StateSpaceMemory

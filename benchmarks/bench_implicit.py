@@ -15,8 +15,9 @@ import time
 
 import numpy as np
 
+from moyai.flexible.elements import Bars, BarType, Nodes
 from moyai.flexible.flow import Flow
-from moyai.flexible.network import Bars, BarType, Network, Nodes
+from moyai.flexible.network import Network
 from moyai.flexible.result import State
 from moyai.flexible.rings import Ring
 from moyai.flexible.sheets import Sheets, sheet_grid

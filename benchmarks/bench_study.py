@@ -20,8 +20,9 @@ from typing import Any
 import xarray as xr
 
 from moyai.core.results import Result
+from moyai.study.definition import Study
 from moyai.study.execute import run_study
-from moyai.study.plan import Study, load_study
+from moyai.study.plan import load_study
 
 ROOT = Path(__file__).resolve().parents[1]
 

@@ -12,9 +12,11 @@ import math
 
 import numpy as np
 
+from moyai.flexible.bed import Bed
 from moyai.flexible.build import NetworkBuilder
+from moyai.flexible.elements import BarType
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import BarType, Bed, Network
+from moyai.flexible.network import Network
 from moyai.sea.water import Water
 
 DENSITY, GRAVITY = 1025.0, 9.81

@@ -24,9 +24,11 @@ from moyai.coupled.hulls import box_hull
 from moyai.coupled.rigid import RigidBody
 from moyai.coupled.simulate import CoupledHistory, simulate_coupled
 from moyai.coupled.wave_loads import WaveLoads
+from moyai.flexible.bed import Bed
 from moyai.flexible.build import NetworkBuilder
+from moyai.flexible.elements import BarType
 from moyai.flexible.flow import Flow
-from moyai.flexible.network import BarType, Bed, Network
+from moyai.flexible.network import Network
 from moyai.interop.read import read_coefficients
 from moyai.sea.components import WaveComponents
 from moyai.sea.dispersion import wave_number

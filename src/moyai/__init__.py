@@ -20,8 +20,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from moyai.core.exports import exports
+from moyai.core.version import VERSION
 
-__version__ = "0.2.0"
+__version__ = VERSION
 
 if TYPE_CHECKING:
     from moyai.case.reader import load_case as load_case

@@ -275,7 +275,7 @@ def _scatter(folder: Path) -> Any:
 
 
 def _rows(folder: Path) -> Any:
-    from moyai.study.variations_of_files import read_rows
+    from moyai.study.rows_of_files import read_rows
 
     return read_rows(folder / "a.csv")
 

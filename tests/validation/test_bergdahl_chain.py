@@ -14,9 +14,10 @@ import math
 import numpy as np
 import pytest
 
+from moyai.flexible.bed import Bed
 from moyai.flexible.build import NetworkBuilder
+from moyai.flexible.elements import BarType
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import BarType, Bed
 from moyai.flexible.simulation import simulate
 from moyai.flexible.statics import solve_equilibrium
 from moyai.sea.water import Water

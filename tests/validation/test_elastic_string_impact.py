@@ -15,7 +15,7 @@ import pytest
 from numpy.polynomial import Polynomial
 
 from moyai.flexible.build import NetworkBuilder
-from moyai.flexible.network import BarType
+from moyai.flexible.elements import BarType
 from moyai.flexible.result import State
 from moyai.flexible.simulation import simulate
 from moyai.sea.water import Water

@@ -14,8 +14,8 @@ import pytest
 from test_elastic_string_impact import exact_peak
 
 from moyai.flexible.build import NetworkBuilder
+from moyai.flexible.elements import BarType, RopeCurve
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import BarType, RopeCurve
 from moyai.flexible.result import State
 from moyai.flexible.simulation import simulate
 from moyai.sea.water import Water

@@ -12,9 +12,10 @@ import sys
 import numpy as np
 import pytest
 
+from moyai.flexible.bed import Bed
 from moyai.flexible.build import NetworkBuilder
+from moyai.flexible.elements import BarType
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import BarType, Bed
 from moyai.flexible.simulation import simulate
 from moyai.flexible.statics import solve_equilibrium
 from moyai.interop.moordyn_deck import write_deck

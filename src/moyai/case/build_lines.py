@@ -6,7 +6,7 @@ import math
 
 from moyai.case.schema_lines import CatalogueSegment, CatenaryLine, ClumpEntry, OwnSegment
 from moyai.core.errors import InputError
-from moyai.flexible.network import BarType
+from moyai.flexible.elements import BarType
 from moyai.mooring.lines import Clump, LineType, Segment
 from moyai.sea.water import Water
 from moyai.tables.lines import line_type

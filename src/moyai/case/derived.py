@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from moyai.core.kinds import structure_kind
+from moyai.core.errors import Fault
 from moyai.core.units import parse_unit
-
-if TYPE_CHECKING:
-    from moyai.case.reader import Case
 
 
 @dataclass(frozen=True)
@@ -50,46 +48,22 @@ class Number:
         }
 
 
-def derived_numbers(case: Case) -> tuple[Number, ...]:
-    """Return the numbers that follow from a case.
-
-    Parameters
-    ----------
-    case : Case
-        From :func:`moyai.case.reader.load_case`.
-
-    Returns
-    -------
-    tuple of Number
-        Each with its value in SI units, and the unit that it is shown in.
-
-    Raises
-    ------
-    InputError
-        When a file that the case names has changed or become unreadable since it was checked.
-
-    Examples
-    --------
-    >>> import moyai
-    >>> from moyai.case import derived_numbers
-    >>> numbers = derived_numbers(moyai.load_case(moyai.template("member")))
-    >>> numbers[0].label, numbers[0].value, numbers[0].unit
-    ('length', 20.0, 'm')
-    """
-    numbers: tuple[Number, ...] = structure_kind(case.kind).derived(case)
-    return numbers
-
-
-def case_html(case: Case) -> str:
+def case_html(title: str, place: str, warnings: Sequence[Fault], numbers: Sequence[Number], text: str) -> str:
     """Return a case as a piece of HTML for a notebook; nothing is loaded.
 
     Parameters
     ----------
-    case : Case
+    title : str
+    place : str
+        Kind of the structure and file of the case.
+    warnings : sequence of Fault
+    numbers : sequence of Number
+        That follow from the case.
+    text : str
+        Content of the file.
     """
-    parts = [f"<strong>{escape(case.title)}</strong>", f"<div>{escape(case.kind)}, {escape(str(case.path))}</div>"]
-    parts += [f"<div>warning: {escape(str(fault))}</div>" for fault in case.warnings]
-    numbers = derived_numbers(case)
+    parts = [f"<strong>{escape(title)}</strong>", f"<div>{escape(place)}</div>"]
+    parts += [f"<div>warning: {escape(str(fault))}</div>" for fault in warnings]
     for group in dict.fromkeys(number.group for number in numbers):
         own = [number for number in numbers if number.group == group]
         levels = tuple(dict.fromkeys(number.column for number in own))
@@ -98,7 +72,7 @@ def case_html(case: Case) -> str:
             texts = {number.column: number.text for number in own if (number.label, number.unit) == (label, unit)}
             rows.append(_row("td", (label, *(texts.get(level, "") for level in levels), unit)))
         parts.append(f"<table>{''.join(rows)}</table>")
-    parts.append(f"<details><summary>case file</summary><pre>{escape(case.text)}</pre></details>")
+    parts.append(f"<details><summary>case file</summary><pre>{escape(text)}</pre></details>")
     return f'<div class="moyai-case">{"".join(parts)}</div>'
 
 

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from pydantic import ValidationError
 
+from moyai.case.derived import Number, case_html
 from moyai.case.faults import FaultTranslator, did_you_mean, nearest
 from moyai.case.findings import Findings
 from moyai.case.paths import assign, resolve
@@ -63,9 +64,7 @@ class Case:
 
     def _repr_html_(self) -> str:
         """Return what a notebook shows: title, numbers that follow from the case, warnings, the text folded away."""
-        from moyai.case.derived import case_html
-
-        return case_html(self)
+        return case_html(self.title, f"{self.kind}, {self.path}", self.warnings, derived_numbers(self), self.text)
 
     def __repr__(self) -> str:
         return f"<case of kind {self.kind}: {self.title!r}, {self.path}>"
@@ -147,6 +146,36 @@ def load_case(source: str | os.PathLike[str] | Mapping[str, Any]) -> Case:
     if isinstance(source, str) and "\n" in source:
         return case_of(parse_yaml(source, "case"), Path("case.yaml"))
     return case_of(read_yaml(source), Path(source))
+
+
+def derived_numbers(case: Case) -> tuple[Number, ...]:
+    """Return the numbers that follow from a case.
+
+    Parameters
+    ----------
+    case : Case
+        From :func:`load_case`.
+
+    Returns
+    -------
+    tuple of Number
+        Each with its value in SI units, and the unit that it is shown in.
+
+    Raises
+    ------
+    InputError
+        When a file that the case names has changed or become unreadable since it was checked.
+
+    Examples
+    --------
+    >>> import moyai
+    >>> from moyai.case import derived_numbers
+    >>> numbers = derived_numbers(moyai.load_case(moyai.template("member")))
+    >>> numbers[0].label, numbers[0].value, numbers[0].unit
+    ('length', 20.0, 'm')
+    """
+    numbers: tuple[Number, ...] = structure_kind(case.kind).derived(case)
+    return numbers
 
 
 def written(content: Any) -> str:

@@ -50,6 +50,7 @@ from moyai.cli.report import report as report_command
 from moyai.cli.reproduce import reproduce
 from moyai.cli.scale import scale
 from moyai.cli.study import study
+from moyai.core.version import VERSION
 from moyai.core.wording import counted
 from moyai.language import said, speak
 from moyai.language.comments import with_comments
@@ -92,9 +93,7 @@ Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No progress bars and
 
 def _version(wanted: bool) -> None:
     if wanted:
-        from moyai import __version__
-
-        say(f"moyai {__version__}")
+        say(f"moyai {VERSION}")
         raise typer.Exit(OK)
 
 
@@ -158,8 +157,7 @@ def check(file: CaseFile, units: Units = None, language: Language = None, as_jso
     """Report all errors of a case file at once, and the numbers that follow from it."""
     with guard(as_json, language):
         from moyai.case.criteria import criteria_of
-        from moyai.case.derived import derived_numbers
-        from moyai.case.reader import load_case
+        from moyai.case.reader import derived_numbers, load_case
 
         case = load_case(file)
         _speak_as(case, language)

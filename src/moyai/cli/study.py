@@ -17,8 +17,8 @@ from moyai.language import said
 if TYPE_CHECKING:
     from moyai.core.progress import Progress
     from moyai.core.results import Result
+    from moyai.study.definition import Study
     from moyai.study.execute import Standing
-    from moyai.study.plan import Study
 
 
 def study(

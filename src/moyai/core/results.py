@@ -24,6 +24,7 @@ from moyai.core.groups import Groups
 from moyai.core.headline import Headline, Verdict, without_computation
 from moyai.core.options import checks_words
 from moyai.core.validity import IdentityCheck, Notice
+from moyai.core.version import VERSION
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -99,10 +100,8 @@ class Result:
 
 def make_provenance(**entries: Any) -> dict[str, Any]:
     """Collect version, packages, conventions and time of the run, with ``entries`` on top."""
-    from moyai import __version__
-
     return {
-        "moyai_version": __version__,
+        "moyai_version": VERSION,
         "python": platform.python_version(),
         "platform": f"{platform.system()} {platform.machine()}",
         "packages": dict(_packages()),

@@ -12,11 +12,12 @@ from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.coupled.bodies import Body
 from moyai.coupled.rigid import RigidBody, RigidCarrier
+from moyai.flexible.elements import Nodes
 from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import Network, Nodes
-from moyai.flexible.result import State
-from moyai.flexible.statics import Equilibrium, solve_equilibrium
+from moyai.flexible.network import Network
+from moyai.flexible.result import Equilibrium, State
+from moyai.flexible.statics import solve_equilibrium
 from moyai.flexible.stepping import SteppedNetwork, carried_nodes
 from moyai.mooring.rotations import roll_pitch_yaw
 

@@ -5,7 +5,9 @@ from typing import TYPE_CHECKING
 from moyai.core.exports import exports
 
 if TYPE_CHECKING:
+    from moyai.flexible.bed import Bed as Bed
     from moyai.flexible.build import NetworkBuilder as NetworkBuilder
+    from moyai.flexible.elements import BarType as BarType
     from moyai.flexible.ensemble import Ensemble as Ensemble
     from moyai.flexible.ensemble import Member as Member
     from moyai.flexible.ensemble import simulate_together as simulate_together
@@ -14,30 +16,30 @@ if TYPE_CHECKING:
     from moyai.flexible.modes import NetworkModes as NetworkModes
     from moyai.flexible.modes import natural_modes as natural_modes
     from moyai.flexible.motion import Motion as Motion
-    from moyai.flexible.network import BarType as BarType
-    from moyai.flexible.network import Bed as Bed
     from moyai.flexible.network import Network as Network
     from moyai.flexible.refine import refined as refined
+    from moyai.flexible.result import Equilibrium as Equilibrium
     from moyai.flexible.result import History as History
     from moyai.flexible.result import State as State
     from moyai.flexible.sensitivity import peak_sensitivity as peak_sensitivity
     from moyai.flexible.simulation import simulate as simulate
-    from moyai.flexible.statics import Equilibrium as Equilibrium
     from moyai.flexible.statics import solve_equilibrium as solve_equilibrium
 else:
     __getattr__, __dir__, __all__ = exports(
         __name__,
         {
+            "bed": "Bed",
             "build": "NetworkBuilder",
+            "elements": "BarType",
             "ensemble": "Ensemble Member simulate_together",
             "flow": "Current Flow",
             "modes": "NetworkModes natural_modes",
             "motion": "Motion",
-            "network": "BarType Bed Network",
+            "network": "Network",
             "refine": "refined",
-            "result": "History State",
+            "result": "Equilibrium History State",
             "sensitivity": "peak_sensitivity",
             "simulation": "simulate",
-            "statics": "Equilibrium solve_equilibrium",
+            "statics": "solve_equilibrium",
         },
     )

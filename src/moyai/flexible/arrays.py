@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from moyai.core.arrays import Array, IntArray
-from moyai.flexible.network import FREE, Network, RopeCurve
+from moyai.flexible.elements import FREE, RopeCurve
+from moyai.flexible.network import Network
 
 #: Rows of ``KernelArrays.nodes``.
 NODE_ROWS = (

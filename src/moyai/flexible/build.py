@@ -20,7 +20,9 @@ from numpy.typing import ArrayLike
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
-from moyai.flexible.network import BOX, DRIVEN, FIXED, FREE, SPHERE, Bars, BarType, Bed, Network, Nodes, Strand
+from moyai.flexible.bed import Bed
+from moyai.flexible.elements import BOX, DRIVEN, FIXED, FREE, SPHERE, Bars, BarType, Nodes, Strand
+from moyai.flexible.network import Network
 from moyai.flexible.numbers import whole_number
 from moyai.flexible.sheets import Sheets, sheet_grid
 from moyai.mooring.lines import Line, LineType, Segment

@@ -9,16 +9,14 @@ import numpy as np
 from moyai.core.errors import ConvergenceError
 from moyai.core.progress import Progress, silent
 from moyai.flexible.arrays import kernel_bed
-from moyai.flexible.checks import name_of_node
 from moyai.flexible.dynamic_relaxation_kernel import relax
 from moyai.flexible.explicit import ExplicitRun
 from moyai.flexible.explicit_rows import PULL, WU
 from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import Network
-from moyai.flexible.result import State
+from moyai.flexible.network import Network, name_of_node
+from moyai.flexible.result import Equilibrium, State
 from moyai.flexible.sheet_kernel import sheet_stiffness, stress_field
-from moyai.flexible.statics import Equilibrium
 
 #: Steps between two evaluations of the loads of the water, and between two looks at the current and the surface.
 EVERY, CHUNK = 5, 500

@@ -20,11 +20,12 @@ from moyai.core.arrays import Array, BoolArray, IntArray
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
 from moyai.flexible.arrays import kernel_arrays
+from moyai.flexible.elements import Bars, Nodes, Strand
 from moyai.flexible.explicit import DRAG_BROKEN, DRAG_SHARE, LOAD_STEPS, ExplicitRun
 from moyai.flexible.explicit_rows import FASTEST, FASTEST_ATTACHED
 from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import Bars, Network, Nodes, Strand
+from moyai.flexible.network import Network
 from moyai.flexible.numbers import whole_number
 from moyai.flexible.result import State
 from moyai.flexible.simulation import (

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError
 from moyai.core.wording import spoken
-from moyai.flexible.checks import name_of_node, parts
+from moyai.flexible.elements import FREE
 from moyai.flexible.flow import Flow
-from moyai.flexible.network import FREE, Network
+from moyai.flexible.network import Network, name_of_node, parts
 
 #: A mode this much slower than a pendulum of the size of the network is one that nothing resists.
 _LOOSE = 1e-3

@@ -10,6 +10,7 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.flexible.arrays import kernel_arrays, kernel_bed
+from moyai.flexible.elements import DRIVEN
 from moyai.flexible.explicit_kernel import march, survey
 from moyai.flexible.explicit_motion import drive, kick_and_drift
 from moyai.flexible.explicit_parts import kick_sections
@@ -18,7 +19,7 @@ from moyai.flexible.failures import Failing
 from moyai.flexible.flow import Flow
 from moyai.flexible.mass_blocks import pack_blocks
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import DRIVEN, Network
+from moyai.flexible.network import Network
 from moyai.flexible.packing import pack
 from moyai.flexible.panels import PanelArrays
 from moyai.flexible.result import State

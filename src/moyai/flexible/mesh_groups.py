@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from moyai.core.arrays import Array, IntArray
-from moyai.flexible.network import BarType
+from moyai.flexible.elements import BarType
 
 
 @dataclass(frozen=True, eq=False)

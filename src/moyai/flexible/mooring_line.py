@@ -11,8 +11,10 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
+from moyai.flexible.bed import Bed
 from moyai.flexible.build import NetworkBuilder
-from moyai.flexible.network import BarType, Bed, Network, Strand
+from moyai.flexible.elements import BarType, Strand
+from moyai.flexible.network import Network
 from moyai.flexible.result import State
 from moyai.flexible.statics import solve_equilibrium
 from moyai.mooring.lines import Line, Segment

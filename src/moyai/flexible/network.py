@@ -1,337 +1,24 @@
-"""The model of a flexible network: nodes with lumped mass, bars between them, the bed under them.
+"""The model of a flexible network: its parts (:mod:`moyai.flexible.elements`), the water and the bed under them.
 
-Every object is frozen and checks itself. Arrays run over nodes (n), bars (m) or hinges of bending (h); three components
-stand last. Builders live in :mod:`moyai.flexible.build`; theory: docs/theory/flexible.md.
+A network is frozen and checks itself. Builders live in :mod:`moyai.flexible.build`; theory: docs/theory/flexible.md.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
-from moyai.core.arrays import Array, BoolArray, IntArray
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
-from moyai.flexible.bed import Bed as Bed
+from moyai.flexible.bed import Bed
+from moyai.flexible.elements import DRIVEN, FIXED, FREE, Bars, Nodes, Strand
 from moyai.flexible.mass_blocks import MassBlocks
-from moyai.flexible.numbers import whole_numbers
 from moyai.flexible.panels import NetPanels
 from moyai.flexible.rings import Ring
 from moyai.flexible.sheets import Sheets
-from moyai.flexible.worn_law import WornRope
 from moyai.sea.water import Water
-from moyai.tables.lines import LineProperties
-
-#: Kinds of node: ``FREE`` moves by its forces, ``FIXED`` stays, ``DRIVEN`` follows a prescribed motion.
-FREE, FIXED, DRIVEN = 0, 1, 2
-#: Form of a float for its immersion: a box or upright cylinder, or a sphere.
-BOX, SPHERE = 0, 1
-
-
-def _frozen(values: ArrayLike, dtype: Any, shape: tuple[int, ...], path: str) -> NDArray[Any]:
-    if dtype is np.int64:
-        values = whole_numbers(values, path)
-    if dtype is np.bool_ and not np.isin(np.asarray(values), (0, 1)).all():
-        raise InputError(f"{path} holds what is neither true nor false", parameter=path, allowed="true or false")
-    array = np.array(values, dtype=dtype)
-    if array.ndim < len(shape):
-        array = np.array(np.broadcast_to(array, shape))
-    if array.shape != shape:
-        raise InputError(f"{path} has shape {array.shape}", parameter=path, allowed=str(shape))
-    if array.dtype.kind == "f" and not np.isfinite(array).all():
-        raise InputError(f"{path} holds a value that is not finite", parameter=path, allowed="finite numbers")
-    array = np.ascontiguousarray(array)
-    array.setflags(write=False)
-    return array
-
-
-def _require(ok: bool, message: str, path: str, allowed: str, remedy: str = "") -> None:
-    if not ok:
-        raise InputError(message, parameter=path, allowed=allowed, remedy=remedy)
-
-
-@dataclass(frozen=True, eq=False)
-class RopeCurve:
-    """Tension of a rope over its strain, joined linearly between the points and continued with the last slope.
-
-    Raises
-    ------
-    InputError
-        When the points do not rise from (0, 0).
-    """
-
-    #: Engineering strain L/L0 - 1 [-], rising, the first 0.
-    strain: Array
-    #: Tension [N], rising, the first 0.
-    tension: Array
-
-    def __post_init__(self) -> None:
-        size = int(np.size(self.strain))
-        _require(size >= 2, f"a rope curve of {size} point(s)", "curve.strain", "two points or more")
-        for name in ("strain", "tension"):
-            array = _frozen(getattr(self, name), np.float64, (size,), f"curve.{name}")
-            object.__setattr__(self, name, array)
-            _require(array[0] == 0.0, f"{name} of a rope curve starts at {array[0]:g}", f"curve.{name}", "0 first")
-            _require(
-                bool(np.all(np.diff(array) > 0.0)),
-                f"{name} of a rope curve does not rise",
-                f"curve.{name}",
-                "rising values",
-            )
-
-    @property
-    def stiffness(self) -> Array:
-        """Slope EA of each piece [N]."""
-        return np.diff(self.tension) / np.diff(self.strain)
-
-
-@dataclass(frozen=True)
-class SlowStretch:
-    """A rope that gives way slowly: spring parallel to dashpot, in series with the fast one [eq:flexible-slow-stretch].
-
-    Raises
-    ------
-    InputError
-        For values that are not positive, a growth below zero.
-    """
-
-    #: EA of the whole rope under a load that stays [N], below its axial stiffness.
-    static_stiffness: float
-    #: Of the dashpot parallel to the slow spring [N s].
-    viscosity: float
-    #: Axial stiffness per mean tension that it grows with [-].
-    growth: float = 0.0
-
-    def __post_init__(self) -> None:
-        for key in ("static_stiffness", "viscosity"):
-            value = getattr(self, key)
-            _require(math.isfinite(value) and value > 0.0, f"{key} of a slow rope is {value:g}", key, "greater than 0")
-        _require(math.isfinite(self.growth) and self.growth >= 0.0, f"growth is {self.growth:g}", "growth", "0 or more")
-
-
-@dataclass(frozen=True, eq=False)
-class BarType:
-    """What a bar is made of.
-
-    Raises
-    ------
-    InputError
-        For a value that is negative or, where a zero makes no sense, zero.
-    """
-
-    #: For messages and reports.
-    name: str
-    #: In air, per unstretched metre [kg/m].
-    mass_per_length: float
-    #: EA [N] (with ``curve`` its slope at zero strain is taken instead).
-    axial_stiffness: float
-    #: Diameter of the drag and of the contact with the bed [m].
-    diameter: float
-    #: Displaced volume [m2]; pi d^2 / 4 when left out.
-    volume_per_length: float = -1.0
-    #: Internal damping BA [N s]: force per rate of strain. A property of the material, not of the mesh.
-    viscosity: float = 0.0
-    #: Force per length rho/2 C d u|u| [-].
-    drag_normal: float = 0.0
-    #: Force per length rho/2 C d u|u| [-].
-    drag_tangential: float = 0.0
-    #: On the displaced volume [-].
-    added_mass_normal: float = 0.0
-    #: On the displaced volume [-].
-    added_mass_tangential: float = 0.0
-    #: EI [N m2].
-    bending_stiffness: float = 0.0
-    #: Whether the bar goes slack instead of bearing compression.
-    tension_only: bool = True
-    #: Nonlinear tension over strain.
-    curve: RopeCurve | None = None
-    #: How it gives way slowly; ``axial_stiffness`` then is that of quick changes.
-    slow: SlowStretch | WornRope | None = None
-
-    def __post_init__(self) -> None:
-        if self.volume_per_length == -1.0:
-            object.__setattr__(self, "volume_per_length", math.pi / 4.0 * self.diameter**2)
-        if self.curve is not None:
-            object.__setattr__(self, "axial_stiffness", float(self.curve.stiffness[0]))
-        for key in ("mass_per_length", "axial_stiffness"):
-            value = getattr(self, key)
-            _require(
-                math.isfinite(value) and value > 0.0, f"{key} of {self.name!r} is {value:g}", key, "greater than 0"
-            )
-        if self.slow is not None:
-            _require(self.curve is None, f"{self.name!r} has a curve and slow stretch", "slow", "one of them")
-        if isinstance(self.slow, SlowStretch):
-            _require(
-                self.slow.static_stiffness < self.axial_stiffness,
-                f"the static stiffness of {self.name!r} is {self.slow.static_stiffness:g} N, that of quick changes "
-                f"{self.axial_stiffness:g} N",
-                "slow.static_stiffness",
-                "less than axial_stiffness",
-            )
-        for key in (
-            "diameter", "volume_per_length", "viscosity", "drag_normal", "drag_tangential", "added_mass_normal",
-            "added_mass_tangential", "bending_stiffness",
-        ):  # fmt: skip
-            value = getattr(self, key)
-            _require(math.isfinite(value) and value >= 0.0, f"{key} of {self.name!r} is {value:g}", key, "0 or more")
-
-    @property
-    def wave_speed(self) -> float:
-        """Speed of elastic waves sqrt(EA/m) [m/s], at zero strain for a rope curve."""
-        return math.sqrt(self.axial_stiffness / self.mass_per_length)
-
-    @property
-    def impedance(self) -> float:
-        """Tension of a wave front per jump of speed, sqrt(EA m) [N s/m]."""
-        return math.sqrt(self.axial_stiffness * self.mass_per_length)
-
-    def submerged_weight_per_length(self, water: Water) -> float:
-        """Weight in water per unstretched metre [N/m]."""
-        return (self.mass_per_length - water.density * self.volume_per_length) * water.gravity
-
-    @classmethod
-    def from_properties(cls, properties: LineProperties, *, viscosity: float) -> BarType:
-        """Return the type of a catalogue entry (:func:`moyai.tables.lines.line_type`) with a viscosity [N s]."""
-        return cls(
-            name=properties.name,
-            mass_per_length=properties.mass_per_length,
-            axial_stiffness=properties.axial_stiffness,
-            diameter=properties.diameter,
-            volume_per_length=properties.volume_per_length,
-            viscosity=viscosity,
-            drag_normal=properties.drag_normal,
-            drag_tangential=properties.drag_tangential,
-            added_mass_normal=properties.added_mass_normal,
-            added_mass_tangential=properties.added_mass_tangential,
-        )
-
-
-@dataclass(frozen=True, eq=False)
-class Nodes:
-    """The nodes and what is attached to them (floats, clump weights, sinkers, joints)."""
-
-    #: Start position; of driven nodes the place from which their motion counts [m]; shape (n, 3).
-    position: Array
-    #: ``FREE``, ``FIXED`` or ``DRIVEN``; shape (n,).
-    kind: IntArray
-    #: Components that do not move although the node is free (a float held at the surface, a planar problem); shape (n,
-    #: 3).
-    held: BoolArray = field(default_factory=lambda: np.zeros((), dtype=np.bool_))
-    #: Index into :attr:`Network.motion_names` of driven nodes, -1 of others; shape (n,).
-    motion: IntArray = field(default_factory=lambda: np.full((), -1, dtype=np.int64))
-    #: Attached mass [kg]; shape (n,).
-    mass: Array = field(default_factory=lambda: np.zeros(()))
-    #: Volume [m3]; shape (n,).
-    volume: Array = field(default_factory=lambda: np.zeros(()))
-    #: Drag coefficient times area [m2]; shape (n,).
-    drag_area: Array = field(default_factory=lambda: np.zeros(()))
-    #: Added mass [kg]; shape (n,).
-    added_mass: Array = field(default_factory=lambda: np.zeros(()))
-    #: Contact area with the bed [m2]; shape (n,).
-    contact_area: Array = field(default_factory=lambda: np.zeros(()))
-    #: Vertical extent of the attached body for its partial immersion [m]; 0 for one that is always wet; shape (n,).
-    height: Array = field(default_factory=lambda: np.zeros(()))
-    #: ``BOX`` or ``SPHERE``: how the immersed part of the height becomes a part of the volume; shape (n,).
-    form: IntArray = field(default_factory=lambda: np.zeros((), dtype=np.int64))
-
-    def __post_init__(self) -> None:
-        size = len(self.position)
-        _require(size > 0, "a network without nodes", "nodes.position", "one node or more")
-        object.__setattr__(self, "position", _frozen(self.position, np.float64, (size, 3), "nodes.position"))
-        object.__setattr__(self, "held", _frozen(self.held, np.bool_, (size, 3), "nodes.held"))
-        for name in ("kind", "motion", "form"):
-            object.__setattr__(self, name, _frozen(getattr(self, name), np.int64, (size,), f"nodes.{name}"))
-        for name in ("mass", "volume", "drag_area", "added_mass", "contact_area", "height"):
-            array = _frozen(getattr(self, name), np.float64, (size,), f"nodes.{name}")
-            _require(
-                bool(np.all(array >= 0.0)),
-                f"{name} of node {int(np.argmin(array))} is {array.min():g}",
-                f"nodes.{name}",
-                "0 or more",
-            )
-            object.__setattr__(self, name, array)
-        _require(
-            bool(np.isin(self.kind, (FREE, FIXED, DRIVEN)).all()),
-            "unknown kind of node",
-            "nodes.kind",
-            "FREE, FIXED, DRIVEN",
-        )
-        _require(bool(np.isin(self.form, (BOX, SPHERE)).all()), "unknown form of float", "nodes.form", "BOX, SPHERE")
-
-    def __len__(self) -> int:
-        return int(self.position.shape[0])
-
-
-@dataclass(frozen=True, eq=False)
-class Bars:
-    """The bars: straight, elastic, each of one type."""
-
-    #: Nodes; shape (m,).
-    start: IntArray
-    #: Nodes; shape (m,).
-    end: IntArray
-    #: Unstretched lengths [m]; shape (m,).
-    length: Array
-    #: Index into ``types``; shape (m,).
-    kind: IntArray
-    #: The materials.
-    types: tuple[BarType, ...]
-    #: Factor on the water velocity that meets the bar (1; less in the wake of others); shape (m,).
-    flow_factor: Array = field(default_factory=lambda: np.ones(()))
-
-    def __post_init__(self) -> None:
-        size = int(np.size(self.start))
-        for name in ("start", "end", "kind"):
-            object.__setattr__(self, name, _frozen(getattr(self, name), np.int64, (size,), f"bars.{name}"))
-        for name in ("length", "flow_factor"):
-            object.__setattr__(self, name, _frozen(getattr(self, name), np.float64, (size,), f"bars.{name}"))
-        if size == 0:
-            return
-        _require(
-            bool(np.all(self.length > 0.0)),
-            f"bar {int(np.argmin(self.length))} has length {self.length.min():g} m",
-            "bars.length",
-            "greater than 0",
-        )
-        _require(bool(np.all(self.flow_factor >= 0.0)), "a flow factor is negative", "bars.flow_factor", "0 or more")
-        _require(
-            bool(np.all(self.start != self.end)), "a bar starts and ends at the same node", "bars.end", "two nodes"
-        )
-        _require(
-            bool(np.all((self.kind >= 0) & (self.kind < len(self.types)))),
-            "a bar has an unknown type",
-            "bars.kind",
-            f"0 to {len(self.types) - 1}",
-        )
-
-    def __len__(self) -> int:
-        return int(self.start.size)
-
-    def of_type(self, name: str) -> Array:
-        """Return one property of the types, spread over the bars."""
-        return np.array([float(getattr(kind, name)) for kind in self.types])[self.kind] if self.types else np.zeros(0)
-
-
-@dataclass(frozen=True, eq=False)
-class Strand:
-    """A named string of bars, from its first node to its last (a mooring line, a twine, a row of a net)."""
-
-    #: For results and messages.
-    name: str
-    #: Nodes in order.
-    nodes: IntArray
-    #: Bars in order, one less than nodes.
-    bars: IntArray
-
-    def __post_init__(self) -> None:
-        for name in ("nodes", "bars"):
-            array = np.array(whole_numbers(getattr(self, name), f"strand.{name}"))
-            array.setflags(write=False)
-            object.__setattr__(self, name, array)
 
 
 @dataclass(frozen=True, eq=False)
@@ -369,9 +56,7 @@ class Network:
     rings: tuple[Ring, ...] = ()
 
     def __post_init__(self) -> None:
-        from moyai.flexible.checks import check_network
-
-        check_network(self)
+        _check_network(self)
 
     def strand(self, name: str) -> Strand:
         """Return the strand of this name.
@@ -426,3 +111,175 @@ class Network:
         np.add.at(area, self.bars.start, half)
         np.add.at(area, self.bars.end, half)
         return area
+
+
+def name_of_node(network: Network, node: int) -> str:
+    """Return a node in words: its number, its name, its place in a line."""
+    for name, index in network.points.items():
+        if index == node:
+            return f"node {node} (point {name!r})"
+    for strand in network.strands:
+        place = np.flatnonzero(strand.nodes == node)
+        if place.size:
+            return f"node {node} (node {int(place[0])} of {strand.name!r})"
+    return f"node {node}"
+
+
+def parts(count: int, start: np.ndarray, end: np.ndarray) -> np.ndarray:
+    """Return the number of the connected part of every node."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    graph = coo_array((np.ones(start.size), (start, end)), shape=(count, count))
+    return np.asarray(connected_components(graph, directed=False)[1])
+
+
+def _check_network(network: Network) -> None:
+    """Raise InputError at the first fault of a network.
+
+    Raises
+    ------
+    InputError
+        See :class:`Network`.
+    """
+    nodes, bars = network.nodes, network.bars
+    count = len(nodes)
+    if len(bars) and not (min(bars.start.min(), bars.end.min()) >= 0 and max(bars.start.max(), bars.end.max()) < count):
+        raise InputError(
+            "a bar ends at a node that does not exist", parameter="bars", allowed=f"nodes 0 to {count - 1}"
+        )
+    if network.sheets is not None and network.sheets.triangles.max() >= count:
+        raise InputError(
+            f"a triangle of a sheet names node {int(network.sheets.triangles.max())}, which does not exist",
+            parameter="sheets.triangles",
+            allowed=f"nodes 0 to {count - 1}",
+        )
+    held = nodes.held.all(axis=1) | (nodes.kind != FREE)
+    empty = (network.node_mass <= 0.0) & ~held
+    if empty.any():
+        raise InputError(
+            f"{name_of_node(network, int(np.argmax(empty)))} can move but has no mass",
+            parameter="nodes.mass",
+            allowed="greater than 0 for free nodes",
+            remedy="give the point a mass or connect a bar to it",
+        )
+    start, end = bars.start, bars.end
+    if network.sheets is not None:
+        corners = network.sheets.triangles
+        start = np.concatenate([start, corners[:, 0], corners[:, 1]])
+        end = np.concatenate([end, corners[:, 1], corners[:, 2]])
+    if network.blocks is not None:
+        _check_blocks(network)
+    _check_nets(network)
+    _check_names(network)
+    part = parts(count, start, end)
+    anchored = np.zeros(int(part.max()) + 1, dtype=bool)
+    np.logical_or.at(anchored, part, (nodes.kind != FREE) | nodes.held.any(axis=1))
+    if not anchored.all() and anchored.any():
+        lost = int(np.argmin(anchored[part]))
+        raise InputError(
+            f"{name_of_node(network, lost)} belongs to a part of {int((part == part[lost]).sum())} nodes "
+            "that nothing holds",
+            parameter="bars",
+            allowed="every part connected to a fixed or driven point, or no such point at all",
+            remedy="connect the part or make one of its points fixed",
+        )
+    driven = nodes.kind == DRIVEN
+    wrong = driven & ((nodes.motion < 0) | (nodes.motion >= len(network.motion_names)))
+    if wrong.any():
+        raise InputError(
+            f"{name_of_node(network, int(np.argmax(wrong)))} is driven but names no motion",
+            parameter="nodes.motion",
+            allowed=", ".join(network.motion_names) or "a named motion",
+        )
+    if network.bed is not None:
+        # anchors may lie in the bed; whatever moves may not start deep in it
+        if network.bed.ground is not None and network.blocks is not None:
+            raise InputError(
+                "sections with added mass of their own lie on a flat bed only", parameter="bed.ground",
+                allowed="no ground",
+            )  # fmt: skip
+        level = network.bed.level_at(nodes.position)
+        deep = (nodes.position[:, 2] < level - 0.02 * np.maximum(1.0, np.abs(level))) & (nodes.kind != FIXED)
+        if deep.any():
+            worst = int(np.argmin(np.where(deep, nodes.position[:, 2], np.inf)))
+            raise InputError(
+                f"{name_of_node(network, worst)} starts at z = {nodes.position[worst, 2]:g} m, "
+                f"under the bed at {level[worst]:g} m",
+                parameter="nodes.position",
+                allowed="on or above the bed",
+            )
+
+
+def _check_names(network: Network) -> None:
+    """Raise InputError for strands and points that name what is not there."""
+    for strand in network.strands:
+        if strand.nodes.ndim != 1 or strand.bars.ndim != 1 or strand.nodes.size != strand.bars.size + 1:
+            raise InputError(
+                f"strand {strand.name!r} has {strand.nodes.size} nodes and {strand.bars.size} bars",
+                parameter="strands",
+                allowed="one node more than bars, in order",
+            )
+        for what, numbers, most in (
+            ("node", strand.nodes, len(network.nodes)),
+            ("bar", strand.bars, len(network.bars)),
+        ):
+            if numbers.size and not (numbers.min() >= 0 and numbers.max() < most):
+                raise InputError(
+                    f"strand {strand.name!r} names a {what} that does not exist",
+                    parameter="strands",
+                    allowed=f"{what}s 0 to {most - 1}",
+                )
+    for name, node in network.points.items():
+        if not 0 <= node < len(network.nodes):
+            raise InputError(
+                f"point {name!r} is node {node}", parameter="points", allowed=f"nodes 0 to {len(network.nodes) - 1}"
+            )
+
+
+def _check_blocks(network: Network) -> None:
+    blocks, nodes = network.blocks, network.nodes
+    assert blocks is not None
+    if max(blocks.nodes.max(), blocks.guides.max()) >= len(nodes) or min(blocks.nodes.min(), blocks.guides.min()) < 0:
+        raise InputError(
+            "a section of added mass names a node that does not exist",
+            parameter="blocks.nodes",
+            allowed=f"nodes 0 to {len(nodes) - 1}",
+        )
+    sheets = network.sheets
+    if (
+        sheets is not None
+        and np.isin(sheets.triangles[np.asarray(sheets.added_mass_per_area) > 0.0], blocks.nodes).any()
+    ):
+        raise InputError(
+            "a sheet with an added mass of its own has nodes in sections of added mass: the water would count twice",
+            parameter="sheets.added_mass_per_area",
+            allowed="0 where sections hold the added mass",
+        )
+    bound = blocks.nodes.ravel()[nodes.kind[blocks.nodes.ravel()] != FREE]
+    if bound.size:
+        raise InputError(
+            f"{name_of_node(network, int(bound[0]))} of a section of added mass cannot move",
+            parameter="blocks.nodes",
+            allowed="free nodes (hold single components by 'held')",
+        )
+
+
+def _check_nets(network: Network) -> None:
+    """Raise at a net panel or ring that names an absent node."""
+    count = len(network.nodes)
+    if network.panels is not None and len(network.panels) and network.panels.corners.max() >= count:
+        worst = int(np.argmax(network.panels.corners.max(axis=1)))
+        raise InputError(
+            f"net panel {worst} names node {int(network.panels.corners.max())}, which does not exist",
+            parameter="panels.corners",
+            allowed=f"nodes 0 to {count - 1}; -1 for the fourth corner of a triangle",
+        )
+    for ring in network.rings:
+        absent = ring.nodes[(ring.nodes < 0) | (ring.nodes >= count)]
+        if absent.size:
+            raise InputError(
+                f"ring {ring.name!r} names node {int(absent[0])}, which does not exist",
+                parameter=f"rings.{ring.name}.nodes",
+                allowed=f"nodes 0 to {count - 1}",
+            )

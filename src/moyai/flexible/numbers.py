@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -69,3 +69,33 @@ def numbers_of(values: ArrayLike, path: str) -> NDArray[np.float64]:
         raise InputError(
             f"{path} holds what is no number, or rows of unequal length", parameter=path, allowed="numbers"
         ) from None
+
+
+def frozen(values: ArrayLike, dtype: Any, shape: tuple[int, ...], path: str) -> NDArray[Any]:
+    """Return an array of this type and shape that nobody writes to.
+
+    Raises
+    ------
+    InputError
+        For another shape, and for values that are not finite or not of the type.
+    """
+    if dtype is np.int64:
+        values = whole_numbers(values, path)
+    if dtype is np.bool_ and not np.isin(np.asarray(values), (0, 1)).all():
+        raise InputError(f"{path} holds what is neither true nor false", parameter=path, allowed="true or false")
+    array = np.array(values, dtype=dtype)
+    if array.ndim < len(shape):
+        array = np.array(np.broadcast_to(array, shape))
+    if array.shape != shape:
+        raise InputError(f"{path} has shape {array.shape}", parameter=path, allowed=str(shape))
+    if array.dtype.kind == "f" and not np.isfinite(array).all():
+        raise InputError(f"{path} holds a value that is not finite", parameter=path, allowed="finite numbers")
+    array = np.ascontiguousarray(array)
+    array.setflags(write=False)
+    return array
+
+
+def require(ok: bool, message: str, path: str, allowed: str, remedy: str = "") -> None:
+    """Raise InputError with this message where something does not hold."""
+    if not ok:
+        raise InputError(message, parameter=path, allowed=allowed, remedy=remedy)

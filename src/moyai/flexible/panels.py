@@ -14,6 +14,7 @@ import numpy as np
 
 from moyai.core.arrays import Array, IntArray
 from moyai.core.errors import InputError
+from moyai.flexible.numbers import frozen, require
 
 #: Points of a table: cosines from 0 to 1, and speeds (10 a decade) from 1 mm/s to 10 m/s.
 COSINES, SPEEDS = 129, 41
@@ -142,21 +143,19 @@ class NetPanels:
     group_names: tuple[str, ...] = ("net",)
 
     def __post_init__(self) -> None:
-        from moyai.flexible.network import _frozen, _require
-
         size = len(self.corners)
-        _require(size > 0, "net panels without corners", "panels.corners", "one panel or more")
-        object.__setattr__(self, "corners", _frozen(self.corners, np.int64, (size, 4), "panels.corners"))
+        require(size > 0, "net panels without corners", "panels.corners", "one panel or more")
+        object.__setattr__(self, "corners", frozen(self.corners, np.int64, (size, 4), "panels.corners"))
         for name in ("law", "group"):
-            object.__setattr__(self, name, _frozen(getattr(self, name), np.int64, (size,), f"panels.{name}"))
+            object.__setattr__(self, name, frozen(getattr(self, name), np.int64, (size,), f"panels.{name}"))
         for name in ("area", "flow_factor"):
-            array = _frozen(getattr(self, name), np.float64, (size,), f"panels.{name}")
+            array = frozen(getattr(self, name), np.float64, (size,), f"panels.{name}")
             object.__setattr__(self, name, array)
-            _require(bool(np.all(array >= 0.0)), f"a panel has a negative {name}", f"panels.{name}", "0 or more")
-        object.__setattr__(self, "shadow", _frozen(self.shadow, np.float64, (size, 3), "panels.shadow"))
+            require(bool(np.all(array >= 0.0)), f"a panel has a negative {name}", f"panels.{name}", "0 or more")
+        object.__setattr__(self, "shadow", frozen(self.shadow, np.float64, (size, 3), "panels.shadow"))
         for name, count in (("law", len(self.laws)), ("group", len(self.group_names))):
             array = getattr(self, name)
-            _require(
+            require(
                 bool(np.all((array >= 0) & (array < count))),
                 f"a panel names an unknown {name}",
                 f"panels.{name}",
@@ -164,13 +163,13 @@ class NetPanels:
             )
         allowed = "three or four different nodes; -1 for the fourth corner of a triangle"
         ordered = np.sort(self.corners, axis=1)
-        _require(
+        require(
             not np.any(ordered[:, 1:] == ordered[:, :-1]),
             "two corners of a panel are the same node",
             "panels.corners",
             allowed,
         )
-        _require(
+        require(
             bool(np.all(self.corners[:, :3] >= 0) and np.all(self.corners[:, 3] >= -1)),
             "a corner of a panel is negative",
             "panels.corners",

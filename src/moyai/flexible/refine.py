@@ -7,7 +7,8 @@ from dataclasses import fields, replace
 import numpy as np
 
 from moyai.core.errors import InputError
-from moyai.flexible.network import Bars, Network, Nodes, Strand
+from moyai.flexible.elements import Bars, Nodes, Strand
+from moyai.flexible.network import Network
 from moyai.flexible.numbers import whole_number
 from moyai.flexible.refine_sheets import Edge, cut_in_four, edge_of, held_middles, sheet_edges
 from moyai.flexible.result import State

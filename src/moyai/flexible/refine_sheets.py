@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.arrays import IntArray
-from moyai.flexible.network import FREE, Nodes
+from moyai.flexible.elements import FREE, Nodes
 from moyai.flexible.sheets import Sheets
 
 #: Two nodes, the lower number first.

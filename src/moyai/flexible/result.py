@@ -33,6 +33,23 @@ class State:
         return cls(time, np.array(network.nodes.position), np.zeros((len(network.nodes), 3)))
 
 
+@dataclass(frozen=True, eq=False)
+class Equilibrium:
+    """A network at rest under weight, buoyancy, bed and steady current."""
+
+    #: Positions (velocities are zero); a run starts from it.
+    state: State
+    #: Tension of every bar [N]; shape (m,).
+    tension: Array
+    #: Largest force left on a free node over the largest force at work.
+    residual: float
+    #: Solves that it took.
+    steps: int
+    #: How: ``direct``, ``small steps``, ``rising current``, ``rising stiffness``, ``dynamic relaxation``, ``true
+    #: motion``.
+    found: str = "direct"
+
+
 @checks_words
 @dataclass(frozen=True, eq=False)
 class History:

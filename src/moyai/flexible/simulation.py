@@ -14,13 +14,12 @@ from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import IdentityCheck
-from moyai.flexible.checks import name_of_node
 from moyai.flexible.explicit import LOAD_STEPS, ExplicitRun
 from moyai.flexible.failures import LOOK, Failing, LineFailure
 from moyai.flexible.flow import Flow
 from moyai.flexible.implicit import TOLERANCE, ImplicitRun
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import Network
+from moyai.flexible.network import Network, name_of_node
 from moyai.flexible.numbers import whole_number, whole_numbers
 from moyai.flexible.peak_notices import advice, peak_notices, stable_step
 from moyai.flexible.recovery import write_state

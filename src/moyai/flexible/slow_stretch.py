@@ -12,7 +12,8 @@ import numpy as np
 
 from moyai.core.arrays import Array, IntArray
 from moyai.flexible.arrays import BAR_ROWS, KernelArrays
-from moyai.flexible.network import BarType, Network, RopeCurve, SlowStretch
+from moyai.flexible.elements import BarType, RopeCurve, SlowStretch
+from moyai.flexible.network import Network
 from moyai.flexible.worn_law import WornRope
 
 _LENGTH, _SPRING = BAR_ROWS.index("length"), BAR_ROWS.index("spring")

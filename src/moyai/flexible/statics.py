@@ -5,20 +5,19 @@ from __future__ import annotations
 import contextlib
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from os import PathLike
 
 import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError
-from moyai.flexible.checks import name_of_node
+from moyai.flexible.elements import FREE
 from moyai.flexible.equilibrium_diagnosis import advice, refuse_impossible
 from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import FREE, Network
+from moyai.flexible.network import Network, name_of_node
 from moyai.flexible.relaxation import Attempt, Relaxation
-from moyai.flexible.result import State
+from moyai.flexible.result import Equilibrium, State
 from moyai.flexible.slow_stretch import at_rest
 
 #: Part of the largest force that may be left when the tolerance is out of reach.
@@ -44,23 +43,6 @@ _BEFORE = 0.6
 _NEAR_SOFT = 1e-2
 #: How often and how long the true motion is asked for help.
 _SHAKES, _SHAKE_INTERVALS = 6, 40
-
-
-@dataclass(frozen=True, eq=False)
-class Equilibrium:
-    """A network at rest under weight, buoyancy, bed and steady current."""
-
-    #: Positions (velocities are zero); a run starts from it.
-    state: State
-    #: Tension of every bar [N]; shape (m,).
-    tension: Array
-    #: Largest force left on a free node over the largest force at work.
-    residual: float
-    #: Solves that it took.
-    steps: int
-    #: How: ``direct``, ``small steps``, ``rising current``, ``rising stiffness``, ``dynamic relaxation``, ``true
-    #: motion``.
-    found: str = "direct"
 
 
 def _apart(network: Network, place: Array) -> Array:

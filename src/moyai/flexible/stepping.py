@@ -17,11 +17,12 @@ from numpy.typing import ArrayLike
 from moyai.core.arrays import Array, IntArray
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.validity import IdentityCheck, Notice
+from moyai.flexible.elements import DRIVEN
 from moyai.flexible.explicit import LOAD_STEPS, ExplicitRun
 from moyai.flexible.explicit_rows import LEDGER, MXX, ROW, TOTAL_ROWS
 from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import DRIVEN, Network
+from moyai.flexible.network import Network
 from moyai.flexible.peak_notices import peak_notices
 from moyai.flexible.result import State
 

@@ -21,10 +21,12 @@ from pathlib import Path
 import numpy as np
 
 from moyai.core.errors import CaseError, Fault, InputError
+from moyai.flexible.bed import Bed
 from moyai.flexible.build import NetworkBuilder
+from moyai.flexible.elements import DRIVEN, FIXED, BarType, RopeCurve, SlowStretch
 from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import DRIVEN, FIXED, BarType, Bed, Network, RopeCurve, SlowStretch
+from moyai.flexible.network import Network
 from moyai.flexible.result import State
 from moyai.flexible.worn_law import WornRope
 from moyai.interop.moordyn_currents import read_current_field

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +16,7 @@ from moyai.core.validity import IdentityCheck, Notice
 from moyai.potential.heading import HeadingSolution
 from moyai.potential.modes import Modes
 from moyai.potential.sections import Section
+from moyai.potential.variables import VARIABLES, VOCABULARY
 from moyai.sea.water import Water
 
 if TYPE_CHECKING:
@@ -123,10 +125,54 @@ class RadiationDiffraction:
 
     @property
     def dataset(self) -> xr.Dataset:
-        """Everything labelled, in Capytaine's names where they exist; see :mod:`moyai.potential.dataset`."""
-        from moyai.potential.dataset import build_dataset
+        """Everything labelled, in Capytaine's names where they exist; see :mod:`moyai.potential.variables`.
 
-        return build_dataset(self)
+        The ``oblique_`` variables are there only when a heading is oblique.
+        """
+        normal = self.normal
+        over = self._over_headings
+        values: dict[str, Any] = {
+            "added_mass": normal.added_mass,
+            "radiation_damping": normal.radiation_damping,
+            "radiated_wave": normal.radiated_wave,
+            "Froude_Krylov_force": over("froude_krylov_force"),
+            "diffraction_force": over("diffraction_force"),
+            "excitation_force": over("excitation_force"),
+            "reflection_coefficient": over("reflection"),
+            "transmission_coefficient": over("transmission"),
+            "lid_loss": over("lid_loss"),
+            "infinite_frequency_added_mass": self.infinite_frequency_added_mass,
+            "zero_frequency_added_mass": self.zero_frequency_added_mass,
+        }
+        if self.oblique:
+            values["oblique_added_mass"] = over("added_mass")
+            values["oblique_radiation_damping"] = over("radiation_damping")
+            values["oblique_radiated_wave"] = over("radiated_wave")
+        data = {name: (dims.split(), values[name]) for name, (dims, _, _) in VARIABLES.items() if name in values}
+        names = list(self.modes.names)
+        coordinates = {
+            "omega": normal.states.omega,
+            "period": ("omega", 2.0 * np.pi / normal.states.omega),
+            "wavenumber": ("omega", normal.states.wave_number),
+            "wave_direction": self.heading,
+            "radiating_dof": names,
+            "influenced_dof": names,
+            "side": ["minus", "plus"],
+        }
+        attributes = {
+            **self.conventions,
+            "water_depth": self.water.depth,
+            "rho": self.water.density,
+            "g": self.water.gravity,
+            "section": self.section.name,
+            "draught": self.section.draught,
+            "lid": self.lid,
+            "status": self.status,
+            "message": self.message,
+            "checks": json.dumps([check.as_dict() for check in self.checks]),
+            "per": "metre of structure",
+        }
+        return VOCABULARY.dataset(data, coordinates, attributes)
 
     @property
     def conventions(self) -> dict[str, str]:

@@ -1,7 +1,7 @@
 """Scenes for the 3-D player: nodes and bars coloured by tension, sheets, bodies, the water and the bed, over time.
 
-A structure fills a :class:`Scene3D` with plain arrays; :func:`animation_3d` turns it into a block of the report, with
-a still of the governing moment for paper (:mod:`moyai.report.still_3d`).
+A structure fills a :class:`Scene3D` with plain arrays; :func:`moyai.report.animation_3d.animation_3d` turns it into a
+block of the report, with a still of the governing moment for paper (:mod:`moyai.report.still_3d`).
 """
 
 from __future__ import annotations
@@ -10,7 +10,6 @@ import base64
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from functools import partial
 from typing import Any, Literal
 
 import numpy as np
@@ -20,7 +19,6 @@ from moyai.core.arrays import Array, IntArray
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.report.decimate import envelope_indices
-from moyai.report.document import Animation
 from moyai.report.encoding import encode_array, encode_quantised
 from moyai.report.formatting import display_unit
 
@@ -374,20 +372,3 @@ def _faces(faces: Faces) -> dict[str, Any]:
         "nodes": [int(k) for k in corners.ravel()],
         "load": load,
     }
-
-
-def animation_3d(key: str, title: str, scene: Scene3D, caption: str = "") -> Animation:
-    """Return the block of a report: the animation, and its governing moment as a picture for paper.
-
-    Parameters
-    ----------
-    key, title, caption : str
-    scene : Scene3D
-
-    Returns
-    -------
-    Animation
-    """
-    from moyai.report.still_3d import still_3d
-
-    return Animation(key, title, scene_3d(scene), caption, partial(still_3d, scene), scene)

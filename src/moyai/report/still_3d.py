@@ -5,16 +5,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from html import escape
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.report.formatting import display_unit, format_number
-
-if TYPE_CHECKING:
-    from moyai.report.scene_3d import Scene3D
-
+from moyai.report.scene_3d import Scene3D, Surface3D, home_view
 
 WIDTH, HEIGHT, TOP, BOTTOM = 960.0, 520.0, 34.0, 34.0
 _STOPS = np.array([[134, 170, 200], [84, 120, 180], [110, 76, 160], [176, 48, 116], [214, 48, 31]], dtype=float)
@@ -93,8 +89,6 @@ def _path(points: Array, attributes: str, *, closed: bool = False) -> str:
 
 
 def surface_elevation(scene: Scene3D, row: int, x: Array, y: Array) -> Array:
-    from moyai.report.scene_3d import Surface3D
-
     waves = scene.waves
     if waves is None:
         return np.zeros_like(x)
@@ -120,8 +114,6 @@ def still_3d(scene: Scene3D) -> str:
     str
         SVG that carries its colours.
     """
-    from moyai.report.scene_3d import home_view
-
     row = int(np.argmin(np.abs(scene.time - scene.moment)))
     low, high, surface, bed = display_box(scene)
     camera = _camera(low, high, *home_view(*scene.box()))

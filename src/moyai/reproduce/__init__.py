@@ -7,15 +7,16 @@ from moyai.core.exports import exports
 if TYPE_CHECKING:
     from moyai.reproduce.page import compose as compose
     from moyai.reproduce.reproduction import Reproduction as Reproduction
-    from moyai.reproduce.reproduction import as_result as as_result
     from moyai.reproduce.reproduction import paper as paper
     from moyai.reproduce.reproduction import papers as papers
     from moyai.reproduce.reproduction import reproduce as reproduce
+    from moyai.reproduce.stored import as_result as as_result
 else:
     __getattr__, __dir__, __all__ = exports(
         __name__,
         {
             "page": "compose",
-            "reproduction": "Reproduction as_result paper papers reproduce",
+            "reproduction": "Reproduction paper papers reproduce",
+            "stored": "as_result",
         },
     )

@@ -1,22 +1,16 @@
-"""Run a paper, judge its statements, lay points over its figures, and keep all of it as one result."""
+"""Run a paper, judge its statements, lay points over its figures."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
+from typing import Any
 
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
 from moyai.report.document import Figure
-from moyai.report.encoding import slug
 from moyai.reproduce.model import FilledInput, Finding, Paper, PaperFigure, Statement
 from moyai.reproduce.points import Agreement, Points, agreements, laid_over, read_points
-
-if TYPE_CHECKING:
-    from moyai.core.results import Result
 
 NAMES = ("nakamura", "tabata", "arai", "sawaragi", "matsubara")
 """Papers in the order in which they are listed."""
@@ -149,69 +143,3 @@ def reproduce(
         over = replace(figures[place], drawn=laid_over(drawn, each))
         figures = (*figures[:place], over, *figures[place + 1 :])
     return Reproduction(wanted, quick, rows_of(wanted, runs), figures, wanted.filled(runs), tuple(laid))
-
-
-def as_result(found: Reproduction) -> Result:
-    """Return the numbers behind the page as a result: one group a figure, one for the statements, one for the page.
-
-    Parameters
-    ----------
-    found : Reproduction
-        With one statement or more.
-
-    Returns
-    -------
-    Result
-        Groups ``statements``, ``figure_<number>`` with the curves in the units of the page, and the page itself.
-
-    Examples
-    --------
-    >>> from moyai.reproduce import Reproduction, as_result, paper
-    >>> from moyai.reproduce.model import Finding
-    >>> from moyai.reproduce.reproduction import StatementRow
-    >>> tabata = paper("tabata")
-    >>> row = StatementRow(tabata.statements[0], Finding("as the paper says", "agrees"))
-    >>> result = as_result(Reproduction(tabata, True, (row,), (), ()))
-    >>> result.tree["statements"]["verdict"].values.tolist()
-    ['agrees']
-    """
-    import xarray as xr
-
-    from moyai.core.results import Result, make_provenance
-    from moyai.reproduce.stored import GROUP, stored_page
-
-    rows = [row.as_dict() for row in found.rows]
-    columns = {name: ("row", np.array([row[name] for row in rows], dtype=object)) for name in rows[0]}
-    groups: dict[str, xr.Dataset] = {"/statements": xr.Dataset(columns)}
-    for one in found.figures:
-        if isinstance(one.drawn, Figure):
-            groups[f"/figure_{one.number}"] = _dataset(one.drawn)
-    title = f"{found.paper.authors} ({found.paper.year})"
-    groups[f"/{GROUP}"] = stored_page(found)
-    groups["/"] = xr.Dataset(attrs={"structure": "reproduction", "title": title, "paper": found.paper.key})
-    words = ", ".join(f"{found.count(verdict)} {word}" for verdict, word in _WORDS)
-    return Result(
-        xr.DataTree.from_dict(groups),
-        message=f"{len(rows)} statements: {words}",
-        provenance=make_provenance(title=title, quick=found.quick),
-    )
-
-
-_WORDS = (("agrees", "agree"), ("differs", "differ"), ("open", "open"))
-
-
-def _dataset(figure: Figure) -> Any:
-    """Return the curves of a figure, each along its own dimension."""
-    import xarray as xr
-
-    out: dict[str, Any] = {}
-    for number, series in enumerate(figure.series):
-        panel = figure.panels[series.panel]
-        name = f"{slug(series.label).replace('-', '_').replace('.', '_')}_{number}"
-        for axis in figure.abscissae:
-            if axis.key in series.x:
-                words = {"long_name": axis.label, "units": axis.unit or "1"}
-                out[f"{name}_{axis.key}"] = (name + "_point", np.asarray(series.x[axis.key], dtype=float), words)
-        words = {"long_name": f"{panel.label}: {series.label}", "units": panel.unit or "1"}
-        out[name] = (name + "_point", np.asarray(series.y, dtype=float), words)
-    return xr.Dataset(out, attrs={"title": figure.title})

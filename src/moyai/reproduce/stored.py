@@ -11,6 +11,7 @@ import numpy as np
 
 from moyai.core.kinds import Kind
 from moyai.report.document import Abscissa, Disc, Distance, Drawing, Figure, Mark, Panel, Series, Stroke, Words
+from moyai.report.encoding import slug
 from moyai.reproduce.model import FilledInput, Finding, PaperFigure, Statement
 from moyai.reproduce.points import Agreement, Points
 from moyai.reproduce.reproduction import Reproduction, StatementRow, paper
@@ -28,6 +29,69 @@ _CLASSES: dict[str, type] = {
         Series, Stroke, Words,
     )
 }  # fmt: skip
+_WORDS = (("agrees", "agree"), ("differs", "differ"), ("open", "open"))
+
+
+def as_result(found: Reproduction) -> Result:
+    """Return the numbers behind the page as a result: one group a figure, one for the statements, one for the page.
+
+    Parameters
+    ----------
+    found : Reproduction
+        With one statement or more.
+
+    Returns
+    -------
+    Result
+        Groups ``statements``, ``figure_<number>`` with the curves in the units of the page, and the page itself.
+
+    Examples
+    --------
+    >>> from moyai.reproduce import Reproduction, as_result, paper
+    >>> from moyai.reproduce.model import Finding
+    >>> from moyai.reproduce.reproduction import StatementRow
+    >>> tabata = paper("tabata")
+    >>> row = StatementRow(tabata.statements[0], Finding("as the paper says", "agrees"))
+    >>> result = as_result(Reproduction(tabata, True, (row,), (), ()))
+    >>> result.tree["statements"]["verdict"].values.tolist()
+    ['agrees']
+    """
+    import xarray as xr
+
+    from moyai.core.results import Result, make_provenance
+
+    rows = [row.as_dict() for row in found.rows]
+    columns = {name: ("row", np.array([row[name] for row in rows], dtype=object)) for name in rows[0]}
+    groups: dict[str, xr.Dataset] = {"/statements": xr.Dataset(columns)}
+    for one in found.figures:
+        if isinstance(one.drawn, Figure):
+            groups[f"/figure_{one.number}"] = _dataset(one.drawn)
+    title = f"{found.paper.authors} ({found.paper.year})"
+    groups[f"/{GROUP}"] = stored_page(found)
+    groups["/"] = xr.Dataset(attrs={"structure": "reproduction", "title": title, "paper": found.paper.key})
+    words = ", ".join(f"{found.count(verdict)} {word}" for verdict, word in _WORDS)
+    return Result(
+        xr.DataTree.from_dict(groups),
+        message=f"{len(rows)} statements: {words}",
+        provenance=make_provenance(title=title, quick=found.quick),
+    )
+
+
+def _dataset(figure: Figure) -> Any:
+    """Return the curves of a figure, each along its own dimension."""
+    import xarray as xr
+
+    out: dict[str, Any] = {}
+    for number, series in enumerate(figure.series):
+        panel = figure.panels[series.panel]
+        name = f"{slug(series.label).replace('-', '_').replace('.', '_')}_{number}"
+        for axis in figure.abscissae:
+            if axis.key in series.x:
+                words = {"long_name": axis.label, "units": axis.unit or "1"}
+                out[f"{name}_{axis.key}"] = (name + "_point", np.asarray(series.x[axis.key], dtype=float), words)
+        words = {"long_name": f"{panel.label}: {series.label}", "units": panel.unit or "1"}
+        out[name] = (name + "_point", np.asarray(series.y, dtype=float), words)
+    return xr.Dataset(out, attrs={"title": figure.title})
 
 
 def stored_page(found: Reproduction) -> xr.Dataset:

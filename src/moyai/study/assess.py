@@ -21,9 +21,9 @@ from moyai.design.long_term import return_level
 from moyai.mooring.anchors import DragAnchor, Sinker, check_drag_anchor, check_sinker
 from moyai.series.extremes import fit
 from moyai.study import schema
+from moyai.study.definition import Study
 from moyai.study.extremes_over_seeds import extremes, require_axis
 from moyai.study.fatigue_of_lines import fatigue
-from moyai.study.plan import Study
 from moyai.study.tensions import Tensions, has, tensions, variable
 from moyai.study.tensions import response as response_of
 from moyai.tables.design_codes import CodeRule, holding_data

@@ -17,7 +17,7 @@ from moyai.language import said
 from moyai.study.ledger import NAME, read_records
 
 if TYPE_CHECKING:
-    from moyai.study.plan import Study
+    from moyai.study.definition import Study
 
 PLAN = "cases.json"
 _ROWS = 500

@@ -9,6 +9,7 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.study import schema
+from moyai.study.rows_of_files import column_of, read_rows
 
 
 def contour_seas(given: schema.ContourKeys, folder: Path) -> tuple[Array, Array]:
@@ -52,8 +53,6 @@ def contour_seas(given: schema.ContourKeys, folder: Path) -> tuple[Array, Array]
 
 
 def _pairs(given: schema.PairsOfSeas, folder: Path) -> tuple[Array, Array]:
-    from moyai.study.variations_of_files import column_of, read_rows
-
     file = folder / given.file
     rows = read_rows(file)
     columns = []

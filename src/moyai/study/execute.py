@@ -17,9 +17,10 @@ from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
 from moyai.study.axes import Combination
+from moyai.study.definition import RunCase, Study
 from moyai.study.ledger import Ledger, LedgerRecord
 from moyai.study.local import run_here, run_processes
-from moyai.study.plan import RunCase, Study, with_search
+from moyai.study.plan import with_search
 from moyai.study.table import study_result
 from moyai.study.tensions import response
 from moyai.study.work import Task

@@ -13,7 +13,7 @@ from moyai.core.validity import Notice
 from moyai.core.vocabulary import LINE_TENSION_MEAN
 from moyai.design.long_term import YEAR
 from moyai.study import schema
-from moyai.study.plan import Study
+from moyai.study.definition import Study
 from moyai.study.tensions import breaking_loads
 from moyai.study.tensions import response as response_of
 from moyai.tables.design_codes import EnduranceData, endurance_data

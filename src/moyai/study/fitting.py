@@ -20,14 +20,15 @@ from moyai.core.errors import CaseError, Fault, InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.quantities import parse_quantity
 from moyai.core.results import Result, make_provenance
+from moyai.core.version import VERSION
 from moyai.core.wording import counted
 from moyai.records.calibration import Calibration, Parameter, calibrate
 from moyai.study import fit_schema
 from moyai.study.axes import Combination, varied
-from moyai.study.plan import RunCase
+from moyai.study.definition import RunCase
 from moyai.study.responses import find_response, read_response
+from moyai.study.rows_of_files import column_of, read_rows
 from moyai.study.variations import common_unit
-from moyai.study.variations_of_files import column_of, read_rows
 
 
 @dataclass(frozen=True)
@@ -387,12 +388,10 @@ def fitted_text(fit: StudyFit, found: Calibration) -> str:
 
     Every value stands with as many digits as its standard error allows; the heading says where they come from.
     """
-    from moyai import __version__
-
     original = read_yaml(fit.base_path)
     text = original.text
     lines = text.splitlines()
-    heading = [f"# Fitted by moyai {__version__} to {fit.source}, response {fit.response}:"]
+    heading = [f"# Fitted by moyai {VERSION} to {fit.source}, response {fit.response}:"]
     for number, (item, unit) in enumerate(fit.parameters):
         value, error = float(found.values[number]), float(found.errors[number])
         shown = _rounded(value, error)

@@ -6,8 +6,7 @@ import hashlib
 import json
 import math
 import os
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -16,8 +15,12 @@ from moyai.case.reader import Case, case_of, read_block
 from moyai.case.yaml_reader import CaseDocument, KeyPath, dotted, read_yaml
 from moyai.core.errors import CaseError, Fault, InputError
 from moyai.core.progress import Progress, silent
+from moyai.core.version import VERSION
 from moyai.study import schema
 from moyai.study.axes import Axis, Combination, Point, StudyBase, combinations, varied, without
+from moyai.study.definition import RunCase, Study
+from moyai.study.extremes_over_seeds import fault_of, wanted_of
+from moyai.study.fatigue_of_lines import curves_of
 from moyai.study.plan_faults import check_kind, check_names, check_search, place_of, unknown_keys
 from moyai.study.responses import Wanted
 from moyai.study.variations import axes_of, wrong_paths
@@ -26,45 +29,6 @@ LARGEST = 1_000_000
 """Number of cases above which a study is refused as a slip."""
 
 _CHECKED_ALL = 500
-
-
-@dataclass(frozen=True)
-class Study:
-    """A study that was read and found sound."""
-
-    #: Title of the study.
-    title: str
-    #: The base case as read.
-    base: CaseDocument
-    #: Its file.
-    base_path: Path
-    #: Along which it is varied.
-    axes: tuple[Axis, ...]
-    #: The product of the axes.
-    cases: tuple[Combination, ...]
-    #: Responses that were asked for.
-    wanted: tuple[Wanted, ...]
-    #: Variable that is shown on the way.
-    watch: str
-    #: Keep results.nc of every case.
-    keep_results: bool
-    #: Hash of everything that the results depend on.
-    key: str
-    #: What is searched for in every case.
-    search: schema.LimitSearch | schema.Optimisation | None = None
-    #: What is made of all cases together.
-    assessment: schema.Assessment | None = None
-    #: Number of governing cases that are run again with a report of their own.
-    replays: int = 3
-    #: Cases that the check refuses become rows with the reason, instead of stopping the study.
-    skips_refused: bool = False
-    #: Numbers of the cases that were refused, of those that were checked beforehand.
-    refused: tuple[int, ...] = ()
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        """Number of points on every axis."""
-        return tuple(len(axis.points) for axis in self.axes)
 
 
 def _one_realisation_a_seed(base: CaseDocument, axes: list[Axis]) -> CaseDocument:
@@ -199,9 +163,6 @@ def _watched(document: CaseDocument, block: schema.StudyBlock, search: Any) -> s
 
 def _wanted_of_assessment(document: CaseDocument, assess: schema.Assessment | None) -> list[Wanted]:
     """Return what every case must keep for the assessment; refuse settings that contradict each other."""
-    from moyai.study.extremes_over_seeds import fault_of, wanted_of
-    from moyai.study.fatigue_of_lines import curves_of
-
     wanted: list[Wanted] = []
     for one in assess.fatigue if assess is not None else ():
         try:
@@ -332,10 +293,8 @@ def _read_base(document: CaseDocument, base_path: Path) -> CaseDocument:
 
 def _key(study: Study, hashes: str) -> str:
     """Return the hash of the study: cases in their order, what is kept, the version of the program."""
-    from moyai import __version__
-
     content = {
-        "version": __version__,
+        "version": VERSION,
         "cases": hashes,
         "points": [[axis.name, [[point.label, point.assignments, point.removals] for point in axis.points]]
                    for axis in study.axes],
@@ -343,7 +302,3 @@ def _key(study: Study, hashes: str) -> str:
         "search": None if study.search is None else study.search.model_dump(mode="json"),
     }  # fmt: skip
     return hashlib.sha256(json.dumps(content, sort_keys=True, default=str).encode()).hexdigest()
-
-
-RunCase = Callable[[Case, Progress], Any]
-"""What runs one case: it takes the case and a listener and returns a ``Result``."""

@@ -20,7 +20,7 @@ from moyai.core.progress import Progress
 from moyai.core.quantities import parse_quantity
 from moyai.core.results import Result
 from moyai.study.axes import Combination, varied
-from moyai.study.plan import RunCase
+from moyai.study.definition import RunCase
 from moyai.study.responses import find_response, read_response
 from moyai.study.variations import common_unit
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from moyai.core.files import write_whole
 from moyai.core.results import Result
-from moyai.study.plan import Study
+from moyai.study.definition import Study
 
 
 def table_rows(study: Study, result: Result) -> tuple[list[str], list[list[Any]]]:

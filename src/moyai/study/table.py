@@ -13,8 +13,8 @@ import numpy as np
 from moyai.core.results import Result, Status, make_provenance
 from moyai.core.wording import counted
 from moyai.study.axes import Axis
+from moyai.study.definition import Study
 from moyai.study.ledger import LedgerRecord
-from moyai.study.plan import Study
 
 if TYPE_CHECKING:
     import xarray as xr

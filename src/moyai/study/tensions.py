@@ -13,7 +13,7 @@ from moyai.core.errors import InputError
 from moyai.core.results import Result
 from moyai.core.vocabulary import BREAKING_LOAD, LINE_TENSION_MAXIMUM, LINE_TENSION_MEAN, former
 from moyai.study import schema
-from moyai.study.plan import Study
+from moyai.study.definition import Study
 from moyai.study.responses import largest_tensions, selected, split_response
 
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from moyai.study import schema
-from moyai.study.plan import Study
+from moyai.study.definition import Study
 from moyai.study.responses import find_response
 
 if TYPE_CHECKING:

@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-import csv
 import math
-import re
-from pathlib import Path
 from typing import Any
 
 from moyai.case.paths import resolve, value_of
 from moyai.core.errors import InputError
-from moyai.core.foreign_files import reads
 from moyai.study import schema
 from moyai.study.axes import Axis, Point, StudyBase
+from moyai.study.contour import contour_seas
+from moyai.study.rows_of_files import column_of, read_rows
 from moyai.study.scatter import read_scatter
 
-_HEADING = re.compile(r"(.*?)\s*\[([^\]]*)\]")
 _OF_THE_SEA = ("name", "heading_deg", "from_bearing_deg", "spreading", "seed", "duration")
 
 
@@ -37,54 +34,6 @@ def table(given: schema.TableOfCases, ground: StudyBase) -> tuple[Axis, ...]:
             entries.append((path, f"{text} {unit}" if unit else _scalar(text)))
         points.append(Point(str(number - 1), tuple(entries)))
     return (Axis(given.name, tuple(points)),)
-
-
-@reads("a table")
-def read_rows(file: Path) -> list[dict[str, str]]:
-    """Return the rows of a CSV file by column.
-
-    Raises
-    ------
-    InputError
-        When the file is absent, empty, or no text.
-    """
-    try:
-        text = file.read_text(encoding="utf-8-sig")
-    except FileNotFoundError:
-        raise InputError(f"no such file: {file}", path="file") from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(f"{file} cannot be read: {error}", path="file", remedy="save it as UTF-8") from None
-    lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
-    if not lines:
-        raise InputError(f"{file} is empty", path="file")
-    delimiter = max(",;\t", key=lines[0].count)
-    rows = [
-        {str(key).strip(): value for key, value in row.items() if key is not None}
-        for row in csv.DictReader(lines, delimiter=delimiter)
-    ]
-    if not rows:
-        raise InputError(f"{file} has a header but no rows", path="file")
-    return rows
-
-
-def column_of(rows: list[dict[str, str]], column: str, file: Path, path: str = "") -> tuple[str, str]:
-    """Return heading and unit of a column, which is named with or without the unit of its heading: ``T`` of ``T [s]``.
-
-    Raises
-    ------
-    InputError
-        When no heading has that name, or more than one.
-    """
-    found = [(heading, _HEADING.fullmatch(heading)) for heading in rows[0]]
-    named = [pair for pair in found if pair[0] == column] or [
-        pair for pair in found if pair[1] and pair[1][1] == column
-    ]
-    if len(named) != 1:
-        said = "more than one column" if named else "no column"
-        raise InputError(f"{file.name} has {said} '{column}'", path=path, allowed=", ".join(rows[0]))
-    heading, match = named[0]
-    unit = "" if match is None else match[2].strip()
-    return heading, "" if unit in ("-", "1") else unit
 
 
 def _scalar(text: str) -> Any:
@@ -109,8 +58,6 @@ def scatter(given: schema.Scatter, ground: StudyBase) -> tuple[Axis, ...]:
 
 def contour(given: schema.ContourKeys, ground: StudyBase) -> tuple[Axis, ...]:
     """Return the axis of the sea states round an environmental contour."""
-    from moyai.study.contour import contour_seas
-
     points = tuple(
         Point(
             f"Hs {height:.3g} m, T {period:.3g} s",

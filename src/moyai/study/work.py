@@ -12,8 +12,8 @@ from moyai.case.yaml_reader import CaseDocument
 from moyai.core.errors import CaseError, InputError, MoyaiError
 from moyai.core.progress import Progress, silent
 from moyai.study.axes import Combination, varied
+from moyai.study.definition import RunCase
 from moyai.study.ledger import LedgerRecord
-from moyai.study.plan import RunCase
 from moyai.study.responses import Wanted, kept
 
 _POLL = 0.2

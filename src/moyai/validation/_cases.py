@@ -7,6 +7,7 @@ import pkgutil
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from importlib import import_module
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from moyai.core.errors import InputError
@@ -70,9 +71,9 @@ def topics() -> tuple[str, ...]:
     >>> "mooring" in topics()
     True
     """
-    import moyai.validation as package
-
-    names = [module.name for module in pkgutil.iter_modules(package.__path__) if not module.name.startswith("_")]
+    names = [
+        module.name for module in pkgutil.iter_modules([str(Path(__file__).parent)]) if not module.name.startswith("_")
+    ]
     return tuple(sorted(names))
 
 

@@ -8,8 +8,8 @@ from functools import lru_cache
 import numpy as np
 
 from moyai.core.validation import ValidationCase
+from moyai.flexible.bed import Bed
 from moyai.flexible.mesh_groups import group_meshes
-from moyai.flexible.network import Bed
 from moyai.flexible.panels import NetPanels, PanelLaw, forces_on_panels
 from moyai.flexible.ring_kernel import ring_forces
 from moyai.flexible.rings import Ring, RingArrays
@@ -18,16 +18,9 @@ from moyai.sea.current import uniform
 from moyai.sea.water import Water
 from moyai.structures.cage.flexible.build import build_cage
 from moyai.structures.cage.flexible.collar import Collar, Pipe
+from moyai.structures.cage.flexible.design import CageDesign, CageNet, Sinkers, WakeName
 from moyai.structures.cage.flexible.equilibrium import horizontal_balance, solve_rest
-from moyai.structures.cage.flexible.model import (
-    CageDesign,
-    CageMesh,
-    CageNet,
-    FixedCollar,
-    FlexibleCage,
-    Sinkers,
-    WakeName,
-)
+from moyai.structures.cage.flexible.model import CageMesh, FixedCollar, FlexibleCage
 
 _VISCOSITY = 1.14e-6
 

@@ -12,8 +12,8 @@ from moyai.coupled.hulls import box_hull
 from moyai.coupled.rigid import RigidBody
 from moyai.coupled.simulate import simulate_coupled
 from moyai.flexible.build import NetworkBuilder
+from moyai.flexible.elements import BarType
 from moyai.flexible.flow import Flow
-from moyai.flexible.network import BarType
 from moyai.mooring.rotations import rotation_matrix
 from moyai.sea.water import Water
 

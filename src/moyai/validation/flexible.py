@@ -10,9 +10,10 @@ import numpy as np
 
 from moyai.core.validation import ValidationCase
 from moyai.flexible.build import NetworkBuilder
+from moyai.flexible.elements import BarType
 from moyai.flexible.modes import natural_modes
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import BarType, Network
+from moyai.flexible.network import Network
 from moyai.flexible.result import State
 from moyai.flexible.simulation import simulate
 from moyai.flexible.statics import solve_equilibrium

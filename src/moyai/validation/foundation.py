@@ -6,9 +6,8 @@ import math
 from pathlib import Path
 
 from moyai.case.builder import build
-from moyai.case.derived import derived_numbers
 from moyai.case.headings import heading_of
-from moyai.case.reader import case_of
+from moyai.case.reader import case_of, derived_numbers
 from moyai.case.schema_environment import WindKeys
 from moyai.case.templates import template
 from moyai.case.yaml_reader import parse_yaml

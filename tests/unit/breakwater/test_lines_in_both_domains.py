@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from moyai.flexible.network import BarType
+from moyai.flexible.elements import BarType
 from moyai.floating.forcing import RegularForcing
 from moyai.floating.frequency import dynamic_stiffness
 from moyai.floating.time import simulate

@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 from moyai.case.builder import build
-from moyai.case.derived import derived_numbers
-from moyai.case.reader import case_of, load_case
+from moyai.case.reader import case_of, derived_numbers, load_case
 from moyai.case.templates import template
 from moyai.case.yaml_reader import parse_yaml
 from moyai.core.errors import CaseError

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import moyai
-from moyai.case.derived import derived_numbers
+from moyai.case.reader import derived_numbers
 from moyai.core.errors import CaseError, InputError
 
 TEXT = moyai.template("breakwater")

@@ -9,8 +9,7 @@ from pathlib import Path
 import pytest
 
 from moyai.case.builder import build
-from moyai.case.derived import derived_numbers
-from moyai.case.reader import load_case
+from moyai.case.reader import derived_numbers, load_case
 from moyai.case.templates import template
 from moyai.core.errors import CaseError
 from moyai.structures.curtain.impact.cable import closed_form

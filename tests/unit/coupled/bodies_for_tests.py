@@ -6,7 +6,8 @@ import numpy as np
 
 from moyai.coupled.rigid import RigidBody
 from moyai.flexible.build import NetworkBuilder
-from moyai.flexible.network import BarType, Network
+from moyai.flexible.elements import BarType
+from moyai.flexible.network import Network
 from moyai.sea.water import Water
 
 GRAVITY = 9.81

@@ -12,7 +12,7 @@ from moyai.coupled.pace import steps_at_the_pace
 from moyai.coupled.rigid import RigidBody, quaternion_of
 from moyai.coupled.simulate import simulate_coupled
 from moyai.flexible.build import NetworkBuilder
-from moyai.flexible.network import BarType
+from moyai.flexible.elements import BarType
 from moyai.flexible.result import State
 from moyai.mooring.rotations import rotation_matrix
 from moyai.sea.water import Water

@@ -13,9 +13,10 @@ from moyai.coupled.equilibrium import find_coupled_equilibrium
 from moyai.coupled.hulls import box_hull
 from moyai.coupled.rigid import RigidBody
 from moyai.coupled.simulate import simulate_coupled
+from moyai.flexible.bed import Bed
 from moyai.flexible.build import NetworkBuilder
+from moyai.flexible.elements import BarType
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import BarType, Bed
 from moyai.mooring.rotations import rotation_from_vector, rotation_matrix
 
 

@@ -6,8 +6,9 @@ import pytest
 from moyai.core.errors import ConvergenceError
 from moyai.coupled.assembly import BodyAssembly, RodPart, VolumePart
 from moyai.coupled.equilibrium import find_coupled_equilibrium
+from moyai.flexible.bed import Bed
 from moyai.flexible.build import NetworkBuilder
-from moyai.flexible.network import BarType, Bed
+from moyai.flexible.elements import BarType
 from moyai.mooring.rotations import rotation_matrix
 from moyai.sea.water import Water
 

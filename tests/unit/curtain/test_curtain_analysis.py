@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from renamed import unmissed
 
 from moyai.case.builder import build
 from moyai.case.reader import load_case
@@ -156,6 +157,11 @@ def test_result_is_written_and_read_again(flume_result):
         for name, variable in node.to_dataset(inherit=False).variables.items():
             if variable.dtype.kind == "f":
                 assert "units" in variable.attrs and "long_name" in variable.attrs, (node.path, name)
+
+
+def test_whatever_a_run_writes_is_missed_where_it_is_absent(small, flume_result):
+    """A draft leaves the upper end of the drag out: it alone may be absent."""
+    assert unmissed(small[1]) == unmissed(flume_result[0]) == {"strong_drag_tension"}
 
 
 def test_layout_page_names_what_is_written(small):
@@ -446,6 +452,7 @@ def test_irregular_sea_has_snaps_and_a_law(tmp_path):
     # shown is the realisation whose largest tension is nearest to the number that counts
     nearest = tops[np.argmin(np.abs(tops - tops.mean()))]
     assert float(largest["tension"].max()) == pytest.approx(nearest, rel=0.02)
+    assert unmissed(result) == {"strong_drag_tension"}
 
 
 @pytest.mark.slow
@@ -498,6 +505,7 @@ def test_record_of_a_flume_lies_beside_the_models(flume, tmp_path):
   window: [0 s, 13.5 s]
 """
     result = run(problem_of(tmp_path, text))
+    assert unmissed(result) == set()
     record = result.tree["record"]
     assert float(record["taut_time"]) == pytest.approx(2.0 + snap.taut_time, abs=0.05)
     assert float(record["sum_impact_tension"]) == pytest.approx(snap.impact_tension, rel=0.03)

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from renamed import unmissed
 
 from moyai.case.builder import build
 from moyai.case.reader import load_case
@@ -154,6 +155,7 @@ def test_rose_stands_in_result_and_report_only_where_it_is_asked_for(stream) -> 
     coarse = replace(problem.settings, limits=replace(problem.settings.limits, rose_step=math.radians(45.0)))
     result = run(replace(problem, settings=coarse))
     assert result.tree["SWL/limits/rose"]["rose_height"].shape == (4, 8)
+    assert unmissed(result) <= {"strong_drag_tension"}
     assert float(result.tree["SWL/limits/rose"]["rose_height"][0, 0]) == pytest.approx(float(rose["rose_height"][0, 0]))
     keys = _keys(result)
     assert {"swl-limit-rose", "swl-limit-over-orientation", "swl-limit-rose-seas", "swl-limit-rose-data"} <= keys

@@ -4,9 +4,11 @@ import math
 
 import numpy as np
 
+from moyai.flexible.bed import Bed
 from moyai.flexible.build import NetworkBuilder
+from moyai.flexible.elements import Bars, BarType, Nodes, RopeCurve
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import Bars, BarType, Bed, Network, Nodes, RopeCurve
+from moyai.flexible.network import Network
 from moyai.sea.water import Water
 
 NO_GRAVITY = Water(math.inf, 1000.0, 1e-12)
@@ -53,7 +55,7 @@ def random_network(rng, *, bed=True, bending=True, curve=True, held=True, tensio
         height=rng.uniform(0.1, 1.0, nodes),
         form=rng.integers(0, 2, nodes),
     )
-    from moyai.flexible.network import Strand
+    from moyai.flexible.elements import Strand
 
     strand = Strand("path", np.arange(nodes), np.arange(nodes - 1))
     return Network(

@@ -4,9 +4,10 @@ import math
 
 import numpy as np
 
+from moyai.flexible.bed import Bed
 from moyai.flexible.build import NetworkBuilder
+from moyai.flexible.elements import BarType
 from moyai.flexible.flow import Flow
-from moyai.flexible.network import BarType, Bed
 from moyai.sea.water import Water
 
 

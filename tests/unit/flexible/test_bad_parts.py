@@ -9,8 +9,9 @@ import pytest
 
 from moyai.core.errors import InputError
 from moyai.flexible.build import NetworkBuilder
+from moyai.flexible.elements import Bars, Nodes
 from moyai.flexible.mass_blocks import MassBlocks
-from moyai.flexible.network import Bars, Network, Nodes
+from moyai.flexible.network import Network
 from moyai.flexible.panels import NetPanels, PanelLaw
 from moyai.flexible.rings import Ring
 from moyai.flexible.sheets import Sheets

@@ -12,8 +12,9 @@ from scipy.spatial import Delaunay
 from scipy.spatial.transform import Rotation
 
 from moyai.flexible import sheet_kernel as kernel
+from moyai.flexible.elements import DRIVEN, FIXED, Bars, Nodes
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import DRIVEN, FIXED, Bars, Network, Nodes
+from moyai.flexible.network import Network
 from moyai.flexible.result import State
 from moyai.flexible.sheets import Sheets, sheet_grid, sheet_stress
 from moyai.flexible.simulation import simulate

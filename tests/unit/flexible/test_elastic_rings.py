@@ -10,7 +10,7 @@ import pytest
 
 from moyai.core.errors import InputError
 from moyai.flexible.build import NetworkBuilder
-from moyai.flexible.network import BarType
+from moyai.flexible.elements import BarType
 from moyai.flexible.result import State
 from moyai.flexible.ring_kernel import ring_forces
 from moyai.flexible.rings import Ring, RingArrays, ring_moments
@@ -245,7 +245,8 @@ def oval(angles: np.ndarray, height: float) -> np.ndarray:
 def test_the_step_of_rings_bounds_the_dense_matrix(angles: np.ndarray, height: float, torsion: float) -> None:
     """Coarse rings that are far stiffer in torsion than in bending were given twice the step that they bear."""
     from moyai.flexible.arrays import kernel_arrays
-    from moyai.flexible.network import Bars, Network, Nodes
+    from moyai.flexible.elements import Bars, Nodes
+    from moyai.flexible.network import Network
     from moyai.flexible.stability import step_limit
 
     shape, count = oval(angles, height), angles.size

@@ -20,7 +20,7 @@ from moyai.flexible import (
     simulate_together,
     solve_equilibrium,
 )
-from moyai.flexible.network import SlowStretch
+from moyai.flexible.elements import SlowStretch
 from moyai.sea.components import WaveComponents
 from moyai.sea.dispersion import wave_number
 from moyai.sea.water import Water

@@ -10,10 +10,12 @@ import pytest
 from moyai.core.errors import ConvergenceError
 from moyai.core.wording import spoken
 from moyai.flexible import statics
+from moyai.flexible.bed import Bed
 from moyai.flexible.build import NetworkBuilder
+from moyai.flexible.elements import FREE, Bars, BarType, Nodes
 from moyai.flexible.equilibrium_diagnosis import advice
 from moyai.flexible.flow import Flow
-from moyai.flexible.network import FREE, Bars, BarType, Bed, Network, Nodes
+from moyai.flexible.network import Network
 from moyai.flexible.statics import solve_equilibrium
 from moyai.sea.water import Water
 

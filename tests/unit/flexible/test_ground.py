@@ -12,12 +12,12 @@ from moyai.flexible import force_kernel
 from moyai.flexible.arrays import kernel_arrays
 from moyai.flexible.bed import Bed, Ground, plane_ground
 from moyai.flexible.build import NetworkBuilder
+from moyai.flexible.elements import BarType
 from moyai.flexible.explicit import ExplicitRun
 from moyai.flexible.explicit_motion import kick_on_ground_and_drift, kick_with_friction_and_drift
 from moyai.flexible.explicit_rows import FX, TX, X
 from moyai.flexible.flow import Flow
 from moyai.flexible.ground_kernel import ground_shape
-from moyai.flexible.network import BarType
 from moyai.flexible.relaxation import kernel_system
 from moyai.flexible.result import State
 from moyai.flexible.simulation import simulate

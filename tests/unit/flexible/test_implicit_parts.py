@@ -16,11 +16,13 @@ from test_network_sheets import random_sheet
 
 from moyai.core.errors import InputError
 from moyai.flexible import sheet_kernel
+from moyai.flexible.bed import Bed
 from moyai.flexible.build import NetworkBuilder
+from moyai.flexible.elements import Bars, BarType, Nodes
 from moyai.flexible.flow import Flow
 from moyai.flexible.modes import natural_modes, tangent_matrices
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import Bars, BarType, Bed, Network, Nodes
+from moyai.flexible.network import Network
 from moyai.flexible.panels import NetPanels, PanelArrays, PanelLaw, forces_on_panels
 from moyai.flexible.part_kernel import panel_rate_blocks, sheet_blocks, stress_slope
 from moyai.flexible.result import State

@@ -8,10 +8,11 @@ import pytest
 
 from moyai.coupled.rigid import RigidBody
 from moyai.coupled.simulate import simulate_coupled
+from moyai.flexible.bed import Bed
 from moyai.flexible.build import NetworkBuilder
+from moyai.flexible.elements import BarType, RopeCurve
 from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import BarType, Bed, RopeCurve
 from moyai.flexible.simulation import simulate
 from moyai.sea.water import Water
 

@@ -9,9 +9,10 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from moyai.core.errors import InputError
+from moyai.flexible.elements import FIXED, Bars, BarType, Nodes
 from moyai.flexible.mass_block_kernel import COS, LENGTH, ROOT, SIN, block_loads
 from moyai.flexible.mass_blocks import MassBlocks
-from moyai.flexible.network import FIXED, Bars, BarType, Network, Nodes
+from moyai.flexible.network import Network
 from moyai.flexible.result import State
 from moyai.flexible.simulation import simulate
 from moyai.sea.water import Water

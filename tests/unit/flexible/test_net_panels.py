@@ -10,10 +10,11 @@ import pytest
 from moyai.core.errors import InputError
 from moyai.flexible.build import NetworkBuilder
 from moyai.flexible.dynamic_relaxation import relax_network
+from moyai.flexible.elements import BarType
 from moyai.flexible.explicit import ExplicitRun
 from moyai.flexible.explicit_parts import screens
 from moyai.flexible.flow import Flow
-from moyai.flexible.network import BarType, Network
+from moyai.flexible.network import Network
 from moyai.flexible.panel_kernel import panel_tangent
 from moyai.flexible.panels import NetPanels, PanelArrays, PanelLaw, forces_on_panels
 from moyai.flexible.result import State

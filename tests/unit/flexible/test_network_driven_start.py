@@ -3,8 +3,8 @@
 import numpy as np
 
 from moyai.flexible.build import NetworkBuilder
+from moyai.flexible.elements import BarType
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import BarType
 from moyai.flexible.simulation import simulate
 from moyai.flexible.statics import solve_equilibrium
 from moyai.sea.water import Water

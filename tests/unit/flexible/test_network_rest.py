@@ -8,10 +8,11 @@ from random_lines import random_line, random_net
 
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.flexible.build import NetworkBuilder
+from moyai.flexible.elements import FIXED, Bars, BarType, Nodes
 from moyai.flexible.flow import Flow
 from moyai.flexible.modes import natural_modes
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import FIXED, Bars, BarType, Network, Nodes
+from moyai.flexible.network import Network
 from moyai.flexible.recovery import read_state, write_state
 from moyai.flexible.result import State
 from moyai.flexible.sheets import Sheets, sheet_grid

@@ -8,9 +8,9 @@ import pytest
 
 from moyai.core.errors import InputError
 from moyai.flexible.build import NetworkBuilder
+from moyai.flexible.elements import BarType
 from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import BarType
 from moyai.flexible.panels import NetPanels, PanelLaw
 from moyai.flexible.refine import refined
 from moyai.flexible.result import State

@@ -9,10 +9,10 @@ from scipy.special import ellipk
 
 from moyai.core.errors import InputError
 from moyai.flexible.build import NetworkBuilder
+from moyai.flexible.elements import BarType
 from moyai.flexible.flow import Flow
 from moyai.flexible.modes import natural_modes
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import BarType
 from moyai.flexible.result import State
 from moyai.flexible.simulation import simulate
 from moyai.flexible.statics import solve_equilibrium
@@ -248,7 +248,7 @@ def test_rope_drifts_with_a_uniform_current():
 
 
 def test_sliding_node_stops_by_coulomb_friction():
-    from moyai.flexible.network import Bed
+    from moyai.flexible.bed import Bed
 
     builder = NetworkBuilder(Water(10.0, 1000.0, 9.81), Bed(-10.0, 1e5, 1e4, 0.4))
     builder.free("stone", (0.0, 0.0, -10.0), mass=20.0, contact_area=1.0)

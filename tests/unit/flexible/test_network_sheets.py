@@ -10,8 +10,9 @@ import pytest
 from moyai.core.errors import InputError
 from moyai.flexible import sheet_kernel as kernel
 from moyai.flexible.arrays import kernel_arrays
+from moyai.flexible.elements import FIXED, Bars, Nodes
 from moyai.flexible.flow import Flow
-from moyai.flexible.network import FIXED, Bars, Network, Nodes
+from moyai.flexible.network import Network
 from moyai.flexible.result import State
 from moyai.flexible.sheets import Sheets, sheet_grid, sheet_stress
 from moyai.flexible.simulation import simulate

@@ -7,9 +7,11 @@ import pytest
 from networks_for_tests import random_network
 
 from moyai.core.errors import ConvergenceError
+from moyai.flexible.bed import Bed
 from moyai.flexible.build import NetworkBuilder
+from moyai.flexible.elements import Bars, BarType
 from moyai.flexible.flow import Flow
-from moyai.flexible.network import Bars, BarType, Bed, Network
+from moyai.flexible.network import Network
 from moyai.flexible.statics import solve_equilibrium
 from moyai.mooring.catenary import solve_catenary
 from moyai.sea.water import Water

@@ -7,10 +7,12 @@ import pytest
 from networks_for_tests import NO_GRAVITY, rope
 
 from moyai.core.errors import InputError
+from moyai.flexible.bed import Bed
 from moyai.flexible.build import NetworkBuilder
+from moyai.flexible.elements import Bars, BarType, Nodes, RopeCurve
 from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import Bars, BarType, Bed, Network, Nodes, RopeCurve
+from moyai.flexible.network import Network
 from moyai.flexible.refine import refined, with_viscosity
 from moyai.flexible.sensitivity import PeakSensitivity, peak_sensitivity
 from moyai.flexible.simulation import simulate

@@ -9,12 +9,13 @@ import pytest
 from networks_for_tests import DEEP, random_network, rope, still
 
 from moyai.core.errors import InputError
+from moyai.flexible.bed import Bed
 from moyai.flexible.build import NetworkBuilder
+from moyai.flexible.elements import Bars, BarType, Nodes, Strand
 from moyai.flexible.explicit import ExplicitRun
 from moyai.flexible.flow import Flow
 from moyai.flexible.modes import natural_modes
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import Bars, BarType, Bed, Nodes, Strand
 from moyai.flexible.refine import more_viscous, refined
 from moyai.flexible.result import State
 from moyai.flexible.sensitivity import PeakSensitivity, peak_sensitivity

@@ -10,9 +10,10 @@ import pytest
 from moyai.core.errors import InputError
 from moyai.flexible import sheet_kernel as kernel
 from moyai.flexible.build import NetworkBuilder
+from moyai.flexible.elements import DRIVEN, FIXED, FREE, BarType
 from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import DRIVEN, FIXED, FREE, BarType, Network
+from moyai.flexible.network import Network
 from moyai.flexible.refine import refined, with_viscosity
 from moyai.flexible.result import State
 from moyai.flexible.sensitivity import peak_sensitivity

@@ -11,8 +11,9 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from moyai.flexible.elements import FIXED, Bars, BarType, Nodes
 from moyai.flexible.mass_blocks import MassBlocks
-from moyai.flexible.network import FIXED, Bars, BarType, Network, Nodes
+from moyai.flexible.network import Network
 from moyai.flexible.result import State
 from moyai.flexible.simulation import simulate
 from moyai.sea.water import Water

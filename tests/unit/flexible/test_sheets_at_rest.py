@@ -9,8 +9,9 @@ import pytest
 
 from moyai.flexible import sheet_kernel as kernel
 from moyai.flexible.dynamic_relaxation import relax_network
+from moyai.flexible.elements import FIXED, Bars, Nodes
 from moyai.flexible.flow import Flow
-from moyai.flexible.network import FIXED, Bars, Network, Nodes
+from moyai.flexible.network import Network
 from moyai.flexible.relaxation import Relaxation
 from moyai.flexible.result import State
 from moyai.flexible.sheets import Sheets, sheet_grid, sheet_stress

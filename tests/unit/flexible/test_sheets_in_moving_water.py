@@ -9,10 +9,11 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from moyai.core.errors import InputError
+from moyai.flexible.elements import FIXED, FREE, Bars, BarType, Nodes
 from moyai.flexible.flow import Flow
 from moyai.flexible.mass_blocks import MassBlocks
 from moyai.flexible.modes import natural_modes
-from moyai.flexible.network import FIXED, FREE, Bars, BarType, Network, Nodes
+from moyai.flexible.network import Network
 from moyai.flexible.result import State
 from moyai.flexible.sheets import Sheets, sheet_grid
 from moyai.flexible.simulation import simulate

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from moyai.flexible.build import NetworkBuilder
+from moyai.flexible.elements import BarType
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import BarType
 from moyai.flexible.simulation import simulate
 from moyai.sea.water import Water
 

@@ -7,8 +7,8 @@ import pytest
 
 from moyai.core.errors import InputError
 from moyai.flexible import BarType, NetworkBuilder, simulate, solve_equilibrium
+from moyai.flexible.elements import SlowStretch
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import SlowStretch
 from moyai.sea.water import Water
 
 STATIC, QUICK, DAMPING = 1.4e6, 3.5e6, 4.0e6

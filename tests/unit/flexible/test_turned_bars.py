@@ -8,7 +8,7 @@ from networks_for_tests import NO_GRAVITY
 from scipy.linalg import expm
 
 from moyai.flexible.build import NetworkBuilder
-from moyai.flexible.network import BarType
+from moyai.flexible.elements import BarType
 from moyai.flexible.result import State
 from moyai.flexible.simulation import simulate
 

@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 from moyai.core.errors import CaseError, InputError
+from moyai.flexible.bed import Bed
 from moyai.flexible.build import NetworkBuilder
-from moyai.flexible.network import DRIVEN, FIXED, FREE, BarType, Bed, RopeCurve
+from moyai.flexible.elements import DRIVEN, FIXED, FREE, BarType, RopeCurve
 from moyai.flexible.statics import solve_equilibrium
 from moyai.interop.moordyn_deck import DeckLine, DeckLineType, DeckPoint, MoorDynDeck, write_deck
 from moyai.interop.moordyn_network import flow_of, line_name, point_name, to_deck, to_network, water_of

@@ -10,7 +10,7 @@ from moyai.case.builder import build
 from moyai.case.reader import load_case
 from moyai.core.errors import CaseError, InputError
 from moyai.core.results import read_result
-from moyai.flexible.network import BarType
+from moyai.flexible.elements import BarType
 from moyai.flexible.statics import solve_equilibrium
 from moyai.sea import nonlinear_wave
 from moyai.structures.network.assembly import assemble, mesh_bars

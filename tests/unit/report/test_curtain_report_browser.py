@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import pytest
-import synthetic_curtain
 from chromium_pipe import Chromium, find_chromium
+from small_results import curtain
 
 from moyai.core.results import Result
 from moyai.report.writer import write_report
@@ -15,6 +15,8 @@ pytestmark = [
     pytest.mark.browser,
     pytest.mark.skipif(find_chromium() is None, reason="Chromium is not installed (set MOYAI_CHROMIUM to its path)"),
 ]
+#: Of the case [m].
+SPAN = 20.0
 PLAYER = "MOYAI.players.find((player) => MOYAI.isVisible(player.holder))"
 DIFFERENT = (
     f"(() => {{ const p = {PLAYER}, pen = p.canvas.getContext('2d'); "
@@ -26,7 +28,7 @@ DIFFERENT = (
 
 @pytest.fixture(scope="module")
 def result() -> Result:
-    return synthetic_curtain.build()
+    return curtain()
 
 
 @pytest.fixture(scope="module")
@@ -88,7 +90,7 @@ def test_frames_between_the_stored_ones_follow_the_shape(page: Chromium, result:
         count = snap.sizes["plan_point"]
         stored = [*snap["frame_plan_x"].values[frame], *snap["frame_plan_y"].values[frame]]
         assert len(shape) == 2 * count
-        assert max(abs(a - b) for a, b in zip(shape, stored, strict=True)) < 0.005 * synthetic_curtain.SPAN
+        assert max(abs(a - b) for a, b in zip(shape, stored, strict=True)) < 0.005 * SPAN
 
 
 @pytest.mark.slow

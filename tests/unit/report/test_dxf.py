@@ -16,10 +16,11 @@ import moyai
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.language import said, spoken_in
+from moyai.report.animation_3d import animation_3d
 from moyai.report.document import Chapter, Distance, Document, Drawing, Stroke, Words
 from moyai.report.dxf import document_dxf, shapes_dxf
 from moyai.report.plan import LineInPlan, UnitInPlan, unit_plan
-from moyai.report.scene_3d import Faces, Marker, Scene3D, animation_3d
+from moyai.report.scene_3d import Faces, Marker, Scene3D
 from moyai.report.sketch import Sketch
 
 

@@ -19,7 +19,7 @@ from japanese import (
     words_of,
 )
 from kept_runs import kept_paper, kept_run
-from synthetic_result import build
+from small_results import pontoon
 from typer.testing import CliRunner
 
 from moyai.case.reader import Case, load_case
@@ -157,7 +157,7 @@ def test_a_letter_that_no_font_has_is_found(letter: str) -> None:
     """So that the tests above can fail."""
     if fonts.packaged_font() is None:
         pytest.skip("moyai[ja] is not installed")
-    document = compose_document(build(), language="ja")
+    document = compose_document(pontoon(), language="ja")
     document = replace(document, title=f"試験{letter}", sections=document.sections[:1])
     found = without_boxes(document)
     assert found["page"] == {letter} and found["Word"] == {letter}
@@ -167,7 +167,7 @@ def test_a_letter_that_no_font_has_is_found(letter: str) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("letter", ["\U0001f9ff", "\U0002a6d6"])
 def test_a_letter_that_no_face_of_figures_has_is_found(letter: str) -> None:
-    figure = next(block for block in compose_document(build(), language="ja").blocks() if isinstance(block, Figure))
+    figure = next(block for block in compose_document(pontoon(), language="ja").blocks() if isinstance(block, Figure))
     assert letters_missing_in_figure(figure) == set()
     named = replace(figure.series[0], label=f"線{letter}₂")
     assert letters_missing_in_figure(replace(figure, series=(named, *figure.series[1:]))) == {letter}

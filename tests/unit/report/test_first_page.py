@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import openpyxl
 import pytest
-import synthetic_result
+from small_results import pontoon, without
 
 from moyai.core.headline import UNCONFIRMED, Band, Criterion, Headline, Verdict, judge
 from moyai.core.results import Result
@@ -27,13 +27,18 @@ FACTOR = Criterion(
 UPLIFT = Criterion("greatest_uplift", "anchor_uplift", 5e3, "at most", "case file", "uplift on the anchors", "N")
 
 
+def plain_result() -> Result:
+    """Return a result whose own numbers do not matter here."""
+    return without(pontoon(), "/time")
+
+
 def judged(*criteria: Criterion, **kwargs: object) -> Result:
     headlines = (
         Headline("line_tension", "Largest line tension", 1.766e6, "N", "HWL, storm"),
         Headline("line_utilisation", "Load over strength", 2.1, "1", "HWL, storm"),
         Headline("anchor_uplift", "Uplift on an anchor", 3184.0, "N", "HWL, storm"),
     )
-    result = synthetic_result.build(duration=60.0)
+    result = plain_result()
     verdict = judge(headlines, criteria, computed=True)
     return replace(result, headlines=headlines, verdict=verdict, **kwargs)
 
@@ -159,7 +164,7 @@ waves:
   - {kind: jonswap, significant_height: 1.5 m, peak_period: 5 s, heading_deg: 30}
 current: {speed: 0.8 m/s, heading_deg: 0}
 """
-    result = synthetic_result.build(duration=60.0)
+    result = plain_result()
     tree = result.tree.copy()
     tree.attrs |= {"case_text": text, "case_hash": "0123456789abcdef"}
     assert input_line(replace(result, tree=tree)) == (
@@ -182,7 +187,7 @@ def test_what_is_bought_for_the_judged_end_prints_it_beside_its_number() -> None
     plain = "38.5 kN to 55.0 kN (5 realisations)"
     assert band_text(replace(pull, band=replace(band, judged=(45e3, 49.4e3)))) == plain
     assert band_text(replace(pull, band=replace(band, decides=True, judged=None))) == plain
-    result = synthetic_result.build(duration=60.0)
+    result = plain_result()
     for limit, words in ((None, "judged 76.2 kN"), (60e3, "judged at 76.2 kN")):
         asked = [] if limit is None else [Criterion("pull", pull.name, limit, "at most", "case file", unit="N")]
         verdict = judge([pull], asked, computed=True)
@@ -196,7 +201,7 @@ def test_beside_what_is_not_judged_stands_the_worst_that_is_known() -> None:
     long = replace(short, value=1 / 2.14, where="SWL, long", bound="", shown=False)
     mild = replace(long, value=1 / 5.0, where="SWL, mild")
     numbers = (replace(short, shown=False), replace(long, shown=True), mild)
-    result = synthetic_result.build(duration=60.0)
+    result = plain_result()
 
     def tile(items: tuple[Headline, ...], *criteria: Criterion) -> str:
         verdict = judge(items, criteria, computed=True)
@@ -220,7 +225,7 @@ def test_a_tile_that_is_not_judged_for_want_of_a_number_says_why() -> None:
     use = Headline("line_utilisation", "Use", 0.3, "1", "SWL, storm, rope")
     bare = replace(use, value=float("nan"), where="", text="breaking load not given of chain", shown=False)
     beyond = replace(bare, text="SWL, T = 7 s: not known, beyond its range; run the time domain")
-    result = synthetic_result.build(duration=60.0)
+    result = plain_result()
     said = []
     for items in ((use, bare), (use, beyond), (replace(bare, text="not known", detail="why", shown=True),)):
         verdict = judge(items, [FACTOR], computed=True)
@@ -270,7 +275,7 @@ def test_no_tile_and_no_row_holds_of_a_computation_that_did_not_converge() -> No
     light = Headline("line_utilisation", "Use", 0.1, "1", "rode, storm")
     depth = Headline("depth", "Depth", 5.0, "m", "calm", band=Band(4.5, 5.5, "drag"))
     pull = Headline("anchor_uplift", "Pull", 9e3, "N", "anchor, storm", band=Band(8e3, 10e3, "mesh"))
-    result = synthetic_result.build(duration=60.0)
+    result = plain_result()
     least = Criterion("least_depth", "depth", 4.0, "at least", "case file", "depth", "m")
     verdict = judge([light, pull, depth], [FACTOR, UPLIFT, least], computed=False)
     found = replace(result, headlines=(light, pull, depth), verdict=verdict)

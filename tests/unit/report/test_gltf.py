@@ -13,9 +13,10 @@ from test_vtk import scene
 from typer.testing import CliRunner
 
 from moyai.cli.main import app
+from moyai.report.animation_3d import animation_3d
 from moyai.report.document import Chapter, Document
 from moyai.report.gltf import MOMENTS, SHAPES, TUBES, document_gltf, scene_glb
-from moyai.report.scene_3d import Faces, Scene3D, Waves3D, animation_3d
+from moyai.report.scene_3d import Faces, Scene3D, Waves3D
 
 Y_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
 
@@ -137,7 +138,7 @@ def test_files_are_named_by_their_views() -> None:
 
 @pytest.mark.slow
 def test_commands_write_them_or_say_that_there_are_none(tmp_path: Path) -> None:
-    from synthetic_result import build
+    from small_results import pontoon
 
     import moyai
 
@@ -151,7 +152,7 @@ def test_commands_write_them_or_say_that_there_are_none(tmp_path: Path) -> None:
         assert ran.exit_code == 0, ran.output
     (one,), (two,) = ((tmp_path / "net" / name).glob("*.glb") for name in ("report_gltf", "gltf"))
     assert one.read_bytes() == two.read_bytes()
-    build(time=False).write(tmp_path / "plane" / "results.nc")
+    pontoon().write(tmp_path / "plane" / "results.nc")
     ran = CliRunner().invoke(app, ["report", str(tmp_path / "plane"), "--gltf", "-q"])
     assert ran.exit_code == 0 and "--gltf: the report shows no structure in space" in ran.output + ran.stderr
     ran = CliRunner().invoke(app, ["convert", str(tmp_path / "plane"), "--to", "gltf", "--json"])

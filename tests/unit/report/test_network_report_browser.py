@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 from chromium_pipe import Chromium, find_chromium
 
+from moyai.report.animation_3d import animation_3d
 from moyai.report.document import Chapter, Document
 from moyai.report.html import render_html
-from moyai.report.scene_3d import Faces, Marker, Scene3D, Trace, Waves3D, animation_3d, frame_rows
+from moyai.report.scene_3d import Faces, Marker, Scene3D, Trace, Waves3D, frame_rows
 
 pytestmark = [
     pytest.mark.browser,

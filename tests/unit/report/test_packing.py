@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from chromium_pipe import Chromium, find_chromium
-from synthetic_result import build
+from small_results import pontoon
 
 from moyai.report.encoding import page_json
 from moyai.report.html import render_html, render_parts
@@ -73,7 +73,7 @@ def test_a_page_without_arrays_has_no_block() -> None:
 
 @pytest.mark.slow
 def test_a_long_record_weighs_half() -> None:
-    document = compose_document(build(duration=400.0))
+    document = compose_document(pontoon())
     whole, page = page_json(render_parts(document)[1]), render_html(document)
     parts = re.findall(r'id="(report-data|packed-numbers)">(.*?)</script>', page, re.DOTALL)
     assert len(parts) == 2
@@ -84,7 +84,7 @@ def test_a_long_record_weighs_half() -> None:
 @pytest.mark.browser
 @pytest.mark.skipif(find_chromium() is None, reason="Chromium is not installed (set MOYAI_CHROMIUM to its path)")
 def test_the_browser_unpacks_every_bit_or_says_that_it_cannot(tmp_path: Path) -> None:
-    document = compose_document(build(duration=100.0))
+    document = compose_document(pontoon())
     page, old = tmp_path / "report.html", tmp_path / "old.html"
     text = render_html(document)
     page.write_text(text, encoding="utf-8")

@@ -9,7 +9,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
-from synthetic_result import build
+from small_results import pontoon
 
 from moyai.core.kinds import structure_kinds
 
@@ -49,7 +49,7 @@ def test_every_picture_that_a_page_asks_for_is_known() -> None:
 
 @pytest.mark.slow
 def test_pictures_are_those_of_the_report_in_both_languages() -> None:
-    result = build()
+    result = pontoon()
     english, japanese = (report_pictures.pictures_of(result, language) for language in ("en", "ja"))
     assert list(english) == list(japanese) and len(english) > 5
     for key, (title, svg) in japanese.items():

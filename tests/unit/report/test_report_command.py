@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from synthetic_result import build
+from small_results import pontoon, without
 from typer.testing import CliRunner
 
 from moyai.cli.main import app
@@ -22,7 +22,7 @@ RUN = CliRunner()
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with the results of a run."""
     place = tmp_path_factory.mktemp("run")
-    build(time=False).write(place / "results.nc")
+    without(pontoon(), "/time").write(place / "results.nc")
     return place
 
 
@@ -87,7 +87,7 @@ def test_all_switches_together_write_what_can_be_written(
     assert slip.exit_code == 2 and json.loads(slip.stdout)["faults"][0]["path"] == "--dxf"
     assert not (tmp_path / "none").exists()
     with pytest.raises(CaseError, match="'inch' is no unit"):
-        write_report(build(time=False), tmp_path / "again", docx=True, dxf="inch")
+        write_report(without(pontoon(), "/time"), tmp_path / "again", docx=True, dxf="inch")
     assert (tmp_path / "again" / "report_tables").is_dir()
 
 

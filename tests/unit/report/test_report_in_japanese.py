@@ -10,10 +10,9 @@ from pathlib import Path
 
 import openpyxl
 import pytest
-import synthetic_curtain
 from fontTools.ttLib import TTFont
 from japanese import compared, drawn_without_boxes
-from synthetic_result import ONE, build
+from small_results import curtain, pontoon, without
 from typer.testing import CliRunner
 
 import moyai
@@ -29,7 +28,7 @@ from moyai.report.workbook import render_workbook
 from moyai.report.writer import compose_document
 
 JAPANESE = re.compile("[\u3040-\u30ff\u4e00-\u9fff]")
-KINDS = {"breakwater": build, "curtain": synthetic_curtain.build}
+KINDS = {"breakwater": pontoon, "curtain": curtain}
 
 
 @pytest.fixture(scope="module", params=list(KINDS))
@@ -97,7 +96,7 @@ def test_without_a_font_a_message_says_what_helps(monkeypatch: pytest.MonkeyPatc
 
 @pytest.mark.slow
 def test_the_command_takes_a_language(tmp_path: Path) -> None:
-    build(levels=ONE).write(tmp_path / "results.nc")
+    without(pontoon(), "/HWL").write(tmp_path / "results.nc")
     before = (tmp_path / "results.nc").read_bytes()
     found = CliRunner().invoke(app, ["report", str(tmp_path / "results.nc"), "--language", "ja"])
     assert found.exit_code == 0, found.output
@@ -120,7 +119,7 @@ def test_the_locale_is_taken_where_nothing_else_names_a_language(
     assert JAPANESE.search(missing.output)
     english = CliRunner().invoke(app, ["run", str(tmp_path / "none.yaml"), "--language", "en"])
     assert not JAPANESE.search(english.output)
-    assert compose_document(build(levels=ONE, time=False)).language == "en"
+    assert compose_document(without(pontoon(), "/HWL", "/time")).language == "en"
 
 
 def test_a_case_names_its_language_and_keeps_its_hash() -> None:

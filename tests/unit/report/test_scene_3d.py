@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from moyai.core.errors import InputError
+from moyai.report.animation_3d import animation_3d
 from moyai.report.scene_3d import (
     Body3D,
     Faces,
@@ -16,7 +17,6 @@ from moyai.report.scene_3d import (
     Surface3D,
     Trace,
     Waves3D,
-    animation_3d,
     frame_rows,
     home_view,
     scene_3d,

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import openpyxl
 import pytest
-from synthetic_result import ONE, build
+from small_results import pontoon, without
 from tonnes_force import assert_same_numbers, left_in_si
 from typer.testing import CliRunner
 
@@ -46,7 +46,7 @@ def test_quantities_in_tonnes_force(unit: str, value: float, shown: str) -> None
 
 def test_other_systems_are_refused() -> None:
     with pytest.raises(InputError, match="'lbf' is no system of units"):
-        compose_document(build(levels=ONE), "lbf")
+        compose_document(without(pontoon(), "/HWL"), "lbf")
 
 
 def test_columns_of_one_unit_share_tonnes_or_kilograms_force() -> None:
@@ -59,7 +59,7 @@ def test_columns_of_one_unit_share_tonnes_or_kilograms_force() -> None:
 
 @pytest.mark.slow
 def test_a_report_in_tonnes_force_holds_the_numbers_of_that_in_si() -> None:
-    result = build(levels=ONE)
+    result = without(pontoon(), "/HWL")
     assert assert_same_numbers(result) > 20
     assert left_in_si(compose_document(result))
     assert left_in_si(compose_document(result, "tf")) == []
@@ -67,7 +67,7 @@ def test_a_report_in_tonnes_force_holds_the_numbers_of_that_in_si() -> None:
 
 @pytest.mark.slow
 def test_every_file_of_the_report_is_in_tonnes_force(tmp_path: Path) -> None:
-    result = build(levels=ONE)
+    result = without(pontoon(), "/HWL")
     files = write_report(result, tmp_path, units="tf")
     page = (tmp_path / "report.html").read_text(encoding="utf-8")
     assert "The case and results.nc are in SI" in page and "9806.65" in page
@@ -83,7 +83,7 @@ def test_every_file_of_the_report_is_in_tonnes_force(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_the_command_takes_units_and_keeps_the_data(tmp_path: Path) -> None:
-    build(levels=ONE).write(tmp_path / "results.nc")
+    without(pontoon(), "/HWL").write(tmp_path / "results.nc")
     before = (tmp_path / "results.nc").read_bytes()
     found = CliRunner().invoke(app, ["report", str(tmp_path / "results.nc"), "--units", "tf"])
     assert found.exit_code == 0, found.output

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
-from synthetic_result import build
+from small_results import pontoon
 
 import moyai
 from moyai.core.headline import Headline, Judgement, Verdict
@@ -25,7 +25,7 @@ from moyai.report.views import ReportedResult, Views, with_views
 def result(tmp_path_factory: pytest.TempPathFactory) -> ReportedResult:
     """A result that was written and read."""
     file = tmp_path_factory.mktemp("views") / "results.nc"
-    build().write(file)
+    pontoon().write(file)
     return moyai.read_result(file)
 
 

@@ -10,8 +10,9 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
+from moyai.report.animation_3d import animation_3d
 from moyai.report.document import Chapter, Document
-from moyai.report.scene_3d import Body3D, Faces, Scene3D, animation_3d
+from moyai.report.scene_3d import Body3D, Faces, Scene3D
 from moyai.report.vtk import document_vtk, frame_vtp
 from moyai.report.writer import write_report
 
@@ -90,20 +91,20 @@ def test_the_library_of_vtk_reads_a_moment(tmp_path: Path) -> None:
 
 
 def test_a_report_without_structures_in_space_is_written_all_the_same(tmp_path: Path) -> None:
-    from synthetic_result import build
+    from small_results import pontoon, without
 
-    files = write_report(build(time=False), tmp_path, vtk=True)
+    files = write_report(without(pontoon(), "/time"), tmp_path, vtk=True)
     assert files and not any(path.suffix in (".pvd", ".vtp") for path in files)
 
 
 @pytest.mark.slow
 def test_the_command_says_what_there_was_no_file_for(tmp_path: Path) -> None:
-    from synthetic_result import build
+    from small_results import pontoon, without
     from typer.testing import CliRunner
 
     from moyai.cli.main import app
 
-    build(time=False).write(tmp_path / "results.nc")
+    without(pontoon(), "/time").write(tmp_path / "results.nc")
     ran = CliRunner().invoke(app, ["report", str(tmp_path / "results.nc"), "--vtk", "--xlsx", "--json"])
     assert ran.exit_code == 0, ran.output
     assert "no structure in space" in ran.output + ran.stderr

@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from moyai import __version__
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.remembered import Remembered, key_of_objects
 from moyai.core.store import DatasetStore, key_of
 from moyai.core.validity import IdentityCheck, Notice
+from moyai.core.version import VERSION
 from moyai.floating.coefficients import Hydrodynamics
 from moyai.floating.statics import body_to_site
 from moyai.potential.damping_model import Start
@@ -315,7 +315,7 @@ def _key(unit: FloatingUnit, omega: Array, headings: Array) -> str:
     outlines += [part for plate in unit.section.plates for part in (plate.points, plate.edges.bulge)]
     position = (unit.section.draught, unit.section.heel, unit.centre, unit.breakwater.gap_damping_lid)
     water = (unit.water.depth, unit.water.density, unit.water.gravity)
-    return key_of(__version__, *outlines, position, water, omega, headings)
+    return key_of(VERSION, *outlines, position, water, omega, headings)
 
 
 def oblique_frequencies(unit: FloatingUnit, problem: BreakwaterProblem) -> Array:

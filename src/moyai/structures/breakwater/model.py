@@ -15,7 +15,7 @@ from typing import Any, Literal
 from moyai.core.errors import InputError
 from moyai.core.headline import Criterion
 from moyai.core.options import checks_words
-from moyai.flexible.network import BarType
+from moyai.flexible.elements import BarType
 from moyai.mooring.lines import Clump, Segment
 from moyai.potential.sections import Hull
 from moyai.sea.environment import Environment as Environment

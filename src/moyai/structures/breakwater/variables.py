@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from moyai.core.vocabulary import Vocabulary
-from moyai.potential.dataset import VOCABULARY as POTENTIAL
+from moyai.potential.variables import VOCABULARY as POTENTIAL
 
 # name: (units, long name)
 VARIABLES: dict[str, tuple[str, str]] = {

@@ -412,17 +412,122 @@ LABELS: dict[str, str] = {
     "direction_rule": "rule of the direction",
 }
 
-# Names that a group holds whenever its analysis was run
-ALWAYS: dict[str, tuple[str, ...]] = {
-    "/[^/]+/statics": ("steady_line_load", "steady_cable_tension", "cable_tension", "effective_depth", "float_reserve"),
-    "/[^/]+/loads": ("governing_load", "governing", "load_unit", "capacity", "utilisation"),
-    "/[^/]+/impact": ("impact_tension", "design_tension"),
-    "/[^/]+/waves/[^/]+": ("maximum_tension", "maximum_tension_low", "maximum_tension_high", "mean_tension"),
-    "/[^/]+/anchor_loads": ("rope_tension", "total_rope_tension"),
-    "/[^/]+/limits": ("limit_height", "speed_limit"),
-    "/[^/]+/limits/rose": ("rose_height",),
-    "/[^/]+/dynamic": ("both_peak", "upper_peak", "lower_peak", "anchor_peak", "skirt_peak"),
-    "/[^/]+/dynamic/[^/]+": ("line_tension_maximum", "line_tension_peak_since_row"),
+#: Other runs of the whole span through time, and of each of its cables and lines.
+TRIALS = ("half_step", "half_mesh", "extrapolated", "double_viscosity", "held_normals")
+#: Groups of runs of the whole span: the name of one in a weaker current ends in "m/s".
+_RUN = "/[^/]+/dynamic/[^/]+(/s)?"
+#: Names that a group holds whenever its analysis was run to its end.
+ALWAYS = {
+    "/record": (
+        "record_tension cable_peak_tension cable_plateau_tension cable_impact_tension cable_noise release_time "
+        "taut_time peak_time plateau_start rise_time sum_peak_tension sum_plateau_tension sum_impact_tension "
+        "peak_missed"
+    ),
+    "/[^/]+/models": "model_role model_of model_reason model_value model_limit",
+    "/[^/]+/statics": (
+        "span unstretched_length span_ratio skirt_length surface_speed normal_speed flow_angle froude_number "
+        "load_ratio drowning_speed joint_spacing anchor_spacing slack_toe_gap slack_float_reserve_ratio "
+        "slack_float_reserve_ratio_low slack_float_reserve_ratio_high flooded_net_weight flooded_sinks air_to_surface "
+        "holding_buoyancy drag_coefficient blockage hanging_length effective_depth flare toe_depth toe_gap toe_speed "
+        "toe_speed_ratio toe_speed_undisturbed section_load top_load toe_hold top_pull sheet_tension cable_tension "
+        "upper_tension lower_tension sag strain end_angle anchor_force end_anchor_force anchor_line_tension "
+        "float_reserve float_reserve_ratio planning_load planning_drag_coefficient planning_confirmed "
+        "steady_load_bound cause_line_load cause_cable_tension cause_anchor_force cause_effective_depth "
+        "compared_line_load compared_span_load compared_ratio compared_standing compared_why direction_span_load "
+        "direction_cable_tension direction_anchor_force "
+        + " ".join(f"steady_{name} steady_{name}_low steady_{name}_high" for name, _, _ in QUANTITIES)
+    ),
+    "/[^/]+/statics_laws": (
+        "pressure line_load law_effective_depth law_flare law_top_tension law_horizontal_load law_top_angle "
+        "law_section_x law_section_z"
+    ),
+    "/[^/]+/statics_paper": (
+        "paper_cable_tension_inextensible paper_cable_tension paper_sag paper_shape_number chord paper_skirt_tension "
+        "paper_edge_load paper_skirt_radius paper_skirt_sagitta"
+    ),
+    "/[^/]+/section": "section_x section_z section_tension section_angle profile_z profile_speed",
+    "/[^/]+/plan": "plan_x plan_y plan_angle",
+    "/[^/]+/impact": (
+        "impact_tension impact_time impact_upper_tension impact_lower_tension impact_skirt_tension impact_ratio "
+        "assumption counts start_speed draught added_mass added_mass_in_depth taut_sag shape_number cable_stiffness "
+        "tension_coefficient cauchy_number froude_number rise_ratio relative_step time_step plateau_tension spread "
+        "design_tension steps_to_peak march_tension march_error march_predicted_error forward_iteration_converges "
+        "reverse_iteration_converges"
+    ),
+    "/[^/]+/impact/A": "displacement speed tension",
+    "/[^/]+/impact/A2": "tension upper_tension lower_tension",
+    "/[^/]+/impact/memory": "displacement speed tension memory_force",
+    "/[^/]+/impact/snap": (
+        "position speed tension frame_time frame_position frame_tension frame_plan_x frame_plan_y frame_section_x "
+        "frame_section_z"
+    ),
+    "/[^/]+/waves/[^/]+": (
+        "maximum_tension maximum_tension_low maximum_tension_high mean_tension later_contact_tension contact_count "
+        "first_contact_count"
+    ),
+    "/[^/]+/waves/[^/]+/[^/]+": (
+        "flow_speed position speed tension contact_time contact_speed contact_tension contact_side contact_first"
+    ),
+    "/[^/]+/weaker_currents": "maximum_tension maximum_tension_low judged_tension",
+    "/[^/]+/anchor_loads": (
+        "significant_height wave_period wave_angle effective_height squared_velocity mean_squared_velocity "
+        "orbital_speed float_speed rope_tension rope_tension_pretensioned wire_tension total_rope_tension "
+        "conventional_tension rule_height rule_squared_velocity rule_tension angle_tension height height_tension "
+        "height_squared_velocity energy_factor float_mass rope_stiffness mass_product pretension response_time"
+    ),
+    "/[^/]+/loads": (
+        "steady_load steady_low steady_high wave_load wave_high wave_source second_wave_load second_wave_source "
+        "impact_load impact_low impact_high impact_source dynamic_load dynamic_source governing_load governing_high "
+        "governing governing_source load_bound load_unit capacity safety_factor utilisation utilisation_high case_load "
+        "case_high case_governing case_bound weaker_load weaker_high weaker_source"
+    ),
+    "/[^/]+/limits": (
+        "limit_height limit_governing limit_bound limit_height_alone limit_note limit_utilisation limit_component "
+        "component_utilisation surface_speed speed_limit speed_limit_low speed_limit_high speed_limit_ratio "
+        "drowning_speed design_limit_height design_limit_low design_limit_scatter"
+    ),
+    "/[^/]+/limits/rose": "rose_height rose_governing rose_bound",
+    "/[^/]+/dynamic": (
+        "both_peak both_peak_time upper_peak lower_peak anchor_peak skirt_peak "
+        + " ".join(f"{trial}_peak" for trial in TRIALS)
+    ),
+    _RUN: (
+        "line_tension_peak_since_row both_tension kinetic_energy elastic_energy energy_balance mid_span_x mid_toe_x "
+        "mid_toe_z line_tension_maximum line_peak_time slack_share line_contacts line_snaps slack_level snap_threshold "
+        "snap_rise_time " + " ".join(f"line_{trial}" for trial in TRIALS)
+    ),
+    f"{_RUN}/frames": ("node_position bar_tension triangle_tension bar_nodes triangle_nodes frame_time bar_line"),
+}
+#: What one statement of a run writes: a group holds all of it or none.
+TOGETHER = {
+    # a curtain that is longer than its span has laws of its plan
+    "/[^/]+/statics_laws": (
+        "law_plan_tension law_sag law_downstream_end_force law_inward_end_force law_plan_x law_plan_y",
+    ),
+    "/[^/]+/section": ("on_bed_x on_bed_z",),
+    "/[^/]+/plan": ("float_x float_y float_z anchor_x anchor_y anchor_z",),
+    "/[^/]+/impact": ("record_ratio record_time_ratio record_upper_ratio record_lower_ratio",),
+    "/[^/]+/waves/[^/]+": (
+        (
+            "period velocity_amplitude excursion threshold_excursion first_contact_tension largest_contact_speed "
+            "closed_form_tension periods_left_out periods_analysed repeats_after lower_wave_tension lower_wave_height "
+            "judged_tension"
+        ),
+        (
+            "significant_height realisations contacts_per_hour snaps_per_hour taut_share weibull_shape weibull_scale "
+            "weibull_threshold analysed_hours left_out most_probable_maximum most_probable_maximum_low "
+            "most_probable_maximum_high contact_tension_sorted exceedance fitted_exceedance realisation_tension"
+        ),
+    ),
+    "/[^/]+/limits/rose": ("sea_rose_height sea_rose_governing sea_heading sea_height held_ratio",),
+    "/[^/]+/dynamic": (
+        (
+            "run_of event_peak event_peak_low event_peak_high event_peak_judged event_peak_ceiling "
+            "event_peak_mesh_change event_peak_open event_realisations sample_peak sample_event sample_cells "
+            "sample_seed"
+        ),
+    ),
+    f"{_RUN}/frames": ("wave_amplitude wave_omega wave_wave_number wave_heading wave_phase",),
 }
 
 VOCABULARY = Vocabulary.of(
@@ -430,5 +535,6 @@ VOCABULARY = Vocabulary.of(
     VARIABLES,
     labels=LABELS,
     always=ALWAYS,
+    together=TOGETHER,
 )
 labelled = VOCABULARY.describe

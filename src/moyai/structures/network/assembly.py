@@ -12,8 +12,10 @@ from numpy.typing import NDArray
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
+from moyai.flexible.bed import Bed
 from moyai.flexible.build import NetworkBuilder
-from moyai.flexible.network import SPHERE, BarType, Bed, Network, Strand
+from moyai.flexible.elements import SPHERE, BarType, Strand
+from moyai.flexible.network import Network
 from moyai.mooring.lines import Clump, Line, LineType, Segment
 from moyai.mooring.shape import line_shape
 from moyai.sea.water import Water

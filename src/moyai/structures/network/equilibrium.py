@@ -12,12 +12,13 @@ from numpy.typing import NDArray
 
 from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
+from moyai.flexible.elements import DRIVEN
 from moyai.flexible.flow import Flow
 from moyai.flexible.modes import natural_modes
-from moyai.flexible.network import DRIVEN, Network
+from moyai.flexible.network import Network
 from moyai.flexible.refine import refined
-from moyai.flexible.result import History, State
-from moyai.flexible.statics import Equilibrium, solve_equilibrium
+from moyai.flexible.result import Equilibrium, History, State
+from moyai.flexible.statics import solve_equilibrium
 from moyai.structures.network.assembly import Assembly
 from moyai.structures.network.noise import without_noise
 from moyai.structures.network.variables import labelled

@@ -12,9 +12,9 @@ from moyai.core.errors import InputError
 from moyai.core.headline import Criterion
 from moyai.core.options import checks_words
 from moyai.flexible.bed import Bed, Ground
+from moyai.flexible.elements import BOX, BarType
 from moyai.flexible.failures import LineFailure
 from moyai.flexible.motion import Beginning, Motion
-from moyai.flexible.network import BOX, BarType
 from moyai.sea.current_field import CurrentField
 from moyai.sea.environment import Environment
 from moyai.sea.kinematics import Stretching

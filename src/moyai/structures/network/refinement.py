@@ -16,9 +16,10 @@ from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.progress import Progress
 from moyai.core.validity import Notice
 from moyai.core.wording import spoken
+from moyai.flexible.elements import FIXED
 from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import FIXED, Network
+from moyai.flexible.network import Network
 from moyai.flexible.refine import refined
 from moyai.flexible.result import History, State
 from moyai.flexible.sensitivity import PeakSensitivity, refined_start

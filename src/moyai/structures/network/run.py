@@ -15,10 +15,10 @@ from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.coupled.equilibrium import CoupledEquilibrium
+from moyai.flexible.elements import DRIVEN, FIXED
 from moyai.flexible.flow import Flow
-from moyai.flexible.network import DRIVEN, FIXED
-from moyai.flexible.result import State
-from moyai.flexible.statics import Equilibrium, solve_equilibrium
+from moyai.flexible.result import Equilibrium, State
+from moyai.flexible.statics import solve_equilibrium
 from moyai.structures.network.assembly import Assembly, assemble
 from moyai.structures.network.bodies import drawn_parts, lean_of, rest_of
 from moyai.structures.network.coefficients import loads_on_time, with_coefficients

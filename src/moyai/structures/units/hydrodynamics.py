@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from moyai import __version__
 from moyai.core.arrays import Array, ComplexArray, IntArray
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.store import DatasetStore, key_of
 from moyai.core.validity import IdentityCheck
+from moyai.core.version import VERSION
 from moyai.sea.dispersion import group_velocity
 from moyai.sea.water import Water
 from moyai.structures.units.bem import (
@@ -190,7 +190,7 @@ def solve_row(
     check_memory(panels)
     solutions = []
     base = key_of(
-        __version__, engine_version(), panels.mesh.corners, panels.mesh.part, centres, panels.gap_damping, panels.even,
+        VERSION, engine_version(), panels.mesh.corners, panels.mesh.part, centres, panels.gap_damping, panels.even,
         (water.depth, water.density, water.gravity), headings, DIRECTIONS,
     )  # fmt: skip
     for index, frequency in enumerate(omega):

@@ -20,7 +20,7 @@ from moyai.core.arrays import Array
 from moyai.core.headline import Criterion
 from moyai.core.options import checks_words
 from moyai.design.fatigue import EnduranceCurve
-from moyai.flexible.network import BarType
+from moyai.flexible.elements import BarType
 from moyai.mooring.lines import Clump, Segment
 from moyai.potential.sections import Hull
 from moyai.sea.environment import Environment

@@ -8,7 +8,8 @@ from pathlib import Path
 
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
-from moyai.study.plan import RunCase, Study, case_at
+from moyai.study.definition import RunCase, Study
+from moyai.study.plan import case_at
 
 
 def finish_study(

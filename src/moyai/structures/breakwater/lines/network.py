@@ -11,12 +11,14 @@ from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.validity import IdentityCheck
 from moyai.coupled.equilibrium import point_pulls
+from moyai.flexible.bed import Bed
 from moyai.flexible.build import NetworkBuilder
+from moyai.flexible.elements import Strand
 from moyai.flexible.flow import Flow
 from moyai.flexible.mooring_line import add_mooring_line, bed_under, carried_along, end_tensions, joined
-from moyai.flexible.network import Bed, Network, Strand
-from moyai.flexible.result import State
-from moyai.flexible.statics import Equilibrium, solve_equilibrium
+from moyai.flexible.network import Network
+from moyai.flexible.result import Equilibrium, State
+from moyai.flexible.statics import solve_equilibrium
 from moyai.mooring.lines import Line
 from moyai.structures.breakwater.assembly import FloatingUnit
 from moyai.structures.breakwater.model import MooringLine

@@ -11,7 +11,7 @@ from pathlib import Path
 from moyai.case.build_sea import current_of
 from moyai.case.criteria import criteria_of
 from moyai.core.errors import InputError
-from moyai.flexible.network import Bed
+from moyai.flexible.bed import Bed
 from moyai.morison.net_fouling import foul, foul_by_name
 from moyai.morison.net_law_names import Net, net_law
 from moyai.sea.environment import Environment
@@ -20,16 +20,9 @@ from moyai.structures.cage.case import schema
 from moyai.structures.cage.case import schema_flexible as parts
 from moyai.structures.cage.case.build_rigid import seas_of
 from moyai.structures.cage.flexible.collar import Collar, Pipe
-from moyai.structures.cage.flexible.grid_mooring import Buoy
-from moyai.structures.cage.flexible.model import (
-    CageDesign,
-    CageMesh,
-    CageNet,
-    FixedCollar,
-    FlexibleCage,
-    GridMooring,
-    Sinkers,
-)
+from moyai.structures.cage.flexible.design import CageDesign, CageNet, Sinkers
+from moyai.structures.cage.flexible.grid_mooring import Buoy, GridMooring
+from moyai.structures.cage.flexible.model import CageMesh, FixedCollar, FlexibleCage
 from moyai.structures.cage.flexible.problem import FlexibleCageProblem, FlexibleSettings
 from moyai.tables.lines import LineProperties, line_type
 

@@ -7,8 +7,8 @@ import numpy as np
 from moyai.case.builder import build
 from moyai.case.derived import Number
 from moyai.case.reader import Case
+from moyai.structures.cage.flexible.afloat import floating_balance
 from moyai.structures.cage.flexible.build import build_cage
-from moyai.structures.cage.flexible.checks import floating_balance
 from moyai.structures.cage.flexible.problem import FlexibleCageProblem
 
 
@@ -24,7 +24,7 @@ def derived_numbers(case: Case) -> tuple[Number, ...]:
         assert panels is not None
         first = built.cages[0]
         area = float(panels.area[np.concatenate([first.wall_panels, first.bottom_panels])].sum())
-        weight, spare = floating_balance(model)
+        weight, spare = floating_balance(model.design, model.water)
         numbers.extend(
             [
                 Number("Cage", name, "volume inside the net", first.rest_volume, "m3"),

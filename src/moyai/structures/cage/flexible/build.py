@@ -9,12 +9,15 @@ from itertools import pairwise
 import numpy as np
 
 from moyai.core.arrays import Array, IntArray
+from moyai.flexible.elements import FIXED, FREE, SPHERE, Bars, BarType, Nodes, Strand
 from moyai.flexible.mesh_groups import group_meshes
-from moyai.flexible.network import FIXED, FREE, SPHERE, Bars, BarType, Network, Nodes, Strand
+from moyai.flexible.network import Network
 from moyai.flexible.panels import NetPanels, PanelLaw, panel_areas
 from moyai.flexible.rings import Ring
 from moyai.structures.cage.flexible.collar import Pipe
-from moyai.structures.cage.flexible.model import CageDesign, FlexibleCage, GridMooring
+from moyai.structures.cage.flexible.design import CageDesign
+from moyai.structures.cage.flexible.grid_mooring import GridMooring
+from moyai.structures.cage.flexible.model import FlexibleCage
 from moyai.structures.cage.flexible.parts import CageNetwork, CageParts, LinePart, enclosed_volume
 from moyai.tables.lines import LineProperties
 

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from moyai.core.errors import InputError
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.morison.net_law_choice import METAL, choice_notice, law_choice
+from moyai.structures.cage.flexible.grid_mooring import GridMooring
+from moyai.structures.cage.rigid.model import RigidCageWaves
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -18,124 +19,9 @@ if TYPE_CHECKING:
     from moyai.structures.cage.flexible.problem import FlexibleCageProblem, FlexibleSettings
     from moyai.structures.cage.flexible.time import CageRun
 
-#: Share of its straight way by which a line may be too short before it cannot reach [-].
-_STRETCH = 0.15
-
-
-def floating_balance(model: FlexibleCage) -> tuple[float, float]:
-    """Return the submerged weight of one cage below its collar, and what the collar can bear beyond its own weight [N].
-
-    Net, growth, sinkers, sinker tube and centre weight against the pipes of the collar wholly immersed.
-    """
-    design, water = model.design, model.water
-    net, collar = design.net, design.collar
-    area = design.rim * net.wall_depth
-    if net.bottom != "none":
-        base = math.pi / 4.0 * design.size**2 if design.shape == "circular" else design.size**2
-        apothem = 0.5 * design.size
-        area += base * math.sqrt(1.0 + (net.cone_depth / apothem) ** 2)
-    twine = 2.0 / net.net.mesh_pitch * area
-    weight = twine * (net.twine_mass - water.density * net.twine_volume) + design.centre_weight
-    if design.sinkers is not None:
-        weight += design.sinkers.count * (design.sinkers.mass - water.density * design.sinkers.volume)
-    if design.bottom_ring is not None:
-        ring = design.bottom_ring
-        weight += design.rim * (ring.mass_per_length(water.density) - water.density * ring.volume_per_length)
-    pipe = collar.pipe
-    spare = water.density * pipe.volume_per_length - pipe.mass_per_length(water.density)
-    length = design.rim
-    if collar.rings == 2:
-        outer = design.rim + (2.0 * math.pi if design.shape == "circular" else 8.0) * collar.spacing
-        length += outer
-    return weight * water.gravity, spare * length * water.gravity
-
-
-def check_cage(model: FlexibleCage) -> None:
-    """Raise InputError at the first fault of a cage.
-
-    Raises
-    ------
-    InputError
-        For a cage that does not float, a grid too narrow or too deep, lines that cannot reach.
-    """
-    from moyai.structures.cage.flexible.model import GridMooring
-
-    weight, spare = floating_balance(model)
-    mooring = model.mooring
-    if not isinstance(mooring, GridMooring):
-        if model.rows * model.columns > 1:
-            raise InputError("several cages with held collars", parameter="mooring.rows", allowed="1 x 1")
-        return
-    if spare <= 0.0:
-        raise InputError(
-            f"the pipes of the collar weigh {-spare:.4g} N more than the water that they displace",
-            parameter="collar.pipe",
-            allowed="lighter than water",
-            remedy="check diameter, wall_thickness, density and extra_mass_per_length",
-        )
-    if weight >= spare:
-        raise InputError(
-            f"the cage does not float: net and weights weigh {weight:.4g} N in water, the collar bears {spare:.4g} N "
-            "wholly immersed",
-            parameter="collar.pipe.diameter",
-            allowed=f"weights below {spare:.4g} N",
-            remedy="take a larger collar pipe, a second ring, or lighter weights",
-        )
-    width = model.design.size + 2.0 * (model.design.collar.spacing if model.design.collar.rings == 2 else 0.0)
-    if mooring.spacing <= width:
-        raise InputError(
-            f"a bay of {mooring.spacing:g} m for a cage of {width:g} m",
-            parameter="mooring.spacing",
-            allowed=f"above {width:g} m",
-        )
-    rise = -model.bed.level - mooring.depth
-    if rise <= 0.0:
-        raise InputError(
-            f"the frame lies {mooring.depth:g} m deep, the bed {-model.bed.level:g} m",
-            parameter="mooring.depth",
-            allowed=f"less than {-model.bed.level:g} m",
-        )
-    _check_reach(model, mooring, rise)
-
-
-def _check_reach(model: FlexibleCage, mooring: object, rise: float) -> None:
-    from moyai.structures.cage.flexible.model import GridMooring
-
-    assert isinstance(mooring, GridMooring)
-    straight = math.hypot(mooring.anchor_distance, rise)
-    if mooring.line_length < (1.0 - _STRETCH) * straight:
-        raise InputError(
-            f"the anchor lines of {mooring.line_length:g} m cannot reach: {straight:.4g} m from frame to anchor",
-            parameter="mooring.anchor_line",
-            allowed=f"about {straight:.4g} m or more",
-            remedy="lengthen the lines or bring the anchors nearer",
-        )
-    if mooring.line_length > mooring.anchor_distance + rise:
-        raise InputError(
-            f"anchor lines of {mooring.line_length:g} m hang straight down and lie slack on the way of "
-            f"{mooring.anchor_distance:g} m",
-            parameter="mooring.anchor_line",
-            allowed=f"below {mooring.anchor_distance + rise:.4g} m",
-            remedy="shorten the lines or move the anchors out",
-        )
-    if mooring.bridle_length is not None:
-        reach = 0.5 * math.sqrt(2.0) * mooring.spacing - 0.5 * model.design.size * (
-            1.0 if model.design.shape == "circular" else math.sqrt(2.0)
-        )
-        reach = math.hypot(max(reach, 0.0), mooring.depth)
-        if mooring.bridle_length < (1.0 - _STRETCH) * reach:
-            raise InputError(
-                f"bridles of {mooring.bridle_length:g} m cannot reach: {reach:.4g} m from frame to collar",
-                parameter="mooring.bridle_length",
-                allowed=f"about {reach:.4g} m or more",
-                remedy="lengthen the bridles, narrow the bay or raise the frame",
-            )
-
 
 def problem_notices(problem: FlexibleCageProblem) -> tuple[Notice, ...]:
     """Tell where net and speeds leave the range of their law, and where the mesh is coarse."""
-    from moyai.structures.cage.rigid.model import RigidCageWaves
-
     model = problem.cage
     net = model.design.net
     speeds = list(problem.settings.current_speeds)
@@ -171,8 +57,6 @@ def design_speed(problem: FlexibleCageProblem) -> float:
     """Return the speed at which the laws of nets are compared: that of the current of the site at the surface, else
     of the water in the largest wave [m/s].
     """
-    from moyai.structures.cage.rigid.model import RigidCageWaves
-
     current = problem.environment.current
     if current is not None:
         speed = float(np.hypot(*np.asarray(current.velocity(np.zeros(1)))[0]))
@@ -252,8 +136,6 @@ def rest_notices(level: str, model: FlexibleCage, statics: xr.Dataset, speed: fl
 
 def isinstance_grid(model: FlexibleCage) -> bool:
     """Whether a grid holds the cage."""
-    from moyai.structures.cage.flexible.model import GridMooring
-
     return isinstance(model.mooring, GridMooring)
 
 

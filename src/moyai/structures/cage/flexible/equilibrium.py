@@ -14,10 +14,10 @@ from moyai.core.progress import Progress, silent
 from moyai.flexible.dynamic_relaxation import relax_network
 from moyai.flexible.flow import Current, Flow
 from moyai.flexible.network import Network
-from moyai.flexible.result import State
+from moyai.flexible.result import Equilibrium, State
 from moyai.flexible.rings import ring_moments
 from moyai.flexible.simulation import simulate
-from moyai.flexible.statics import Equilibrium, nearby_equilibrium, solve_equilibrium
+from moyai.flexible.statics import nearby_equilibrium, solve_equilibrium
 from moyai.structures.cage.flexible.loads import PARTS, drag_on_holds, drag_split, pull_on_anchors
 from moyai.structures.cage.flexible.model import FlexibleCage
 from moyai.structures.cage.flexible.parts import CageNetwork, CageParts

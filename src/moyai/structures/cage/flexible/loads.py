@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.arrays import Array
-from moyai.flexible.network import SPHERE, Network
+from moyai.flexible.elements import SPHERE
+from moyai.flexible.network import Network
 from moyai.flexible.panels import forces_on_panels
 from moyai.structures.cage.flexible.parts import CageNetwork
 

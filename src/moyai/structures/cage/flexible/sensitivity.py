@@ -10,7 +10,8 @@ import numpy as np
 from moyai.core.progress import Progress, silent
 from moyai.structures.cage.flexible.build import build_cage
 from moyai.structures.cage.flexible.equilibrium import CageEquilibrium, collar_forces, horizontal_balance, solve_rest
-from moyai.structures.cage.flexible.model import CageMesh, FlexibleCage, GridMooring
+from moyai.structures.cage.flexible.grid_mooring import GridMooring
+from moyai.structures.cage.flexible.model import CageMesh, FlexibleCage
 from moyai.structures.cage.flexible.problem import FlexibleSettings
 from moyai.structures.cage.flexible.time import CageRun, drag_rows, run_cage
 from moyai.structures.cage.rigid.waves import RigidCageWave

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from moyai.structures.cage.flexible.checks import floating_balance
+from moyai.structures.cage.flexible.afloat import floating_balance
 from moyai.structures.cage.flexible.equilibrium import CageEquilibrium, collar_forces, horizontal_balance, ring_shape
 from moyai.structures.cage.flexible.loads import PARTS, pull_on_anchors
 from moyai.structures.cage.flexible.model import FlexibleCage
@@ -47,7 +47,7 @@ def cage_dataset(model: FlexibleCage, built: CageNetwork) -> xr.Dataset:
     for number, part in enumerate(built.lines):
         bars = network.strands[part.strand].bars
         kind[bars], line[bars] = 3, number
-    weight, spare = floating_balance(model)
+    weight, spare = floating_balance(model.design, model.water)
     first = built.cages[0]
     own = np.concatenate([first.wall_panels, first.bottom_panels])
     mass = network.bars.of_type("mass_per_length") * network.bars.length

@@ -8,10 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.arrays import Array, IntArray
+from moyai.report.animation_3d import animation_3d
 from moyai.report.document import Animation, Block, Choice, Option
 from moyai.report.formatting import format_quantity
 from moyai.report.reading import Group
-from moyai.report.scene_3d import Faces, Marker, Scene3D, Trace, Waves3D, animation_3d, frame_rows
+from moyai.report.scene_3d import Faces, Marker, Scene3D, Trace, Waves3D, frame_rows
 from moyai.structures.cage.report.flexible_figures import design_row
 from moyai.structures.cage.report.rigid_reading import CageLevel, key
 

@@ -11,8 +11,9 @@ import numpy as np
 from moyai.core.arrays import Array, IntArray
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
+from moyai.flexible.elements import FIXED, FREE, Bars, BarType, Nodes, Strand
 from moyai.flexible.mass_blocks import MassBlocks
-from moyai.flexible.network import FIXED, FREE, Bars, BarType, Network, Nodes, Strand
+from moyai.flexible.network import Network
 from moyai.flexible.result import State
 from moyai.flexible.sheets import Sheets, sheet_grid
 from moyai.sea.water import Water

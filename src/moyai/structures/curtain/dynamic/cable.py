@@ -10,8 +10,9 @@ import numpy as np
 
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.options import checks_words
+from moyai.flexible.elements import FIXED, Bars, BarType, Nodes, Strand
 from moyai.flexible.mass_blocks import MassBlocks
-from moyai.flexible.network import FIXED, Bars, BarType, Network, Nodes, Strand
+from moyai.flexible.network import Network
 from moyai.flexible.result import State
 from moyai.flexible.simulation import simulate
 from moyai.sea.water import Water

@@ -11,15 +11,13 @@ from moyai.flexible.sheets import sheet_stress
 from moyai.structures.curtain.dynamic.peak_uncertainty import BOTH, PeakUncertainties, PeakUncertainty
 from moyai.structures.curtain.dynamic.plans import Plan
 from moyai.structures.curtain.dynamic.runs import DynamicRun, DynamicSettings
-from moyai.structures.curtain.variables import labelled
+from moyai.structures.curtain.variables import TRIALS, labelled
 
 if TYPE_CHECKING:
     import xarray as xr
 
 #: Frames kept for the moving picture.
 _FRAMES = 240
-#: Other runs of each cable and line.
-_TRIALS = ("half_step", "half_mesh", "extrapolated", "double_viscosity", "held_normals")
 
 
 def run_dataset(
@@ -55,7 +53,7 @@ def run_dataset(
     rises = [[c.rise_time for c in record.snaps] for record in stats]
     data["snap_rise_time"] = ("line", [float(np.median(r)) if r else math.nan for r in rises])
     nothing = PeakUncertainty(math.nan)
-    for key in _TRIALS:
+    for key in TRIALS:
         data[f"line_{key}"] = (
             "line",
             [getattr(uncertainty.of[name] if uncertainty else nothing, key) for name in names],
@@ -74,7 +72,7 @@ def run_dataset(
             default=math.nan,
         ),
         "skirt_peak": skirt,
-        **{f"{key}_peak": getattr(total, key) for key in _TRIALS},
+        **{f"{key}_peak": getattr(total, key) for key in TRIALS},
     }  # fmt: skip
     if history.status == "not_converged":
         # the last instants of a run that had to stop are no motion of the span: nobody shall design with them

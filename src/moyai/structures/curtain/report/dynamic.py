@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from moyai.core.arrays import Array
+from moyai.report.animation_3d import animation_3d
 from moyai.report.decimate import focus_indices, window_around
 from moyai.report.document import (
     Abscissa,
@@ -24,7 +25,7 @@ from moyai.report.document import (
 )
 from moyai.report.formatting import format_quantity
 from moyai.report.reading import Group, common_scale
-from moyai.report.scene_3d import Faces, Marker, Scene3D, Trace, Waves3D, animation_3d, frame_rows
+from moyai.report.scene_3d import Faces, Marker, Scene3D, Trace, Waves3D, frame_rows
 from moyai.structures.curtain.report.reading import CurtainLevel, attribute, key
 
 _BINS, _PERIODS_SHOWN, _WHOLE = 900, 4.0, 6.0

@@ -17,9 +17,9 @@ from moyai.case.schema_environment import sea_names
 from moyai.core.errors import InputError
 from moyai.coupled.assembly import RodPart, VolumePart
 from moyai.flexible.bed import Ground, plane_ground
+from moyai.flexible.elements import BOX, SPHERE, BarType, RopeCurve, SlowStretch
 from moyai.flexible.failures import LineFailure
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import BOX, SPHERE, BarType, RopeCurve, SlowStretch
 from moyai.flexible.worn_law import WornRope
 from moyai.sea.current_field import CurrentField
 from moyai.sea.elevation_record import components_of_record

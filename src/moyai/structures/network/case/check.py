@@ -346,7 +346,7 @@ def _check_places(model: NetworkCase, problem: NetworkProblem, findings: Finding
     """Warn of what is allowed and odd: lines over-stretched as built, free points in the air, nets of many nodes."""
     import numpy as np
 
-    from moyai.flexible.network import FREE
+    from moyai.flexible.elements import FREE
     from moyai.structures.network.assembly import assemble
 
     _, level = problem.environment.water_levels[0]

@@ -8,11 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.arrays import Array, IntArray
+from moyai.report.animation_3d import animation_3d
 from moyai.report.document import Animation, Block, Choice, Option
 from moyai.report.encoding import slug
 from moyai.report.formatting import format_quantity
 from moyai.report.reading import Group
-from moyai.report.scene_3d import Body3D, Faces, Marker, Scene3D, Trace, Waves3D, animation_3d, frame_rows
+from moyai.report.scene_3d import Body3D, Faces, Marker, Scene3D, Trace, Waves3D, frame_rows
 from moyai.structures.network.report.reading import NetworkLevel, attribute, peak_of_run, texts
 
 #: Periods that are played at first, and a length of run that is played whole [s].

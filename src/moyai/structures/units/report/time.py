@@ -9,12 +9,13 @@ import numpy as np
 
 from moyai.core.arrays import Array, IntArray
 from moyai.mooring.rotations import rotation_matrix
+from moyai.report.animation_3d import animation_3d
 from moyai.report.decimate import focus_indices, window_around
 from moyai.report.document import Abscissa, Animation, Block, Figure, Mark, Panel, Series
 from moyai.report.encoding import slug
 from moyai.report.formatting import format_quantity
 from moyai.report.reading import Group, common_scale
-from moyai.report.scene_3d import Body3D, Marker, Scene3D, Trace, Waves3D, animation_3d, frame_rows
+from moyai.report.scene_3d import Body3D, Marker, Scene3D, Trace, Waves3D, frame_rows
 
 #: Peak periods of the window that is shown first; stretches of the record outside of it
 WINDOW_PERIODS, BINS = 12.0, 200
