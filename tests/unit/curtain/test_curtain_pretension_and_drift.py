@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,12 +11,18 @@ import pytest
 from scipy.special import iv, kv
 
 import moyai
+from moyai.case.builder import build
 from moyai.sea.spectra import jonswap
 from moyai.sea.states import IrregularSea, RegularSea
 from moyai.sea.water import Water
+from moyai.structures.curtain.analyses import limits
+from moyai.structures.curtain.assembly import assemble
+from moyai.structures.curtain.hierarchy import STRAIGHT, straight_share
+from moyai.structures.curtain.model import CurtainSettings
 from moyai.structures.curtain.seas.drift import drift_speed, mean_drift_force, reflected_energy
 from moyai.structures.curtain.statics.hanging import tight_line
 
+LEVEL = ("SWL", 0.0)
 WATER = Water(depth=math.inf, density=1025.0, gravity=9.81)
 CASE = """\
 moyai: 1
@@ -87,9 +94,20 @@ def test_sunk_floats_do_not_hold(tmp_path: Path) -> None:
 def test_a_barrier_reflects_as_ursell_found() -> None:
     draught = np.array([1e-3, 0.3, 1.0, 2.5, 40.0])
     inner, outer = math.pi * iv(1, draught[1:4]), kv(1, draught[1:4])
-    found = reflected_energy(draught / 3.0, 3.0)
+    found = reflected_energy(draught / 3.0, 3.0, math.inf)
     np.testing.assert_allclose(found[1:4], inner**2 / (inner**2 + outer**2), rtol=1e-12)
     assert found[0] < 1e-10 and found[-1] == pytest.approx(1.0)
+
+
+def test_a_barrier_near_the_bed_holds_long_waves_back() -> None:
+    """All of them without a gap, none through a wide one; a thin gap lets less through than a wide one."""
+    k = np.array([0.01, 0.05])
+    np.testing.assert_allclose(reflected_energy(k, 7.0, 7.0), 1.0)
+    narrow, wide = reflected_energy(k, 6.9, 7.0), reflected_energy(k, 3.5, 7.0)
+    assert (narrow > 3.0 * wide).all() and (narrow < 1.0).all()
+    # an orifice in a channel: R^2 = (k l/2)^2 where that is small, l = 4 h/pi ln(1/sin(pi g/2h))
+    length = 28.0 / math.pi * math.log(1.0 / math.sin(math.pi * 0.1 / 14.0))
+    assert narrow[0] == pytest.approx((0.005 * length) ** 2, rel=0.05)
 
 
 def test_short_waves_push_with_all_of_their_momentum() -> None:
@@ -111,10 +129,12 @@ def test_a_held_curtain_without_a_current_snaps_as_it_drifts(tmp_path: Path) -> 
     speeds = table["weaker_current"].values
     assert speeds.min() > 0.0 and len(speeds) > 1
     alone = headline(still, "anchor_load").value
+    end = headline(still, "anchor_load").band.high
     for speed in (0.01, speeds[0]):
         moving = run(tmp_path, "statics, waves", waves=WAVES, current=CURRENT.replace("0.3 m/s", f"{speed:.17g} m/s"))
         # a current weaker than the drift changes nothing but its own steady part
         assert headline(moving, "anchor_load").value == pytest.approx(alone, rel=0.02)
+        assert headline(moving, "anchor_load").band.high == pytest.approx(end, rel=0.05)
     own = next(group for group in moving.tree.subtree if group.path.endswith("waves/daily"))
     assert float(table["maximum_tension"][0, 0]) == pytest.approx(float(own["maximum_tension"].max()), rel=1e-9)
 
@@ -124,6 +144,35 @@ def test_a_limit_of_a_free_toe_by_a_plate_is_no_ceiling(tmp_path: Path) -> None:
     found = run(tmp_path, "statics, impact, limits", current=CURRENT, toe="free", holding="40 kN")
     limit = headline(found, "limit_current")
     assert limit.bound != "at most"
+
+
+def test_limits_count_the_impact_next_to_a_run_of_the_whole_span(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The span is run in the state of the case alone: the limit in other currents is that of the plate."""
+    asked = []
+
+    def roles(unit: object, settings: CurtainSettings, *, speed: float) -> tuple[()]:
+        asked.append(settings.analyses)
+        return ()
+
+    monkeypatch.setattr(limits, "hierarchy", roles)
+    settings = replace(CurtainSettings(), analyses=("statics", "impact", "dynamic"))
+    limits.CountedLimits(None, settings, None).role(0.3)  # type: ignore[arg-type]
+    assert asked == [("statics", "impact")]
+
+
+def test_a_drift_in_which_the_plate_is_a_bound_is_at_most(tmp_path: Path) -> None:
+    """A light held skirt bulges in the drift of high waves: its load there is known from above alone."""
+    high = WAVES.replace("height: 0.4 m, periods: [3.5 s]", "height: 0.9 m, periods: [4 s]")
+    found = run(tmp_path, "waves", waves=high)
+    table = next(group for group in found.tree.subtree if group.path.endswith("weaker_currents"))
+    drift = float(table["weaker_current"].max())
+    unit = assemble(build(moyai.load_case(tmp_path / "case.yaml")), *LEVEL)
+    assert drift == pytest.approx(unit.drift_speed)
+    loads = next(group for group in found.tree.subtree if group.path.endswith("/loads")).to_dataset()
+    row = loads.sel(component="anchor line")
+    bounded = straight_share(unit, drift) < STRAIGHT
+    assert (str(row["load_bound"].values) == "at most") == bounded
+    assert bounded
 
 
 def test_floats_are_judged_where_no_statics_are_asked_for(tmp_path: Path) -> None:

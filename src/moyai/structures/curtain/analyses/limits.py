@@ -133,13 +133,15 @@ def _design_ends(strict: CountedLimits, speeds: tuple[float, ...]) -> dict[str, 
     """
     import xarray as xr
 
-    own, low, lower = _strongest(strict.unit, strict.settings), math.nan, math.nan
-    if own > 0.0:
-        within = {speed for speed in speeds if speed < own * (1.0 - 1e-9)} | {own}
+    own, low, lower = strict.unit.surface_speed, math.nan, math.nan
+    drifts = _drifts(strict.unit, strict.settings)
+    if own > 0.0 or drifts:
+        within = {speed for speed in speeds if speed < own * (1.0 - 1e-9)} | ({own} if own > 0.0 else set())
 
         def least(loads: SeaLoads) -> float:
-            counted = replace(strict, loads=loads)
-            return min(counted.height(speed)[0].value for speed in within)
+            counted, drifting = (replace(strict, loads=one) for one in (loads, replace(loads, impact=None)))
+            found = [counted.height(speed) for speed in within] + [drifting.height(speed) for speed in drifts]
+            return min(limit.value for limit, _ in found)
 
         severe = _severe(strict.unit, strict.loads)
         low = least(severe)
@@ -204,7 +206,9 @@ class CountedLimits:
 
     def role(self, speed: float) -> Role:
         """Return what the upright plate counts for in a current [m/s]."""
-        roles = hierarchy(self.unit, self.settings, speed=speed)
+        # a whole span is run in the state of the case alone: elsewhere the plate counts for what it is
+        asked = tuple(name for name in self.settings.analyses if name != "dynamic")
+        roles = hierarchy(self.unit, replace(self.settings, analyses=asked), speed=speed)
         found = {role_of(roles, model) for model in (IMPACT, CYCLES)}
         return next((role for role in _ROLES if role in found), "out of range")
 
@@ -336,7 +340,7 @@ def _limits_group(
                 "limit_jump": _jump(unit, counted, found),
                 "least_effective_depth": unit.requirements.least_depth,
                 "wave_angle": limits.wave_angle,
-                "drift_governs": int(_strongest(unit, settings) > unit.surface_speed),
+                "with_drift": int(bool(_drifts(unit, settings))),
                 "with_impact": int(loads.impact is not None),
                 "with_snaps": int(loads.snaps is not None),
                 "sea_duration": counted.duration,
@@ -351,14 +355,16 @@ def _design_height(
     unit: LevelCurtain, counted: CountedLimits, found: _FoundLimits, alone: Array, data: dict[str, Any]
 ) -> dict[str, str]:
     """Add the height held in currents up to that of the case, and return what sets it and whether it is a bound."""
-    own = _strongest(unit, counted.settings)
-    if own <= 0.0:
+    own = unit.surface_speed
+    if own <= 0.0 and not _drifts(unit, counted.settings):
         data["design_limit_height"] = ((), math.nan)
         return {"design_limit_governing": "", "design_limit_bound": "", "design_limit_note": ""}
     rows = [row for speed, row in zip(found.speeds, found.rows) if speed <= own * (1.0 + 1e-9)]
-    if not any(abs(speed - own) <= 1e-9 * own for speed in found.speeds):
+    if own > 0.0 and not any(abs(speed - own) <= 1e-9 * own for speed in found.speeds):
         rows.append(counted.height(own))
     # where several are alike, the one nearest to the current of the case
+    drifting = replace(counted, loads=replace(counted.loads, impact=None))
+    rows += [drifting.height(speed) for speed in _drifts(unit, counted.settings)]
     limit, bound = min(reversed(rows), key=lambda row: row[0].value)
     if not bound and limit.value > 0.0 and any(other for _, other in rows):
         # in another current the height is not known: it may be less
@@ -441,10 +447,11 @@ def _jump(unit: LevelCurtain, counted: CountedLimits, found: _FoundLimits) -> st
     return ""
 
 
-def _strongest(unit: LevelCurtain, settings: CurtainSettings) -> float:
-    """Return the current up to which a height must be held [m/s]: that of the case, or as strong as its drift."""
-    drift = currents_of_waves(unit) if "waves" in settings.analyses else ()
-    return max(unit.surface_speed, *drift, 0.0)
+def _drifts(unit: LevelCurtain, settings: CurtainSettings) -> tuple[float, ...]:
+    """Return the currents as strong as the drift of the waves, where they are stronger than that of the case [m/s]."""
+    if "waves" not in settings.analyses:
+        return ()
+    return tuple(speed for speed in currents_of_waves(unit) if speed > unit.surface_speed)
 
 
 def _speeds(unit: LevelCurtain, settings: CurtainSettings, limit: Limit) -> tuple[float, ...]:

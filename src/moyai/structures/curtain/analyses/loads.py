@@ -17,7 +17,7 @@ from moyai.structures.curtain.analyses.impact import ImpactAnswer
 from moyai.structures.curtain.analyses.weaker_currents import weaker_cycles, weaker_impacts
 from moyai.structures.curtain.assembly import LevelCurtain
 from moyai.structures.curtain.governing import WEAKER, governing_load, model_of
-from moyai.structures.curtain.hierarchy import CREST, CYCLES, IMPACT, ModelRole, hierarchy, role_of
+from moyai.structures.curtain.hierarchy import CREST, CYCLES, IMPACT, ModelRole, Role, hierarchy, role_of
 from moyai.structures.curtain.limits.loads import impact_load
 from moyai.structures.curtain.limits.utilisation import AddedLoads, Strength
 from moyai.structures.curtain.model import COMPONENTS, CurtainSettings
@@ -31,6 +31,8 @@ from moyai.structures.curtain.variables import labelled
 if TYPE_CHECKING:
     import xarray as xr
 
+#: Roles of an upright plate in weaker currents.
+_PLATES: tuple[Role, ...] = ("governs", "bound")
 #: Highest tension of components in runs of the whole span [N, N/m], and the run in which each stands.
 DynamicLoads = Mapping[str, SpanLoad]
 NOT_MOVED: DynamicLoads = MappingProxyType({})
@@ -128,8 +130,10 @@ def loads_dataset(
         if row["wave_source"] and more > 0.0 and role_of(roles, model_of(second.source)) == "governs":
             row |= {"second_wave_load": more, "second_wave_source": second.source}
         rows.append(row)
-    weaker = _weaker_rows(unit, settings, answer, proportions, weaker_waves)
-    return _table(unit, rows, moved, roles, weaker), tuple(notices)
+    weaker, bounds = (
+        _weaker_rows(unit, settings, answer, proportions, weaker_waves, upright=governs) for governs in (True, False)
+    )
+    return _table(unit, rows, moved, roles, weaker, bounds), tuple(notices)
 
 
 def dynamic_loads_dataset(unit: LevelCurtain, moved: DynamicLoads) -> xr.Dataset:
@@ -145,11 +149,17 @@ def _weaker_rows(
     answer: ImpactAnswer | None,
     proportions: ImpactAnswer | None,
     waves: xr.Dataset | None,
+    *,
+    upright: bool,
 ) -> dict[str, list[dict[str, float | str]]]:
-    """Return by component the rows of impact and waves in weaker currents that are highest, by value or by end."""
-    found = [] if answer is None else list(weaker_impacts(unit, settings, answer))
+    """Return by component the rows of impact and waves in weaker currents that are highest, by value or by end.
+
+    Those in which an upright plate governs, or those in which it is a bound.
+    """
+    every = [] if answer is None else list(weaker_impacts(unit, settings, answer))
     if proportions is not None and waves is not None:
-        found.extend(weaker_cycles(unit, settings, proportions, waves))
+        every.extend(weaker_cycles(unit, settings, proportions, waves))
+    found = [one for one in every if one.upright == upright]
     rows: dict[str, list[dict[str, float | str]]] = {}
     for component in COMPONENTS if found else ():
         known = [one for one in found if component != "float" and (component != "skirt" or one.sheet)]
@@ -173,14 +183,17 @@ def _weaker_rows(
 def _table(
     unit: LevelCurtain, rows: list[dict[str, float | str]], moved: DynamicLoads, roles: tuple[ModelRole, ...],
     weaker: Mapping[str, list[dict[str, float | str]]] = MappingProxyType({}),
+    bounds: Mapping[str, list[dict[str, float | str]]] = MappingProxyType({}),
 ) -> xr.Dataset:  # fmt: skip
     import xarray as xr
 
     decided = [_decided(unit, row, moved, roles) for row in rows]
-    plate = tuple(ModelRole(model, "governs", "", "") for model in (IMPACT, CYCLES))
+    plate, bound = (tuple(ModelRole(model, role, "", "") for model in (IMPACT, CYCLES)) for role in _PLATES)
     for number, row in enumerate(decided):
-        slower = [_decided(unit, other, NOT_MOVED, plate) for other in weaker.get(str(row["component"]), [])]
-        decided[number] = _with_weaker(row, slower)
+        name = str(row["component"])
+        slower = [_decided(unit, other, NOT_MOVED, plate) for other in weaker.get(name, [])]
+        most = [_decided(unit, other, NOT_MOVED, bound) for other in bounds.get(name, [])]
+        decided[number] = _with_bound(_with_weaker(row, slower), slower, most)
     rows = _with_joint(unit, decided, frozenset(name for name, span in moved.items() if span.open))
     columns = {key: [row[key] for row in rows] for key in rows[0]}
     known = [row for row in rows if math.isfinite(row["utilisation"])]  # type: ignore[arg-type]
@@ -216,6 +229,26 @@ def _with_weaker(row: dict[str, float | str], weaker: Sequence[dict[str, float |
     return row | {name: largest[name] for name in names} | {
         "governing": WEAKER, "governing_source": largest["impact_source"]
     }  # fmt: skip
+
+
+def _with_bound(
+    row: dict[str, float | str], weaker: Sequence[dict[str, float | str]], bounds: Sequence[dict[str, float | str]]
+) -> dict[str, float | str]:
+    """Return a row with what a plate that is a bound makes of a drift of the waves, where that is the most.
+
+    What is known in weaker currents is kept next to it.
+    """
+    most = max(bounds, key=lambda one: float(one["governing_high"]), default=None)
+    if most is None or not float(most["governing_high"]) > float(row["governing_high"]):
+        return row
+    known = max(weaker, key=lambda one: float(one["governing_high"]), default=None)
+    if known is not None:
+        row = row | {
+            "weaker_load": known["governing_load"], "weaker_high": known["governing_high"],
+            "weaker_source": known["impact_source"],
+        }  # fmt: skip
+    names = ("governing_load", "governing_high", "load_bound", "utilisation", "utilisation_high")
+    return row | {name: most[name] for name in names} | {"governing": WEAKER, "governing_source": most["impact_source"]}
 
 
 def _decided(

@@ -18,7 +18,7 @@ from moyai.sea.states import SeaState
 from moyai.structures.curtain.analyses.impact import ImpactAnswer
 from moyai.structures.curtain.analyses.waves import sea_cycles, still_flows, strong_tension
 from moyai.structures.curtain.assembly import LevelCurtain
-from moyai.structures.curtain.hierarchy import upright_in
+from moyai.structures.curtain.hierarchy import STRAIGHT, straight_share, upright_in
 from moyai.structures.curtain.limits.loads import impact_load
 from moyai.structures.curtain.limits.utilisation import AddedLoads
 from moyai.structures.curtain.model import CurtainSettings
@@ -52,6 +52,8 @@ class WeakerLoads:
     high: AddedLoads
     #: Whether the load of the sheet is known.
     sheet: bool
+    #: Whether the skirt hangs so straight there that the plate governs; else it is a bound.
+    upright: bool = True
 
     @cached_property
     def still(self) -> AddedLoads:
@@ -65,12 +67,12 @@ def currents_of_waves(unit: LevelCurtain) -> tuple[float, ...]:
     Those up to the one that is as strong as the drift of the waves are among them, also where the case has a weaker
     one, or none.
     """
-    own = unit.surface_speed
-    top = 0.0 if unit.nominal else upright_in(unit, max(own, unit.drift_speed))
+    own, drift = unit.surface_speed, unit.drift_speed
+    top = 0.0 if unit.nominal else upright_in(unit, max(own, drift))
     if not top > 0.0:
         return ()
     step = _STEP_OF_WAVES * math.sqrt(unit.water.gravity * unit.depth)
-    speeds = {number * step for number in range(int(top / step) + 1)} | {top}
+    speeds = {number * step for number in range(int(top / step) + 1)} | ({drift} if drift > own else set())
     return tuple(sorted(speed for speed in speeds if abs(speed - own) > 1e-6 * top))
 
 
@@ -131,11 +133,14 @@ def weaker_waves(
         for number, there in enumerate(slower):
             progress(f"weaker currents, {sea.name}", number, len(slower))
             found.append(sea_cycles(there, settings, sea, still))
+        drifting = strong
         if slower[-1].surface_speed > unit.surface_speed and found[-1].judged > 0.0:
-            # as strong as the drift: the case's own, weaker current says little of it
-            strong = max(strong, strong_tension(slower[-1], settings, sea, found[-1], still) / found[-1].judged)
-        for name, ends, factor in zip(rows, ("top", "low", "judged"), (1.0, 1.0, strong), strict=True):
-            rows[name].append([factor * float(getattr(one, ends)) for one in found])
+            # what a current weaker than the drift makes of the coefficient says little of it
+            drifting = max(strong_tension(slower[-1], settings, sea, found[-1], still) / found[-1].judged, 1.0)
+        factors = [drifting if there.surface_speed > unit.surface_speed else strong for there in slower]
+        rows["maximum_tension"].append([one.top for one in found])
+        rows["maximum_tension_low"].append([one.low for one in found])
+        rows["judged_tension"].append([factor * one.judged for factor, one in zip(factors, found, strict=True)])
     coords = {"sea": [sea.name for sea in seas], "weaker_current": list(speeds)}
     return labelled(xr.Dataset({name: (tuple(coords), values) for name, values in rows.items()}, coords=coords))
 
@@ -154,7 +159,8 @@ def weaker_cycles(
                 whole = load.of_tension(tension, unit.unit_normal_speed * there.surface_speed)
                 ends.append(increase(whole, there.statics) if there.surface_speed > 0.0 else whole)
             source = f"slack and taut cycles, {sea}, {_said(there.surface_speed, unit.surface_speed)}"
-            yield WeakerLoads(there, source, ends[0], ends[1], ends[2], load.skirt is not None)
+            upright = straight_share(unit, there.surface_speed) >= STRAIGHT
+            yield WeakerLoads(there, source, ends[0], ends[1], ends[2], load.skirt is not None, upright)
 
 
 __all__ = ["WeakerLoads", "currents_of_waves", "weaker_cycles", "weaker_impacts", "weaker_waves"]

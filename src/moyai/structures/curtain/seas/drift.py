@@ -14,10 +14,11 @@ from moyai.sea.states import RegularSea, SeaState
 from moyai.sea.water import Water
 
 
-def reflected_energy(wave_number: ArrayLike, depth: float) -> Array:
+def reflected_energy(wave_number: ArrayLike, depth: float, water_depth: float) -> Array:
     """Return the share of the energy of waves that a fixed barrier from the surface throws back [-].
 
-    In infinite depth, ``pi^2 I_1^2 / (pi^2 I_1^2 + K_1^2)`` of k d [eq:curtain-wave-drift].
+    The larger of Ursell's in infinite depth and that of long waves by the inertia of the water in the gap; all of it
+    without a gap [eq:curtain-wave-drift].
 
     Parameters
     ----------
@@ -25,12 +26,22 @@ def reflected_energy(wave_number: ArrayLike, depth: float) -> Array:
         k [1/m].
     depth : float
         Of the barrier d [m].
+    water_depth : float
+        h [m], may be infinite.
     """
     from scipy.special import i1e, k1e
 
     draught = np.asarray(wave_number, dtype=np.float64) * depth
     ratio = k1e(draught) / (math.pi * i1e(draught)) * np.exp(-2.0 * draught)
-    return np.asarray(1.0 / (1.0 + ratio**2))
+    share = np.asarray(1.0 / (1.0 + ratio**2))
+    if math.isinf(water_depth):
+        return share
+    gap = water_depth - depth
+    if gap <= 0.0:
+        return np.ones_like(share)
+    added = 4.0 * water_depth / math.pi * -math.log(math.sin(0.5 * math.pi * gap / water_depth))
+    half = 0.5 * added * np.asarray(wave_number, dtype=np.float64)
+    return np.asarray(np.maximum(share, half**2 / (1.0 + half**2)))
 
 
 def mean_drift_force(sea: SeaState, normal: float, depth: float, water: Water) -> float:
@@ -49,7 +60,7 @@ def mean_drift_force(sea: SeaState, normal: float, depth: float, water: Water) -
     omega = 2.0 * math.pi / np.array(sea.periods) if isinstance(sea, RegularSea) else sea.spectrum.omega
     omega = omega[omega > 0.0]
     k = np.asarray(dispersion.wave_number(omega, water.depth, water.gravity))
-    share = reflected_energy(k, depth)
+    share = reflected_energy(k, depth, water.depth)
     if math.isfinite(water.depth):
         twice = np.minimum(2.0 * k * water.depth, 100.0)
         share = share * (1.0 + twice / np.sinh(twice))
