@@ -239,7 +239,8 @@ def _below_crisis(problem: MemberProblem, found: _Largest, drag: MeasuredRange) 
     Laws of post-critical flow say 0.65 of a smooth circle in steady flow, where one before the crisis has 1.2; in waves
     both are amplified alike, and the allowance of the law comes on top [eq:morison-crisis].
     """
-    laws, reynolds = ("dnv_c205", "api"), found.number("reynolds")
+    laws = ("dnv_c205", "api")
+    reynolds = found.number("reynolds")
     if problem.rule.drag not in laws or not problem.member.placed_section.is_circle or not reynolds < POST_CRITICAL:
         return drag
     roughness = problem.roughness / problem.member.placed_section.breadth

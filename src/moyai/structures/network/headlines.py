@@ -14,8 +14,7 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.headline import Band, Bound, Headline, all_judged, governing, unfavourable
-from moyai.core.wording import spoken
-from moyai.structures.network.at_rest import rest_headlines
+from moyai.structures.network.at_rest import FINER, MESH, MESH_UNCHECKED, rest_headlines
 from moyai.structures.network.chance import (
     ONE_SEED,
     chance_of,
@@ -28,9 +27,8 @@ from moyai.structures.network.chance import (
     with_seeds,
 )
 from moyai.structures.network.held_rows import held_headlines
-from moyai.structures.network.mesh_band import UNCHECKED, mesh_and_step, numerical_band
+from moyai.structures.network.mesh_band import REMEDY, UNCHECKED, mesh_and_step, numerical_band
 from moyai.structures.network.model import NetworkProblem
-from moyai.structures.network.refinement import LANDING
 from moyai.structures.network.settling import unsettled
 from moyai.structures.network.single_anchor import single_anchors
 from moyai.structures.network.start_up import ASKED, WAVES
@@ -52,7 +50,6 @@ _OTHER_DIRECTIONS = replace(
 )  # fmt: skip
 #: What is said of a line without a breaking load next to lines that have one.
 NO_STRENGTH = "breaking load not given of"
-_MESH = "mesh: twice the segments, and their change continued"
 
 
 @dataclass(frozen=True, eq=False)
@@ -167,8 +164,12 @@ def _tension(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peak: _P
     where = _where(groups, peak)
     band, details, bound = _band(groups, peak)
     if peak.model == REST:
-        said = "; ".join(details)
-        return [Headline("line_tension", "highest tension at rest", peak.value, "N", where, REST, band, detail=said)]
+        return [
+            Headline(
+                "line_tension", "highest tension at rest", peak.value, "N", where, REST, band, bound,
+                detail="; ".join(details), part=peak.line, bound_by=_unchecked(details),
+            )
+        ]  # fmt: skip
     summary = groups[f"/{peak.level}/dynamic"].sel(run=peak.run)
     series = groups[f"/{peak.level}/time/{peak.run}"].attrs
     model = f"{DYNAMIC}, {series['theory']}" if math.isfinite(float(series["wave_height"])) else DYNAMIC
@@ -178,7 +179,6 @@ def _tension(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peak: _P
             detail="; ".join(part for part in details if part), part=peak.line, bound_by=_unchecked(details),
         )
     ]  # fmt: skip
-    items = [_at_most(item) for item in items]
     if "start_peak" in summary and peak.line in summary["line"].values:
         ends = [float(summary[key].sel(line=peak.line)) for key in ("start_peak", "end_peak")]
         if float(summary["line_tension_maximum"].sel(line=peak.line)) > INSIDE * max(ends):
@@ -199,7 +199,7 @@ def _rest_band(groups: Mapping[str, xr.Dataset], peak: _Peak) -> Band | None:
         return None
     finer = float(rest["double_mesh"].sel(condition=peak.run, line=peak.line))
     ends = (peak.value, finer, max(2.0 * finer - peak.value, 0.0))
-    return Band(min(ends), max(ends), _MESH)
+    return Band(min(ends), max(ends), MESH)
 
 
 def _start_up(groups: Mapping[str, xr.Dataset], peak: _Peak) -> list[Headline]:
@@ -247,7 +247,7 @@ def _utilisation(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peak
             detail="; ".join(filter(None, (f"breaking load {load / 1e3:.4g} kN, without a safety factor", doubtful))),
             part=item.line, bound_by=doubtful,
         )  # fmt: skip
-        items.append(_at_most(one))
+        items.append(one)
     found = all_judged(items)
     known = {(one.part, one.where) for one in found if one.role != "weighed"}
     for line in breaking:
@@ -265,8 +265,9 @@ def _utilisation(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peak
 
 
 def _unchecked(said: list[str]) -> str:
-    """Return of what is said of a tension that its peak is doubtful and was not checked, empty where it is not."""
-    return next((one for one in said if one.startswith(f"{UNCHECKED}: ") and LANDING not in one), "")
+    """Return of what is said of a tension that its mesh was not checked and what helps, empty where it is enough."""
+    words = [one for one in said if one.startswith((UNCHECKED, MESH_UNCHECKED)) or one in (REMEDY, FINER)]
+    return "; ".join(words) if REMEDY in words or FINER in words else ""
 
 
 def _mean(groups: Mapping[str, xr.Dataset], peak: _Peak, load: float) -> float | None:
@@ -287,33 +288,19 @@ def _band(groups: Mapping[str, xr.Dataset], peak: _Peak) -> tuple[Band | None, l
     """
     if peak.model == REST:
         band = _rest_band(groups, peak)
-        return band, [] if band else ["mesh not checked"], ""
+        return band, [] if band else [MESH_UNCHECKED, FINER], "" if band else "at least"
     summary = groups[f"/{peak.level}/dynamic"].sel(run=peak.run)
     band, details, unproven = numerical_band(summary, peak.run, peak.line, peak.value, bool(peak.scatter.size))
     band = with_seeds(peak.value, band, peak.scatter)
     found, words = (None, []) if peak.scatter.size else of_record(groups, peak.level, peak.run, peak.line)
     details += words
-    doubt = str(summary.attrs.get(f"doubt {peak.run}", ""))
-    # lumps that land pull harder than the line does: with finer segments it is less
-    most: Bound = "at most" if band is None and LANDING in doubt else ""
-    details += ["finer segments give less"] if most else []
     open_end, why = _left_open(groups, peak.level, peak.run, peak.scatter)
     details += why
     if found is None:
         alone = not peak.scatter.size and irregular(groups, peak.level, peak.run)
-        return band, [*details, *([ONE_SEED] if alone else [])], "at least" if alone else open_end or unproven or most
+        return band, [*details, *([ONE_SEED] if alone else [])], "at least" if alone else open_end or unproven
     of_sea = irregular(groups, peak.level, peak.run)
-    return with_chance(peak.value, band, found, of_sea), details, open_end or unproven or most
-
-
-def _at_most(item: Headline) -> Headline:
-    """Return a bound from above with what is judged as its number, where chance lets that be more than the record's."""
-    end = unfavourable(item)
-    if item.bound != "at most" or item.band is None or not end > item.value:
-        return item
-    record = f"{item.value:.3g}" if item.unit == "1" else spoken(item.value, item.unit, 3)
-    said = f"at most: the record has {record}, {item.band.of}"
-    return replace(item, value=end, band=None, detail="; ".join(filter(None, (item.detail, said))))
+    return with_chance(peak.value, band, found, of_sea), details, open_end or unproven
 
 
 def _left_open(groups: Mapping[str, xr.Dataset], level: str, run: str, scatter: Array) -> tuple[Bound, list[str]]:
@@ -358,13 +345,15 @@ def _anchor(groups: Mapping[str, xr.Dataset], peaks: list[_Peak]) -> list[Headli
                     )
                 said = f"horizontal {parts[0] / 1e3:.3g} kN, upwards {parts[1] / 1e3:.3g} kN, each at its own largest"
                 open_end, why = _left_open(groups, level, run, scatter)
-                doubtful = "" if most is None or bound != "at least" else _unchecked(_band(groups, most)[1])
+                doubtful = ""
+                if bound == "at least":
+                    doubtful = f"{UNCHECKED}; {REMEDY}" if most is None else _unchecked(_band(groups, most)[1])
                 bound, said = open_end or bound, "; ".join(filter(None, [said, *why, doubtful]))
                 one = Headline(
                     "anchor_load", "largest pull on a fixed point", value, "N", _place(groups, level, point, run),
                     DYNAMIC, own, bound, detail=said, part=point, bound_by=doubtful,
                 )  # fmt: skip
-                found.append(_at_most(one))
+                found.append(one)
     return all_judged(found)
 
 
@@ -381,8 +370,8 @@ def _band_of_pull(
     """
     level, run, point = at
     summary = groups[f"/{level}/dynamic"].sel(run=run)
-    bound: Bound = "" if most is None else _band(groups, most)[2]
-    mesh, unproven = None, bound
+    mesh: Band | None = None
+    unproven: Bound = "at least"
     if most is not None:
         mesh, _, unproven = numerical_band(summary, run, most.line, most.value, bool(most.scatter.size))
     finer = [value, *(float(summary[key].sel(point=point)) if key in summary else math.nan for key in LOADS_AGAIN)]
@@ -394,15 +383,15 @@ def _band_of_pull(
         own = Band(low, high, f"mesh and step: in proportion to the tension of {most.line}")
     if scatter is not None and scatter.size:
         mean = float(scatter.mean())
-        return with_seeds(mean, None if own is None else own.scaled(mean / value), scatter), bound
+        return with_seeds(mean, None if own is None else own.scaled(mean / value), scatter), unproven
     series = groups.get(f"/{level}/time/{run}")
     if series is None:
-        return own, bound
+        return own, unproven
     of_sea = irregular(groups, level, run)
     chance = chance_of(series, series["highest_load"].sel(point=point, measure="size").values)
     if chance is None:
-        return own, "at least" if of_sea else bound
-    return with_chance(value, own, chance, of_sea), "at most" if own is None and bound == "at most" else unproven
+        return own, "at least" if of_sea else unproven
+    return with_chance(value, own, chance, of_sea), unproven
 
 
 def _offsets(groups: Mapping[str, xr.Dataset], anchors: Mapping[str, str]) -> list[Headline]:
@@ -517,7 +506,7 @@ def _mode(groups: Mapping[str, xr.Dataset]) -> list[Headline]:
             continue
         finer = float(modes["longest_period_double_mesh"])
         ends = [value, finer, max(2.0 * finer - value, 0.0)]
-        band = Band(min(ends), max(ends), _MESH) if math.isfinite(finer) else None
+        band = Band(min(ends), max(ends), MESH) if math.isfinite(finer) else None
         bodies = int(groups[f"/{level}"].attrs.get("bodies_held", 0))
         label = "longest natural period of the lines, bodies held" if bodies else "longest natural period"
         more = "periods of the bodies are not computed: let them go in still water" if bodies else ""

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     import xarray as xr
 
 UNCHECKED = "mesh and step not checked"
+#: What is said with it where the number proves no limit kept.
+REMEDY = "settings.sensitivity: true checks them"
 
 
 def mesh_and_step(value: float, finer: list[float]) -> Band:
@@ -30,7 +32,8 @@ def numerical_band(
 ) -> tuple[Band | None, list[str], Bound]:
     """Return what mesh and step do to a tension, what is to be said of it, and what an unchecked one proves.
 
-    A doubtful peak that was not run again may be more: it can break a limit and cannot keep one.
+    A peak whose mesh was not checked may be more: it can break a limit and cannot keep one. That holds of landing
+    fronts too: finer segments of a chain under a buoy give less, those of a line with a clump give more.
 
     Parameters
     ----------
@@ -56,12 +59,12 @@ def numerical_band(
     why, lands = doubt_of(summary, run, line), LANDING in str(summary.attrs.get(f"doubt {run}", ""))
     unchecked = f"{UNCHECKED}{': ' + why if why else ''}"
     if not first or not first[0] > 0.0 or lands:
-        return None, [unchecked], "at least" if why and not lands else ""
+        return None, [unchecked, REMEDY], "at least"
     # only the event of the governing line was run again: what the mesh does to it is taken for this one too
     band = mesh_and_step(first[0], first).scaled(value / first[0])
     words = f"mesh and step: in proportion to the tension of {governing}"
     few = f"few {line}" in summary.attrs and "line_tension_of_check" in summary
-    return replace(band, of=words), [unchecked], "at least" if few else ""
+    return replace(band, of=words), [unchecked, *([REMEDY] if few else [])], "at least" if few else ""
 
 
 def governing_of(summary: xr.Dataset, run: str) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -29,6 +30,7 @@ from moyai.structures.network.equilibrium import (
     driven_names,
     modes_dataset,
     named_points,
+    on_twice_the_bars,
     pulls,
     rest_dataset,
     stiffness_at_driven,
@@ -237,8 +239,12 @@ def _at_rest(
     if found and ("statics" in wanted):
         stiffness = _stiffness(problem, assembly, water, found, said, collected)
         rested = rest_dataset(assembly, found, stiffness)
-        if assembly.lines and not problem.bodies and "dynamic" not in wanted:
-            rested = with_finer_mesh(rested, assembly, found, conditions)
+        if "dynamic" not in wanted:
+            coupled = partial(rest_of, problem) if problem.bodies else None
+            rested = with_finer_mesh(
+                rested, assembly, found,
+                lambda name, rest: on_twice_the_bars(assembly, rest, conditions[name], coupled),
+            )  # fmt: skip
         collected.groups[f"{root}/statics"] = bodies_at_rest(rested, hung)
         _weight_check(assembly, found, said, collected)
     return found, hung
