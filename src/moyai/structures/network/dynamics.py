@@ -20,6 +20,7 @@ from moyai.flexible.simulation import simulate
 from moyai.series.snaps import SnapRecord
 from moyai.structures.network.assembly import Assembly
 from moyai.structures.network.bodies import CoupledRun, coupled_sensitivity, run_coupled
+from moyai.structures.network.finer import check_finer, worth_it
 from moyai.structures.network.model import NetworkProblem
 from moyai.structures.network.realisations import Realisations, left_out, realisations_of
 from moyai.structures.network.refinement import (
@@ -218,7 +219,7 @@ def _failure(
     for name in sorted(near, key=lambda one: one != governing):
         strand = assembly.lines.get(name)
         segments = 0 if strand is None else strand.bars.size
-        words = not_converged(every[name], goal, name, doubts.get(name, ""), segments)
+        words = not_converged(every[name], goal, name, doubts.get(name, ""), segments, problem.gathers_twines)
         if words:
             failures.append(words)
             safe = safe and lowered(every[name], goal)
@@ -254,12 +255,23 @@ def _peak_uncertainty(
                    severity="information", remedy="run it from its start with settings.sensitivity")
         ], history  # fmt: skip
     try:
+        motions = motions_of(problem, plan.duration)
+        options = options_of(problem, plan) if coupled is None else _of_bodies(options_of(problem, plan))
+        netted = problem.gathers_twines
+        if (asked and netted) or (
+            problem.settings.mesh_check == "auto" and (netted or coupled is not None) and not asked
+            and worth_it(history, coupled, bool(why))
+        ):  # fmt: skip
+            checked = check_finer(
+                problem, assembly, plan, starts, made, (governing, why), motions, options, reported
+            )  # fmt: skip
+            return checked, [unchecked(why)] if checked is None and why else [], history
         if asked:
             found = _sensitivity(problem, assembly, plan, starts, made, worst, reported)
             return found, list(found.notices()), history
-        if problem.settings.mesh_check == "off" or coupled is not None:
-            return None, [unchecked(why, off=coupled is None)] if why else [], history
-        motions, options = motions_of(problem, plan.duration), options_of(problem, plan)
+        off = problem.settings.mesh_check == "off"
+        if off or netted or coupled is not None:
+            return None, [unchecked(why, off=off)] if why else [], history
         event = (governing, plan.skip, plan.period, options, reported, why)
         checked = check_event(assembly, history, motions, *event) if LANDING in why else None
         few = any(few_bars(assembly, name) for name in assembly.lines)

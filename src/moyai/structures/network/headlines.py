@@ -14,6 +14,7 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.headline import Band, Bound, Headline, all_judged, governing, unfavourable
+from moyai.core.wording import spoken
 from moyai.structures.network.at_rest import FINER, MESH, MESH_UNCHECKED, rest_headlines
 from moyai.structures.network.chance import (
     ONE_SEED,
@@ -78,6 +79,9 @@ def headlines_of(problem: NetworkProblem, groups: Mapping[str, xr.Dataset]) -> t
     # a run of which nothing counts does not hand its number to the rest
     timed = any(_levels(groups, "dynamic"))
     peaks = list(_peaks(groups)) if timed else list(_rest_peaks(groups))
+    widths = _net_widths(groups)
+    nets = [one for one in peaks if one.line in widths]
+    every, peaks = peaks, [one for one in peaks if one.line not in widths]
     peak = max(peaks, key=lambda item: item.value, default=None)
     items: list[Headline] = []
     if peak is not None:
@@ -88,15 +92,53 @@ def headlines_of(problem: NetworkProblem, groups: Mapping[str, xr.Dataset]) -> t
         items += [one for one in others if unfavourable(one) > unfavourable(first) or one.bound != first.bound]
         items += _start_up(groups, peak)
         items += _utilisation(problem, groups, peaks)
-    items += _anchor(groups, peaks) if timed else rest_headlines(groups, single_anchors(problem), REST)
+    items += _net_tension(problem, groups, nets, widths)
+    items += _anchor(groups, every) if timed else rest_headlines(groups, single_anchors(problem), REST)
     items += held_headlines(problem, groups, DYNAMIC)
     items += _offsets(groups, single_anchors(problem))
     items += _mode(groups)
     around = problem.environment
     loaded = around.sea_states or around.current is not None or problem.current_field is not None
-    left = [_OTHER_DIRECTIONS if loaded else _NOT_JUDGED] if problem.lines and peaks else []
+    left = [_OTHER_DIRECTIONS if loaded else _NOT_JUDGED] if problem.lines and every else []
     shown = [item for item in items if item.shown][:8]
     return (*(item for item in items if item in shown or not item.shown), *left)
+
+
+def _net_widths(groups: Mapping[str, xr.Dataset]) -> dict[str, float]:
+    """Return the width of netting that a bar stands for, by net whose bars gather twines [m]."""
+    found: dict[str, float] = {}
+    for _, network in _levels(groups, "network"):
+        if "net_strip" in network:
+            pairs = zip(network["net"].values, network["net_strip"].values, strict=True)
+            found |= {str(name): float(width) for name, width in pairs if math.isfinite(width)}
+    return found
+
+
+def _net_tension(
+    problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peaks: list[_Peak], widths: Mapping[str, float]
+) -> list[Headline]:
+    """Return the highest tension of nets whose bars gather twines, over the width of netting that bears it.
+
+    That of a bar is as much as the mesh makes it: a limit in newton says nothing of it.
+    """
+    items = []
+    for peak in peaks:
+        band, said, bound = _band(groups, peak)
+        width, doubtful = widths[peak.line], _unchecked(said)
+        strip = f"{spoken(peak.value, 'N', 3)} in a strip of {width:.3g} m, which one bar of the model gathers"
+        items.append(
+            Headline(
+                "net_tension", "highest tension of a net over its width", peak.value / width, "N/m",
+                _where(groups, peak), peak.model, None if band is None else band.scaled(1.0 / width), bound,
+                detail="; ".join(filter(None, (strip, *said))), part=peak.line, bound_by=doubtful,
+            )
+        )  # fmt: skip
+    asked = {criterion.headline for criterion in problem.criteria}
+    found = all_judged(items)
+    if found and "line_tension" in asked and "net_tension" not in asked:
+        text = "tension of nets is per metre of width, greatest_net_tension limits it"
+        found.append(Headline("line_tension", "highest tension", math.nan, "1", text=text, shown=False))
+    return found
 
 
 def _levels(groups: Mapping[str, xr.Dataset], part: str) -> Iterator[tuple[str, xr.Dataset]]:
@@ -377,7 +419,7 @@ def _band_of_pull(
     finer = [value, *(float(summary[key].sel(point=point)) if key in summary else math.nan for key in LOADS_AGAIN)]
     own: Band | None = None
     if all(map(math.isfinite, finer[1:3])):
-        own, unproven = mesh_and_step(value, finer), ""
+        own, unproven = mesh_and_step(value, finer, bool(summary.attrs.get("finer_nets"))), ""
     elif mesh is not None and most is not None and most.value > 0.0:
         low, high = (value * end / most.value for end in (mesh.low, mesh.high))
         own = Band(low, high, f"mesh and step: in proportion to the tension of {most.line}")

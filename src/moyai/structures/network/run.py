@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -30,12 +29,12 @@ from moyai.structures.network.equilibrium import (
     driven_names,
     modes_dataset,
     named_points,
-    on_twice_the_bars,
     pulls,
     rest_dataset,
     stiffness_at_driven,
     with_finer_mesh,
 )
+from moyai.structures.network.finer import finer_rest
 from moyai.structures.network.headlines import headlines_of, mesh_checked
 from moyai.structures.network.model import NetworkProblem
 from moyai.structures.network.resume import earlier_run, read_earlier
@@ -174,6 +173,9 @@ def network_dataset(problem: NetworkProblem, assembly: Assembly, water: Water) -
          for name, node in zip(names, nodes, strict=True)], dtype=object,
     )  # fmt: skip
     data["point_kind"] = ("point", kind_names, {"units": "1", "long_name": "what moves the point"})
+    if assembly.net_bars:
+        widths = [assembly.net_widths.get(name, math.nan) for name in assembly.net_bars]
+        data["net_strip"] = ("net", np.array(widths))
     if network.sheets is not None:
         data["sheet_nodes"] = (
             ("triangle", "corner"),
@@ -189,7 +191,10 @@ def network_dataset(problem: NetworkProblem, assembly: Assembly, water: Water) -
         shapes = np.array([body.shape for body in problem.bodies], dtype=object)
         data["solid_shape"] = ("solid", shapes, {"units": "1", "long_name": "shape of the body"})
         data |= drawn_parts(problem.bodies)
-    out = labelled(xr.Dataset(data, coords={"axis": ["x", "y", "z"], "line": list(assembly.lines), "point": names}))
+    coords = {"axis": ["x", "y", "z"], "line": list(assembly.lines), "point": names}
+    if assembly.net_bars:
+        coords["net"] = list(assembly.net_bars)
+    out = labelled(xr.Dataset(data, coords=coords))
     bed = network.bed
     # views show a bed that varies as deep as it is under the network
     lowest = math.nan if bed is None else float(np.min(bed.level_at(network.nodes.position)))
@@ -240,11 +245,9 @@ def _at_rest(
         stiffness = _stiffness(problem, assembly, water, found, said, collected)
         rested = rest_dataset(assembly, found, stiffness)
         if "dynamic" not in wanted:
-            coupled = partial(rest_of, problem) if problem.bodies else None
             rested = with_finer_mesh(
-                rested, assembly, found,
-                lambda name, rest: on_twice_the_bars(assembly, rest, conditions[name], coupled),
-            )  # fmt: skip
+                rested, assembly, found, lambda name, rest: finer_rest(problem, assembly, rest, conditions[name])
+            )
         collected.groups[f"{root}/statics"] = bodies_at_rest(rested, hung)
         _weight_check(assembly, found, said, collected)
     return found, hung
