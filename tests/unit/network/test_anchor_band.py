@@ -49,7 +49,9 @@ def test_the_pull_of_the_finer_mesh_is_that_of_a_run_on_it(tmp_path: Path) -> No
     ends = [float(summary[name][0]) for name in ("load_peak", "load_half_step", "load_double_mesh")]
     ends.append(2.0 * ends[2] - ends[0])
     assert pull.band is not None
-    assert (pull.band.low, pull.band.high) == pytest.approx((min(ends), max(ends)))
+    # eight segments are few: the band reaches as far as that of the tension too
+    assert pull.band.low <= min(ends) * (1.0 + 1e-9) and 0.9999 * max(ends) <= pull.band.high < 1.02 * max(ends)
+    assert "segments are few" in pull.band.of
 
 
 @pytest.mark.parametrize("motion", ["repeats", "never repeats", "irregular"])

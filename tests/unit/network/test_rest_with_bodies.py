@@ -42,6 +42,7 @@ def _numbers(segments: int):
     return result, {item.name: item for item in result.headlines if item.shown}
 
 
+@pytest.mark.slow
 def test_a_raft_on_four_segments_carries_what_its_mesh_leaves_out() -> None:
     coarse, own = _numbers(4)
     _, finer = _numbers(40)

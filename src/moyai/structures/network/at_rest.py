@@ -13,6 +13,8 @@ from moyai.core.headline import Band, Headline, all_judged
 if TYPE_CHECKING:
     import xarray as xr
 
+#: Segments of a line up to which the pull on its anchor moves with the mesh as its tension does, and more than that.
+COARSE = 12
 #: What the band of a number at rest is of.
 MESH = "mesh: twice the segments, and their change continued"
 #: What is said of a rest whose mesh was not checked, and what helps.
@@ -41,6 +43,7 @@ def rest_headlines(groups: Mapping[str, xr.Dataset], anchors: Mapping[str, str],
 
 
 def _pulls(rest: xr.Dataset, network: xr.Dataset, level: str, model: str) -> Iterator[Headline]:
+    few = "double_mesh" in rest and bool((network["line_segments"].values <= COARSE).any())
     for condition in (str(name) for name in rest["condition"].values):
         for point in _of_kind(network, "fixed"):
             load = rest["load"].sel(condition=condition, point=point).values
@@ -48,7 +51,7 @@ def _pulls(rest: xr.Dataset, network: xr.Dataset, level: str, model: str) -> Ite
             if not value > 0.0:
                 continue
             detail = f"horizontal {math.hypot(*load[:2]) / 1e3:.3g} kN, upwards {max(float(load[2]), 0.0) / 1e3:.3g} kN"
-            band = _band(rest, condition, point, value)
+            band = _band(rest, condition, point, value, few)
             yield Headline(
                 "anchor_load", "largest pull on a fixed point at rest", value, "N",
                 ", ".join(filter(None, (point, condition, level))), model, band,
@@ -57,12 +60,17 @@ def _pulls(rest: xr.Dataset, network: xr.Dataset, level: str, model: str) -> Ite
             )  # fmt: skip
 
 
-def _band(rest: xr.Dataset, condition: str, point: str, value: float) -> Band | None:
+def _band(rest: xr.Dataset, condition: str, point: str, value: float, few: bool) -> Band | None:
     """Return what twice the segments do to a pull, and their change continued to bars of no length."""
     if "load_double_mesh" not in rest:
         return None
     finer = float(rest["load_double_mesh"].sel(condition=condition, point=point))
-    ends = (value, finer, max(2.0 * finer - value, 0.0))
+    ends = [value, finer, max(2.0 * finer - value, 0.0)]
+    if few:
+        # where a coarse line meets the bed hangs on its nodes: twice of them may change the pull little by chance
+        own, cut = (rest[key].sel(condition=condition).values for key in ("line_tension_maximum", "double_mesh"))
+        usable = np.isfinite(own) & np.isfinite(cut) & (own > 0.0)
+        ends += [value * max(float(change), 0.0) for change in 2.0 * cut[usable] / own[usable] - 1.0]
     return Band(min(ends), max(ends), MESH) if math.isfinite(finer) else None
 
 

@@ -258,17 +258,16 @@ def _peak_uncertainty(
         motions = motions_of(problem, plan.duration)
         options = options_of(problem, plan) if coupled is None else _of_bodies(options_of(problem, plan))
         netted = problem.gathers_twines
-        if (asked and netted) or (
-            problem.settings.mesh_check == "auto" and (netted or coupled is not None) and not asked
-            and worth_it(history, coupled, bool(why))
-        ):  # fmt: skip
-            checked = check_finer(
-                problem, assembly, plan, starts, made, (governing, why), motions, options, reported
-            )  # fmt: skip
-            return checked, [unchecked(why)] if checked is None and why else [], history
-        if asked:
-            found = _sensitivity(problem, assembly, plan, starts, made, worst, reported)
+        wanted = problem.settings.mesh_check == "auto" and worth_it(history, coupled, bool(why))
+        checked: PeakSensitivity | None = None
+        if (netted or coupled is not None) and (asked or wanted):
+            of = (governing, why)
+            checked = check_finer(problem, assembly, plan, starts, made, of, motions, options, reported)
+        if asked and not netted:
+            found = _sensitivity(problem, assembly, plan, starts, made, worst, reported, checked)
             return found, list(found.notices()), history
+        if checked is not None:
+            return checked, [], history
         off = problem.settings.mesh_check == "off"
         if off or netted or coupled is not None:
             return None, [unchecked(why, off=off)] if why else [], history
@@ -310,8 +309,9 @@ def _sensitivity(
     made: tuple[History, CoupledRun | None],
     bar: int,
     progress: Progress,
+    checked: PeakSensitivity | None,
 ) -> PeakSensitivity:
-    """Run again with half the step, half the bars, half and twice the viscosity."""
+    """Run again with half the step, half the bars, half and twice the viscosity; with bodies what was not checked."""
     (begin, hung), (history, coupled) = starts, made
     after, motions = plan.skip, motions_of(problem, plan.duration)
     options = options_of(problem, plan)
@@ -319,7 +319,7 @@ def _sensitivity(
         peak = float(np.nanmax(history.peak_at(bar)[history.time >= after]))
         return coupled_sensitivity(
             problem, assembly.network, hung, bar, after, peak, (history.step, coupled.step), progress, plan.rest_flow,
-            motions=motions, **_of_bodies(options),
+            checked, motions=motions, **_of_bodies(options),
         )  # fmt: skip
     # built anew, the finer network may drop what its materials gathered: the plain call refines the network itself
     return peak_sensitivity(

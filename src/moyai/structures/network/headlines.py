@@ -15,7 +15,7 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.core.headline import Band, Bound, Headline, all_judged, governing, unfavourable
 from moyai.core.wording import spoken
-from moyai.structures.network.at_rest import FINER, MESH, MESH_UNCHECKED, rest_headlines
+from moyai.structures.network.at_rest import COARSE, FINER, MESH, MESH_UNCHECKED, rest_headlines
 from moyai.structures.network.chance import (
     ONE_SEED,
     chance_of,
@@ -30,6 +30,7 @@ from moyai.structures.network.chance import (
 from moyai.structures.network.held_rows import held_headlines
 from moyai.structures.network.mesh_band import REMEDY, UNCHECKED, mesh_and_step, numerical_band
 from moyai.structures.network.model import NetworkProblem
+from moyai.structures.network.refinement import LANDING
 from moyai.structures.network.settling import unsettled
 from moyai.structures.network.single_anchor import single_anchors
 from moyai.structures.network.start_up import ASKED, WAVES
@@ -40,6 +41,8 @@ if TYPE_CHECKING:
 
 #: Highest tension over that at the ends of its line above which both are reported.
 INSIDE = 1.2
+#: What is said of a pull that no run which checks the mesh looked at.
+PROPORTION, PULL_UNCHECKED = "mesh and step: in proportion", "mesh and step of the pull itself not checked"
 DYNAMIC, REST = "run through time", "at rest"
 _NOT_JUDGED = Headline(
     "not_judged", "Not judged", math.nan, "1", text="one line lost, wear and fatigue, shackles, soil of the anchors",
@@ -87,9 +90,10 @@ def headlines_of(problem: NetworkProblem, groups: Mapping[str, xr.Dataset]) -> t
     if peak is not None:
         items += _tension(problem, groups, peak)
         # a smaller tension with a wider band may pass a limit that the highest one keeps
-        others = all_judged(_tension(problem, groups, one)[0] for one in peaks)[1:]
-        first = items[0]
+        each = [_tension(problem, groups, one)[0] for one in peaks]
+        others, first = all_judged(each)[1:], items[0]
         items += [one for one in others if unfavourable(one) > unfavourable(first) or one.bound != first.bound]
+        items += _failing(each, [one for one in items if one.name == first.name])
         items += _start_up(groups, peak)
         items += _utilisation(problem, groups, peaks)
     items += _net_tension(problem, groups, nets, widths)
@@ -291,19 +295,23 @@ def _utilisation(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peak
         )  # fmt: skip
         items.append(one)
     found = all_judged(items)
-    known = {(one.part, one.where) for one in found if one.role != "weighed"}
-    for line in breaking:
-        # of each other line the worst, for the one who strengthens the line that decides
-        own = governing(one for one in items if one.part == line)
-        worst = max(own, key=unfavourable, default=None)
-        if worst is not None and (line, worst.where) not in known:
-            found.append(replace(worst, shown=False, role="failing"))
+    found += _failing(items, found)
     if found and bare:
         # one that is not known stays open beside those that keep the limit
         label, text = "highest tension over breaking load", f"{NO_STRENGTH} {', '.join(bare)}"
         found.append(Headline("line_utilisation", label, math.nan, "1", text=text, shown=False))
         found[0] = replace(found[0], detail=f"{found[0].detail}; {text}")
     return found
+
+
+def _failing(items: list[Headline], found: list[Headline]) -> list[Headline]:
+    """Return of each other line or anchor the worst, for the one who strengthens that which decides."""
+    known, more = {(one.part, one.where) for one in found if one.role != "weighed"}, []
+    for part in dict.fromkeys(one.part for one in items):
+        worst = max(governing(one for one in items if one.part == part), key=unfavourable, default=None)
+        if worst is not None and (part, worst.where) not in known:
+            more.append(replace(worst, shown=False, role="failing"))
+    return more
 
 
 def _unchecked(said: list[str]) -> str:
@@ -389,14 +397,18 @@ def _anchor(groups: Mapping[str, xr.Dataset], peaks: list[_Peak]) -> list[Headli
                 open_end, why = _left_open(groups, level, run, scatter)
                 doubtful = ""
                 if bound == "at least":
-                    doubtful = f"{UNCHECKED}; {REMEDY}" if most is None else _unchecked(_band(groups, most)[1])
+                    words = [UNCHECKED, REMEDY] if most is None else _band(groups, most)[1]
+                    doubtful = _unchecked(words)
+                    if not doubtful and own is not None and own.of.startswith(PROPORTION):
+                        doubtful = PULL_UNCHECKED
                 bound, said = open_end or bound, "; ".join(filter(None, [said, *why, doubtful]))
                 one = Headline(
                     "anchor_load", "largest pull on a fixed point", value, "N", _place(groups, level, point, run),
                     DYNAMIC, own, bound, detail=said, part=point, bound_by=doubtful,
                 )  # fmt: skip
                 found.append(one)
-    return all_judged(found)
+    kept = all_judged(found)
+    return [*kept, *_failing(found, kept)]
 
 
 def _band_of_pull(
@@ -420,9 +432,17 @@ def _band_of_pull(
     own: Band | None = None
     if all(map(math.isfinite, finer[1:3])):
         own, unproven = mesh_and_step(value, finer, bool(summary.attrs.get("finer_nets"))), ""
+        if mesh is not None and most is not None and most.value > 0.0 and _coarse(groups, level, most.line):
+            # where a coarse line meets the bed hangs on its nodes: twice of them may change the pull little by chance
+            ends = [value * end / most.value for end in (mesh.low, mesh.high)]
+            words = f"{own.of}; as the tension of {most.line}, whose segments are few"
+            own = Band(min(own.low, *ends), max(own.high, *ends), words)
     elif mesh is not None and most is not None and most.value > 0.0:
         low, high = (value * end / most.value for end in (mesh.low, mesh.high))
-        own = Band(low, high, f"mesh and step: in proportion to the tension of {most.line}")
+        own = Band(low, high, f"{PROPORTION} to the tension of {most.line}")
+        if LANDING in str(summary.attrs.get(f"doubt {run}", "")):
+            # segments that land move a pull by another part than the highest tension
+            unproven = "at least"
     if scatter is not None and scatter.size:
         mean = float(scatter.mean())
         return with_seeds(mean, None if own is None else own.scaled(mean / value), scatter), unproven
@@ -434,6 +454,14 @@ def _band_of_pull(
     if chance is None:
         return own, "at least" if of_sea else unproven
     return with_chance(value, own, chance, of_sea), unproven
+
+
+def _coarse(groups: Mapping[str, xr.Dataset], level: str, line: str) -> bool:
+    """Whether a line has few segments."""
+    network = groups.get(f"/{level}/network")
+    if network is None or "line_segments" not in network or line not in network["line"].values:
+        return False
+    return int(network["line_segments"].sel(line=line)) <= COARSE
 
 
 def _offsets(groups: Mapping[str, xr.Dataset], anchors: Mapping[str, str]) -> list[Headline]:
