@@ -439,7 +439,7 @@ def _band_of_pull(
             own = Band(min(own.low, *ends), max(own.high, *ends), words)
     elif mesh is not None and most is not None and most.value > 0.0:
         low, high = (value * end / most.value for end in (mesh.low, mesh.high))
-        own = Band(low, high, f"{PROPORTION} to the tension of {most.line}")
+        own = Band(low, high, f"mesh and step: in proportion to the tension of {most.line}")
         if LANDING in str(summary.attrs.get(f"doubt {run}", "")):
             # segments that land move a pull by another part than the highest tension
             unproven = "at least"

@@ -448,9 +448,14 @@ def not_converged(found: PeakSensitivity, goal: float, line: str, why: str, segm
         if by_mesh >= by_step
         else "a shorter settings.step, or the internal damping that the line has"
     )
-    what = "knots" if knots else "segments"
+    if knots:
+        return (
+            f"the peak of '{line}', {spoken(found.peak, 'N')}, is {mesh} with twice the knots{damped} and {half} "
+            f"with half the step: {100.0 * change_of(found):.0f} % where {100.0 * goal:g} % is asked for"
+            f"{' (' + why + ')' if why else ''}; {remedy}"
+        )
     return (
-        f"the peak of '{line}', {spoken(found.peak, 'N')}, is {mesh} with twice the {what}{damped} and {half} "
+        f"the peak of '{line}', {spoken(found.peak, 'N')}, is {mesh} with twice the segments{damped} and {half} "
         f"with half the step: {100.0 * change_of(found):.0f} % where {100.0 * goal:g} % is asked for"
         f"{' (' + why + ')' if why else ''}{below}; {remedy}"
     )

@@ -26,7 +26,7 @@ class NetworkCriteria(LineCriteria):
 
     greatest_tension: GreatestTension = Field(default=None, description="Largest tension of a line" + OFF + ".")
     greatest_net_tension: GreatestNetTension = Field(
-        default=None, description="Largest tension of a net of twines over its width" + OFF + "."
+        default=None, description="Largest tension of the net over its width" + OFF + "."
     )
     greatest_offset: GreatestLength = Field(default=None, description="Largest offset from rest" + OFF + ".")
     greatest_anchor_load: GreatestForce = Field(default=None, description="Largest load on an anchor" + OFF + ".")
