@@ -27,8 +27,9 @@ from moyai.structures.network.chance import (
     with_chance,
     with_seeds,
 )
-from moyai.structures.network.held_rows import held_headlines
+from moyai.structures.network.held_headlines import held_headlines
 from moyai.structures.network.mesh_band import REMEDY, UNCHECKED, mesh_and_step, numerical_band
+from moyai.structures.network.mode_headlines import mode_headlines
 from moyai.structures.network.model import NetworkProblem
 from moyai.structures.network.refinement import LANDING
 from moyai.structures.network.settling import unsettled
@@ -100,7 +101,7 @@ def headlines_of(problem: NetworkProblem, groups: Mapping[str, xr.Dataset]) -> t
     items += _anchor(groups, every) if timed else rest_headlines(groups, single_anchors(problem), REST)
     items += held_headlines(problem, groups, DYNAMIC)
     items += _offsets(groups, single_anchors(problem))
-    items += _mode(groups)
+    items += mode_headlines(groups)
     around = problem.environment
     loaded = around.sea_states or around.current is not None or problem.current_field is not None
     left = [_OTHER_DIRECTIONS if loaded else _NOT_JUDGED] if problem.lines and every else []
@@ -563,47 +564,3 @@ def _away(groups: Mapping[str, xr.Dataset], level: str, run: str, name: str, kin
         return None
     place = series[f"{kind}_position"].sel({kind: name}).values - summary[origin].sel({kind: name}).values
     return np.asarray(np.linalg.norm(place[:, :axes], axis=1))
-
-
-def _mode(groups: Mapping[str, xr.Dataset]) -> list[Headline]:
-    """Return the longest natural period over the water levels; of the lines alone where bodies are held."""
-    found = []
-    for level, modes in _levels(groups, "modes"):
-        if "mode_period" not in modes or not modes["mode_period"].size:
-            continue
-        value = float(modes["mode_period"].values[0])
-        if not math.isfinite(value):
-            continue
-        finer = float(modes["longest_period_double_mesh"])
-        ends = [value, finer, max(2.0 * finer - value, 0.0)]
-        band = Band(min(ends), max(ends), MESH) if math.isfinite(finer) else None
-        bodies = int(groups[f"/{level}"].attrs.get("bodies_held", 0))
-        label = "longest natural period of the lines, bodies held" if bodies else "longest natural period"
-        more = "periods of the bodies are not computed: let them go in still water" if bodies else ""
-        detail = "; ".join(filter(None, (_motion_of(groups[f"/{level}/network"], modes), "added mass counted", more)))
-        found.append(Headline("natural_period", label, value, "s", level, band=band, detail=detail))
-    return [max(found, key=lambda item: item.value)] if found else []
-
-
-def _motion_of(network: xr.Dataset, modes: xr.Dataset) -> str:
-    """Say which point or line moves most in the longest mode, and along which axis."""
-    shape = np.asarray(modes["mode_shape"].values[0])
-    size = np.linalg.norm(shape, axis=1)
-    node = int(np.argmax(size))
-    if not size[node] > 0.0:
-        return ""
-    along = "xyz"[int(np.argmax(np.abs(shape[node])))]
-    points = dict(zip(network["point_node"].values.astype(int), network["point"].values, strict=True))
-    # a point that moves nearly as much as the farthest node is what a reader looks for
-    near = [(float(size[place]), str(name)) for place, name in points.items() if size[place] > 0.7 * size[node]]
-    if near:
-        name = max(near)[1]
-        return f"'{name}' moves most, along {along}"
-    owners = [
-        str(line)
-        for line, start, end in zip(
-            network["bar_line"].values, network["bar_start"].values, network["bar_end"].values, strict=True
-        )
-        if node in (int(start), int(end))
-    ]
-    return f"'{owners[0]}' moves most, along {along}" if owners else f"moves most along {along}"
