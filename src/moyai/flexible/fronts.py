@@ -13,6 +13,8 @@ from moyai.flexible.network import Network
 #: A rise counts as a front when it takes less than this part of the travel time of the wave, and is more than this part
 #: of the highest tension.
 WINDOW, JUMP = 0.25, 0.4
+#: Strain whose rise is no front: tensions of bars that hang slack are rounding.
+LEAST_STRAIN = 1e-9
 OVERSHOOT = (
     "away from Courant number 1 its peak is likely too high: 15 to 25 % where the load jumps within the time of that "
     "wave along one bar and stays, below 5 % where it takes ten bars, less with viscosity, and too low where it falls "
@@ -56,6 +58,9 @@ def front_notices(network: Network, fronts: list[Front], *, explicit: bool = Tru
     worst: dict[int, Front] = {}
     for front in fronts:
         seen = worst.get(front.strand)
+        kinds = network.bars.kind[network.strands[front.strand].bars]
+        if front.rise <= LEAST_STRAIN * min(network.bars.types[kind].axial_stiffness for kind in kinds):
+            continue
         if front.rise > JUMP * front.highest > 0.0 and (seen is None or front.rise > seen.rise):
             worst[front.strand] = front
     return tuple(_notice(network.strands[front.strand].name, front, explicit) for front in worst.values())

@@ -51,6 +51,8 @@ class PeakSensitivity:
     pulls: Mapping[str, PeakSensitivity] = field(default_factory=dict)
     #: The same of every line and net, by their names; empty where only the peak itself was looked at.
     lines: Mapping[str, PeakSensitivity] = field(default_factory=dict)
+    #: The same of the pull of nets on what holds them, by their names.
+    held: Mapping[str, PeakSensitivity] = field(default_factory=dict)
 
     @property
     def discretisation_error(self) -> float:

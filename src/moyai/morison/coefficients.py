@@ -154,11 +154,13 @@ class CoefficientRule:
         if self.inertia == "stokes_wang":
             notices.extend(_laminar_notices(flow))
             return np.eye(2) * float(stokes_wang_inertia(flow.beta))
+        # in a current alone no inertia acts: nothing is said of its law
+        acts = not math.isinf(flow.keulegan_carpenter)
         if self.inertia == "api":
             entry = api_circle(rough=flow.relative_roughness >= API_ROUGH)
-            notices.extend(_range_notices("API RP 2A", entry, flow))
+            notices.extend(_range_notices("API RP 2A", entry, flow) if acts else [])
             return np.eye(2) * entry.inertia
-        notices.extend(_dnv_notices(flow))
+        notices.extend(_dnv_notices(flow) if acts else [])
         number = flow.keulegan_carpenter
         if flow.current_governs and not math.isnan(flow.wave_keulegan_carpenter):
             # no wake that a current carries away comes back to take from the added mass
@@ -207,7 +209,11 @@ def dnv_drag(keulegan_carpenter: float, relative_roughness: float, current_ratio
     that figure. In steady flow, at infinite KC, it is one, and in waves with a current of :data:`DNV_CURRENT` of the
     orbital speed or more it is one at least: the water does not turn back far enough to bring a wake back.
     """
-    steady = dnv_steady_drag(relative_roughness)
+    return amplified_drag(dnv_steady_drag(relative_roughness), keulegan_carpenter, current_ratio)
+
+
+def amplified_drag(steady: float, keulegan_carpenter: float, current_ratio: float = 0.0) -> float:
+    """Return C_D in waves of a circle whose drag in steady flow is known, as in :func:`dnv_drag`."""
     if math.isinf(keulegan_carpenter):
         return steady
     level = 1.50 - 0.024 * (12.0 / steady - 10.0)
@@ -282,6 +288,23 @@ def _range_notices(what: str, entry: DragEntry, flow: Conditions) -> list[Notice
             remedy="give measured coefficients",
         )
     ]
+
+
+#: Reynolds number up to which a smooth circle may have the drag below the drag crisis, that of the height of its
+#: roughness up to which a rough one may, and that from which the laws of post-critical flow were found.
+CRISIS, ROUGH_CRISIS, POST_CRITICAL = 5e5, 400.0, 1e6
+
+
+def share_below_crisis(reynolds: float, relative_roughness: float) -> float:
+    """Return how far a circle may have the drag below the drag crisis: 1 before it, 0 in post-critical flow.
+
+    Between them it falls with the logarithm of the Reynolds number, so that what is judged by it does not jump
+    [eq:morison-crisis].
+    """
+    crisis = CRISIS if relative_roughness <= 0.0 else min(CRISIS, ROUGH_CRISIS / relative_roughness)
+    if not reynolds > crisis:
+        return 1.0
+    return max(math.log(POST_CRITICAL / reynolds) / math.log(POST_CRITICAL / crisis), 0.0)
 
 
 def _dnv_notices(flow: Conditions) -> list[Notice]:

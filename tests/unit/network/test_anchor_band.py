@@ -49,7 +49,9 @@ def test_the_pull_of_the_finer_mesh_is_that_of_a_run_on_it(tmp_path: Path) -> No
     ends = [float(summary[name][0]) for name in ("load_peak", "load_half_step", "load_double_mesh")]
     ends.append(2.0 * ends[2] - ends[0])
     assert pull.band is not None
-    assert (pull.band.low, pull.band.high) == pytest.approx((min(ends), max(ends)))
+    # eight segments are few: the band reaches as far as that of the tension too
+    assert pull.band.low <= min(ends) * (1.0 + 1e-9) and 0.9999 * max(ends) <= pull.band.high < 1.02 * max(ends)
+    assert "segments are few" in pull.band.of
 
 
 @pytest.mark.parametrize("motion", ["repeats", "never repeats", "irregular"])
@@ -102,7 +104,7 @@ def test_the_pull_of_a_snap_whose_mesh_was_not_checked_is_at_least(irregular: in
         coords={"time": time, "point": ["anchor"], "measure": ["size"], "line": ["rope"]},
         attrs={"skip": 0.0, "period": 4.0, "irregular": irregular},
     )
-    for doubt, checked, bound in (("a slack line snaps taut", False, "at least"), ("", False, ""),
+    for doubt, checked, bound in (("a slack line snaps taut", False, "at least"), ("", False, "at least"),
                                   ("a slack line snaps taut", True, "")):  # fmt: skip
         summary = xr.Dataset(
             {name: (("run", "point"), [[8.6]]) for name in ("load_half_step", "load_double_mesh") if checked},

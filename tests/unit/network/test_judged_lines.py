@@ -83,3 +83,11 @@ def test_a_line_without_a_breaking_load_leaves_the_design_open() -> None:
     assert math.isnan(open_one.value)
     # a broken limit stays broken
     assert _run("", ("breaking_load: 8.55 kN", "breaking_load: 5 kN")).verdict.outcome == "does not hold"
+
+
+def test_each_line_that_fails_a_limit_of_tension_has_a_row() -> None:
+    """Not the one with the highest tension alone: who strengthens it meets the other."""
+    result = _run("", ("line_safety_factor: 2", "line_safety_factor: not_judged, greatest_tension: 1 kN"))
+    rows = [item for item in result.verdict.judgements if item.criterion.name == "greatest_tension"]
+    assert {item.outcome for item in rows} == {"does not hold"}
+    assert {item.reason.split(",")[0] for item in rows} == {"hoist", "sag"}

@@ -17,14 +17,18 @@ from moyai.core.arrays import Array
 from moyai.core.headline import Band, Bound, Headline, all_judged
 from moyai.core.validity import Notice
 from moyai.core.wording import spoken, spoken_time
-from moyai.morison.coefficient_ranges import CIRCULATION, MeasuredRange, drag_range, inertia_range
+from moyai.morison.coefficient_ranges import CIRCULATION, DRAG_RANGES, MeasuredRange, drag_range, inertia_range
 from moyai.morison.coefficients import (
+    API_ROUGH,
     DNV_CREST,
     DNV_CURRENT,
     DNV_NEAR_CURRENT,
+    POST_CRITICAL,
+    amplified_drag,
     dnv_added_mass,
     dnv_drag,
     dnv_steady_drag,
+    share_below_crisis,
 )
 from moyai.series.block_maxima import LEAST_PERIODS, too_short
 from moyai.series.intervals import reach_of_mean
@@ -32,6 +36,7 @@ from moyai.series.realisations import ALONE, alone
 from moyai.structures.member.model import MemberProblem
 from moyai.structures.member.supports import held_at
 from moyai.structures.member.waves import STEADY
+from moyai.tables.member_drag import api_circle, steady_circle
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -187,12 +192,14 @@ def _ranges(problem: MemberProblem, found: _Largest) -> tuple[MeasuredRange, ...
     """Return the ranges of drag, inertia and, where it is counted, the circulation.
 
     Where the drag of DNV-RP-C205 keeps the crest of its amplification, the steady drag is its lower end. Where a
-    current nears the speed from which its laws are those of steady flow, the upper ends go towards theirs.
+    current nears the speed from which its laws are those of steady flow, the upper ends go towards theirs. Below the
+    Reynolds numbers of post-critical flow the upper end of drag holds that of a circle before the drag crisis.
     """
     drag, inertia, crest = drag_range(problem.rule), inertia_range(problem.rule), _crest(problem, found)
     if crest > 1.0:
         drag = replace(drag, below=1.0 - (1.0 - drag.below) / crest)
     drag, inertia = _towards_steady_flow(problem, found, (drag, inertia))
+    drag = _below_crisis(problem, found, drag)
     return (drag, inertia, CIRCULATION) if problem.circulation.counted else (drag, inertia)
 
 
@@ -224,6 +231,36 @@ def _towards_steady_flow(
         for one, more in zip(ranges, most, strict=True)
     )
     return drag, inertia
+
+
+def _below_crisis(problem: MemberProblem, found: _Largest, drag: MeasuredRange) -> MeasuredRange:
+    """Return the range of drag with an upper end that holds the drag of a circle before the drag crisis.
+
+    Laws of post-critical flow say 0.65 of a smooth circle in steady flow, where one before the crisis has 1.2; in waves
+    both are amplified alike, and the allowance of the law comes on top [eq:morison-crisis].
+    """
+    laws = ("dnv_c205", "api")
+    reynolds = found.number("reynolds")
+    if problem.rule.drag not in laws or not problem.member.placed_section.is_circle or not reynolds < POST_CRITICAL:
+        return drag
+    roughness = problem.roughness / problem.member.placed_section.breadth
+    share = share_below_crisis(reynolds, roughness)
+    number, of_waves, ratio = math.inf, 0.0, math.inf
+    if not found.steady:
+        number, of_waves = found.number(_COEFFICIENTS), found.number(_CIRCULATION)
+        ratio = number / of_waves - 1.0 if of_waves > 0.0 else math.inf
+    before = steady_circle().drag
+    in_waves, in_current = amplified_drag(before, number), amplified_drag(before, number, DNV_CURRENT)
+    near = min(max((ratio - DNV_NEAR_CURRENT) / (DNV_CURRENT - DNV_NEAR_CURRENT), 0.0), 1.0)
+    most = in_waves + near * (in_current - in_waves)
+    own = dnv_drag(number, roughness, ratio)
+    if problem.rule.drag == "api":
+        own = api_circle(rough=roughness >= API_ROUGH).drag
+    more = (1.0 + DRAG_RANGES[str(problem.rule.drag)].above) * most / own - 1.0 - drag.above
+    if not share * more > 0.0:
+        return drag
+    note = f"upper end towards C_D = {most:.2g} before the drag crisis, as Re is below {POST_CRITICAL:.0e}"
+    return replace(drag, above=drag.above + share * more, note="; ".join(filter(None, (drag.note, note))))
 
 
 def _crest(problem: MemberProblem, found: _Largest) -> float:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -45,6 +45,16 @@ class Assembly:
     net_bars: Mapping[str, NDArray[np.int64]]
     #: Names of the sheets.
     sheets: tuple[str, ...] = ()
+    #: Width of netting that an inner bar of a column stands for, by net whose bars gather twines [m].
+    net_widths: Mapping[str, float] = field(default_factory=dict)
+    #: That width over the one that each bar of a net stands for, 1 where bars are ropes.
+    net_factors: Mapping[str, Array] = field(default_factory=dict)
+    #: Height of its still water above datum [m].
+    level: float = 0.0
+
+    def net_tensions(self, tension: Array) -> list[Array]:
+        """Return of every net the tensions of its bars, each that of a strip of the same width, shape (rows, bars)."""
+        return [tension[:, bars] * self.net_factors.get(name, 1.0) for name, bars in self.net_bars.items()]
 
 
 def assemble(problem: NetworkProblem, level: float) -> Assembly:
@@ -87,14 +97,27 @@ def assemble(problem: NetworkProblem, level: float) -> Assembly:
     network = builder.build()
     network = _with_rows(network, problem, pieces)
     lines = {name: _joined(network, name, parts) for name, parts in pieces.items()}
-    nets, bars = {}, {}
+    nets, bars, factors = {}, {}, {}
     for net in problem.nets:
         nets[net.name] = np.array(
             [[network.points[f"{net.name}[{i},{j}]"] for j in range(net.columns)] for i in range(net.rows)]
         )
-        own = [strand.bars for strand in network.strands if strand.name.startswith(f"{net.name} ")]
-        bars[net.name] = np.concatenate(own) if own else np.zeros(0, dtype=np.int64)
-    return Assembly(network, lines, nets, bars, tuple(sheet.name for sheet in problem.sheets))
+        own = [strand for strand in network.strands if strand.name.startswith(f"{net.name} ")]
+        bars[net.name] = np.concatenate([strand.bars for strand in own]) if own else np.zeros(0, dtype=np.int64)
+        factors[net.name] = np.array([_strip_factor(net, strand) for strand in own for _ in strand.bars])
+    return Assembly(
+        network, lines, nets, bars, tuple(sheet.name for sheet in problem.sheets),
+        {net.name: net.strips[1] for net in problem.nets if net.strips is not None}, factors, level,
+    )  # fmt: skip
+
+
+def _strip_factor(net: NetPlan, strand: Strand) -> float:
+    """Return the width of netting of an inner column over that which a bar of a net stands for."""
+    if net.strips is None:
+        return 1.0
+    kind, number = strand.name.removeprefix(f"{net.name} ").split(" ")[:2]
+    own, last = (net.strips[0], net.rows - 1) if kind == "row" else (net.strips[1], net.columns - 1)
+    return net.strips[1] / (own * (0.5 if int(number) in (0, last) else 1.0))
 
 
 def _place(

@@ -13,6 +13,13 @@ from moyai.core.headline import Band, Headline, all_judged
 if TYPE_CHECKING:
     import xarray as xr
 
+#: Segments of a line up to which the pull on its anchor moves with the mesh as its tension does, and more than that.
+COARSE = 12
+#: What the band of a number at rest is of.
+MESH = "mesh: twice the segments, and their change continued"
+#: What is said of a rest whose mesh was not checked, and what helps.
+MESH_UNCHECKED, FINER = "mesh not checked", "more segments, or knots of nets, tell what the mesh does"
+
 
 def rest_headlines(groups: Mapping[str, xr.Dataset], anchors: Mapping[str, str], model: str) -> list[Headline]:
     """Return the largest pull on a fixed point and the largest offset of a network at rest.
@@ -36,6 +43,7 @@ def rest_headlines(groups: Mapping[str, xr.Dataset], anchors: Mapping[str, str],
 
 
 def _pulls(rest: xr.Dataset, network: xr.Dataset, level: str, model: str) -> Iterator[Headline]:
+    few = "double_mesh" in rest and bool((network["line_segments"].values <= COARSE).any())
     for condition in (str(name) for name in rest["condition"].values):
         for point in _of_kind(network, "fixed"):
             load = rest["load"].sel(condition=condition, point=point).values
@@ -43,24 +51,27 @@ def _pulls(rest: xr.Dataset, network: xr.Dataset, level: str, model: str) -> Ite
             if not value > 0.0:
                 continue
             detail = f"horizontal {math.hypot(*load[:2]) / 1e3:.3g} kN, upwards {max(float(load[2]), 0.0) / 1e3:.3g} kN"
-            band = _band(rest, condition, value)
+            band = _band(rest, condition, point, value, few)
             yield Headline(
                 "anchor_load", "largest pull on a fixed point at rest", value, "N",
                 ", ".join(filter(None, (point, condition, level))), model, band,
-                detail=detail if band else f"{detail}; mesh not checked",
+                "" if band else "at least", detail=detail if band else f"{detail}; {MESH_UNCHECKED}; {FINER}",
+                part=point, bound_by="" if band else f"{MESH_UNCHECKED}; {FINER}",
             )  # fmt: skip
 
 
-def _band(rest: xr.Dataset, condition: str, value: float) -> Band | None:
-    """Return what twice the segments do to the tension of the line that they change most, in proportion."""
-    if "double_mesh" not in rest:
+def _band(rest: xr.Dataset, condition: str, point: str, value: float, few: bool) -> Band | None:
+    """Return what twice the segments do to a pull, and their change continued to bars of no length."""
+    if "load_double_mesh" not in rest:
         return None
-    own, finer = (rest[key].sel(condition=condition).values for key in ("line_tension_maximum", "double_mesh"))
-    usable = np.isfinite(own) & np.isfinite(finer) & (own > 0.0)
-    if not usable.any():
-        return None
-    change = np.concatenate([[1.0], finer[usable] / own[usable], 2.0 * finer[usable] / own[usable] - 1.0])
-    return Band(value * max(float(change.min()), 0.0), value * float(change.max()), "mesh: as the tension of the lines")
+    finer = float(rest["load_double_mesh"].sel(condition=condition, point=point))
+    ends = [value, finer, max(2.0 * finer - value, 0.0)]
+    if few:
+        # where a coarse line meets the bed hangs on its nodes: twice of them may change the pull little by chance
+        own, cut = (rest[key].sel(condition=condition).values for key in ("line_tension_maximum", "double_mesh"))
+        usable = np.isfinite(own) & np.isfinite(cut) & (own > 0.0)
+        ends += [value * max(float(change), 0.0) for change in 2.0 * cut[usable] / own[usable] - 1.0]
+    return Band(min(ends), max(ends), MESH) if math.isfinite(finer) else None
 
 
 def _offsets(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -140,9 +140,12 @@ def coupled_sensitivity(
     steps: tuple[float, float],
     progress: Progress,
     rest_flow: Flow | None,
+    checked: PeakSensitivity | None = None,
     **options: Any,
 ) -> PeakSensitivity:
     """Run bodies and network with half of both steps, half the bars, half and twice the viscosity.
+
+    Where step and mesh were ``checked`` the viscosity is left.
 
     ``steps`` are those of the run, of network and bodies [s], ``rest_flow`` that in which the start is at rest;
     ``options`` are those of :func:`moyai.coupled.simulate.simulate_coupled`.
@@ -163,6 +166,7 @@ def coupled_sensitivity(
         ("half the viscosity", with_viscosity(placed, 0.5), start, bar, {}),
         ("twice the viscosity", more_viscous(placed), start, bar, {}),
     )
+    cases = cases if checked is None else cases[2:]
     peaks = []
     for number, (which, mesh, begin, chosen, changed) in enumerate(cases):
         progress("sensitivity", number + 1, 5)
@@ -176,6 +180,8 @@ def coupled_sensitivity(
         late = found.time >= found.time[0] + after
         peaks.append(float(np.max(found.network.tension_peak[: found.time.size][late, 0])))
     progress("sensitivity", 5, 5)
+    if checked is not None:
+        return replace(checked, half_viscosity=peaks[0], double_viscosity=peaks[1])
     half, mesh_peak, less, more = peaks
     return PeakSensitivity(peak, half, mesh_peak, less, more, steps[0])
 

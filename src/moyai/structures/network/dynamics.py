@@ -20,6 +20,7 @@ from moyai.flexible.simulation import simulate
 from moyai.series.snaps import SnapRecord
 from moyai.structures.network.assembly import Assembly
 from moyai.structures.network.bodies import CoupledRun, coupled_sensitivity, run_coupled
+from moyai.structures.network.finer import check_finer, worth_it
 from moyai.structures.network.model import NetworkProblem
 from moyai.structures.network.realisations import Realisations, left_out, realisations_of
 from moyai.structures.network.refinement import (
@@ -218,7 +219,7 @@ def _failure(
     for name in sorted(near, key=lambda one: one != governing):
         strand = assembly.lines.get(name)
         segments = 0 if strand is None else strand.bars.size
-        words = not_converged(every[name], goal, name, doubts.get(name, ""), segments)
+        words = not_converged(every[name], goal, name, doubts.get(name, ""), segments, problem.gathers_twines)
         if words:
             failures.append(words)
             safe = safe and lowered(every[name], goal)
@@ -254,12 +255,22 @@ def _peak_uncertainty(
                    severity="information", remedy="run it from its start with settings.sensitivity")
         ], history  # fmt: skip
     try:
-        if asked:
-            found = _sensitivity(problem, assembly, plan, starts, made, worst, reported)
+        motions = motions_of(problem, plan.duration)
+        options = options_of(problem, plan) if coupled is None else _of_bodies(options_of(problem, plan))
+        netted = problem.gathers_twines
+        wanted = problem.settings.mesh_check == "auto" and worth_it(history, coupled, bool(why))
+        checked: PeakSensitivity | None = None
+        if (netted or coupled is not None) and (asked or wanted):
+            of = (governing, why)
+            checked = check_finer(problem, assembly, plan, starts, made, of, motions, options, reported)
+        if asked and not netted:
+            found = _sensitivity(problem, assembly, plan, starts, made, worst, reported, checked)
             return found, list(found.notices()), history
-        if problem.settings.mesh_check == "off" or coupled is not None:
-            return None, [unchecked(why, off=coupled is None)] if why else [], history
-        motions, options = motions_of(problem, plan.duration), options_of(problem, plan)
+        if checked is not None:
+            return checked, [], history
+        off = problem.settings.mesh_check == "off"
+        if off or netted or coupled is not None:
+            return None, [unchecked(why, off=off)] if why else [], history
         event = (governing, plan.skip, plan.period, options, reported, why)
         checked = check_event(assembly, history, motions, *event) if LANDING in why else None
         few = any(few_bars(assembly, name) for name in assembly.lines)
@@ -298,8 +309,9 @@ def _sensitivity(
     made: tuple[History, CoupledRun | None],
     bar: int,
     progress: Progress,
+    checked: PeakSensitivity | None,
 ) -> PeakSensitivity:
-    """Run again with half the step, half the bars, half and twice the viscosity."""
+    """Run again with half the step, half the bars, half and twice the viscosity; with bodies what was not checked."""
     (begin, hung), (history, coupled) = starts, made
     after, motions = plan.skip, motions_of(problem, plan.duration)
     options = options_of(problem, plan)
@@ -307,7 +319,7 @@ def _sensitivity(
         peak = float(np.nanmax(history.peak_at(bar)[history.time >= after]))
         return coupled_sensitivity(
             problem, assembly.network, hung, bar, after, peak, (history.step, coupled.step), progress, plan.rest_flow,
-            motions=motions, **_of_bodies(options),
+            checked, motions=motions, **_of_bodies(options),
         )  # fmt: skip
     # built anew, the finer network may drop what its materials gathered: the plain call refines the network itself
     return peak_sensitivity(

@@ -15,7 +15,7 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.core.headline import Band, Bound, Headline, all_judged, governing, unfavourable
 from moyai.core.wording import spoken
-from moyai.structures.network.at_rest import rest_headlines
+from moyai.structures.network.at_rest import COARSE, FINER, MESH, MESH_UNCHECKED, rest_headlines
 from moyai.structures.network.chance import (
     ONE_SEED,
     chance_of,
@@ -27,8 +27,9 @@ from moyai.structures.network.chance import (
     with_chance,
     with_seeds,
 )
-from moyai.structures.network.held_rows import held_headlines
-from moyai.structures.network.mesh_band import UNCHECKED, mesh_and_step, numerical_band
+from moyai.structures.network.held_headlines import held_headlines
+from moyai.structures.network.mesh_band import REMEDY, UNCHECKED, mesh_and_step, numerical_band
+from moyai.structures.network.mode_headlines import mode_headlines
 from moyai.structures.network.model import NetworkProblem
 from moyai.structures.network.refinement import LANDING
 from moyai.structures.network.settling import unsettled
@@ -41,6 +42,8 @@ if TYPE_CHECKING:
 
 #: Highest tension over that at the ends of its line above which both are reported.
 INSIDE = 1.2
+#: What is said of a pull that no run which checks the mesh looked at.
+PROPORTION, PULL_UNCHECKED = "mesh and step: in proportion", "mesh and step of the pull itself not checked"
 DYNAMIC, REST = "run through time", "at rest"
 _NOT_JUDGED = Headline(
     "not_judged", "Not judged", math.nan, "1", text="one line lost, wear and fatigue, shackles, soil of the anchors",
@@ -52,7 +55,6 @@ _OTHER_DIRECTIONS = replace(
 )  # fmt: skip
 #: What is said of a line without a breaking load next to lines that have one.
 NO_STRENGTH = "breaking load not given of"
-_MESH = "mesh: twice the segments, and their change continued"
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,25 +83,67 @@ def headlines_of(problem: NetworkProblem, groups: Mapping[str, xr.Dataset]) -> t
     # a run of which nothing counts does not hand its number to the rest
     timed = any(_levels(groups, "dynamic"))
     peaks = list(_peaks(groups)) if timed else list(_rest_peaks(groups))
+    widths = _net_widths(groups)
+    nets = [one for one in peaks if one.line in widths]
+    every, peaks = peaks, [one for one in peaks if one.line not in widths]
     peak = max(peaks, key=lambda item: item.value, default=None)
     items: list[Headline] = []
     if peak is not None:
         items += _tension(problem, groups, peak)
         # a smaller tension with a wider band may pass a limit that the highest one keeps
-        others = all_judged(_tension(problem, groups, one)[0] for one in peaks)[1:]
-        first = items[0]
+        each = [_tension(problem, groups, one)[0] for one in peaks]
+        others, first = all_judged(each)[1:], items[0]
         items += [one for one in others if unfavourable(one) > unfavourable(first) or one.bound != first.bound]
+        items += _failing(each, [one for one in items if one.name == first.name])
         items += _start_up(groups, peak)
         items += _utilisation(problem, groups, peaks)
-    items += _anchor(groups, peaks) if timed else rest_headlines(groups, single_anchors(problem), REST)
+    items += _net_tension(problem, groups, nets, widths)
+    items += _anchor(groups, every) if timed else rest_headlines(groups, single_anchors(problem), REST)
     items += held_headlines(problem, groups, DYNAMIC)
     items += _offsets(groups, single_anchors(problem))
-    items += _mode(groups)
+    items += mode_headlines(groups)
     around = problem.environment
     loaded = around.sea_states or around.current is not None or problem.current_field is not None
-    left = [_OTHER_DIRECTIONS if loaded else _NOT_JUDGED] if problem.lines and peaks else []
+    left = [_OTHER_DIRECTIONS if loaded else _NOT_JUDGED] if problem.lines and every else []
     shown = [item for item in items if item.shown][:8]
     return (*(item for item in items if item in shown or not item.shown), *left)
+
+
+def _net_widths(groups: Mapping[str, xr.Dataset]) -> dict[str, float]:
+    """Return the width of netting that a bar stands for, by net whose bars gather twines [m]."""
+    found: dict[str, float] = {}
+    for _, network in _levels(groups, "network"):
+        if "net_strip" in network:
+            pairs = zip(network["net"].values, network["net_strip"].values, strict=True)
+            found |= {str(name): float(width) for name, width in pairs if math.isfinite(width)}
+    return found
+
+
+def _net_tension(
+    problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peaks: list[_Peak], widths: Mapping[str, float]
+) -> list[Headline]:
+    """Return the highest tension of nets whose bars gather twines, over the width of netting that bears it.
+
+    That of a bar is as much as the mesh makes it: a limit in newton says nothing of it.
+    """
+    items = []
+    for peak in peaks:
+        band, said, bound = _band(groups, peak)
+        width, doubtful = widths[peak.line], _unchecked(said)
+        strip = f"{spoken(peak.value, 'N', 3)} in a strip of {width:.3g} m, which one bar of the model gathers"
+        items.append(
+            Headline(
+                "net_tension", "highest tension of a net over its width", peak.value / width, "N/m",
+                _where(groups, peak), peak.model, None if band is None else band.scaled(1.0 / width), bound,
+                detail="; ".join(filter(None, (strip, *said))), part=peak.line, bound_by=doubtful,
+            )
+        )  # fmt: skip
+    asked = {criterion.headline for criterion in problem.criteria}
+    found = all_judged(items)
+    if found and "line_tension" in asked and "net_tension" not in asked:
+        text = "tension of nets is per metre of width, greatest_net_tension limits it"
+        found.append(Headline("line_tension", "highest tension", math.nan, "1", text=text, shown=False))
+    return found
 
 
 def _levels(groups: Mapping[str, xr.Dataset], part: str) -> Iterator[tuple[str, xr.Dataset]]:
@@ -167,8 +211,12 @@ def _tension(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peak: _P
     where = _where(groups, peak)
     band, details, bound = _band(groups, peak)
     if peak.model == REST:
-        said = "; ".join(details)
-        return [Headline("line_tension", "highest tension at rest", peak.value, "N", where, REST, band, detail=said)]
+        return [
+            Headline(
+                "line_tension", "highest tension at rest", peak.value, "N", where, REST, band, bound,
+                detail="; ".join(details), part=peak.line, bound_by=_unchecked(details),
+            )
+        ]  # fmt: skip
     summary = groups[f"/{peak.level}/dynamic"].sel(run=peak.run)
     series = groups[f"/{peak.level}/time/{peak.run}"].attrs
     model = f"{DYNAMIC}, {series['theory']}" if math.isfinite(float(series["wave_height"])) else DYNAMIC
@@ -178,7 +226,6 @@ def _tension(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peak: _P
             detail="; ".join(part for part in details if part), part=peak.line, bound_by=_unchecked(details),
         )
     ]  # fmt: skip
-    items = [_at_most(item) for item in items]
     if "start_peak" in summary and peak.line in summary["line"].values:
         ends = [float(summary[key].sel(line=peak.line)) for key in ("start_peak", "end_peak")]
         if float(summary["line_tension_maximum"].sel(line=peak.line)) > INSIDE * max(ends):
@@ -199,7 +246,7 @@ def _rest_band(groups: Mapping[str, xr.Dataset], peak: _Peak) -> Band | None:
         return None
     finer = float(rest["double_mesh"].sel(condition=peak.run, line=peak.line))
     ends = (peak.value, finer, max(2.0 * finer - peak.value, 0.0))
-    return Band(min(ends), max(ends), _MESH)
+    return Band(min(ends), max(ends), MESH)
 
 
 def _start_up(groups: Mapping[str, xr.Dataset], peak: _Peak) -> list[Headline]:
@@ -247,15 +294,9 @@ def _utilisation(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peak
             detail="; ".join(filter(None, (f"breaking load {load / 1e3:.4g} kN, without a safety factor", doubtful))),
             part=item.line, bound_by=doubtful,
         )  # fmt: skip
-        items.append(_at_most(one))
+        items.append(one)
     found = all_judged(items)
-    known = {(one.part, one.where) for one in found if one.role != "weighed"}
-    for line in breaking:
-        # of each other line the worst, for the one who strengthens the line that decides
-        own = governing(one for one in items if one.part == line)
-        worst = max(own, key=unfavourable, default=None)
-        if worst is not None and (line, worst.where) not in known:
-            found.append(replace(worst, shown=False, role="failing"))
+    found += _failing(items, found)
     if found and bare:
         # one that is not known stays open beside those that keep the limit
         label, text = "highest tension over breaking load", f"{NO_STRENGTH} {', '.join(bare)}"
@@ -264,9 +305,20 @@ def _utilisation(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peak
     return found
 
 
+def _failing(items: list[Headline], found: list[Headline]) -> list[Headline]:
+    """Return of each other line or anchor the worst, for the one who strengthens that which decides."""
+    known, more = {(one.part, one.where) for one in found if one.role != "weighed"}, []
+    for part in dict.fromkeys(one.part for one in items):
+        worst = max(governing(one for one in items if one.part == part), key=unfavourable, default=None)
+        if worst is not None and (part, worst.where) not in known:
+            more.append(replace(worst, shown=False, role="failing"))
+    return more
+
+
 def _unchecked(said: list[str]) -> str:
-    """Return of what is said of a tension that its peak is doubtful and was not checked, empty where it is not."""
-    return next((one for one in said if one.startswith(f"{UNCHECKED}: ") and LANDING not in one), "")
+    """Return of what is said of a tension that its mesh was not checked and what helps, empty where it is enough."""
+    words = [one for one in said if one.startswith((UNCHECKED, MESH_UNCHECKED)) or one in (REMEDY, FINER)]
+    return "; ".join(words) if REMEDY in words or FINER in words else ""
 
 
 def _mean(groups: Mapping[str, xr.Dataset], peak: _Peak, load: float) -> float | None:
@@ -287,33 +339,19 @@ def _band(groups: Mapping[str, xr.Dataset], peak: _Peak) -> tuple[Band | None, l
     """
     if peak.model == REST:
         band = _rest_band(groups, peak)
-        return band, [] if band else ["mesh not checked"], ""
+        return band, [] if band else [MESH_UNCHECKED, FINER], "" if band else "at least"
     summary = groups[f"/{peak.level}/dynamic"].sel(run=peak.run)
     band, details, unproven = numerical_band(summary, peak.run, peak.line, peak.value, bool(peak.scatter.size))
     band = with_seeds(peak.value, band, peak.scatter)
     found, words = (None, []) if peak.scatter.size else of_record(groups, peak.level, peak.run, peak.line)
     details += words
-    doubt = str(summary.attrs.get(f"doubt {peak.run}", ""))
-    # lumps that land pull harder than the line does: with finer segments it is less
-    most: Bound = "at most" if band is None and LANDING in doubt else ""
-    details += ["finer segments give less"] if most else []
     open_end, why = _left_open(groups, peak.level, peak.run, peak.scatter)
     details += why
     if found is None:
         alone = not peak.scatter.size and irregular(groups, peak.level, peak.run)
-        return band, [*details, *([ONE_SEED] if alone else [])], "at least" if alone else open_end or unproven or most
+        return band, [*details, *([ONE_SEED] if alone else [])], "at least" if alone else open_end or unproven
     of_sea = irregular(groups, peak.level, peak.run)
-    return with_chance(peak.value, band, found, of_sea), details, open_end or unproven or most
-
-
-def _at_most(item: Headline) -> Headline:
-    """Return a bound from above with what is judged as its number, where chance lets that be more than the record's."""
-    end = unfavourable(item)
-    if item.bound != "at most" or item.band is None or not end > item.value:
-        return item
-    record = f"{item.value:.3g}" if item.unit == "1" else spoken(item.value, item.unit, 3)
-    said = f"at most: the record has {record}, {item.band.of}"
-    return replace(item, value=end, band=None, detail="; ".join(filter(None, (item.detail, said))))
+    return with_chance(peak.value, band, found, of_sea), details, open_end or unproven
 
 
 def _left_open(groups: Mapping[str, xr.Dataset], level: str, run: str, scatter: Array) -> tuple[Bound, list[str]]:
@@ -358,14 +396,20 @@ def _anchor(groups: Mapping[str, xr.Dataset], peaks: list[_Peak]) -> list[Headli
                     )
                 said = f"horizontal {parts[0] / 1e3:.3g} kN, upwards {parts[1] / 1e3:.3g} kN, each at its own largest"
                 open_end, why = _left_open(groups, level, run, scatter)
-                doubtful = "" if most is None or bound != "at least" else _unchecked(_band(groups, most)[1])
+                doubtful = ""
+                if bound == "at least":
+                    words = [UNCHECKED, REMEDY] if most is None else _band(groups, most)[1]
+                    doubtful = _unchecked(words)
+                    if not doubtful and own is not None and own.of.startswith(PROPORTION):
+                        doubtful = PULL_UNCHECKED
                 bound, said = open_end or bound, "; ".join(filter(None, [said, *why, doubtful]))
                 one = Headline(
                     "anchor_load", "largest pull on a fixed point", value, "N", _place(groups, level, point, run),
                     DYNAMIC, own, bound, detail=said, part=point, bound_by=doubtful,
                 )  # fmt: skip
-                found.append(_at_most(one))
-    return all_judged(found)
+                found.append(one)
+    kept = all_judged(found)
+    return [*kept, *_failing(found, kept)]
 
 
 def _band_of_pull(
@@ -381,28 +425,44 @@ def _band_of_pull(
     """
     level, run, point = at
     summary = groups[f"/{level}/dynamic"].sel(run=run)
-    bound: Bound = "" if most is None else _band(groups, most)[2]
-    mesh, unproven = None, bound
+    mesh: Band | None = None
+    unproven: Bound = "at least"
     if most is not None:
         mesh, _, unproven = numerical_band(summary, run, most.line, most.value, bool(most.scatter.size))
     finer = [value, *(float(summary[key].sel(point=point)) if key in summary else math.nan for key in LOADS_AGAIN)]
     own: Band | None = None
     if all(map(math.isfinite, finer[1:3])):
-        own, unproven = mesh_and_step(value, finer), ""
+        own, unproven = mesh_and_step(value, finer, bool(summary.attrs.get("finer_nets"))), ""
+        if mesh is not None and most is not None and most.value > 0.0 and _coarse(groups, level, most.line):
+            # where a coarse line meets the bed hangs on its nodes: twice of them may change the pull little by chance
+            ends = [value * end / most.value for end in (mesh.low, mesh.high)]
+            words = f"{own.of}; as the tension of {most.line}, whose segments are few"
+            own = Band(min(own.low, *ends), max(own.high, *ends), words)
     elif mesh is not None and most is not None and most.value > 0.0:
         low, high = (value * end / most.value for end in (mesh.low, mesh.high))
         own = Band(low, high, f"mesh and step: in proportion to the tension of {most.line}")
+        if LANDING in str(summary.attrs.get(f"doubt {run}", "")):
+            # segments that land move a pull by another part than the highest tension
+            unproven = "at least"
     if scatter is not None and scatter.size:
         mean = float(scatter.mean())
-        return with_seeds(mean, None if own is None else own.scaled(mean / value), scatter), bound
+        return with_seeds(mean, None if own is None else own.scaled(mean / value), scatter), unproven
     series = groups.get(f"/{level}/time/{run}")
     if series is None:
-        return own, bound
+        return own, unproven
     of_sea = irregular(groups, level, run)
     chance = chance_of(series, series["highest_load"].sel(point=point, measure="size").values)
     if chance is None:
-        return own, "at least" if of_sea else bound
-    return with_chance(value, own, chance, of_sea), "at most" if own is None and bound == "at most" else unproven
+        return own, "at least" if of_sea else unproven
+    return with_chance(value, own, chance, of_sea), unproven
+
+
+def _coarse(groups: Mapping[str, xr.Dataset], level: str, line: str) -> bool:
+    """Whether a line has few segments."""
+    network = groups.get(f"/{level}/network")
+    if network is None or "line_segments" not in network or line not in network["line"].values:
+        return False
+    return int(network["line_segments"].sel(line=line)) <= COARSE
 
 
 def _offsets(groups: Mapping[str, xr.Dataset], anchors: Mapping[str, str]) -> list[Headline]:
@@ -504,47 +564,3 @@ def _away(groups: Mapping[str, xr.Dataset], level: str, run: str, name: str, kin
         return None
     place = series[f"{kind}_position"].sel({kind: name}).values - summary[origin].sel({kind: name}).values
     return np.asarray(np.linalg.norm(place[:, :axes], axis=1))
-
-
-def _mode(groups: Mapping[str, xr.Dataset]) -> list[Headline]:
-    """Return the longest natural period over the water levels; of the lines alone where bodies are held."""
-    found = []
-    for level, modes in _levels(groups, "modes"):
-        if "mode_period" not in modes or not modes["mode_period"].size:
-            continue
-        value = float(modes["mode_period"].values[0])
-        if not math.isfinite(value):
-            continue
-        finer = float(modes["longest_period_double_mesh"])
-        ends = [value, finer, max(2.0 * finer - value, 0.0)]
-        band = Band(min(ends), max(ends), _MESH) if math.isfinite(finer) else None
-        bodies = int(groups[f"/{level}"].attrs.get("bodies_held", 0))
-        label = "longest natural period of the lines, bodies held" if bodies else "longest natural period"
-        more = "periods of the bodies are not computed: let them go in still water" if bodies else ""
-        detail = "; ".join(filter(None, (_motion_of(groups[f"/{level}/network"], modes), "added mass counted", more)))
-        found.append(Headline("natural_period", label, value, "s", level, band=band, detail=detail))
-    return [max(found, key=lambda item: item.value)] if found else []
-
-
-def _motion_of(network: xr.Dataset, modes: xr.Dataset) -> str:
-    """Say which point or line moves most in the longest mode, and along which axis."""
-    shape = np.asarray(modes["mode_shape"].values[0])
-    size = np.linalg.norm(shape, axis=1)
-    node = int(np.argmax(size))
-    if not size[node] > 0.0:
-        return ""
-    along = "xyz"[int(np.argmax(np.abs(shape[node])))]
-    points = dict(zip(network["point_node"].values.astype(int), network["point"].values, strict=True))
-    # a point that moves nearly as much as the farthest node is what a reader looks for
-    near = [(float(size[place]), str(name)) for place, name in points.items() if size[place] > 0.7 * size[node]]
-    if near:
-        name = max(near)[1]
-        return f"'{name}' moves most, along {along}"
-    owners = [
-        str(line)
-        for line, start, end in zip(
-            network["bar_line"].values, network["bar_start"].values, network["bar_end"].values, strict=True
-        )
-        if node in (int(start), int(end))
-    ]
-    return f"'{owners[0]}' moves most, along {along}" if owners else f"moves most along {along}"

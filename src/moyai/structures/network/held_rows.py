@@ -1,22 +1,17 @@
-"""What nets pull on the row that holds them: beams, head ropes and piles are sized by it."""
+"""What nets pull on the row that holds them."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.arrays import Array
-from moyai.core.headline import Bound, Headline, governing
 from moyai.flexible.network import Network
+from moyai.flexible.result import History
+from moyai.structures.network.assembly import Assembly
 from moyai.structures.network.equilibrium import pulls
-from moyai.structures.network.model import NetworkProblem
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 
 def held_pulls(
@@ -55,42 +50,24 @@ def held_pulls(
     return out
 
 
-def held_headlines(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], where: str) -> list[Headline]:
-    """Return the largest pull of a net on the row that holds it, and of what strip the tension of a bar is.
+def held_of_run(assembly: Assembly, history: History, after: float) -> dict[str, float]:
+    """Return the largest pull [N] of each net on the row that holds it, at the rows of a run after a time [s]."""
+    network, counted = history.network, history.time - history.time[0] >= after
+    place = np.full((int(counted.sum()), len(network.nodes), 3), np.nan)
+    place[:, history.nodes] = history.position[counted]
+    tension = np.full((place.shape[0], len(network.bars)), np.nan)
+    tension[:, history.bars] = history.tension[counted]
+    found = held_pulls(network, assembly.net_bars, place, tension)
+    if found is None or not counted.any():
+        return {}
+    size = np.linalg.norm(found, axis=2).max(axis=0)
+    return {name: float(own) for name, own in zip(assembly.net_bars, size, strict=True) if own > 0.0}
 
-    Parameters
-    ----------
-    problem : NetworkProblem
-    groups : mapping of str to xarray.Dataset
-        Of the result.
-    where : str
-        Model in words.
-    """
-    widths = {net.name: math.dist(net.corners[0], net.corners[1]) for net in problem.nets}
-    found = []
-    for path, series in groups.items():
-        pieces = path.strip("/").split("/")
-        if len(pieces) != 3 or pieces[1] != "time" or "held_pull" not in series:
-            continue
-        late = series.isel(time=series["time"].values >= series["time"].values[0] + series.attrs["skip"])
-        for net in (str(name) for name in late["net"].values):
-            pull = late["held_pull"].sel(net=net).values
-            if not pull.size or not np.isfinite(pull).any():
-                continue
-            size = np.linalg.norm(pull, axis=1)
-            most, along = float(np.nanmax(size)), float(np.nanmax(np.hypot(pull[:, 0], pull[:, 1])))
-            if most == 0.0:
-                continue
-            # one seed, and one that still drifts, can have more
-            bound: Bound = "at least" if int(series.attrs.get("irregular", 0)) or series.attrs.get("unsettled") else ""
-            said = f"horizontal {along / 1e3:.3g} kN, downwards {max(-float(np.nanmin(pull[:, 2])), 0.0) / 1e3:.3g} kN"
-            if net in widths:
-                said += f"; {most / widths[net]:.3g} N per metre of a row of {widths[net]:.3g} m"
-            found.append(
-                Headline(
-                    "held_row_load", "largest pull of a net on the row that holds it", most, "N",
-                    ", ".join((net, pieces[2], pieces[0])), where, bound=bound,
-                    detail=f"{said}; at the rows of the record",
-                )
-            )  # fmt: skip
-    return governing(found)
+
+def held_knots(assembly: Assembly) -> NDArray[np.int64]:
+    """Return the knots of nets that are held, and those next to them."""
+    bars = assembly.network.bars
+    own = np.concatenate([np.zeros(0, dtype=np.int64), *assembly.net_bars.values()])
+    held = assembly.network.nodes.kind != 0
+    near = own[held[bars.start[own]] | held[bars.end[own]]]
+    return np.unique(np.concatenate([bars.start[near], bars.end[near]]))

@@ -15,13 +15,27 @@ if TYPE_CHECKING:
     import xarray as xr
 
 UNCHECKED = "mesh and step not checked"
+#: What is said with it where the number proves no limit kept.
+REMEDY = "settings.sensitivity: true checks them"
 
 
-def mesh_and_step(value: float, finer: list[float]) -> Band:
-    """Return the band of a peak: ``finer`` as in :class:`PeakSensitivity`, without step."""
+#: Whole change from a net to one of no mesh over that to twice its knots. The half cell at a held row that no bar
+#: bears is an error of first order, which would make it 2; nets of 4 x 5 to 25 x 33 knots came to 2.2.
+NET_REACH = 2.5
+
+
+def mesh_and_step(value: float, finer: list[float], nets: bool = False) -> Band:
+    """Return the band of a peak: ``finer`` as in :class:`PeakSensitivity`, without step.
+
+    ``nets`` where the finer mesh has twice the knots of its nets.
+    """
     of, half, mesh, damped, finest = finer
     low, high = band_of(PeakSensitivity(of, half, mesh, math.nan, math.nan, math.nan, damped, finest))
     words = "mesh and step: half the step, twice the segments, undamped and damped, and their change continued"
+    if nets:
+        far = max(of + NET_REACH * (mesh - of), 0.0)
+        low, high = min(low, far), max(high, far)
+        words = "mesh and step: half the step, twice the knots of the nets, and their change continued"
     return Band(min(low, value), max(high, value), words)
 
 
@@ -30,7 +44,8 @@ def numerical_band(
 ) -> tuple[Band | None, list[str], Bound]:
     """Return what mesh and step do to a tension, what is to be said of it, and what an unchecked one proves.
 
-    A doubtful peak that was not run again may be more: it can break a limit and cannot keep one.
+    A peak whose mesh was not checked may be more: it can break a limit and cannot keep one. That holds of landing
+    fronts too: finer segments of a chain under a buoy give less, those of a line with a clump give more.
 
     Parameters
     ----------
@@ -45,9 +60,10 @@ def numerical_band(
     """
     governing = governing_of(summary, run)
     first, own = _checked(summary, governing), _checked(summary, line)
+    nets = bool(summary.attrs.get("finer_nets"))
     if own:
         share = value / own[0] if averaged and own[0] > 0.0 else 1.0
-        band = mesh_and_step(value, [share * one for one in own])
+        band = mesh_and_step(value, [share * one for one in own], nets)
         names = ("half_viscosity", "double_viscosity") if governing == line else ()
         viscous = [float(summary[key]) for key in names if key in summary]
         viscous = [one for one in viscous if math.isfinite(one)]
@@ -56,12 +72,12 @@ def numerical_band(
     why, lands = doubt_of(summary, run, line), LANDING in str(summary.attrs.get(f"doubt {run}", ""))
     unchecked = f"{UNCHECKED}{': ' + why if why else ''}"
     if not first or not first[0] > 0.0 or lands:
-        return None, [unchecked], "at least" if why and not lands else ""
+        return None, [unchecked, REMEDY], "at least"
     # only the event of the governing line was run again: what the mesh does to it is taken for this one too
-    band = mesh_and_step(first[0], first).scaled(value / first[0])
+    band = mesh_and_step(first[0], first, nets).scaled(value / first[0])
     words = f"mesh and step: in proportion to the tension of {governing}"
     few = f"few {line}" in summary.attrs and "line_tension_of_check" in summary
-    return replace(band, of=words), [unchecked], "at least" if few else ""
+    return replace(band, of=words), [unchecked, *([REMEDY] if few else [])], "at least" if few else ""
 
 
 def governing_of(summary: xr.Dataset, run: str) -> str:

@@ -133,6 +133,8 @@ class NetPlan:
     flow_factor: float = 1.0
     #: Whether z counts from still water.
     floats: bool = False
+    #: Width of netting whose twines an inner bar of a row and of a column gathers [m]; None: each bar is a rope.
+    strips: tuple[float, float] | None = None
 
 
 @checks_words
@@ -295,6 +297,11 @@ class NetworkProblem:
         """Where runs begin: as asked for, else at rest in the current where there is one."""
         default: Start = "rest" if self.environment.current is None else "rest_in_current"
         return self.settings.start or default
+
+    @property
+    def gathers_twines(self) -> bool:
+        """Whether bars of a net stand for strips of netting."""
+        return any(net.strips is not None for net in self.nets)
 
     @property
     def linear_waves_only(self) -> bool:

@@ -184,7 +184,7 @@ def _largest(
     place[:, runs.nodes] = runs.position[member][counted]
     loads = highest_pulls(network, points, place, pull, highest)
     lines = [float(highest[:, strand.bars].max()) for strand in assembly.lines.values()]
-    nets = [float(highest[:, bars].max()) for bars in assembly.net_bars.values()]
+    nets = [float(own.max()) for own in assembly.net_tensions(highest)]
     away = np.linalg.norm(place[:, points] - origin, axis=2)
     apart = np.linalg.norm((place[:, points] - place[:, anchors])[..., :2], axis=2).max(axis=0)
     reach = np.where(anchors >= 0, apart, np.nan)

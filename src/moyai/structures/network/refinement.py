@@ -177,7 +177,7 @@ def check_event(
         return None
     if lands:
         found = _down_to_links(found, assembly, same, motions, line, window, chosen, progress)
-    whole, pulls = highest_of_run(history, _fixed(assembly, history.network), skip), {}
+    whole, pulls = highest_of_run(history, fixed_points(assembly, history.network), skip), {}
     for name, one in found.pulls.items():
         # the event of the highest tension need not be that of this point
         if one.peak > 0.0 and name in whole and (lands or abs(one.peak / whole[name] - 1.0) <= SAME_EVENT):
@@ -203,7 +203,7 @@ def _in_proportion(found: PeakSensitivity, factor: float, lands: bool) -> PeakSe
     )  # fmt: skip
 
 
-def _fixed(assembly: Assembly, network: Network) -> dict[str, int]:
+def fixed_points(assembly: Assembly, network: Network) -> dict[str, int]:
     """Return the fixed points of the case and their nodes in a network, also one whose bars were cut."""
     points = {name: network.points[name] for name in named_points(assembly)[0] if name in network.points}
     return {name: node for name, node in points.items() if network.nodes.kind[node] == FIXED}
@@ -211,7 +211,7 @@ def _fixed(assembly: Assembly, network: Network) -> dict[str, int]:
 
 def _kept(assembly: Assembly, network: Network, bars: np.ndarray) -> dict[str, np.ndarray]:
     """Return what a run keeps for the peaks of some bars and the pulls on fixed points."""
-    nodes, own = around(network, _fixed(assembly, network))
+    nodes, own = around(network, fixed_points(assembly, network))
     return {"keep_nodes": nodes if nodes.size else np.zeros(1, dtype=np.int64), "keep_bars": np.union1d(bars, own)}
 
 
@@ -229,7 +229,7 @@ def _peaks_of(
 ) -> _Peaks:
     """Return the highest tensions of a run in some bars and in each of ``parts``, and the pull on each fixed point."""
     lines = {name: _highest(history, own, after) for name, own in (parts or {}).items()}
-    pulls = highest_of_run(history, _fixed(assembly, history.network), after)
+    pulls = highest_of_run(history, fixed_points(assembly, history.network), after)
     return _Peaks(_highest(history, bars, after), pulls, lines)
 
 
@@ -254,7 +254,7 @@ def _cut(bars: np.ndarray, factor: int) -> np.ndarray:
 
 def _early(assembly: Assembly, history: History, skip: float) -> dict[str, float]:
     """Return the highest pull on each fixed point before what counts of a run."""
-    return highest_of_run(history, _fixed(assembly, history.network), 0.0, skip)
+    return highest_of_run(history, fixed_points(assembly, history.network), 0.0, skip)
 
 
 def _down_to_links(
@@ -428,8 +428,11 @@ def damped_bars(network: Network) -> Network:
     return replace(network, bars=replace(bars, types=tuple(types)))
 
 
-def not_converged(found: PeakSensitivity, goal: float, line: str, why: str, segments: int) -> str:
-    """Return why the peak of a run is not converged and what helps, empty where it is."""
+def not_converged(found: PeakSensitivity, goal: float, line: str, why: str, segments: int, knots: bool = False) -> str:
+    """Return why the peak of a run is not converged and what helps, empty where it is.
+
+    ``knots`` where the finer mesh has twice the knots of its nets as well.
+    """
     if not change_of(found) > goal:
         return ""
     by_mesh = max(abs(found.double_mesh - found.peak), abs(np.nan_to_num(found.damped, nan=found.peak) - found.peak))
@@ -446,6 +449,12 @@ def not_converged(found: PeakSensitivity, goal: float, line: str, why: str, segm
         if by_mesh >= by_step
         else "a shorter settings.step, or the internal damping that the line has"
     )
+    if knots:
+        return (
+            f"the peak of '{line}', {spoken(found.peak, 'N')}, is {mesh} with twice the knots{damped} and {half} "
+            f"with half the step: {100.0 * change_of(found):.0f} % where {100.0 * goal:g} % is asked for"
+            f"{' (' + why + ')' if why else ''}; {remedy}"
+        )
     return (
         f"the peak of '{line}', {spoken(found.peak, 'N')}, is {mesh} with twice the segments{damped} and {half} "
         f"with half the step: {100.0 * change_of(found):.0f} % where {100.0 * goal:g} % is asked for"

@@ -34,6 +34,7 @@ from moyai.structures.network.equilibrium import (
     stiffness_at_driven,
     with_finer_mesh,
 )
+from moyai.structures.network.finer import finer_rest
 from moyai.structures.network.headlines import headlines_of, mesh_checked
 from moyai.structures.network.model import NetworkProblem
 from moyai.structures.network.resume import earlier_run, read_earlier
@@ -172,6 +173,9 @@ def network_dataset(problem: NetworkProblem, assembly: Assembly, water: Water) -
          for name, node in zip(names, nodes, strict=True)], dtype=object,
     )  # fmt: skip
     data["point_kind"] = ("point", kind_names, {"units": "1", "long_name": "what moves the point"})
+    if assembly.net_bars:
+        widths = [assembly.net_widths.get(name, math.nan) for name in assembly.net_bars]
+        data["net_strip"] = ("net", np.array(widths))
     if network.sheets is not None:
         data["sheet_nodes"] = (
             ("triangle", "corner"),
@@ -187,7 +191,10 @@ def network_dataset(problem: NetworkProblem, assembly: Assembly, water: Water) -
         shapes = np.array([body.shape for body in problem.bodies], dtype=object)
         data["solid_shape"] = ("solid", shapes, {"units": "1", "long_name": "shape of the body"})
         data |= drawn_parts(problem.bodies)
-    out = labelled(xr.Dataset(data, coords={"axis": ["x", "y", "z"], "line": list(assembly.lines), "point": names}))
+    coords = {"axis": ["x", "y", "z"], "line": list(assembly.lines), "point": names}
+    if assembly.net_bars:
+        coords["net"] = list(assembly.net_bars)
+    out = labelled(xr.Dataset(data, coords=coords))
     bed = network.bed
     # views show a bed that varies as deep as it is under the network
     lowest = math.nan if bed is None else float(np.min(bed.level_at(network.nodes.position)))
@@ -237,8 +244,10 @@ def _at_rest(
     if found and ("statics" in wanted):
         stiffness = _stiffness(problem, assembly, water, found, said, collected)
         rested = rest_dataset(assembly, found, stiffness)
-        if assembly.lines and not problem.bodies and "dynamic" not in wanted:
-            rested = with_finer_mesh(rested, assembly, found, conditions)
+        if "dynamic" not in wanted:
+            rested = with_finer_mesh(
+                rested, assembly, found, lambda name, rest: finer_rest(problem, assembly, rest, conditions[name])
+            )
         collected.groups[f"{root}/statics"] = bodies_at_rest(rested, hung)
         _weight_check(assembly, found, said, collected)
     return found, hung

@@ -79,7 +79,7 @@ def series_of(assembly: Assembly, plan: RunPlan, history: History) -> xr.Dataset
     if assembly.net_bars:
         data["net_tension"] = (
             ("time", "net"),
-            np.stack([history.tension_peak[:, bars].max(axis=1) for bars in assembly.net_bars.values()], axis=1),
+            np.stack([own.max(axis=1) for own in assembly.net_tensions(history.tension_peak)], axis=1),
             {"units": "N", "long_name": "highest tension in the net since the row before"},
         )
         held = held_pulls(network, assembly.net_bars, position, history.tension)

@@ -104,11 +104,12 @@ def summary_dataset(
         coords["check"] = list(CHECKS)
     if "load_of_realisation" in out:
         coords["measure"] = MEASURES
-    if {"net_tension_maximum_of_realisation", "net_tension_of_check"} & out.keys():
+    if {"net_tension_maximum_of_realisation", "net_tension_of_check", "held_pull_of_check"} & out.keys():
         coords["net"] = list(assembly.net_bars)
     made = labelled(xr.Dataset(out, coords=coords))
     made.attrs |= {f"governing {item.plan.name}": item.governing for item in runs}
     made.attrs |= {f"doubt {item.plan.name}": item.doubt for item in runs}
+    made.attrs["finer_nets"] = int(problem.gathers_twines)
     made.attrs |= {f"few {name}": said for item in runs for name, said in item.few_bars.items()}
     return made
 
@@ -125,6 +126,12 @@ def _of_checks(runs: list[NetworkRun], names: dict[str, list[str]]) -> dict[str,
                     values[row, column] = [getattr(found, key) for key in CHECKS.values()]
         if np.isfinite(values).any():
             out[f"{kind}_tension_of_check"] = (("run", kind, "check"), values)
+    held = np.full((len(runs), len(names["net"]), len(CHECKS)), math.nan)
+    for row, item in enumerate(runs):
+        for name, one in item.sensitivity.held.items() if item.sensitivity is not None else ():
+            held[row, names["net"].index(name)] = [getattr(one, key) for key in CHECKS.values()]
+    if np.isfinite(held).any():
+        out["held_pull_of_check"] = (("run", "net", "check"), held)
     return out
 
 

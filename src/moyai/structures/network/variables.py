@@ -123,7 +123,12 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "solid_part_end": ("m", "other end, in axes of the body"),
     "solid_part_diameter": ("m", "diameter of the part"),
     "held_pull": ("N", "pull of the net on its fixed and driven knots together"),
-    "net_tension": ("N", "highest tension in the net since the row before"),
+    "net_tension": ("N", "highest tension in the net since the row before, of strips as wide as between its columns"),
+    "net_strip": ("m", "width of netting whose twines a bar of a column gathers"),
+    "held_pull_of_check": (
+        "N",
+        "largest pull of the net on the row that holds it in the run and in those that check its mesh",
+    ),
     "is_snap": ("1", "whether the peak exceeds the threshold"),
     "final_position": ("m", "last state"),
     "final_velocity": ("m/s", "velocity of the last state"),

@@ -423,6 +423,7 @@ def _net(name: str, entry: parts.NetworkNet, types: Any, folder: Path) -> model.
     return model.NetPlan(
         name, corners, entry.rows, entry.columns, along, across, entry.hanging_ratio, entry.first_row,  # type: ignore[arg-type]
         entry.motion or "", entry.ballast or 0.0, entry.flow_factor, entry.z_from == "still_water",
+        (high, wide) if entry.type is None else None,
     )  # fmt: skip
 
 

@@ -53,7 +53,7 @@ def check(model: NetworkCase, findings: Findings, folder: Path) -> None:
     if getattr(model.criteria, "line_safety_factor", None) is not None and not model.structure.lines:
         findings.fault(
             ("criteria", "line_safety_factor"), "the case has no lines, and bars of nets have no breaking load",
-            remedy="give 'greatest_tension' of a bar in its place",
+            remedy="give 'greatest_net_tension' in its place",
         )  # fmt: skip
     if not findings.sound("site", "waves", "structure", "current", "settings"):
         return

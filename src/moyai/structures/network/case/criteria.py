@@ -12,6 +12,7 @@ from moyai.case.schema_criteria import (
     OFF,
     GreatestForce,
     GreatestLength,
+    GreatestNetTension,
     GreatestTension,
     LineCriteria,
     NoCriteria,
@@ -24,6 +25,9 @@ class NetworkCriteria(LineCriteria):
     """What a network has to keep."""
 
     greatest_tension: GreatestTension = Field(default=None, description="Largest tension of a line" + OFF + ".")
+    greatest_net_tension: GreatestNetTension = Field(
+        default=None, description="Largest tension of the net over its width" + OFF + "."
+    )
     greatest_offset: GreatestLength = Field(default=None, description="Largest offset from rest" + OFF + ".")
     greatest_anchor_load: GreatestForce = Field(default=None, description="Largest load on an anchor" + OFF + ".")
 

@@ -1,0 +1,61 @@
+"""A body at rest on a line of few segments: the band of a finer mesh counts as it does under a buoy."""
+
+from __future__ import annotations
+
+import pytest
+
+import moyai
+from moyai.structures.network import run as network_run
+
+CASE = """
+moyai: 1
+title: Raft on one steep chain in a current, at rest
+site: {water_depth: 40 m, density: 1025 kg/m3, gravity: 9.81 m/s2}
+current: {speed: 1.0 m/s, heading_deg: 0}
+structure:
+  kind: network
+  bed: {stiffness: 3e5 Pa/m, damping: 3e4 Pa s/m, friction: 0.5}
+  line_types:
+    chain: {catalogue: studless_chain_R3, diameter: 40 mm, damping_ratio: 0.3}
+  bodies:
+    raft:
+      shape: box
+      size: [6 m, 5 m, 1.5 m]
+      mass: 20 t
+      gyration_radii: [1.6 m, 1.9 m, 2.2 m]
+      centre_of_gravity: [0, 0, -0.2 m]
+      position: [28 m, 0, 0]
+      points: {bow: [-3 m, 0, -0.3 m]}
+      drag: [1.0, 1.0, 1.5]
+      added_mass: [0.4, 0.4, 1.2]
+  points:
+    anchor: {kind: fixed, position: [0, 0, bed]}
+  lines:
+    chain: {start: anchor, end: bow, type: chain, length: 52 m, segments: SEGMENTS}
+analyses: [statics]
+criteria: {line_safety_factor: not_judged, greatest_tension: 13 kN, greatest_anchor_load: 4 kN}
+"""
+
+
+def _numbers(segments: int):
+    result = moyai.run(CASE.replace("SEGMENTS", str(segments)))
+    return result, {item.name: item for item in result.headlines if item.shown}
+
+
+@pytest.mark.slow
+def test_a_raft_on_four_segments_carries_what_its_mesh_leaves_out() -> None:
+    coarse, own = _numbers(4)
+    _, finer = _numbers(40)
+    for name in ("line_tension", "anchor_load"):
+        band = own[name].band
+        assert band is not None and band.low <= finer[name].value <= band.high, name
+    assert own["line_tension"].value < 12.5e3 < 13.7e3 < own["line_tension"].band.high
+    assert coarse.verdict.outcome == "does not hold"
+
+
+def test_a_rest_whose_finer_mesh_is_not_found_keeps_no_limit(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(network_run, "with_finer_mesh", lambda rested, *_: rested)
+    result = moyai.run(CASE.replace("SEGMENTS", "4").replace("13 kN", "15 kN"))
+    found = {item.name: item for item in result.headlines if item.shown}
+    assert found["line_tension"].bound == found["anchor_load"].bound == "at least"
+    assert result.verdict.outcome == "not judged" and "mesh not checked" in result.verdict.message
