@@ -18,14 +18,15 @@ from numpy.typing import NDArray
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.progress import Progress
 from moyai.coupled.equilibrium import CoupledEquilibrium
+from moyai.flexible.elements import BarType
 from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import BarType, Network
+from moyai.flexible.network import Network
 from moyai.flexible.refine import refined
-from moyai.flexible.result import History, State
+from moyai.flexible.result import Equilibrium, History, State
 from moyai.flexible.sensitivity import PeakSensitivity
 from moyai.flexible.simulation import simulate
-from moyai.flexible.statics import Equilibrium, solve_equilibrium
+from moyai.flexible.statics import solve_equilibrium
 from moyai.structures.network.assembly import Assembly, assemble
 from moyai.structures.network.bodies import CoupledRun, rest_of, run_coupled
 from moyai.structures.network.equilibrium import FinerRest, around, highest_of_run, on_twice_the_bars
