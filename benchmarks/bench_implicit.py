@@ -111,7 +111,8 @@ def _growth(name: str, network: Network, start: State) -> None:
 _FIRST = """
 import time
 import numpy as np
-from moyai.flexible.network import Bars, BarType, Network, Nodes
+from moyai.flexible.elements import Bars, BarType, Nodes
+from moyai.flexible.network import Network
 from moyai.flexible.sheets import Sheets
 from moyai.flexible.simulation import simulate
 from moyai.sea.water import Water
