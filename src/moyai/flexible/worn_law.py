@@ -44,7 +44,7 @@ class WornRope:
     #: Stiffness of quick changes without tension [N], and what it grows with per mean tension [-].
     stiffness: float
     growth: float
-    #: Of the dashpot next to the slow spring [N s].
+    #: Of the dashpot parallel to the slow spring [N s].
     viscosity: float
     #: Highest mean tension so far [N]; 0 for a new rope.
     highest: float = 0.0

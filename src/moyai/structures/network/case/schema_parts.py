@@ -136,7 +136,7 @@ class WornRopeKeys(Block):
     k2: NonNegativeNumber = Field(default=1.0, description="Exponent of the exponential. Default: 1.")
     quick_stiffness: PositiveForce = Field(description="EA of quick changes without tension.")
     growth: NonNegativeNumber = Field(default=0.0, description="Quick stiffness per mean tension. Default: 0.")
-    viscosity: Viscosity = Field(description="Of the dashpot next to the slow spring: force per rate of strain.")
+    viscosity: Viscosity = Field(description="Of the dashpot parallel to the slow spring: force per rate of strain.")
     highest_mean_tension: Pull = Field(default=0.0, description="Highest mean tension so far. Default: 0, a new rope.")
 
 
