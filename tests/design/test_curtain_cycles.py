@@ -63,10 +63,12 @@ def test_a_daily_wave_beside_the_storm_takes_nothing_away(judged):
     assert judged(STORM, daily(0.4)) >= judged(daily(0.4)) * (1.0 - 1e-9)
 
 
+@pytest.mark.slow
 def test_the_impact_beside_the_storm_takes_nothing_away(judged):
     assert judged(STORM, analyses="statics, impact, waves") >= judged(STORM) * (1.0 - 1e-9)
 
 
+@pytest.mark.slow
 def test_a_higher_wave_is_no_gentler_than_the_lower_ones_of_its_train(judged):
     """At 0.45 m and 4 s snaps lock into 6.9 kN, at 0.40 m nothing repeats: 24 kN of both cables."""
     low, high = judged(daily(0.4)), judged(daily(0.45))

@@ -115,6 +115,7 @@ def test_time_domain_with_nonlinear_chains(line: np.ndarray) -> None:
     assert run.status == "converged" and np.max(harmonics.residual) < 1e-4
 
 
+@pytest.mark.slow
 def test_tension_and_offset_in_time() -> None:
     run, harmonics = model.paper_time(0.95)
     assert 1e3 * harmonics.mean[0] == pytest.approx(2.8, abs=0.06)

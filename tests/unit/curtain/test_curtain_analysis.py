@@ -576,6 +576,7 @@ def test_a_joint_is_bounded_by_its_cable_at_the_end_at_which_the_cable_is_judged
     assert float(joint["governing_load"]) == pytest.approx(12e3) and str(joint["load_bound"].values) == "at most"
 
 
+@pytest.mark.slow
 def test_a_case_with_seas_holds_only_where_snaps_in_them_are_run(tmp_path: Path) -> None:
     """The impact is one in the current: it says nothing of snaps in the seas."""
     text = SMALL.replace("analyses: [statics, impact, waves, anchor_loads, limits]", "analyses: [statics, impact]")

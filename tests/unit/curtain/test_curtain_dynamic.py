@@ -83,6 +83,7 @@ def test_dynamic_cable_keeps_its_energy_below_the_bound(seed: int) -> None:
         assert 0.85 * peak_by_energy(impact).tension < found.tension < (1.0 if start == "sag" else 2.0) * bound
 
 
+@pytest.mark.slow
 def test_peak_lies_between_the_models_and_the_bound() -> None:
     span = CurtainSpan(**{**BASE, "chord": 0.15, "edges": "held"})  # type: ignore[arg-type]
     model = Impact(0.7, 0.8, 0.15, 75.0, 75.0, 0.3, FLUME)

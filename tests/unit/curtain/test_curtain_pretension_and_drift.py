@@ -183,6 +183,7 @@ def test_floats_are_judged_where_no_statics_are_asked_for(tmp_path: Path) -> Non
         assert "reserve of the floats" in found.verdict.message
 
 
+@pytest.mark.slow
 def test_limits_without_snaps_are_at_most(tmp_path: Path) -> None:
     found = run(tmp_path, "statics, limits", current=CURRENT)
     for name in ("limit_current", "limit_wave_height"):
@@ -193,6 +194,7 @@ def test_limits_without_snaps_are_at_most(tmp_path: Path) -> None:
     assert counted.bound != "at most" and counted.value <= headline(found, "limit_current").value
 
 
+@pytest.mark.slow
 def test_limits_with_a_sheet_that_is_not_known_are_at_most(tmp_path: Path) -> None:
     """Where part of the skirt lies on the bed, its load in a snap is not known."""
     text = CASE.replace("skirt: {length: 5 m,", "may_lie_on_bed: true\n  skirt: {length: 9.5 m,")

@@ -36,6 +36,7 @@ def _run(folder: Path, segments: int, check: str) -> moyai.Result:
     return moyai.run(path)
 
 
+@pytest.mark.slow
 def test_the_event_on_short_bars_gives_the_peak_of_whole_runs_on_them(tmp_path: Path) -> None:
     """15 segments give 12 % more than 60, and the status says so with the peak of 60 segments."""
     coarse, fine = _run(tmp_path, 15, "auto"), _run(tmp_path, 60, "off")

@@ -116,6 +116,7 @@ def test_motions_of_bodies_stand_in_the_summary(tmp_path):
     assert not [item for item in result.notices if item.code == "body-turned-over"]
 
 
+@pytest.mark.slow
 def test_rest_in_a_current_is_rest_in_the_run(tmp_path):
     """With a fairlead in the air and half bars that the current drags at: nothing moves."""
     text = CASE.format(analyses="[dynamic]", more="", bars=5).replace("duration: 5 s", "duration: 4 s")

@@ -191,6 +191,7 @@ def test_two_units_on_a_chain_against_an_integrator_of_its_own() -> None:
     assert np.abs(loads[:, 0]).max() == pytest.approx(np.abs(sideways).max(), rel=0.02)
 
 
+@pytest.mark.slow
 def test_a_row_that_is_let_go_never_has_more_energy_than_at_first() -> None:
     at = at_rest(CHAIN)
     model = RowInTime(at, memory_of(12), np.zeros(12), 1.1)
