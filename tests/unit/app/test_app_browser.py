@@ -613,7 +613,7 @@ FAULTY = "Boolean(document.querySelector('.faults .error, .report.old'))"
     ids=["member", "rigid cage", "network", "curtain", "breakwater", "cage"],
 )
 def test_random_moves_end_with_the_numbers_of_a_fresh_run(text: str, moves: int, reach: float, tmp_path: Path) -> None:
-    """Over four hundred moves, most of them in a hurry; when the page rests its numbers are those of a run of its text."""
+    """Four hundred moves, most of them in a hurry; when the page rests its numbers are those of a run of its text."""
     (tmp_path / "case.yaml").write_text(text)
     chance, compared = random.Random(moves), 0
     with app_at(tmp_path / "case.yaml") as address, pipe.Chromium(str(pipe.find_chromium()), 1280, 900) as page:

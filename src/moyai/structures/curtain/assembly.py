@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -11,12 +12,13 @@ import numpy as np
 from moyai.core.errors import InputError
 from moyai.sea import current as currents
 from moyai.sea.current import CurrentProfile, PowerLawCurrent, TabulatedCurrent, UniformCurrent
+from moyai.sea.states import SeaState
 from moyai.sea.water import Water
 from moyai.structures.curtain.limits.utilisation import CurtainSite, Requirements, drowning_speed
 from moyai.structures.curtain.model import UNJUDGED, Curtain, CurtainProblem
 from moyai.structures.curtain.seas.drift import drift_speed
 from moyai.structures.curtain.statics.hanging import CurtainStatics, HangingCurtain, pull_of_lines
-from moyai.structures.curtain.statics.on_bed import lies_on_bed
+from moyai.structures.curtain.statics.on_bed import LEAST_LENGTH, lies_on_bed
 from moyai.structures.curtain.statics.steady_load import SteadyLoad, given_alone, steady_load
 
 #: Speed up to which a drowning current is sought [m/s]; no tidal stream on record is faster
@@ -69,6 +71,11 @@ class LevelCurtain:
         toe = skirt.toe_load if skirt.length < self.water.depth else 0.0
         hanging = max(skirt.submerged_weight * self.depth + toe_factor * toe, 0.0)
         return floats.weight + hanging + pull_of_lines(self.hanging, 0.0)
+
+    def drift_in(self, seas: Sequence[SeaState]) -> float:
+        """Return the current as strong as the drift of some seas on the upright skirt [m/s] [eq:curtain-wave-drift]."""
+        blocked = 0.0 if math.isinf(self.water.depth) else self.depth / self.water.depth
+        return drift_speed(seas, self.curtain.normal, self.depth, self.curtain.drag.coefficient(blocked), self.water)
 
     @property
     def normal_speed(self) -> float:
@@ -162,6 +169,7 @@ def assemble(problem: CurtainProblem, name: str, level: float) -> LevelCurtain:
             allowed=f"at most {water.depth:g} m",
             remedy="shorten the skirt, or set 'may_lie_on_bed: true' in 'structure'",
         )
+    on_bed = curtain.may_lie_on_bed and curtain.skirt.length > LEAST_LENGTH * water.depth
     anchors = curtain.anchors
     hanging = HangingCurtain(
         span=curtain.span,
@@ -181,23 +189,21 @@ def assemble(problem: CurtainProblem, name: str, level: float) -> LevelCurtain:
     depth = min(curtain.skirt.length, water.depth)
     reference = _reference_speed(profile, depth)
     heading = _heading(profile, depth, curtain.normal)
-    coefficient = curtain.drag.coefficient(0.0 if math.isinf(water.depth) else depth / water.depth)
-    drift = drift_speed(problem.environment.sea_states, curtain.normal, depth, coefficient, water)
 
     def family(speed: float) -> CurrentProfile:
         return scaled_current(profile, speed / reference)
 
-    return LevelCurtain(
+    unit = LevelCurtain(
         name=name,
         level=level,
         water=water,
         curtain=curtain,
         hanging=hanging,
-        site=CurtainSite(water, family, heading, curtain.normal, curtain.passing_fraction, on_bed=long),
+        site=CurtainSite(water, family, heading, curtain.normal, curtain.passing_fraction, on_bed=on_bed),
         surface_speed=0.0 if given is None else reference,
         nominal=problem.settings.nominal,
-        drift_speed=drift,
     )
+    return replace(unit, drift_speed=unit.drift_in(problem.environment.sea_states))
 
 
 def scaled_current(profile: CurrentProfile, factor: float) -> CurrentProfile:

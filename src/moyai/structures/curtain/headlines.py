@@ -94,6 +94,10 @@ class _Load:
         """The load."""
         return self.number("governing_load")
 
+    def use_of(self, load: float) -> float:
+        """Utilisation by another load of the component [N, N/m]; NaN without a strength."""
+        return self.number("safety_factor") * load / self.number("capacity")
+
     @property
     def used(self) -> float:
         """Load over strength; NaN without a strength."""
@@ -185,7 +189,7 @@ def _loads_of(groups: Groups, level: str) -> Iterator[_Load]:
             load = replace(load, other={
                 "governing": load.words("case_governing"), "governing_load": load.number("case_load"),
                 "governing_high": load.number("case_high"), "load_bound": load.words("case_bound"),
-                "utilisation": load.number("utilisation") * load.number("case_load") / load.value,
+                "utilisation": load.use_of(load.number("case_load")),
             })  # fmt: skip
         if math.isfinite(load.value):
             yield replace(load, band=_band(groups, load))
@@ -206,7 +210,7 @@ def _other_waves(load: _Load) -> Iterator[_Load]:
         yield replace(load, other={
             "governing": "steady and wave", "wave_load": adds, "wave_source": load.words(f"{name}_source"),
             "governing_load": whole, "governing_high": whole + (more if math.isfinite(more) else 0.0), "load_bound": "",
-            "utilisation": load.number("utilisation") * whole / load.value,
+            "utilisation": load.use_of(whole),
         })  # fmt: skip
 
 
@@ -216,8 +220,9 @@ def _in_weaker(load: _Load, which: str = "weaker") -> Iterator[_Load]:
     if math.isfinite(value):
         yield replace(load, other={
             "governing": "steady and weaker", "governing_load": value, "governing_high": load.number(f"{which}_high"),
-            "weaker_source": load.words(f"{which}_source"), "load_bound": "",
-            "utilisation": load.number("utilisation") * value / load.value,
+            "weaker_source": load.words(f"{which}_source"),
+            # what is known in weaker currents stands next to a bound as a value
+            "load_bound": load.words("load_bound") if which == "governing" else "", "utilisation": load.use_of(value),
         })  # fmt: skip
 
 
@@ -239,8 +244,7 @@ def _other_runs(groups: Groups, load: _Load) -> Iterator[_Load]:
             continue
         yield replace(load, other={
             "governing": "dynamic", "governing_load": tension, "governing_high": tension, "dynamic_load": tension,
-            "dynamic_source": run, "load_bound": bound,
-            "utilisation": load.number("utilisation") * tension / load.value,
+            "dynamic_source": run, "load_bound": bound, "utilisation": load.use_of(tension),
         })  # fmt: skip
 
 

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Literal
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.options import checks_words
 from moyai.structures.curtain.assembly import LevelCurtain
-from moyai.structures.curtain.model import Analysis, CurtainSettings
+from moyai.structures.curtain.model import Analysis, Curtain, CurtainSettings
 from moyai.structures.curtain.variables import labelled
 
 if TYPE_CHECKING:
@@ -114,7 +114,7 @@ def _upright(unit: LevelCurtain, surface: float) -> tuple[Role, str, float]:
     share = straight_share(unit, surface)
     need = f"plates need {100.0 * STRAIGHT:.0f} %"
     left = f"the current leaves {100.0 * share:.0f} % of the skirt's length as depth ({need})"
-    if curtain.toe == "free" or curtain.lower_stiffness <= 0.0:
+    if not held_at_both(curtain):
         return (
             "bound",
             "the toe is free: nothing stops the lower half of the plate, which hangs all of its water on the upper "
@@ -124,6 +124,11 @@ def _upright(unit: LevelCurtain, surface: float) -> tuple[Role, str, float]:
     if share < STRAIGHT:
         return "bound", f"held at both edges, but {left}: an upright plate stops too much water", share
     return "governs", f"held at both edges, and {left}", share
+
+
+def held_at_both(curtain: Curtain) -> bool:
+    """Whether the skirt is held at both edges."""
+    return curtain.toe != "free" and curtain.lower_stiffness > 0.0
 
 
 def straight_share(unit: LevelCurtain, surface: float) -> float:
@@ -142,8 +147,7 @@ def straight_share(unit: LevelCurtain, surface: float) -> float:
 
 def upright_in(unit: LevelCurtain, own: float) -> float:
     """Return the largest surface speed up to a given one in which an upright plate governs [m/s]; 0 for none."""
-    curtain = unit.curtain
-    if curtain.toe == "free" or curtain.lower_stiffness <= 0.0 or own <= 0.0:
+    if not held_at_both(unit.curtain) or own <= 0.0:
         return 0.0
     if straight_share(unit, own) >= STRAIGHT:
         return own
@@ -196,6 +200,7 @@ __all__ = [
     "STRAIGHT",
     "ModelRole",
     "Role",
+    "held_at_both",
     "hierarchy",
     "hierarchy_dataset",
     "role_of",

@@ -64,7 +64,7 @@ def limit_headlines(groups: Groups, levels: Sequence[str], span_holds: Callable[
             continue
         limit, level, table = min(found, key=partial(_held, groups, key, span_holds))
         if key == "design_limit" and table.attrs.get("with_drift", 0):
-            where = "significant, in currents up to the drift of the waves of the case"
+            where = "significant, in currents up to the drift of such waves"
         governing = str(table.attrs.get(f"{key}_governing", ""))
         said = str(table.attrs.get("speed_limit_text" if key == "speed_limit" else "design_limit_note", ""))
         bound = str(table.attrs.get(f"{key}_bound", ""))

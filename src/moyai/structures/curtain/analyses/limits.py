@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
@@ -17,10 +17,10 @@ from moyai.core.headline import Bound
 from moyai.core.progress import Progress
 from moyai.sea.breaking import breaking_limit
 from moyai.structures.curtain.analyses.impact import ImpactAnswer
-from moyai.structures.curtain.analyses.weaker_currents import currents_of_waves
+from moyai.structures.curtain.analyses.weaker_currents import currents_of_waves, step_of_waves
 from moyai.structures.curtain.assembly import LevelCurtain
-from moyai.structures.curtain.hierarchy import CYCLES, IMPACT, STRAIGHT, Role, hierarchy, role_of
-from moyai.structures.curtain.limits.loads import fastest_water, impact_load, sea_loads
+from moyai.structures.curtain.hierarchy import CYCLES, IMPACT, STRAIGHT, Role, held_at_both, hierarchy, role_of
+from moyai.structures.curtain.limits.loads import drift_of_height, fastest_water, impact_load, sea_loads
 from moyai.structures.curtain.limits.search import Limit
 from moyai.structures.curtain.limits.utilisation import AddedLoads, height_limit, speed_limit, utilisation
 from moyai.structures.curtain.model import UNJUDGED, CurtainSettings
@@ -134,14 +134,13 @@ def _design_ends(strict: CountedLimits, speeds: tuple[float, ...]) -> dict[str, 
     import xarray as xr
 
     own, low, lower = strict.unit.surface_speed, math.nan, math.nan
-    drifts = _drifts(strict.unit, strict.settings)
-    if own > 0.0 or drifts:
+    if own > 0.0 or _drifts(strict):
         within = {speed for speed in speeds if speed < own * (1.0 - 1e-9)} | ({own} if own > 0.0 else set())
 
         def least(loads: SeaLoads) -> float:
-            counted, drifting = (replace(strict, loads=one) for one in (loads, replace(loads, impact=None)))
-            found = [counted.height(speed) for speed in within] + [drifting.height(speed) for speed in drifts]
-            return min(limit.value for limit, _ in found)
+            counted = replace(strict, loads=loads)
+            rows = [counted.height(speed) for speed in within]
+            return min(limit.value for limit, _ in (*rows, *_in_drift(counted, rows)))
 
         severe = _severe(strict.unit, strict.loads)
         low = least(severe)
@@ -318,6 +317,7 @@ def _limits_group(
         "drowning_speed": ((), unit.drowning_speed),
     }
     attributes = _design_height(unit, counted, found, alone, data)
+    held = float(np.nan_to_num(data["design_limit_height"][1]))
     return labelled(
         xr.Dataset(
             data,
@@ -340,7 +340,7 @@ def _limits_group(
                 "limit_jump": _jump(unit, counted, found),
                 "least_effective_depth": unit.requirements.least_depth,
                 "wave_angle": limits.wave_angle,
-                "with_drift": int(bool(_drifts(unit, settings))),
+                "with_drift": int(_drifts(counted) and drift_of_height(unit, settings, held) > unit.surface_speed),
                 "with_impact": int(loads.impact is not None),
                 "with_snaps": int(loads.snaps is not None),
                 "sea_duration": counted.duration,
@@ -356,15 +356,14 @@ def _design_height(
 ) -> dict[str, str]:
     """Add the height held in currents up to that of the case, and return what sets it and whether it is a bound."""
     own = unit.surface_speed
-    if own <= 0.0 and not _drifts(unit, counted.settings):
+    if own <= 0.0 and not _drifts(counted):
         data["design_limit_height"] = ((), math.nan)
         return {"design_limit_governing": "", "design_limit_bound": "", "design_limit_note": ""}
     rows = [row for speed, row in zip(found.speeds, found.rows) if speed <= own * (1.0 + 1e-9)]
     if own > 0.0 and not any(abs(speed - own) <= 1e-9 * own for speed in found.speeds):
         rows.append(counted.height(own))
+    rows += _in_drift(counted, rows)
     # where several are alike, the one nearest to the current of the case
-    drifting = replace(counted, loads=replace(counted.loads, impact=None))
-    rows += [drifting.height(speed) for speed in _drifts(unit, counted.settings)]
     limit, bound = min(reversed(rows), key=lambda row: row[0].value)
     if not bound and limit.value > 0.0 and any(other for _, other in rows):
         # in another current the height is not known: it may be less
@@ -447,11 +446,47 @@ def _jump(unit: LevelCurtain, counted: CountedLimits, found: _FoundLimits) -> st
     return ""
 
 
-def _drifts(unit: LevelCurtain, settings: CurtainSettings) -> tuple[float, ...]:
-    """Return the currents as strong as the drift of the waves, where they are stronger than that of the case [m/s]."""
-    if "waves" not in settings.analyses:
-        return ()
-    return tuple(speed for speed in currents_of_waves(unit) if speed > unit.surface_speed)
+def _drifts(counted: CountedLimits) -> bool:
+    """Whether snaps are sought in the drift of the waves."""
+    unit = counted.unit
+    return counted.loads.snaps is not None and not unit.nominal and held_at_both(unit.curtain)
+
+
+def _in_drift(counted: CountedLimits, rows: Sequence[tuple[Limit, Bound]]) -> list[tuple[Limit, Bound]]:
+    """Return what the drift of the waves makes of a height: seas up to it are run in currents up to their own drift.
+
+    Parameters
+    ----------
+    counted : CountedLimits
+    rows : sequence
+        Limits in currents up to that of the case; no sea above the lowest of them is asked for.
+    """
+    from scipy.optimize import brentq
+
+    unit, highest = counted.unit, counted.settings.limits.highest_height
+    least = min((limit.value for limit, _ in rows), default=highest)
+    if not (_drifts(counted) and least > 0.0):
+        return []
+    # an impact is one of the current, not of the drift
+    drifting = replace(counted, loads=replace(counted.loads, impact=None))
+
+    def drift(height: float) -> float:
+        return drift_of_height(unit, counted.settings, height)
+
+    def over(height: float, speeds: tuple[float, float], limits: tuple[float, float]) -> float:
+        return height - float(np.interp(drift(height), speeds, limits))
+
+    found: list[tuple[Limit, Bound]] = []
+    step, speed, held = step_of_waves(unit), unit.surface_speed, least
+    while (fastest := drift(least)) > speed * (1.0 + 1e-6):
+        last, speed = speed, min((math.floor(speed / step + 1e-9) + 1.0) * step, fastest)
+        limit, bound = drifting.height(speed)
+        before, held = held if last > 0.0 else limit.value, limit.value
+        if held < least:
+            # the sea whose limit is its own height, the limit straight between two currents
+            least = float(brentq(over, 0.0, least, args=((last, speed), (before, held)), xtol=1e-4))
+            found.append((replace(limit, value=least), bound))
+    return found
 
 
 def _speeds(unit: LevelCurtain, settings: CurtainSettings, limit: Limit) -> tuple[float, ...]:

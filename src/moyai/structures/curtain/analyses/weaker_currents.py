@@ -18,7 +18,7 @@ from moyai.sea.states import SeaState
 from moyai.structures.curtain.analyses.impact import ImpactAnswer
 from moyai.structures.curtain.analyses.waves import sea_cycles, still_flows, strong_tension
 from moyai.structures.curtain.assembly import LevelCurtain
-from moyai.structures.curtain.hierarchy import STRAIGHT, straight_share, upright_in
+from moyai.structures.curtain.hierarchy import STRAIGHT, held_at_both, straight_share, upright_in
 from moyai.structures.curtain.limits.loads import impact_load
 from moyai.structures.curtain.limits.utilisation import AddedLoads
 from moyai.structures.curtain.model import CurtainSettings
@@ -65,15 +65,22 @@ def currents_of_waves(unit: LevelCurtain) -> tuple[float, ...]:
     """Return the weaker currents in which the waves are run [m/s], slack water the first.
 
     Those up to the one that is as strong as the drift of the waves are among them, also where the case has a weaker
-    one, or none.
+    one, or none; of a skirt that hangs straight in no current, the drift alone, in which the plate is a bound.
     """
     own, drift = unit.surface_speed, unit.drift_speed
-    top = 0.0 if unit.nominal else upright_in(unit, max(own, drift))
-    if not top > 0.0:
+    if unit.nominal or not held_at_both(unit.curtain):
         return ()
-    step = _STEP_OF_WAVES * math.sqrt(unit.water.gravity * unit.depth)
+    top = upright_in(unit, max(own, drift))
+    if not top > 0.0:
+        return (drift,) if drift > own else ()
+    step = step_of_waves(unit)
     speeds = {number * step for number in range(int(top / step) + 1)} | ({drift} if drift > own else set())
     return tuple(sorted(speed for speed in speeds if abs(speed - own) > 1e-6 * top))
+
+
+def step_of_waves(unit: LevelCurtain) -> float:
+    """Return the step of the currents in which waves are run [m/s]."""
+    return _STEP_OF_WAVES * math.sqrt(unit.water.gravity * unit.depth)
 
 
 def _said(speed: float, own: float) -> str:
@@ -163,4 +170,4 @@ def weaker_cycles(
             yield WeakerLoads(there, source, ends[0], ends[1], ends[2], load.skirt is not None, upright)
 
 
-__all__ = ["WeakerLoads", "currents_of_waves", "weaker_cycles", "weaker_impacts", "weaker_waves"]
+__all__ = ["WeakerLoads", "currents_of_waves", "step_of_waves", "weaker_cycles", "weaker_impacts", "weaker_waves"]

@@ -17,7 +17,7 @@ from moyai.flexible.network import Network
 from moyai.flexible.result import State
 from moyai.flexible.sheets import Sheets, sheet_grid
 from moyai.sea.water import Water
-from moyai.structures.curtain.dynamic.model import CurtainNetwork, CurtainSpan, Mesh
+from moyai.structures.curtain.dynamic.model import ANCHOR_LINE, AT_TOE, CurtainNetwork, CurtainSpan, Mesh
 from moyai.structures.curtain.dynamic.section import SectionMesh, section_mesh
 from moyai.structures.curtain.impact.kernels import taut_shape
 
@@ -251,23 +251,28 @@ def _bars(
     if support is not None:
         first = sum(part.size for part in start)
         half = 0.5 * support.stiffness
+        edges = (0, -1) if span.edges != "free" and span.lower_stiffness > 0.0 else (0,)
         # a straight line without mass: its own waves are left out, its mass stands with the buoy
         mass = 1e-3 * support.mass / support.line_length
         viscosity = MESH_DAMPING * math.sqrt(half / support.line_length * support.mass) * support.line_length
-        types.append(BarType("anchor line", mass, half, 0.0, volume_per_length=0.0, viscosity=viscosity))
-        tops = grid[[0, 0, -1, -1], 0]
-        anchors = grid.size + np.arange(4)
-        start.append(tops)
+        parts = len(edges)
+        types.append(
+            BarType("anchor line", mass / parts, half / parts, 0.0, volume_per_length=0.0, viscosity=viscosity / parts)
+        )
+        # a line that holds both edges is led to both, so that the lower cable stays under the upper one
+        tied = np.concatenate([grid[[0, 0, -1, -1], edge] for edge in edges])
+        anchors = np.tile(grid.size + np.arange(4), parts)
+        start.append(tied)
         end.append(anchors)
-        ways = np.linalg.norm(place[anchors] - place[tops], axis=1)
+        ways = np.linalg.norm(place[anchors] - place[tied], axis=1)
         length.append(ways / (1.0 + support.pretension / support.stiffness))
-        which.append(np.full(4, len(types) - 1, dtype=np.int64))
+        which.append(np.full(tied.size, len(types) - 1, dtype=np.int64))
         names = ("first support, upstream", "first support, downstream", "last support, upstream",
                  "last support, downstream")  # fmt: skip
-        for number, name in enumerate(names):
-            strands.append(
-                Strand(f"anchor line, {name}", np.array([tops[number], anchors[number]]), np.array([first + number]))
-            )
+        for number, name in enumerate(names * parts):
+            line = ANCHOR_LINE if number < len(names) else AT_TOE
+            ends = np.array([tied[number], anchors[number]])
+            strands.append(Strand(f"{line}, {name}", ends, np.array([first + number])))
     bars = Bars(
         np.concatenate(start), np.concatenate(end), np.concatenate(length), np.concatenate(which), tuple(types)
     )  # fmt: skip

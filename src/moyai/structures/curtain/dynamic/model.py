@@ -22,6 +22,10 @@ from moyai.structures.curtain.dynamic.section import SectionMesh
 _TIGHT = 1e-9
 
 
+#: How the names of anchor lines begin, and of what leads them to the toe of a skirt that is held at both edges.
+ANCHOR_LINE, AT_TOE = "anchor line", "at the toe"
+
+
 @dataclass(frozen=True)
 class AnchoredSupport:
     """What holds both ends of the span when they are buoys: an anchor line upstream and one downstream of each.
@@ -189,14 +193,15 @@ class CurtainNetwork:
     section: SectionMesh
 
     def bars(self, name: str) -> IntArray:
-        """Return the bars of a strand; none where there is no such strand."""
-        found = [strand.bars for strand in self.network.strands if strand.name == name]
-        return found[0] if found else np.zeros(0, dtype=np.int64)
+        """Return the bars of a strand, of an anchor line those at both edges; none where there is no such strand."""
+        names = (name, name.replace(ANCHOR_LINE, AT_TOE)) if name.startswith(ANCHOR_LINE) else (name,)
+        found = [strand.bars for strand in self.network.strands if strand.name in names]
+        return np.concatenate(found) if found else np.zeros(0, dtype=np.int64)
 
     @property
     def lines(self) -> tuple[str, ...]:
         """Names of the anchor lines."""
-        return tuple(s.name for s in self.network.strands if s.name.startswith("anchor line"))
+        return tuple(s.name for s in self.network.strands if s.name.startswith(ANCHOR_LINE))
 
 
 __all__ = ["AnchoredSupport", "CurtainNetwork", "CurtainSpan", "Mesh"]

@@ -19,7 +19,7 @@ from moyai.flexible.simulation import simulate
 from moyai.sea.water import Water
 from moyai.series.snaps import SnapRecord, find_snaps
 from moyai.structures.curtain.dynamic.assembly import build_span
-from moyai.structures.curtain.dynamic.model import CurtainNetwork, CurtainSpan, Mesh
+from moyai.structures.curtain.dynamic.model import ANCHOR_LINE, CurtainNetwork, CurtainSpan, Mesh
 
 #: Rows of a result, at most.
 MOST_ROWS = 20000
@@ -98,8 +98,9 @@ class DynamicRun:
         bars = self.built.bars(name)
         if bars.size == 0:
             return np.zeros(self.history.time.size)
-        factor = 2.0 if name.startswith("anchor line") else 1.0
-        return np.asarray(factor * self.history.tension_peak[:, bars].max(axis=1))
+        if name.startswith(ANCHOR_LINE):
+            return np.asarray(2.0 * self.history.tension_peak[:, bars].sum(axis=1))
+        return np.asarray(self.history.tension_peak[:, bars].max(axis=1))
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -133,10 +134,11 @@ class DynamicRun:
     def snaps(self, name: str, slack_level: float | None, threshold: float | None) -> SnapRecord:
         """Return slack times and snaps of a cable or line at its support."""
         bars = self.built.bars(name)
-        factor = 2.0 if name.startswith("anchor line") else 1.0
+        # of a cable that at its support, of an anchor line both edges and both spans
+        factor, bars = (2.0, bars) if name.startswith(ANCHOR_LINE) else (1.0, bars[:1])
         rows = self.counted
-        pull = factor * self.history.tension[rows][:, bars[0]]
-        peaks = factor * self.history.tension_peak[rows][:, bars[0]]
+        pull = factor * self.history.tension[rows][:, bars].sum(axis=1)
+        peaks = factor * self.history.tension_peak[rows][:, bars].sum(axis=1)
         level = _SLACK_SHARE * float(peaks.max()) if slack_level is None else slack_level
         taut = pull[pull > level]
         limit = _SNAP_FACTOR * float(taut.mean()) if threshold is None and taut.size else threshold or level

@@ -61,7 +61,7 @@ def impact_load(unit: LevelCurtain, answer: ImpactAnswer, settings: CurtainSetti
 def _straight_skirt(unit: LevelCurtain) -> BulgedSkirt | None:
     """Return the skirt of a curtain that is held at both edges and hangs straight without a current, else ``None``."""
     skirt = unit.curtain.skirt
-    hangs = unit.curtain.toe == "held" and unit.surface_speed == 0.0 and not unit.site.on_bed
+    hangs = unit.curtain.toe == "held" and unit.surface_speed == 0.0
     if not hangs or math.isinf(skirt.stiffness) or skirt.length > unit.water.depth:
         return None
     return BulgedSkirt(skirt.length, skirt.length * _STRAIGHT, skirt.stiffness)
@@ -196,13 +196,9 @@ def _snaps(unit: LevelCurtain, settings: CurtainSettings, answer: ImpactAnswer, 
     @cache
     def seas(height: float) -> tuple[tuple[IrregularSea, SkirtFlow], ...]:
         """Return the realisations of a height and the waves that the skirt feels in them, whatever the current."""
-        acting = float(effective_height(height, limits.wave_angle, rule, 1.0))
-        period = goda_peak_period(limits.period_of(height), _PEAK_ENHANCEMENT)
-        spectrum = jonswap(acting, period, _PEAK_ENHANCEMENT)
-        drawn = [
-            IrregularSea("sea", spectrum, unit.curtain.normal, duration=min(duration, _PERIODS * period), seed=seed)
-            for seed in range(1, 1 + max(given.realisations, 2))
-        ]
+        sea = _sea_of_height(unit, settings, height)
+        lasting = min(duration, sea.duration)
+        drawn = [replace(sea, duration=lasting, seed=seed) for seed in range(1, 1 + max(given.realisations, 2))]
         return tuple((sea, still_flow(unit, given, sea)) for sea in drawn)
 
     def realise(speed: float, height: float) -> Array:
@@ -220,6 +216,20 @@ def _snaps(unit: LevelCurtain, settings: CurtainSettings, answer: ImpactAnswer, 
         return tops + float(tops.std(ddof=1)) * math.sqrt(6.0) / math.pi * longer
 
     return SnapTable(realise, stands, limits.highest_height)
+
+
+def _sea_of_height(unit: LevelCurtain, settings: CurtainSettings, height: float) -> IrregularSea:
+    """Return the JONSWAP sea of a significant height [m] as it acts along the normal, with the period of the limits."""
+    limits = settings.limits
+    acting = float(effective_height(height, limits.wave_angle, settings.direction[0], 1.0))
+    period = goda_peak_period(limits.period_of(height), _PEAK_ENHANCEMENT)
+    spectrum = jonswap(acting, period, _PEAK_ENHANCEMENT)
+    return IrregularSea("sea", spectrum, unit.curtain.normal, duration=_PERIODS * period, seed=1)
+
+
+def drift_of_height(unit: LevelCurtain, settings: CurtainSettings, height: float) -> float:
+    """Return the current as strong as the drift of the sea of a significant height [m] [eq:curtain-wave-drift]."""
+    return unit.drift_in([_sea_of_height(unit, settings, height)]) if height > 0.0 else 0.0
 
 
 def _pretension(unit: LevelCurtain, settings: CurtainSettings) -> float | None:

@@ -19,10 +19,13 @@ from moyai.structures.curtain.statics.hanging import CurtainStatics, HangingCurt
 from moyai.structures.curtain.statics.plan import PlanLoad, section_load, solve_plan
 from moyai.structures.curtain.statics.section import SectionShape, SectionStart, Skirt, solve_section
 
+#: A skirt shorter than this part of the water depth is not looked at: no sheet stretches by so much.
+LEAST_LENGTH = 0.95
+
 
 def lies_on_bed(curtain: HangingCurtain, current: CurrentProfile, flow_heading: float, water: Water) -> bool:
-    """Return whether the toe of a long skirt rests on the bed in a current."""
-    if curtain.skirt.length <= water.depth * (1.0 + 1e-12):
+    """Return whether the toe of a skirt that is as long as the water is deep, or stretches to it, rests on the bed."""
+    if curtain.skirt.length <= LEAST_LENGTH * water.depth:
         return False
     free = solve_section(
         curtain.skirt, current, flow_heading, water, curtain.drag, law=curtain.law, toe=curtain.toe, below_bed=True

@@ -29,6 +29,8 @@ LAW_CODES: dict[LoadLaw, float] = {"normal_velocity": 0.0, "uniform_normal": 1.0
 """Of the laws in the kernel."""
 
 _SAMPLES = 4001
+#: Stretch below the bed over the depth of the water, of a skirt that is cut to that depth and stands on it [-].
+_TOUCHES = 1e-3
 
 
 @dataclass(frozen=True)
@@ -453,7 +455,7 @@ def solve_section(
             parameter="skirt",
             remedy="check the load ratio qL/W",
         )
-    if path[0, 1] < -water.depth and not below_bed:
+    if path[0, 1] < -(1.0 + _TOUCHES) * water.depth and not below_bed:
         raise InputError(
             f"the skirt stretches {-path[0, 1] - water.depth:.3g} m deeper than the water of {water.depth:g} m",
             parameter="skirt.stiffness",
