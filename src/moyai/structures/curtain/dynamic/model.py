@@ -30,7 +30,8 @@ ANCHOR_LINE, AT_TOE = "anchor line", "at the toe"
 class AnchoredSupport:
     """What holds both ends of the span when they are buoys: an anchor line upstream and one downstream of each.
 
-    The neighbours of the span are alike, so that each buoy and its lines belong to two spans by halves.
+    The neighbours of the span are alike, so that each buoy and its lines belong to two spans by halves. Lines of a span
+    with a lower cable that is held are led to both edges, half of their stiffness to each.
     """
 
     #: Of one straight line [m].
