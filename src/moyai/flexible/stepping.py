@@ -284,8 +284,8 @@ class SteppedNetwork:
         self._fresh = True
         if count == 0:
             return
-        for row, (places, pulls, peaks, energy) in enumerate(zip(*rows, strict=True)):
-            self._history.append((np.array(begin + (row + 1) * interval), places, pulls, peaks, pulls, energy))
+        places, pulls, peaks, energy = rows
+        self._history.append((begin + interval * np.arange(1.0, count + 1.0), places, pulls, peaks, pulls, energy))
         self._peak, self._trough = np.full_like(self._peak, -np.inf), np.full_like(self._trough, np.inf)
         self._now[:, self._rows] = now
         self._next = self._now.copy()
@@ -361,10 +361,9 @@ class SteppedNetwork:
 
     def keep_row(self) -> None:
         """Add the accepted state to the record."""
-        places, pulls, _, energy, _, _ = self._row
-        self._history.append(
-            (np.array(self.run.time), places[0].copy(), pulls[0].copy(), self._peak, self._trough, energy[0].copy())
-        )
+        places, pulls, _, energy = (np.array(part) for part in self._row[:4])
+        extremes = self._peak[None], self._trough[None]
+        self._history.append((np.array([self.run.time]), places, pulls, *extremes, energy))
         self._peak, self._trough = np.full_like(self._peak, -np.inf), np.full_like(self._trough, np.inf)
 
     def notices(self, record: StepRecord, check: IdentityCheck, finished: bool) -> tuple[Notice, ...]:
@@ -374,7 +373,7 @@ class SteppedNetwork:
 
     def record(self) -> StepRecord:
         """Return what the network did at the kept rows."""
-        time, position, pull, peak, trough, energy = (np.array(column) for column in zip(*self._history, strict=True))
+        time, position, pull, peak, trough, energy = map(np.concatenate, zip(*self._history, strict=True))
         return StepRecord(
             time, self.keep_nodes, self.keep_bars, position, pull, peak, trough,
             energy[:, 0], energy[:, 1], energy[:, 2],

@@ -39,7 +39,8 @@ def search(monkeypatch, realisations, in_motion, floor=0.0):
                         around=SimpleNamespace(begin=0.0))
         for peaks in realisations
     ]  # fmt: skip
-    given = SimpleNamespace(peak_period=5.0, model=SimpleNamespace(unit=SimpleNamespace(name="SWL")))
+    model = SimpleNamespace(unit=SimpleNamespace(name="SWL"))
+    given = SimpleNamespace(peak_period=5.0, model=model, moving=model)
     return events_in_motion(given, members, 0, floor), called
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +22,7 @@ from moyai.floating.time import CumminsModel, Simulation
 from moyai.structures.breakwater.assembly import FloatingUnit
 from moyai.structures.breakwater.frequency.model import FrequencyModel
 from moyai.structures.breakwater.lines.motion import BodyStart, run_on_lines
+from moyai.structures.breakwater.lines.network import LineNetwork, line_network
 from moyai.structures.breakwater.model import MooringLine
 from moyai.structures.breakwater.responses import SNAP_RATIO
 from moyai.structures.breakwater.settings import TimeSettings
@@ -81,6 +83,16 @@ class EventSettings:
     #: Natural period of sway [s]; 0 where it is not known.
     slow_period: float
 
+    @cached_property
+    def moving(self) -> FrequencyModel:
+        """The model with every line in motion of which enough is known."""
+        return with_lines_in_motion(self.model)
+
+    @cached_property
+    def network(self) -> LineNetwork | None:
+        """Its lines at rest."""
+        return line_network(self.moving.unit, self.settings.lines)
+
     @property
     def lead(self) -> float:
         """Time from the start of a window to its event [s]."""
@@ -114,7 +126,7 @@ def run_event(
         Its time in the realisation [s].
     progress : Progress
     """
-    model = with_lines_in_motion(given.model)
+    model = given.moving
     row = int(np.searchsorted(whole.time, event - given.lead))
     # An event soon after the ramp of the sea is run from the beginning, ramp included
     row = row if whole.time[row] >= sea.ramp else 0
@@ -133,7 +145,7 @@ def run_event(
         model, given.cummins, moved, given.expected, given.settings.lines,
         static_lines=compiled_lines(unit, reach, at_rest_only=True), waves=waves, current=sea.current, ramp=ramp,
         duration=duration, time_step=given.settings.time_step, begin=begin, period=given.peak_period, progress=progress,
-        start=_motion_at(given.cummins, whole, row),
+        start=_motion_at(given.cummins, whole, row), lines=given.network,
     )  # fmt: skip
     attributes = {
         "kind": "irregular", "ramp": ramp, "analysis_start": begin, "starts_at": start, "event": event,
@@ -155,9 +167,8 @@ def _motion_at(cummins: CumminsModel, whole: Simulation, row: int) -> BodyStart 
     return BodyStart(whole.position[row], whole.velocity[row], states)
 
 
-def event_numbers(model: FrequencyModel, run: TimeRun) -> dict[str, Array]:
-    """Return what counts of an event: largest tensions of the lines, and what lines in motion add."""
-    unit = with_lines_in_motion(model).unit
+def event_numbers(unit: FloatingUnit, run: TimeRun) -> dict[str, Array]:
+    """Return what counts of an event of a unit on lines in motion: their largest tensions, and what they add."""
     begin = float(run.attributes["analysis_start"])
     window = run.simulation.time >= begin
     assert run.lines is not None

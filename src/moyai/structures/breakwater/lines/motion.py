@@ -178,6 +178,7 @@ def run_on_lines(
     period: float,
     progress: Progress = silent,
     start: BodyStart | None = None,
+    lines: LineNetwork | None = None,
 ) -> tuple[Simulation, LinesInMotion]:
     """Simulate the unit on lines in motion.
 
@@ -204,9 +205,11 @@ def run_on_lines(
     progress : Progress
     start : BodyStart or None
         Motion to start from, the lines at rest in its place; all at rest when left out.
+    lines : LineNetwork, optional
+        What :func:`moyai.structures.breakwater.lines.network.line_network` gives; built when left out.
     """
     unit = model.unit
-    lines = line_network(unit, dynamics)
+    lines = line_network(unit, dynamics) if lines is None else lines
     assert lines is not None
     body = replace(cummins, mooring=static_lines, quadratic=without_line_drag(model, cummins))
     step = time_step

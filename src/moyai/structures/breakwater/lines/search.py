@@ -175,7 +175,7 @@ def _rerun(given: EventSettings, search: _RerunSearch, line: int, progress: Prog
         raise KeyboardInterrupt
     if run.simulation.status != "converged":
         raise ConvergenceError(f"lines in motion: {run.simulation.message}")
-    numbers = event_numbers(given.model, run)
+    numbers = event_numbers(given.moving.unit, run)
     search.runs.append(run)
     search.numbers.append(numbers)
     search.tensions.append(float(numbers["line_tension_maximum"][line]))
