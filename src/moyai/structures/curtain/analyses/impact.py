@@ -149,7 +149,9 @@ def bulging_skirt(unit: LevelCurtain, settings: ImpactSettings) -> BulgingSkirt 
         return None
     if settings.chord is not None:
         return BulgingSkirt(skirt.length, settings.chord, skirt.stiffness)
-    if unit.curtain.toe != "held" or unit.surface_speed == 0.0 or unit.rests_on_bed:
+    if unit.curtain.toe != "held" or unit.surface_speed == 0.0:
+        return None
+    if skirt.length > unit.water.depth or unit.rests_on_bed:
         return None
     section = unit.statics.section
     try:
