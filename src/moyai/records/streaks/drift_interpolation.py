@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Literal
+import math
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.arrays import Array
+from moyai.core.compiled import njit
 
 Interpolation = Literal["spline", "triangles"]
 
@@ -55,17 +57,58 @@ def robust_deviation(points: Array, vectors: Array, deviation: Array, length: fl
     points, vectors, deviation, length
         As in :func:`trend`.
     """
-    robust, basis = deviation, _trend_basis(points, length)
+    columns, values = np.ascontiguousarray(_trend_basis(points, length).T), vectors.T.ravel()
+    robust = deviation = np.asarray(deviation, dtype=np.float64)
     for _ in range(7):
-        fitted = (basis @ _fitted(basis, vectors, robust)).reshape(2, -1).T
-        misfit = (vectors - fitted) / deviation[:, None]
-        size = np.hypot(misfit[:, 0], misfit[:, 1])
+        size = _misfit(columns, values, deviation, robust)
         median = float(np.median(size))
         if median == 0.0:
             break
         # 1.18 medians of a plane error are one standard deviation
         robust = deviation * np.sqrt(np.maximum(1.0, size / (1.5 * 0.85 * median)))
     return robust
+
+
+@njit(cache=True, error_model="numpy")
+def _misfit(columns: Any, values: Any, deviation: Any, robust: Any) -> Any:
+    """Return how far the vectors lie off their fit by columns weighted by ``robust``, over their standard errors."""
+    count, parts = deviation.size, columns.shape[0]
+    left, axes, size = np.empty(2 * count), np.empty((parts, 2 * count)), np.empty(count)
+    for i in range(2 * count):
+        left[i] = values[i] / robust[i % count]
+    for k in range(parts):
+        axis = axes[k]
+        for i in range(2 * count):
+            axis[i] = columns[k, i] / robust[i % count]
+        before = _product(axis, axis)
+        _take_off(axis, axes, k)
+        after = _product(axis, axis)
+        # places on a line or a circle leave nothing of a column that the others hold
+        scale = 1.0 / math.sqrt(after) if after > 1e-20 * before else 0.0
+        for i in range(2 * count):
+            axis[i] *= scale
+    _take_off(left, axes, parts)
+    for i in range(count):
+        size[i] = math.sqrt(left[i] ** 2 + left[count + i] ** 2) * robust[i] / deviation[i]
+    return size
+
+
+@njit(cache=True, error_model="numpy")
+def _product(one: Any, other: Any) -> float:
+    total = 0.0
+    for i in range(one.size):
+        total += one[i] * other[i]
+    return total
+
+
+@njit(cache=True, error_model="numpy")
+def _take_off(vector: Any, axes: Any, count: int) -> None:
+    """Take the parts along the first orthonormal axes off a vector, twice for rounding."""
+    for _ in range(2):
+        for k in range(count):
+            part = _product(axes[k], vector)
+            for i in range(vector.size):
+                vector[i] -= part * axes[k, i]
 
 
 def _trend_basis(points: Array, length: float) -> Array:
