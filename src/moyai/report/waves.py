@@ -67,16 +67,18 @@ def travelling_surface(
     spectrum, frequency = spectrum[:count], frequency[:count]
     k, reflected, transmitted = _coefficients(frequency, omega, wave_number, reflection, transmission)
     length = 1 << math.ceil(math.log2(max(SAMPLES_PER_SHORTEST_PERIOD * count, 16)))  # powers of two transform fast
-    coarse = times[0] + np.arange(length) * (closed.size * step / length)
-    out = np.empty((wanted.size, places.size))
-    for number, place in enumerate(places):
-        # numpy's transform runs with exp(+i omega t); the convention of the package is its conjugate
-        along = np.exp(-1j * k * place)
-        there = (along + np.conj(reflected) * np.conj(along)) if place < 0.0 else np.conj(transmitted) * along
-        carried = np.fft.irfft(spectrum * there, n=length) * (length / closed.size)
-        out[:, number] = np.interp(wanted, coarse, carried, period=closed.size * step)
-    values: Array = out + mean
-    return values
+    place = (wanted - times[0]) * (length / (closed.size * step))
+    before = np.floor(place).astype(np.int64)
+    share = place - before
+    # numpy's transform runs with exp(+i omega t); the convention of the package is its conjugate
+    along = np.exp(-1j * np.outer(places, k))
+    there = np.where(
+        places[:, None] < 0.0, along + np.conj(reflected) * np.conj(along), np.conj(transmitted) * along
+    )  # fmt: skip
+    carried = np.fft.irfft(spectrum * there, n=length, axis=1) * (length / closed.size)
+    # the record repeats
+    first, second = carried[:, before % length], carried[:, (before + 1) % length]
+    return np.asarray(((1.0 - share) * first + share * second).T + mean)
 
 
 def _coefficients(
