@@ -54,7 +54,7 @@ def test_a_raft_on_four_segments_carries_what_its_mesh_leaves_out() -> None:
 
 
 def test_a_rest_whose_finer_mesh_is_not_found_keeps_no_limit(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(network_run, "with_finer_mesh", lambda rested, *_: rested)
+    monkeypatch.setattr(network_run, "with_finer_meshes", lambda rested, *_: rested)
     result = moyai.run(CASE.replace("SEGMENTS", "4").replace("13 kN", "15 kN"))
     found = {item.name: item for item in result.headlines if item.shown}
     assert found["line_tension"].bound == found["anchor_load"].bound == "at least"

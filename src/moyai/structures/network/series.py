@@ -76,6 +76,9 @@ def series_of(assembly: Assembly, plan: RunPlan, history: History) -> xr.Dataset
         numbers["end_highest"] = np.stack([highest[:, s.bars[-1]] for s in strands], axis=1)
     for key, values in numbers.items():
         data[key] = (("time", "line"), values)
+    if assembly.parts:
+        own = [highest[:, strand.bars].max(axis=1) for strand in assembly.parts.values()]
+        data["part_tension_peak_since_row"] = (("time", "part"), np.stack(own, axis=1))
     if assembly.net_bars:
         data["net_tension"] = (
             ("time", "net"),
@@ -93,6 +96,7 @@ def series_of(assembly: Assembly, plan: RunPlan, history: History) -> xr.Dataset
             coords={
                 "time": time, "point": names, "line": list(assembly.lines), "axis": AXES,
                 "net": list(assembly.net_bars), "measure": MEASURES,
+                **({"part": list(assembly.parts)} if assembly.parts else {}),
             },
         )
     )  # fmt: skip
