@@ -335,7 +335,7 @@ def _mean(groups: Mapping[str, xr.Dataset], peak: _Peak, load: float) -> float |
 def _band(groups: Mapping[str, xr.Dataset], peak: _Peak) -> tuple[Band | None, list[str], Bound]:
     """Return what mesh, step and the chance of one seed do to a tension, what is to be said of it, and what it proves.
 
-    A record too short to tell its chance can break a limit and cannot keep one.
+    A record too short to tell its chance, or one seed in which a line snaps, can break a limit and cannot keep one.
     """
     if peak.model == REST:
         band, settled = _rest_band(groups, peak)

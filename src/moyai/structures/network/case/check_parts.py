@@ -139,7 +139,7 @@ def check_starts(model: NetworkCase, findings: Findings) -> None:
 
 
 def check_anchors(model: NetworkCase, findings: Findings) -> None:
-    """Warn of fixed points from which all lines lead upwards and that stand a little over the bed: anchors lie on it."""
+    """Warn of fixed points a little over the bed from which all lines lead upwards: anchors lie on it."""
     unit, depth = model.structure, model.site.water_depth
     # without a bed of its own a network knows none, and a bed that varies is looked at under each point
     if not math.isfinite(depth) or unit.bed is None or (unit.bed.slope or unit.bed.grid) is not None:
