@@ -30,8 +30,8 @@ settings: {strips: STRIPS}
 
 @pytest.mark.parametrize(("foot", "support", "strips", "words"), [
     (-24, "start", 40, []), (-24, "both_ends", 8, []), (-12, "end", 40, []),
-    (-24, "end", 40, ["fixed at its upper end"]), (-24, "start", 1, ["over 1 strip:"]),
-    (-24, "start", 4, ["over 4 strips"]),
+    (-24, "end", 40, ["fixed at its upper end"]), (-24, "start", 1, ["strips are few (1)"]),
+    (-24, "start", 4, ["strips are few (4)"]),
 ])  # fmt: skip
 def test_what_is_odd_is_warned_of(tmp_path: Path, foot: int, support: str, strips: int, words: list[str]) -> None:
     text = CASE.replace("FOOT", str(foot)).replace("SUPPORT", support).replace("STRIPS", str(strips))

@@ -38,9 +38,8 @@ from moyai.structures.network.refinement import (
 from moyai.structures.network.resume import Earlier, joined, last_good_state, with_ends
 from moyai.structures.network.run_notices import capsized, peak_inside, realised_low, run_notices
 from moyai.structures.network.runs import RunPlan, motions_of
-from moyai.structures.network.series import frames_of, kept_nodes, series_of, snaps_of, with_bodies
+from moyai.structures.network.series import frames_of, kept_nodes, series_of, snaps_of, utilisations, with_bodies
 from moyai.structures.network.settling import drift_of_all, led_points, settled
-from moyai.structures.network.summary import utilisations
 
 if TYPE_CHECKING:
     import xarray as xr

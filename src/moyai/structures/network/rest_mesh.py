@@ -50,7 +50,7 @@ MESH = "mesh: twice the segments, again and again until the change is small, and
 
 
 @dataclass(frozen=True, eq=False)
-class _Mesh:
+class _RestMesh:
     """A network at rest on one mesh."""
 
     problem: NetworkProblem
@@ -65,7 +65,7 @@ class _Mesh:
     parts: Mapping[str, NDArray[np.int64]]
 
 
-def _finer(mesh: _Mesh, flow: Flow) -> _Mesh:
+def _finer(mesh: _RestMesh, flow: Flow) -> _RestMesh:
     """Return the rest on twice the bars, of nets whose bars gather twines on twice the knots.
 
     Raises
@@ -87,12 +87,12 @@ def _finer(mesh: _Mesh, flow: Flow) -> _Mesh:
         )
     if problem.bodies:
         both = rest_of(problem, plain, flow)
-        return _Mesh(problem, assembly, plain, both.network, both.state, both.tension, lines, parts)
+        return _RestMesh(problem, assembly, plain, both.network, both.state, both.tension, lines, parts)
     if begin is None:
         # a net that hangs finds its rest in a current where one as built may not
         begin = solve_equilibrium(plain, flow=Flow()).state
     own = solve_equilibrium(plain, flow=flow, start=begin)
-    return _Mesh(problem, assembly, plain, plain, own.state, own.tension, lines, parts)
+    return _RestMesh(problem, assembly, plain, plain, own.state, own.tension, lines, parts)
 
 
 def _bars(assembly: Assembly) -> tuple[dict[str, NDArray[np.int64]], dict[str, NDArray[np.int64]]]:
@@ -101,7 +101,7 @@ def _bars(assembly: Assembly) -> tuple[dict[str, NDArray[np.int64]], dict[str, N
 
 
 @dataclass(frozen=True, eq=False)
-class _Found:
+class _OfRest:
     """Tensions of lines and of their parts, pulls on points [N] and places of points [m] of one mesh."""
 
     lines: Array
@@ -110,13 +110,13 @@ class _Found:
     places: Array
 
 
-def _read(mesh: _Mesh, names: list[str]) -> _Found:
+def _read(mesh: _RestMesh, names: list[str]) -> _OfRest:
     lines, parts = (
         np.array([float(mesh.tension[bars].max()) for bars in own.values()]) for own in (mesh.lines, mesh.parts)
     )
     nodes = np.array([mesh.network.points[name] for name in names], dtype=np.int64)
     load = pulls(mesh.network, nodes, mesh.state.position[None], mesh.tension[None])[0]
-    return _Found(lines, parts, np.linalg.norm(load, axis=1), mesh.state.position[nodes])
+    return _OfRest(lines, parts, np.linalg.norm(load, axis=1), mesh.state.position[nodes])
 
 
 def with_finer_meshes(
@@ -146,9 +146,9 @@ def with_finer_meshes(
     lines, parts = _bars(assembly)
     few = min((bars.size for bars in lines.values()), default=0)
     most = MOST_BARS_OF_BODIES if problem.bodies else MOST_BARS
-    every: dict[str, list[_Found]] = {}
+    every: dict[str, list[_OfRest]] = {}
     for name, rest in found.items():
-        mesh = _Mesh(problem, assembly, assembly.network, assembly.network, rest.state, rest.tension, lines, parts)
+        mesh = _RestMesh(problem, assembly, assembly.network, assembly.network, rest.state, rest.tension, lines, parts)
         own = every[name] = [_read(mesh, names)]
         while len(own) <= MOST_DOUBLINGS and not _stands(own, few):
             if len(own) > 1 and len(mesh.plain.bars) > most // 2:
@@ -178,7 +178,7 @@ def with_finer_meshes(
     return labelled(out)
 
 
-def _stands(own: list[_Found], few: int) -> bool:
+def _stands(own: list[_OfRest], few: int) -> bool:
     """Whether no finer mesh is needed; ``few``: segments of the line that has fewest."""
     if len(own) < 2 or (len(own) < 3 and few < FINE):
         return False

@@ -208,3 +208,19 @@ def snaps_of(problem: NetworkProblem, series: xr.Dataset) -> dict[str, SnapRecor
             peaks=highest,
         )  # fmt: skip
     return found
+
+
+def utilisations(problem: NetworkProblem, series: xr.Dataset, chosen: NDArray[np.bool_]) -> dict[str, float]:
+    """Return the highest tension over the breaking load by line: of parts that differ in strength, the worst.
+
+    Not a number where a breaking load is not known.
+    """
+    out = {}
+    for line in problem.lines:
+        uses = [math.nan]
+        for name, load in line.strengths.items() if chosen.any() else ():
+            kind = "line" if name == line.name else "part"
+            record = series[f"{kind}_tension_peak_since_row"].sel({kind: name}).values[chosen]
+            uses.append(float(np.fmax.reduce(record)) / load)
+        out[line.name] = float(np.fmax.reduce(uses))
+    return out

@@ -14,6 +14,7 @@ from moyai.structures.network.bodies import lean_of
 from moyai.structures.network.equilibrium import MEASURES, named_points
 from moyai.structures.network.model import NetworkProblem
 from moyai.structures.network.noise import without_noise
+from moyai.structures.network.series import utilisations
 from moyai.structures.network.variables import labelled
 
 if TYPE_CHECKING:
@@ -202,22 +203,6 @@ def _line_summary(problem: NetworkProblem, item: NetworkRun, lines: list[str]) -
             }  # fmt: skip
         for key in keys:
             out[key].append(values.get(key, math.nan))
-    return out
-
-
-def utilisations(problem: NetworkProblem, series: xr.Dataset, chosen: NDArray[np.bool_]) -> dict[str, float]:
-    """Return the highest tension over the breaking load by line: of parts that differ in strength, the worst.
-
-    Not a number where a breaking load is not known.
-    """
-    out = {}
-    for line in problem.lines:
-        uses = [math.nan]
-        for name, load in line.strengths.items() if chosen.any() else ():
-            kind = "line" if name == line.name else "part"
-            record = series[f"{kind}_tension_peak_since_row"].sel({kind: name}).values[chosen]
-            uses.append(float(np.fmax.reduce(record)) / load)
-        out[line.name] = float(np.fmax.reduce(uses))
     return out
 
 

@@ -64,8 +64,8 @@ def _check_settings(model: schema.MemberCase, findings: Findings) -> None:
     if model.waves and model.settings.strips < _FEW_STRIPS:
         findings.warn(
             ("settings", "strips"),
-            f"loads are summed over {model.settings.strips} strip{'s' if model.settings.strips > 1 else ''}: waves "
-            "vary along each, and forces and moments have no band for that",
+            f"the strips are few ({model.settings.strips}): waves vary along each, and forces and moments have no band "
+            "for that",
             allowed=f"{_FEW_STRIPS} or more; 40 by default", remedy="give more strips",
         )  # fmt: skip
     for index, state in enumerate(model.waves):
