@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from moyai.structures.network.chance import SNAPS_OF_ONE_SEED
+from moyai.structures.network.chance import MORE_SEEDS, SNAPS_OF_ONE_SEED
 from moyai.structures.network.headlines import DYNAMIC, _band, _Peak, _unchecked
 from moyai.structures.network.refinement import LANDING
 
@@ -38,4 +38,4 @@ def test_a_seed_with_snaps_is_at_least(irregular: int, snaps: float, doubt: str,
     groups = {"/SWL/dynamic": summary, "/SWL/time/storm": series}
     band, said, found = _band(groups, _Peak(peak, "chain", "SWL", "storm", 12.0, DYNAMIC, scatter))
     assert band is not None and found == bound
-    assert (SNAPS_OF_ONE_SEED in said) is bool(bound) and (SNAPS_OF_ONE_SEED in _unchecked(said)) is bool(bound)
+    assert (SNAPS_OF_ONE_SEED in said) is bool(bound) and (MORE_SEEDS in _unchecked(said)) is bool(bound)

@@ -23,7 +23,8 @@ if TYPE_CHECKING:
 REPEATING = 0.05
 ONE_SEED = "one seed: others may give more"
 #: What is said of one seed in which lines snap or segments land, and what helps.
-SNAPS_OF_ONE_SEED = "one seed of a line that snaps or lands: others may give much more; settings.realisations runs them"
+SNAPS_OF_ONE_SEED = "one seed of a line that snaps or lands: others may give much more"
+MORE_SEEDS, ONE_BY_ONE = "settings.realisations runs them", "run the case with other seeds, one by one"
 #: Key that asks for more realisations.
 MORE = "settings.realisations"
 
@@ -96,7 +97,8 @@ def one_seed_of_snaps(groups: Mapping[str, xr.Dataset], level: str, run: str, sc
     snaps = "snaps" in summary and bool((summary["snaps"].sel(run=run).values > 0.0).any())
     if not snaps and LANDING not in str(summary.attrs.get(f"doubt {run}", "")):
         return []
-    return [SNAPS_OF_ONE_SEED]
+    # realisations of bodies are not run together
+    return [SNAPS_OF_ONE_SEED, ONE_BY_ONE if "solid" in summary.coords else MORE_SEEDS]
 
 
 def of_record(groups: Mapping[str, xr.Dataset], level: str, run: str, line: str) -> tuple[Maximum | None, list[str]]:

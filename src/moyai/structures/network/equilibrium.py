@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
-from moyai.flexible.elements import DRIVEN
+from moyai.flexible.elements import DRIVEN, FREE
 from moyai.flexible.flow import Flow
 from moyai.flexible.modes import natural_modes
 from moyai.flexible.network import Network
@@ -257,8 +257,12 @@ def stiffness_at_driven(assembly: Assembly, rest: Equilibrium, flow: Flow, step:
 
 def _longest_of_finer_mesh(assembly: Assembly, rest: Equilibrium, flow: Flow) -> float:
     """Return the longest natural period on twice the bars [s]; NaN where that is not found or has no period."""
+    nodes = assembly.network.nodes
+    # points of bodies stay where the bodies rest, not where they were drawn
+    place = np.where((nodes.kind == FREE)[:, None], nodes.position, rest.state.position)
     try:
-        network, begin = refined(assembly.network, 2, rest.state)
+        held = replace(assembly.network, nodes=replace(nodes, position=place))
+        network, begin = refined(held, 2, rest.state)
         finer = solve_equilibrium(network, flow=flow, start=begin)
         omega = natural_modes(network, finer.state, count=1, flow=flow).omega
     except (ConvergenceError, InputError):

@@ -17,6 +17,8 @@ from moyai.core.headline import Band, Bound, Headline, all_judged, governing, un
 from moyai.core.wording import spoken
 from moyai.structures.network.at_rest import FINER, MESH_MOVES, MESH_UNCHECKED, rest_headlines, unsettled_mesh
 from moyai.structures.network.chance import (
+    MORE_SEEDS,
+    ONE_BY_ONE,
     ONE_SEED,
     SNAPS_OF_ONE_SEED,
     chance_of,
@@ -315,7 +317,7 @@ def _failing(items: list[Headline], found: list[Headline]) -> list[Headline]:
 
 def _unchecked(said: list[str]) -> str:
     """Return of what is said of a tension why it is a bound and what helps, empty where mesh and seed are enough."""
-    helps = (REMEDY, FINER, SNAPS_OF_ONE_SEED)
+    helps = (REMEDY, FINER, SNAPS_OF_ONE_SEED, MORE_SEEDS, ONE_BY_ONE)
     words = [one for one in said if one.startswith((UNCHECKED, MESH_UNCHECKED, MESH_MOVES)) or one in helps]
     return "; ".join(words) if any(one in helps for one in words) else ""
 
