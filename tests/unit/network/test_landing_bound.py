@@ -17,7 +17,14 @@ from moyai.flexible.sensitivity import PeakSensitivity
 from moyai.structures.network import headlines
 from moyai.structures.network.headlines import DYNAMIC, _band, _Peak, _utilisation
 from moyai.structures.network.mesh_band import REMEDY, doubt_of
+from moyai.structures.network.model import LinePlan
 from moyai.structures.network.refinement import LANDING, lowered
+
+
+def _of_strengths(**loads: float) -> SimpleNamespace:
+    """Return of a problem what its lines bear."""
+    lines = [LinePlan(name, "a", "b", (), breaking_load=load) for name, load in loads.items()]
+    return SimpleNamespace(lines=lines, strengths=loads)
 
 
 @pytest.mark.parametrize("doubt", [LANDING, f"a slack line snaps taut; {LANDING}", "a slack line snaps taut", ""])
@@ -60,7 +67,7 @@ def test_a_design_is_judged_on_the_safe_side_alone() -> None:
 
 def test_one_seed_too_short_stays_open_behind_a_higher_regular_wave(monkeypatch: pytest.MonkeyPatch) -> None:
     peaks = [_Peak(value, "chain", "SWL", run, 12.0, DYNAMIC) for value, run in ((9e3, "wave"), (6e3, "sea"))]
-    problem = SimpleNamespace(lines=[SimpleNamespace(name="chain", breaking_load=30e3)])
+    problem = _of_strengths(chain=30e3)
     monkeypatch.setattr(headlines, "_place", lambda groups, level, *words: ", ".join(words))
     limit = Criterion("factor", "line_utilisation", 0.5, "at most", "case")
     outcomes = []
@@ -101,7 +108,7 @@ def test_a_line_whose_event_was_not_run_again_is_marked(doubt: str, few: bool, b
 def test_a_snap_whose_mesh_was_not_checked_keeps_no_limit(monkeypatch: pytest.MonkeyPatch) -> None:
     """547 N of a snap were 1052 with half the step: 10 kN prove that 4 kN are broken, not that 20 are kept."""
     monkeypatch.setattr(headlines, "_place", lambda groups, level, *words: ", ".join(words))
-    problem = SimpleNamespace(lines=[SimpleNamespace(name="rope", breaking_load=40e3)])
+    problem = _of_strengths(rope=40e3)
     peaks = [_Peak(10e3, "rope", "SWL", "storm", 12.0, DYNAMIC)]
     for doubt, outcomes in (
         ("", ["not judged", "does not hold"]),
@@ -130,7 +137,7 @@ def test_the_worst_sea_of_a_line_that_fails_stands_behind_the_line_that_governs(
     monkeypatch.setattr(headlines, "_place", lambda groups, level, *words: ", ".join(words))
     monkeypatch.setattr(headlines, "_band", lambda groups, peak: (None, [], ""))
     monkeypatch.setattr(headlines, "_mean", lambda groups, peak, load: 0.2 * peak.value / load)
-    problem = SimpleNamespace(lines=[SimpleNamespace(name=name, breaking_load=120e3) for name in ("hoist", "leash")])
+    problem = _of_strengths(hoist=120e3, leash=120e3)
     values = {("hoist", "short"): 55e3, ("leash", "short"): 48e3, ("hoist", "long"): 17e3, ("leash", "long"): 9.6e3}
     peaks = [_Peak(value, line, "SWL", run, 12.0, DYNAMIC) for (line, run), value in values.items()]
     found = _utilisation(problem, {}, peaks)

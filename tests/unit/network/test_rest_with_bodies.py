@@ -54,8 +54,17 @@ def test_a_raft_on_four_segments_carries_what_its_mesh_leaves_out() -> None:
 
 
 def test_a_rest_whose_finer_mesh_is_not_found_keeps_no_limit(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(network_run, "with_finer_mesh", lambda rested, *_: rested)
+    monkeypatch.setattr(network_run, "with_finer_meshes", lambda rested, *_: rested)
     result = moyai.run(CASE.replace("SEGMENTS", "4").replace("13 kN", "15 kN"))
     found = {item.name: item for item in result.headlines if item.shown}
     assert found["line_tension"].bound == found["anchor_load"].bound == "at least"
     assert result.verdict.outcome == "not judged" and "mesh not checked" in result.verdict.message
+
+
+@pytest.mark.parametrize("drawn", [28.0, 26.0])
+def test_the_longest_period_of_lines_is_found_where_the_body_rests(drawn: float) -> None:
+    """The band of 3.2 s reached to 23 s, or to 0.8 s, with the place where a platform was drawn."""
+    text = CASE.replace("SEGMENTS", "12").replace("[28 m", f"[{drawn} m").replace("[statics]", "[statics, modes]")
+    (period,) = [item for item in moyai.run(text).headlines if item.name == "natural_period" and item.shown]
+    assert period.band is not None
+    assert period.band.low > 0.95 * period.value and period.band.high < 1.05 * period.value

@@ -43,6 +43,8 @@ class Assembly:
     nets: Mapping[str, NDArray[np.int64]]
     #: Bars of the nets.
     net_bars: Mapping[str, NDArray[np.int64]]
+    #: Parts of lines whose parts differ in strength.
+    parts: Mapping[str, Strand] = field(default_factory=dict)
     #: Names of the sheets.
     sheets: tuple[str, ...] = ()
     #: Width of netting that an inner bar of a column stands for, by net whose bars gather twines [m].
@@ -51,6 +53,15 @@ class Assembly:
     net_factors: Mapping[str, Array] = field(default_factory=dict)
     #: Height of its still water above datum [m].
     level: float = 0.0
+
+    @property
+    def judged(self) -> dict[str, NDArray[np.int64]]:
+        """Bars by line, and by part of lines whose parts differ in strength."""
+        return {name: strand.bars for name, strand in (*self.lines.items(), *self.parts.items())}
+
+    def line_of(self, name: str) -> str:
+        """Return the line that a part belongs to; a line itself."""
+        return name.rpartition(" part ")[0] if name in self.parts and name not in self.lines else name
 
     def net_tensions(self, tension: Array) -> list[Array]:
         """Return of every net the tensions of its bars, each that of a strip of the same width, shape (rows, bars)."""
@@ -105,8 +116,9 @@ def assemble(problem: NetworkProblem, level: float) -> Assembly:
         own = [strand for strand in network.strands if strand.name.startswith(f"{net.name} ")]
         bars[net.name] = np.concatenate([strand.bars for strand in own]) if own else np.zeros(0, dtype=np.int64)
         factors[net.name] = np.array([_strip_factor(net, strand) for strand in own for _ in strand.bars])
+    differing = {name: network.strand(name) for name in problem.strengths if name not in lines}
     return Assembly(
-        network, lines, nets, bars, tuple(sheet.name for sheet in problem.sheets),
+        network, lines, nets, bars, differing, tuple(sheet.name for sheet in problem.sheets),
         {net.name: net.strips[1] for net in problem.nets if net.strips is not None}, factors, level,
     )  # fmt: skip
 

@@ -4,21 +4,27 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from moyai.core.headline import Band, Headline, all_judged
+from moyai.structures.network.rest_mesh import MESH, Reach, band_at_rest
 
 if TYPE_CHECKING:
     import xarray as xr
 
-#: Segments of a line up to which the pull on its anchor moves with the mesh as its tension does, and more than that.
-COARSE = 12
-#: What the band of a number at rest is of.
-MESH = "mesh: twice the segments, and their change continued"
-#: What is said of a rest whose mesh was not checked, and what helps.
-MESH_UNCHECKED, FINER = "mesh not checked", "more segments, or knots of nets, tell what the mesh does"
+    from moyai.core.arrays import Array
+
+#: What is said of a rest that no finer mesh was found of, or whose finer meshes go on changing, and what helps.
+MESH_UNCHECKED, MESH_MOVES = "mesh not checked", "finer meshes do not settle it"
+FINER = "more segments, or knots of nets, tell what the mesh does"
+
+
+def unsettled_mesh(band: Band | None) -> list[str]:
+    """Say of a number at rest that its mesh leaves it open, by its band, and what helps."""
+    return [MESH_UNCHECKED if band is None else MESH_MOVES, FINER]
 
 
 def rest_headlines(groups: Mapping[str, xr.Dataset], anchors: Mapping[str, str], model: str) -> list[Headline]:
@@ -43,35 +49,25 @@ def rest_headlines(groups: Mapping[str, xr.Dataset], anchors: Mapping[str, str],
 
 
 def _pulls(rest: xr.Dataset, network: xr.Dataset, level: str, model: str) -> Iterator[Headline]:
-    few = "double_mesh" in rest and bool((network["line_segments"].values <= COARSE).any())
     for condition in (str(name) for name in rest["condition"].values):
         for point in _of_kind(network, "fixed"):
             load = rest["load"].sel(condition=condition, point=point).values
             value = float(np.linalg.norm(load))
-            if not value > 0.0:
+            band, settled = band_at_rest(rest, network, "load_of_mesh", condition, point=point)
+            if not (value if band is None else band.high) > 0.0:
                 continue
-            detail = f"horizontal {math.hypot(*load[:2]) / 1e3:.3g} kN, upwards {max(float(load[2]), 0.0) / 1e3:.3g} kN"
-            band = _band(rest, condition, point, value, few)
-            yield Headline(
+            words = f"horizontal {math.hypot(*load[:2]) / 1e3:.3g} kN, upwards {max(float(load[2]), 0.0) / 1e3:.3g} kN"
+            found = Headline(
                 "anchor_load", "largest pull on a fixed point at rest", value, "N",
-                ", ".join(filter(None, (point, condition, level))), model, band,
-                "" if band else "at least", detail=detail if band else f"{detail}; {MESH_UNCHECKED}; {FINER}",
-                part=point, bound_by="" if band else f"{MESH_UNCHECKED}; {FINER}",
+                ", ".join(filter(None, (point, condition, level))), model, band, detail=words, part=point,
             )  # fmt: skip
+            yield found if settled else _open(found)
 
 
-def _band(rest: xr.Dataset, condition: str, point: str, value: float, few: bool) -> Band | None:
-    """Return what twice the segments do to a pull, and their change continued to bars of no length."""
-    if "load_double_mesh" not in rest:
-        return None
-    finer = float(rest["load_double_mesh"].sel(condition=condition, point=point))
-    ends = [value, finer, max(2.0 * finer - value, 0.0)]
-    if few:
-        # where a coarse line meets the bed hangs on its nodes: twice of them may change the pull little by chance
-        own, cut = (rest[key].sel(condition=condition).values for key in ("line_tension_maximum", "double_mesh"))
-        usable = np.isfinite(own) & np.isfinite(cut) & (own > 0.0)
-        ends += [value * max(float(change), 0.0) for change in 2.0 * cut[usable] / own[usable] - 1.0]
-    return Band(min(ends), max(ends), MESH) if math.isfinite(finer) else None
+def _open(found: Headline) -> Headline:
+    """Return a number that finer meshes do not settle: it can break a limit and keeps none."""
+    why = "; ".join(unsettled_mesh(found.band))
+    return replace(found, bound="at least", detail=f"{found.detail}; {why}", bound_by=why)
 
 
 def _offsets(
@@ -79,20 +75,31 @@ def _offsets(
 ) -> Iterator[Headline]:
     if "current" not in rest["condition"].values or "still water" not in rest["condition"].values:
         return
-    place = rest["point_position"]
-    now, still = (place.sel(condition=condition) for condition in ("current", "still water"))
     for point in _of_kind(network, "free"):
         anchor = anchors.get(point)
-        if anchor is None:
-            value = float(np.linalg.norm(now.sel(point=point).values - still.sel(point=point).values))
-            said = "from its place in still water, heave included"
-        else:
-            value = float(np.linalg.norm((now.sel(point=point).values - now.sel(point=anchor).values)[:2]))
-            said = f"horizontal distance from its only anchor '{anchor}', round which it swings"
+        said = (
+            "from its place in still water, heave included"
+            if anchor is None
+            else f"horizontal distance from its only anchor '{anchor}', round which it swings"
+        )
+        value = float(_away(rest, "point_position", point, anchor))
+        band: Band | None = None
+        if "point_position_of_mesh" in rest:
+            # tensions tell when meshes are fine enough; places move with them
+            reach = Reach.of(_away(rest, "point_position_of_mesh", point, anchor))
+            band = Band(reach.low, reach.high, MESH)
         yield Headline(
             "offset", "largest offset of a body or buoy", value, "m",
-            ", ".join(filter(None, (point, "current", level))), model, detail=said,
+            ", ".join(filter(None, (point, "current", level))), model, band, detail=said,
         )  # fmt: skip
+
+
+def _away(rest: xr.Dataset, key: str, point: str, anchor: str | None) -> Array:
+    """Return how far a point stands from its place in still water, or from its only anchor."""
+    now, still = (rest[key].sel(condition=condition) for condition in ("current", "still water"))
+    if anchor is None:
+        return np.asarray(np.linalg.norm(now.sel(point=point).values - still.sel(point=point).values, axis=-1))
+    return np.asarray(np.linalg.norm((now.sel(point=point).values - now.sel(point=anchor).values)[..., :2], axis=-1))
 
 
 def _of_kind(network: xr.Dataset, kind: str) -> list[str]:

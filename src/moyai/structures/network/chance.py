@@ -14,6 +14,7 @@ from moyai.core.headline import Band, Bound
 from moyai.core.wording import spoken, spoken_time
 from moyai.series.block_maxima import LEAST_PERIODS, PERIODS, Maximum, maximum_of, too_short
 from moyai.series.realisations import seeds
+from moyai.structures.network.refinement import LANDING
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -21,6 +22,9 @@ if TYPE_CHECKING:
 #: Part by which the highest values of the periods of regular waves may differ where the motion repeats.
 REPEATING = 0.05
 ONE_SEED = "one seed: others may give more"
+#: What is said of one seed in which lines snap or segments land, and what helps.
+SNAPS_OF_ONE_SEED = "one seed of a line that snaps or lands: others may give much more"
+MORE_SEEDS, ONE_BY_ONE = "settings.realisations runs them", "run the case with other seeds, one by one"
 #: Key that asks for more realisations.
 MORE = "settings.realisations"
 
@@ -82,6 +86,21 @@ def length_of(groups: Mapping[str, xr.Dataset], level: str, run: str, scatter: A
     return f"{words}, less than {LEAST_PERIODS:g} periods: a longer sea gives more", "at least"
 
 
+def one_seed_of_snaps(groups: Mapping[str, xr.Dataset], level: str, run: str, scatter: Array) -> list[str]:
+    """Say of one seed of an irregular sea in which a line snaps, or segments land, that its band is no measure.
+
+    The largest snaps grow faster than the maxima of blocks tell, and a seed of low waves knows nothing of the others.
+    """
+    summary = groups.get(f"/{level}/dynamic")
+    if scatter.size or summary is None or not irregular(groups, level, run):
+        return []
+    snaps = "snaps" in summary and bool((summary["snaps"].sel(run=run).values > 0.0).any())
+    if not snaps and LANDING not in str(summary.attrs.get(f"doubt {run}", "")):
+        return []
+    # realisations of bodies are not run together
+    return [SNAPS_OF_ONE_SEED, ONE_BY_ONE if "solid" in summary.coords else MORE_SEEDS]
+
+
 def of_record(groups: Mapping[str, xr.Dataset], level: str, run: str, line: str) -> tuple[Maximum | None, list[str]]:
     """Return the uncertainty of the highest tension of one record, and say the height that was realised."""
     series = series_of_run(groups, level, run)
@@ -105,8 +124,10 @@ def of_record(groups: Mapping[str, xr.Dataset], level: str, run: str, line: str)
 
 def _record(series: xr.Dataset, line: str) -> Array | None:
     """Return the highest tension since the row before of a line or net; None where it is not kept."""
-    named = "line" in series and line in series["line"].values
-    key, axis = ("line_tension_peak_since_row", "line") if named else ("net_tension", "net")
+    key, axis = "net_tension", "net"
+    for kind in ("part", "line"):
+        if kind in series and line in series[kind].values:
+            key, axis = f"{kind}_tension_peak_since_row", kind
     return np.asarray(series[key].sel({axis: line}).values) if key in series else None
 
 

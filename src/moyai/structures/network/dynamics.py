@@ -38,7 +38,7 @@ from moyai.structures.network.refinement import (
 from moyai.structures.network.resume import Earlier, joined, last_good_state, with_ends
 from moyai.structures.network.run_notices import capsized, peak_inside, realised_low, run_notices
 from moyai.structures.network.runs import RunPlan, motions_of
-from moyai.structures.network.series import frames_of, kept_nodes, series_of, snaps_of, with_bodies
+from moyai.structures.network.series import frames_of, kept_nodes, series_of, snaps_of, utilisations, with_bodies
 from moyai.structures.network.settling import drift_of_all, led_points, settled
 
 if TYPE_CHECKING:
@@ -155,7 +155,7 @@ def run(
     plan, drift = settled(problem, plan, series, still)
     series.attrs |= {"skip": plan.skip, "skip_rule": plan.skip_rule, "unsettled": drift.words()}
     snaps = snaps_of(problem, series)
-    governing = _governing(series, {line.name: line.breaking_load for line in problem.lines})
+    governing = _governing(problem, series)
     worst = _worst_bar(assembly, history, governing, plan.skip)
     notices = [*history.notices, *run_notices(problem, history, plan, snaps)]
     notices += peak_inside(assembly, series, governing, worst)
@@ -181,7 +181,7 @@ def run(
         drift = drift_of_all(others.way, others.excursion, names, led, plan.duration - plan.skip)
         series.attrs["unsettled"] = drift.words()
         notices += drift.notices()
-    few = {name: said for name in assembly.lines if (said := few_bars(assembly, name))}
+    few = {name: said for name in assembly.judged if (said := few_bars(assembly, assembly.line_of(name)))}
     failure, safe = _failure(problem, assembly, sensitivity, governing, {**few, governing: why})
     prefix = f"{plan.name}: "
     return NetworkRun(
@@ -205,20 +205,20 @@ def _failure(
     """
     if found is None:
         return "", False
-    goal, strengths = problem.settings.peak_goal, {line.name: line.breaking_load for line in problem.lines}
+    goal, strengths = problem.settings.peak_goal, problem.strengths
     every = {**found.lines, governing: found}
-    known = all(math.isfinite(strengths.get(name, math.nan)) for name in assembly.lines)
-    # nets have no breaking load here
-    scale = {name: strengths.get(name, math.inf) if known and assembly.lines else 1.0 for name in every}
-    near = [
-        name
-        for name, one in every.items()
-        if name == governing or band_of(one)[1] / scale[name] >= found.peak / scale[governing]
-    ]
+    if assembly.lines and all(line.strengths for line in problem.lines):
+        # nets have no breaking load here, nor lines whose parts differ
+        uses = {name: (one.peak / load, band_of(one)[1] / load) for name, one in every.items()
+                if (load := strengths.get(name))}  # fmt: skip
+    else:
+        uses = {name: (one.peak, band_of(one)[1]) for name, one in every.items() if name not in assembly.parts}
+    worst = max((own for name, (own, _) in uses.items() if assembly.line_of(name) == governing), default=0.0)
+    near = [name for name in every if name == governing or (name in uses and uses[name][1] >= worst)]
     failures, safe = [], True
     for name in sorted(near, key=lambda one: one != governing):
-        strand = assembly.lines.get(name)
-        segments = 0 if strand is None else strand.bars.size
+        bars = assembly.judged.get(name)
+        segments = 0 if bars is None else bars.size
         words = not_converged(every[name], goal, name, doubts.get(name, ""), segments, problem.gathers_twines)
         if words:
             failures.append(words)
@@ -328,7 +328,7 @@ def _sensitivity(
     )  # fmt: skip
 
 
-def _governing(series: xr.Dataset, breaking: Mapping[str, float]) -> str:
+def _governing(problem: NetworkProblem, series: xr.Dataset) -> str:
     """Return the line that comes nearest to its breaking load, or the line or net with the highest tension.
 
     The first where every line has a breaking load: it decides whether the design holds. Rows of an earlier run count.
@@ -340,10 +340,10 @@ def _governing(series: xr.Dataset, breaking: Mapping[str, float]) -> str:
             continue
         values = np.nan_to_num(series[key].values[counted], nan=-np.inf).max(axis=0)
         if names == "line":
-            loads = np.array([breaking.get(str(name), np.nan) for name in series[names].values])
-            if np.isfinite(loads).all() and np.all(loads > 0.0):
+            uses = utilisations(problem, series, counted)
+            if all(map(math.isfinite, uses.values())):
                 # nets have no breaking load here and come after the lines
-                return str(series[names].values[int(np.argmax(values / loads))])
+                return max(uses, key=lambda name: uses[name])
         if values.max() > highest:
             best, highest = str(series[names].values[int(np.argmax(values))]), float(values.max())
     return best

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
-from moyai.flexible.elements import DRIVEN
+from moyai.flexible.elements import DRIVEN, FREE
 from moyai.flexible.flow import Flow
 from moyai.flexible.modes import natural_modes
 from moyai.flexible.network import Network
@@ -176,85 +176,19 @@ def rest_dataset(assembly: Assembly, found: dict[str, Equilibrium], stiffness: A
     }
     for key, values in line_numbers(assembly, tension).items():
         data[key] = (("condition", "line"), values)
+    if assembly.parts:
+        own = [tension[:, strand.bars].max(axis=1) for strand in assembly.parts.values()]
+        data["part_tension_maximum"] = (("condition", "part"), np.stack(own, axis=1))
     if network.bed is not None and network.bed.ground is not None:
         data["bed_level"] = (("condition", "node"), network.bed.level_at(position))
     if stiffness is not None:
         data["stiffness"] = (("driven", "axis", "direction"), stiffness)
     coords: dict[str, object] = {"condition": list(found), "axis": AXES, "point": names, "line": list(assembly.lines)}
+    if assembly.parts:
+        coords["part"] = list(assembly.parts)
     if stiffness is not None:
         coords |= {"direction": AXES, "driven": driven_names(assembly)}
     return labelled(xr.Dataset(data, coords=coords))
-
-
-def with_finer_mesh(
-    dataset: xr.Dataset,
-    assembly: Assembly,
-    found: dict[str, Equilibrium],
-    rest_of_finer: Callable[[str, Equilibrium], FinerRest],
-) -> xr.Dataset:
-    """Return the dataset with the highest tension of every line, and the pull on every point, on twice the bars.
-
-    The bar at the end of a line bears half a bar's weight less than the end itself: an error of first order. The
-    dataset stays as it is where no finer rest is found.
-
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-    assembly : Assembly
-    found : dict of str to Equilibrium
-        By condition.
-    rest_of_finer : callable
-        Returns the rest of a finer mesh in a condition.
-    """
-    names, _ = named_points(assembly)
-    tensions, loads = [], []
-    try:
-        for name, rest in found.items():
-            finer = rest_of_finer(name, rest)
-            tensions.append([float(finer.tension[bars].max()) for bars in finer.lines.values()])
-            nodes = np.array([finer.network.points[point] for point in names], dtype=np.int64)
-            load = pulls(finer.network, nodes, finer.position[None], finer.tension[None])[0]
-            loads.append(np.linalg.norm(load, axis=1))
-    except (ConvergenceError, InputError):
-        return dataset
-    out = dataset.assign(load_double_mesh=(("condition", "point"), np.array(loads).reshape(len(found), len(names))))
-    if assembly.lines:
-        out = out.assign(double_mesh=(("condition", "line"), np.array(tensions)))
-    return labelled(out)
-
-
-@dataclass(frozen=True, eq=False)
-class FinerRest:
-    """A network at rest whose lines have twice the bars."""
-
-    network: Network
-    position: Array
-    tension: Array
-    #: Bars of the lines.
-    lines: Mapping[str, NDArray[np.int64]]
-
-
-def on_twice_the_bars(
-    assembly: Assembly, rest: Equilibrium, flow: Flow, coupled: Callable[[Network, Flow], CoupledEquilibrium] | None
-) -> FinerRest:
-    """Return the rest with every bar cut in two.
-
-    Parameters
-    ----------
-    assembly : Assembly
-    rest : Equilibrium
-    flow : Flow
-        In which it is at rest.
-    coupled : callable, optional
-        Finds the rest of a network with bodies.
-    """
-    network, begin = refined(assembly.network, 2, rest.state)
-    lines = {name: np.concatenate([2 * s.bars, 2 * s.bars + 1]) for name, s in assembly.lines.items()}
-    if coupled is None:
-        own = solve_equilibrium(network, flow=flow, start=begin)
-        return FinerRest(network, own.state.position, own.tension, lines)
-    both = coupled(network, flow)
-    return FinerRest(both.network, both.state.position, both.tension, lines)
 
 
 def bodies_at_rest(dataset: xr.Dataset, found: dict[str, CoupledEquilibrium]) -> xr.Dataset:
@@ -323,8 +257,12 @@ def stiffness_at_driven(assembly: Assembly, rest: Equilibrium, flow: Flow, step:
 
 def _longest_of_finer_mesh(assembly: Assembly, rest: Equilibrium, flow: Flow) -> float:
     """Return the longest natural period on twice the bars [s]; NaN where that is not found or has no period."""
+    nodes = assembly.network.nodes
+    # points of bodies stay where the bodies rest, not where they were drawn
+    place = np.where((nodes.kind == FREE)[:, None], nodes.position, rest.state.position)
     try:
-        network, begin = refined(assembly.network, 2, rest.state)
+        held = replace(assembly.network, nodes=replace(nodes, position=place))
+        network, begin = refined(held, 2, rest.state)
         finer = solve_equilibrium(network, flow=flow, start=begin)
         omega = natural_modes(network, finer.state, count=1, flow=flow).omega
     except (ConvergenceError, InputError):

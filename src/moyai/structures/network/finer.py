@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -29,7 +29,7 @@ from moyai.flexible.simulation import simulate
 from moyai.flexible.statics import solve_equilibrium
 from moyai.structures.network.assembly import Assembly, assemble
 from moyai.structures.network.bodies import CoupledRun, rest_of, run_coupled
-from moyai.structures.network.equilibrium import FinerRest, around, highest_of_run, on_twice_the_bars
+from moyai.structures.network.equilibrium import around, highest_of_run
 from moyai.structures.network.held_rows import held_knots, held_of_run
 from moyai.structures.network.model import NetPlan, NetworkProblem
 from moyai.structures.network.refinement import affordable, damped_bars, fixed_points
@@ -76,31 +76,6 @@ def _finer_net(net: NetPlan) -> NetPlan:
         net, rows=2 * net.rows - 1, columns=2 * net.columns - 1, along=(half(net.along[0]), half(net.along[1])),
         across=(half(net.across[0]), half(net.across[1])), strips=(0.5 * net.strips[0], 0.5 * net.strips[1]),
     )  # fmt: skip
-
-
-def finer_rest(problem: NetworkProblem, assembly: Assembly, rest: Equilibrium, flow: Flow) -> FinerRest:
-    """Return the rest on twice the bars, of nets whose bars gather twines on twice the knots.
-
-    Raises
-    ------
-    ConvergenceError, InputError
-        Where there is none.
-    """
-    coupled: Callable[[Network, Flow], CoupledEquilibrium] | None = None
-    if problem.bodies:
-
-        def coupled(network: Network, flow: Flow) -> CoupledEquilibrium:
-            return rest_of(problem, network, flow)
-
-    if not problem.gathers_twines:
-        return on_twice_the_bars(assembly, rest, flow, coupled)
-    finer = assemble(finer_problem(problem), assembly.level)
-    lines = {name: strand.bars for name, strand in finer.lines.items()}
-    if coupled is not None:
-        both = coupled(finer.network, flow)
-        return FinerRest(both.network, both.state.position, both.tension, lines)
-    own = _rest_of_nets(finer, flow)
-    return FinerRest(finer.network, own.state.position, own.tension, lines)
 
 
 def _rest_of_nets(finer: Assembly, flow: Flow) -> Equilibrium:
@@ -170,7 +145,7 @@ def check_finer(
     (begin, hung), (history, coupled), (line, why) = starts, made, peak
     if not (history.time >= history.time[0] + plan.skip).any():
         return None
-    own_parts = {name: strand.bars for name, strand in assembly.lines.items()} | dict(assembly.net_bars)
+    own_parts = assembly.judged | dict(assembly.net_bars)
     own_mesh = _Mesh(assembly, history.network, begin, hung, own_parts)
     if not all(np.isin(bars, history.bars).all() for bars in own_parts.values()):
         return None
@@ -232,7 +207,7 @@ def _found(mesh: _Mesh, history: History, plan: RunPlan) -> _Found:
     counted = history.time >= history.time[0] + plan.skip
     tension = np.full((int(counted.sum()), len(mesh.network.bars)), np.nan)
     tension[:, history.bars] = history.tension_peak[counted]
-    lines = {name: float(np.nanmax(tension[:, mesh.parts[name]])) for name in mesh.assembly.lines}
+    lines = {name: float(np.nanmax(tension[:, mesh.parts[name]])) for name in mesh.assembly.judged}
     for name, own in zip(mesh.assembly.net_bars, mesh.assembly.net_tensions(tension), strict=True):
         scale = mesh.share if name in mesh.assembly.net_widths else 1.0
         lines[name] = scale * float(np.nanmax(own))
@@ -246,7 +221,7 @@ def _finer_mesh(problem: NetworkProblem, own: _Mesh, plan: RunPlan, bodies: bool
     if problem.gathers_twines:
         finer = assemble(finer_problem(problem), own.assembly.level)
         network, start = finer.network, State.at_rest(finer.network)
-        parts = {name: strand.bars for name, strand in finer.lines.items()} | dict(finer.net_bars)
+        parts = finer.judged | dict(finer.net_bars)
         if plan.rest_flow is not None and not bodies:
             start = _rest_of_nets(finer, plan.rest_flow).state
         made = _Mesh(finer, network, start, None, parts, 2.0)

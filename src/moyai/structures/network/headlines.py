@@ -15,14 +15,18 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.core.headline import Band, Bound, Headline, all_judged, governing, unfavourable
 from moyai.core.wording import spoken
-from moyai.structures.network.at_rest import COARSE, FINER, MESH, MESH_UNCHECKED, rest_headlines
+from moyai.structures.network.at_rest import FINER, MESH_MOVES, MESH_UNCHECKED, rest_headlines, unsettled_mesh
 from moyai.structures.network.chance import (
+    MORE_SEEDS,
+    ONE_BY_ONE,
     ONE_SEED,
+    SNAPS_OF_ONE_SEED,
     chance_of,
     irregular,
     length_of,
     of_record,
     of_seeds,
+    one_seed_of_snaps,
     scatter_of,
     with_chance,
     with_seeds,
@@ -32,9 +36,10 @@ from moyai.structures.network.mesh_band import REMEDY, UNCHECKED, mesh_and_step,
 from moyai.structures.network.mode_headlines import mode_headlines
 from moyai.structures.network.model import NetworkProblem
 from moyai.structures.network.refinement import LANDING
+from moyai.structures.network.rest_mesh import COARSE, band_at_rest
 from moyai.structures.network.settling import unsettled
 from moyai.structures.network.single_anchor import single_anchors
-from moyai.structures.network.start_up import ASKED, WAVES
+from moyai.structures.network.start_headlines import start_headlines
 from moyai.structures.network.summary import LOADS_AGAIN
 
 if TYPE_CHECKING:
@@ -69,6 +74,8 @@ class _Peak:
     model: str
     #: Highest tensions of the realisations of its sea, whose mean is the value; of none where there is one run.
     scatter: Array = field(default_factory=lambda: np.zeros(0))
+    #: One of line, part and net: what ``line`` names.
+    kind: str = "line"
 
 
 def headlines_of(problem: NetworkProblem, groups: Mapping[str, xr.Dataset]) -> tuple[Headline, ...]:
@@ -95,8 +102,8 @@ def headlines_of(problem: NetworkProblem, groups: Mapping[str, xr.Dataset]) -> t
         others, first = all_judged(each)[1:], items[0]
         items += [one for one in others if unfavourable(one) > unfavourable(first) or one.bound != first.bound]
         items += _failing(each, [one for one in items if one.name == first.name])
-        items += _start_up(groups, peak)
-        items += _utilisation(problem, groups, peaks)
+        items += start_headlines(groups, peak.value)
+        items += _utilisation(problem, groups, [*peaks, *(_part_peaks(groups, timed))])
     items += _net_tension(problem, groups, nets, widths)
     items += _anchor(groups, every) if timed else rest_headlines(groups, single_anchors(problem), REST)
     items += held_headlines(problem, groups, DYNAMIC)
@@ -181,7 +188,25 @@ def _peak_of(summary: xr.Dataset, of: tuple[str, str], at: tuple[str, str], valu
     scatter = scatter_of(summary, f"{kind}_tension_maximum_of_realisation", at[1], **{kind: name})
     if scatter.size:
         value, time = float(scatter.mean()), math.nan
-    return _Peak(value, name, *at, time, DYNAMIC, scatter)
+    return _Peak(value, name, *at, time, DYNAMIC, scatter, kind)
+
+
+def _part_peaks(groups: Mapping[str, xr.Dataset], timed: bool) -> Iterator[_Peak]:
+    """Yield the highest tension of every part of lines whose parts differ in strength, in every run or at rest."""
+    for level, found in _levels(groups, "dynamic" if timed else "statics"):
+        if "part_tension_maximum" not in found:
+            continue
+        axis = "run" if timed else "condition"
+        for run in (str(name) for name in found[axis].values):
+            for part in (str(name) for name in found["part"].values):
+                here = found.sel({axis: run, "part": part})
+                value = float(here["part_tension_maximum"])
+                if not math.isfinite(value):
+                    continue
+                if timed:
+                    yield _peak_of(found, ("part", part), (level, run), value, float(here["part_peak_time"]))
+                else:
+                    yield _Peak(value, part, level, run, math.nan, REST, kind="part")
 
 
 def _rest_peaks(groups: Mapping[str, xr.Dataset]) -> Iterator[_Peak]:
@@ -239,48 +264,10 @@ def _tension(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peak: _P
     return items
 
 
-def _rest_band(groups: Mapping[str, xr.Dataset], peak: _Peak) -> Band | None:
-    """Return what a finer mesh does to the highest tension at rest: twice the segments, and bars of no length."""
-    rest = groups[f"/{peak.level}/statics"]
-    if "double_mesh" not in rest:
-        return None
-    finer = float(rest["double_mesh"].sel(condition=peak.run, line=peak.line))
-    ends = (peak.value, finer, max(2.0 * finer - peak.value, 0.0))
-    return Band(min(ends), max(ends), MESH)
-
-
-def _start_up(groups: Mapping[str, xr.Dataset], peak: _Peak) -> list[Headline]:
-    """Return the highest tension of the beginning that does not count: the program chose it, or it is the larger."""
-    best: tuple[float, str, str] | None = None
-    for path, series in groups.items():
-        pieces = path.strip("/").split("/")
-        if len(pieces) != 3 or pieces[1] != "time" or "line_tension_peak_since_row" not in series:
-            continue
-        skip, rule = float(series.attrs["skip"]), str(series.attrs["skip_rule"])
-        time = series["time"].values
-        early = series["line_tension_peak_since_row"].isel(time=time < time[0] + skip)
-        if not rule or not early.size or not np.isfinite(early.values).any():
-            continue
-        row, line = np.unravel_index(int(np.nanargmax(early.values)), early.shape)
-        value = float(early.values[row, line])
-        if (rule in (ASKED, WAVES) and value <= peak.value) or (best is not None and value <= best[0]):
-            continue
-        at = f"{early['line'].values[line]}, {pieces[2]}, t = {time[row]:.2f} s"
-        best = (value, at, f"not in the highest tension: the first {skip:.3g} s are left out ({rule})")
-    if best is None:
-        return []
-    return [
-        Headline(
-            "start_up_tension", "tension while the run starts", best[0], "N", best[1], DYNAMIC, detail=best[2],
-            condition=True,
-        )
-    ]  # fmt: skip
-
-
 def _utilisation(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peaks: list[_Peak]) -> list[Headline]:
     """Return the highest tension over the breaking load, each line with its own band."""
-    breaking = {line.name: line.breaking_load for line in problem.lines if math.isfinite(line.breaking_load)}
-    items, bare = [], [line.name for line in problem.lines if line.name not in breaking]
+    breaking, types = problem.strengths, _types_of_parts(problem)
+    items, bare = [], [line.name for line in problem.lines if not line.strengths]
     for item in peaks:
         load = breaking.get(item.line)
         if load is None:
@@ -291,7 +278,10 @@ def _utilisation(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peak
             "line_utilisation", "highest tension over breaking load", item.value / load, "1",
             _place(groups, item.level, item.line, item.run), item.model,
             None if band is None else band.scaled(1.0 / load), bound, mean=_mean(groups, item, load),
-            detail="; ".join(filter(None, (f"breaking load {load / 1e3:.4g} kN, without a safety factor", doubtful))),
+            detail="; ".join(
+                filter(None, (types.get(item.line, ""), f"breaking load {load / 1e3:.4g} kN, without a safety factor",
+                              doubtful))
+            ),
             part=item.line, bound_by=doubtful,
         )  # fmt: skip
         items.append(one)
@@ -305,6 +295,16 @@ def _utilisation(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peak
     return found
 
 
+def _types_of_parts(problem: NetworkProblem) -> dict[str, str]:
+    """Return words for the parts of lines whose parts differ in strength: of what type, and what they bear."""
+    return {
+        name: f"{part.bar_type.name}, its own highest tension"
+        for line in problem.lines
+        for name, part in zip(line.strengths, line.parts, strict=False)
+        if name != line.name
+    }  # fmt: skip
+
+
 def _failing(items: list[Headline], found: list[Headline]) -> list[Headline]:
     """Return of each other line or anchor the worst, for the one who strengthens that which decides."""
     known, more = {(one.part, one.where) for one in found if one.role != "weighed"}, []
@@ -316,9 +316,10 @@ def _failing(items: list[Headline], found: list[Headline]) -> list[Headline]:
 
 
 def _unchecked(said: list[str]) -> str:
-    """Return of what is said of a tension that its mesh was not checked and what helps, empty where it is enough."""
-    words = [one for one in said if one.startswith((UNCHECKED, MESH_UNCHECKED)) or one in (REMEDY, FINER)]
-    return "; ".join(words) if REMEDY in words or FINER in words else ""
+    """Return of what is said of a tension why it is a bound and what helps, empty where mesh and seed are enough."""
+    helps = (REMEDY, FINER, SNAPS_OF_ONE_SEED, MORE_SEEDS, ONE_BY_ONE)
+    words = [one for one in said if one.startswith((UNCHECKED, MESH_UNCHECKED, MESH_MOVES)) or one in helps]
+    return "; ".join(words) if any(one in helps for one in words) else ""
 
 
 def _mean(groups: Mapping[str, xr.Dataset], peak: _Peak, load: float) -> float | None:
@@ -326,26 +327,29 @@ def _mean(groups: Mapping[str, xr.Dataset], peak: _Peak, load: float) -> float |
     if peak.model == REST:
         return peak.value / load
     summary = groups.get(f"/{peak.level}/dynamic")
-    if summary is None or "line_tension_mean" not in summary:
+    key = f"{peak.kind}_tension_mean"
+    if summary is None or key not in summary:
         return None
-    found = float(summary["line_tension_mean"].sel(run=peak.run, line=peak.line)) / load
+    found = float(summary[key].sel({"run": peak.run, peak.kind: peak.line})) / load
     return found if math.isfinite(found) else None
 
 
 def _band(groups: Mapping[str, xr.Dataset], peak: _Peak) -> tuple[Band | None, list[str], Bound]:
     """Return what mesh, step and the chance of one seed do to a tension, what is to be said of it, and what it proves.
 
-    A record too short to tell its chance can break a limit and cannot keep one.
+    A record too short to tell its chance, or one seed in which a line snaps, can break a limit and cannot keep one.
     """
     if peak.model == REST:
-        band = _rest_band(groups, peak)
-        return band, [] if band else [MESH_UNCHECKED, FINER], "" if band else "at least"
+        band, settled = _rest_band(groups, peak)
+        return band, [] if settled else unsettled_mesh(band), "" if settled else "at least"
     summary = groups[f"/{peak.level}/dynamic"].sel(run=peak.run)
     band, details, unproven = numerical_band(summary, peak.run, peak.line, peak.value, bool(peak.scatter.size))
     band = with_seeds(peak.value, band, peak.scatter)
     found, words = (None, []) if peak.scatter.size else of_record(groups, peak.level, peak.run, peak.line)
     details += words
     open_end, why = _left_open(groups, peak.level, peak.run, peak.scatter)
+    chaos = one_seed_of_snaps(groups, peak.level, peak.run, peak.scatter)
+    open_end, why = ("at least", [*why, *chaos]) if chaos else (open_end, why)
     details += why
     if found is None:
         alone = not peak.scatter.size and irregular(groups, peak.level, peak.run)
@@ -366,8 +370,13 @@ def mesh_checked(groups: Mapping[str, xr.Dataset]) -> bool:
     runs = [summary for _, summary in _levels(groups, "dynamic")]
     if runs:
         return all("sensitivity_peak" in run and np.isfinite(run["sensitivity_peak"].values).all() for run in runs)
-    peaks = list(_rest_peaks(groups))
-    return all(_rest_band(groups, peak) is not None for peak in peaks)
+    return all(_rest_band(groups, peak)[1] for peak in _rest_peaks(groups))
+
+
+def _rest_band(groups: Mapping[str, xr.Dataset], peak: _Peak) -> tuple[Band | None, bool]:
+    """Return the band of a tension at rest, and whether finer meshes settle it."""
+    rest, network = (groups[f"/{peak.level}/{part}"] for part in ("statics", "network"))
+    return band_at_rest(rest, network, f"{peak.kind}_tension_of_mesh", peak.run, **{peak.kind: peak.line})
 
 
 def _anchor(groups: Mapping[str, xr.Dataset], peaks: list[_Peak]) -> list[Headline]:
@@ -396,12 +405,14 @@ def _anchor(groups: Mapping[str, xr.Dataset], peaks: list[_Peak]) -> list[Headli
                     )
                 said = f"horizontal {parts[0] / 1e3:.3g} kN, upwards {parts[1] / 1e3:.3g} kN, each at its own largest"
                 open_end, why = _left_open(groups, level, run, scatter)
-                doubtful = ""
+                chaos = one_seed_of_snaps(groups, level, run, scatter)
+                open_end, doubtful = "at least" if chaos else open_end, ""
                 if bound == "at least":
                     words = [UNCHECKED, REMEDY] if most is None else _band(groups, most)[1]
                     doubtful = _unchecked(words)
                     if not doubtful and own is not None and own.of.startswith(PROPORTION):
                         doubtful = PULL_UNCHECKED
+                doubtful = "; ".join(dict.fromkeys(filter(None, [doubtful, *chaos])))
                 bound, said = open_end or bound, "; ".join(filter(None, [said, *why, doubtful]))
                 one = Headline(
                     "anchor_load", "largest pull on a fixed point", value, "N", _place(groups, level, point, run),

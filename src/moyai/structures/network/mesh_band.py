@@ -6,6 +6,8 @@ import math
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from moyai.core.headline import Band, Bound
 from moyai.flexible.sensitivity import PeakSensitivity
 from moyai.structures.network.refinement import LANDING, band_of
@@ -95,9 +97,9 @@ def doubt_of(summary: xr.Dataset, run: str, line: str) -> str:
 
 def _checked(summary: xr.Dataset, line: str) -> list[float]:
     """Return the highest tension of a line or net in the run and in those that check its mesh; none without them."""
-    for kind in ("line", "net"):
+    for kind in ("line", "part", "net"):
         name = f"{kind}_tension_of_check"
-        if name in summary and line in summary[kind].values:
+        if name in summary and line in np.atleast_1d(summary[kind].values):
             values = [float(value) for value in summary[name].sel({kind: line}).values]
             if all(map(math.isfinite, values[:3])):
                 return values

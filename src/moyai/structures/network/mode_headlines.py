@@ -9,10 +9,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from moyai.core.headline import Band, Headline
-from moyai.structures.network.at_rest import MESH
 
 if TYPE_CHECKING:
     import xarray as xr
+
+#: What the band of the longest period is of.
+MESH = "mesh: twice the segments, and their change continued"
 
 
 def mode_headlines(groups: Mapping[str, xr.Dataset]) -> list[Headline]:

@@ -73,6 +73,8 @@ class PartPlan:
     bar_type: BarType
     length: float
     segments: int
+    #: NaN where not known [N].
+    breaking_load: float = math.nan
 
 
 @dataclass(frozen=True)
@@ -105,6 +107,19 @@ class LinePlan:
     def length(self) -> float:
         """Unstretched length [m]."""
         return sum(part.length for part in self.parts)
+
+    @property
+    def strengths(self) -> dict[str, float]:
+        """Breaking loads [N] of what is judged by itself: the line, or each of its parts where they differ.
+
+        Empty where one is not known.
+        """
+        if not math.isfinite(self.breaking_load):
+            return {}
+        own = [part.breaking_load for part in self.parts]
+        if len(own) < 2 or not all(map(math.isfinite, own)) or min(own) == max(own):
+            return {self.name: self.breaking_load}
+        return {f"{self.name} part {number}": load for number, load in enumerate(own, start=1)}
 
 
 @checks_words
@@ -297,6 +312,11 @@ class NetworkProblem:
         """Where runs begin: as asked for, else at rest in the current where there is one."""
         default: Start = "rest" if self.environment.current is None else "rest_in_current"
         return self.settings.start or default
+
+    @property
+    def strengths(self) -> dict[str, float]:
+        """Breaking loads [N] by line, or by part where those of a line differ."""
+        return {name: load for line in self.lines for name, load in line.strengths.items()}
 
     @property
     def gathers_twines(self) -> bool:

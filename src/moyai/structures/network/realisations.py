@@ -34,6 +34,8 @@ class Realisations:
     seeds: IntArray
     #: Highest tension of each line [N]; shape (r, lines).
     tension: Array
+    #: Highest tension of each part of lines whose parts differ in strength [N]; shape (r, parts).
+    part_tension: Array
     #: Highest tension in each net [N]; shape (r, nets).
     net_tension: Array
     #: Largest pull on each point: size, level, upward and downward part [N]; shape (r, points, 4).
@@ -174,8 +176,8 @@ def _anchors(problem: NetworkProblem, assembly: Assembly) -> IntArray:
 
 def _largest(
     assembly: Assembly, runs: Ensemble, member: int, counted: BoolArray, origin: Array, anchors: IntArray
-) -> tuple[Array, Array, Array, Array, Array, Array]:
-    """Return the highest tensions of lines and nets, pulls on points, their excursions, reach and way of one run."""
+) -> tuple[Array, ...]:
+    """Return the highest tensions of lines, parts and nets, pulls on points, excursions, reach and way of one run."""
     network = assembly.network
     _, points = named_points(assembly)
     pull = runs.tension[member][counted]
@@ -184,12 +186,13 @@ def _largest(
     place[:, runs.nodes] = runs.position[member][counted]
     loads = highest_pulls(network, points, place, pull, highest)
     lines = [float(highest[:, strand.bars].max()) for strand in assembly.lines.values()]
+    parts = [float(highest[:, strand.bars].max()) for strand in assembly.parts.values()]
     nets = [float(own.max()) for own in assembly.net_tensions(highest)]
     away = np.linalg.norm(place[:, points] - origin, axis=2)
     apart = np.linalg.norm((place[:, points] - place[:, anchors])[..., :2], axis=2).max(axis=0)
     reach = np.where(anchors >= 0, apart, np.nan)
     # too few rows for parts show no way
-    parts = np.array_split(place[:, points], PARTS_IN_A_SEA)
-    means = [part.mean(axis=0) if len(part) else np.full(origin.shape, np.nan) for part in parts]
+    pieces = np.array_split(place[:, points], PARTS_IN_A_SEA)
+    means = [part.mean(axis=0) if len(part) else np.full(origin.shape, np.nan) for part in pieces]
     way = np.linalg.norm(np.array(means) - origin, axis=2)
-    return np.array(lines), np.array(nets), loads.max(axis=0), away.max(axis=0), reach, way
+    return np.array(lines), np.array(parts), np.array(nets), loads.max(axis=0), away.max(axis=0), reach, way

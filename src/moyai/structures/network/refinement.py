@@ -241,7 +241,7 @@ def _highest(history: History, bars: np.ndarray, after: float) -> float:
 
 def _parts(assembly: Assembly, history: History) -> dict[str, np.ndarray]:
     """Return the bars of every line and net whose peaks are looked at again: none where they fill the memory."""
-    found = {name: strand.bars for name, strand in assembly.lines.items()} | dict(assembly.net_bars)
+    found = assembly.judged | dict(assembly.net_bars)
     if 4 * len(history.network.bars) * history.time.size > MOST_VALUES:
         return {}
     return {name: bars for name, bars in found.items() if bars.size and np.isin(bars, history.bars).all()}
@@ -275,11 +275,16 @@ def _down_to_links(
             raise KeyboardInterrupt
         if run.status != "converged":
             break
-        again = _peaks_of(assembly, run, kept, window.lead)
+        own_parts = {name: _cut(own, factor) for name, own in assembly.judged.items() if assembly.line_of(name) == line}
+        again = _peaks_of(assembly, run, kept, window.lead, own_parts)
         pulls = {
             n: replace(one, finest=again.pulls[n], factor=factor) for n, one in found.pulls.items() if n in again.pulls
         }
-        of_line = {line: replace(found.lines[line], finest=again.peak, factor=factor)} if line in found.lines else {}
+        of_line = {
+            name: replace(found.lines[name], finest=top, factor=factor)
+            for name, top in again.lines.items()
+            if name in found.lines
+        }  # fmt: skip
         found = replace(found, finest=again.peak, factor=factor, pulls=pulls, lines={**found.lines, **of_line})
         if abs(again.peak / last - 1.0) <= LANDED or factor == most:
             break
@@ -288,8 +293,7 @@ def _down_to_links(
 
 
 def _bars_of(assembly: Assembly, line: str) -> np.ndarray:
-    strand = assembly.lines.get(line)
-    return strand.bars if strand is not None else assembly.net_bars.get(line, np.zeros(0, dtype=np.int64))
+    return assembly.judged.get(line, assembly.net_bars.get(line, np.zeros(0, dtype=np.int64)))
 
 
 def check_peak(

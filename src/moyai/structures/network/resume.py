@@ -160,7 +160,8 @@ def joined(before: xr.Dataset, after: xr.Dataset, dim: str) -> xr.Dataset:
     kept = before.isel({dim: np.flatnonzero(before[dim].values < begin - 1e-9)})
     along = [name for name in after.data_vars if dim in after[name].dims]
     once = after.drop_dims(dim)
-    both = xr.concat([kept[along], after[along]], dim=dim, combine_attrs="override")
+    # what an earlier version did not write is not a number there
+    both = xr.concat([kept[[name for name in along if name in kept]], after[along]], dim=dim, combine_attrs="override")
     out = xr.merge([both, once], combine_attrs="override")
     for name in out.variables:
         if name in after.variables:

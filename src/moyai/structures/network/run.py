@@ -32,11 +32,10 @@ from moyai.structures.network.equilibrium import (
     pulls,
     rest_dataset,
     stiffness_at_driven,
-    with_finer_mesh,
 )
-from moyai.structures.network.finer import finer_rest
 from moyai.structures.network.headlines import headlines_of, mesh_checked
 from moyai.structures.network.model import NetworkProblem
+from moyai.structures.network.rest_mesh import coarse_rest, with_finer_meshes
 from moyai.structures.network.resume import earlier_run, read_earlier
 from moyai.structures.network.run_notices import OVER, overturned, wet_in_air
 from moyai.structures.network.runs import run_plans, steady_flow, theory_limit
@@ -172,6 +171,9 @@ def network_dataset(problem: NetworkProblem, assembly: Assembly, water: Water) -
         ["on a body" if name in carried else kinds.get(int(network.nodes.kind[node]), "free")
          for name, node in zip(names, nodes, strict=True)], dtype=object,
     )  # fmt: skip
+    if assembly.parts:
+        loads = problem.strengths
+        data["part_breaking_load"] = ("part", np.array([loads[name] for name in assembly.parts]))
     data["point_kind"] = ("point", kind_names, {"units": "1", "long_name": "what moves the point"})
     if assembly.net_bars:
         widths = [assembly.net_widths.get(name, math.nan) for name in assembly.net_bars]
@@ -192,6 +194,8 @@ def network_dataset(problem: NetworkProblem, assembly: Assembly, water: Water) -
         data["solid_shape"] = ("solid", shapes, {"units": "1", "long_name": "shape of the body"})
         data |= drawn_parts(problem.bodies)
     coords = {"axis": ["x", "y", "z"], "line": list(assembly.lines), "point": names}
+    if assembly.parts:
+        coords["part"] = list(assembly.parts)
     if assembly.net_bars:
         coords["net"] = list(assembly.net_bars)
     out = labelled(xr.Dataset(data, coords=coords))
@@ -245,9 +249,9 @@ def _at_rest(
         stiffness = _stiffness(problem, assembly, water, found, said, collected)
         rested = rest_dataset(assembly, found, stiffness)
         if "dynamic" not in wanted:
-            rested = with_finer_mesh(
-                rested, assembly, found, lambda name, rest: finer_rest(problem, assembly, rest, conditions[name])
-            )
+            rested = with_finer_meshes(rested, problem, assembly, found, conditions)
+            network = collected.groups[f"{root}/network"]
+            collected.notices.extend(coarse_rest(rested, network, problem.settings.peak_goal, said))
         collected.groups[f"{root}/statics"] = bodies_at_rest(rested, hung)
         _weight_check(assembly, found, said, collected)
     return found, hung

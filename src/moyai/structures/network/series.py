@@ -76,6 +76,9 @@ def series_of(assembly: Assembly, plan: RunPlan, history: History) -> xr.Dataset
         numbers["end_highest"] = np.stack([highest[:, s.bars[-1]] for s in strands], axis=1)
     for key, values in numbers.items():
         data[key] = (("time", "line"), values)
+    if assembly.parts:
+        own = [highest[:, strand.bars].max(axis=1) for strand in assembly.parts.values()]
+        data["part_tension_peak_since_row"] = (("time", "part"), np.stack(own, axis=1))
     if assembly.net_bars:
         data["net_tension"] = (
             ("time", "net"),
@@ -93,6 +96,7 @@ def series_of(assembly: Assembly, plan: RunPlan, history: History) -> xr.Dataset
             coords={
                 "time": time, "point": names, "line": list(assembly.lines), "axis": AXES,
                 "net": list(assembly.net_bars), "measure": MEASURES,
+                **({"part": list(assembly.parts)} if assembly.parts else {}),
             },
         )
     )  # fmt: skip
@@ -204,3 +208,19 @@ def snaps_of(problem: NetworkProblem, series: xr.Dataset) -> dict[str, SnapRecor
             peaks=highest,
         )  # fmt: skip
     return found
+
+
+def utilisations(problem: NetworkProblem, series: xr.Dataset, chosen: NDArray[np.bool_]) -> dict[str, float]:
+    """Return the highest tension over the breaking load by line: of parts that differ in strength, the worst.
+
+    Not a number where a breaking load is not known.
+    """
+    out = {}
+    for line in problem.lines:
+        uses = [math.nan]
+        for name, load in line.strengths.items() if chosen.any() else ():
+            kind = "line" if name == line.name else "part"
+            record = series[f"{kind}_tension_peak_since_row"].sel({kind: name}).values[chosen]
+            uses.append(float(np.fmax.reduce(record)) / load)
+        out[line.name] = float(np.fmax.reduce(uses))
+    return out

@@ -14,6 +14,7 @@ from moyai.structures.network.bodies import lean_of
 from moyai.structures.network.equilibrium import MEASURES, named_points
 from moyai.structures.network.model import NetworkProblem
 from moyai.structures.network.noise import without_noise
+from moyai.structures.network.series import utilisations
 from moyai.structures.network.variables import labelled
 
 if TYPE_CHECKING:
@@ -35,6 +36,7 @@ CHECKS = {"the run itself": "peak", **{key: key for key in LOADS_AGAIN.values()}
 OF_REALISATIONS = {
     "seeds": ("seed_of_realisation", ()),
     "tension": ("line_tension_maximum_of_realisation", ("line",)),
+    "part_tension": ("part_tension_maximum_of_realisation", ("part",)),
     "net_tension": ("net_tension_maximum_of_realisation", ("net",)),
     "load": ("load_of_realisation", ("point", "measure")),
     "excursion": ("excursion_of_realisation", ("point",)),
@@ -67,12 +69,16 @@ def summary_dataset(
     lines, (names, _) = list(assembly.lines), named_points(assembly)
     data: dict[str, Any] = {}
     rows: dict[str, list[Any]] = {}
+    by_part: dict[str, list[Any]] = {}
     for item in runs:
         for key, value in _line_summary(problem, item, lines).items():
             rows.setdefault(key, []).append(value)
+        for key, of_parts in _part_summary(item).items():
+            by_part.setdefault(key, []).append(of_parts)
         for key, value in _point_summary(item, names, rest).items():
             data.setdefault(key, []).append(value)
     out: dict[str, Any] = {key: (("run", "line"), np.array(value)) for key, value in rows.items() if lines}
+    out |= {key: (("run", "part"), np.array(value)) for key, value in by_part.items()}
     out |= {key: (("run", "point"), np.array(value)) for key, value in data.items() if names}
     solids = [body.name for body in problem.bodies]
     for item in runs if solids else ():
@@ -91,7 +97,7 @@ def summary_dataset(
             pulls: list[dict[str, Any]] = [dict(item.sensitivity.pulls) if item.sensitivity else {} for item in runs]
             values = [[getattr(own.get(name), key, math.nan) for name in names] for own in pulls]
             out[label] = (("run", "point"), np.array(values))
-        out |= _of_checks(runs, {"line": lines, "net": list(assembly.net_bars)})
+        out |= _of_checks(runs, {"line": lines, "part": list(assembly.parts), "net": list(assembly.net_bars)})
     out |= _of_realisations(runs)
     if rest is not None and names:
         out["still_place"] = (("point", "axis"), np.asarray(rest))
@@ -100,6 +106,8 @@ def summary_dataset(
     coords: dict[str, Any] = {"run": [item.plan.name for item in runs], "line": lines, "point": names}
     if solids:
         coords["solid"] = solids
+    if assembly.parts:
+        coords["part"] = list(assembly.parts)
     if any("check" in dims for dims, _ in out.values()):
         coords["check"] = list(CHECKS)
     if "load_of_realisation" in out:
@@ -159,13 +167,13 @@ def _counted(item: NetworkRun) -> NDArray[np.bool_]:
 
 def _line_summary(problem: NetworkProblem, item: NetworkRun, lines: list[str]) -> dict[str, list[float]]:
     chosen = _counted(item)
-    breaking = {line.name: line.breaking_load for line in problem.lines}
     keys = (
         "line_tension_maximum", "peak_time", "start_peak", "end_peak", "line_tension_mean", "deviation", "utilisation",
         "slack_time", "slack_share", "contacts", "snaps", "snap_threshold", "largest_snap", "shortest_rise",
     )  # fmt: skip
     out: dict[str, list[float]] = {key: [] for key in keys}
     time = item.series["time"].values[chosen]
+    used = utilisations(problem, item.series, chosen)
     for name in lines:
         record = (
             item.series["line_tension_peak_since_row"].sel(line=name).values[chosen] if chosen.any() else np.zeros(0)
@@ -183,7 +191,7 @@ def _line_summary(problem: NetworkProblem, item: NetworkRun, lines: list[str]) -
             "line_tension_maximum": float(record[at]), "peak_time": float(time[at]),
             "start_peak": float(np.nanmax(most["start_highest"])), "end_peak": float(np.nanmax(most["end_highest"])),
             "line_tension_mean": float(np.nanmean(pull)), "deviation": float(np.nanstd(pull)),
-            "utilisation": float(record[at]) / breaking[name],
+            "utilisation": used[name],
         }  # fmt: skip
         if snaps is not None:
             peaks = [contact.peak for contact in snaps.snaps]
@@ -196,6 +204,20 @@ def _line_summary(problem: NetworkProblem, item: NetworkRun, lines: list[str]) -
         for key in keys:
             out[key].append(values.get(key, math.nan))
     return out
+
+
+def _part_summary(item: NetworkRun) -> dict[str, Array]:
+    """Return the highest tension of parts that differ in strength, its time and the mean over time."""
+    chosen = _counted(item)
+    if "part_tension_peak_since_row" not in item.series or not chosen.any():
+        return {}
+    record = np.nan_to_num(item.series["part_tension_peak_since_row"].values[chosen], nan=-math.inf)
+    at = record.argmax(axis=0)
+    return {
+        "part_tension_maximum": record.max(axis=0),
+        "part_peak_time": item.series["time"].values[chosen][at],
+        "part_tension_mean": record.mean(axis=0),
+    }
 
 
 def _point_summary(item: NetworkRun, names: list[str], rest: Array | None) -> dict[str, list[float]]:

@@ -22,6 +22,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "wave_speed": ("m/s", "slowest elastic wave along the line"),
     "travel_time": ("s", "time of an elastic wave along the line"),
     "breaking_load": ("N", "least breaking load of the line"),
+    "part_breaking_load": ("N", "breaking load of the part of a line"),
     "point_node": ("1", "node of the point"),
     "point_diameter": ("m", "diameter of the point, for drawing"),
     "position": ("m", "place of the node, z above still water"),
@@ -31,6 +32,15 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "sheet_tension": ("N/m", "higher principal tension of the sheet, 0 where it is slack"),
     "line_tension_peak_since_row": ("N", "highest tension along the line since the row before"),
     "line_tension_minimum": ("N", "lowest tension along the line"),
+    "part_tension_peak_since_row": ("N", "highest tension along the part of a line since the row before"),
+    "part_tension_maximum": ("N", "highest tension along the part of a line"),
+    "part_peak_time": ("s", "time of the highest tension of the part of a line"),
+    "part_tension_mean": ("N", "mean over time of the highest tension along the part of a line"),
+    "part_tension_of_check": (
+        "N",
+        "highest tension of the part of a line in the run and in those that check its mesh",
+    ),
+    "part_tension_maximum_of_realisation": ("N", "largest tension of the part of a line in each realisation"),
     "start_tension": ("N", "tension at the start of the line"),
     "end_tension": ("N", "tension at the end of the line"),
     "point_position": ("m", "place of the point, z above still water"),
@@ -46,6 +56,10 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "elastic_energy": ("J", "energy of bars, bending and bed"),
     "work": ("J", "work done on the network since the start"),
     "stiffness": ("N/m", "force that holds the driven point over its displacement"),
+    "line_tension_of_mesh": ("N", "highest tension along the line at rest on each mesh"),
+    "part_tension_of_mesh": ("N", "highest tension along the part of a line at rest on each mesh"),
+    "load_of_mesh": ("N", "pull of the lines on the point at rest on each mesh"),
+    "point_position_of_mesh": ("m", "place of the point at rest on each mesh, z above still water"),
     "residual": ("1", "largest force left over the largest force at work"),
     "mode_frequency": ("rad/s", "natural angular frequency, added mass included"),
     "mode_period": ("s", "natural period, added mass included"),
@@ -156,6 +170,8 @@ LABELS: dict[str, str] = {
     "check": "the run itself, or the run that checks its mesh and step",
     "measure": "measure",
     "left": "body of the last state",
+    "mesh": "bars in place of one of the case",
+    "part": "part of a line of several strengths",
 }
 
 # Names that a group holds whenever its analysis was run
@@ -185,6 +201,7 @@ TOGETHER = {
     "/[^/]+/statics": (
         "line_tension_maximum line_tension_minimum start_tension end_tension",
         "solid_position solid_angle",
+        "load_of_mesh point_position_of_mesh",
     ),
     "/[^/]+/dynamic": (
         (
@@ -198,6 +215,7 @@ TOGETHER = {
             "viscosity_effect damped finest"
         ),
         "load_half_step load_double_mesh load_damped load_finest",
+        "part_tension_maximum part_peak_time part_tension_mean",
     ),
     "/[^/]+/time/[^/]+": (
         ("line_tension_peak_since_row line_tension_minimum start_tension end_tension start_highest end_highest"),

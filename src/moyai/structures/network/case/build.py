@@ -377,7 +377,7 @@ def _line(name: str, entry: parts.NetworkLine, types: Any, folder: Path) -> mode
         where = f"{path}.parts[{number}].type" if entry.parts is not None else f"{path}.type"
         kind = _known(item.type, types, where)
         bar, load = bar_type_of(item.type, kind, folder, item.length / item.segments)
-        pieces.append(model.PartPlan(bar, item.length, item.segments))
+        pieces.append(model.PartPlan(bar, item.length, item.segments, load))
         between.append(None)
         breaking.append(load)
     total = sum(piece.length for piece in pieces)

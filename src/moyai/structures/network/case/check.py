@@ -14,6 +14,7 @@ from moyai.case.findings import Findings
 from moyai.core.errors import InputError
 from moyai.structures.network.case import schema_parts as parts
 from moyai.structures.network.case.check_parts import (
+    check_anchors,
     check_bars,
     check_bodies,
     check_corners,
@@ -45,6 +46,7 @@ def check(model: NetworkCase, findings: Findings, folder: Path) -> None:
     check_bodies(model, findings, folder)
     check_floats(model, findings)
     check_starts(model, findings)
+    check_anchors(model, findings)
     check_bars(model, findings)
     check_corners(model, findings)
     check_sheets(model, findings)

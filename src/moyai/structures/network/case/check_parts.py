@@ -19,6 +19,8 @@ from moyai.structures.network.case.sizes import places_of
 _FAR_FROM_AFLOAT = 0.1
 #: Share of the largest distance of two points over which a line is no link any more.
 _LONG_BAR = 0.3
+#: Heights of a fixed point above the bed over the depth between which it is neither an anchor nor a bollard.
+_OVER_BED = (0.02, 0.5)
 
 
 def _volume(body: bodies.BoxBody | bodies.CylinderBody) -> float:
@@ -133,6 +135,32 @@ def check_starts(model: NetworkCase, findings: Findings) -> None:
                 "falls: no line holds it from above",
                 allowed=f"z of at most {highest + 1.5 * tall:.4g} m",
                 remedy="heights under datum are negative; a float starts about the water level",
+            )  # fmt: skip
+
+
+def check_anchors(model: NetworkCase, findings: Findings) -> None:
+    """Warn of fixed points a little over the bed from which all lines lead upwards: anchors lie on it."""
+    unit, depth = model.structure, model.site.water_depth
+    # without a bed of its own a network knows none, and a bed that varies is looked at under each point
+    if not math.isfinite(depth) or unit.bed is None or (unit.bed.slope or unit.bed.grid) is not None:
+        return
+    places = {name: place for name, (place, _) in places_of(unit, model.site).items()}
+    carried = {point for body in unit.bodies.values() for point in body.points}
+    ends = [(line.start, line.end) for line in unit.lines.values()]
+    for name, point in unit.points.items():
+        if not isinstance(point, parts.HeldPoint) or point.z_from == "still_water":
+            continue
+        height = places[name][2] + depth
+        others = [b if a == name else a for a, b in ends if name in (a, b)]
+        # a knot of a net may hang lower; points of turned bodies float
+        upwards = bool(others) and all(
+            places[other][2] > places[name][2] if other in places else other in carried for other in others
+        )
+        if upwards and _OVER_BED[0] < height / depth < _OVER_BED[1]:
+            findings.warn(
+                ("structure", "points", name, "position"),
+                f"'{name}' is fixed {height:.4g} m above the bed, and its lines lead upwards from there",
+                remedy="an anchor has the word bed for z; nothing is wrong where it is fixed to a pile or a wall",
             )  # fmt: skip
 
 

@@ -1,0 +1,303 @@
+"""A network at rest on finer and finer meshes, until its tensions, pulls and places stand: [eq:rest-doublings].
+
+How the answer is made: docs/answer/network.md.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.core.arrays import Array
+from moyai.core.errors import ConvergenceError, InputError
+from moyai.core.headline import Band
+from moyai.core.validity import Notice
+from moyai.core.wording import spoken
+from moyai.flexible.flow import Flow
+from moyai.flexible.network import Network
+from moyai.flexible.refine import refined
+from moyai.flexible.result import Equilibrium, State
+from moyai.flexible.statics import solve_equilibrium
+from moyai.structures.network.assembly import Assembly, assemble
+from moyai.structures.network.bodies import rest_of
+from moyai.structures.network.equilibrium import named_points, pulls
+from moyai.structures.network.finer import finer_problem
+from moyai.structures.network.model import NetworkProblem
+from moyai.structures.network.variables import labelled
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+#: Last change of the meshes, and how far it may be from half of the change before, over what is found: below both no
+#: finer mesh is looked for.
+CHANGE, UNEVEN = 0.02, 0.004
+#: The same up to which an answer is taken where no finer mesh can be had.
+MOST_CHANGE, MOST_UNEVEN = 0.05, 0.01
+#: Part of the highest tension of the network below which tensions and pulls are measured against it.
+FLOOR = 0.25
+#: Bars of the finest mesh, at most, without bodies and with them; doublings, at most.
+MOST_BARS, MOST_BARS_OF_BODIES, MOST_DOUBLINGS = 20_000, 4_000, 10
+#: Segments of a line up to which one doubling alone shows nothing, and from which one is enough where it changes less
+#: than half of the above.
+COARSE, FINE = 12, 40
+#: What the band of a number at rest is of.
+MESH = "mesh: twice the segments, again and again until the change is small, and that change continued"
+
+
+@dataclass(frozen=True, eq=False)
+class _RestMesh:
+    """A network at rest on one mesh."""
+
+    problem: NetworkProblem
+    assembly: Assembly
+    #: Before bodies carry its points to their rest.
+    plain: Network
+    network: Network
+    state: State
+    tension: Array
+    #: Bars of the lines, and of parts of lines with a strength of their own.
+    lines: Mapping[str, NDArray[np.int64]]
+    parts: Mapping[str, NDArray[np.int64]]
+
+
+def _finer(mesh: _RestMesh, flow: Flow) -> _RestMesh:
+    """Return the rest on twice the bars, of nets whose bars gather twines on twice the knots.
+
+    Raises
+    ------
+    ConvergenceError, InputError
+        Where there is none.
+    """
+    problem, assembly = mesh.problem, mesh.assembly
+    if problem.gathers_twines:
+        problem = finer_problem(problem)
+        assembly = assemble(problem, assembly.level)
+        plain, begin = assembly.network, None
+        lines, parts = _bars(assembly)
+    else:
+        plain, begin = refined(mesh.plain, 2, mesh.state)
+        lines, parts = (
+            {name: np.concatenate([2 * bars, 2 * bars + 1]) for name, bars in own.items()}
+            for own in (mesh.lines, mesh.parts)
+        )
+    if problem.bodies:
+        both = rest_of(problem, plain, flow)
+        return _RestMesh(problem, assembly, plain, both.network, both.state, both.tension, lines, parts)
+    if begin is None:
+        # a net that hangs finds its rest in a current where one as built may not
+        begin = solve_equilibrium(plain, flow=Flow()).state
+    own = solve_equilibrium(plain, flow=flow, start=begin)
+    return _RestMesh(problem, assembly, plain, plain, own.state, own.tension, lines, parts)
+
+
+def _bars(assembly: Assembly) -> tuple[dict[str, NDArray[np.int64]], dict[str, NDArray[np.int64]]]:
+    lines = {name: strand.bars for name, strand in assembly.lines.items()}
+    return lines, {name: strand.bars for name, strand in assembly.parts.items()}
+
+
+@dataclass(frozen=True, eq=False)
+class _OfRest:
+    """Tensions of lines and of their parts, pulls on points [N] and places of points [m] of one mesh."""
+
+    lines: Array
+    parts: Array
+    pulls: Array
+    places: Array
+
+
+def _read(mesh: _RestMesh, names: list[str]) -> _OfRest:
+    lines, parts = (
+        np.array([float(mesh.tension[bars].max()) for bars in own.values()]) for own in (mesh.lines, mesh.parts)
+    )
+    nodes = np.array([mesh.network.points[name] for name in names], dtype=np.int64)
+    load = pulls(mesh.network, nodes, mesh.state.position[None], mesh.tension[None])[0]
+    return _OfRest(lines, parts, np.linalg.norm(load, axis=1), mesh.state.position[nodes])
+
+
+def with_finer_meshes(
+    dataset: xr.Dataset,
+    problem: NetworkProblem,
+    assembly: Assembly,
+    found: Mapping[str, Equilibrium],
+    flows: Mapping[str, Flow],
+) -> xr.Dataset:
+    """Return the dataset with tensions of lines, pulls on points and their places on meshes of twice the bars each.
+
+    Bars are cut in two again and again until the answer stands, or no finer rest is found. The dataset stays as it is
+    where not even the first is.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        Of the network at rest.
+    problem : NetworkProblem
+    assembly : Assembly
+    found : mapping of str to Equilibrium
+        By condition.
+    flows : mapping of str to Flow
+        In which it is at rest.
+    """
+    names, _ = named_points(assembly)
+    lines, parts = _bars(assembly)
+    few = min((bars.size for bars in lines.values()), default=0)
+    most = MOST_BARS_OF_BODIES if problem.bodies else MOST_BARS
+    every: dict[str, list[_OfRest]] = {}
+    for name, rest in found.items():
+        mesh = _RestMesh(problem, assembly, assembly.network, assembly.network, rest.state, rest.tension, lines, parts)
+        own = every[name] = [_read(mesh, names)]
+        while len(own) <= MOST_DOUBLINGS and not _stands(own, few):
+            if len(own) > 1 and len(mesh.plain.bars) > most // 2:
+                break
+            try:
+                mesh = _finer(mesh, flows[name])
+            except (ConvergenceError, InputError):
+                break
+            own.append(_read(mesh, names))
+    count = max(map(len, every.values()))
+    if min(map(len, every.values())) < 2:
+        return dataset
+
+    def of(key: str) -> Array:
+        values = [np.array([getattr(one, key) for one in own]) for own in every.values()]
+        return np.array([np.concatenate([one, np.full((count - len(one), *one.shape[1:]), np.nan)]) for one in values])
+
+    data: dict[str, object] = {
+        "load_of_mesh": (("condition", "mesh", "point"), of("pulls")),
+        "point_position_of_mesh": (("condition", "mesh", "point", "axis"), of("places")),
+    }
+    if lines:
+        data["line_tension_of_mesh"] = (("condition", "mesh", "line"), of("lines"))
+    if parts:
+        data["part_tension_of_mesh"] = (("condition", "mesh", "part"), of("parts"))
+    out = dataset.assign(data).assign_coords(mesh=2 ** np.arange(count))
+    return labelled(out)
+
+
+def _stands(own: list[_OfRest], few: int) -> bool:
+    """Whether no finer mesh is needed; ``few``: segments of the line that has fewest."""
+    if len(own) < 2 or (len(own) < 3 and few < FINE):
+        return False
+    lines, loads = (np.array([getattr(one, key) for one in own]) for key in ("lines", "pulls"))
+    floor = _floor(lines, loads)
+    return all(Reach.of(column, floor).stands for values in (lines, loads) for column in values.T)
+
+
+def _floor(lines: Array, loads: Array) -> float:
+    """Return what small tensions and pulls are measured against."""
+    return FLOOR * float(max(lines[-1].max(initial=0.0), loads[-1].max(initial=0.0)))
+
+
+@dataclass(frozen=True)
+class Reach:
+    """What finer and finer meshes make of a number: [eq:rest-doublings]."""
+
+    low: float
+    high: float
+    #: Whether the last changes are small and of one kind, and whether they are so small that no more is needed.
+    settled: bool
+    stands: bool
+
+    @classmethod
+    def of(cls, values: Array, floor: float = 0.0, few: bool = True) -> Reach:
+        """Return it for a number on meshes of 1, 2, 4 ... times the bars.
+
+        Parameters
+        ----------
+        values : ndarray, shape (meshes,)
+        floor : float
+            What changes are measured against where the number itself is smaller.
+        few : bool
+            Whether the first mesh is so coarse that one doubling alone shows nothing.
+        """
+        values = values[np.isfinite(values)]
+        last = float(values[-1])
+        if len(values) < 2:
+            return cls(last, last, False, False)
+        scale = max(abs(last), floor)
+        change = float(values[-1] - values[-2])
+        uneven = abs(change - 0.5 * float(values[-2] - values[-3])) if len(values) > 2 else 0.5 * abs(change)
+        # an error of first order goes on by the last change; what is not of first order, by as much as it differs
+        ends = [float(values[0]), last, last + change - uneven, last + change + uneven]
+        if len(values) > 2:
+            settled = abs(change) <= MOST_CHANGE * scale and uneven <= MOST_UNEVEN * scale
+            stands = abs(change) <= CHANGE * scale and uneven <= UNEVEN * scale
+        else:
+            settled = not few and abs(change) <= MOST_CHANGE * scale
+            stands = abs(change) <= 0.5 * CHANGE * scale
+        return cls(max(min(ends), min(0.0, last)), max(ends), settled, stands)
+
+
+def reach_at_rest(rest: xr.Dataset, network: xr.Dataset, key: str, condition: str, **of: str) -> Reach | None:
+    """Return what finer meshes make of a tension or pull at rest; None where none was run.
+
+    Parameters
+    ----------
+    rest, network : xarray.Dataset
+        Of the network at rest, and of the network itself.
+    key : str
+        ``line_tension_of_mesh``, ``part_tension_of_mesh`` or ``load_of_mesh``.
+    condition : str
+    of : str
+        Name of the line, part or point.
+    """
+    if key not in rest:
+        return None
+    here = rest.sel(condition=condition)
+    here = here.isel(mesh=np.isfinite(here["load_of_mesh"].values).all(axis=1))
+    lines = here["line_tension_of_mesh"].values if "line_tension_of_mesh" in here else np.zeros((here.sizes["mesh"], 0))
+    return Reach.of(here[key].sel(of).values, _floor(lines, here["load_of_mesh"].values), _few(network))
+
+
+def _few(network: xr.Dataset) -> bool:
+    return bool((network["line_segments"].values <= COARSE).any())
+
+
+def band_at_rest(
+    rest: xr.Dataset, network: xr.Dataset, key: str, condition: str, **of: str
+) -> tuple[Band | None, bool]:
+    """Return the band of a tension or pull at rest, and whether finer meshes settle it: where not, it may be more."""
+    reach = reach_at_rest(rest, network, key, condition, **of)
+    if reach is None:
+        return None, False
+    return Band(reach.low, reach.high, MESH), reach.settled
+
+
+def coarse_rest(rest: xr.Dataset, network: xr.Dataset, goal: float, said: str) -> list[Notice]:
+    """Warn of a line whose highest tension at rest finer meshes move by more than a part of it.
+
+    Parameters
+    ----------
+    rest, network : xarray.Dataset
+        Of the network at rest, and of the network itself.
+    goal : float
+        That part.
+    said : str
+        Water level, in words.
+    """
+    if "line_tension_of_mesh" not in rest:
+        return []
+    worst: tuple[float, Notice] | None = None
+    for condition in (str(name) for name in rest["condition"].values):
+        values = rest["line_tension_of_mesh"].sel(condition=condition).values
+        values = values[np.isfinite(values).all(axis=1)]
+        scale = np.maximum(values[-1], FLOOR * values[-1].max(initial=0.0))
+        for number, line in enumerate(str(name) for name in rest["line"].values):
+            own = values[:, number]
+            change = abs(own[-1] - own[0]) / scale[number] if scale[number] > 0.0 else 0.0
+            if not change > goal or (worst is not None and change <= worst[0]):
+                continue
+            segments = int(network["line_segments"].sel(line=line))
+            most = segments * 2 ** (len(own) - 1)
+            enough = next((k for k, one in enumerate(own) if abs(own[-1] - one) <= goal * scale[number]), len(own) - 1)
+            worst = change, Notice(
+                "coarse-rest",
+                f"{said}the highest tension of '{line}' at rest in {condition}, {spoken(own[0], 'N')}, is "
+                f"{spoken(own[-1], 'N', like=own[-1])} with {most} segments",
+                float(change), goal, "warning", f"give the line {segments * 2**enough} segments",
+            )  # fmt: skip
+    return [] if worst is None or not math.isfinite(worst[0]) else [worst[1]]

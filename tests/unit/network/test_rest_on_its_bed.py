@@ -1,0 +1,87 @@
+"""A line at rest on its bed: whatever its segments, the band holds the elastic catenary, and no limit below it holds.
+
+Independent reference: the elastic catenary whose lower end lies on a flat bed without friction.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+import moyai
+from moyai.structures.network.rest_mesh import Reach
+from moyai.tables.lines import line_type
+
+CASE = """
+moyai: 1
+title: Ship's chain at rest, fairlead held
+site: {water_depth: 70 m, density: 1025 kg/m3, gravity: 9.81 m/s2}
+structure:
+  kind: network
+  bed: {stiffness: 3e7 Pa/m, damping: 3e5 Pa s/m, friction: 0.6}
+  line_types:
+    chain: {catalogue: studless_chain_R3, diameter: 76 mm, damping_ratio: 0.1}
+  points:
+    anchor: {kind: fixed, position: [0, 0, bed]}
+    fairlead: {kind: fixed, position: [AWAY m, 0, -5 m]}
+  lines:
+    chain: {start: anchor, end: fairlead, type: chain, length: 400 m, segments: SEGMENTS}
+analyses: [statics]
+criteria: {line_safety_factor: not_judged, greatest_tension: LIMIT kN}
+"""
+LENGTH, HIGH = 400.0, 65.0
+
+
+def _catenary(away: float) -> tuple[float, float]:
+    """Return tension at the fairlead and at the anchor [N] of an elastic chain that lies on its bed."""
+    chain = line_type("studless_chain_R3", 0.076)
+    weight, stiffness = (chain.mass_per_length - 1025.0 * chain.volume_per_length) * 9.81, chain.axial_stiffness
+
+    def hanging(level: float) -> float:
+        def too_high(length: float) -> float:
+            return (math.hypot(level, weight * length) - level) / weight + weight * length**2 / (2.0 * stiffness) - HIGH
+
+        return brentq(too_high, HIGH, LENGTH)
+
+    def too_far(level: float) -> float:
+        length = hanging(level)
+        return (
+            LENGTH - length + level / weight * math.asinh(weight * length / level) + level * LENGTH / stiffness - away
+        )
+
+    level = brentq(too_far, 1e3, 7e5)
+    return math.hypot(level, weight * hanging(level)), level
+
+
+@pytest.mark.parametrize("away", [360.0, 370.0, 380.0, 390.0])
+@pytest.mark.parametrize("segments", [3, 4, 5, 6, 7, 9, 11, 14, 16, 25, 60])
+def test_the_band_holds_the_elastic_catenary(away: float, segments: int) -> None:
+    top, level = _catenary(away)
+    text = CASE.replace("AWAY", str(away)).replace("SEGMENTS", str(segments))
+    result = moyai.run(text.replace("LIMIT", f"{0.99e-3 * top:.4f}"))
+    (tension,) = [item for item in result.headlines if item.name == "line_tension" and item.shown]
+    assert tension.band is not None and tension.bound == ""
+    # the chain sinks some millimetres into the bed
+    assert tension.band.low <= top * 1.0005 and 0.9995 * top <= tension.band.high <= 1.012 * top
+    assert result.verdict.outcome == "does not hold"
+    rest = result.tree["SWL/statics"].to_dataset().sel(condition="still water", point="anchor")
+    assert float(rest["load_of_mesh"][-1]) == pytest.approx(level, rel=0.02)
+    coarse = [notice for notice in result.notices if notice.code == "coarse-rest"]
+    assert bool(coarse) == (abs(tension.value / top - 1.0) > 0.05) or 0.04 < abs(tension.value / top - 1.0) < 0.06
+    assert not coarse or (coarse[0].severity == "warning" and "segments" in coarse[0].remedy)
+
+
+def test_a_change_of_first_order_goes_on_to_its_limit_and_one_that_jumps_is_open() -> None:
+    meshes = 2.0 ** np.arange(4)
+    found = Reach.of(100.0 - 8.0 / meshes)
+    assert found.low == 92.0 and found.high == pytest.approx(100.0) and found.settled and found.stands
+    # as far again as it is not of first order: here of second
+    found = Reach.of(100.0 - 8.0 / meshes**2)
+    assert found.low == 92.0 and 100.0 < found.high < 100.7 and found.stands
+    jumps = Reach.of(np.array([175.0, 168.0, 182.5]))
+    assert not jumps.settled and jumps.high > 192.9
+    assert not Reach.of(np.array([176.35, 176.4])).settled and Reach.of(np.array([176.35, 176.4]), few=False).settled
+    assert Reach.of(np.array([5.0])).settled is False
