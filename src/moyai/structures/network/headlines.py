@@ -106,7 +106,7 @@ def headlines_of(problem: NetworkProblem, groups: Mapping[str, xr.Dataset]) -> t
         items += _utilisation(problem, groups, [*peaks, *(_part_peaks(groups, timed))])
     items += _net_tension(problem, groups, nets, widths)
     items += _anchor(groups, every) if timed else rest_headlines(groups, single_anchors(problem), REST)
-    items += held_headlines(problem, groups, DYNAMIC)
+    items += held_headlines(problem, groups, DYNAMIC if timed else REST)
     items += _offsets(groups, single_anchors(problem))
     items += mode_headlines(groups)
     around = problem.environment
@@ -210,14 +210,16 @@ def _part_peaks(groups: Mapping[str, xr.Dataset], timed: bool) -> Iterator[_Peak
 
 
 def _rest_peaks(groups: Mapping[str, xr.Dataset]) -> Iterator[_Peak]:
+    """Yield the highest tension of every line and net at rest."""
     for level, rest in _levels(groups, "statics"):
-        if "line_tension_maximum" not in rest or not rest["line_tension_maximum"].size:
-            continue
-        for condition in (str(name) for name in rest["condition"].values):
-            for line in (str(name) for name in rest["line"].values):
-                value = float(rest["line_tension_maximum"].sel(condition=condition, line=line))
-                if math.isfinite(value):
-                    yield _Peak(value, line, level, condition, math.nan, REST)
+        for kind in ("line", "net"):
+            if f"{kind}_tension_maximum" not in rest:
+                continue
+            for condition in (str(name) for name in rest["condition"].values):
+                for name in (str(name) for name in rest[kind].values):
+                    value = float(rest[f"{kind}_tension_maximum"].sel({"condition": condition, kind: name}))
+                    if math.isfinite(value):
+                        yield _Peak(value, name, level, condition, math.nan, REST, kind=kind)
 
 
 def _where(groups: Mapping[str, xr.Dataset], peak: _Peak) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +13,10 @@ from moyai.flexible.network import Network
 from moyai.flexible.result import History
 from moyai.structures.network.assembly import Assembly
 from moyai.structures.network.equilibrium import pulls
+from moyai.structures.network.variables import labelled
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 def held_pulls(
@@ -48,6 +53,19 @@ def held_pulls(
         if knots.size:
             out[:, column] = pulls(network, knots, position, alone).sum(axis=1)
     return out
+
+
+def nets_at_rest(dataset: xr.Dataset, assembly: Assembly) -> xr.Dataset:
+    """Return the dataset of a network at rest with the highest tension in each net and its pull on what holds it."""
+    if not assembly.net_bars:
+        return dataset
+    tension, position = dataset["tension"].values, dataset["position"].values
+    highest = np.stack([own.max(axis=1) for own in assembly.net_tensions(tension)], axis=1)
+    data: dict[str, object] = {"net_tension_maximum": (("condition", "net"), highest)}
+    held = held_pulls(assembly.network, assembly.net_bars, position, tension)
+    if held is not None:
+        data["held_pull"] = (("condition", "net", "axis"), held)
+    return labelled(dataset.assign(data).assign_coords(net=list(assembly.net_bars)))
 
 
 def held_of_run(assembly: Assembly, history: History, after: float) -> dict[str, float]:

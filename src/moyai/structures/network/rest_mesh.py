@@ -27,6 +27,7 @@ from moyai.structures.network.assembly import Assembly, assemble
 from moyai.structures.network.bodies import rest_of
 from moyai.structures.network.equilibrium import named_points, pulls
 from moyai.structures.network.finer import finer_problem
+from moyai.structures.network.held_rows import held_pulls
 from moyai.structures.network.model import NetworkProblem
 from moyai.structures.network.variables import labelled
 
@@ -60,9 +61,10 @@ class _RestMesh:
     network: Network
     state: State
     tension: Array
-    #: Bars of the lines, and of parts of lines with a strength of their own.
+    #: Bars of the lines, of parts of lines with a strength of their own, and of the nets.
     lines: Mapping[str, NDArray[np.int64]]
     parts: Mapping[str, NDArray[np.int64]]
+    nets: Mapping[str, NDArray[np.int64]]
 
 
 def _finer(mesh: _RestMesh, flow: Flow) -> _RestMesh:
@@ -78,45 +80,58 @@ def _finer(mesh: _RestMesh, flow: Flow) -> _RestMesh:
         problem = finer_problem(problem)
         assembly = assemble(problem, assembly.level)
         plain, begin = assembly.network, None
-        lines, parts = _bars(assembly)
+        bars = _bars(assembly)
     else:
         plain, begin = refined(mesh.plain, 2, mesh.state)
-        lines, parts = (
+        bars = tuple(
             {name: np.concatenate([2 * bars, 2 * bars + 1]) for name, bars in own.items()}
-            for own in (mesh.lines, mesh.parts)
+            for own in (mesh.lines, mesh.parts, mesh.nets)
         )
     if problem.bodies:
         both = rest_of(problem, plain, flow)
-        return _RestMesh(problem, assembly, plain, both.network, both.state, both.tension, lines, parts)
+        return _RestMesh(problem, assembly, plain, both.network, both.state, both.tension, *bars)
     if begin is None:
         # a net that hangs finds its rest in a current where one as built may not
         begin = solve_equilibrium(plain, flow=Flow()).state
     own = solve_equilibrium(plain, flow=flow, start=begin)
-    return _RestMesh(problem, assembly, plain, plain, own.state, own.tension, lines, parts)
+    return _RestMesh(problem, assembly, plain, plain, own.state, own.tension, *bars)
 
 
-def _bars(assembly: Assembly) -> tuple[dict[str, NDArray[np.int64]], dict[str, NDArray[np.int64]]]:
-    lines = {name: strand.bars for name, strand in assembly.lines.items()}
-    return lines, {name: strand.bars for name, strand in assembly.parts.items()}
+def _bars(assembly: Assembly) -> tuple[dict[str, NDArray[np.int64]], ...]:
+    lines, parts = ({name: one.bars for name, one in own.items()} for own in (assembly.lines, assembly.parts))
+    return lines, parts, dict(assembly.net_bars)
 
 
 @dataclass(frozen=True, eq=False)
 class _OfRest:
-    """Tensions of lines and of their parts, pulls on points [N] and places of points [m] of one mesh."""
+    """Of one mesh: tensions of lines, parts and nets, pulls of nets and on points [N], places of points [m]."""
 
     lines: Array
     parts: Array
+    nets: Array
+    held: Array
     pulls: Array
     places: Array
 
 
-def _read(mesh: _RestMesh, names: list[str]) -> _OfRest:
+def _read(mesh: _RestMesh, names: list[str], widths: Mapping[str, float]) -> _OfRest:
+    """Return what is read of a mesh: tensions of nets of strips as wide as ``widths`` says, those of the first."""
     lines, parts = (
         np.array([float(mesh.tension[bars].max()) for bars in own.values()]) for own in (mesh.lines, mesh.parts)
     )
     nodes = np.array([mesh.network.points[name] for name in names], dtype=np.int64)
     load = pulls(mesh.network, nodes, mesh.state.position[None], mesh.tension[None])[0]
-    return _OfRest(lines, parts, np.linalg.norm(load, axis=1), mesh.state.position[nodes])
+    nets = [float(mesh.tension[bars].max()) for bars in mesh.nets.values()]
+    if mesh.problem.gathers_twines:
+        own, strips = mesh.assembly.net_widths, mesh.assembly.net_tensions(mesh.tension[None])
+        pairs = zip(mesh.nets, strips, strict=True)
+        nets = [widths.get(name, 1.0) / own.get(name, 1.0) * float(strip.max()) for name, strip in pairs]
+    held = held_pulls(mesh.network, mesh.nets, mesh.state.position[None], mesh.tension[None])
+    held = np.zeros((1, len(nets), 3)) if held is None else held
+    return _OfRest(
+        lines, parts, np.array(nets), np.linalg.norm(held[0], axis=1), np.linalg.norm(load, axis=1),
+        mesh.state.position[nodes],
+    )  # fmt: skip
 
 
 def with_finer_meshes(
@@ -126,7 +141,7 @@ def with_finer_meshes(
     found: Mapping[str, Equilibrium],
     flows: Mapping[str, Flow],
 ) -> xr.Dataset:
-    """Return the dataset with tensions of lines, pulls on points and their places on meshes of twice the bars each.
+    """Return the dataset with tensions, pulls and places of points on meshes of twice the bars each.
 
     Bars are cut in two again and again until the answer stands, or no finer rest is found. The dataset stays as it is
     where not even the first is.
@@ -143,13 +158,14 @@ def with_finer_meshes(
         In which it is at rest.
     """
     names, _ = named_points(assembly)
-    lines, parts = _bars(assembly)
-    few = min((bars.size for bars in lines.values()), default=0)
+    bars = _bars(assembly)
+    lines, parts, nets = bars
+    few = min((line.size for line in lines.values()), default=0)
     most = MOST_BARS_OF_BODIES if problem.bodies else MOST_BARS
     every: dict[str, list[_OfRest]] = {}
     for name, rest in found.items():
-        mesh = _RestMesh(problem, assembly, assembly.network, assembly.network, rest.state, rest.tension, lines, parts)
-        own = every[name] = [_read(mesh, names)]
+        mesh = _RestMesh(problem, assembly, assembly.network, assembly.network, rest.state, rest.tension, *bars)
+        own = every[name] = [_read(mesh, names, assembly.net_widths)]
         while len(own) <= MOST_DOUBLINGS and not _stands(own, few):
             if len(own) > 1 and len(mesh.plain.bars) > most // 2:
                 break
@@ -157,7 +173,7 @@ def with_finer_meshes(
                 mesh = _finer(mesh, flows[name])
             except (ConvergenceError, InputError):
                 break
-            own.append(_read(mesh, names))
+            own.append(_read(mesh, names, assembly.net_widths))
     count = max(map(len, every.values()))
     if min(map(len, every.values())) < 2:
         return dataset
@@ -174,6 +190,9 @@ def with_finer_meshes(
         data["line_tension_of_mesh"] = (("condition", "mesh", "line"), of("lines"))
     if parts:
         data["part_tension_of_mesh"] = (("condition", "mesh", "part"), of("parts"))
+    if nets:
+        data["net_tension_of_mesh"] = (("condition", "mesh", "net"), of("nets"))
+        data["held_pull_of_mesh"] = (("condition", "mesh", "net"), of("held"))
     out = dataset.assign(data).assign_coords(mesh=2 ** np.arange(count))
     return labelled(out)
 
@@ -240,10 +259,10 @@ def reach_at_rest(rest: xr.Dataset, network: xr.Dataset, key: str, condition: st
     rest, network : xarray.Dataset
         Of the network at rest, and of the network itself.
     key : str
-        ``line_tension_of_mesh``, ``part_tension_of_mesh`` or ``load_of_mesh``.
+        One of the variables that end with ``_of_mesh``.
     condition : str
     of : str
-        Name of the line, part or point.
+        Name of the line, part, net or point.
     """
     if key not in rest:
         return None

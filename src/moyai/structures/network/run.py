@@ -34,6 +34,7 @@ from moyai.structures.network.equilibrium import (
     stiffness_at_driven,
 )
 from moyai.structures.network.headlines import headlines_of, mesh_checked
+from moyai.structures.network.held_rows import nets_at_rest
 from moyai.structures.network.model import NetworkProblem
 from moyai.structures.network.rest_mesh import coarse_rest, with_finer_meshes
 from moyai.structures.network.resume import earlier_run, read_earlier
@@ -247,7 +248,7 @@ def _at_rest(
         collected.notices.extend(wet_in_air(assembly.network, rest.state.position, said))
     if found and ("statics" in wanted):
         stiffness = _stiffness(problem, assembly, water, found, said, collected)
-        rested = rest_dataset(assembly, found, stiffness)
+        rested = nets_at_rest(rest_dataset(assembly, found, stiffness), assembly)
         if "dynamic" not in wanted:
             rested = with_finer_meshes(rested, problem, assembly, found, conditions)
             network = collected.groups[f"{root}/network"]

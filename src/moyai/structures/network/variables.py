@@ -58,6 +58,9 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "stiffness": ("N/m", "force that holds the driven point over its displacement"),
     "line_tension_of_mesh": ("N", "highest tension along the line at rest on each mesh"),
     "part_tension_of_mesh": ("N", "highest tension along the part of a line at rest on each mesh"),
+    "net_tension_maximum": ("N", "highest tension in the net at rest, of strips as wide as between its columns"),
+    "net_tension_of_mesh": ("N", "highest tension in the net at rest on each mesh, of strips as wide as on the first"),
+    "held_pull_of_mesh": ("N", "pull of the net on its fixed and driven knots together at rest on each mesh"),
     "load_of_mesh": ("N", "pull of the lines on the point at rest on each mesh"),
     "point_position_of_mesh": ("m", "place of the point at rest on each mesh, z above still water"),
     "residual": ("1", "largest force left over the largest force at work"),
@@ -202,6 +205,7 @@ TOGETHER = {
         "line_tension_maximum line_tension_minimum start_tension end_tension",
         "solid_position solid_angle",
         "load_of_mesh point_position_of_mesh",
+        "net_tension_of_mesh held_pull_of_mesh",
     ),
     "/[^/]+/dynamic": (
         (
