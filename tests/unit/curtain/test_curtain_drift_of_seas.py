@@ -10,11 +10,15 @@ import pytest
 import moyai
 from moyai.case.builder import build
 from moyai.core.headline import Headline
+from moyai.core.progress import silent
 from moyai.sea.water import Water
+from moyai.structures.curtain.analyses.dynamic import through
 from moyai.structures.curtain.analyses.weaker_currents import currents_of_waves
 from moyai.structures.curtain.assembly import LevelCurtain, assemble
 from moyai.structures.curtain.dynamic.assembly import build_span
 from moyai.structures.curtain.dynamic.model import AnchoredSupport, CurtainSpan, Mesh
+from moyai.structures.curtain.dynamic.plans import plans_of
+from moyai.structures.curtain.dynamic.span import span_of
 from moyai.structures.curtain.hierarchy import STRAIGHT, straight_share
 
 WATER = Water(depth=5.0, density=1025.0, gravity=9.81)
@@ -160,6 +164,46 @@ def test_a_whole_span_on_anchors_keeps_its_lower_cable_under_the_upper_one(tmp_p
     column = np.flatnonzero(place[0, :, 1] < place[0, :, 1].min() + 1e-6)
     column = column[np.argsort(place[0, column, 2])]
     assert np.ptp(place[:, column[[0, -1]], 0], axis=1).max() < 0.2
+
+
+@pytest.mark.slow
+def test_a_steep_line_pulls_as_hard_on_its_anchor_as_its_two_parts(tmp_path: Path) -> None:
+    """The part to the toe is flatter than the one to the buoy: their pulls along the bed add up, not their tensions."""
+    settings = ", dynamic: {cells_along: 8, cells_down: 4, sensitivity: false, support_mass: 100 kg}"
+    case = text(water=5, current=current(0.5), analyses="dynamic", settings=settings)
+    case = case.replace("line_length: 20 m", "line_length: 7 m")
+    case = case.replace("submerged_weight: 3 N/m2", "mass_per_area: 0.8 kg/m2, sheet_density: 1380 kg/m3")
+    unit = unit_of(tmp_path, case)
+    problem = build(moyai.load_case(tmp_path / "case.yaml"))
+    built = span_of(unit, problem.settings.dynamic)
+    (plan,) = plans_of(unit, problem.settings, (), built)
+    _, found, _ = through(built, problem.settings.dynamic.mesh, plan, silent, "")
+    name, bars, history = found.built.lines[0], found.built.network.bars, found.history
+    mine = found.built.bars(name)
+    way = history.position[:, bars.end[mine]] - history.position[:, bars.start[mine]]
+    level = np.linalg.norm(way[..., :2], axis=2) / np.linalg.norm(way, axis=2)
+    pull = 2.0 * (level * history.tension_peak[:, mine]).sum(axis=1)
+    assert level[0].max() > 1.1 * level[0].min()
+    np.testing.assert_allclose(np.cos(built.support.slope) * found.tension(name), pull, rtol=1e-12)
+
+
+@pytest.mark.slow
+def test_stronger_anchors_keep_the_height_that_weaker_ones_hold(tmp_path: Path) -> None:
+    """Where the drift passes the range of the upright plate the height is "at least" the sea that drifts so far."""
+    case = text(water=25, skirt=15, current=current(0.05), analyses="statics, impact, limits", sheet="200 kN/m")
+    for old, new in (("span: 12 m", "span: 25 m"), ("length: 13.2 m", "length: 28 m"), ("24 mm", "60 mm"),
+                     ("500 kN/m", "1500 kN/m"), ("20 m, axial_stiffness: 3", "80 m, axial_stiffness: 20"),
+                     ("1200 N/m, weight: 100", "4000 N/m, weight: 300")):  # fmt: skip
+        assert old in case, old
+        case = case.replace(old, new)
+    heights, bounds = [], []
+    for holding in ("100 kN", "200 kN", "400 kN", "2 MN"):
+        there = case.replace("holding_force: 60 kN", f"holding_force: {holding}").replace("180 kN", "6 MN")
+        limit = headline(run(tmp_path, there), "limit_wave_height")
+        heights.append(limit.value)
+        bounds.append(limit.bound)
+    assert np.isfinite(heights).all() and np.all(np.diff(heights) >= 0.0), heights
+    assert bounds[0] == "" and bounds[-1] == "at least", bounds
 
 
 def test_an_anchor_line_is_led_to_both_edges_of_a_held_skirt() -> None:

@@ -32,6 +32,8 @@ SPAN = "whole span through time"
 #: Straight depth of the skirt over its length below which a plate of the whole length is out of range [-]: the tension
 #: of the plate goes with its depth, so that it is then more than 10 % too high.
 STRAIGHT = 0.9
+#: What sets a wave height beyond whose drift nothing is known.
+OF_UPRIGHT = "range of the upright plate"
 
 
 @checks_words
@@ -195,6 +197,7 @@ __all__ = [
     "CYCLES",
     "ENERGY",
     "IMPACT",
+    "OF_UPRIGHT",
     "SPAN",
     "STATICS",
     "STRAIGHT",

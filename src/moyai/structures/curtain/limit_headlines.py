@@ -8,7 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from moyai.core.headline import Band, Criterion, Headline
-from moyai.structures.curtain.hierarchy import SPAN
+from moyai.structures.curtain.hierarchy import OF_UPRIGHT, SPAN
 from moyai.structures.curtain.steady_headlines import Groups, at_rest, statics_band
 
 if TYPE_CHECKING:
@@ -112,7 +112,7 @@ def limit_headlines(groups: Groups, levels: Sequence[str], span_holds: Callable[
                 0.0,
                 ["the depth that is asked for is not kept in the current of the case, at its lower end"],
             )
-        if bound == "at least" and (limit <= 0.0 or waves):
+        if bound == "at least" and (limit <= 0.0 or (waves and governing != OF_UPRIGHT)):
             # a bound that fails proves nothing about the curtain, and in waves it bounds neither sheet nor anchors
             words = f"the load of an upright plate, a bound, is already too much for the {governing} without waves"
             if limit > 0.0:
@@ -181,7 +181,7 @@ def _held(groups: Groups, key: str, span_holds: Callable[[str], bool], item: tup
     if str(table.attrs.get(f"{key}_bound", "")) == "at least":
         if proven > limit:
             return proven
-        if key == "design_limit":
+        if key == "design_limit" and table.attrs.get("design_limit_governing") != OF_UPRIGHT:
             return proven if math.isfinite(proven) else -math.inf
     return _lowest(table, key, limit)
 

@@ -16,10 +16,11 @@ from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.headline import Bound
 from moyai.core.progress import Progress
 from moyai.sea.breaking import breaking_limit
+from moyai.structures.curtain import hierarchy as models
 from moyai.structures.curtain.analyses.impact import ImpactAnswer
 from moyai.structures.curtain.analyses.weaker_currents import currents_of_waves, step_of_waves
 from moyai.structures.curtain.assembly import LevelCurtain
-from moyai.structures.curtain.hierarchy import CYCLES, IMPACT, STRAIGHT, Role, held_at_both, hierarchy, role_of
+from moyai.structures.curtain.hierarchy import CYCLES, IMPACT, OF_UPRIGHT, STRAIGHT, Role, hierarchy, role_of
 from moyai.structures.curtain.limits.loads import drift_of_height, fastest_water, impact_load, sea_loads
 from moyai.structures.curtain.limits.search import Limit
 from moyai.structures.curtain.limits.utilisation import AddedLoads, height_limit, speed_limit, utilisation
@@ -449,7 +450,7 @@ def _jump(unit: LevelCurtain, counted: CountedLimits, found: _FoundLimits) -> st
 def _drifts(counted: CountedLimits) -> bool:
     """Whether snaps are sought in the drift of the waves."""
     unit = counted.unit
-    return counted.loads.snaps is not None and not unit.nominal and held_at_both(unit.curtain)
+    return counted.loads.snaps is not None and not unit.nominal and models.held_at_both(unit.curtain)
 
 
 def _in_drift(counted: CountedLimits, rows: Sequence[tuple[Limit, Bound]]) -> list[tuple[Limit, Bound]]:
@@ -478,6 +479,11 @@ def _in_drift(counted: CountedLimits, rows: Sequence[tuple[Limit, Bound]]) -> li
 
     found: list[tuple[Limit, Bound]] = []
     step, speed, held = step_of_waves(unit), unit.surface_speed, least
+    straight = models.upright_in(unit, drift(least)) if drift(least) > speed else speed
+    most = math.inf
+    if speed <= straight < drift(least):
+        # what drifts faster leaves the plate as a bound: nothing is known beyond that sea
+        least = most = float(brentq(lambda height: drift(height) - straight, 0.0, least, xtol=1e-4))
     while (fastest := drift(least)) > speed * (1.0 + 1e-6):
         last, speed = speed, min((math.floor(speed / step + 1e-9) + 1.0) * step, fastest)
         limit, bound = drifting.height(speed)
@@ -486,7 +492,7 @@ def _in_drift(counted: CountedLimits, rows: Sequence[tuple[Limit, Bound]]) -> li
             # the sea whose limit is its own height, the limit straight between two currents
             least = float(brentq(over, 0.0, least, args=((last, speed), (before, held)), xtol=1e-4))
             found.append((replace(limit, value=least), bound))
-    return found
+    return found if least < most else [*found, (Limit(least, OF_UPRIGHT, highest=highest), "at least")]
 
 
 def _speeds(unit: LevelCurtain, settings: CurtainSettings, limit: Limit) -> tuple[float, ...]:

@@ -93,14 +93,25 @@ class DynamicRun:
     def tension(self, name: str) -> Array:
         """Return the highest tension of a cable over the span, or of an anchor line, since the row before [N].
 
-        Anchor lines carry two spans by halves: what is returned is that of the whole line.
+        Anchor lines carry two spans by halves: what is returned is that of the whole line. Of a line that is led to
+        both edges it is that of one line of its slope with the same horizontal pull.
         """
         bars = self.built.bars(name)
         if bars.size == 0:
             return np.zeros(self.history.time.size)
         if name.startswith(ANCHOR_LINE):
-            return np.asarray(2.0 * self.history.tension_peak[:, bars].sum(axis=1))
+            return np.asarray(2.0 * (self.history.tension_peak[:, bars] * self._of_line(bars)).sum(axis=1))
         return np.asarray(self.history.tension_peak[:, bars].max(axis=1))
+
+    def _of_line(self, bars: NDArray[np.int64]) -> Array:
+        """Return what a line of the slope of its anchor pulls over what its bars to both edges pull, at every row."""
+        support = self.built.span.support
+        if bars.size < 2 or support is None:
+            return np.ones((1, bars.size))
+        ends = self.built.network.bars
+        way = self.history.position[:, ends.end[bars]] - self.history.position[:, ends.start[bars]]
+        level = np.linalg.norm(way[..., :2], axis=-1) / np.linalg.norm(way, axis=-1)
+        return np.asarray(level / math.cos(support.slope))
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -135,14 +146,14 @@ class DynamicRun:
         """Return slack times and snaps of a cable or line at its support."""
         bars = self.built.bars(name)
         # of a cable that at its support, of an anchor line both edges and both spans
-        factor, bars = (2.0, bars) if name.startswith(ANCHOR_LINE) else (1.0, bars[:1])
-        rows = self.counted
-        pull = factor * self.history.tension[rows][:, bars].sum(axis=1)
-        peaks = factor * self.history.tension_peak[rows][:, bars].sum(axis=1)
+        line = name.startswith(ANCHOR_LINE)
+        factor, bars = (2.0 * self._of_line(bars), bars) if line else (np.ones((1, 1)), bars[:1])
+        rows, history = self.counted, self.history
+        pull, peaks = ((factor * one[:, bars]).sum(axis=1)[rows] for one in (history.tension, history.tension_peak))
         level = _SLACK_SHARE * float(peaks.max()) if slack_level is None else slack_level
         taut = pull[pull > level]
         limit = _SNAP_FACTOR * float(taut.mean()) if threshold is None and taut.size else threshold or level
-        return find_snaps(self.history.time[rows], pull, slack_level=level, threshold=max(limit, level), peaks=peaks)
+        return find_snaps(history.time[rows], pull, slack_level=level, threshold=max(limit, level), peaks=peaks)
 
 
 @checks_words

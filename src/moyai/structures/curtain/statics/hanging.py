@@ -174,10 +174,12 @@ def solve_statics(
         # no part of the span lies across so oblique a current
         settings = _settings(curtain, top_depth, below_bed)
         section = solve_section(curtain.skirt, current, flow_heading - turn, water, curtain.drag, **settings)
-    under, ratio = math.nan, math.nan
-    if math.isfinite(water.depth):
+    gap, under, ratio = water.depth - section.toe_depth, math.nan, math.nan
+    if gap <= 0.0:
+        gap, under = 0.0, 0.0
+    elif math.isfinite(gap):
         under, ratio = under_toe_flow(current, chord_normal, section.toe_depth, water, passing_fraction)
-    toe = (water.depth - section.toe_depth, under, ratio)
+    toe = (gap, under, ratio)
     return supported(curtain, section, flow_heading - turn, plan, toe, lower_share=section.toe_hold / section.load)
 
 
