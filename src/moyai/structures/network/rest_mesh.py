@@ -41,11 +41,15 @@ CHANGE, UNEVEN = 0.02, 0.004
 MOST_CHANGE, MOST_UNEVEN = 0.05, 0.01
 #: Part of the highest tension of the network below which tensions and pulls are measured against it.
 FLOOR = 0.25
+#: Bars of a line clear of the bed, at least, where others lie on it: of fewer the node at the touchdown decides.
+LEAST_CLEAR = 16
 #: Bars of the finest mesh, at most, without bodies and with them; doublings, at most.
 MOST_BARS, MOST_BARS_OF_BODIES, MOST_DOUBLINGS = 20_000, 4_000, 10
 #: Segments of a line up to which one doubling alone shows nothing, and from which one is enough where it changes less
 #: than half of the above.
 COARSE, FINE = 12, 40
+#: Height over the bed, over that of the network, up to which a node lies on it.
+_ON_BED = 1e-4
 #: What the band of a number at rest is of.
 MESH = "mesh: twice the segments, again and again until the change is small, and that change continued"
 
@@ -104,8 +108,12 @@ def _bars(assembly: Assembly) -> tuple[dict[str, NDArray[np.int64]], ...]:
 
 @dataclass(frozen=True, eq=False)
 class _OfRest:
-    """Of one mesh: tensions of lines, parts and nets, pulls of nets and on points [N], places of points [m]."""
+    """Of one mesh: tensions of lines, parts and nets, pulls of nets and on points [N], places of points [m].
 
+    ``clear``: bars of each line that are clear of the bed, infinite where none lies on it.
+    """
+
+    clear: Array
     lines: Array
     parts: Array
     nets: Array
@@ -129,9 +137,22 @@ def _read(mesh: _RestMesh, names: list[str], widths: Mapping[str, float]) -> _Of
     held = held_pulls(mesh.network, mesh.nets, mesh.state.position[None], mesh.tension[None])
     held = np.zeros((1, len(nets), 3)) if held is None else held
     return _OfRest(
-        lines, parts, np.array(nets), np.linalg.norm(held[0], axis=1), np.linalg.norm(load, axis=1),
+        _clear(mesh), lines, parts, np.array(nets), np.linalg.norm(held[0], axis=1), np.linalg.norm(load, axis=1),
         mesh.state.position[nodes],
     )  # fmt: skip
+
+
+def _clear(mesh: _RestMesh) -> Array:
+    """Return the bars of each line that are clear of the bed, infinite where none lies on it."""
+    bed, place, bars = mesh.network.bed, mesh.state.position, mesh.network.bars
+    if bed is None:
+        return np.full(len(mesh.lines), math.inf)
+    level = bed.level_at(place)
+    lies = place[:, 2] <= level + _ON_BED * max(float(np.ptp(place[:, 2])), 1e-12)
+    on_bed = lies[bars.start] & lies[bars.end]
+    counts = [float(np.count_nonzero(~on_bed[own])) for own in mesh.lines.values()]
+    some = [bool(on_bed[own].any()) for own in mesh.lines.values()]
+    return np.array([count if lying else math.inf for count, lying in zip(counts, some, strict=True)])
 
 
 def with_finer_meshes(
@@ -188,6 +209,7 @@ def with_finer_meshes(
     }
     if lines:
         data["line_tension_of_mesh"] = (("condition", "mesh", "line"), of("lines"))
+        data["clear_bars_of_mesh"] = (("condition", "mesh", "line"), of("clear"))
     if parts:
         data["part_tension_of_mesh"] = (("condition", "mesh", "part"), of("parts"))
     if nets:
@@ -202,8 +224,8 @@ def _stands(own: list[_OfRest], few: int) -> bool:
     if len(own) < 2 or (len(own) < 3 and few < FINE):
         return False
     lines, loads = (np.array([getattr(one, key) for one in own]) for key in ("lines", "pulls"))
-    floor = _floor(lines, loads)
-    return all(Reach.of(column, floor).stands for values in (lines, loads) for column in values.T)
+    floor, clear = _floor(lines, loads), float(own[-1].clear.min(initial=math.inf))
+    return all(Reach.of(column, floor, clear=clear).stands for values in (lines, loads) for column in values.T)
 
 
 def _floor(lines: Array, loads: Array) -> float:
@@ -222,7 +244,7 @@ class Reach:
     stands: bool
 
     @classmethod
-    def of(cls, values: Array, floor: float = 0.0, few: bool = True) -> Reach:
+    def of(cls, values: Array, floor: float = 0.0, few: bool = True, clear: float = math.inf) -> Reach:
         """Return it for a number on meshes of 1, 2, 4 ... times the bars.
 
         Parameters
@@ -232,6 +254,9 @@ class Reach:
             What changes are measured against where the number itself is smaller.
         few : bool
             Whether the first mesh is so coarse that one doubling alone shows nothing.
+        clear : float
+            Bars of the line that are clear of the bed on the finest mesh, infinite where none lies on it: the
+            touchdown is known to half a bar.
         """
         values = values[np.isfinite(values)]
         last = float(values[-1])
@@ -241,14 +266,16 @@ class Reach:
         change = float(values[-1] - values[-2])
         uneven = abs(change - 0.5 * float(values[-2] - values[-3])) if len(values) > 2 else 0.5 * abs(change)
         # an error of first order goes on by the last change; what is not of first order, by as much as it differs
-        ends = [float(values[0]), last, last + change - uneven, last + change + uneven]
+        half = 0.5 * abs(last) / clear if clear > 0.0 else 0.0
+        ends = [float(values[0]), last - half, last + half, last + change - uneven, last + change + uneven]
         if len(values) > 2:
             settled = abs(change) <= MOST_CHANGE * scale and uneven <= MOST_UNEVEN * scale
             stands = abs(change) <= CHANGE * scale and uneven <= UNEVEN * scale
         else:
             settled = not few and abs(change) <= MOST_CHANGE * scale
             stands = abs(change) <= 0.5 * CHANGE * scale
-        return cls(max(min(ends), min(0.0, last)), max(ends), settled, stands)
+        enough = clear >= LEAST_CLEAR
+        return cls(max(min(ends), min(0.0, last)), max(ends), settled and enough, stands and enough)
 
 
 def reach_at_rest(rest: xr.Dataset, network: xr.Dataset, key: str, condition: str, **of: str) -> Reach | None:
@@ -269,7 +296,18 @@ def reach_at_rest(rest: xr.Dataset, network: xr.Dataset, key: str, condition: st
     here = rest.sel(condition=condition)
     here = here.isel(mesh=np.isfinite(here["load_of_mesh"].values).all(axis=1))
     lines = here["line_tension_of_mesh"].values if "line_tension_of_mesh" in here else np.zeros((here.sizes["mesh"], 0))
-    return Reach.of(here[key].sel(of).values, _floor(lines, here["load_of_mesh"].values), _few(network))
+    return Reach.of(
+        here[key].sel(of).values, _floor(lines, here["load_of_mesh"].values), _few(network), _clear_of(here, of)
+    )  # fmt: skip
+
+
+def _clear_of(here: xr.Dataset, of: Mapping[str, str]) -> float:
+    """Return the bars clear of the bed of the line that is asked for, of the one that has fewest where none is."""
+    if "clear_bars_of_mesh" not in here:
+        return math.inf
+    line = of.get("line", "")
+    last = here["clear_bars_of_mesh"].isel(mesh=-1)
+    return float(last.sel(line=line) if line else last.min())
 
 
 def _few(network: xr.Dataset) -> bool:
