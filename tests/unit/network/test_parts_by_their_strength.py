@@ -69,3 +69,14 @@ def test_through_time_each_part_has_its_own_peak_and_band() -> None:
     assert float(summary["utilisation"][0, 0]) == pytest.approx(found.value, rel=1e-6)
     checks = summary["part_tension_of_check"].sel(part="hoist part 2").values[0]
     assert checks[0] == pytest.approx(found.value * 12e3, rel=1e-6) and checks[2] == pytest.approx(checks[0], rel=0.05)
+
+
+def test_a_part_with_a_strength_is_judged_where_others_have_none() -> None:
+    text = CASE.replace("ANALYSES", "[statics]").replace(", motion: heave", "").replace(HEAVE, " {}")
+    text = text.replace(", breaking_load: 2000 kN", "")
+    result = moyai.run(text)
+    found = _utilisation(result)
+    assert found.value == pytest.approx((3000.0 + 195.0) / 12e3, rel=1e-3)
+    assert found.part == "hoist part 2" and "breaking load not given of hoist part 1" in found.detail
+    assert result.verdict.outcome == "not judged"
+    assert moyai.run(text.replace("breaking_load: 12 kN", "breaking_load: 4 kN")).verdict.outcome == "does not hold"

@@ -207,7 +207,7 @@ def _failure(
         return "", False
     goal, strengths = problem.settings.peak_goal, problem.strengths
     every = {**found.lines, governing: found}
-    if assembly.lines and all(line.strengths for line in problem.lines):
+    if assembly.lines and not any(line.without_strength for line in problem.lines):
         # nets have no breaking load here, nor lines whose parts differ
         uses = {name: (one.peak / load, band_of(one)[1] / load) for name, one in every.items()
                 if (load := strengths.get(name))}  # fmt: skip

@@ -269,7 +269,7 @@ def _tension(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peak: _P
 def _utilisation(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peaks: list[_Peak]) -> list[Headline]:
     """Return the highest tension over the breaking load, each line with its own band."""
     breaking, types = problem.strengths, _types_of_parts(problem)
-    items, bare = [], [line.name for line in problem.lines if not line.strengths]
+    items, bare = [], [name for line in problem.lines for name in line.without_strength]
     for item in peaks:
         load = breaking.get(item.line)
         if load is None:
@@ -302,8 +302,8 @@ def _types_of_parts(problem: NetworkProblem) -> dict[str, str]:
     return {
         name: f"{part.bar_type.name}, its own highest tension"
         for line in problem.lines
-        for name, part in zip(line.strengths, line.parts, strict=False)
-        if name != line.name
+        for number, part in enumerate(line.parts, start=1)
+        if (name := f"{line.name} part {number}") in line.strengths
     }  # fmt: skip
 
 

@@ -112,14 +112,20 @@ class LinePlan:
     def strengths(self) -> dict[str, float]:
         """Breaking loads [N] of what is judged by itself: the line, or each of its parts where they differ.
 
-        Empty where one is not known.
+        Of parts whose breaking load is not known there is none.
         """
-        if not math.isfinite(self.breaking_load):
-            return {}
         own = [part.breaking_load for part in self.parts]
-        if len(own) < 2 or not all(map(math.isfinite, own)) or min(own) == max(own):
+        if math.isfinite(self.breaking_load) and (len(own) < 2 or min(own) == max(own)):
             return {self.name: self.breaking_load}
-        return {f"{self.name} part {number}": load for number, load in enumerate(own, start=1)}
+        return {f"{self.name} part {n}": load for n, load in enumerate(own, start=1) if math.isfinite(load)}
+
+    @property
+    def without_strength(self) -> list[str]:
+        """What has no breaking load: the line, or some of its parts."""
+        known = self.strengths
+        if not known or self.name in known:
+            return [] if known else [self.name]
+        return [name for n in range(len(self.parts)) if (name := f"{self.name} part {n + 1}") not in known]
 
 
 @checks_words
