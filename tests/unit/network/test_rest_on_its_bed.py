@@ -66,9 +66,9 @@ def test_the_band_holds_the_elastic_catenary(away: float, segments: int) -> None
     assert tension.band is not None and tension.bound == ""
     # the chain sinks some millimetres into the bed
     rest = result.tree["SWL/statics"].to_dataset().sel(condition="still water", point="anchor")
-    # the touchdown is known to half a bar of those that are clear of the bed
-    half = 0.5 * top / float(rest["clear_bars_of_mesh"].sel(line="chain")[-1])
-    assert tension.band.low <= top * 1.0005 and 0.9995 * top <= tension.band.high <= 1.012 * top + half
+    # touchdown and end are known to half a bar each of those that are clear of the bed
+    bar = top / float(rest["clear_bars_of_mesh"].sel(line="chain")[-1])
+    assert tension.band.low <= top * 1.0005 and 0.9995 * top <= tension.band.high <= 1.012 * top + bar
     assert result.verdict.outcome == "does not hold"
     assert float(rest["load_of_mesh"][-1]) == pytest.approx(level, rel=0.02)
     coarse = [notice for notice in result.notices if notice.code == "coarse-rest"]
@@ -88,7 +88,7 @@ def test_few_bars_clear_of_the_bed_prove_nothing(level: float, segments: int) ->
     text = CASE.replace("70 m", "8 m").replace("AWAY", f"{away:.6f}").replace("SEGMENTS", str(segments))
     result = moyai.run(text.replace("LIMIT", f"{0.98e-3 * top:.5f}"))
     (tension,) = [item for item in result.headlines if item.name == "line_tension" and item.shown]
-    assert tension.bound == "at least" or (tension.band is not None and tension.band.high > 0.98 * top)
+    assert tension.bound == "at least" or (tension.band is not None and tension.band.high > 0.995 * top)
     assert result.verdict.outcome != "holds"
 
 

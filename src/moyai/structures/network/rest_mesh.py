@@ -42,7 +42,7 @@ MOST_CHANGE, MOST_UNEVEN = 0.05, 0.01
 #: Part of the highest tension of the network below which tensions and pulls are measured against it.
 FLOOR = 0.25
 #: Bars of a line clear of the bed, at least, where others lie on it: of fewer the node at the touchdown decides.
-LEAST_CLEAR = 16
+LEAST_CLEAR = 32
 #: Bars of the finest mesh, at most, without bodies and with them; doublings, at most.
 MOST_BARS, MOST_BARS_OF_BODIES, MOST_DOUBLINGS = 20_000, 4_000, 10
 #: Segments of a line up to which one doubling alone shows nothing, and from which one is enough where it changes less
@@ -256,7 +256,7 @@ class Reach:
             Whether the first mesh is so coarse that one doubling alone shows nothing.
         clear : float
             Bars of the line that are clear of the bed on the finest mesh, infinite where none lies on it: the
-            touchdown is known to half a bar.
+            touchdown is known to half a bar, and the tension stands half a bar from the end.
         """
         values = values[np.isfinite(values)]
         last = float(values[-1])
@@ -266,8 +266,8 @@ class Reach:
         change = float(values[-1] - values[-2])
         uneven = abs(change - 0.5 * float(values[-2] - values[-3])) if len(values) > 2 else 0.5 * abs(change)
         # an error of first order goes on by the last change; what is not of first order, by as much as it differs
-        half = 0.5 * abs(last) / clear if clear > 0.0 else 0.0
-        ends = [float(values[0]), last - half, last + half, last + change - uneven, last + change + uneven]
+        bar = abs(last) / clear if clear > 0.0 else 0.0
+        ends = [float(values[0]), last - bar, last + bar, last + change - uneven, last + change + uneven]
         if len(values) > 2:
             settled = abs(change) <= MOST_CHANGE * scale and uneven <= MOST_UNEVEN * scale
             stands = abs(change) <= CHANGE * scale and uneven <= UNEVEN * scale
