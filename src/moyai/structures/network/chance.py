@@ -22,8 +22,10 @@ if TYPE_CHECKING:
 #: Part by which the highest values of the periods of regular waves may differ where the motion repeats.
 REPEATING = 0.05
 ONE_SEED = "one seed: others may give more"
-#: What is said of one seed in which lines snap or segments land, and what helps.
-SNAPS_OF_ONE_SEED = "one seed of a line that snaps or lands: others may give much more"
+#: Lowest tension of a record over its mean below which a line comes near to slack: in another seed it may snap.
+NEAR_SLACK = 1.0 / 3.0
+#: What is said of one seed in which lines snap, segments land or lines come near to slack, and what helps.
+SNAPS_OF_ONE_SEED = "one seed of a line that snaps, lands or comes near to slack: others may give much more"
 MORE_SEEDS, ONE_BY_ONE = "settings.realisations runs them", "run the case with other seeds, one by one"
 #: Key that asks for more realisations.
 MORE = "settings.realisations"
@@ -87,7 +89,7 @@ def length_of(groups: Mapping[str, xr.Dataset], level: str, run: str, scatter: A
 
 
 def one_seed_of_snaps(groups: Mapping[str, xr.Dataset], level: str, run: str, scatter: Array) -> list[str]:
-    """Say of one seed of an irregular sea in which a line snaps, or segments land, that its band is no measure.
+    """Say of one seed of an irregular sea in which a line snaps or comes near to it that its band is no measure.
 
     The largest snaps grow faster than the maxima of blocks tell, and a seed of low waves knows nothing of the others.
     """
@@ -95,10 +97,19 @@ def one_seed_of_snaps(groups: Mapping[str, xr.Dataset], level: str, run: str, sc
     if scatter.size or summary is None or not irregular(groups, level, run):
         return []
     snaps = "snaps" in summary and bool((summary["snaps"].sel(run=run).values > 0.0).any())
-    if not snaps and LANDING not in str(summary.attrs.get(f"doubt {run}", "")):
+    if not (snaps or LANDING in str(summary.attrs.get(f"doubt {run}", "")) or _near_slack(groups, level, run)):
         return []
     # realisations of bodies are not run together
     return [SNAPS_OF_ONE_SEED, ONE_BY_ONE if "solid" in summary.coords else MORE_SEEDS]
+
+
+def _near_slack(groups: Mapping[str, xr.Dataset], level: str, run: str) -> bool:
+    """Whether a line comes near to slack in what counts of a record."""
+    series = series_of_run(groups, level, run)
+    if series is None or "line_tension_peak_since_row" not in series:
+        return False
+    record = series["line_tension_peak_since_row"].values[_rows(series, full=True)]
+    return bool(record.size and (record.min(axis=0) < NEAR_SLACK * record.mean(axis=0)).any())
 
 
 def of_record(groups: Mapping[str, xr.Dataset], level: str, run: str, line: str) -> tuple[Maximum | None, list[str]]:
