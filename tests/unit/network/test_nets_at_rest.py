@@ -39,7 +39,7 @@ def run(folder: Path, rows: int, columns: int, analyses: str = "statics", more: 
 def test_tension_and_pull_at_rest_have_the_band_of_finer_nets_and_are_judged(tmp_path: Path) -> None:
     found = run(tmp_path, 3, 4, more="criteria: {greatest_net_tension: 500 N/m}")
     tension, pull = found["net_tension"], found["held_row_load"]
-    # at the row that holds it the net bears all of its pull
+    # at the row that holds it the net bears all of its pull; strips at its edges are half as wide and lean otherwise
     assert tension.value == pytest.approx(pull.value / 8.0, rel=0.05)
     assert tension.band is not None and pull.band is not None
     finer = run(tmp_path, 9, 13)

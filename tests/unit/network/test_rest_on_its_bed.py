@@ -92,6 +92,24 @@ def test_few_bars_clear_of_the_bed_prove_nothing(level: float, segments: int) ->
     assert result.verdict.outcome != "holds"
 
 
+def test_a_line_that_lies_on_the_bed_as_a_whole_leaves_the_others_their_mesh() -> None:
+    text = CASE.replace("AWAY", "380").replace("SEGMENTS", "40").replace("LIMIT", "250")
+    laid = text.replace("  lines:\n", """  lines:
+    laid: {start: one, end: other, type: chain, length: 100 m, segments: 20}
+""").replace("  points:\n", """  points:
+    one: {kind: fixed, position: [0, 10 m, bed]}
+    other: {kind: fixed, position: [95 m, 10 m, bed]}
+""")  # fmt: skip
+    alone, found = moyai.run(text), moyai.run(laid)
+    assert found.verdict.outcome == alone.verdict.outcome == "holds"
+    rest = [result.tree["SWL/statics"].to_dataset() for result in (alone, found)]
+    assert rest[0].sizes["mesh"] == rest[1].sizes["mesh"] < 5
+    pull = next(item for item in found.headlines if item.name == "anchor_load")
+    assert pull.bound == "" and pull.value == pytest.approx(
+        next(item for item in alone.headlines if item.name == "anchor_load").value, rel=1e-6
+    )
+
+
 def test_a_change_of_first_order_goes_on_to_its_limit_and_one_that_jumps_is_open() -> None:
     meshes = 2.0 ** np.arange(4)
     found = Reach.of(100.0 - 8.0 / meshes)

@@ -110,7 +110,7 @@ def _bars(assembly: Assembly) -> tuple[dict[str, NDArray[np.int64]], ...]:
 class _OfRest:
     """Of one mesh: tensions of lines, parts and nets, pulls of nets and on points [N], places of points [m].
 
-    ``clear``: bars of each line that are clear of the bed, infinite where none lies on it.
+    ``clear``: bars of each line that are clear of the bed, infinite where none or all of it lies there.
     """
 
     clear: Array
@@ -143,7 +143,10 @@ def _read(mesh: _RestMesh, names: list[str], widths: Mapping[str, float]) -> _Of
 
 
 def _clear(mesh: _RestMesh) -> Array:
-    """Return the bars of each line that are clear of the bed, infinite where none lies on it."""
+    """Return the bars of each line that are clear of the bed, infinite where none or all of it lies there.
+
+    A line with an end over the bed has one such bar at least.
+    """
     bed, place, bars = mesh.network.bed, mesh.state.position, mesh.network.bars
     if bed is None:
         return np.full(len(mesh.lines), math.inf)
@@ -151,8 +154,9 @@ def _clear(mesh: _RestMesh) -> Array:
     lies = place[:, 2] <= level + _ON_BED * max(float(np.ptp(place[:, 2])), 1e-12)
     on_bed = lies[bars.start] & lies[bars.end]
     counts = [float(np.count_nonzero(~on_bed[own])) for own in mesh.lines.values()]
-    some = [bool(on_bed[own].any()) for own in mesh.lines.values()]
-    return np.array([count if lying else math.inf for count, lying in zip(counts, some, strict=True)])
+    return np.array(
+        [count if 0.0 < count < own.size else math.inf for count, own in zip(counts, mesh.lines.values(), strict=True)]
+    )
 
 
 def with_finer_meshes(
@@ -266,7 +270,7 @@ class Reach:
         change = float(values[-1] - values[-2])
         uneven = abs(change - 0.5 * float(values[-2] - values[-3])) if len(values) > 2 else 0.5 * abs(change)
         # an error of first order goes on by the last change; what is not of first order, by as much as it differs
-        bar = abs(last) / clear if clear > 0.0 else 0.0
+        bar = abs(last) / clear
         ends = [float(values[0]), last - bar, last + bar, last + change - uneven, last + change + uneven]
         if len(values) > 2:
             settled = abs(change) <= MOST_CHANGE * scale and uneven <= MOST_UNEVEN * scale

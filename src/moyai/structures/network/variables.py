@@ -57,7 +57,10 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "work": ("J", "work done on the network since the start"),
     "stiffness": ("N/m", "force that holds the driven point over its displacement"),
     "line_tension_of_mesh": ("N", "highest tension along the line at rest on each mesh"),
-    "clear_bars_of_mesh": ("1", "bars of the line clear of the bed on each mesh, infinite where none lies on it"),
+    "clear_bars_of_mesh": (
+        "1",
+        "bars of the line clear of the bed on each mesh, infinite where none or all of it lies there",
+    ),
     "part_tension_of_mesh": ("N", "highest tension along the part of a line at rest on each mesh"),
     "net_tension_maximum": ("N", "highest tension in the net at rest, of strips as wide as between its columns"),
     "net_tension_of_mesh": ("N", "highest tension in the net at rest on each mesh, of strips as wide as on the first"),
