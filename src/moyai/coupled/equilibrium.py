@@ -28,6 +28,8 @@ MOST_ROUNDS = 60
 INSTANT = 1e-3
 #: Stiffness over the largest one below which it counts as none; pushes off a balance that would tip over.
 SLACK, MOST_TIPS = 1e-6, 3
+#: Change of force that the slope did not foresee over the one it did, up to which it is updated and not taken anew.
+GOOD = 0.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -243,21 +245,24 @@ class _NewtonSearch:
         force = self.imbalance()
         longest = 0.25 * max(self.size, 0.02 * float(np.max(np.ptp(self.network.nodes.position, axis=0))))
         tips = 0
+        slope, exact = self.jacobian(force), True
         for _ in range(MOST_ROUNDS):
             settled = float(np.max(np.abs(force), initial=0.0)) <= tolerance * self.scale
             if settled and tips == MOST_TIPS:
                 break
-            slope = self.jacobian(force)
-            values, shapes = np.linalg.eigh(-0.5 * (slope + slope.T))
-            none = SLACK * max(float(np.max(np.abs(values), initial=0.0)), self.scale / self.size)
-            loose = (values <= none) & (np.abs(shapes.T @ force) > tolerance * self.scale)
-            if np.any(loose) or np.any(values < -none):
+            values, shapes, none, loose = self._stiffness(slope, force, tolerance)
+            if not exact and (settled or loose):
+                # stability is judged by a slope of this very place
+                slope, exact = self.jacobian(force), True
+                values, shapes, none, loose = self._stiffness(slope, force, tolerance)
+            if loose:
                 if settled:
                     # balanced on a tip: a push along the way it falls
                     tips += 1
                     self.move(0.1 * longest * shapes[:, 0])
                     force = self.imbalance()
                 force = self._down(force, values, shapes, none, longest)
+                slope, exact = self.jacobian(force), True
                 continue
             if settled:
                 break
@@ -272,6 +277,13 @@ class _NewtonSearch:
                     break
                 self.back(kept)
                 self.state, part = state, 0.5 * part
+            step = part * change
+            missed = new - force - slope @ step
+            if float(np.linalg.norm(missed)) <= GOOD * float(np.linalg.norm(slope @ step)):
+                # Broyden's update: a slope costs twelve solves of the network a body
+                slope, exact = slope + np.outer(missed, step) / float(step @ step), False
+            else:
+                slope, exact = self.jacobian(new), True
             force = new
         # the slope was taken next to the rest: network and bodies are put back together
         force = self.imbalance()
@@ -288,6 +300,13 @@ class _NewtonSearch:
         bodies = {name: self._rested(self.bodies[name], carrier) for name, carrier in self.carriers.items()}
         state = State(0.0, rest.state.position, np.zeros_like(rest.state.position))
         return CoupledEquilibrium(network, state, bodies, rest.tension, left, self.solves)
+
+    def _stiffness(self, slope: Array, force: Array, tolerance: float) -> tuple[Array, Array, float, bool]:
+        """Return stiffnesses with their shapes, the one below which there is none, and whether there is no bowl."""
+        values, shapes = np.linalg.eigh(-0.5 * (slope + slope.T))
+        none = SLACK * max(float(np.max(np.abs(values), initial=0.0)), self.scale / self.size)
+        pushed = (values <= none) & (np.abs(shapes.T @ force) > tolerance * self.scale)
+        return values, shapes, none, bool(np.any(pushed) or np.any(values < -none))
 
     def _down(self, force: Array, values: Array, shapes: Array, none: float, longest: float) -> Array:
         """Move down the energy where it is no bowl, by Newton's step with all stiffness positive; return the force."""
