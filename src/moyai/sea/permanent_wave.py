@@ -121,25 +121,33 @@ class NonlinearWave:
         A single instant at a single point gives a float.
         """
         angle, shape = self._angle(time, x, y)
-        order = np.arange(1, self.elevation_harmonics.size + 1)
-        return plain((np.cos(angle[..., None] * order) @ self.elevation_harmonics).reshape(shape))
+        return plain(self._elevation_at(angle).reshape(shape))
 
-    def _fields(self, time: ArrayLike, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> tuple[Array, tuple[int, ...]]:
+    def _elevation_at(self, angle: Array) -> Array:
+        order = np.arange(1, self.elevation_harmonics.size + 1)
+        height: Array = np.cos(angle[..., None] * order) @ self.elevation_harmonics
+        return height
+
+    def _fields(
+        self, time: ArrayLike, x: ArrayLike, y: ArrayLike, z: ArrayLike
+    ) -> tuple[Array, Array, tuple[int, ...]]:
+        """Return u, w, du/dx, du/dz (4, points), the phase angles and the shape of times and points."""
         px, py, pz = np.broadcast_arrays(*(np.asarray(item, dtype=np.float64) for item in (x, y, z)))
         angle, shape = self._angle(time, px, py)
         # copies: a view that cannot be written to would be another kernel
         level = np.array(np.broadcast_to(pz.reshape(-1), angle.shape)).reshape(-1)
         out = np.empty((4, angle.size))
         fourier_wave_kernel(np.ascontiguousarray(angle).reshape(-1), level, *self.kernel_arguments(), out)
-        return out, shape
+        return out, angle, shape
 
     def kernel_arguments(self) -> tuple[float, float, float, Array]:
         """Return (depth, crest, wave_number, crest_velocities) for :func:`fourier_wave_kernel`."""
         return float(self.water.depth), self.crest, self.wave_number, self.crest_velocities
 
     def _in_space(self, along: Array, vertical: Array, shape: tuple[int, ...]) -> Array:
-        parts = [along * math.cos(self.heading), along * math.sin(self.heading), vertical]
-        return np.stack(parts, axis=-1).reshape((*shape, 3))
+        out = np.empty((along.size, 3))
+        out[:, 0], out[:, 1], out[:, 2] = along * math.cos(self.heading), along * math.sin(self.heading), vertical
+        return out.reshape((*shape, 3))
 
     def velocity(self, time: ArrayLike, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> Array:
         """Return the water velocity, current included.
@@ -156,7 +164,7 @@ class NonlinearWave:
         ndarray, shape (*time.shape, *points.shape, 3)
             [m/s].
         """
-        fields, shape = self._fields(time, x, y, z)
+        fields, _, shape = self._fields(time, x, y, z)
         return self._in_space(fields[0] + self.current_along_wave, fields[1], shape)
 
     def acceleration(
@@ -166,9 +174,13 @@ class NonlinearWave:
 
         Shape as :meth:`velocity`.
         """
-        (u, w, slope_x, slope_z), shape = self._fields(time, x, y, z)
+        fields, _, shape = self._fields(time, x, y, z)
         if not convective:
-            return self._in_space(-self.celerity * slope_x, -self.celerity * slope_z, shape)
+            return self._in_space(-self.celerity * fields[2], -self.celerity * fields[3], shape)
+        return self._acceleration_of(fields, shape)
+
+    def _acceleration_of(self, fields: Array, shape: tuple[int, ...]) -> Array:
+        u, w, slope_x, slope_z = fields
         # steady in the frame of the crest; dw/dx = du/dz without rotation, dw/dz = -du/dx by continuity
         relative = u - self.relative_celerity
         return self._in_space(relative * slope_x + w * slope_z, relative * slope_z - w * slope_x, shape)
@@ -198,17 +210,16 @@ class NonlinearWave:
 
         Shapes (*time.shape, *points.shape) and (*time.shape, *points.shape, 3).
         """
-        velocity = self.velocity(time, x, y, z)
-        velocity[..., 0] -= self.current_along_wave * math.cos(self.heading)
-        velocity[..., 1] -= self.current_along_wave * math.sin(self.heading)
-        return self.elevation(time, x, y), velocity, self.acceleration(time, x, y, z)
+        fields, angle, shape = self._fields(time, x, y, z)
+        velocity = self._in_space(fields[0], fields[1], shape)
+        return self._elevation_at(angle).reshape(shape), velocity, self._acceleration_of(fields, shape)
 
     def dynamic_pressure(self, time: ArrayLike, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> Array:
         """Return the pressure above the still-water hydrostatic one [Pa], shape (*time.shape, *points.shape).
 
         By Bernoulli in the frame of the crest, so that the total pressure vanishes at the surface.
         """
-        (u, w, _, _), shape = self._fields(time, x, y, z)
+        (u, w, _, _), _, shape = self._fields(time, x, y, z)
         head = self.bernoulli_constant - 0.5 * ((u - self.relative_celerity) ** 2 + w**2)
         values: Array = (self.water.density * head).reshape(shape)
         return values

@@ -12,7 +12,8 @@ from multiprocessing.connection import wait
 from typing import Any
 
 from moyai.core.errors import InputError
-from moyai.core.processes import collect_rarely, die_with_parent
+from moyai.core.frugal import be_frugal
+from moyai.core.processes import die_with_parent
 from moyai.core.progress import Progress, silent
 from moyai.study.axes import Combination
 from moyai.study.ledger import LedgerRecord
@@ -166,7 +167,7 @@ def _serve(pipe: Any, task: Task, cancel: Any) -> None:
     # Ctrl-C reaches every process of the terminal; the parent decides what happens then
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     die_with_parent()
-    collect_rarely()
+    be_frugal()
     # Tells a case that kills its worker from a worker that cannot start
     with contextlib.suppress(OSError):
         pipe.send(_STARTED)

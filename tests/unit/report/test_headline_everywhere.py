@@ -83,7 +83,7 @@ JOURNEYS = {
         (
             (_between("  - name: storm", "wind:"), ""),
             (r"\{from: 3 s, to: 8 s, count: 11\}", "[4 s, 6 s]"),
-            (r"analyses: \[.*?\]", "analyses: [statics, mooring, frequency]"),
+            (r"^analyses: \[.*?\]", "analyses: [statics, mooring, frequency]"),
         ),
         "line_tension",
         _breakwater,
@@ -91,7 +91,7 @@ JOURNEYS = {
     "curtain": Journey(
         (
             (_between("  - name: winter", "structure:"), ""),
-            (r"analyses: \[.*?\]", "analyses: [statics]"),
+            (r"^analyses: \[.*?\]", "analyses: [statics]"),
         ),
         "anchor_line_utilisation",
         _curtain,
@@ -100,7 +100,7 @@ JOURNEYS = {
         (
             (r"mesh: \{around: 32, down: 6, bottom: 4\}", "mesh: {around: 12, down: 2, bottom: 1}"),
             (r"current_speeds: \[.*?\]", "current_speeds: [0.75 m/s]"),
-            (r"analyses: \[.*?\]", "analyses: [statics]"),
+            (r"^analyses: \[.*?\]", "analyses: [statics]"),
         ),
         "volume_left",
         _cage,
@@ -108,7 +108,7 @@ JOURNEYS = {
     "rigid_cage": Journey(
         (
             (r"periods: \[1.0, 1.2, 1.5\]", "periods: [1.2]"),
-            (r"analyses: \[.*?\]", "analyses: [statics, time]"),
+            (r"^analyses: \[.*?\]", "analyses: [statics, time]"),
             (
                 r"^# settings:\n#   rigid: \{.*?\}",
                 "settings:\n  rigid: {periods: 8, settled_periods: 3, tolerance: 1e-4}",
@@ -121,7 +121,7 @@ JOURNEYS = {
         (
             (r"  # duration: 2 min", "  duration: 14 s"),
             (r"skip: 30 s", "skip: 6 s"),
-            (r"analyses: \[.*?\]", "analyses: [statics, dynamic]"),
+            (r"^analyses: \[.*?\]", "analyses: [statics, dynamic]"),
         ),
         "line_tension",
         _network,
@@ -129,7 +129,7 @@ JOURNEYS = {
     "member": Journey(
         (
             (_between("  - name: storm", "(#|structure:)"), ""),
-            (r"analyses: \[.*?\]", "analyses: [forces]"),
+            (r"^analyses: \[.*?\]", "analyses: [forces]"),
         ),
         "peak_force",
         _member,
