@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import ast
 import functools
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+
+from kept_runs import kept_value
 
 SOURCE = Path(__file__).resolve().parents[2] / "src" / "moyai"
 FILES = sorted(SOURCE.rglob("*.py"))
@@ -14,6 +17,9 @@ FORBIDDEN_IN_KERNELS = {"print", "open", "input", "read_text", "write_text", "wa
 COMPILED = {"njit", "jit", "vectorize", "guvectorize"}
 # Packages whose business is to talk to files or people
 TALKERS = {"cli", "app"}
+ERRORS = {"InputError", "ConvergenceError", "MoyaiError"}
+#: Blocks that only case files have; a key in degrees is one of theirs too.
+OF_CASE_FILES = re.compile(r"^(structure|site|analyses|assess|display)\.|\w_deg\b")
 
 
 @dataclass(frozen=True)
@@ -21,6 +27,8 @@ class Findings:
     """What one module imports, and where it breaks a rule: lines with what stands there."""
 
     imports: tuple[tuple[str, int], ...]
+    imported: frozenset[str]
+    keys_of_files: tuple[str, ...]
     kernels_that_talk: tuple[str, ...]
     prints: tuple[str, ...]
     mutable_dataclasses: tuple[str, ...]
@@ -47,6 +55,31 @@ def _frozen(decorator: ast.expr) -> bool:
         keyword.arg == "frozen" and isinstance(keyword.value, ast.Constant) and keyword.value.value is True
         for keyword in decorator.keywords
     )
+
+
+def _imported(nodes: list[ast.AST], package: list[str]) -> Iterator[str]:
+    """Give the full names of all that a file imports, wherever the statement stands."""
+    for node in nodes:
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            base = package[: len(package) - node.level + 1] if node.level else []
+            stem = [*base, *([node.module] if node.module else [])]
+            yield from (".".join([*stem, alias.name]) for alias in node.names)
+
+
+def _keys_of_files(nodes: list[ast.AST]) -> Iterator[str]:
+    """Give the errors that name a path or a key of a case file."""
+    for node in nodes:
+        if not isinstance(node, ast.Call) or called_name(node) not in ERRORS:
+            continue
+        for keyword in node.keywords:
+            if keyword.arg == "path":
+                yield f"line {node.lineno}: {called_name(node)}(path=...) instead of parameter=..."
+            if keyword.arg == "parameter":
+                for part in ast.walk(keyword.value):
+                    if isinstance(part, ast.Constant) and OF_CASE_FILES.search(str(part.value)):
+                        yield f"line {node.lineno}: '{part.value}' is a key of case files"
 
 
 def _imports(nodes: list[ast.AST], package: list[str]) -> Iterator[tuple[str, int]]:
@@ -113,6 +146,8 @@ def findings_of_text(text: str, parts: tuple[str, ...]) -> Findings:
     )
     return Findings(
         imports,
+        frozenset(_imported(nodes, ["moyai", *parts[:-1]])),
+        tuple(_keys_of_files(nodes)),
         tuple(kernels),
         prints,
         tuple(dataclasses),
@@ -126,5 +161,10 @@ def findings_of_text(text: str, parts: tuple[str, ...]) -> Findings:
 
 @functools.cache
 def findings() -> dict[Path, Findings]:
-    """Examine every module of the package."""
-    return {path: findings_of_text(path.read_text(encoding="utf-8"), path.relative_to(SOURCE).parts) for path in FILES}
+    """Examine every module of the package, once for all workers."""
+    own = Path(__file__).read_text(encoding="utf-8")
+    return kept_value(own, lambda: {path: _findings_of(path) for path in FILES})  # type: ignore[no-any-return]
+
+
+def _findings_of(path: Path) -> Findings:
+    return findings_of_text(path.read_text(encoding="utf-8"), path.relative_to(SOURCE).parts)

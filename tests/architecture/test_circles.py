@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import ast
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
-from source_files import FILES, SOURCE
+from source_files import FILES, SOURCE, findings, findings_of_text
 
 
 def module_of(path) -> str:
@@ -16,23 +15,13 @@ def module_of(path) -> str:
 MODULES = {module_of(path): path for path in FILES}
 
 
-def imports_of(module: str, text: str, package: bool = False) -> set[str]:
-    """Return the modules of the product that one imports, wherever the statement stands."""
+def imports_of(module: str, imported: Iterable[str]) -> set[str]:
+    """Return the modules of the product among the names that one imports."""
     found = set()
-    for one in ast.walk(ast.parse(text)):
-        if isinstance(one, ast.Import):
-            names = [alias.name for alias in one.names]
-        elif not isinstance(one, ast.ImportFrom):
-            continue
-        else:
-            own = module.split(".") if package else module.split(".")[:-1]
-            base = own[: len(own) - one.level + 1] if one.level else []
-            stem = ".".join([*base, *([one.module] if one.module else [])])
-            names = [f"{stem}.{alias.name}" for alias in one.names]
-        for name in names:
-            while name and name not in MODULES:
-                name = name.rpartition(".")[0]
-            found |= {name} - {"", module}
+    for name in imported:
+        while name and name not in MODULES:
+            name = name.rpartition(".")[0]
+        found |= {name} - {"", module}
     return found
 
 
@@ -73,15 +62,13 @@ def circles(imports: Mapping[str, set[str]]) -> list[set[str]]:
 
 
 def test_no_module_imports_itself_by_way_of_others() -> None:
-    imports = {
-        module: imports_of(module, path.read_text(encoding="utf-8"), path.name == "__init__.py")
-        for module, path in MODULES.items()
-    }
+    imports = {module: imports_of(module, findings()[path].imported) for module, path in MODULES.items()}
     assert [sorted(group) for group in circles(imports)] == []
 
 
 def test_the_check_sees_a_circle() -> None:
     text = "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    from moyai.sea.water import Water\n"
-    assert imports_of("moyai.sea.imaginary", text) == {"moyai.sea.water"}
-    assert imports_of("moyai.sea.imaginary", "def late():\n    import moyai.sea.water\n") == {"moyai.sea.water"}
+    for each in (text, "def late():\n    import moyai.sea.water\n", "from .water import Water\n"):
+        imported = findings_of_text(each, ("sea", "imaginary.py")).imported
+        assert imports_of("moyai.sea.imaginary", imported) == {"moyai.sea.water"}
     assert circles({"a": {"b"}, "b": {"c"}, "c": {"b"}}) == [{"b", "c"}]

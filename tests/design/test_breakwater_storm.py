@@ -47,6 +47,7 @@ def test_slow_drift_is_on_and_switching_it_off_is_told(tmp_path):
     assert offsets[0] > offsets[1] + float(sea.slow_motion_deviation[0])
 
 
+@pytest.mark.slow
 def test_a_peak_out_of_range_is_not_known_and_never_the_headline(tmp_path):
     # No line on the bed at high water: chains of 61.5 m to 61.3 m of chord, at rest at every instant by the case's wish
     design = replace(STORM, chain=60, line=61.5)

@@ -85,6 +85,7 @@ def errors(tmp_path_factory):
     return np.array(found) / TABLE[:, 1:] - 1.0
 
 
+@pytest.mark.slow
 def test_cycle_maxima_within_five_percent_on_average(errors):
     assert np.mean(np.abs(errors)) < 0.05
     assert abs(np.mean(errors)) < 0.04

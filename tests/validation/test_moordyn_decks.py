@@ -99,6 +99,7 @@ def test_a_rope_that_has_borne_more_rests_at_the_mean_tension_of_its_deck(decks)
     assert rest.tension == pytest.approx([4.339e5], rel=1e-3)
 
 
+@pytest.mark.slow
 def test_a_pendulum_falls_on_a_bed_that_slopes(decks):
     """The grid is the plane z = x / 5 - 30 m; the ball starts on it, swings and comes down again."""
     deck = read_deck(decks / "seafloor.txt")

@@ -19,6 +19,7 @@ def test_peaks_of_the_line_program(case):
     assert case.error(case.compute()) <= case.tolerance
 
 
+@pytest.mark.slow
 def test_all_cycles_of_the_arrested_mass():
     assert network_cases._mass_peaks() == pytest.approx((76.26e3, 76.23e3, 76.35e3), rel=5e-3)
 
@@ -37,6 +38,7 @@ def test_the_peak_says_what_it_is_worth():
     assert abs(float(summary["line_tension_maximum"][0, 0]) / 102.36e3 - 1.0) < max(2.0 * error, 1e-3)
 
 
+@pytest.mark.slow
 def test_a_net_at_rest_bears_its_weight_and_drag():
     """Statics of a case against the sum of all forces: weight in water, and drag from the places found."""
     text = """moyai: 1

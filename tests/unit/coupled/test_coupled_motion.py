@@ -137,6 +137,7 @@ def test_large_swing_keeps_energy_over_many_periods() -> None:
     assert np.max(np.abs(energy - energy[0])) < 1e-3 * swing
 
 
+@pytest.mark.slow
 def test_two_bodies_on_one_elastic_line_keep_their_momentum() -> None:
     """Nothing else acts: linear and angular momentum of bodies and line stay although the line snaps."""
     random = np.random.default_rng(5)
@@ -193,6 +194,7 @@ def test_two_bodies_on_one_elastic_line_keep_their_momentum() -> None:
     assert np.allclose(after[1], before[1], rtol=0, atol=3e-3 * np.abs(before[1]).max())
 
 
+@pytest.mark.slow
 def test_body_and_line_equal_the_monolithic_solution() -> None:
     """A body of finite inertia on a heavy, slack line of four bars, against one system of equations."""
     from scipy.integrate import solve_ivp

@@ -74,6 +74,14 @@ def flume():
 @pytest.fixture(scope="module")
 def flume_result(flume, tmp_path_factory):
     folder = tmp_path_factory.mktemp("flume")
+    text = flume.replace("[statics, impact, waves]", "[statics, impact]")
+    assert text != flume
+    return run(problem_of(folder, text)), folder
+
+
+@pytest.fixture(scope="module")
+def flume_in_waves(flume, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("flume")
     return run(problem_of(folder, flume)), folder
 
 
@@ -145,8 +153,8 @@ def test_snap_runs_from_release_over_the_spike_to_the_plateau(flume_result):
 
 
 @pytest.mark.slow
-def test_result_is_written_and_read_again(flume_result):
-    result, folder = flume_result
+def test_result_is_written_and_read_again(flume_in_waves):
+    result, folder = flume_in_waves
     assert result.status == "converged", result.message
     assert result.checks and all(check.passed for check in result.checks)
     again = read_result(result.write(folder / "results.nc"))
@@ -159,9 +167,10 @@ def test_result_is_written_and_read_again(flume_result):
                 assert "units" in variable.attrs and "long_name" in variable.attrs, (node.path, name)
 
 
-def test_whatever_a_run_writes_is_missed_where_it_is_absent(small, flume_result):
+@pytest.mark.slow
+def test_whatever_a_run_writes_is_missed_where_it_is_absent(small, flume_in_waves):
     """A draft leaves the upper end of the drag out: it alone may be absent."""
-    assert unmissed(small[1]) == unmissed(flume_result[0]) == {"strong_drag_tension"}
+    assert unmissed(small[1]) == unmissed(flume_in_waves[0]) == {"strong_drag_tension"}
 
 
 def test_layout_page_names_what_is_written(small):
@@ -416,9 +425,10 @@ def test_anchor_loads_of_the_field_paper(tmp_path):
     assert float(table["steady_load"]) == pytest.approx(13.7e3 + 0.5 * force, rel=1e-3)
 
 
-def test_waves_find_sides_and_thresholds(flume_result):
+@pytest.mark.slow
+def test_waves_find_sides_and_thresholds(flume_in_waves):
     """Without enough travel nothing is taut; a current alone keeps the curtain on one side."""
-    result, _ = flume_result
+    result, _ = flume_in_waves
     waves = result.tree["SWL/waves/swing"].to_dataset()
     assert float(waves["threshold_excursion"][0]) == pytest.approx(2.0 * 0.169908, abs=2e-6)
     assert float(waves["excursion"][0]) == pytest.approx(float(waves["velocity_amplitude"][0]) * 4.0 / math.pi)

@@ -122,6 +122,7 @@ def test_short_waves_push_with_all_of_their_momentum() -> None:
     assert 0.5 * 1025.0 * 1.5 * 20.0 * speed**2 == pytest.approx(wall, rel=2e-3)
 
 
+@pytest.mark.slow
 def test_a_held_curtain_without_a_current_snaps_as_it_drifts(tmp_path: Path) -> None:
     """What a small current does to it, its waves do as well; still water alone never draws it taut."""
     still = run(tmp_path, "waves", waves=WAVES)

@@ -37,6 +37,7 @@ settings: {drift: false}
 """
 
 
+@pytest.mark.slow
 def test_the_unit_comes_back_with_the_signs_of_long_waves(tmp_path: Path) -> None:
     (tmp_path / "case.yaml").write_text(CASE, encoding="utf-8")
     result = moyai.run(tmp_path / "case.yaml")
@@ -206,6 +207,7 @@ analyses: [statics]
 """
 
 
+@pytest.mark.slow
 def test_a_buoy_that_is_partly_immersed(tmp_path: Path) -> None:
     """OrcaFlex wets a 3D buoy by 1/2 - z/Height: what is written has to float where the case rests."""
     (tmp_path / "case.yaml").write_text(BUOY, encoding="utf-8")

@@ -203,6 +203,7 @@ def test_an_upright_pile_in_long_crests_has_no_circulation():
     assert np.abs(found.force[2]).max() < 1e-9 * np.abs(found.force[0]).max()
 
 
+@pytest.mark.slow
 def test_a_narrow_sea_behaves_like_its_regular_wave():
     """Irregular sea of a very narrow band: the same share of reduction as a regular wave of its rms height."""
     water, section = Water(40.0, 1025.0, 9.81), sections.circle(1.0)
@@ -221,6 +222,7 @@ def test_a_narrow_sea_behaves_like_its_regular_wave():
     assert fall[0] == pytest.approx(fall[1], rel=0.02)
 
 
+@pytest.mark.slow
 def test_long_irregular_run_of_a_short_crested_sea_stays_finite_and_small():
     from moyai.sea import directional
 

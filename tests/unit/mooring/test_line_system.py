@@ -182,6 +182,7 @@ def test_equilibrium_from_slack_lines() -> None:
     assert found.line_force[0] == pytest.approx(-5e3, rel=1e-8)
 
 
+@pytest.mark.slow
 def test_equilibrium_that_does_not_exist() -> None:
     view = LineSystem((SpringLine("s", (-5.0, 0, 0), (0.0, 0, 0), 10.0, 1.0, tension_only=True),), 5.0).planar()
     with pytest.raises(ConvergenceError):

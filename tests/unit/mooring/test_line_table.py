@@ -98,6 +98,7 @@ def test_compiled_planar_force_equals_the_line_system() -> None:
     assert np.allclose(tension, tensions, rtol=2e-4, atol=1e-12)
 
 
+@pytest.mark.slow
 def test_a_force_with_a_sharp_bend_stays_exact() -> None:
     """A clump that lifts off the bed bends the force law; the table cannot follow and the exact solver is kept."""
     parts = (Segment(CHAIN, 60.0), Segment(ROPE, 40.0))

@@ -159,7 +159,7 @@ def test_what_a_peak_is_worth_is_told_with_bodies(tmp_path):
     assert not [item for item in result.notices if item.code == "sensitivity-failed"]
 
 
-@pytest.mark.parametrize("bodies", [True, False])
+@pytest.mark.parametrize("bodies", [pytest.param(True, marks=pytest.mark.slow), False])
 def test_an_interrupt_while_the_worth_is_found_keeps_the_run(tmp_path, bodies):
     text = CASE.format(analyses="[dynamic]", more=", sensitivity: true", bars=4)
     text = text.replace("duration: 5 s", "duration: 1.5 s")

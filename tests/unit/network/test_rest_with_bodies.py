@@ -53,6 +53,7 @@ def test_a_raft_on_four_segments_carries_what_its_mesh_leaves_out() -> None:
     assert coarse.verdict.outcome == "does not hold"
 
 
+@pytest.mark.slow
 def test_a_rest_whose_finer_mesh_is_not_found_keeps_no_limit(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(network_run, "with_finer_meshes", lambda rested, *_: rested)
     result = moyai.run(CASE.replace("SEGMENTS", "4").replace("13 kN", "15 kN"))
@@ -61,7 +62,7 @@ def test_a_rest_whose_finer_mesh_is_not_found_keeps_no_limit(monkeypatch: pytest
     assert result.verdict.outcome == "not judged" and "mesh not checked" in result.verdict.message
 
 
-@pytest.mark.parametrize("drawn", [28.0, 26.0])
+@pytest.mark.parametrize("drawn", [28.0, pytest.param(26.0, marks=pytest.mark.slow)])
 def test_the_longest_period_of_lines_is_found_where_the_body_rests(drawn: float) -> None:
     """The band of 3.2 s reached to 23 s, or to 0.8 s, with the place where a platform was drawn."""
     text = CASE.replace("SEGMENTS", "12").replace("[28 m", f"[{drawn} m").replace("[statics]", "[statics, modes]")

@@ -93,6 +93,7 @@ def test_waves_on_a_current_count_at_the_place_of_the_current() -> None:
     assert 27.0 < offset.value < 31.5 and offset.bound == ""
 
 
+@pytest.mark.slow
 def test_a_run_that_ends_on_its_way_is_not_judged() -> None:
     result = _run("0.15 m/s", "3 m", ", duration: 60 s, start: rest", WAVES)
     (offset,) = [item for item in result.headlines if item.name == "offset" and item.shown]

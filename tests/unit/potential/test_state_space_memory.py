@@ -90,6 +90,7 @@ def test_three_coupled_modes_with_a_steady_dashpot_of_rank_one(seed):
         assert check.passed, check
 
 
+@pytest.mark.slow
 def test_real_form_is_the_modal_form():
     memory, _, _ = rectangle_memory(1)
     states = fit_memory(memory)
@@ -191,6 +192,7 @@ def test_slow_heave_decay_shows_the_steady_dashpot():
     assert np.abs(np.interp(time, step * np.arange(count + 1), cut[:, 0]) - exact[:, 0]).max() > 0.1
 
 
+@pytest.mark.slow
 def test_convolution_converges_at_second_order_to_the_frequency_integral():
     memory, mass, stiffness = rectangle_memory(12)
     infinite = memory.infinite_frequency_added_mass

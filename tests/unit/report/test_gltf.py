@@ -106,6 +106,7 @@ def test_a_second_reader_places_everything_with_y_up() -> None:
     np.testing.assert_allclose(points["sheet"], given.position[0][:3] @ Y_UP.T, atol=1e-5)
 
 
+@pytest.mark.slow
 def test_waves_move_the_water_and_long_runs_are_thinned() -> None:
     count, bars = 2000, 1500
     time = np.linspace(0.0, 100.0, count)

@@ -43,6 +43,7 @@ def test_what_never_or_always_holds_is_said(tmp_path):
     assert "largest value tried" in str(result.tree["case_message"].values[0])
 
 
+@pytest.mark.slow
 def test_the_shortest_line_that_holds_its_tension_is_found_along_a_trade_off(tmp_path):
     optimise = """{variables: {'lines[*].segments[0].length': [54 m, 57 m]}, minimise: SWL/cost,
              trade_off: {response: SWL/tension, at_most: [950, 1000, 1040]}, starts: 2}"""

@@ -88,6 +88,7 @@ def test_small_seas_give_the_linear_tension_to_first_order(height: float) -> Non
     assert half / whole == pytest.approx(np.full(3, 0.25), rel=0.1)
 
 
+@pytest.mark.slow
 def test_it_is_what_random_records_of_the_row_give() -> None:
     """The catenary at every instant of thirty records of sway, heave and roll, 30 minutes each.
 

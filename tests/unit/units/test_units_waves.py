@@ -51,6 +51,7 @@ def box():
     return at, panels_of(mesh, at.centres)
 
 
+@pytest.mark.slow
 def test_quarter_mesh_and_mirrors_give_the_whole(box):
     _, panels = box
     whole = replace(panels, symmetry=Symmetry(((False, False),), np.arange(panels.mesh.count)[None]))
