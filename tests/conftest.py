@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 import typer.testing
 
-from moyai.core.frugal import be_frugal
+from moyai.core.processes import collect_rarely
 from moyai.core.vocabulary import Strictness
 
 # A name of a result that no vocabulary declares is an error in every test
@@ -21,7 +21,7 @@ Strictness.names = True
 sys.dont_write_bytecode = False
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 # To look for garbage as often as Python does takes a fifth of all time: what is imported and collected stays to the end
-be_frugal()
+collect_rarely()
 # The workers of the tests take all cores
 os.environ.setdefault("MOYAI_COMPILE_PROCESSES", "0")
 # Messages are held against English, whatever the locale

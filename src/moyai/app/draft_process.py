@@ -14,8 +14,7 @@ from typing import Any
 from moyai.app.draft import Drafts
 from moyai.app.messages import END, STALE, message
 from moyai.app.pins import Run
-from moyai.core.frugal import be_frugal
-from moyai.core.processes import die_with_parent
+from moyai.core.processes import collect_rarely, die_with_parent
 from moyai.language import said, speak
 
 REST = 0.35
@@ -26,7 +25,7 @@ def answer_wishes(pipe: Any, run: Run, stop: Any, language: str, keep: Path) -> 
     """Answer wishes until the pipe closes; Ctrl-C is the parent's business."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     die_with_parent()
-    be_frugal()
+    collect_rarely()
     speak(language)
     warm_up(pipe.poll)
 

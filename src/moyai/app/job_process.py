@@ -14,8 +14,7 @@ from typing import Any
 
 from moyai.app.pins import Run
 from moyai.core.errors import CaseError, MoyaiError, system_words
-from moyai.core.frugal import be_frugal
-from moyai.core.processes import die_with_parent
+from moyai.core.processes import collect_rarely, die_with_parent
 from moyai.core.progress import Pace, duration_words
 from moyai.core.run_folder import prepare_output
 from moyai.language import speak
@@ -53,7 +52,7 @@ def work(pipe: Any, stop: Any, order: Order, run: Run) -> None:
     sys.stdout = sys.stderr = open(os.devnull, "w")  # noqa: SIM115 - as long as the process
     speak(order.language)
     die_with_parent()
-    be_frugal()
+    collect_rarely()
     pace, reported = Pace(), [0.0]
 
     def listen(what: str, done: float, total: float) -> None:

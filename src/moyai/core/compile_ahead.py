@@ -19,7 +19,7 @@ from importlib import import_module
 from importlib.resources import files
 from typing import Any
 
-from moyai.core.frugal import be_frugal
+from moyai.core.processes import collect_rarely
 
 #: Name of the environment variable with the number of further processes; 0 compiles in the run alone.
 PROCESSES = "MOYAI_COMPILE_PROCESSES"
@@ -168,7 +168,7 @@ def compiling_ahead(kind: str) -> Iterator[None]:
 
 
 if __name__ == "__main__":
-    be_frugal()
+    collect_rarely()
     place, count, *kinds = sys.argv[1:]
     lists = parts_of(listed_kernels(*kinds), int(count))
     # who is done early goes on with the parts behind his own

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from moyai.core.duck_arrays import look_for_imported_dask
 from moyai.core.remembered import Remembered, key_of_objects
 
 if TYPE_CHECKING:
@@ -261,6 +262,8 @@ class Vocabulary:
             Attributes of the dataset.
         """
         import xarray as xr
+
+        look_for_imported_dask()
 
         def made(name: str, dims: Any, values: Any) -> xr.Variable:
             array = np.asarray(values)

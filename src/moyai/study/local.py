@@ -12,8 +12,7 @@ from multiprocessing.connection import wait
 from typing import Any
 
 from moyai.core.errors import InputError
-from moyai.core.frugal import be_frugal
-from moyai.core.processes import die_with_parent
+from moyai.core.processes import collect_rarely, die_with_parent
 from moyai.core.progress import Progress, silent
 from moyai.study.axes import Combination
 from moyai.study.ledger import LedgerRecord
@@ -167,7 +166,7 @@ def _serve(pipe: Any, task: Task, cancel: Any) -> None:
     # Ctrl-C reaches every process of the terminal; the parent decides what happens then
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     die_with_parent()
-    be_frugal()
+    collect_rarely()
     # Tells a case that kills its worker from a worker that cannot start
     with contextlib.suppress(OSError):
         pipe.send(_STARTED)

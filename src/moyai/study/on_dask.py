@@ -14,7 +14,6 @@ from itertools import islice
 from typing import Any
 
 from moyai.core.errors import InputError
-from moyai.core.frugal import allow_dask
 from moyai.study.axes import Combination
 from moyai.study.ledger import LedgerRecord
 from moyai.study.local import THREADS
@@ -51,7 +50,6 @@ def run_on_dask(task: Task, cases: tuple[Combination, ...], on: Any) -> Iterator
     InputError
         When dask.distributed is absent, nobody answers at the address, or there is no worker.
     """
-    allow_dask()
     with _client(on) as client:
         from distributed import Event, as_completed
 

@@ -87,7 +87,8 @@ def _offsets(
         if "point_position_of_mesh" in rest:
             # tensions tell when meshes are fine enough; places move with them
             reach = Reach.of(_away(rest, "point_position_of_mesh", point, anchor))
-            band = Band(reach.low, reach.high, MESH)
+            lift = max(float(own[np.isfinite(own)][-1]) for own in rest["lift_of_mesh"].values)
+            band = Band(max(reach.low - lift, 0.0), reach.high + lift, MESH)
         yield Headline(
             "offset", "largest offset of a body or buoy", value, "m",
             ", ".join(filter(None, (point, "current", level))), model, band, detail=said,

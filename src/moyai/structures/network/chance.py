@@ -24,6 +24,8 @@ REPEATING = 0.05
 ONE_SEED = "one seed: others may give more"
 #: Lowest tension of a record over its mean below which a line comes near to slack: in another seed it may snap.
 NEAR_SLACK = 1.0 / 3.0
+#: Scatter of a pull over that of the tension of its line, below which the friction of the bed holds it.
+HELD = 0.5
 #: What is said of one seed in which lines snap, segments land or lines come near to slack, and what helps.
 SNAPS_OF_ONE_SEED = "one seed of a line that snaps, lands or comes near to slack: others may give much more"
 MORE_SEEDS, ONE_BY_ONE = "settings.realisations runs them", "run the case with other seeds, one by one"
@@ -106,10 +108,14 @@ def one_seed_of_snaps(groups: Mapping[str, xr.Dataset], level: str, run: str, sc
 def _near_slack(groups: Mapping[str, xr.Dataset], level: str, run: str) -> bool:
     """Whether a line comes near to slack in what counts of a record."""
     series = series_of_run(groups, level, run)
-    if series is None or "line_tension_peak_since_row" not in series:
+    if series is None:
         return False
-    record = series["line_tension_peak_since_row"].values[_rows(series, full=True)]
-    return bool(record.size and (record.min(axis=0) < NEAR_SLACK * record.mean(axis=0)).any())
+    # each stretch of one type by itself: a chain over a wire stays taut by its weight
+    for name in ("line_tension_peak_since_row", "stretch_tension"):
+        record = series[name].values[_rows(series, full=True)] if name in series else np.zeros((0, 1))
+        if record.size and (record.min(axis=0) < NEAR_SLACK * record.mean(axis=0)).any():
+            return True
+    return False
 
 
 def of_record(groups: Mapping[str, xr.Dataset], level: str, run: str, line: str) -> tuple[Maximum | None, list[str]]:
@@ -131,6 +137,29 @@ def of_record(groups: Mapping[str, xr.Dataset], level: str, run: str, line: str)
             f"{spoken(found.deviation, 'N', 2, like=found.mean)}"
         )
     return found, said
+
+
+def of_pull(
+    groups: Mapping[str, xr.Dataset], level: str, run: str, series: xr.Dataset, point: str
+) -> tuple[Maximum | None, str]:
+    """Return the uncertainty of the largest pull of one record on a point, and what else it is of.
+
+    Where the bed holds a line by its friction the pull of a whole record may stay at its rest, while that of another
+    one grows by what passes the friction: as much as the tension over the bed, at most.
+    """
+    values = series["highest_load"].sel(point=point, measure="size").values
+    found, network = chance_of(series, values), groups.get(f"/{level}/network")
+    if found is None or network is None or not irregular(groups, level, run):
+        return found, ""
+    node = int(network["point_node"].sel(point=point))
+    here = (network["bar_start"].values == node) | (network["bar_end"].values == node)
+    lines = {str(name) for name in network["bar_line"].values[here]} & {str(name) for name in series["line"].values}
+    for line in sorted(lines):
+        own = chance_of(series, series["line_tension_peak_since_row"].sel(line=line).values)
+        if own is not None and found.deviation < HELD * own.deviation:
+            moved = found.observed + own.mean - own.observed
+            return Maximum(found.observed, moved, own.deviation, own.blocks), f"as the tension of {line} over the bed"
+    return found, ""
 
 
 def _record(series: xr.Dataset, line: str) -> Array | None:

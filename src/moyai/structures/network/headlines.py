@@ -24,6 +24,7 @@ from moyai.structures.network.chance import (
     chance_of,
     irregular,
     length_of,
+    of_pull,
     of_record,
     of_seeds,
     one_seed_of_snaps,
@@ -415,7 +416,7 @@ def _anchor(groups: Mapping[str, xr.Dataset], peaks: list[_Peak]) -> list[Headli
                     if not doubtful and own is not None and own.of.startswith(PROPORTION):
                         doubtful = PULL_UNCHECKED
                 doubtful = "; ".join(dict.fromkeys(filter(None, [doubtful, *chaos])))
-                bound, said = open_end or bound, "; ".join(filter(None, [said, *why, doubtful]))
+                bound, said = open_end or bound, "; ".join(dict.fromkeys(filter(None, [said, *why, doubtful])))
                 one = Headline(
                     "anchor_load", "largest pull on a fixed point", value, "N", _place(groups, level, point, run),
                     DYNAMIC, own, bound, detail=said, part=point, bound_by=doubtful,
@@ -464,10 +465,11 @@ def _band_of_pull(
     if series is None:
         return own, unproven
     of_sea = irregular(groups, level, run)
-    chance = chance_of(series, series["highest_load"].sel(point=point, measure="size").values)
+    chance, of_what = of_pull(groups, level, run, series, point)
     if chance is None:
         return own, "at least" if of_sea else unproven
-    return with_chance(value, own, chance, of_sea), unproven
+    wider = with_chance(value, own, chance, of_sea)
+    return replace(wider, of="; ".join(filter(None, (wider.of, of_what)))), unproven
 
 
 def _coarse(groups: Mapping[str, xr.Dataset], level: str, line: str) -> bool:

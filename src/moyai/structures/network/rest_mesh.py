@@ -43,6 +43,9 @@ MOST_CHANGE, MOST_UNEVEN = 0.05, 0.01
 FLOOR = 0.25
 #: Bars of a line clear of the bed, at least, where others lie on it: of fewer the node at the touchdown decides.
 LEAST_CLEAR = 32
+#: Weight of a bar at the touchdown over the pull of its line, up to which it lifts as a finer one does; part of the
+#: size of the network by which points may move without.
+LEAST_LIFT, MOST_LIFT = 0.125, 0.005
 #: Bars of the finest mesh, at most, without bodies and with them; doublings, at most.
 MOST_BARS, MOST_BARS_OF_BODIES, MOST_DOUBLINGS = 20_000, 4_000, 10
 #: Segments of a line up to which one doubling alone shows nothing, and from which one is enough where it changes less
@@ -110,10 +113,13 @@ def _bars(assembly: Assembly) -> tuple[dict[str, NDArray[np.int64]], ...]:
 class _OfRest:
     """Of one mesh: tensions of lines, parts and nets, pulls of nets and on points [N], places of points [m].
 
-    ``clear``: bars of each line that are clear of the bed, infinite where none or all of it lies there.
+    ``clear``: bars of each line that are clear of the bed, infinite where none or all of it lies there. ``lift``: see
+    :func:`_lift`; ``size``: of the network [m].
     """
 
     clear: Array
+    lift: float
+    size: float
     lines: Array
     parts: Array
     nets: Array
@@ -136,27 +142,61 @@ def _read(mesh: _RestMesh, names: list[str], widths: Mapping[str, float]) -> _Of
         nets = [widths.get(name, 1.0) / own.get(name, 1.0) * float(strip.max()) for name, strip in pairs]
     held = held_pulls(mesh.network, mesh.nets, mesh.state.position[None], mesh.tension[None])
     held = np.zeros((1, len(nets), 3)) if held is None else held
+    size = float(np.max(np.ptp(mesh.state.position, axis=0)))
     return _OfRest(
-        _clear(mesh), lines, parts, np.array(nets), np.linalg.norm(held[0], axis=1), np.linalg.norm(load, axis=1),
-        mesh.state.position[nodes],
+        _clear(mesh), _lift(mesh), size, lines, parts, np.array(nets), np.linalg.norm(held[0], axis=1),
+        np.linalg.norm(load, axis=1), mesh.state.position[nodes],
     )  # fmt: skip
 
 
 def _clear(mesh: _RestMesh) -> Array:
     """Return the bars of each line that are clear of the bed, infinite where none or all of it lies there.
 
-    A line with an end over the bed has one such bar at least.
+    Of a line that touches down more than once, those of the stretch over the bed that has fewest.
     """
+    on_bed, out = _on_bed(mesh), []
+    for own in mesh.lines.values():
+        lies = on_bed[np.sort(own)]
+        stretches = np.split(lies, np.flatnonzero(np.diff(lies)) + 1)
+        counts = [float(one.size) for one in stretches if not one[0]] if lies.any() else []
+        out.append(min(counts, default=math.inf))
+    return np.array(out)
+
+
+def _on_bed(mesh: _RestMesh) -> NDArray[np.bool_]:
+    """Return which bars lie on the bed."""
     bed, place, bars = mesh.network.bed, mesh.state.position, mesh.network.bars
     if bed is None:
-        return np.full(len(mesh.lines), math.inf)
-    level = bed.level_at(place)
-    lies = place[:, 2] <= level + _ON_BED * max(float(np.ptp(place[:, 2])), 1e-12)
-    on_bed = lies[bars.start] & lies[bars.end]
-    counts = [float(np.count_nonzero(~on_bed[own])) for own in mesh.lines.values()]
-    return np.array(
-        [count if 0.0 < count < own.size else math.inf for count, own in zip(counts, mesh.lines.values(), strict=True)]
-    )
+        return np.zeros(len(bars), dtype=bool)
+    lies = place[:, 2] <= bed.level_at(place) + _ON_BED * max(float(np.ptp(place[:, 2])), 1e-12)
+    return np.asarray(lies[bars.start] & lies[bars.end])
+
+
+def _lift(mesh: _RestMesh) -> float:
+    """Return how far points may move where bars at a touchdown are too heavy for their line to lift [m].
+
+    A bar that weighs more than its line pulls lies, or stands, as a whole, where a finer one would lift in part: two
+    meshes of such bars agree by chance. Lifted is the length that weighs as much as the line pulls; over it what hangs
+    moves as a straight line with its end so much higher.
+    """
+    network, place, on_bed = mesh.network, mesh.state.position, _on_bed(mesh)
+    bars, worst = network.bars, 0.0
+    weights = np.array([kind.submerged_weight_per_length(network.water) for kind in bars.types])[bars.kind]
+    for line in mesh.lines.values():
+        own = np.sort(line)
+        for touch in np.flatnonzero(np.diff(on_bed[own])):
+            pair = own[touch : touch + 2]
+            pull = float(mesh.tension[pair].max())
+            heavy = pair[int(np.argmax(weights[pair] * bars.length[pair]))]
+            weight, length = float(weights[heavy]), float(bars.length[heavy])
+            if weight * length <= LEAST_LIFT * pull:
+                continue
+            lifted = min(length, pull / weight)
+            far = bars.end[own[-1]] if on_bed[pair[0]] else bars.start[own[0]]
+            away = np.abs(place[far] - place[bars.start[pair[1]]])
+            run, rise = math.hypot(away[0], away[1]), float(away[2])
+            worst = max(worst, lifted + math.sqrt(run**2 + 2.0 * rise * lifted) - run)
+    return worst
 
 
 def with_finer_meshes(
@@ -200,6 +240,7 @@ def with_finer_meshes(
                 break
             own.append(_read(mesh, names, assembly.net_widths))
     count = max(map(len, every.values()))
+    lifts = np.array([[one.lift for one in own] + [math.nan] * (count - len(own)) for own in every.values()])
     if min(map(len, every.values())) < 2:
         return dataset
 
@@ -210,6 +251,7 @@ def with_finer_meshes(
     data: dict[str, object] = {
         "load_of_mesh": (("condition", "mesh", "point"), of("pulls")),
         "point_position_of_mesh": (("condition", "mesh", "point", "axis"), of("places")),
+        "lift_of_mesh": (("condition", "mesh"), lifts),
     }
     if lines:
         data["line_tension_of_mesh"] = (("condition", "mesh", "line"), of("lines"))
@@ -228,6 +270,8 @@ def _stands(own: list[_OfRest], few: int) -> bool:
     if len(own) < 2 or (len(own) < 3 and few < FINE):
         return False
     lines, loads = (np.array([getattr(one, key) for one in own]) for key in ("lines", "pulls"))
+    if own[-1].lift > MOST_LIFT * own[-1].size:
+        return False
     floor, clear = _floor(lines, loads), float(own[-1].clear.min(initial=math.inf))
     return all(Reach.of(column, floor, clear=clear).stands for values in (lines, loads) for column in values.T)
 

@@ -79,6 +79,10 @@ def series_of(assembly: Assembly, plan: RunPlan, history: History) -> xr.Dataset
     if assembly.parts:
         own = [highest[:, strand.bars].max(axis=1) for strand in assembly.parts.values()]
         data["part_tension_peak_since_row"] = (("time", "part"), np.stack(own, axis=1))
+    stretches = stretches_of(assembly)
+    if stretches:
+        own = [highest[:, bars].max(axis=1) for bars in stretches.values()]
+        data["stretch_tension"] = (("time", "stretch"), np.stack(own, axis=1))
     if assembly.net_bars:
         data["net_tension"] = (
             ("time", "net"),
@@ -97,6 +101,7 @@ def series_of(assembly: Assembly, plan: RunPlan, history: History) -> xr.Dataset
                 "time": time, "point": names, "line": list(assembly.lines), "axis": AXES,
                 "net": list(assembly.net_bars), "measure": MEASURES,
                 **({"part": list(assembly.parts)} if assembly.parts else {}),
+                **({"stretch": list(stretches)} if stretches else {}),
             },
         )
     )  # fmt: skip
@@ -106,6 +111,17 @@ def series_of(assembly: Assembly, plan: RunPlan, history: History) -> xr.Dataset
         "irregular": int(plan.irregular), "theory": plan.theory, "seed": plan.seed, "duration": plan.duration,
         "growth": plan.growth,
     }  # fmt: skip
+    return out
+
+
+def stretches_of(assembly: Assembly) -> dict[str, NDArray[np.int64]]:
+    """Return the bars of the stretches of one type of lines that have several, in order along the line."""
+    out: dict[str, NDArray[np.int64]] = {}
+    for name, strand in assembly.lines.items():
+        changes = np.flatnonzero(np.diff(assembly.network.bars.kind[strand.bars])) + 1
+        if changes.size:
+            own = np.split(strand.bars, changes)
+            out |= {f"{name} stretch {number}": bars for number, bars in enumerate(own, 1)}
     return out
 
 
@@ -199,6 +215,11 @@ def snaps_of(problem: NetworkProblem, series: xr.Dataset) -> dict[str, SnapRecor
         # the more loaded end tells whether the line is slack; the other one may lie on the bed
         ends = [series[key].sel(line=name).values[chosen] for key in ("start_tension", "end_tension")]
         record = max(ends, key=lambda values: float(np.nanmean(values)))
+        # a heavy end stays taut over a light stretch that goes slack
+        held = [series["stretch_tension"].sel(stretch=own).values[chosen] for own in _own_stretches(series, str(name))]
+        slackest = min(held, key=lambda values: float(values.min()), default=record)
+        if float(slackest.min()) <= settings.slack_level < float(record.min()):
+            record = slackest
         if not (np.isfinite(highest).all() and np.isfinite(record).all()):
             continue
         taut = record[record > settings.slack_level]
@@ -208,6 +229,11 @@ def snaps_of(problem: NetworkProblem, series: xr.Dataset) -> dict[str, SnapRecor
             peaks=highest,
         )  # fmt: skip
     return found
+
+
+def _own_stretches(series: xr.Dataset, line: str) -> list[str]:
+    names = [] if "stretch_tension" not in series else [str(name) for name in series["stretch"].values]
+    return [name for name in names if name.rpartition(" stretch ")[0] == line]
 
 
 def utilisations(problem: NetworkProblem, series: xr.Dataset, chosen: NDArray[np.bool_]) -> dict[str, float]:

@@ -33,6 +33,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "line_tension_peak_since_row": ("N", "highest tension along the line since the row before"),
     "line_tension_minimum": ("N", "lowest tension along the line"),
     "part_tension_peak_since_row": ("N", "highest tension along the part of a line since the row before"),
+    "stretch_tension": ("N", "highest tension along a stretch of one type of a line of several since the row before"),
     "part_tension_maximum": ("N", "highest tension along the part of a line"),
     "part_peak_time": ("s", "time of the highest tension of the part of a line"),
     "part_tension_mean": ("N", "mean over time of the highest tension along the part of a line"),
@@ -65,6 +66,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "net_tension_maximum": ("N", "highest tension in the net at rest, of strips as wide as between its columns"),
     "net_tension_of_mesh": ("N", "highest tension in the net at rest on each mesh, of strips as wide as on the first"),
     "held_pull_of_mesh": ("N", "pull of the net on its fixed and driven knots together at rest on each mesh"),
+    "lift_of_mesh": ("m", "most that points may move on each mesh where a bar at the touchdown is too heavy to lift"),
     "load_of_mesh": ("N", "pull of the lines on the point at rest on each mesh"),
     "point_position_of_mesh": ("m", "place of the point at rest on each mesh, z above still water"),
     "residual": ("1", "largest force left over the largest force at work"),
@@ -208,7 +210,7 @@ TOGETHER = {
     "/[^/]+/statics": (
         "line_tension_maximum line_tension_minimum start_tension end_tension",
         "solid_position solid_angle",
-        "load_of_mesh point_position_of_mesh",
+        "load_of_mesh point_position_of_mesh lift_of_mesh",
         "net_tension_of_mesh held_pull_of_mesh",
     ),
     "/[^/]+/dynamic": (
