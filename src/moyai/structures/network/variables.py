@@ -181,6 +181,7 @@ LABELS: dict[str, str] = {
     "left": "body of the last state",
     "mesh": "bars in place of one of the case",
     "part": "part of a line of several strengths",
+    "stretch": "stretch of one type of a line of several",
 }
 
 # Names that a group holds whenever its analysis was run
