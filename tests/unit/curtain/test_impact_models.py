@@ -290,3 +290,19 @@ def test_a_struck_skirt_stretches_until_its_edges_bear_the_load(slack):
     assert BulgedSkirt(length, chord, stiffness).edge_tension(4.0 * load) > found
     # the arc would close: no tension carries it
     assert BulgedSkirt(length, chord, 100.0).edge_tension(load) == math.inf
+
+
+def test_a_skirt_that_bulges_out_of_the_range_of_its_mass_leaves_model_b_out():
+    """The others stay: an ordinary held skirt of 4.5 m at a chord of 3.2 m in 0.7 m/s had no report."""
+    water = Water(6.0, 1025.0, 9.81)
+    impact = Impact(
+        span=20.0, length=21.0, draught=3.19, upper_stiffness=8e5, lower_stiffness=8e5, speed=0.7, water=water
+    )
+    skirt = BulgedSkirt(4.5, 3.19, 6e5)
+    with pytest.raises(InputError, match="beyond the range of the added mass"):
+        skirt_impact(impact, skirt, finite_depth=True)
+    found = compare_models(impact, skirt, memory=False)
+    names = {line.model for line in found.models}
+    assert "AB" in names and "B energy_mid" not in names
+    (said, *_) = [notice for notice in found.notices if notice.code == "impact-skirt-range"]
+    assert "left out" in said.message and said.severity == "information"

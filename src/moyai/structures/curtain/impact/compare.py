@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import get_args
 
-from moyai.core.errors import ConvergenceError
+from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.validity import Notice
 from moyai.structures.curtain.impact.added_mass import arc_skirt_mass, flat_skirt_mass
 from moyai.structures.curtain.impact.cable import Impact, check_impact, closed_form, edge_impact, peak_by_energy
@@ -124,7 +124,12 @@ def compare_models(impact: Impact, skirt: BulgedSkirt | None = None, *, memory: 
         largest = 0.0
         if impact.length > impact.span:
             for variant in get_args(Variant):
-                found: SkirtPeak = skirt_impact(impact, skirt, variant, finite_depth=True)
+                try:
+                    found: SkirtPeak = skirt_impact(impact, skirt, variant, finite_depth=True)
+                except InputError as error:
+                    left_out = f"model B {variant} is left out: {error.fault.message}"
+                    notices.append(Notice("impact-skirt-range", left_out, severity="information"))
+                    continue
                 lines.append(
                     ModelTension(
                         f"B {variant}",
