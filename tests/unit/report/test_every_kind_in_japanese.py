@@ -29,6 +29,7 @@ from moyai.core.results import Result, read_result
 from moyai.language.catalogue import catalogue
 from moyai.report import fonts
 from moyai.report.document import Document, Figure
+from moyai.report.html import render_html
 from moyai.report.writer import compose_document
 
 EXAMPLES = Path(__file__).resolve().parents[3] / "examples"
@@ -78,25 +79,30 @@ SHORTER: dict[str, dict[str, Any]] = {
 }
 
 
-def assert_japanese(case: Case, least: int, name: str = "") -> None:
+def assert_japanese(case: Case, least: int, name: str = "", *, on_paper: bool = True) -> None:
     """Run a case, shorter where its name is in the list, and hold its report in Japanese against that in English."""
-    hold(kept_run(case.replace(SHORTER[name]) if name in SHORTER else case), least)
+    hold(kept_run(case.replace(SHORTER[name]) if name in SHORTER else case), least, on_paper=on_paper)
 
 
-def hold(result: Result, least: int, file: str = "") -> None:
-    """Hold the report of a result in Japanese against that in English."""
+def hold(result: Result, least: int, file: str = "", *, on_paper: bool = True) -> None:
+    """Hold the report of a result in Japanese against that in English; its letters in PDF and Word where asked for."""
     document = compose_document(result, language="ja")
     left, count = compared_document(document, words_of(result, file))
     assert count > least
     assert not left, "\n".join(left)
     assert drawn_without_boxes(document, most=1) > 0
-    assert_letters(document)
+    assert_letters(document, on_paper)
 
 
-def assert_letters(document: Document) -> None:
-    """Look for letters that no font of page, PDF and Word has."""
+def assert_letters(document: Document, on_paper: bool = True) -> None:
+    """Look for letters that no font of page and figures has, and of PDF and Word, which have the same texts."""
     if fonts.packaged_font() is None:
         pytest.skip("moyai[ja] is not installed: there is no font to hold the letters against")
+    if not on_paper:
+        figures = [block for block in document.blocks() if isinstance(block, Figure)]
+        assert not [figure.title for figure in figures if letters_missing_in_figure(figure)]
+        assert missing_in_page(render_html(document)) == set()
+        return
     assert without_boxes(document) == {"page": set(), "PDF": set(), "Word": set()}
 
 
@@ -127,7 +133,8 @@ def test_examples(path: Path) -> None:
         pytest.importorskip("capytaine")
     # the plain net has few notices
     least = 150 if path.stem == "net_in_current" else 250
-    assert_japanese(load_case(path), least, f"{path.parent.name}/{path.stem}")
+    # the templates of all kinds are held on paper
+    assert_japanese(load_case(path), least, f"{path.parent.name}/{path.stem}", on_paper=False)
 
 
 @pytest.mark.slow
