@@ -2,64 +2,44 @@
 
 from __future__ import annotations
 
-import importlib.util
 import json
-import os
-import random
 import re
-import subprocess
-import sys
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import pytest
+from app_browser import (
+    DIAMETER,
+    DRAWN,
+    FIRST_ERROR,
+    FORCES,
+    IDLE,
+    MOVE,
+    MOVE_ONE,
+    NEEDS_CHROMIUM,
+    ON_SCREEN,
+    PRESS,
+    SET,
+    STATE,
+    TEXT,
+    TO_DO,
+    WHOLE,
+    app_at,
+    only,
+    pipe,
+    sound,
+    until,
+)
 from app_runs import MEMBER, words_of_files
 
-from moyai.app.stages import stages_of
-from moyai.case.reader import case_of
-from moyai.case.templates import template
-from moyai.case.yaml_reader import parse_yaml
-from moyai.cli.runner import run
 from moyai.language.words import latin_words
 
 pytest.importorskip("starlette")
 pytest.importorskip("uvicorn")
 
-_PIPE = Path(__file__).parents[1] / "report" / "chromium_pipe.py"
-_spec = importlib.util.spec_from_file_location("chromium_pipe_of_reports", _PIPE)
-assert _spec is not None and _spec.loader is not None
-pipe = importlib.util.module_from_spec(_spec)
-_spec.loader.exec_module(pipe)
-
-pytestmark = [
-    pytest.mark.browser,
-    pytest.mark.skipif(
-        pipe.find_chromium() is None, reason="Chromium is not installed (set MOYAI_CHROMIUM to its path)"
-    ),
-]
-
-
-KINDS = ("breakwater", "curtain", "cage", "rigid_cage", "network", "member")
-
-
-@contextmanager
-def app_at(start: Path, *options: str) -> Iterator[str]:
-    command = [sys.executable, "-m", "moyai", *options, "app", str(start), "--no-browser"]
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=os.environ)
-    assert process.stdout is not None
-    found = re.search(r"http://127\.0\.0\.1:\d+/\?token=\S+", process.stdout.readline())
-    assert found is not None
-    try:
-        yield found[0]
-        process.send_signal(2)
-        out, errors = process.communicate(timeout=15)
-    finally:
-        process.kill()  # where the test has failed
-    assert process.returncode == 0
-    assert ("終了した" if options else "has ended") in out and errors == ""
+pytestmark = NEEDS_CHROMIUM
 
 
 @pytest.fixture
@@ -67,54 +47,6 @@ def address(tmp_path: Path) -> Iterator[str]:
     (tmp_path / "pile.yaml").write_text(MEMBER)
     with app_at(tmp_path / "pile.yaml") as found:
         yield found
-
-
-def until(page: Any, expression: str, seconds: float = 60.0) -> None:
-    end = time.monotonic() + seconds
-
-    def holds() -> bool:
-        try:
-            return bool(page.evaluate(f"Boolean({expression})"))
-        except RuntimeError as error:
-            if "navigated" in str(error):
-                return False  # asked while the page was loaded again
-            raise
-
-    while not holds():
-        assert time.monotonic() < end, f"{expression}; errors: {page.errors}"
-        time.sleep(0.05)
-
-
-def sound(page: Any, address: str) -> None:
-    """No console error, and nothing asked of another place."""
-    outside = [one for one in page.requests if not one.startswith((address.split("?")[0], "data:", "blob:"))]
-    assert outside == []
-    assert page.errors == []
-
-
-DRAWN = "Number(document.querySelector('.report')?.dataset.sequence || 0)"
-IDLE = "document.querySelector('.state') && !document.querySelector('.state.working')"
-TEXT = "document.querySelector('.text-pane').editor.text"
-STATE = "document.querySelector('.state').textContent"
-TO_DO = """['Undo', 'Save'].map((words) =>
-  [...document.querySelectorAll('.toolbar button')].find((one) => one.textContent === words).disabled)"""
-ON_SCREEN = "[...MOYAI.figures.values()].filter((one) => MOYAI.isVisible(one.plot)).every((one) => one.drawn)"
-FIRST_ERROR = "document.querySelector('.faults .error button')?.textContent"
-MOVE = """((value) => {
-  const range = document.querySelector('.slider input[type=range]');
-  range.value = value ?? Number(range.max) - 2 * Number(range.step);
-  range.dispatchEvent(new Event('input', { bubbles: true }));
-  range.dispatchEvent(new Event('change', { bubbles: true }));
-})"""
-FORCES = "JSON.stringify([...MOYAI.figures.values()].map((figure) => figure.plot.data?.map((trace) => [...trace.y])))"
-PRESS = "((words) => [...document.querySelectorAll('button')].find((one) => one.textContent === words).click())"
-REPORT = "[...document.querySelectorAll('.job-files a')].find((one) => one.textContent === 'Report').click()"
-DIAMETER = "document.querySelector('.form [data-path=\"structure.section.diameter\"]')"
-SET = """((path, value) => {
-  const field = document.querySelector(`.form [data-path="${path}"]`);
-  field.value = value;
-  field.dispatchEvent(new Event('change', { bubbles: true }));
-})"""
 
 
 @pytest.mark.slow
@@ -154,7 +86,7 @@ def test_a_slider_redraws_the_figures(address: str) -> None:
 @pytest.mark.slow
 def test_a_narrow_figure_keeps_its_plot_under_a_long_legend(tmp_path: Path) -> None:
     """Bars of four kinds and those of a pinned state: eight entries on 390 pixels; the list names what is looked at."""
-    (tmp_path / "curtain.yaml").write_text(_only("curtain", "statics, impact"))
+    (tmp_path / "curtain.yaml").write_text(only("curtain", "statics, impact"))
     with app_at(tmp_path / "curtain.yaml") as address, pipe.Chromium(str(pipe.find_chromium()), 390, 844) as page:
         page.send("Page.navigate", url=address)
         until(page, f"{WHOLE} && {IDLE}", 120.0)
@@ -484,204 +416,4 @@ def test_figures_are_taken_away(address: str) -> None:
         assert drawing.startswith("<svg") and "</svg>" in drawing and len(drawing) > 5000
         page.evaluate(f"{take}('png')")
         assert page.wait_download(f"{name}.png").startswith(b"\x89PNG\r\n")
-        sound(page, address)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("kind", (*KINDS, "units"))
-def test_every_structure_opens_and_follows_a_slider(kind: str, tmp_path: Path) -> None:
-    # The waves around a row take minutes
-    (tmp_path / f"{kind}.yaml").write_text(_only("units", "statics") if kind == "units" else template(kind))
-    with app_at(tmp_path / f"{kind}.yaml") as address, pipe.Chromium(str(pipe.find_chromium()), 1400, 900) as page:
-        page.send("Page.navigate", url=address)
-        until(page, f"{DRAWN} > 0 && {IDLE}", 120.0)
-        until(page, ON_SCREEN)
-        number = page.evaluate(DRAWN)
-        text = page.evaluate(TEXT)
-        page.evaluate(f"{MOVE}()")
-        until(page, f"{DRAWN} > {number} && {IDLE}", 120.0)
-        until(page, ON_SCREEN)
-        assert page.evaluate(TEXT) != text
-        page.evaluate(f"{PRESS}('Form')")
-        until(page, "document.querySelectorAll('.form .field').length > 10")
-        page.resize(390, 844)
-        until(page, "innerWidth === 390 && document.documentElement.scrollWidth <= innerWidth + 1", 15.0)
-        sound(page, address)
-
-
-def _settled(page: pipe.Chromium) -> list[str]:
-    """Return data and drawing once two looks three seconds apart agree: figures out of sight are drawn one by one."""
-    found: list[str] = []
-    for _ in range(10):
-        time.sleep(3.0)
-        now = [page.evaluate("JSON.stringify(MOYAI.data.figures)"), page.evaluate(FORCES)]
-        if now == found:
-            break
-        found = now
-    return found
-
-
-@pytest.mark.slow
-def test_moves_in_a_hurry_end_with_the_last_one(address: str) -> None:
-    """Sixty moves without waiting: drawn answers only go forward, and the last drawing is that of the last number."""
-    with pipe.Chromium(str(pipe.find_chromium()), 1280, 900) as page:
-        page.send("Page.navigate", url=address)
-        until(page, f"{DRAWN} > 0 && {IDLE}")
-        page.evaluate("""(() => {
-          window.drawnOnes = [];
-          new MutationObserver(() => drawnOnes.push(Number(document.querySelector('.report').dataset.sequence)))
-            .observe(document.querySelector('.report'), { attributes: true, attributeFilter: ['data-sequence'] });
-        })()""")
-        chance = random.Random(3)
-        values = [chance.randrange(60, 140) for _ in range(60)]
-        for value in values:
-            page.evaluate(f"{MOVE}({value})")
-            time.sleep(chance.choice((0.0, 0.02, 0.2)))
-        wanted = MEMBER.replace("100 cm", f"{values[-1]} cm")
-        until(page, f"{TEXT} === {wanted!r} && {IDLE}")
-        drawn = page.evaluate("drawnOnes")
-        assert drawn == sorted(drawn) and len(drawn) >= 2
-        until(page, ON_SCREEN)
-        last = _settled(page)
-        page.evaluate("location.reload()")
-        until(page, f"!window.drawnOnes && {DRAWN} > 0 && {IDLE}")
-        until(page, ON_SCREEN)
-        found = _settled(page)
-        assert [one == other for one, other in zip(found, last, strict=True)] == [True, True]
-        sound(page, address)
-
-
-def _only(name: str, analyses: str) -> str:
-    return re.sub("^analyses:.*$", f"analyses: [{analyses}]", template(name), flags=re.MULTILINE)
-
-
-PLACE = "Math.round(document.getElementById('response').getBoundingClientRect().top)"
-
-
-@pytest.mark.slow
-def test_a_draft_keeps_place_sections_and_choices(tmp_path: Path) -> None:
-    """What is looked at stays where it is; sections and water levels that a draft leaves out stay too."""
-    (tmp_path / "case.yaml").write_text(_only("breakwater", "statics, mooring, frequency"))
-    with app_at(tmp_path / "case.yaml") as address, pipe.Chromium(str(pipe.find_chromium()), 1280, 900) as page:
-        page.send("Page.navigate", url=address)
-        until(page, f"{WHOLE} && {IDLE}", 120.0)
-        sections = "[...document.querySelectorAll('.report section')].map((one) => one.id).join()"
-        chosen = "document.querySelector('#response .chooser [aria-pressed=true]').textContent"
-        names, level = page.evaluate(sections), page.evaluate(chosen)
-        page.evaluate("document.getElementById('response').scrollIntoView({ behavior: 'instant' })")
-        time.sleep(1.0)
-        place = page.evaluate(PLACE)
-        page.evaluate("""(() => {
-          window.seen = [];
-          new MutationObserver(() => seen.push(document.querySelector('.report').dataset.whole))
-            .observe(document.querySelector('.report'), { attributes: true, attributeFilter: ['data-whole'] });
-        })()""")
-        page.evaluate(f"{MOVE_ONE}('structure.roll_gyradius', 2.8)")
-        until(page, "seen.filter((one) => one === '').length >= 2", 60.0)
-        for _ in range(2):
-            assert abs(page.evaluate(PLACE) - place) <= 2
-            assert (page.evaluate(sections), page.evaluate(chosen)) == (names, level)
-            until(page, f"{WHOLE} && {IDLE}", 120.0)
-        sound(page, address)
-
-
-WHOLE = "document.querySelector('.report')?.dataset.whole === '1'"
-MOVE_ONE = """((path, value) => {
-  const label = [...document.querySelectorAll('.slider label')].find((one) => one.title === path);
-  const range = document.getElementById(label.getAttribute('for'));
-  range.value = value;
-  for (const name of ['input', 'change']) range.dispatchEvent(new Event(name, { bubbles: true }));
-})"""
-SLIDERS = """JSON.stringify([...document.querySelectorAll('.slider')].map((one) => {
-  const range = one.querySelector('input[type=range]');
-  return [one.querySelector('label').title, Number(range.min), Number(range.max), Number(range.step)];
-}))"""
-FAULTY = "Boolean(document.querySelector('.faults .error, .report.old'))"
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ("text", "moves", "reach"),
-    [
-        (MEMBER, 220, 0.2),
-        (_only("rigid_cage", "statics"), 80, 0.2),
-        (_only("network", "statics"), 80, 0.2),
-        (_only("curtain", "statics, impact"), 20, 0.2),
-        (_only("breakwater", "statics, mooring, frequency"), 24, 0.02),
-        (_only("cage", "statics"), 20, 0.2),
-    ],
-    ids=["member", "rigid cage", "network", "curtain", "breakwater", "cage"],
-)
-def test_random_moves_end_with_the_numbers_of_a_fresh_run(text: str, moves: int, reach: float, tmp_path: Path) -> None:
-    """Four hundred moves, most of them in a hurry; when the page rests its numbers are those of a run of its text."""
-    (tmp_path / "case.yaml").write_text(text)
-    chance, compared = random.Random(moves), 0
-    with app_at(tmp_path / "case.yaml") as address, pipe.Chromium(str(pipe.find_chromium()), 1280, 900) as page:
-        page.send("Page.navigate", url=address)
-        until(page, f"{WHOLE} && {IDLE}", 120.0)
-        for move in range(moves):
-            path, low, high, step = chance.choice(json.loads(page.evaluate(SLIDERS)))
-            middle, most = round(0.5 * (high - low) / step), max(1, round(reach * (high - low) / step))
-            value = low + step * (middle + chance.randint(-most, most))
-            page.evaluate(f"{MOVE_ONE}({path!r}, {value!r})")
-            if chance.random() < 0.7 and move < moves - 1:
-                time.sleep(chance.choice((0.0, 0.02, 0.1)))
-                continue
-            until(page, f"{IDLE} && ({WHOLE} || {FAULTY})", 180.0)
-            if page.evaluate(FAULTY):
-                # a number went too far
-                page.evaluate(f"{TEXT.removesuffix('.text')}.type({text!r})")
-                until(page, f"{IDLE} && {WHOLE} && {TEXT} === {text!r} && !{FAULTY}", 180.0)
-                continue
-            document = parse_yaml(page.evaluate(TEXT))
-            draft = stages_of(document, document.data["structure"]["kind"])[-1]
-            fresh = [one.as_dict() for one in run(case_of(draft, tmp_path / "case.yaml")).headlines]
-            shown = json.loads(page.evaluate("JSON.stringify(document.querySelector('.report').headlines)"))
-            assert [(one["name"], one["where"]) for one in shown] == [(one["name"], one["where"]) for one in fresh]
-            for one, wanted in zip(shown, (item["value"] for item in fresh), strict=True):
-                number = isinstance(wanted, float)
-                assert one["value"] == (pytest.approx(wanted, rel=1e-12, abs=0.0) if number else wanted), one["name"]
-            compared += 1
-        sound(page, address)
-    assert compared > 0.1 * moves
-
-
-@pytest.mark.slow
-def test_a_job_a_reload_and_two_tabs(address: str) -> None:
-    executable = str(pipe.find_chromium())
-    with pipe.Chromium(executable, 1280, 900) as page, pipe.Chromium(executable, 390, 844) as other:
-        page.send("Page.navigate", url=address)
-        until(page, f"{DRAWN} > 0 && {IDLE}")
-        page.evaluate(f"{PRESS}('Run')")
-        until(page, "location.hash === '#/jobs' && document.querySelector('.job')")
-        page.evaluate("location.reload()")
-        other.send("Page.navigate", url=address)
-        until(other, f"{DRAWN} > 0 && {IDLE}")
-        other.evaluate(f"{MOVE}(90)")
-        until(other, f"{TEXT}.includes('90 cm') && {IDLE}")
-        other.evaluate("location.hash = '#/jobs'")
-        for one in (page, other):
-            until(one, "document.querySelector('.job')?.dataset.state === 'done'", 120.0)
-            assert "moyai run pile.yaml" in one.evaluate("document.querySelector('.command code').textContent")
-        page.evaluate(REPORT)
-        until(page, "document.querySelector('iframe')?.src.endsWith('report.html')")
-        page.evaluate("history.go(-2)")
-        until(page, f"location.hash.startsWith('#/case') && {DRAWN} > 0")
-        assert "90 cm" in page.evaluate(TEXT), "the change of the other tab"
-        for one in (page, other):
-            sound(one, address)
-
-
-@pytest.mark.slow
-def test_a_paper_is_computed_again(address: str) -> None:
-    with pipe.Chromium(str(pipe.find_chromium()), 1280, 900) as page:
-        page.send("Page.navigate", url=address)
-        until(page, f"{DRAWN} > 0")
-        page.evaluate("location.hash = '#/'")
-        papers = "[...document.querySelectorAll('section')].find((one) => one.textContent.startsWith('Papers'))"
-        until(page, papers)
-        page.evaluate(f"{papers}.querySelectorAll('.card')[0].click()")
-        until(page, "document.querySelector('.job')?.dataset.state === 'done'", 400.0)
-        page.evaluate(REPORT)
-        until(page, "document.querySelector('iframe')?.src.endsWith('report.html')")
         sound(page, address)
