@@ -307,6 +307,7 @@ def test_what_is_typed_last_is_kept_when_the_page_is_left(address: str, leave: s
         until(page, "!window.old || document.querySelector('.jobs')")
         page.evaluate(f"location.hash = {case!r}")
         until(page, f"document.querySelector('.text-pane') && {TEXT} === {typed!r}", 15.0)
+        assert page.evaluate(TEXT) == typed
 
 
 @pytest.mark.slow

@@ -230,6 +230,7 @@ def test_a_paper_is_computed_again(address: str) -> None:
         until(page, papers)
         page.evaluate(f"{papers}.querySelectorAll('.card')[0].click()")
         until(page, "document.querySelector('.job')?.dataset.state === 'done'", 400.0)
+        assert page.evaluate("document.querySelector('.job').dataset.state") == "done"
         page.evaluate(REPORT)
         until(page, "document.querySelector('iframe')?.src.endsWith('report.html')")
         sound(page, address)

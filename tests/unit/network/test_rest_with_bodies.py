@@ -69,3 +69,19 @@ def test_the_longest_period_of_lines_is_found_where_the_body_rests(drawn: float)
     (period,) = [item for item in moyai.run(text).headlines if item.name == "natural_period" and item.shown]
     assert period.band is not None
     assert period.band.low > 0.95 * period.value and period.band.high < 1.05 * period.value
+
+
+def test_the_offset_of_a_raft_at_rest_stands_on_the_page_and_is_judged() -> None:
+    """On one anchor it swings round: the distance from there, as of buoys."""
+    text = CASE.replace("SEGMENTS", "8").replace(
+        "{line_safety_factor: not_judged", "{line_safety_factor: not_judged, greatest_offset: 10 m"
+    )
+    result = moyai.run(text)
+    (found,) = [item for item in result.headlines if item.name == "offset" and item.shown]
+    assert found.detail.startswith("horizontal distance from its only anchor")
+    rest = result.tree["SWL/statics"].to_dataset().sel(condition="current", solid="raft")
+    assert found.value == pytest.approx(float((rest["solid_position"].values[:2] ** 2).sum() ** 0.5), rel=1e-9)
+    assert found.band is not None and found.band.low <= found.value <= found.band.high
+    assert any(
+        one.criterion.headline == "offset" and one.outcome == "does not hold" for one in result.verdict.judgements
+    )

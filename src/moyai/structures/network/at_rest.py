@@ -75,32 +75,34 @@ def _offsets(
 ) -> Iterator[Headline]:
     if "current" not in rest["condition"].values or "still water" not in rest["condition"].values:
         return
-    for point in _of_kind(network, "free"):
-        anchor = anchors.get(point)
-        said = (
-            "from its place in still water, heave included"
-            if anchor is None
-            else f"horizontal distance from its only anchor '{anchor}', round which it swings"
-        )
-        value = float(_away(rest, "point_position", point, anchor))
+    movable = [("point", name) for name in _of_kind(network, "free")]
+    movable += [("solid", str(name)) for name in rest["solid"].values] if "solid_position" in rest else []
+    for kind, name in movable:
+        anchor = anchors.get(name)
+        said = "from its place in still water" + (", heave included" if kind == "point" else "")
+        if anchor is not None:
+            said = f"horizontal distance from its only anchor '{anchor}', round which it swings"
+        value = float(_away(rest, "", kind, name, anchor))
         band: Band | None = None
-        if "point_position_of_mesh" in rest:
+        if f"{kind}_position_of_mesh" in rest:
             # tensions tell when meshes are fine enough; places move with them
-            reach = Reach.of(_away(rest, "point_position_of_mesh", point, anchor))
+            reach = Reach.of(_away(rest, "_of_mesh", kind, name, anchor))
             lift = max(float(own[np.isfinite(own)][-1]) for own in rest["lift_of_mesh"].values)
             band = Band(max(reach.low - lift, 0.0), reach.high + lift, MESH)
         yield Headline(
             "offset", "largest offset of a body or buoy", value, "m",
-            ", ".join(filter(None, (point, "current", level))), model, band, detail=said,
+            ", ".join(filter(None, (name, "current", level))), model, band, detail=said,
         )  # fmt: skip
 
 
-def _away(rest: xr.Dataset, key: str, point: str, anchor: str | None) -> Array:
-    """Return how far a point stands from its place in still water, or from its only anchor."""
-    now, still = (rest[key].sel(condition=condition) for condition in ("current", "still water"))
-    if anchor is None:
-        return np.asarray(np.linalg.norm(now.sel(point=point).values - still.sel(point=point).values, axis=-1))
-    return np.asarray(np.linalg.norm((now.sel(point=point).values - now.sel(point=anchor).values)[..., :2], axis=-1))
+def _away(rest: xr.Dataset, of_mesh: str, kind: str, name: str, anchor: str | None) -> Array:
+    """Return how far a point stands from its place in still water, a body in plan, or from its only anchor."""
+    place = rest[f"{kind}_position{of_mesh}"].sel({kind: name})
+    now, still = (place.sel(condition=condition).values for condition in ("current", "still water"))
+    if anchor is not None:
+        still = rest[f"point_position{of_mesh}"].sel(condition="current", point=anchor).values
+    axes = 3 if kind == "point" and anchor is None else 2
+    return np.asarray(np.linalg.norm((now - still)[..., :axes], axis=-1))
 
 
 def _of_kind(network: xr.Dataset, kind: str) -> list[str]:

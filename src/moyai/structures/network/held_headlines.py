@@ -74,20 +74,27 @@ def _at_rest(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], where: s
                 band, settled = band_at_rest(
                     rest, groups[f"/{level}/network"], "held_pull_of_mesh", condition, net=net
                 )  # fmt: skip
+                level_band, _ = band_at_rest(
+                    rest, groups[f"/{level}/network"], "held_level_pull_of_mesh", condition, net=net
+                )  # fmt: skip
                 why = [] if settled else unsettled_mesh(band)
                 found = Headline(
                     "held_row_load", "pull of a net on the row that holds it at rest", float(np.linalg.norm(pull)),
                     "N", ", ".join((net, condition, level)), where, band, "" if settled else "at least",
-                    detail=_said(problem, net, pull[None], why), part=net, bound_by="; ".join(why),
+                    detail=_said(problem, net, pull[None], why, level_band), part=net, bound_by="; ".join(why),
                 )  # fmt: skip
                 if found.value > 0.0:
                     yield found
 
 
-def _said(problem: NetworkProblem, net: str, pull: Array, more: list[str]) -> str:
+def _said(problem: NetworkProblem, net: str, pull: Array, more: list[str], level: Band | None = None) -> str:
     """Return the parts of a pull, shape (rows, 3), and what it is per metre of its row."""
     along, most = (float(np.nanmax(np.linalg.norm(pull[:, :axes], axis=1))) for axes in (2, 3))
-    parts = [f"horizontal {along / 1e3:.3g} kN, downwards {max(-float(np.nanmin(pull[:, 2])), 0.0) / 1e3:.3g} kN"]
+    down = max(-float(np.nanmin(pull[:, 2])), 0.0)
+    parts = [f"horizontal {along / 1e3:.3g} kN, downwards {down / 1e3:.3g} kN"]
+    if level is not None and level.high > along:
+        finer = f"horizontal {along / 1e3:.3g} kN, up to {level.high / 1e3:.3g} kN on finer meshes"
+        parts = [f"{finer}, downwards {down / 1e3:.3g} kN"]
     widths = {one.name: math.dist(one.corners[0], one.corners[1]) for one in problem.nets}
     if net in widths:
         parts.append(f"{most / widths[net]:.3g} N per metre of a row of {widths[net]:.3g} m")

@@ -68,6 +68,8 @@ class _RestMesh:
     network: Network
     state: State
     tension: Array
+    #: Places of the bodies [m]; shape (bodies, 3).
+    solids: Array
     #: Bars of the lines, of parts of lines with a strength of their own, and of the nets.
     lines: Mapping[str, NDArray[np.int64]]
     parts: Mapping[str, NDArray[np.int64]]
@@ -96,12 +98,13 @@ def _finer(mesh: _RestMesh, flow: Flow) -> _RestMesh:
         )
     if problem.bodies:
         both = rest_of(problem, plain, flow)
-        return _RestMesh(problem, assembly, plain, both.network, both.state, both.tension, *bars)
+        solids = np.array([both.bodies[body.name].position for body in problem.bodies])
+        return _RestMesh(problem, assembly, plain, both.network, both.state, both.tension, solids, *bars)
     if begin is None:
         # a net that hangs finds its rest in a current where one as built may not
         begin = solve_equilibrium(plain, flow=Flow()).state
     own = solve_equilibrium(plain, flow=flow, start=begin)
-    return _RestMesh(problem, assembly, plain, plain, own.state, own.tension, *bars)
+    return _RestMesh(problem, assembly, plain, plain, own.state, own.tension, mesh.solids, *bars)
 
 
 def _bars(assembly: Assembly) -> tuple[dict[str, NDArray[np.int64]], ...]:
@@ -111,7 +114,7 @@ def _bars(assembly: Assembly) -> tuple[dict[str, NDArray[np.int64]], ...]:
 
 @dataclass(frozen=True, eq=False)
 class _OfRest:
-    """Of one mesh: tensions of lines, parts and nets, pulls of nets and on points [N], places of points [m].
+    """Of one mesh: tensions of lines, parts and nets, pulls of nets and on points [N], places of points and bodies [m].
 
     ``clear``: bars of each line that are clear of the bed, infinite where none or all of it lies there. ``lift``: see
     :func:`_lift`; ``size``: of the network [m].
@@ -124,8 +127,10 @@ class _OfRest:
     parts: Array
     nets: Array
     held: Array
+    held_level: Array
     pulls: Array
     places: Array
+    solids: Array
 
 
 def _read(mesh: _RestMesh, names: list[str], widths: Mapping[str, float]) -> _OfRest:
@@ -145,7 +150,8 @@ def _read(mesh: _RestMesh, names: list[str], widths: Mapping[str, float]) -> _Of
     size = float(np.max(np.ptp(mesh.state.position, axis=0)))
     return _OfRest(
         _clear(mesh), _lift(mesh), size, lines, parts, np.array(nets), np.linalg.norm(held[0], axis=1),
-        np.linalg.norm(load, axis=1), mesh.state.position[nodes],
+        np.linalg.norm(held[0, :, :2], axis=1),
+        np.linalg.norm(load, axis=1), mesh.state.position[nodes], mesh.solids,
     )  # fmt: skip
 
 
@@ -229,7 +235,9 @@ def with_finer_meshes(
     most = MOST_BARS_OF_BODIES if problem.bodies else MOST_BARS
     every: dict[str, list[_OfRest]] = {}
     for name, rest in found.items():
-        mesh = _RestMesh(problem, assembly, assembly.network, assembly.network, rest.state, rest.tension, *bars)
+        solids = dataset["solid_position"].sel(condition=name).values if problem.bodies else np.zeros((0, 3))
+        network = assembly.network
+        mesh = _RestMesh(problem, assembly, network, network, rest.state, rest.tension, solids, *bars)
         own = every[name] = [_read(mesh, names, assembly.net_widths)]
         while len(own) <= MOST_DOUBLINGS and not _stands(own, few):
             if len(own) > 1 and len(mesh.plain.bars) > most // 2:
@@ -253,6 +261,8 @@ def with_finer_meshes(
         "point_position_of_mesh": (("condition", "mesh", "point", "axis"), of("places")),
         "lift_of_mesh": (("condition", "mesh"), lifts),
     }
+    if problem.bodies:
+        data["solid_position_of_mesh"] = (("condition", "mesh", "solid", "axis"), of("solids"))
     if lines:
         data["line_tension_of_mesh"] = (("condition", "mesh", "line"), of("lines"))
         data["clear_bars_of_mesh"] = (("condition", "mesh", "line"), of("clear"))
@@ -261,6 +271,7 @@ def with_finer_meshes(
     if nets:
         data["net_tension_of_mesh"] = (("condition", "mesh", "net"), of("nets"))
         data["held_pull_of_mesh"] = (("condition", "mesh", "net"), of("held"))
+        data["held_level_pull_of_mesh"] = (("condition", "mesh", "net"), of("held_level"))
     out = dataset.assign(data).assign_coords(mesh=2 ** np.arange(count))
     return labelled(out)
 

@@ -248,12 +248,12 @@ def _at_rest(
         collected.notices.extend(wet_in_air(assembly.network, rest.state.position, said))
     if found and ("statics" in wanted):
         stiffness = _stiffness(problem, assembly, water, found, said, collected)
-        rested = nets_at_rest(rest_dataset(assembly, found, stiffness), assembly)
+        rested = bodies_at_rest(nets_at_rest(rest_dataset(assembly, found, stiffness), assembly), hung)
         if "dynamic" not in wanted:
             rested = with_finer_meshes(rested, problem, assembly, found, conditions)
             network = collected.groups[f"{root}/network"]
             collected.notices.extend(coarse_rest(rested, network, problem.settings.peak_goal, said))
-        collected.groups[f"{root}/statics"] = bodies_at_rest(rested, hung)
+        collected.groups[f"{root}/statics"] = rested
         _weight_check(assembly, found, said, collected)
     return found, hung
 

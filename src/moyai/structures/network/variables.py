@@ -65,10 +65,15 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "part_tension_of_mesh": ("N", "highest tension along the part of a line at rest on each mesh"),
     "net_tension_maximum": ("N", "highest tension in the net at rest, of strips as wide as between its columns"),
     "net_tension_of_mesh": ("N", "highest tension in the net at rest on each mesh, of strips as wide as on the first"),
+    "held_level_pull_of_mesh": (
+        "N",
+        "horizontal part of the pull of the net on its held knots at rest on each mesh",
+    ),
     "held_pull_of_mesh": ("N", "pull of the net on its fixed and driven knots together at rest on each mesh"),
     "lift_of_mesh": ("m", "most that points may move on each mesh where a bar at the touchdown is too heavy to lift"),
     "load_of_mesh": ("N", "pull of the lines on the point at rest on each mesh"),
     "point_position_of_mesh": ("m", "place of the point at rest on each mesh, z above still water"),
+    "solid_position_of_mesh": ("m", "place of the body at rest on each mesh, z above still water"),
     "residual": ("1", "largest force left over the largest force at work"),
     "mode_frequency": ("rad/s", "natural angular frequency, added mass included"),
     "mode_period": ("s", "natural period, added mass included"),
@@ -212,7 +217,7 @@ TOGETHER = {
         "line_tension_maximum line_tension_minimum start_tension end_tension",
         "solid_position solid_angle",
         "load_of_mesh point_position_of_mesh lift_of_mesh",
-        "net_tension_of_mesh held_pull_of_mesh",
+        "net_tension_of_mesh held_pull_of_mesh held_level_pull_of_mesh",
     ),
     "/[^/]+/dynamic": (
         (
