@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
+from moyai.core.arrays import Array, IntArray
 from moyai.core.compiled import njit
 from moyai.flexible.explicit_rows import (
     FAST,
@@ -39,7 +39,7 @@ from moyai.flexible.ground_kernel import FLAT, ground
 
 
 @njit(cache=True, error_model="numpy", fastmath=FAST)
-def kinetic_energy(A: Any, count: int) -> float:
+def kinetic_energy(A: Array, count: int) -> float:
     """Return the kinetic energy of what is free, with its added mass [J]."""
     kinetic = 0.0
     for i in range(count):
@@ -50,7 +50,9 @@ def kinetic_energy(A: Any, count: int) -> float:
 
 
 @njit(cache=True, error_model="numpy")
-def elastic_energy(A: Any, sizes: Any, runs: Any, curves: Any, hinges: Any, stiffness: Any, bed: Any) -> float:
+def elastic_energy(
+    A: Array, sizes: IntArray, runs: IntArray, curves: Array, hinges: IntArray, stiffness: Array, bed: Array
+) -> float:
     """Return the energy of bars, hinges and bed contact [J]."""
     elastic = 0.0
     for r in range(runs.shape[0] + 1):
@@ -98,14 +100,14 @@ def elastic_energy(A: Any, sizes: Any, runs: Any, curves: Any, hinges: Any, stif
 
 
 @njit(cache=True, error_model="numpy")
-def node_force(A: Any, node: int, axis: int) -> float:
+def node_force(A: Array, node: int, axis: int) -> float:
     """Return the force of bars and hinges on a node (without the loads)."""
     row = axis * ROW + node
     return A[TX + row] - A[PX + row] + A[FX + row] - A[FX + row - 1]
 
 
 @njit(cache=True, error_model="numpy", fastmath=FAST)
-def load_work(A: Any, count: int) -> float:
+def load_work(A: Array, count: int) -> float:
     """Return the sum of load times position over what is free."""
     work = 0.0
     for i in range(count):
@@ -115,7 +117,7 @@ def load_work(A: Any, count: int) -> float:
 
 
 @njit(cache=True, error_model="numpy", fastmath=FAST)
-def load_power(A: Any, count: int) -> float:
+def load_power(A: Array, count: int) -> float:
     """Return the sum of load times velocity over what is free.
 
     A held load that changes at a time step does so between the velocities half a step before and after: half a step

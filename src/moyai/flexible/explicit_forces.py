@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
+from moyai.core.arrays import Array, IntArray
 from moyai.core.compiled import njit
 from moyai.flexible.explicit_rows import (
     FAST,
@@ -37,13 +37,13 @@ SHORT = 8
 
 
 @njit(cache=True, error_model="numpy")
-def _copy(target: Any, source: Any) -> None:
+def _copy(target: Array, source: Array) -> None:
     for i in range(target.size):
         target[i] = source[i]
 
 
 @njit(cache=True, error_model="numpy")
-def add(target: Any, source: Any, factor: float) -> None:
+def add(target: Array, source: Array, factor: float) -> None:
     """Add a factor times values to a stretch of a row.
 
     Of a stretch the compiler knows that no index is negative, of a sum of offsets it does not, and then takes one
@@ -54,7 +54,7 @@ def add(target: Any, source: Any, factor: float) -> None:
 
 
 @njit(cache=True, error_model="numpy")
-def fetch_ends(A: Any, runs: Any, rows: int) -> int:
+def fetch_ends(A: Array, runs: IntArray, rows: int) -> int:
     """Copy the first ``rows`` rows of nodes to the ends of the ribs, in their order; return the number of ribs."""
     last = 0
     for r in range(runs.shape[0]):
@@ -74,7 +74,7 @@ def fetch_ends(A: Any, runs: Any, rows: int) -> int:
 
 
 @njit(cache=True, error_model="numpy", fastmath=FAST)
-def bar_pulls(A: Any, a0: int, b0: int, k0: int, count: int) -> None:
+def bar_pulls(A: Array, a0: int, b0: int, k0: int, count: int) -> None:
     """Write force, tension and highest tension of straight bars from nodes a0, b0 on [eq:flexible-bar]."""
     for i in range(count):
         a, b, k = a0 + i, b0 + i, k0 + i
@@ -95,13 +95,13 @@ def bar_pulls(A: Any, a0: int, b0: int, k0: int, count: int) -> None:
 
 
 @njit(cache=True, error_model="numpy")
-def spine_forces(A: Any, count: int) -> None:
+def spine_forces(A: Array, count: int) -> None:
     """Write force, tension and highest tension of the spine's bars."""
     bar_pulls(A, 0, 1, 0, count)
 
 
 @njit(cache=True, error_model="numpy")
-def rib_forces(A: Any, runs: Any, curves: Any) -> None:
+def rib_forces(A: Array, runs: IntArray, curves: Array) -> None:
     """Do the same for the ribs and add their forces to the total of the nodes."""
     if runs.shape[0] == 0:
         return
@@ -125,7 +125,7 @@ def rib_forces(A: Any, runs: Any, curves: Any) -> None:
 
 
 @njit(cache=True, error_model="numpy")
-def _curved(A: Any, a: int, b: int, k: int, curve: Any) -> None:
+def _curved(A: Array, a: int, b: int, k: int, curve: Array) -> None:
     """Write the force of one rib whose tension follows a rope curve (rows: strain, tension, slope)."""
     dx, dy, dz = A[X + b] - A[X + a], A[Y + b] - A[Y + a], A[Z + b] - A[Z + a]
     size = math.sqrt(dx * dx + dy * dy + dz * dz + TINY)
@@ -142,7 +142,7 @@ def _curved(A: Any, a: int, b: int, k: int, curve: Any) -> None:
 
 
 @njit(cache=True, error_model="numpy")
-def bending_forces(A: Any, hinges: Any, stiffness: Any) -> None:
+def bending_forces(A: Array, hinges: IntArray, stiffness: Array) -> None:
     """Add the forces of the bending energy of every hinge to the total [eq:flexible-bending]."""
     for h in range(hinges.shape[0]):
         a, b, c = hinges[h, 0], hinges[h, 1], hinges[h, 2]

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 
+from moyai.core.arrays import Array, IntArray
 from moyai.core.compiled import njit
 from moyai.flexible.explicit_energy import elastic_energy, kinetic_energy, load_power, load_work, node_force
 from moyai.flexible.explicit_forces import bending_forces, rib_forces, spine_forces
@@ -57,11 +57,12 @@ from moyai.flexible.explicit_rows import (
     Y,
     Z,
 )
+from moyai.flexible.explicit_types import Blocks, Driving, Parts, Saved, Timing, Watch, Waves
 from moyai.flexible.ground_kernel import FLAT, ground
 
 
 @njit(cache=True, error_model="numpy")
-def _touching(A: Any, count: int, bed: Any, ahead: float) -> bool:
+def _touching(A: Array, count: int, bed: Array, ahead: float) -> bool:
     """Whether a free node can reach the bed within ``ahead`` seconds at twice the greatest speed towards it."""
     fastest, lowest, level = 0.0, math.inf, bed[0]
     if bed.size > FLAT:
@@ -79,8 +80,8 @@ def _touching(A: Any, count: int, bed: Any, ahead: float) -> bool:
 
 @njit(cache=True, error_model="numpy")
 def survey(
-    A: Any, count: int, arrays: Any, start: Any, end: Any, place: Any, water: Any, gauge: float, drive: float,
-    lift: float, reach: float, ahead: float, inverse: Any,
+    A: Array, count: int, arrays: tuple[Array, Array], start: IntArray, end: IntArray, place: IntArray, water: Array,
+    gauge: float, drive: float, lift: float, reach: float, ahead: float, inverse: Array,
 ) -> tuple[float, bool]:  # fmt: skip
     """Return the rate that bounds the load interval and whether a bar may cross the surface; write inverse masses.
 
@@ -122,7 +123,7 @@ def survey(
 
 
 @njit(cache=True, error_model="numpy")
-def read_gauges(A: Any, bars: Any, gauges: Any) -> None:
+def read_gauges(A: Array, bars: IntArray, gauges: Array) -> None:
     """Keep the highest rise of the tension of some bars within two blocks of steps, and their highest tension.
 
     A gauge holds: lowest tension in the block before, in this block, steps of this block, steps of a block, highest
@@ -139,7 +140,7 @@ def read_gauges(A: Any, bars: Any, gauges: Any) -> None:
 
 
 @njit(cache=True, error_model="numpy")
-def note_landings(A: Any, bed: Any, falls: Any) -> None:
+def note_landings(A: Array, bed: Array, falls: Array) -> None:
     """Keep the highest speed with which each node came down on the bed [eq:flexible-landing].
 
     ``falls`` (2, n) holds the speed down of what is over the bed, and the highest at a landing.
@@ -156,7 +157,7 @@ def note_landings(A: Any, bed: Any, falls: Any) -> None:
 
 
 @njit(cache=True, error_model="numpy")
-def water_at(A: Any, waves: Any, now: float) -> None:
+def water_at(A: Array, waves: Waves, now: float) -> None:
     """Write the water at the nodes, on its straight way from the start of the call."""
     moving, _, water, rate, begin = waves
     if moving:
@@ -166,7 +167,9 @@ def water_at(A: Any, waves: Any, now: float) -> None:
 
 
 @njit(cache=True, error_model="numpy")
-def bar_forces(A: Any, sizes: Any, runs: Any, curves: Any, hinges: Any, bending: Any, parts: Any) -> None:
+def bar_forces(
+    A: Array, sizes: IntArray, runs: IntArray, curves: Array, hinges: IntArray, bending: Array, parts: Parts
+) -> None:
     """Write the forces of all that is elastic and of net panels at the present state."""
     panels, rings, sheets, _ = parts
     if runs.shape[0] > 0 or hinges.shape[0] > 0 or has_further_forces(panels, rings, sheets):
@@ -183,7 +186,7 @@ def bar_forces(A: Any, sizes: Any, runs: Any, curves: Any, hinges: Any, bending:
 
 @njit(cache=True, error_model="numpy")
 def book_driven(
-    A: Any, ledger: Any, driven: Any, moved: Any, drawn: Any, push: float, share: float, gone: float
+    A: Array, ledger: Array, driven: IntArray, moved: Array, drawn: Array, push: float, share: float, gone: float
 ) -> None:
     """Book work and impulse at driven points.
 
@@ -202,7 +205,7 @@ def book_driven(
 
 
 @njit(cache=True, error_model="numpy")
-def path_of_driven(A: Any, driven: Any, moved: Any) -> None:
+def path_of_driven(A: Array, driven: IntArray, moved: Array) -> None:
     """Turn zeros into the places of driven points, and those into the way since."""
     for d in range(driven.shape[0]):
         for axis in range(3):
@@ -210,13 +213,13 @@ def path_of_driven(A: Any, driven: Any, moved: Any) -> None:
 
 
 @njit(cache=True, error_model="numpy")
-def kinetic_energy_now(A: Any, count: int, blocks: Any) -> float:
+def kinetic_energy_now(A: Array, count: int, blocks: Blocks) -> float:
     """Return the kinetic energy of nodes and dense blocks [J]."""
     return kinetic_energy(A, count) + section_energy(A, blocks)
 
 
 @njit(cache=True, error_model="numpy")
-def kinetic_energy_of_row(A: Any, count: int, blocks: Any, step: float, keep: Any) -> float:
+def kinetic_energy_of_row(A: Array, count: int, blocks: Blocks, step: float, keep: Array) -> float:
     """Return the kinetic energy by the product of the velocities half a step before and after [J].
 
     With it leapfrog keeps the energy of linear motion exactly, at any step [eq:flexible-discrete-energy].
@@ -238,7 +241,7 @@ def kinetic_energy_of_row(A: Any, count: int, blocks: Any, step: float, keep: An
 
 
 @njit(cache=True, error_model="numpy")
-def save_row(A: Any, out: int, saved: Any, spine: int, runs: Any) -> None:
+def save_row(A: Array, out: int, saved: Saved, spine: int, runs: IntArray) -> None:
     """Write places and tensions of a row and begin the highest tensions anew."""
     places, pulls, peaks, _, keep_nodes, keep_bars = saved
     for j in range(keep_nodes.size):
@@ -257,22 +260,17 @@ def save_row(A: Any, out: int, saved: Any, spine: int, runs: Any) -> None:
 
 @njit(cache=True, error_model="numpy", fastmath=FAST, pointer=True)
 def march(
-    A: Any, sizes: Any, runs: Any, curves: Any, hinges: Any, bending: Any, attached: Any, fluid: Any, waves: Any,
-    driving: Any, bed: Any, timing: Any, ledger: Any, saved: Any, parts: Any, watch: Any,
+    A: Array, sizes: IntArray, runs: IntArray, curves: Array, hinges: IntArray, bending: Array, attached: IntArray,
+    fluid: Array, waves: Waves, driving: Driving, bed: Array, timing: Timing, ledger: Array, saved: Saved, parts: Parts,
+    watch: Watch,
 ) -> int:  # fmt: skip
     """Advance by whole rows of the result; the array ``A`` and the ledger change in place.
 
-    ``waves`` is (water moves, part may be dry, water at the start (7, n), its rate, time of the start); ``timing`` is
-    (time of the state, step, steps per load interval, load intervals per row, rows, first row, time of the row that is
-    gone already). ``ledger`` holds: 0 work of the loads, 1 work at driven points, 2 turn of the added mass, 3 the last
-    load interval, 4 whether loads are known, 5 whether the velocities stand half a step behind, and from ``LEDGER`` on
-    the impulses on driven points. ``saved`` is (position (rows, nodes, 3), tension (rows, bars), highest tension since
-    the last row, energies and work (rows, 3), kept nodes, kept bars as places in ``A``). ``parts`` is (panels, rings,
-    sheets, blocks) of :mod:`moyai.flexible.explicit_parts`. ``watch`` is (bars with gauges, gauges, falls on the bed,
-    steps done of a row that was broken off or -1, bounds of the rate of drag times the load interval and times the
-    step). Returns the number of good rows, fewer than asked for when values are no longer finite, and negative when
-    drag has outrun the step, which has to be chosen anew before the march goes on: at the end of that row, or within
-    it, which then does not count as good.
+    The tuples are those of :mod:`moyai.flexible.explicit_types`. ``ledger`` holds: 0 work of the loads, 1 work at driven
+    points, 2 turn of the added mass, 3 the last load interval, 4 whether loads are known, 5 whether the velocities
+    stand half a step behind, and from ``LEDGER`` on the impulses on driven points. Returns the number of good rows,
+    fewer than asked for when values are no longer finite, and negative when drag has outrun the step, which has to be
+    chosen anew before the march goes on: at the end of that row, or within it, which then does not count as good.
 
     With no row to do it evaluates the loads of the present state and no more, with one row less than none it writes the
     row of the start: what is called once a run is then compiled but once, as a part of the march.

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
+from moyai.core.arrays import Array, IntArray
 from moyai.core.compiled import njit
 from moyai.flexible.explicit_forces import SHORT, add, fetch_ends
 from moyai.flexible.explicit_rows import (
@@ -89,11 +89,12 @@ from moyai.flexible.explicit_rows import (
     Y,
     Z,
 )
+from moyai.flexible.explicit_types import Sheets
 from moyai.flexible.sheet_kernel import sheet_added_mass, sheet_loads
 
 
 @njit(cache=True, error_model="numpy", fastmath=FAST)
-def wetness(A: Any, a0: int, b0: int, k0: int, count: int) -> None:
+def wetness(A: Array, a0: int, b0: int, k0: int, count: int) -> None:
     """Write immersed part and lean of the lift of bars, cut by the surface over them [eq:flexible-immersion]."""
     for i in range(count):
         a, b, k = a0 + i, b0 + i, k0 + i
@@ -108,7 +109,7 @@ def wetness(A: Any, a0: int, b0: int, k0: int, count: int) -> None:
 
 
 @njit(cache=True, error_model="numpy", fastmath=FAST)
-def bar_loads(A: Any, a0: int, b0: int, k0: int, count: int, waves: bool, ahead: float) -> None:
+def bar_loads(A: Array, a0: int, b0: int, k0: int, count: int, waves: bool, ahead: float) -> None:
     """Write the loads of the water on both ends of bars and their added mass, half for each end.
 
     Normal and tangential drag of the relative velocity at each end, buoyancy, and the inertia of the water
@@ -183,7 +184,7 @@ def bar_loads(A: Any, a0: int, b0: int, k0: int, count: int, waves: bool, ahead:
 
 
 @njit(cache=True, error_model="numpy", fastmath=FAST)
-def node_loads(A: Any, count: int, spine: int) -> None:
+def node_loads(A: Array, count: int, spine: int) -> None:
     """Sum weight and the loads and added mass of the spine at the nodes."""
     for i in range(count):
         A[QX + i] = A[AX + i] + A[EX + i - 1]
@@ -199,7 +200,7 @@ def node_loads(A: Any, count: int, spine: int) -> None:
 
 
 @njit(cache=True, error_model="numpy", fastmath=FAST)
-def add_ribs(A: Any, runs: Any) -> None:
+def add_ribs(A: Array, runs: IntArray) -> None:
     """Add the loads and added mass of the ribs to their nodes."""
     for r in range(runs.shape[0]):
         a0, b0, k0, count = runs[r, 0], runs[r, 1], RIB + runs[r, 2], runs[r, 3]
@@ -224,7 +225,7 @@ def add_ribs(A: Any, runs: Any) -> None:
 
 
 @njit(cache=True, error_model="numpy")
-def attached_loads(A: Any, attached: Any, rho: float, gravity: float, ahead: float) -> None:
+def attached_loads(A: Array, attached: IntArray, rho: float, gravity: float, ahead: float) -> None:
     """Add the loads on attached floats and weights, partly immersed [eq:flexible-immersion], and their added mass."""
     for n in range(attached.size):
         i = attached[n]
@@ -250,7 +251,7 @@ def attached_loads(A: Any, attached: Any, rho: float, gravity: float, ahead: flo
 
 
 @njit(cache=True, error_model="numpy", fastmath=FAST)
-def invert_blocks(A: Any, count: int) -> None:
+def invert_blocks(A: Array, count: int) -> None:
     """Invert the symmetric mass blocks; components that are held get rows and columns of zero."""
     for i in range(count):
         mx, my, mz = A[FREE_X + i], A[FREE_Y + i], A[FREE_Z + i]
@@ -268,7 +269,7 @@ def invert_blocks(A: Any, count: int) -> None:
 
 
 @njit(cache=True, error_model="numpy")
-def add_sheet_loads(A: Any, sheets: Any, ahead: float) -> None:
+def add_sheet_loads(A: Array, sheets: Sheets, ahead: float) -> None:
     """Add the loads of the water on sheets and their added mass; see :mod:`moyai.flexible.explicit_parts`."""
     if sheets is None:
         return
@@ -279,8 +280,8 @@ def add_sheet_loads(A: Any, sheets: Any, ahead: float) -> None:
 
 @njit(cache=True, error_model="numpy")
 def loads(
-    A: Any, sizes: Any, runs: Any, attached: Any, rho: float, gravity: float, surface: bool, waves: bool, ahead: float,
-    sheets: Any,
+    A: Array, sizes: IntArray, runs: IntArray, attached: IntArray, rho: float, gravity: float, surface: bool,
+    waves: bool, ahead: float, sheets: Sheets,
 ) -> None:  # fmt: skip
     """Write weight, buoyancy, drag and inertia of the water at every node, and the inverse mass blocks."""
     count, spine = sizes[0], sizes[1]
@@ -300,7 +301,7 @@ def loads(
 
 
 @njit(cache=True, error_model="numpy", fastmath=FAST)
-def extrapolate(A: Any, count: int, ahead: float) -> None:
+def extrapolate(A: Array, count: int, ahead: float) -> None:
     """Take the loads in the middle of the coming interval: straight continuation of the last two.
 
     ``ahead`` is half the coming interval over the one before.
@@ -315,7 +316,7 @@ def extrapolate(A: Any, count: int, ahead: float) -> None:
 
 
 @njit(cache=True, error_model="numpy")
-def rate_of_sheets(sheets: Any) -> float:
+def rate_of_sheets(sheets: Sheets) -> float:
     """Return the fastest rate at which drag damps a sheet, at the last evaluation of the loads [1/s]."""
     if sheets is None:
         return 0.0
@@ -323,7 +324,7 @@ def rate_of_sheets(sheets: Any) -> float:
 
 
 @njit(cache=True, error_model="numpy")
-def rate_of_drag(A: Any, spine: int, runs: Any, attached: Any, sheets: Any) -> float:
+def rate_of_drag(A: Array, spine: int, runs: IntArray, attached: IntArray, sheets: Sheets) -> float:
     """Return the fastest rate at which drag damps any node, at the last evaluation of the loads [1/s]."""
     rate = rate_of_sheets(sheets)
     for i in range(spine):

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
+from moyai.core.arrays import Array, IntArray
 from moyai.core.compiled import njit
 from moyai.flexible.explicit_rows import (
     DAMP,
@@ -35,7 +35,7 @@ from moyai.flexible.ground_kernel import ground
 
 
 @njit(cache=True, error_model="numpy", fastmath=FAST)
-def kick_and_drift(A: Any, count: int, push: float, move: float) -> None:
+def kick_and_drift(A: Array, count: int, push: float, move: float) -> None:
     """Advance velocities by ``push`` times inverse mass times force, positions by ``move`` times velocity.
 
     The element before the first of a force row belongs to the unused end of another row and is zero.
@@ -54,7 +54,7 @@ def kick_and_drift(A: Any, count: int, push: float, move: float) -> None:
 
 
 @njit(cache=True, error_model="numpy", fastmath=FAST)
-def kick_contact_and_drift(A: Any, count: int, level: float, time: float, move: float) -> None:
+def kick_contact_and_drift(A: Array, count: int, level: float, time: float, move: float) -> None:
     """Do what :func:`kick_and_drift` does, with the impulses of a smooth bed in between.
 
     Implicit spring and dashpot [eq:flexible-bed], without branches, for whole vectors.
@@ -84,7 +84,7 @@ def kick_contact_and_drift(A: Any, count: int, level: float, time: float, move: 
 
 
 @njit(cache=True, error_model="numpy", fastmath=FAST)
-def kick_with_friction_and_drift(A: Any, count: int, level: float, friction: float, time: float, move: float) -> None:
+def kick_with_friction_and_drift(A: Array, count: int, level: float, friction: float, time: float, move: float) -> None:
     """Do the same on a rough bed: Coulomb friction that sticks.
 
     The body is repeated from :func:`kick_contact_and_drift`: a shared function in the loop would hinder the compiler,
@@ -123,7 +123,7 @@ def kick_with_friction_and_drift(A: Any, count: int, level: float, friction: flo
 
 
 @njit(cache=True, error_model="numpy")
-def kick_on_ground_and_drift(A: Any, count: int, bed: Any, friction: float, time: float, move: float) -> None:
+def kick_on_ground_and_drift(A: Array, count: int, bed: Array, friction: float, time: float, move: float) -> None:
     """Do the same on a bed that varies: spring and dashpot along its normal, friction across [eq:flexible-ground]."""
     for i in range(count):
         fx = time * (A[TX + i] + A[FX + i] - A[FX + i - 1])
@@ -166,7 +166,9 @@ def kick_on_ground_and_drift(A: Any, count: int, bed: Any, friction: float, time
 
 
 @njit(cache=True, error_model="numpy", fastmath=FAST)
-def drive(A: Any, driven: Any, rest: Any, tables: Any, start: float, step: float, now: float, time: float) -> None:
+def drive(
+    A: Array, driven: IntArray, rest: Array, tables: Array, start: float, step: float, now: float, time: float
+) -> None:
     """Put driven nodes at their place at ``now``; their velocity is the mean over the last ``time``."""
     last = tables.shape[1] - 1
     place = (now - start) / step

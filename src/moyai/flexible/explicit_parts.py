@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from moyai.core.arrays import Array
 from moyai.core.compiled import njit
 from moyai.flexible.explicit_loads import invert_blocks
 from moyai.flexible.explicit_rows import (
@@ -45,6 +46,7 @@ from moyai.flexible.explicit_rows import (
     Y,
     Z,
 )
+from moyai.flexible.explicit_types import Blocks, Panels, Rings, Sheets
 from moyai.flexible.mass_block_kernel import STALE, block_energy, block_loads, kick_blocks, refresh_inverse, set_frames
 from moyai.flexible.panel_kernel import screen_loads
 from moyai.flexible.ring_kernel import ring_loads
@@ -52,7 +54,7 @@ from moyai.flexible.sheet_kernel import PRESSURE, pressure_forces, sheet_energy,
 
 
 @njit(cache=True, error_model="numpy")
-def kick_sections(A: Any, blocks: Any, push: float, level: float) -> None:
+def kick_sections(A: Array, blocks: Blocks, push: float, level: float) -> None:
     """Advance the velocities of the nodes of dense mass blocks; the rows of the new load hold their forces meanwhile.
 
     Their own inverse blocks are zero, so that the kick of all nodes passes them by.
@@ -70,7 +72,7 @@ def kick_sections(A: Any, blocks: Any, push: float, level: float) -> None:
 
 
 @njit(cache=True, error_model="numpy")
-def section_loads(A: Any, blocks: Any, moving: bool) -> None:
+def section_loads(A: Array, blocks: Blocks, moving: bool) -> None:
     """Turn the frames of dense mass blocks, add their loads, and take their nodes out of the kick of all nodes."""
     if blocks is None:
         return
@@ -89,7 +91,7 @@ def section_loads(A: Any, blocks: Any, moving: bool) -> None:
 
 
 @njit(cache=True, error_model="numpy")
-def section_energy(A: Any, blocks: Any) -> float:
+def section_energy(A: Array, blocks: Blocks) -> float:
     """Return the kinetic energy of the water of the blocks [J]."""
     if blocks is None:
         return 0.0
@@ -97,7 +99,7 @@ def section_energy(A: Any, blocks: Any) -> float:
 
 
 @njit(cache=True, error_model="numpy")
-def screens(A: Any, count: int, panels: Any, half_density: float, ahead: float, step: float) -> None:
+def screens(A: Array, count: int, panels: Panels, half_density: float, ahead: float, step: float) -> None:
     """Write the loads of net panels as R - C velocity and inverse mass blocks that hold half a step of C.
 
     The step then takes the damping at the mean of its velocities, so that light nets in fast water ask for no shorter
@@ -121,7 +123,7 @@ def screens(A: Any, count: int, panels: Any, half_density: float, ahead: float, 
 
 
 @njit(cache=True, error_model="numpy", fastmath=FAST)
-def screen_forces(A: Any, panels: Any) -> None:
+def screen_forces(A: Array, panels: Panels) -> None:
     """Add the forces of the panels at the present velocity to the total and keep that velocity."""
     if panels is None:
         return
@@ -135,7 +137,7 @@ def screen_forces(A: Any, panels: Any) -> None:
 
 
 @njit(cache=True, error_model="numpy", fastmath=FAST)
-def screen_work(A: Any, panels: Any, time: float) -> float:
+def screen_work(A: Array, panels: Panels, time: float) -> float:
     """Return the work of the panels over the last kick of ``time``, at the mean of the velocities around it [J]."""
     if panels is None:
         return 0.0
@@ -149,7 +151,7 @@ def screen_work(A: Any, panels: Any, time: float) -> float:
 
 
 @njit(cache=True, error_model="numpy")
-def add_sheet_forces(A: Any, sheets: Any) -> None:
+def add_sheet_forces(A: Array, sheets: Sheets) -> None:
     """Add the stresses of sheets to the total of the nodes."""
     if sheets is None:
         return
@@ -157,7 +159,7 @@ def add_sheet_forces(A: Any, sheets: Any) -> None:
 
 
 @njit(cache=True, error_model="numpy")
-def elastic_energy_of_sheets(A: Any, sheets: Any) -> float:
+def elastic_energy_of_sheets(A: Array, sheets: Sheets) -> float:
     """Return the energy of the stresses of sheets [J]."""
     if sheets is None:
         return 0.0
@@ -165,7 +167,7 @@ def elastic_energy_of_sheets(A: Any, sheets: Any) -> float:
 
 
 @njit(cache=True, error_model="numpy")
-def pressure_work(A: Any, count: int, sheets: Any, push: Any) -> float:
+def pressure_work(A: Array, count: int, sheets: Sheets, push: Any) -> float:
     """Return half the work of pressure along the way since the last look, with the push then and with that of now.
 
     ``push`` (6, n) holds that push and the places then; those of now take their place. Of no nodes, there is no work.
@@ -189,7 +191,7 @@ def pressure_work(A: Any, count: int, sheets: Any, push: Any) -> float:
 
 
 @njit(cache=True, error_model="numpy")
-def first_push(A: Any, count: int, sheets: Any) -> Any:
+def first_push(A: Array, count: int, sheets: Sheets) -> Any:
     """Return the push of pressure on sheets and the places now (6, n), of no nodes where nothing is under pressure."""
     push = np.zeros((6, 0))
     if sheets is None:
@@ -202,7 +204,7 @@ def first_push(A: Any, count: int, sheets: Any) -> Any:
 
 
 @njit(cache=True, error_model="numpy")
-def add_ring_forces(A: Any, rings: Any) -> None:
+def add_ring_forces(A: Array, rings: Rings) -> None:
     """Add the forces of rings to the total of the nodes."""
     if rings is None:
         return
@@ -210,7 +212,7 @@ def add_ring_forces(A: Any, rings: Any) -> None:
 
 
 @njit(cache=True, error_model="numpy")
-def ring_energy(A: Any, rings: Any) -> float:
+def ring_energy(A: Array, rings: Rings) -> float:
     """Return the energy of rings [J]."""
     if rings is None:
         return 0.0
@@ -219,6 +221,6 @@ def ring_energy(A: Any, rings: Any) -> float:
 
 
 @njit(cache=True, error_model="numpy")
-def has_further_forces(panels: Any, rings: Any, sheets: Any) -> bool:
+def has_further_forces(panels: Panels, rings: Rings, sheets: Sheets) -> bool:
     """Whether anything but bars and hinges pulls at the nodes."""
     return not (panels is None and rings is None and sheets is None)
