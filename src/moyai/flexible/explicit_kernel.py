@@ -266,7 +266,7 @@ def march(
 ) -> int:  # fmt: skip
     """Advance by whole rows of the result; the array ``A`` and the ledger change in place.
 
-    The tuples are those of :mod:`moyai.flexible.explicit_types`. ``ledger`` holds: 0 work of the loads, 1 work at driven
+    The tuples are those of :mod:`moyai.flexible.explicit_types`. ``ledger`` holds 0 work of the loads, 1 work at driven
     points, 2 turn of the added mass, 3 the last load interval, 4 whether loads are known, 5 whether the velocities
     stand half a step behind, and from ``LEDGER`` on the impulses on driven points. Returns the number of good rows,
     fewer than asked for when values are no longer finite, and negative when drag has outrun the step, which has to be
