@@ -111,3 +111,25 @@ def test_a_pull_that_friction_holds_grows_as_the_tension_does() -> None:
     assert free is not None and nothing == ""
     beyond = free.range[1] - free.observed
     assert beyond > 0.0 and held.range[1] - held.observed == pytest.approx(beyond, rel=1e-9)
+
+
+RUN = AT_REST.replace("analyses: [statics]", "analyses: [ANALYSES]\nsettings: {duration: 20 s, mesh_check: off}")
+
+
+@pytest.mark.parametrize("analyses", ["statics, dynamic", "dynamic"])
+def test_the_offset_of_a_run_has_the_meshes_of_the_rest(analyses: str) -> None:
+    """The check of a run looks at the peak of the tension: the ground chain lies in it as coarse as in the run."""
+    words = {"DEPTH": 15, "SPEED": 0.8, "CHAIN": 40, "ROPE": 17, "COARSE": 4, "LIMIT": 48}
+    text = RUN.replace("ANALYSES", analyses)
+    for word, value in words.items():
+        text = text.replace(word, f"{value:g}")
+    result = moyai.run(text)
+    (found,) = [item for item in result.headlines if item.name == "offset" and item.shown]
+    assert found.value < 47.5
+    if "statics" in analyses:
+        # 48.34 m with 200 segments of chain
+        assert found.band is not None and found.band.low <= 48.34 <= found.band.high
+        assert result.verdict.outcome != "holds"
+    else:
+        assert found.bound == "at least" and "touchdown" in found.bound_by
+        assert result.verdict.outcome != "holds"

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
 #: What is said of a rest that no finer mesh was found of, or whose finer meshes go on changing, and what helps.
 MESH_UNCHECKED, MESH_MOVES = "mesh not checked", "finer meshes do not settle it"
+HEAVY = "bars at the touchdown are heavier than their line can lift"
 FINER = "more segments, or knots of nets, tell what the mesh does"
 
 
@@ -83,16 +84,56 @@ def _offsets(
         if anchor is not None:
             said = f"horizontal distance from its only anchor '{anchor}', round which it swings"
         value = float(_away(rest, "", kind, name, anchor))
-        band: Band | None = None
-        if f"{kind}_position_of_mesh" in rest:
-            # tensions tell when meshes are fine enough; places move with them
-            reach = Reach.of(_away(rest, "_of_mesh", kind, name, anchor))
-            lift = max(float(own[np.isfinite(own)][-1]) for own in rest["lift_of_mesh"].values)
-            band = Band(max(reach.low - lift, 0.0), reach.high + lift, MESH)
         yield Headline(
             "offset", "largest offset of a body or buoy", value, "m",
-            ", ".join(filter(None, (name, "current", level))), model, band, detail=said,
+            ", ".join(filter(None, (name, "current", level))), model, _band(rest, kind, name, anchor), detail=said,
         )  # fmt: skip
+
+
+def _band(rest: xr.Dataset, kind: str, name: str, anchor: str | None) -> Band | None:
+    """Return what finer meshes make of an offset; None where none was run."""
+    if f"{kind}_position_of_mesh" not in rest:
+        return None
+    # tensions tell when meshes are fine enough; places move with them
+    reach = Reach.of(_away(rest, "_of_mesh", kind, name, anchor))
+    lift = max(float(own[np.isfinite(own)][-1]) for own in rest["lift_of_mesh"].values)
+    return Band(max(reach.low - lift, 0.0), reach.high + lift, MESH)
+
+
+def with_mesh_of_rest(
+    found: Headline, groups: Mapping[str, xr.Dataset], level: str, kind: str, name: str, anchor: str | None
+) -> Headline:
+    """Return an offset of a run through time with the band that finer meshes give that at rest, in proportion.
+
+    Where bars at the touchdown are too heavy for their line to lift and no finer meshes are at rest, it is a bound.
+
+    Parameters
+    ----------
+    found : Headline
+    groups : mapping of str to xarray.Dataset
+        Of the result.
+    level : str
+    kind : str
+        ``point`` or ``solid``.
+    name : str
+    anchor : str or None
+        Only fixed point that holds it.
+    """
+    rest, network = groups.get(f"/{level}/statics"), groups.get(f"/{level}/network")
+    band = None
+    if rest is not None and "current" in rest["condition"].values:
+        band = _band(rest, kind, name, anchor)
+    if band is not None and rest is not None:
+        value = float(_away(rest, "", kind, name, anchor))
+        less, more = band.low / value, band.high / value
+        own = found.band or Band(found.value, found.value, "")
+        of = "; ".join(filter(None, (own.of, "mesh: in proportion to the offset at rest on finer meshes")))
+        return replace(found, band=replace(own.scaled(less, more), of=of))
+    heavy = network is not None and int(network.attrs.get("heavy_touchdown", 0))
+    if heavy or (rest is not None and f"{kind}_position_of_mesh" in rest):
+        why = f"{HEAVY}; {FINER}"
+        return replace(found, bound="at least", detail=f"{found.detail}; {why}", bound_by=why)
+    return found
 
 
 def _away(rest: xr.Dataset, of_mesh: str, kind: str, name: str, anchor: str | None) -> Array:

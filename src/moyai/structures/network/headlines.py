@@ -15,7 +15,14 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.core.headline import Band, Bound, Headline, all_judged, governing, unfavourable
 from moyai.core.wording import spoken
-from moyai.structures.network.at_rest import FINER, MESH_MOVES, MESH_UNCHECKED, rest_headlines, unsettled_mesh
+from moyai.structures.network.at_rest import (
+    FINER,
+    MESH_MOVES,
+    MESH_UNCHECKED,
+    rest_headlines,
+    unsettled_mesh,
+    with_mesh_of_rest,
+)
 from moyai.structures.network.chance import (
     MORE_SEEDS,
     ONE_BY_ONE,
@@ -495,17 +502,21 @@ def _offsets(groups: Mapping[str, xr.Dataset], anchors: Mapping[str, str]) -> li
                     if kind not in ("fixed", "driven"):
                         value = float(summary["excursion"].sel(run=run, point=point))
                         at = (level, str(run), str(point), "point")
-                        offsets.append(_offset(groups, at, value, f"{still}, heave included", 3, anchors))
+                        found = _offset(groups, at, value, f"{still}, heave included", 3, anchors)
+                        offsets.append(
+                            with_mesh_of_rest(found, groups, level, "point", str(point), anchors.get(str(point)))
+                        )
             for solid in summary["solid"].values if "offset" in summary else ():
                 value, lean = (float(summary[name].sel(run=run, solid=solid)) for name in ("offset", "highest_lean"))
                 at = (level, str(run), str(solid), "solid")
-                offsets.append(_offset(groups, at, value, still, 2, anchors))
+                found = _offset(groups, at, value, still, 2, anchors)
+                offsets.append(with_mesh_of_rest(found, groups, level, "solid", str(solid), anchors.get(str(solid))))
                 where = _place(groups, level, str(solid), str(run))
                 leans.append(_moved("lean", lean, where, still, groups, level, str(run), None))
     return [
         item
-        for found in (offsets, leans)
-        for item in all_judged(one for one in found if math.isfinite(one.value))
+        for kept in (offsets, leans)
+        for item in all_judged(one for one in kept if math.isfinite(one.value))
     ]  # fmt: skip
 
 

@@ -205,6 +205,25 @@ def _lift(mesh: _RestMesh) -> float:
     return worst
 
 
+def heavy_touchdown(problem: NetworkProblem, assembly: Assembly, found: Mapping[str, Equilibrium]) -> bool:
+    """Whether bars at a touchdown are too heavy for their line to lift in the current, and points may move by it.
+
+    Without a current a slack line leaves its float where it is drawn, whatever its bars.
+
+    Parameters
+    ----------
+    problem : NetworkProblem
+    assembly : Assembly
+    found : mapping of str to Equilibrium
+        By condition.
+    """
+    if "current" not in found:
+        return False
+    network, rest = assembly.network, found["current"]
+    mesh = _RestMesh(problem, assembly, network, network, rest.state, rest.tension, np.zeros((0, 3)), *_bars(assembly))
+    return _lift(mesh) > MOST_LIFT * float(np.max(np.ptp(rest.state.position, axis=0)))
+
+
 def with_finer_meshes(
     dataset: xr.Dataset,
     problem: NetworkProblem,

@@ -36,7 +36,7 @@ from moyai.structures.network.equilibrium import (
 from moyai.structures.network.headlines import headlines_of, mesh_checked
 from moyai.structures.network.held_rows import nets_at_rest
 from moyai.structures.network.model import NetworkProblem
-from moyai.structures.network.rest_mesh import coarse_rest, with_finer_meshes
+from moyai.structures.network.rest_mesh import coarse_rest, heavy_touchdown, with_finer_meshes
 from moyai.structures.network.resume import earlier_run, read_earlier
 from moyai.structures.network.run_notices import OVER, overturned, wet_in_air
 from moyai.structures.network.runs import run_plans, steady_flow, theory_limit
@@ -249,12 +249,16 @@ def _at_rest(
     if found and ("statics" in wanted):
         stiffness = _stiffness(problem, assembly, water, found, said, collected)
         rested = bodies_at_rest(nets_at_rest(rest_dataset(assembly, found, stiffness), assembly), hung)
-        if "dynamic" not in wanted:
+        # the check of a run through time says nothing of its offset
+        if "dynamic" not in wanted or heavy_touchdown(problem, assembly, found):
             rested = with_finer_meshes(rested, problem, assembly, found, conditions)
+        if "dynamic" not in wanted:
             network = collected.groups[f"{root}/network"]
             collected.notices.extend(coarse_rest(rested, network, problem.settings.peak_goal, said))
         collected.groups[f"{root}/statics"] = rested
         _weight_check(assembly, found, said, collected)
+    elif found and heavy_touchdown(problem, assembly, found):
+        collected.groups[f"{root}/network"].attrs["heavy_touchdown"] = 1
     return found, hung
 
 
