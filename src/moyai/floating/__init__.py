@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from moyai.floating.time import Simulation as Simulation
     from moyai.floating.time import choose_time_step as choose_time_step
     from moyai.floating.time import simulate as simulate
+    from moyai.floating.together import simulate_together as simulate_together
 else:
     __getattr__, __dir__, __all__ = exports(
         __name__,
@@ -43,5 +44,6 @@ else:
             "offset": "LinearMooring mean_offset",
             "statics": "Hydrostatics find_equilibrium hydrostatics inertia_matrix righting_curve",
             "time": "CumminsModel Simulation choose_time_step simulate",
+            "together": "simulate_together",
         },
     )

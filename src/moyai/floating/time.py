@@ -290,7 +290,7 @@ def simulate(
     force = np.ascontiguousarray(finite(force, "force"))
     cost = {"excitation": clock.process_time() - started, "steps": float(steps)}
     lines, rest, line_count = packed_lines(model.mooring, size)
-    body = _packed_body(model)
+    body = packed_body(model)
     rows = steps // every + 1
     saved = (np.zeros((rows, size)), np.zeros((rows, size)), np.zeros((rows, size)), np.zeros((rows, line_count)))
     saved[0][0], saved[1][0] = q, v
@@ -338,7 +338,8 @@ def packed_lines(mooring: PlanarMooring | None, size: int) -> tuple[tuple[Any, .
     return mooring.packed(), rest, mooring.count
 
 
-def _packed_body(model: CumminsModel) -> tuple[Array, ...]:
+def packed_body(model: CumminsModel) -> tuple[Array, ...]:
+    """Return a body as kernel arrays: inverse inertia, damping, stiffness, rows and factors of quadratic damping."""
     size = len(model.modes)
     quadratic = model.quadratic
     return (

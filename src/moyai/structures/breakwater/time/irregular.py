@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -15,8 +16,9 @@ from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
 from moyai.floating.coefficients import Hydrodynamics
 from moyai.floating.far_field import drift_force_per_amplitude_squared, far_field
-from moyai.floating.forcing import IrregularForcing
+from moyai.floating.forcing import Forcing, IrregularForcing
 from moyai.floating.frequency import solve_motions
+from moyai.floating.lanes_kernel import LANES
 from moyai.floating.memory import StateSpaceMemory
 from moyai.floating.time import CumminsModel, Simulation
 from moyai.sea.irregular import realisation_seed, synthesise
@@ -35,7 +37,7 @@ from moyai.structures.breakwater.responses import anchor_loads, snap_notices
 from moyai.structures.breakwater.settings import MODES, TimeSettings
 from moyai.structures.breakwater.slow_drift import LEAST_CYCLES
 from moyai.structures.breakwater.time.lines import STATISTICS, lines_at_rest, motion_summary
-from moyai.structures.breakwater.time.model import SeaOfRun, TimeResult, TimeRun, linear_damping, run_with_lines
+from moyai.structures.breakwater.time.model import SeaOfRun, TimeResult, TimeRun, linear_damping, run_seeds
 from moyai.structures.breakwater.variables import labelled
 from moyai.structures.breakwater.viscous_damping import in_moving_water
 
@@ -97,9 +99,8 @@ def irregular_sea(
     wanted = chosen if settings.realisations == "auto" else settings.realisations
     members: list[Realisation] = []
     status, notices = "converged", []
-    for number in range(wanted):
-        progress(f"realisations, {unit.name}, {sea.name}", number, wanted)
-        one = _realisation(shared, realisation_seed(sea.seed, number), progress)
+    for number, one in enumerate(_realisations(shared, wanted, progress)):
+        progress(f"realisations, {unit.name}, {sea.name}", number + 1, wanted)
         ended = one.run.simulation.status
         if ended != "interrupted" or not members:
             members.append(one)
@@ -109,7 +110,6 @@ def irregular_sea(
         if ended != "converged":
             status = {"diverged": "not_converged", "interrupted": "interrupted"}[ended]
             break
-    progress(f"realisations, {unit.name}, {sea.name}", wanted, wanted)
     good = [
         one for one in members if "line_tension_maximum" in one.summary and one.run.simulation.status == "converged"
     ]
@@ -164,7 +164,27 @@ def _shared(
     return _Sea(model, sea, settings, cummins, expected, ramp, law, current)
 
 
-def _realisation(shared: _Sea, seed: int, progress: Progress) -> Realisation:
+def _realisations(shared: _Sea, wanted: int, progress: Progress) -> Iterator[Realisation]:
+    """Yield the realisations, side by side where all lines are at rest at every instant."""
+    model, sea, ramp = shared.model, shared.sea, shared.ramp
+    duration = sea.duration + ramp
+    together = 1 if has_dynamic_lines(model.unit) else LANES
+    for first in range(0, wanted, together):
+        progress(f"realisations, {model.unit.name}, {sea.name}", first, wanted)
+        seeds = [realisation_seed(sea.seed, number) for number in range(first, min(first + together, wanted))]
+        prepared = [_prepared(shared, seed) for seed in seeds]
+        runs = run_seeds(
+            [{"kind": "irregular", "seed": seed, "ramp": ramp, "analysis_start": ramp} for seed in seeds], model,
+            shared.cummins, [waves for _, waves, _ in prepared], shared.expected, shared.settings,
+            [around for _, _, around in prepared], duration, progress,
+        )  # fmt: skip
+        for seed, run, (forcing, _, around) in zip(seeds, runs, prepared):
+            summary = _irregular_summary(model.unit, run, sea, float(forcing.mean_drift()[0]), ramp)
+            yield Realisation(seed, run, forcing, around, summary)
+
+
+def _prepared(shared: _Sea, seed: int) -> tuple[IrregularForcing, Forcing, SeaOfRun]:
+    """Return the forces of a realisation, the same with the motion of the water, and the sea around lines."""
     model, sea, ramp = shared.model, shared.sea, shared.ramp
     unit, duration = model.unit, shared.sea.duration + shared.ramp
     components = synthesise(
@@ -194,15 +214,8 @@ def _realisation(shared: _Sea, seed: int, progress: Progress) -> Realisation:
         drift_law=shared.law,  # type: ignore[arg-type]
         ramp=ramp,
     )
-    attributes = {"kind": "irregular", "seed": seed, "ramp": ramp, "analysis_start": ramp}
     around = SeaOfRun(components, shared.current, ramp, ramp, shared.peak_period)
-    waves = in_moving_water(unit, forcing, components.heading)
-    run = run_with_lines(
-        "realisation", attributes, model, shared.cummins, waves, shared.expected, shared.settings, around, duration,
-        progress,
-    )  # fmt: skip
-    summary = _irregular_summary(unit, run, sea, float(forcing.mean_drift()[0]), ramp)
-    return Realisation(seed, run, forcing, around, summary)
+    return forcing, in_moving_water(unit, forcing, components.heading), around
 
 
 def _lines_in_motion(

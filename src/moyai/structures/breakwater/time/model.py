@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +16,7 @@ from moyai.floating.forcing import Forcing
 from moyai.floating.lines import PlanarMooring
 from moyai.floating.memory import StateSpaceMemory
 from moyai.floating.time import CumminsModel, Simulation, simulate
+from moyai.floating.together import simulate_together
 from moyai.structures.breakwater.assembly import FloatingUnit
 from moyai.structures.breakwater.frequency.model import FrequencyModel
 from moyai.structures.breakwater.lines.motion import LinesInMotion, has_dynamic_lines, run_on_lines
@@ -143,6 +145,35 @@ class SeaOfRun:
     period: float
 
 
+def run_seeds(
+    attributes: Sequence[dict[str, Any]],
+    model: FrequencyModel,
+    cummins: CumminsModel,
+    forcings: Sequence[Forcing],
+    expected: Array,
+    settings: TimeSettings,
+    seas: Sequence[SeaOfRun],
+    duration: float,
+    progress: Progress = silent,
+) -> list[TimeRun]:
+    """Simulate realisations of one sea: side by side, or one after the other where lines are in motion."""
+    if has_dynamic_lines(model.unit):
+        return [
+            run_with_lines("realisation", said, model, cummins, forcing, expected, settings, sea, duration, progress)
+            for said, forcing, sea in zip(attributes, forcings, seas, strict=True)
+        ]
+    expected = np.nan_to_num(expected)
+    runs = simulate_together(
+        replace(cummins, mooring=compiled_lines(model.unit, _reach(model.unit, expected))), forcings,
+        expected_motion=expected, duration=duration, time_step=settings.time_step, progress=progress,
+    )  # fmt: skip
+    return [TimeRun("realisation", run, said) for said, run in zip(attributes, runs)]
+
+
+def _reach(unit: FloatingUnit, expected: Array) -> Array:
+    return np.maximum(2.0 * expected, 1e-3 * np.array([unit.breakwater.hull.beam] * 2 + [1.0]))
+
+
 def run_with_lines(
     name: str,
     attributes: dict[str, Any],
@@ -161,7 +192,7 @@ def run_with_lines(
     """
     unit = model.unit
     expected = np.nan_to_num(expected)
-    reach = np.maximum(2.0 * expected, 1e-3 * np.array([unit.breakwater.hull.beam] * 2 + [1.0]))
+    reach = _reach(unit, expected)
     simulation = simulate(
         replace(cummins, mooring=compiled_lines(unit, reach)),
         forcing,
