@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+pytest.importorskip("sphinx", reason="Sphinx is not installed")
 DOCS = Path(__file__).resolve().parents[3] / "docs"
 sys.path.insert(0, str(DOCS))
 import japanese_lines  # noqa: E402 - stands beside the pages
