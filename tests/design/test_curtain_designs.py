@@ -272,6 +272,7 @@ def test_a_plate_never_governs_a_free_toe(designs, name: str) -> None:
     assert all(item.bound for item in result.headlines if item.name == "cable_utilisation")
 
 
+@pytest.mark.slow
 def test_a_straight_held_plate_governs(designs, tmp_path: Path) -> None:
     _, result = designs("held toe")
     row = result.tree["/SWL/models"].to_dataset().sel(model=models.IMPACT)
