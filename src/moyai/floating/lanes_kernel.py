@@ -42,6 +42,19 @@ def _input(inputs: ComplexArray, v: Array, real: Array, imaginary: Array) -> Non
 
 
 @njit(cache=True, error_model="numpy")
+def _half_step(
+    half: ComplexArray, weight: ComplexArray, real: Array, imaginary: Array, driven: Array, turned: Array, ahead: Array,
+    across: Array,
+) -> None:  # fmt: skip
+    """Write the states half a step ahead under what drives them, real and imaginary parts apart."""
+    for k in range(real.shape[0]):
+        a, b, c, d = half[k].real, half[k].imag, weight[k].real, weight[k].imag
+        for lane in range(LANES):
+            ahead[k, lane] = (a * real[k, lane] - b * imaginary[k, lane]) + (c * driven[k, lane] - d * turned[k, lane])
+            across[k, lane] = (a * imaginary[k, lane] + b * real[k, lane]) + (c * turned[k, lane] + d * driven[k, lane])
+
+
+@njit(cache=True, error_model="numpy")
 def _lines(
     q: Array, lines: tuple[Array, IntArray, Array, IntArray, Array], starts: Array, going: BoolArray, work: Array,
     pulls: Array,
@@ -130,11 +143,7 @@ def run_lanes(
         _output(outputs, real, imaginary, memory)
         _acceleration(q, v, memory, force, row, body, lines, starts, going, rest, work, pulls, a1)
         _input(inputs, v, r1, i1)
-        for k in range(n):
-            a, b, c, d = half[k].real, half[k].imag, weight[k].real, weight[k].imag
-            for lane in range(LANES):
-                ra[k, lane] = (a * real[k, lane] - b * imaginary[k, lane]) + (c * r1[k, lane] - d * i1[k, lane])
-                ia[k, lane] = (a * imaginary[k, lane] + b * real[k, lane]) + (c * i1[k, lane] + d * r1[k, lane])
+        _half_step(half, weight, real, imaginary, r1, i1, ra, ia)
         for i in range(m):
             for lane in range(LANES):
                 place[i, lane] = q[i, lane] + 0.5 * h * v[i, lane]
@@ -142,11 +151,7 @@ def run_lanes(
         _output(outputs, ra, ia, memory)
         _acceleration(place, v2, memory, force, row + 1, body, lines, starts, going, rest, work, pulls, a2)
         _input(inputs, v2, r2, i2)
-        for k in range(n):
-            a, b, c, d = half[k].real, half[k].imag, weight[k].real, weight[k].imag
-            for lane in range(LANES):
-                rs[k, lane] = (a * real[k, lane] - b * imaginary[k, lane]) + (c * r2[k, lane] - d * i2[k, lane])
-                js[k, lane] = (a * imaginary[k, lane] + b * real[k, lane]) + (c * i2[k, lane] + d * r2[k, lane])
+        _half_step(half, weight, real, imaginary, r2, i2, rs, js)
         for i in range(m):
             for lane in range(LANES):
                 place[i, lane] = q[i, lane] + 0.5 * h * v2[i, lane]

@@ -7,6 +7,8 @@ import pytest
 import xarray as xr
 
 import moyai
+from moyai.core.headline import Band, Headline
+from moyai.structures.network.at_rest import with_mesh_of_rest
 from moyai.structures.network.chance import SNAPS_OF_ONE_SEED, of_pull, one_seed_of_snaps
 
 AT_REST = """
@@ -133,3 +135,21 @@ def test_the_offset_of_a_run_has_the_meshes_of_the_rest(analyses: str) -> None:
     else:
         assert found.bound == "at least" and "touchdown" in found.bound_by
         assert result.verdict.outcome != "holds"
+
+
+def test_a_point_that_stays_at_rest_gets_what_the_mesh_moves_and_no_multiple_of_it() -> None:
+    """A clump on the bed: its offset at rest is none, in a run some millimetres."""
+    condition = ["still water", "current"]
+    rest = xr.Dataset(
+        {
+            "point_position": (("condition", "point", "axis"), np.zeros((2, 1, 3))),
+            "point_position_of_mesh": (("condition", "mesh", "point", "axis"), np.zeros((2, 2, 1, 3))),
+            "lift_of_mesh": (("condition", "mesh"), [[0.4, 0.1], [0.4, 0.1]]),
+        },
+        coords={"condition": condition, "point": ["clump"]},
+    )  # fmt: skip
+    run = Headline("offset", "Largest offset", 0.004, "m", band=Band(0.003, 0.006, "seeds", judged=(0.003, 0.005)))
+    found = with_mesh_of_rest(run, {"/SWL/statics": rest}, "SWL", "point", "clump", None)
+    assert found.value == 0.004 and found.band is not None and found.band.judged is not None
+    assert (found.band.low, found.band.high) == pytest.approx((0.003, 0.106))
+    assert found.band.judged == pytest.approx((0.003, 0.105))

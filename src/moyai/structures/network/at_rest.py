@@ -103,7 +103,7 @@ def _band(rest: xr.Dataset, kind: str, name: str, anchor: str | None) -> Band | 
 def with_mesh_of_rest(
     found: Headline, groups: Mapping[str, xr.Dataset], level: str, kind: str, name: str, anchor: str | None
 ) -> Headline:
-    """Return an offset of a run through time with the band that finer meshes give that at rest, in proportion.
+    """Return an offset of a run through time with what finer meshes make of that at rest added to its band.
 
     Where bars at the touchdown are too heavy for their line to lift and no finer meshes are at rest, it is a bound.
 
@@ -125,10 +125,14 @@ def with_mesh_of_rest(
         band = _band(rest, kind, name, anchor)
     if band is not None and rest is not None:
         value = float(_away(rest, "", kind, name, anchor))
-        less, more = band.low / value, band.high / value
+        # added, as a point that hardly moves at rest would be multiplied by anything
+        less, more = max(value - band.low, 0.0), max(band.high - value, 0.0)
         own = found.band or Band(found.value, found.value, "")
-        of = "; ".join(filter(None, (own.of, "mesh: in proportion to the offset at rest on finer meshes")))
-        return replace(found, band=replace(own.scaled(less, more), of=of))
+        of = "; ".join(filter(None, (own.of, "mesh: as much as finer ones move the offset at rest")))
+        judged = None if own.judged is None else (max(own.judged[0] - less, 0.0), own.judged[1] + more)
+        settled = None if own.settled is None else own.settled + more
+        low, high = max(own.low - less, 0.0), own.high + more
+        return replace(found, band=replace(own, low=low, high=high, of=of, judged=judged, settled=settled))
     heavy = network is not None and int(network.attrs.get("heavy_touchdown", 0))
     if heavy or (rest is not None and f"{kind}_position_of_mesh" in rest):
         why = f"{HEAVY}; {FINER}"
