@@ -52,6 +52,7 @@ def pytest_configure() -> None:
 
 def pytest_unconfigure() -> None:
     """Remove what this process keeps."""
+    gc.freeze()  # pytest looks for garbage five times before it ends
     if _OWN is not None:
         shutil.rmtree(_OWN, ignore_errors=True)
 

@@ -71,6 +71,7 @@ def test_unique_test_file_names(tracked):
     assert not [path for path in tracked if "tests" in path.relative_to(ROOT).parts and path.name == "__init__.py"]
 
 
+@pytest.mark.slow
 def test_every_test_has_an_assertion(tracked):
     """A test that cannot fail proves nothing."""
     wrong = []

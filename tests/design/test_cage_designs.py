@@ -104,6 +104,7 @@ def test_a_flume_cage_of_lader_and_enerhaug():
     assert drag.band.of.startswith("the same net laws as for the volume; mesh ±")
 
 
+@pytest.mark.slow
 def test_a_tow_of_a_dense_net_leaves_the_range_of_its_law():
     """Moe-Fore's 1.75 m cage, solidity 0.347: Loland's law ends at 0.32, which the first page's band and notice say."""
     found = result_of(tank(1.75, 1.5, 1.41e-3, 0.347, "{count: 16, submerged_weight: 4.48 N}", 0.12))
@@ -116,6 +117,7 @@ def test_a_tow_of_a_dense_net_leaves_the_range_of_its_law():
     assert "kristiansen_faltinsen" in notice.remedy
 
 
+@pytest.mark.slow
 def test_a_cage_of_fifty_metres_around():
     """15.9 m across, 8 m deep, solidity 0.2, 16 x 60 kg in 0.15 m/s: within a tenth of the stiff cage."""
     found = result_of(
@@ -139,6 +141,7 @@ GRID = (
 )
 
 
+@pytest.mark.slow
 def test_a_sweep_decides_no_headline():
     """40 m across, 15 m deep, solidity 0.25 at 0.7 m/s with a sweep to 1 m/s: 19.8 % and 187 kN were those of 1 m/s."""
     text = GRID.replace("analyses: [statics, time]", "analyses: [statics]").replace(

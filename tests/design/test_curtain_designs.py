@@ -142,6 +142,7 @@ def test_depth_of_a_free_toe_is_that_of_the_closed_form(designs, name: str) -> N
     assert reserve.value == pytest.approx(min(hung, found), rel=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", FREE)
 def test_steady_load_is_what_the_weights_allow(designs, name: str) -> None:
     given, result = designs(name)
@@ -226,6 +227,7 @@ def test_an_impact_carries_the_band_of_its_models_and_of_the_drift(tmp_path: Pat
     assert "range of the impact and of the steady part" in limit.detail
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", EVERY)
 def test_snap_is_of_the_size_of_its_energy(designs, name: str) -> None:
     """T = u d sqrt(2 rho B EA / (pi l)): the cable takes at most the energy of the water in front of a plate."""
@@ -285,6 +287,7 @@ def test_a_straight_held_plate_governs(designs, tmp_path: Path) -> None:
     assert headline(straight, "cable_tension").bound == ""
 
 
+@pytest.mark.slow
 def test_daily_waves_do_not_count_the_release(designs, tmp_path: Path) -> None:
     """H 0.4 m at 3, 4, 5 s: with 120 periods left out the numbers are the same, and no chance of a start is in them."""
     _, result = designs("strong current")
@@ -383,6 +386,7 @@ def test_steady_numbers_have_one_band(designs, name: str) -> None:
         assert float(statics[f"steady_float_reserve_ratio_{low}"]) == pytest.approx(1.0 - load / given["buoyancy"])
 
 
+@pytest.mark.slow
 def test_a_joint_bears_no_more_than_its_line(tmp_path: Path) -> None:
     """A unit as long as the span collects twice what its ends bear: the joint bears at most what its cable may."""
     more = "  dynamic: {by_default: false}\n"

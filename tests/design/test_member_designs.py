@@ -227,6 +227,7 @@ def test_the_force_of_a_storm_is_the_mean_of_realisations_with_their_scatter():
     assert abs(largest - force.value) == pytest.approx(abs(each - force.value).min(), abs=1e-6)
 
 
+@pytest.mark.slow
 def test_a_limit_on_the_force_of_a_storm_is_judged_beyond_the_mean():
     """A limit just above the mean over realisations does not hold: coefficients and few seeds leave it uncertain."""
     found = result_of(storm())
@@ -236,6 +237,7 @@ def test_a_limit_on_the_force_of_a_storm_is_judged_beyond_the_mean():
         assert judge(found.headlines, criteria, computed=found.status == "converged").outcome == outcome
 
 
+@pytest.mark.slow
 def test_one_realisation_stays_open_behind_a_higher_regular_wave():
     """A storm of one realisation proves no limit alone, nor beside a regular wave of six times its height."""
     one = storm("settings: {realisations: 1}\ncriteria: {greatest_force: 10 MN}\n")

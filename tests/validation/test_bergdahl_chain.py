@@ -72,10 +72,12 @@ def errors():
     }
 
 
+@pytest.mark.slow
 def test_cycle_maxima_within_five_percent_on_average(errors):
     assert np.mean(np.abs(errors[-1.0])) < 0.05
 
 
+@pytest.mark.slow
 def test_other_sense_of_rotation_is_told_apart(errors):
     assert 0.09 < np.mean(np.abs(errors[1.0])) < 0.17
     assert np.all(errors[1.0] > errors[-1.0])

@@ -91,6 +91,7 @@ def test_cycle_maxima_within_five_percent_on_average(errors):
     assert abs(np.mean(errors)) < 0.04
 
 
+@pytest.mark.slow
 def test_every_condition(errors):
     """The quickest and largest circle, where slack and snap are hardest, stands apart."""
     assert np.abs(errors)[0, -1] < 0.2

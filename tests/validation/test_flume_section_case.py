@@ -30,6 +30,7 @@ def rows(shared_data):
     return {(row.run, row.quantity): row for row in found}
 
 
+@pytest.mark.slow
 @pytest.mark.shared_data
 @pytest.mark.parametrize("run", ["2041", "2062", "2101_2"])
 def test_fixed_section(rows, run):
@@ -42,6 +43,7 @@ def test_fixed_section(rows, run):
     assert abs(drift.computed - drift.measured) < 0.1 * drift.measured + drift.spread
 
 
+@pytest.mark.slow
 @pytest.mark.shared_data
 @pytest.mark.parametrize("run", ["3101_3", "3102_1"])
 def test_free_section_in_short_waves(rows, run):

@@ -69,6 +69,7 @@ def runs(shared_data):
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", WAVES)
 def test_waves(runs, name):
     run, (incident, reflection, transmission) = runs[name], WAVES[name]

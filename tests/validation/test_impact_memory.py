@@ -78,6 +78,7 @@ def test_independent_plate_against_its_table(relative, mass, damping):
     assert found[1] / omega * math.pi / 2 == pytest.approx(damping, rel=5e-4)
 
 
+@pytest.mark.slow
 def test_kernel_of_the_plate(kernel):
     found, mass = plate_memory(1.0, Water(DEPTH, 1.0, 1.0), TIMES)
     assert kernel(TIMES) == pytest.approx(KERNEL, abs=1e-3)
@@ -85,6 +86,7 @@ def test_kernel_of_the_plate(kernel):
     assert mass == pytest.approx(2.0 / math.pi * 1.00088, rel=1e-4)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("stiffness", sorted(PRINTED))
 def test_peak_over_model_a(kernel, stiffness):
     impact, unit = flume(stiffness), math.sqrt(0.15 / 9.81)

@@ -182,6 +182,7 @@ def test_without_drag_the_slack_cage_follows_the_orbit():
         assert numbers("slack", period, 0.03, drag=False)["sway"] == pytest.approx(orbit, rel=0.05)
 
 
+@pytest.mark.slow
 def test_what_the_paper_says_and_this_does_not_find():
     """A taut orbit near a circle; heave that falls with growing H; rotation three times that of the slack cage."""
     taut = numbers("crossed", 1.1, 0.03)

@@ -116,6 +116,7 @@ def test_faulty_probes(example):
     assert np.nanmin(values) == pytest.approx(-0.999)  # flagged, not removed
 
 
+@pytest.mark.slow
 def test_decay_in_six_programs(example):
     """Periods within 1.5 % of the README's (which used other extremes); second peaks to its last digit."""
     found = example("decay").analyse()

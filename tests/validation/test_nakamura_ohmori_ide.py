@@ -74,6 +74,7 @@ def test_roll_without_drift_is_larger_and_sway_smaller() -> None:
     assert np.all(ratio[:, 2] < 0.99) and np.all(ratio[:, 0] > 1.003) and np.all(np.abs(ratio[:, 1] - 1.0) < 5e-3)
 
 
+@pytest.mark.slow
 def test_roll_peak_falls_with_damping_and_stays_near_3_5() -> None:
     peaks = [model.roll_peak(fraction) for fraction in (0.05, 0.15, 0.25)]
     assert np.allclose([peak[0] for peak in peaks], [1.87, 0.72, 0.46], rtol=1e-2)
@@ -127,6 +128,7 @@ def test_tension_and_offset_in_time() -> None:
     assert np.allclose(run.tension[last, 0], states["offshore"].tension_fairlead, rtol=2e-4)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("period", [0.60, 0.80, 0.95, 1.10, 1.60])
 def test_linear_mooring_in_time_is_the_frequency_domain(period: float) -> None:
     assert model.linear_time_error(period) < 4e-3

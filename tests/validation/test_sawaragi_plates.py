@@ -121,6 +121,7 @@ def test_added_mass_and_damping_over_frequency(ratio, column):
     assert np.abs(damping - reference.radiation_damping / (omega * FLAT))[low].max() < 2e-5
 
 
+@pytest.mark.slow
 def test_limits_of_frequency():
     """M to (pi/2)^2 M0 and -(4 rho h^2/pi) ln cos(pi d/2h) when slow, N w^3 to 4 rho g^2 when fast."""
     slow = solve(WALL, Water(10.0, 1.0, GRAVITY), [0.01], modes=SWAY, accuracy=1e-6)

@@ -39,6 +39,7 @@ def errors(shared_data):
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.shared_data
 @pytest.mark.parametrize("run", RUNS)
 @pytest.mark.parametrize("quantity", ["heave", "reflection"])
@@ -46,6 +47,7 @@ def test_computed_damping_comes_nearer_to_the_records(errors, run, quantity):
     assert 0.0 < errors["computed"][run, quantity] < 0.93 * errors["none"][run, quantity]
 
 
+@pytest.mark.slow
 @pytest.mark.shared_data
 @pytest.mark.parametrize(("run", "heave", "roll"), [("3041_2", 0.09, -0.13), ("3061_1", 0.165, -0.22)])
 def test_errors_are_those_of_the_page(errors, run, heave, roll):

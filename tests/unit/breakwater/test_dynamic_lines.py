@@ -110,6 +110,7 @@ def run(tmp_path_factory):
     return moyai.run(moyai.load_case(path))
 
 
+@pytest.mark.slow
 def test_run_tells_both_kinds_of_line_and_its_steps(run) -> None:
     assert run.status == "converged"
     sea = run.tree["/SWL/time/one"].to_dataset()
@@ -129,6 +130,7 @@ def test_run_tells_both_kinds_of_line_and_its_steps(run) -> None:
     assert any("impulse between bodies and network" in name for name in named)
 
 
+@pytest.mark.slow
 def test_report_shows_lines_in_motion_beside_lines_at_rest(run, tmp_path) -> None:
     written = moyai.write_report(run, tmp_path)
     page = next(path for path in tmp_path.rglob("*.html")).read_text()

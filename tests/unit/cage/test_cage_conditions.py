@@ -37,6 +37,7 @@ def named(result: Result, name: str) -> Headline:
     return found
 
 
+@pytest.mark.slow
 def test_the_design_current_has_its_card(short_sea: Result) -> None:
     current = named(short_sea, "current_speed")
     assert current.value == pytest.approx(0.03) and current.unit == "m/s"

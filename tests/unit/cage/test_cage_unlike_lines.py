@@ -83,6 +83,7 @@ def test_numbers_of_a_sea_carry_the_laws_of_nets_where_the_current_alone_was_not
     assert outcomes == ["holds", "does not hold"]
 
 
+@pytest.mark.slow
 def test_a_cage_run_through_a_sea_alone_is_found_under_every_valid_law(monkeypatch):
     text = template("cage").replace("{around: 32, down: 6, bottom: 4}", "{around: 16, down: 3, bottom: 2}")
     text = text.replace("analyses: [statics, time]", "analyses: [time]").replace(

@@ -81,6 +81,7 @@ def test_what_a_deck_says_in_other_measures_is_turned(deck):
     assert "added_mass_coefficient: 1" in text
 
 
+@pytest.mark.slow
 def test_a_deck_runs_with_the_motion_of_a_coupled_point(deck, tmp_path):
     rows = "\n".join(f"{0.05 * k}, {0.3 * math.sin(0.05 * k)}, 0, 0" for k in range(161))
     (tmp_path / "surge.csv").write_text("time, x, y, z\n" + rows, encoding="utf-8")

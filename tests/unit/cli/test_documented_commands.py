@@ -33,9 +33,12 @@ def commands(page):
 DOCUMENTED = sorted({(page.name, words) for page in PAGES for words in commands(page)})
 
 
+COMMAND = typer.main.get_command(app)
+
+
 def parse(words):
     """Take the words of a command apart as the program does, without running it."""
-    command, arguments, context = typer.main.get_command(app), shlex.split(words), None
+    command, arguments, context = COMMAND, shlex.split(words), None
     while True:
         context = command.make_context(arguments[0] if arguments else "moyai", list(arguments), parent=context)
         if not hasattr(command, "commands"):

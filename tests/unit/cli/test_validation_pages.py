@@ -130,6 +130,7 @@ def held_rows() -> list[tuple[str, held_by_tests.Row]]:
     return found
 
 
+@pytest.mark.slow
 def test_every_claim_names_tests_that_are_there() -> None:
     rows = held_rows()
     assert len(rows) > 800
@@ -138,6 +139,7 @@ def test_every_claim_names_tests_that_are_there() -> None:
     assert not wrong, "\n".join(wrong)
 
 
+@pytest.mark.slow
 def test_every_number_of_a_claim_stands_in_its_tests() -> None:
     """So that it cannot grow stale."""
     wrong = [f"{page}: {row.claim}: {missing}" for page, row in held_rows()

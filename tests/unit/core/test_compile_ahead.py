@@ -78,7 +78,8 @@ def test_parts_share_the_time() -> None:
         assert sum(kernel.seconds for kernel in part) == pytest.approx(whole / 3.0, abs=5.0)
 
 
-@pytest.mark.parametrize("kind", ["member", *(pytest.param(k, marks=pytest.mark.slow) for k in KINDS if k != "member")])
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", KINDS)
 def test_the_list_holds_what_a_template_calls(kind: str, tmp_path: Path) -> None:
     case = tmp_path / "case.yaml"
     text = structure_kind(kind).template(kind)

@@ -141,7 +141,14 @@ def test_a_function_says_what_it_takes_gives_and_raises(name):
         assert not lacks, f"{name} lacks {', '.join(lacks)}"
 
 
-@pytest.mark.parametrize("name", [name for name in CALLS if name not in INCOMPLETE])
+#: Examples that run a case several times.
+LONG = {"moyai.study.run_fit"}
+COMPLETE = [
+    pytest.param(name, marks=pytest.mark.slow if name in LONG else ()) for name in CALLS if name not in INCOMPLETE
+]
+
+
+@pytest.mark.parametrize("name", COMPLETE)
 def test_the_example_of_a_function_runs(name):
     text = textwrap.dedent(inspect.getdoc(CALLS[name]) or "")
     examples = doctest.DocTestParser().get_doctest(text, {}, name, None, 0)

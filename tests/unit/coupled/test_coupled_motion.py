@@ -97,6 +97,7 @@ def pendulum(random, segments=1, mass_of_line=1e-5):
     return body, hung(body, [("hook", (0.0, 0.0, 0.0), material, 1.7 / (1.0 + 2.0 * GRAVITY / 4e4))], segments)
 
 
+@pytest.mark.slow
 def test_double_pendulum_of_a_line_and_a_body_has_both_exact_periods() -> None:
     body, network = pendulum(None)
     length, arm, radius = 1.7, 0.3, 0.1
@@ -272,6 +273,7 @@ def test_body_and_line_equal_the_monolithic_solution() -> None:
     assert errors[0] / errors[-1] > 8.0
 
 
+@pytest.mark.slow
 def test_a_light_body_on_a_heavy_line_converges() -> None:
     """The mass lumped at the point is thrice that of the body: plain repetition would diverge."""
     material = BarType("chain", 5.0, 5e4, 0.02, volume_per_length=0.0, viscosity=200.0)

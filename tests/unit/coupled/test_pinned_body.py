@@ -22,7 +22,8 @@ def nothing():
     return builder.build()
 
 
-@pytest.mark.parametrize("seed", [*range(1), *(pytest.param(s, marks=pytest.mark.slow) for s in range(1, 3))])
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(3))
 def test_swings_with_the_exact_period_and_hangs_below_its_pin(seed):
     """Large swing of a compound pendulum: elliptic integral; the mass needs not lie on an axis of the body."""
     random = np.random.default_rng(seed)

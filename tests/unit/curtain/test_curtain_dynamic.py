@@ -383,6 +383,7 @@ def test_a_snap_is_run_until_it_is_past_its_peak() -> None:
     assert given.history.time[-1] == pytest.approx(0.4 * rise)
 
 
+@pytest.mark.slow
 def test_a_peak_of_the_start_is_told_apart_from_those_of_the_sea() -> None:
     """A snap, then little: with the waves of a sea its first peak is one of the start; counted later it is not."""
     run = snap(CurtainSpan(**BASE), Mesh(8, 4), 4.0)  # type: ignore[arg-type]

@@ -33,6 +33,7 @@ def test_anchor_loads_example(tmp_path, monkeypatch, capsys) -> None:
     assert fit.energy_factor(518.0, 890e3) == pytest.approx(0.2, rel=0.045)
 
 
+@pytest.mark.slow
 def test_load_laws_example(tmp_path, monkeypatch, capsys) -> None:
     example = load("load_laws")
     monkeypatch.setattr("sys.argv", ["load_laws.py", str(tmp_path)])

@@ -43,6 +43,7 @@ def flume_in_waves(flume, tmp_path_factory):
     return run(problem_of(folder, flume)), folder
 
 
+@pytest.mark.slow
 def test_flume_gives_the_figures_of_the_impact_paper(flume_result):
     """Default flume case: independent prototype of other construction, printed digits."""
     result, _ = flume_result
@@ -70,6 +71,7 @@ def test_flume_gives_the_figures_of_the_impact_paper(flume_result):
     assert with_memory and with_memory[0] / tension["A in this depth"] == pytest.approx(1.258, abs=0.01)
 
 
+@pytest.mark.slow
 def test_marching_table_shows_order_and_iterations(flume_result):
     result, _ = flume_result
     impact = result.tree["SWL/impact"]

@@ -70,6 +70,7 @@ def stream(tmp_path_factory):
     return problem, *rose_of(problem)
 
 
+@pytest.mark.slow
 def test_in_calm_water_the_height_goes_with_one_over_the_squared_cosine(calm) -> None:
     """At one period and without current every load hangs on H cos^2; breaking and the end of the range cap it."""
     unit, rose = calm

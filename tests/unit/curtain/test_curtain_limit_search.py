@@ -152,6 +152,7 @@ def test_current_that_an_anchor_holds_falls_with_the_distance_and_rises_with_its
         assert stronger.value > values[0]
 
 
+@pytest.mark.slow
 def test_anchor_that_bears_all_weights_is_filled_by_the_floats_alone():
     """A free toe bounds its own load: with more than toe and sheet weigh, only the drag of the floats is too much."""
     for curtain in curtains(3, 4):

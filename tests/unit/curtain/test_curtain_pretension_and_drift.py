@@ -140,6 +140,7 @@ def test_a_held_curtain_without_a_current_snaps_as_it_drifts(tmp_path: Path) -> 
     assert float(table["maximum_tension"][0, 0]) == pytest.approx(float(own["maximum_tension"].max()), rel=1e-9)
 
 
+@pytest.mark.slow
 def test_a_limit_of_a_free_toe_by_a_plate_is_no_ceiling(tmp_path: Path) -> None:
     """A plate bounds the load of a free toe from above: the current that it allows is held at least."""
     found = run(tmp_path, "statics, impact, limits", current=CURRENT, toe="free", holding="40 kN")
@@ -161,6 +162,7 @@ def test_limits_count_the_impact_next_to_a_run_of_the_whole_span(monkeypatch: py
     assert asked == [("statics", "impact")]
 
 
+@pytest.mark.slow
 def test_a_drift_in_which_the_plate_is_a_bound_is_at_most(tmp_path: Path) -> None:
     """A light held skirt bulges in the drift of high waves: its load there is known from above alone."""
     high = WAVES.replace("height: 0.4 m, periods: [3.5 s]", "height: 0.9 m, periods: [4 s]")

@@ -64,6 +64,7 @@ def test_plateau_taken_off_explains_that_model_a_lies_above_records():
     assert model < snap.peak_tension
 
 
+@pytest.mark.slow
 def test_finite_depth_raises_all_masses():
     """At h/d = 1.05 the flat plate has 1.127 M0; every model but the paper's A follows."""
     deep, shallow = flume(draught=0.38, water=Water(9.0, 1000.0, 9.81)), flume(draught=0.38)
@@ -103,6 +104,7 @@ def test_skirt_notices():
     assert not check_skirt(flume(150.0), stiff, cable_and_skirt_impact(flume(150.0), stiff), 10.0)
 
 
+@pytest.mark.slow
 def test_soft_skirt_leaves_no_false_alarm_below_two_percent():
     """The heuristic: sagitta increment below 2 % of the cable's way means AB within 1.5 % of A with the arc's mass."""
     rng = np.random.default_rng(3)

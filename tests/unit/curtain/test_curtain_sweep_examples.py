@@ -41,6 +41,7 @@ def test_tension_coefficient_example(tmp_path, monkeypatch, capsys) -> None:
     assert "over that at 0.5: 1.0107" in printed
 
 
+@pytest.mark.slow
 def test_snap_example(tmp_path, monkeypatch, capsys) -> None:
     printed = run("snap_in_current", ("snap_in_current.png",), tmp_path, monkeypatch, capsys)
     assert "spike 7.538 N" in printed and "plateau 2.917 N" in printed

@@ -292,6 +292,7 @@ def test_a_struck_skirt_stretches_until_its_edges_bear_the_load(slack):
     assert BulgedSkirt(length, chord, 100.0).edge_tension(load) == math.inf
 
 
+@pytest.mark.slow
 def test_a_skirt_that_bulges_out_of_the_range_of_its_mass_leaves_model_b_out():
     """The others stay: an ordinary held skirt of 4.5 m at a chord of 3.2 m in 0.7 m/s had no report."""
     water = Water(6.0, 1025.0, 9.81)

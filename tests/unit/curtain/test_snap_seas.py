@@ -309,6 +309,7 @@ def test_steps_of_a_sea_are_fine_enough():
     assert found.parted > 300.0
 
 
+@pytest.mark.slow
 def test_bounces_of_a_stiff_cable_part_the_paths_but_not_the_statistics():
     """Fourth-order steps delay the parting by little each time they are halved; law and rate of the snaps stay."""
     impact, step = curtain(4e6), suggested_time_step(6.0)

@@ -100,6 +100,7 @@ def random_section() -> tuple[Hydrodynamics, np.ndarray, np.ndarray, Water]:
     return hydro, inertia, restoring, water
 
 
+@pytest.mark.slow
 def test_energy_of_a_random_coupled_section(
     random_section: tuple[Hydrodynamics, np.ndarray, np.ndarray, Water],
 ) -> None:

@@ -71,6 +71,7 @@ def test_the_catalogue_takes_the_terms_of_the_glossary() -> None:
     assert not wrong, "\n".join(wrong)
 
 
+@pytest.mark.slow
 def test_the_share_that_is_translated_does_not_fall() -> None:
     groups, missing = coverage(all_texts(), "ja")
     share = {group.group: group.translated / group.total for group in groups}

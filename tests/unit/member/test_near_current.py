@@ -36,6 +36,7 @@ def _force(inertia: str, ratio: float, orbital: float = 1.0) -> tuple[Headline, 
     return next(item for item in result.headlines if item.name == "peak_force"), found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("inertia", ["ideal", "dnv_c205"])
 def test_the_judged_force_does_not_jump_at_the_limit_of_the_law(inertia: str) -> None:
     """A thousandth of the current to either side: the value steps by per cents, its upper end by a thousandth."""

@@ -39,6 +39,7 @@ def _run(folder: Path, segments: int, check: str) -> moyai.Result:
     return moyai.run(path)
 
 
+@pytest.mark.slow
 def test_the_pull_of_the_finer_mesh_is_that_of_a_run_on_it(tmp_path: Path) -> None:
     own, finer = (_run(tmp_path, *how) for how in ((8, "auto"), (16, "off")))
     summary, other = (found.tree["SWL/dynamic"].to_dataset().sel(point="anchor") for found in (own, finer))

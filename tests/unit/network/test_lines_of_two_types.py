@@ -46,11 +46,11 @@ def offset(depth: float, speed: float, chain: float, rope: float, coarse: int, l
     return result, found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("depth", "speed", "chain", "rope", "coarse"),
-    [(15.0, 0.8, 40.0, 17.0, 4), pytest.param(20.0, 0.7, 30.0, 22.0, 2, marks=pytest.mark.slow),
-     pytest.param(40.0, 0.5, 100.0, 42.0, 8, marks=pytest.mark.slow)],
-)  # fmt: skip
+    [(15.0, 0.8, 40.0, 17.0, 4), (20.0, 0.7, 30.0, 22.0, 2), (40.0, 0.5, 100.0, 42.0, 8)],
+)
 def test_the_offset_on_coarse_ground_chain_holds_that_on_a_fine_one(
     depth: float, speed: float, chain: float, rope: float, coarse: int
 ) -> None:

@@ -36,6 +36,7 @@ def run(folder: Path, rows: int, columns: int, analyses: str = "statics", more: 
     return {item.name: item for item in reversed(result.headlines)} | {"verdict": result.verdict}
 
 
+@pytest.mark.slow
 def test_tension_and_pull_at_rest_have_the_band_of_finer_nets_and_are_judged(tmp_path: Path) -> None:
     found = run(tmp_path, 3, 4, more="criteria: {greatest_net_tension: 500 N/m}")
     tension, pull = found["net_tension"], found["held_row_load"]

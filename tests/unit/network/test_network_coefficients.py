@@ -149,6 +149,7 @@ def test_waves_beyond_the_coefficients_stop_before_anything_is_run(tmp_path) -> 
         run(build(load_case(written(tmp_path))))
 
 
+@pytest.mark.slow
 def test_another_depth_and_a_body_of_wave_length_are_told(tmp_path) -> None:
     path = written(tmp_path, memory="false", duration="0.5 s")
     text = path.read_text(encoding="utf-8")

@@ -58,6 +58,7 @@ def test_at_rest_the_thin_part_bears_its_own_tension() -> None:
     assert row.outcome == "holds" and "hoist part 2" in row.reason
 
 
+@pytest.mark.slow
 def test_through_time_each_part_has_its_own_peak_and_band() -> None:
     result = moyai.run(CASE.replace("ANALYSES", "[statics, dynamic]"))
     found = _utilisation(result)

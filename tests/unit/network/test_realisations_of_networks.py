@@ -71,6 +71,7 @@ def test_each_realisation_is_the_run_of_its_seed(found: Result) -> None:
     np.testing.assert_allclose(excursion, alone["excursion"].values, rtol=1e-3, atol=1e-9)
 
 
+@pytest.mark.slow
 def test_the_first_page_shows_the_mean_and_judges_its_end(found: Result) -> None:
     dynamic = _storm(found)
     tension = _headline(found, "line_tension")
@@ -91,6 +92,7 @@ def test_the_first_page_shows_the_mean_and_judges_its_end(found: Result) -> None
     assert use.judged[1] == pytest.approx(band.judged[1] / 100e3)
 
 
+@pytest.mark.slow
 def test_a_regular_wave_has_none(found: Result) -> None:
     values = _storm(found, "swell")["line_tension_maximum_of_realisation"].values
     assert np.isnan(values).all()
@@ -138,6 +140,7 @@ def test_a_net_without_points_has_realisations_of_its_tension() -> None:
     assert "load_of_realisation" not in dynamic
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("error::RuntimeWarning")
 def test_a_record_of_a_few_rows_shows_no_way_and_no_warning_of_numpy() -> None:
     result = run(CASE.replace("realisations: 4", "realisations: 2, output_step: 8 s"))

@@ -56,8 +56,8 @@ def _catenary(away: float) -> tuple[float, float]:
     return math.hypot(level, weight * hanging(level)), level
 
 
-@pytest.mark.parametrize("away", [360.0, 370.0, 380.0, 390.0])
-@pytest.mark.parametrize("segments", [3, 4, 5, 6, 7, 9, 11, 14, 16, 25, 60])
+@pytest.mark.parametrize("away", [360.0, 380.0, 390.0])
+@pytest.mark.parametrize("segments", [3, 4, 5, 7, 9, 14, 25, 60])
 def test_the_band_holds_the_elastic_catenary(away: float, segments: int) -> None:
     top, level = _catenary(away)
     text = CASE.replace("AWAY", str(away)).replace("SEGMENTS", str(segments))
@@ -76,8 +76,8 @@ def test_the_band_holds_the_elastic_catenary(away: float, segments: int) -> None
     assert not coarse or (coarse[0].severity == "warning" and "segments" in coarse[0].remedy)
 
 
-@pytest.mark.parametrize("level", [50.0, 400.0, 3e3, 2e4])
-@pytest.mark.parametrize("segments", [3, 5, 8, 13, 40, 60])
+@pytest.mark.parametrize("level", [50.0, 400.0, 2e4])
+@pytest.mark.parametrize("segments", [3, 8, 13, 40])
 def test_few_bars_clear_of_the_bed_prove_nothing(level: float, segments: int) -> None:
     """Of 400 m of chain some metres hang: meshes with no bar clear of the bed, or with one, agree with each other."""
     chain, high = line_type("studless_chain_R3", 0.076), 3.0

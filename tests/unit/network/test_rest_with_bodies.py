@@ -62,7 +62,8 @@ def test_a_rest_whose_finer_mesh_is_not_found_keeps_no_limit(monkeypatch: pytest
     assert result.verdict.outcome == "not judged" and "mesh not checked" in result.verdict.message
 
 
-@pytest.mark.parametrize("drawn", [28.0, pytest.param(26.0, marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("drawn", [28.0, 26.0])
 def test_the_longest_period_of_lines_is_found_where_the_body_rests(drawn: float) -> None:
     """The band of 3.2 s reached to 23 s, or to 0.8 s, with the place where a platform was drawn."""
     text = CASE.replace("SEGMENTS", "12").replace("[28 m", f"[{drawn} m").replace("[statics]", "[statics, modes]")
@@ -71,6 +72,7 @@ def test_the_longest_period_of_lines_is_found_where_the_body_rests(drawn: float)
     assert period.band.low > 0.95 * period.value and period.band.high < 1.05 * period.value
 
 
+@pytest.mark.slow
 def test_the_offset_of_a_raft_at_rest_stands_on_the_page_and_is_judged() -> None:
     """On one anchor it swings round: the distance from there, as of buoys."""
     text = CASE.replace("SEGMENTS", "8").replace(

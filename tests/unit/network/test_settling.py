@@ -86,6 +86,7 @@ def test_a_current_alone_begins_at_its_rest() -> None:
     assert result.verdict.outcome == "holds"
 
 
+@pytest.mark.slow
 def test_waves_on_a_current_count_at_the_place_of_the_current() -> None:
     """A buoy drawn 3 m from its anchor hangs at the end of its rope: sqrt(40^2 - 25^2) = 31 m, less what hangs."""
     result = _run("0.15 m/s", "3 m", ", duration: 60 s", WAVES)

@@ -68,6 +68,7 @@ def storm():
     return moyai.run(text.format(heading=0, drawn=3.0, more="", lines=""))
 
 
+@pytest.mark.slow
 def test_realisations_of_what_swings_round_one_anchor_are_a_mean_too(storm):
     found = next(item for item in storm.headlines if item.name == "offset" and item.shown)
     dynamic, series = storm.tree["SWL/dynamic"].to_dataset(), storm.tree["SWL/time/storm"].to_dataset()
@@ -79,6 +80,7 @@ def test_realisations_of_what_swings_round_one_anchor_are_a_mean_too(storm):
     assert dynamic["distance_from_anchor_of_realisation"].sel(point="anchor").isnull().all()
 
 
+@pytest.mark.slow
 def test_a_code_that_weighs_the_mean_has_it(storm):
     use = next(item for item in storm.headlines if item.name == "line_utilisation" and item.shown)
     mean = float(storm.tree["SWL/dynamic"]["line_tension_mean"].sel(run="storm", line="leg"))

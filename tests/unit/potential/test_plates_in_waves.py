@@ -117,6 +117,7 @@ def test_plates_of_small_thickness_tend_to_thin_ones(heading):
     assert (np.array(apart[1]) < 0.25 * np.array(apart[0])).all()
 
 
+@pytest.mark.slow
 def test_a_box_that_grows_thin_tends_to_the_plate():
     water, omega = Water(3.0, 1000.0, G), np.array([1.5, 3.0, 4.5])
     plate = solve(plate_section(Plate((0, 0), (0, -1))), water, omega, modes=SWAY, accuracy=1e-5)
@@ -213,6 +214,7 @@ def test_suction_of_the_edge_closes_the_drift_of_random_plates(seed):
         assert np.abs(far - near).max() < 3e-5 * np.abs(far).max()
 
 
+@pytest.mark.slow
 def test_oblique_waves_tend_to_normal_ones_and_keep_energy():
     section = BOX.with_plates(PlateLine([(-2, 0), (-2, -1.0)])).immersed(1.5)
     water, omega = Water(6.0, 1025.0, G), np.array([1.1, 2.3])
@@ -253,6 +255,7 @@ def test_place_and_size_do_not_matter(seed):
     assert np.abs(scaled.normal.reflection - here.normal.reflection).max() < 1e-8
 
 
+@pytest.mark.slow
 def test_split_and_stretching_modes_in_the_limit():
     water = Water(math.inf, 1.0, G)
     flat = Plate((0, 0), (0, -1))

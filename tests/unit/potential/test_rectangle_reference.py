@@ -122,6 +122,7 @@ def test_basis_transforms_are_the_quadrature_of_the_functions():
     assert np.allclose(cosh, basis.hyperbolic_transform(np.array([3.0 + 0j]))[:, 0], rtol=0.0, atol=2e-12)
 
 
+@pytest.mark.slow
 def test_oblique_waves_tend_to_straight_ones_and_opposite_ones_mirror():
     water = Water(7.0, 1025.0, G)
     solution = solve_rectangle(9.0, 2.0, water, [0.5, 1.1, 2.0], centre=(0.4, -0.3), heading=[0.0, 1e-5, 3e-3, np.pi])

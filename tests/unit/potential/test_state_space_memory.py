@@ -131,6 +131,7 @@ def test_states_give_the_force_of_the_convolution():
         assert np.allclose(force[row], direct, atol=1e-3 * np.abs(force).max(axis=0))
 
 
+@pytest.mark.slow
 def test_slow_steady_motion_meets_the_steady_dashpot():
     memory, _, _ = rectangle_memory(1)
     force = force_history(fit_memory(memory), np.tile([0.0, 1.0, 0.0], (4000, 1)), 0.5)
@@ -209,6 +210,7 @@ def test_convolution_converges_at_second_order_to_the_frequency_integral():
     assert np.all((orders > 1.8) & (orders < 2.2)), errors
 
 
+@pytest.mark.slow
 def test_heave_decay_of_the_half_circle_in_infinite_depth():
     # Ursell's coefficients; the long algebraic tail of the motion included
     plan = recommend_frequencies(Water(math.inf, 1000.0, G), breadth=2.0, wall_height=0.7)

@@ -133,6 +133,7 @@ def test_mirror_image_has_the_same_mass(seed):
     )
 
 
+@pytest.mark.slow
 def test_arc_becomes_half_circle():
     """Arcs that meet the still water at a finite angle go over into the cusp, which another rule solves."""
     distance = np.array([0.02, 0.03, 0.04])

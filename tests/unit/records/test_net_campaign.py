@@ -113,6 +113,7 @@ def test_comparison_of_laws(tmp_path, capsys):
     assert (tmp_path / "net_laws.png").stat().st_size > 20_000
 
 
+@pytest.mark.slow
 def test_text_output(folder):
     place, _ = folder
     (place / "few.yaml").write_text(reduced(place))

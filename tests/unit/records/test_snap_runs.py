@@ -62,6 +62,7 @@ def made(tmp_path_factory):
     return measure_snaps(runs), planted, folder
 
 
+@pytest.mark.slow
 def test_planted_impacts_are_found(made) -> None:
     found, planted, _ = made
     assert [item.run.record.total.impact for item in found.found] == pytest.approx(planted, rel=0.015)
@@ -71,6 +72,7 @@ def test_planted_impacts_are_found(made) -> None:
         assert 1.0 < lower / upper < 1.4
 
 
+@pytest.mark.slow
 def test_numbers_are_those_of_the_paper(made) -> None:
     """C_T, Fr, C_E of the first run by hand: U 0.2, d 0.1, h 0.4, B 0.7, EA 39 kN."""
     found, _, _ = made
@@ -206,6 +208,7 @@ def test_template_and_help_name_the_command() -> None:
     assert "snaps" in RUN.invoke(app, ["measure", "--help"]).output
 
 
+@pytest.mark.slow
 def test_the_table_of_runs_fits_a_page_and_keeps_names_whole(tmp_path: Path) -> None:
     """Thirteen columns and a name ran off the page; names like 'line-u15-d15-l80' broke at their hyphens."""
     from moyai.records.snaps.report.page import compose

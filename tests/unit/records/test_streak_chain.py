@@ -230,6 +230,7 @@ def test_exchanged_columns_of_targets_are_told(folder):
     assert load_streaks(folder / "streaks.yaml")[0].notices == ()
 
 
+@pytest.mark.slow
 def test_a_wrong_target_is_named_and_pictures_share_size(folder):
     wrong = target_table(folder, "wrong", lambda lines: [*lines[:10], "10, 20, 30, 4", *lines[11:]])
     with pytest.raises(CaseError, match=r"miss a plane picture by .* pixels; without target 10 by"):

@@ -49,14 +49,15 @@ tensions: {waves: level, lines: [{channel: J-1, group: new}], snap_limit: 3 kN}
 """
 
 
-@pytest.fixture
-def folder(tmp_path):
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
     """An hour of a sea from 0.5 rad, in two files on two clocks, with a gap and a spike."""
     import datetime as dt
 
     import pyarrow as pa
     import pyarrow.parquet as pq
 
+    path = tmp_path_factory.mktemp("survey")
     laws = CampaignLaws(
         storms=(Storm("s", 938_044_800.0, 3600.0 / 86400.0, 2.0, 0.02, 1.5, 1.0, 0.5, 0.5),), block=600.0
     )
@@ -71,11 +72,11 @@ def folder(tmp_path):
     for t, row in zip(time[kept], values[kept]):
         stamp = dt.datetime.fromtimestamp(t, tokyo)
         rows.append(f"{stamp:%Y/%m/%d %H:%M:%S.%f},{100 * row[0]:.2f},{row[1]:.4f},{row[2]:.4f}")
-    (tmp_path / "波.csv").write_text("\n".join(rows), encoding="cp932")
+    (path / "波.csv").write_text("\n".join(rows), encoding="cp932")
     table = pa.table({"t": time - 938_044_800.0 - 12.0, "J1": values[:, 4] / 1000.0})
-    pq.write_table(table, tmp_path / "tension.parquet")
-    (tmp_path / "survey.yaml").write_text(SURVEY, encoding="utf-8")
-    return tmp_path, time, values, kept
+    pq.write_table(table, path / "tension.parquet")
+    (path / "survey.yaml").write_text(SURVEY, encoding="utf-8")
+    return path, time, values, kept
 
 
 def test_the_chain_is_its_links(folder):
@@ -166,12 +167,12 @@ def test_faults_of_the_file_have_their_line(folder, case):
     path, *_ = folder
     old, new, message = FAULTS[case]
     assert old in SURVEY
-    (path / "survey.yaml").write_text(SURVEY.replace(old, new), encoding="utf-8")
+    (path / "faulty.yaml").write_text(SURVEY.replace(old, new), encoding="utf-8")
     with pytest.raises(CaseError) as caught:
-        load_survey(path / "survey.yaml")
+        load_survey(path / "faulty.yaml")
     assert message in str(caught.value)
     fault = caught.value.faults[0]
-    assert fault.file.endswith("survey.yaml") and fault.line > 0
+    assert fault.file.endswith("faulty.yaml") and fault.line > 0
 
 
 def test_commands(folder, capsys):
@@ -190,8 +191,8 @@ def test_commands(folder, capsys):
     )
     assert done.exit_code == 0
     assert json.loads(done.stdout)["pairs"][0]["agreement"]["pairs"] == 2.0
-    (path / "survey.yaml").write_text(SURVEY.replace("column: 水位", "column: 水"), encoding="utf-8")
-    done = runner.invoke(app, ["measure", "records", str(path / "survey.yaml"), "-o", str(path / "o"), "--json"])
+    (path / "wrong.yaml").write_text(SURVEY.replace("column: 水位", "column: 水"), encoding="utf-8")
+    done = runner.invoke(app, ["measure", "records", str(path / "wrong.yaml"), "-o", str(path / "o"), "--json"])
     assert done.exit_code == 2
     assert "has no column '水'" in json.loads(done.stdout)["faults"][0]["message"]
 

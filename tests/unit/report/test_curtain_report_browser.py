@@ -46,6 +46,7 @@ def no_errors(page: Chromium) -> Iterator[None]:
     assert page.errors == []
 
 
+@pytest.mark.slow
 def test_it_asks_nothing_of_the_network(page: Chromium) -> None:
     assert [address for address in page.requests if not address.startswith(("file:", "data:", "blob:"))] == []
 
@@ -69,6 +70,7 @@ def test_snap_is_painted_in_every_view(page: Chromium) -> None:
     assert seen == {"Section and plan", "Section", "Plan"}
 
 
+@pytest.mark.slow
 def test_snap_opens_at_the_spike_and_is_slack_before(page: Chromium, result: Result) -> None:
     snap = result.tree["/HWL/impact/snap"]
     peak = float(snap["frame_tension"].max())
@@ -79,6 +81,7 @@ def test_snap_opens_at_the_spike_and_is_slack_before(page: Chromium, result: Res
     assert slack[0]["value"].startswith("0 ")
 
 
+@pytest.mark.slow
 def test_frames_between_the_stored_ones_follow_the_shape(page: Chromium, result: Result) -> None:
     """Unpacked and interpolated plan at a stored time: within half a per cent of its span of the result."""
     snap = result.tree["/HWL/impact/snap"]

@@ -126,6 +126,7 @@ def test_the_pointer_finds_a_bar_and_the_trace_seeks(page: Chromium) -> None:
     assert page.evaluate(f"{PLAYER}.t") == pytest.approx(3.0, abs=0.1)
 
 
+@pytest.mark.slow
 def test_a_frame_of_three_thousand_nodes_is_quick(page: Chromium) -> None:
     spent = page.evaluate(
         f"(() => {{ const p = {PLAYER}; const began = performance.now(); "
@@ -135,6 +136,7 @@ def test_a_frame_of_three_thousand_nodes_is_quick(page: Chromium) -> None:
     assert spent < 150.0
 
 
+@pytest.mark.slow
 def test_rows_of_frames_fit_their_budget() -> None:
     rows = frame_rows(np.arange(0.0, 100.0, 0.01), nodes=3025, bars=5940)
     assert 100 < rows.size < 400

@@ -195,6 +195,7 @@ def test_the_strip_moves_the_window(page: Chromium) -> None:
     assert page.evaluate(f"{figure}.range") is None
 
 
+@pytest.mark.slow
 def test_player_plays_scrubs_and_marks_the_maximum(page: Chromium) -> None:
     page.evaluate(f"window.player = {VISIBLE_PLAYER}; player.holder.scrollIntoView(); player.holder.focus()")
     at = page.evaluate("player.t")
@@ -227,6 +228,7 @@ def test_player_plays_scrubs_and_marks_the_maximum(page: Chromium) -> None:
     assert page.evaluate("player.t") == pytest.approx(0.5 * (window[0] + window[1]), abs=1e-6)
 
 
+@pytest.mark.slow
 def test_player_moves_as_the_run(page: Chromium, result: Result) -> None:
     """At random moments the drawn pose and tension must be those of the record."""
     page.evaluate(f"window.player = {VISIBLE_PLAYER}")

@@ -67,6 +67,7 @@ def test_the_page_brings_every_japanese_letter_that_it_shows(result: Result) -> 
     assert 'body,svg{font-family:"Segoe UI"' in page
 
 
+@pytest.mark.slow
 def test_figures_have_all_their_letters(result: Result) -> None:
     assert drawn_without_boxes(compose_document(result, language="ja")) > 0
 

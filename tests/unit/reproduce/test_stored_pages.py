@@ -43,6 +43,7 @@ def found():
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("language", ["en", "ja"])
 def test_the_page_of_the_results_is_that_of_the_run(tmp_path, language):
     result = as_result(found())

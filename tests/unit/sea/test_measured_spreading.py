@@ -16,6 +16,7 @@ def spread_of(directions, mean, rng):
     return MeasuredSpreading.of(FREQUENCY, directions, rng.uniform(0.0, 1.0, (4, len(directions))), mean)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("directions", [np.arange(0.0, 360.0, 15.0), np.arange(100.0, 220.0, 10.0)])
 def test_it_is_a_distribution(directions):
     """One in all, its inverse, its slope, its first moment: on the whole circle and on a sector."""

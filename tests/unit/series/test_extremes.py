@@ -146,6 +146,7 @@ def test_intervals_cover_as_often_as_they_say(family, confidence):
     assert abs(covered / repetitions - confidence) < slack
 
 
+@pytest.mark.slow
 def test_average_conditional_exceedance_finds_the_maximum_of_correlated_peaks():
     # A Gaussian sequence with correlation 0.7: its maximum is known from simulation-free theory only for the
     # independent one, so the truth is the maximum of many long realisations

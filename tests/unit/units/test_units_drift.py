@@ -31,6 +31,7 @@ def _solved(size: float, heading: float) -> tuple[NearField, RowHydrodynamics]:
     return field, solve_row(panels, WATER, field.at.centres, OMEGA, np.array([heading]))
 
 
+@pytest.mark.slow
 def test_a_hull_in_still_water_is_pushed_nowhere() -> None:
     """Whatever its place: what its own weight and buoyancy do to second order adds up to nothing."""
     pytest.importorskip("capytaine", reason="Capytaine is not installed")

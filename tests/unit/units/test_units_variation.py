@@ -124,6 +124,7 @@ def test_even_panels_add_nothing(box):
     assert even_variation(box).slopes[0].nnz == 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kh", [0.2, 0.7, 1.816, 4.0, 12.0])
 def test_exponentials_meet_what_the_bed_adds(kh):
     x = np.linspace(0.003, 25.0, 3001)

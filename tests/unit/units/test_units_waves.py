@@ -63,6 +63,7 @@ def test_quarter_mesh_and_mirrors_give_the_whole(box):
         assert np.abs(first - second).max() < 1e-9 * np.abs(second).max(), name
 
 
+@pytest.mark.slow
 def test_far_waves_are_those_of_the_field(box):
     _, panels = box
     headings = np.zeros(1)
