@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Self
 
+from moyai.core.at_once import at_once, threads
 from moyai.core.groups import Groups
 from moyai.core.headline import Criterion, Headline, judge
+from moyai.core.progress import Progress
 from moyai.core.results import Result, Status, make_provenance
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.core.vocabulary import Vocabulary
@@ -62,6 +64,53 @@ class Collected:
                 pass
         except KeyboardInterrupt:
             self.interrupted = self.interrupted or stopped
+
+    def take_together(
+        self, parts: Sequence[Callable[[Self, Progress], Iterator[None]]], progress: Progress, what: str
+    ) -> Iterator[None]:
+        """Go through the steps of parts that need nothing of each other, on all cores.
+
+        What they gather stands in the order of the parts, as if they had been run one after the other.
+
+        Parameters
+        ----------
+        parts : sequence of callable
+            Each takes what it gathers into, and a listener; it gives its steps.
+        progress : Progress
+            Listener for all.
+        what : str
+            Name of the parts in reports of progress.
+        """
+        count = len(parts)
+        progress(what, 0, count)
+        if count < 2 or threads() < 2:
+            for index, part in enumerate(parts):
+                yield from part(self, progress)
+                progress(what, index + 1, count)
+            return
+        own, ended = [type(self)() for _ in parts], []
+
+        def work(number: int, heard: Progress) -> None:
+            own[number].take(parts[number](own[number], heard))
+            ended.append(number)
+            heard(what, len(ended), count)
+
+        try:
+            at_once(work, count, progress)
+        finally:
+            for one in own:
+                self.join(one)
+        if any(one.interrupted for one in own):
+            raise KeyboardInterrupt
+        yield
+
+    def join(self, other: Self) -> None:
+        """Take over what a part of the run has gathered."""
+        self.groups.update(other.groups)
+        self.checks.extend(other.checks)
+        self.notices.extend(other.notices)
+        self.failures.extend(other.failures)
+        self.on_the_safe_side.extend(other.on_the_safe_side)
 
     def status(self, fulfilled: str) -> tuple[Status, str]:
         """Return the status of the run and the sentence behind it.

@@ -159,6 +159,7 @@ def njit(*, pointer: bool = False, **options: Any) -> Callable[[Callable[..., An
     ``pointer`` says that another kernel takes this one as an argument.
     """
     cached = options.pop("cache", False)
+    options["nogil"] = True
     if _KNOWN and not pointer:
         options["no_cfunc_wrapper"] = True
 

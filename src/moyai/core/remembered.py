@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import pickle
+import threading
 from collections import OrderedDict
 from collections.abc import Callable
 from typing import Any, Generic, TypeVar
@@ -23,18 +24,21 @@ class Remembered(Generic[Answer]):
     def __init__(self, most: int) -> None:
         self._most = most
         self._known: OrderedDict[str, Answer] = OrderedDict()
+        self._guard = threading.Lock()
 
     def of(self, key: str | None, make: Callable[[], Answer]) -> Answer:
         """Return the answer of a key, made where it is not known; what raises and what has no key is not kept."""
         if key is None:
             return make()
-        if key in self._known:
-            self._known.move_to_end(key)
-            return self._known[key]
+        with self._guard:
+            if key in self._known:
+                self._known.move_to_end(key)
+                return self._known[key]
         found = make()
-        self._known[key] = found
-        while len(self._known) > self._most:
-            self._known.popitem(last=False)
+        with self._guard:
+            self._known[key] = found
+            while len(self._known) > self._most:
+                self._known.popitem(last=False)
         return found
 
     def clear(self) -> None:

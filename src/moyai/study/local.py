@@ -18,7 +18,7 @@ from moyai.study.axes import Combination
 from moyai.study.ledger import LedgerRecord
 from moyai.study.work import Task, run_case
 
-THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
+THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS", "MOYAI_THREADS")
 """What keeps a worker to one thread."""
 
 _DEATHS = 2

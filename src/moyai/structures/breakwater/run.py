@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -106,10 +106,11 @@ def _steps(problem: BreakwaterProblem, collected: Collected, sources: _Sources, 
     # Every level is assembled before any long work starts, so that an impossible one is reported at once
     chosen = [(name, level) for name, level in levels if problem.only_level in ("", name)]
     units = [assemble(problem, name, level) for name, level in chosen]
-    for index, unit in enumerate(units):
-        progress("water levels", index, len(units))
-        yield from _level_steps(problem, unit, collected, sources, progress, analyses)
-    progress("water levels", len(units), len(units))
+
+    def of_level(unit: FloatingUnit) -> Callable[[Collected, Progress], Iterator[None]]:
+        return lambda own, heard: _level_steps(problem, unit, own, sources, heard, analyses)
+
+    yield from collected.take_together([of_level(unit) for unit in units], progress, "water levels")
 
 
 def _level_steps(

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Self
 
 from moyai.core.collected import Collected
 from moyai.core.progress import Progress, silent
@@ -49,6 +49,12 @@ class _Collected(Collected):
         """Note that the notices since the last call belong to a water level (empty: to the whole run)."""
         self.level_of.extend([level] * (len(self.notices) - len(self.level_of)))
 
+    def join(self, other: Self) -> None:
+        """Take over what a part of the run has gathered."""
+        other.name_level("")
+        super().join(other)
+        self.level_of.extend(other.level_of)
+
 
 def run(problem: CurtainProblem, progress: Progress = silent) -> Result:
     """Run all analyses of a curtain case.
@@ -83,12 +89,16 @@ def _steps(problem: CurtainProblem, collected: _Collected, progress: Progress) -
         collected.groups["/record"] = record_dataset(problem.record)
         collected.notices.extend(problem.record.notices)
         collected.name_level("")
-    for index, unit in enumerate(units):
-        progress("water levels", index, len(units))
-        for _ in _level_steps(problem, unit, collected, progress):
-            collected.name_level(unit.name)
-            yield
-    progress("water levels", len(units), len(units))
+
+    def of_level(unit: LevelCurtain) -> Callable[[_Collected, Progress], Iterator[None]]:
+        def steps(own: _Collected, heard: Progress) -> Iterator[None]:
+            for _ in _level_steps(problem, unit, own, heard):
+                own.name_level(unit.name)
+                yield
+
+        return steps
+
+    yield from collected.take_together([of_level(unit) for unit in units], progress, "water levels")
 
 
 def _level_steps(

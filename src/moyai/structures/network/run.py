@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -91,30 +91,37 @@ def _steps(problem: NetworkProblem, collected: Collected, progress: Progress) ->
         for _, level in levels:
             for plan in run_plans(problem, problem.environment.water_at(level)):
                 collected.notices.extend(loads_on_time(problem, plan))
-    for index, (name, level) in enumerate(levels):
-        progress("water levels", index, len(levels))
-        assembly, water = assemble(problem, level), problem.environment.water_at(level)
-        root = f"/{name}"
-        collected.groups[root] = _header(level, water)
-        collected.groups[f"{root}/network"] = network_dataset(problem, assembly, water)
-        said = f"water level {name}: " if len(levels) > 1 else ""
-        rests, hung = _at_rest(problem, assembly, water, root, said, collected)
+
+    def of_level(name: str, level: float) -> Callable[[Collected, Progress], Iterator[None]]:
+        return lambda own, heard: _level_steps(problem, name, level, own, heard)
+
+    yield from collected.take_together([of_level(*each) for each in levels], progress, "water levels")
+
+
+def _level_steps(
+    problem: NetworkProblem, name: str, level: float, collected: Collected, progress: Progress
+) -> Iterator[None]:
+    assembly, water = assemble(problem, level), problem.environment.water_at(level)
+    root = f"/{name}"
+    collected.groups[root] = _header(level, water)
+    collected.groups[f"{root}/network"] = network_dataset(problem, assembly, water)
+    said = f"water level {name}: " if len(problem.environment.water_levels) > 1 else ""
+    rests, hung = _at_rest(problem, assembly, water, root, said, collected)
+    yield
+    if "modes" in problem.settings.analyses and rests:
+        flow = steady_flow(problem, water) if "current" in rests else Flow()
+        rest = rests.get("current", rests.get("still water"))
+        assert rest is not None
+        if problem.bodies:
+            collected.groups[root].attrs["bodies_held"] = len(problem.bodies)
+            collected.notices.append(
+                Notice("bodies-held", "natural modes are those with the bodies held where they rest",
+                       severity="information")
+            )  # fmt: skip
+        collected.groups[f"{root}/modes"] = modes_dataset(assembly, rest, flow, problem.settings.modes)
         yield
-        if "modes" in problem.settings.analyses and rests:
-            flow = steady_flow(problem, water) if "current" in rests else Flow()
-            rest = rests.get("current", rests.get("still water"))
-            assert rest is not None
-            if problem.bodies:
-                collected.groups[root].attrs["bodies_held"] = len(problem.bodies)
-                collected.notices.append(
-                    Notice("bodies-held", "natural modes are those with the bodies held where they rest",
-                           severity="information")
-                )  # fmt: skip
-            collected.groups[f"{root}/modes"] = modes_dataset(assembly, rest, flow, problem.settings.modes)
-            yield
-        if "dynamic" in problem.settings.analyses:
-            yield from _dynamic(problem, assembly, water, (rests, hung), root, said, collected, progress)
-    progress("water levels", len(levels), len(levels))
+    if "dynamic" in problem.settings.analyses:
+        yield from _dynamic(problem, assembly, water, (rests, hung), root, said, collected, progress)
 
 
 def _header(level: float, water: Water) -> xr.Dataset:
