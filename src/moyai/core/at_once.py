@@ -4,20 +4,35 @@ from __future__ import annotations
 
 import os
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextvars import copy_context
 from queue import Empty, SimpleQueue
+from typing import TypeVar
 
-from moyai.core.progress import Progress
+from moyai.core.progress import Progress, silent
 
-#: Seconds between two looks at parts that report nothing.
+#: Seconds between two looks for Ctrl-C while the parts report nothing.
 _LOOK = 0.1
+Item = TypeVar("Item")
+Found = TypeVar("Found")
+
+
+class _Share(threading.local):
+    """Cores that the parts of a part may take."""
+
+    cores = 1
+
+
+_SHARE = _Share()
 
 
 def threads() -> int:
-    """Return how many parts run at a time: the cores that this process may use, or ``MOYAI_THREADS``; 1 in a thread."""
+    """Return how many parts run at a time: the cores that this process may use, or ``MOYAI_THREADS``.
+
+    Within a part it is the share of that part, in any other thread 1.
+    """
     if threading.current_thread() is not threading.main_thread():
-        return 1
+        return _SHARE.cores
     given = os.environ.get("MOYAI_THREADS", "")
     if given.isdigit():
         return max(1, int(given))
@@ -44,7 +59,7 @@ def at_once(work: Callable[[int, Progress], None], count: int, progress: Progres
     Exception
         What the first of the parts raised, in their order; parts behind it are stopped.
     """
-    reports: SimpleQueue[tuple[str, float, float]] = SimpleQueue()
+    reports: SimpleQueue[tuple[str, float, float] | None] = SimpleQueue()  # None: a thread has ended
     failed: dict[int, BaseException] = {}
     stopped = [threading.Event() for _ in range(count)]
     waiting, guard = iter(range(count)), threading.Lock()
@@ -61,32 +76,40 @@ def at_once(work: Callable[[int, Progress], None], count: int, progress: Progres
 
         return listen
 
+    size = min(count, threads())
+    share = threads() // max(size, 1)
+
     def go() -> None:
+        _SHARE.cores = share
         while True:
             with guard:
                 number = next(waiting, None)
             if number is None:
+                reports.put(None)
                 return
             try:
-                work(number, heard(number))
+                if not stopped[number].is_set():
+                    work(number, heard(number))
             except BaseException as error:
                 failed[number] = error
                 stop(number + 1)
 
     pool = [
-        threading.Thread(target=copy_context().run, args=(go,), name="part of a run", daemon=True)
-        for _ in range(min(count, threads()))
+        threading.Thread(target=copy_context().run, args=(go,), name="part of a run", daemon=True) for _ in range(size)
     ]
     for each in pool:
         each.start()
     try:
-        while any(each.is_alive() for each in pool):
+        running = size
+        while running:
             try:
-                progress(*reports.get(timeout=_LOOK))
+                report = reports.get(timeout=_LOOK)
             except Empty:
                 continue
-        while not reports.empty():
-            progress(*reports.get())
+            if report is None:
+                running -= 1
+            else:
+                progress(*report)
     except BaseException:
         stop(0)
         for each in pool:
@@ -94,3 +117,26 @@ def at_once(work: Callable[[int, Progress], None], count: int, progress: Progres
         raise
     if failed:
         raise failed[min(failed)]
+
+
+def each_at_once(
+    work: Callable[[Item, Progress], Found], items: Sequence[Item], progress: Progress = silent
+) -> list[Found]:
+    """Return what ``work`` gives for every item, in their order; see :func:`at_once`.
+
+    Parameters
+    ----------
+    work : callable
+        Takes an item and its listener.
+    items : sequence
+    progress : Progress
+    """
+    if len(items) < 2 or threads() < 2:
+        return [work(item, progress) for item in items]
+    found: dict[int, Found] = {}
+
+    def one(number: int, heard: Progress) -> None:
+        found[number] = work(items[number], heard)
+
+    at_once(one, len(items), progress)
+    return [found[number] for number in range(len(items))]

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from moyai.core.arrays import Array
+from moyai.core.at_once import each_at_once
 from moyai.core.errors import ConvergenceError
 from moyai.core.progress import Progress, silent
 from moyai.floating.forcing import IrregularForcing
@@ -146,14 +147,13 @@ def events_in_motion(
         _RerunSearch(one, events_in_order(one.run.simulation, line, one.around.begin, apart)) for one in members
     ]
     words = f"lines in motion, {given.model.unit.name}"
-    for number, search in enumerate(searches):
-        progress(words, number, len(searches))
-        _rerun(given, search, line, progress)
-    # The ratio is that of the whole sea: what one realisation tells holds for all
-    while open_ones := [search for search in searches if _is_open(search, _ratio(searches), floor)]:
-        search = max(open_ones, key=lambda item: item.next)
+    open_ones = searches
+    while open_ones:
         progress(words, len(searches) - len(open_ones), len(searches))
-        _rerun(given, search, line, progress)
+        each_at_once(lambda search, heard: _rerun(given, search, line, heard), open_ones, progress)
+        # The ratio is that of the whole sea, and only grows: what one realisation tells holds for all
+        ratio = _ratio(searches)
+        open_ones = [search for search in searches if _is_open(search, ratio, floor)]
     progress(words, len(searches), len(searches))
     ratio = _ratio(searches)
     return [_answer(search, ratio) for search in searches]

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from moyai.core.arrays import Array
+from moyai.core.at_once import each_at_once
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress
 from moyai.core.validity import Notice
@@ -106,11 +107,12 @@ def sea_cycles(
 
     impact = impact_of(unit, settings.impact, unit.normal_speed or _NO_SPEED)
     if isinstance(sea, RegularSea):
-        rows = [_settled(unit, settings.waves, sea, period, impact)[-1] for period in sea.periods]
+        rows = each_at_once(lambda period, _: _settled(unit, settings.waves, sea, period, impact)[-1], sea.periods)
         return SeaCycles.of(xr.Dataset({name: ("period", [row[name] for row in rows]) for name in rows[0]}))
     drawn = realisations(sea, settings.waves.realisations)
     flows = flows or still_flows(unit, settings.waves, sea)
-    snaps = [realisation(unit, settings.waves, one, impact, flow) for one, flow in zip(drawn, flows, strict=True)]
+    pairs = tuple(zip(drawn, flows, strict=True))
+    snaps = each_at_once(lambda pair, _: realisation(unit, settings.waves, pair[0], impact, pair[1]), pairs)
     return SeaCycles.of(xr.Dataset(_tops(np.array([largest_tension(found, left_out(sea)) for found in snaps]))))
 
 
@@ -311,7 +313,8 @@ def _irregular(
     peak = sea.spectrum.peak_period
     transient = left_out(sea)
     drawn = realisations(sea, settings.realisations)
-    snaps = [realisation(unit, settings, one, impact, flow) for one, flow in zip(drawn, flows, strict=True)]
+    pairs = tuple(zip(drawn, flows, strict=True))
+    snaps = each_at_once(lambda pair, _: realisation(unit, settings, pair[0], impact, pair[1]), pairs)
     tops = np.array([largest_tension(found, transient) for found in snaps])
     tensions = np.concatenate([found.snap_tension for found in snaps])
     hours = sum(found.hours for found in snaps)

@@ -10,6 +10,7 @@ from functools import cache
 import numpy as np
 
 from moyai.core.arrays import Array
+from moyai.core.at_once import each_at_once
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.sea.breaking import breaking_limit
 from moyai.sea.spectra import goda_peak_period, jonswap
@@ -205,12 +206,8 @@ def _snaps(unit: LevelCurtain, settings: CurtainSettings, answer: ImpactAnswer, 
         if not float(effective_height(height, limits.wave_angle, rule, 1.0)) > _ALONG * height:
             return np.zeros(2)
         there = replace(unit, surface_speed=speed)
-        tops = np.array(
-            [
-                largest_tension(realisation(there, given, sea, answer.impact, flow), left_out(sea))
-                for sea, flow in seas(height)
-            ]
-        )
+        runs = each_at_once(lambda one, _: realisation(there, given, one[0], answer.impact, one[1]), seas(height))
+        tops = np.array([largest_tension(run, left_out(sea)) for run, (sea, _) in zip(runs, seas(height))])
         # the largest of a longer sea, by Gumbel's law of the largest of shorter ones
         longer = math.log(duration / seas(height)[0][0].duration)
         return tops + float(tops.std(ddof=1)) * math.sqrt(6.0) / math.pi * longer
