@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -115,13 +116,31 @@ def test_events_and_realisations_of_one_level_are_those_on_one_core(monkeypatch:
     assert_same(monkeypatch, CURTAIN.replace(", water_levels: {HWL: 1.2 m, LWL: 0 m}", ""))
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", ["network", "cage"])
+def test_finer_runs_and_runs_under_other_laws_are_those_on_one_core(monkeypatch: pytest.MonkeyPatch, kind: str) -> None:
+    changes = {
+        "network": ((r"  # duration: 2 min", "  duration: 14 s"), (r"skip: 30 s", "skip: 6 s")),
+        "cage": (
+            (r"mesh: \{around: 32, down: 6, bottom: 4\}", "mesh: {around: 12, down: 2, bottom: 1}"),
+            (r"^analyses: \[.*?\]", "analyses: [time]"),
+        ),
+    }
+    text = moyai.template(kind)
+    for old, new in changes[kind]:
+        text, count = re.subn(old, new, text, flags=re.MULTILINE)
+        assert count == 1
+    result = assert_same(monkeypatch, text)
+    assert kind == "network" or any("laws_in_waves" in node.path for node in result.tree.subtree)
+
+
 def test_levels_on_three_cores_are_those_on_one(monkeypatch: pytest.MonkeyPatch) -> None:
-    text = CURTAIN.replace("[statics, impact, waves, anchor_loads, limits]", "[statics, waves]")
+    text = CURTAIN.replace("[statics, impact, waves, anchor_loads, limits]", "[statics]")
     assert text != CURTAIN
     assert_same(monkeypatch, text)
 
 
-def assert_same(monkeypatch: pytest.MonkeyPatch, text: str) -> None:
+def assert_same(monkeypatch: pytest.MonkeyPatch, text: str) -> Any:
     """Run a case on one core and on three: every number to the last bit, every notice in its place."""
 
     def ran(cores: str) -> Any:
@@ -134,3 +153,4 @@ def assert_same(monkeypatch: pytest.MonkeyPatch, text: str) -> None:
         for name, values in node.to_dataset(inherit=False).data_vars.items():
             np.testing.assert_array_equal(values.values, three.tree[node.path][name].values)
     assert (one.notices, one.checks, one.headlines) == (three.notices, three.checks, three.headlines)
+    return three

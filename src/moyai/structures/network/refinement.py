@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from moyai.core.at_once import each_at_once
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.progress import Progress
 from moyai.core.validity import Notice
@@ -296,6 +297,10 @@ def _bars_of(assembly: Assembly, line: str) -> np.ndarray:
     return assembly.judged.get(line, assembly.net_bars.get(line, np.zeros(0, dtype=np.int64)))
 
 
+#: A network, its start, into how many its bars were cut, and what else is changed.
+_Variant = tuple[Network, State, int, dict[str, float]]
+
+
 def check_peak(
     assembly: Assembly,
     history: History,
@@ -340,11 +345,12 @@ def check_peak(
     own = _peaks_of(assembly, history, bars, skip, parts)
     early = _early(assembly, history, skip)
 
-    def again(network: Network, start: State, factor: int = 1, **more: Any) -> _Peaks:
+    def again(variant: _Variant, heard: Progress) -> _Peaks:
+        network, start, factor, more = variant
         kept, of_parts = _cut(bars, factor), {name: _cut(part, factor) for name, part in parts.items()}
         every = np.unique(np.concatenate([kept, *of_parts.values()]))
         chosen = {**options, **more, **_kept(assembly, network, every)}
-        found = simulate(network, motions, start=start, progress=progress, **chosen)
+        found = simulate(network, motions, start=start, progress=heard, **chosen)
         if found.status == "interrupted":
             raise KeyboardInterrupt
         if found.status != "converged":
@@ -359,18 +365,23 @@ def check_peak(
 
     try:
         finer, state = refined_start(history.network, 2, begin, rest_flow)
-        shorter = {} if options.get("step") is None else {"step": 0.5 * options["step"]}
-        mesh = again(finer, state, 2, **shorter)
-        exact = options.get("safety") == 1.0
-        step = own if exact else again(history.network, begin, step=0.5 * history.step)
-        calmed = _Peaks(math.nan, {})
+        exact, given = options.get("safety") == 1.0, options.get("step")
+
+        def shorter(factor: int) -> dict[str, float]:
+            return {} if given is None else {"step": given / factor}
+
+        variants: list[_Variant] = [(finer, state, 2, shorter(2))]
+        if not exact:
+            variants.append((history.network, begin, 1, {"step": 0.5 * history.step}))
         if not exact and damped_bars(finer) is not finer:
             factor = 2
             while factor * bars.size < DAMPED_BARS:
                 factor *= 2
             calm, state = refined_start(history.network, factor, begin, rest_flow)
-            shorter = {} if options.get("step") is None else {"step": options["step"] / factor}
-            calmed = again(damped_bars(calm), state, factor, **shorter)
+            variants.append((damped_bars(calm), state, factor, shorter(factor)))
+        made = each_at_once(again, variants, progress)
+        mesh, step = made[0], own if exact else made[1]
+        calmed = made[2] if len(made) > 2 else _Peaks(math.nan, {})
     except (ConvergenceError, InputError):
         return None
 

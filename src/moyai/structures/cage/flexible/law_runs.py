@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from moyai.core.at_once import each_at_once
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.progress import Progress, silent
 from moyai.flexible.flow import Current
@@ -133,24 +134,25 @@ def laws_in_wave(
         return _dataset(case, names, [_settled_numbers(case.model, case.run)], choice, missing), missing
     model, missing = coarse_model(case.model), []
     numbers = [_settled_numbers(model, base)]
-    wanted = extreme_laws(model, base, choice, drag_by_law)
-    for number, law in enumerate(wanted):
-        progress(f"laws of nets, {case.sea}", number, len(wanted))
+    begun, wanted = base, extreme_laws(model, base, choice, drag_by_law)
+
+    def run_under(law: NetLaw, heard: Progress) -> dict[str, float] | None:
         other = under(model, law)
         try:
-            rest = solve_rest(other, build_cage(other), base.rest.current, start=base.rest.state)
-            run = go_on(rest, base, settings)
+            rest = solve_rest(other, build_cage(other), begun.rest.current, start=begun.rest.state)
+            run = go_on(rest, begun, settings, heard)
         except (ConvergenceError, InputError):
-            missing.append(law.name)
-            continue
+            return None
         if run.history.status == "interrupted":
             raise KeyboardInterrupt
-        if run.history.status != "converged":
+        return _settled_numbers(other, run) if run.history.status == "converged" else None
+
+    for law, found in zip(wanted, each_at_once(run_under, wanted, progress), strict=True):
+        if found is None:
             missing.append(law.name)
-            continue
-        names.append(law.name)
-        numbers.append(_settled_numbers(other, run))
-    progress(f"laws of nets, {case.sea}", len(wanted), len(wanted))
+        else:
+            names.append(law.name)
+            numbers.append(found)
     return _dataset(case, names, numbers, choice, missing), missing
 
 

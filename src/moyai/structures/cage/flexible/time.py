@@ -100,7 +100,7 @@ def run_cage(
     return CageRun(wave, rest, flow, ramp, history)
 
 
-def go_on(rest: CageEquilibrium, before: CageRun, settings: FlexibleSettings) -> CageRun:
+def go_on(rest: CageEquilibrium, before: CageRun, settings: FlexibleSettings, progress: Progress = silent) -> CageRun:
     """Run the wave of another run with a cage that differs a little, of the same mesh, under another law for instance.
 
     Regular waves go on from the end of that run for six periods, a sea begins again.
@@ -111,6 +111,7 @@ def go_on(rest: CageEquilibrium, before: CageRun, settings: FlexibleSettings) ->
         Of the other cage.
     before : CageRun
     settings : FlexibleSettings
+    progress : Progress
     """
     wave, period = before.wave, before.wave.period
     if not wave.regular:
@@ -120,7 +121,8 @@ def go_on(rest: CageEquilibrium, before: CageRun, settings: FlexibleSettings) ->
         flow, start = replace(before.flow, current=rest.current), before.history.final
         duration = LAW_BLOCK * BLOCKS * period
     history = simulate(
-        rest.network, duration=duration, output_step=period / settings.rows_per_period, flow=flow, start=start
+        rest.network, duration=duration, output_step=period / settings.rows_per_period, flow=flow, start=start,
+        progress=progress,
     )  # fmt: skip
     return CageRun(wave, rest, flow, before.ramp, history)
 
