@@ -97,9 +97,9 @@ def at_once(work: Callable[[int, Progress], None], count: int, progress: Progres
     pool = [
         threading.Thread(target=copy_context().run, args=(go,), name="part of a run", daemon=True) for _ in range(size)
     ]
-    for each in pool:
-        each.start()
     try:
+        for each in pool:
+            each.start()
         running = size
         while running:
             try:
@@ -113,7 +113,8 @@ def at_once(work: Callable[[int, Progress], None], count: int, progress: Progres
     except BaseException:
         stop(0)
         for each in pool:
-            each.join()
+            if each.ident is not None:
+                each.join()
         raise
     if failed:
         raise failed[min(failed)]
