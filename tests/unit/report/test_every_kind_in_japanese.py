@@ -46,6 +46,7 @@ def examples(head: str) -> list[Path]:
 
 
 CASES, STUDIES = examples("structure"), examples("study")
+TEMPLATES = ("member", "network", "rigid_cage", "curtain", "breakwater", "cage", "units")
 #: Shorter seas and coarser meshes, with which a report has the same words.
 COARSE = {"around": 16, "down": 3, "bottom": 3, "rope_length": "14 m"}
 ONE_SPEED = {"current_speeds": ["0.25 m/s"], "periods": 2}
@@ -151,7 +152,7 @@ def test_a_network_that_snaps() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", ["member", "network", "rigid_cage", "curtain", "breakwater", "cage", "units"])
+@pytest.mark.parametrize("kind", TEMPLATES)
 def test_templates(kind: str) -> None:
     if kind == "units":
         pytest.importorskip("capytaine")
@@ -162,7 +163,7 @@ def test_every_example_is_held() -> None:
     names = {path.parent.name for path in CASES}
     assert names >= {"arai", "matsubara", "nakamura", "sawaragi", "tabata", "cage", "network", "flume_section"}
     assert len(CASES) > 20 and len(STUDIES) >= 4
-    assert {"units", *(f"{path.parent.name}/{path.stem}" for path in CASES)} >= set(SHORTER)
+    assert {*TEMPLATES, *(f"{path.parent.name}/{path.stem}" for path in CASES)} >= set(SHORTER)
 
 
 @pytest.mark.slow
