@@ -24,8 +24,8 @@ from sample_files import KINDS  # noqa: E402
 from moyai.core.errors import InputError  # noqa: E402
 
 SEED = int(os.environ.get("MOYAI_FUZZ_SEED", "1000"))
-COUNT = os.environ.get("MOYAI_FUZZ_COUNT", "150")
-PARTS = 4
+COUNT = os.environ.get("MOYAI_FUZZ_COUNT", "40")
+PARTS = 2
 
 
 @pytest.mark.slow

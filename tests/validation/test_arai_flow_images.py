@@ -225,29 +225,26 @@ def from_pictures(section, kc, circulation, *, frames, seed, takes):
     )
 
 
-# A run of pictures costs half a minute; examples/member/streaks makes the whole table of sections and KC
+# A picture costs ten seconds; examples/member/streaks makes the whole table of sections and KC
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("name", "kc", "seed"), [("circle", 1.0, 1), ("circle", 2.0, 2), ("square", 1.5, 1), ("rectangle", 2.0, 1)]
-)
-def test_planted_circulation_comes_back_from_one_picture_of_all_pulses(name, kc, seed):
+@pytest.mark.parametrize(("name", "kc", "takes"), [("circle", 1.0, 2), ("square", 1.5, 1)])
+def test_planted_circulation_comes_back_from_one_picture_of_all_pulses(name, kc, takes):
     planted = 18e-4 * kc**2
-    found = from_pictures(SECTIONS[name], kc, planted, frames=False, seed=seed, takes=4)
+    found = from_pictures(SECTIONS[name], kc, planted, frames=False, seed=1, takes=takes)
     assert found.limit == pytest.approx(planted, rel=0.1)
     assert found.limit_interval[0] > 0.0
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("name", "kc"), [("circle", 1.0), ("rectangle", 2.0)])
-def test_planted_circulation_comes_back_from_frames(name, kc):
-    planted = 18e-4 * kc**2
-    found = from_pictures(SECTIONS[name], kc, planted, frames=True, seed=3, takes=1)
+def test_planted_circulation_comes_back_from_frames():
+    planted = 18e-4 * 2.0**2
+    found = from_pictures(SECTIONS["rectangle"], 2.0, planted, frames=True, seed=3, takes=1)
     assert found.limit == pytest.approx(planted, rel=0.1)
 
 
 @pytest.mark.slow
 def test_sign_of_a_circulation_against_the_orbits_is_found():
-    found = from_pictures(SECTIONS["circle"], 1.2, -20e-4, frames=False, seed=4, takes=3)
+    found = from_pictures(SECTIONS["circle"], 1.2, -20e-4, frames=False, seed=4, takes=1)
     assert found.limit == pytest.approx(-20e-4, rel=0.1)
     assert found.limit_interval[1] < 0.0
 

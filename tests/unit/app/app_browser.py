@@ -58,6 +58,10 @@ def only(name: str, analyses: str) -> str:
     return re.sub("^analyses:.*$", f"analyses: [{analyses}]", template(name), flags=re.MULTILINE)
 
 
+def at_one_level(text: str) -> str:
+    return text.replace("{HWL: 1.5 m, LWL: 0 m}", "{HWL: 1.5 m}")
+
+
 def until(page: Any, expression: str, seconds: float = 60.0) -> None:
     end = time.monotonic() + seconds
 

@@ -82,7 +82,8 @@ def changed(folder, name, *pairs):
 
 
 @pytest.mark.slow
-def test_planted_circulation_comes_back_from_pictures(folder):
+def test_planted_circulation_comes_back_from_pictures(folder, batch):
+    """The command takes the recordings from where the batch has kept them."""
     runner = CliRunner()
     call = ["measure", "streaks", str(folder / "streaks.yaml"), "-o", str(folder / "out"), "--json"]
     outcome = runner.invoke(app, call)
@@ -97,17 +98,17 @@ def test_planted_circulation_comes_back_from_pictures(folder):
     page = (folder / "out" / "report.html").read_text(encoding="utf-8")
     assert "data:image/png;base64" in page
     assert "Reduction of the inertia coefficient" in page
-    # The second time all recordings are taken from where they were kept
     again = json.loads(runner.invoke(app, call).stdout)
     assert again["runs"][0]["circulation"] == run["circulation"]
     assert len(list((folder / "out" / "recordings").glob("*.nc"))) == 3
 
 
 @pytest.fixture(scope="module")
-def batch(folder, tmp_path_factory):
+def batch(folder):
     """A measurement stopped at its third recording, and gone on with: both results, files between, what was done."""
     campaign, _ = load_streaks(folder / "streaks.yaml")
-    kept = tmp_path_factory.mktemp("recordings")
+    kept = folder / "out" / "recordings"
+    kept.mkdir(parents=True)
     store = DatasetStore(kept)
 
     def stop(what, done, total):

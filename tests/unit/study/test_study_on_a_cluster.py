@@ -29,6 +29,15 @@ def _start(*arguments):
 
 @pytest.fixture
 def cluster(tmp_path):
+    yield from started(tmp_path)
+
+
+@pytest.fixture(scope="module")
+def lasting_cluster(tmp_path_factory):
+    yield from started(tmp_path_factory.mktemp("cluster"))
+
+
+def started(tmp_path):
     address = tmp_path / "scheduler.json"
     scheduler = _start(
         "distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard",
@@ -59,11 +68,11 @@ def cluster(tmp_path):
 
 def test_a_killed_worker_costs_no_case_and_no_bit(cluster, tmp_path, monkeypatch):
     client, workers = cluster
-    study = load_study(study_cases.write_study(tmp_path, heights=12, seeds=4))
+    study = load_study(study_cases.write_study(tmp_path, heights=4, seeds=4))
     killed = []
 
     def watch(standing):
-        if standing.done == 10:
+        if standing.done == 5:
             os.kill(workers[0].pid, signal.SIGKILL)
             killed.append(standing.done)
 
@@ -103,10 +112,10 @@ def pontoon(tmp_path_factory):
 
 
 @pytest.mark.parametrize("by_post", [True, False])
-def test_the_pontoon_itself_has_the_same_bits_on_a_cluster(cluster, pontoon, tmp_path, monkeypatch, by_post):
+def test_the_pontoon_itself_has_the_same_bits_on_a_cluster(lasting_cluster, pontoon, tmp_path, monkeypatch, by_post):
     from moyai.cli.runner import run
 
-    (client, _), (study, here) = cluster, pontoon
+    (client, _), (study, here) = lasting_cluster, pontoon
     if by_post:
         monkeypatch.setattr(client, "gather", None)
     else:

@@ -64,13 +64,8 @@ class SectionMap:
 
     def to_plane(self, zeta: ArrayLike) -> ComplexArray:
         """Return x + i z of points of the mapped plane, ``|zeta| >= 1``."""
-        point = np.asarray(zeta, dtype=complex)
-        inverse = 1.0 / point
-        square = inverse * inverse
-        total = np.zeros_like(point)
-        for coefficient in self.series[::-1]:
-            total = total * square + coefficient
-        return np.asarray(self.scale * (point + total * inverse), dtype=np.complex128)
+        point = np.ascontiguousarray(zeta, dtype=np.complex128)
+        return np.asarray(_plane(point.ravel(), self.scale, self.series)).reshape(point.shape)
 
     def to_circle(self, plane: ArrayLike) -> ComplexArray:
         """Return zeta of points x + i z outside the section, by Newton's method from far to near.
@@ -151,6 +146,24 @@ def rectangle_map(breadth: float, height: float) -> SectionMap:
         root[n] = ((2.0 * n - 3.0) * cosine * root[n - 1] - (n - 3.0) * root[n - 2]) / n
     series = -root[1:] / (2.0 * np.arange(1, _TERMS + 1) - 1.0)
     return SectionMap("rectangle", breadth, height, scale, corner, series)
+
+
+@njit(cache=True, error_model="numpy")
+def _plane(zeta, scale, series):  # type: ignore[no-untyped-def]
+    """Return the points of the plane; terms of the series that are lost in the rounding are left out."""
+    out = np.empty_like(zeta)
+    for p in range(zeta.size):
+        inverse = 1.0 / zeta[p]
+        square = inverse * inverse
+        size, count = abs(square), series.size
+        if size < 0.999:
+            # powers beyond stay below 1e-19
+            count = min(count, 1 + int(44.0 / -np.log(max(size, 1e-300))))
+        total = 0.0j
+        for n in range(count - 1, -1, -1):
+            total = total * square + series[n]
+        out[p] = scale * (zeta[p] + total * inverse)
+    return out
 
 
 def _derivative(zeta: ComplexArray, corner: float, round_section: bool) -> ComplexArray:
