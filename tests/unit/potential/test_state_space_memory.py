@@ -50,7 +50,7 @@ def rectangle_memory(seed):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-3])
-@pytest.mark.parametrize("seed", [1, *(pytest.param(s, marks=pytest.mark.slow) for s in (0, 2, 3, 4, 5))])
+@pytest.mark.parametrize("seed", [0, 1, 4])  # narrow, wide over a shallow gap, in deep water
 def test_fit_is_accurate_stable_passive_and_right_at_zero_frequency(seed, tolerance):
     memory, _, _ = rectangle_memory(seed)
     states = fit_memory(memory, tolerance=tolerance)
@@ -73,7 +73,7 @@ def test_fit_is_accurate_stable_passive_and_right_at_zero_frequency(seed, tolera
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", [*range(1), *(pytest.param(s, marks=pytest.mark.slow) for s in range(1, 3))])
+@pytest.mark.parametrize("seed", [0, 2])
 def test_three_coupled_modes_with_a_steady_dashpot_of_rank_one(seed):
     rng = np.random.default_rng(seed)
     beam, draught, water = rng.uniform(2.0, 8.0), rng.uniform(0.5, 2.0), Water(5.0, 1000.0, G)
@@ -139,7 +139,7 @@ def test_slow_steady_motion_meets_the_steady_dashpot():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", [1, *(pytest.param(s, marks=pytest.mark.slow) for s in (0, 2, 3))])
+@pytest.mark.parametrize("seed", [0, 2])  # narrow in deep water, wide over a shallow gap
 def test_free_decay_of_coupled_modes_is_that_of_the_frequency_integral(seed):
     memory, mass, stiffness = rectangle_memory(10 + seed)
     infinite = memory.infinite_frequency_added_mass
