@@ -31,10 +31,10 @@ structure:
   drag: {{law: constant, coefficient: 1.5, range: [0.8, 1.3]}}
   passing_fraction: 0.5
 analyses: [{analyses}]
-settings: {{dynamic: {{support_mass: 500 kg}}}}
+settings: {{dynamic: {{support_mass: 500 kg}}, waves: {{time_step: 0.03 s}}}}
 """
 STORM = "  - {name: storm, kind: jonswap, significant_height: 0.5 m, peak_period: 3.5 s, peak_enhancement: 3.3, " \
-        "heading_deg: 0, duration: 5 min, seed: 1}"  # fmt: skip
+        "heading_deg: 0, duration: 3 min, seed: 1}"  # fmt: skip
 
 
 def daily(height: float) -> str:

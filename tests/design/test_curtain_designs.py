@@ -38,7 +38,7 @@ current: {{speed: {speed} m/s, heading_deg: 0}}
 waves:
   - {{name: daily, kind: regular, height: {daily} m, periods: [3 s, 4 s, 5 s], heading_deg: 0}}
   - {{name: storm, kind: jonswap, significant_height: {storm} m, significant_period: {period} s, peak_enhancement: 3.3,
-     heading_deg: 0, duration: 20 min, seed: 1}}
+     heading_deg: 0, duration: 8 min, seed: 1}}
 structure:
   kind: curtain
   span: {span} m
@@ -400,7 +400,7 @@ def test_a_joint_bears_no_more_than_its_line(tmp_path: Path) -> None:
 def test_the_whole_span_governs_where_it_is_run(designs, tmp_path: Path) -> None:
     """A free toe in 0.5 m/s: the span gives a fraction of the plate, below the bound, and the page shows it."""
     _, bound = designs("strong current")
-    more = "  dynamic: {cells_along: 12, cells_down: 4, sensitivity: false}\n"
+    more = "  dynamic: {cells_along: 8, cells_down: 4, sensitivity: false}\n"
     _, result = ran(tmp_path, analyses="statics, impact, waves, anchor_loads, dynamic", more=more)
     for name in ("cable_tension", "anchor_load"):
         found, most = headline(result, name), headline(bound, name)
