@@ -111,7 +111,7 @@ def wave_number(omega, depth):
 
 
 @pytest.mark.slow  # four minutes of sea, five realisations each, lines in motion where they must be
-@pytest.mark.parametrize("design", MARKS)
+@pytest.mark.parametrize("design", [MARKS[0], *MARKS[2:]])  # the second one moves as the first one does
 def test_first_page_in_all_defaults(design, tmp_path):
     result = result_of(design, tmp_path, duration=240.0)
     time, sea = (result.tree[f"SWL/{domain}/storm"].to_dataset() for domain in ("time", "frequency"))

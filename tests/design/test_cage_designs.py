@@ -402,7 +402,9 @@ def test_drag_and_volume_are_judged_for_moments_in_the_sea_too():
     still, least = [item for item in found.headlines if item.name == "volume_left"]
     assert drag.shown and not moment.shown and moment.value > drag.value and least.value < still.value
     between = 0.5 * (drag.band.high + moment.band.high)
-    judged = judged_by(f"criteria: {{greatest_drag: {between:.0f} N, line_safety_factor: not_judged}}\n", CURRENT, found)
+    judged = judged_by(
+        f"criteria: {{greatest_drag: {between:.0f} N, line_safety_factor: not_judged}}\n", CURRENT, found
+    )
     assert judged.verdict.outcome == "does not hold" and "drag" in judged.verdict.message
 
 

@@ -14,7 +14,7 @@ from moyai.potential.memory_plan import recommend_frequencies
 from moyai.potential.multipole_circle import half_immersed_circle
 from moyai.potential.rectangle import solve_rectangle
 from moyai.potential.state_space import fit_memory, fit_state_space
-from moyai.potential.vector_fitting import constrained_least_squares
+from moyai.potential.vector_fitting import LeastSquares
 from moyai.sea.water import Water
 
 G = 9.81
@@ -247,7 +247,7 @@ def test_least_squares_under_conditions():
     matrix, right = rng.normal(size=(30, 5)), rng.normal(size=30)
     e, f = rng.normal(size=(1, 5)), np.array([0.7])
     g, h = rng.normal(size=(4, 5)), rng.normal(size=4)
-    x = constrained_least_squares(matrix, right, (e, f), (g, h))
+    x = LeastSquares.of(matrix, right, (e, f)).solution((g, h))
     assert np.allclose(e @ x, f) and np.all(g @ x >= h - 1e-9)
     best = np.linalg.norm(matrix @ x - right)
     null = np.linalg.svd(e)[2][1:].T
