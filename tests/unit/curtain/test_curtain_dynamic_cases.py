@@ -321,7 +321,7 @@ def test_masses_that_cannot_be_are_found_before_the_run(tmp_path: Path, old: str
 @pytest.mark.slow
 def test_cables_that_stretch_as_no_rope_are_told(tmp_path: Path) -> None:
     """Newtons for kilonewtons, without a breaking load that the check could compare them with."""
-    text = changed(CASE, {"400 kN": "400 N", "cells_down: 4}": "cells_down: 4, sensitivity: false}"})
+    text = changed(CASE, {"400 kN": "400 N", "cells_down: 4}": "cells_down: 4, sensitivity: false, duration: 15 s}"})
     result = moyai.run(moyai.load_case(write(tmp_path, text)))
     reported = [notice for notice in result.notices if notice.code == "dynamic-stretched"]
     run = result.tree["/SWL/dynamic/snap in the current"].to_dataset()
