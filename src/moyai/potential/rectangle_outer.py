@@ -247,8 +247,8 @@ def _wall_pairs_by_quadrature(g: ComplexArray, alpha: float, beta: float, depth:
     surface = (alpha * k * (1.0 + np.exp(twice)) + beta * np.expm1(twice)) * (0.5 / denominator)
     kernel = np.exp(k * (lower - upper)) * (1.0 + np.exp(-2.0 * k * (lower + depth))) * surface
     moments = np.stack([2.0 * area, area * (upper + lower), 2.0 * area * upper * lower], axis=-1)
-    found = kernel.reshape(g.size, -1) @ moments.reshape(-1, 3)
-    return found[:, [0, 1, 1, 2]].reshape(-1, 2, 2)
+    found = kernel.reshape(g.size, area.size) @ moments.reshape(area.size, 3)
+    return found[:, [0, 1, 1, 2]].reshape(g.size, 2, 2)
 
 
 def _wall_pairs_closed(g: ComplexArray, alpha: float, beta: float, depth: float, draught: float) -> ComplexArray:
