@@ -100,21 +100,17 @@ def test_the_moored_box_keeps_its_symmetry_and_nearly_slackens_its_chains(exampl
 
 
 def test_the_box_as_a_case_file_moves_as_by_the_program(example, loads) -> None:
-    """examples/network/flume_box.yaml against examples/coupled/moored_box.py; drag on pitch is spread over the hull.
-
-    Both over twelve periods in place of twenty.
-    """
+    """examples/network/flume_box.yaml against examples/coupled/moored_box.py; drag on pitch is spread over the hull."""
     import moyai
 
     path = Path(__file__).parents[2] / "examples/network/flume_box.yaml"
-    text = path.read_text(encoding="utf-8").replace("duration: 40 s", "duration: 24 s")
-    text = text.replace("skip: 30 s", "skip: 14 s, mesh_check: off")
+    text = path.read_text(encoding="utf-8").replace("skip: 30 s", "skip: 30 s, mesh_check: off")
     result = moyai.run(case_of(parse_yaml(text, path.name), path))
     assert result.status == "converged", result.message
     found = result.tree["SWL/dynamic"].to_dataset().sel(run="waves")
-    program = example.figures(example.run("coefficients", periods=12.0))
+    program = example.figures(example.run("coefficients"))
     series = result.tree["SWL/time/waves"].to_dataset()
-    late = series["time"].values > 14.0
+    late = series["time"].values > 30.0
     surge = float(np.ptp(series["solid_position"].values[late, 0, 0]))
     assert surge == pytest.approx(program["surge"], rel=0.005)
     assert float(found["heave_range"][0]) == pytest.approx(program["heave"], rel=0.005)
