@@ -161,7 +161,7 @@ structure:
     buoy: {kind: sphere, position: [2 m, 0, 0], diameter: 1.6 m, mass: 600 kg, drag_coefficient: 0.6,
            added_mass_coefficient: 0.5}
   lines:
-    rode: {start: anchor, end: buoy, type: rope, length: 30 m, segments: 8}
+    rode: {start: anchor, end: buoy, type: rope, length: 30 m, segments: 16}
 analyses: [dynamic]
 settings: {mesh_check: off, realisations: 20}
 criteria: {greatest_offset: 15 m}

@@ -90,7 +90,7 @@ def test_random_sections_against_a_refined_solution(seed):
 
 @pytest.mark.slow
 def test_thirty_random_sections():
-    """30 problems: one or two bodies, arcs, heel, submerged or piercing, clearance 3 % to infinite, up to 80 degrees."""
+    """30 problems: one or two bodies, arcs, heel, submerged or piercing, clearance 3 % and more, up to 80 degrees."""
     worst, missed = np.zeros(4), []
     for seed in range(300, 330):
         section, water, omega, heading, scale = random_case(seed)
