@@ -184,7 +184,7 @@ def test_events_in_motion_stand_for_the_whole_sea_in_motion(tmp_path):
     from moyai.case.yaml_reader import parse_yaml
 
     def tension(mode):
-        text = f"{MARINA}settings: {{time: {{realisations: 3, lines: {{mode: {mode}}}}}}}\n"
+        text = f"{MARINA}settings: {{time: {{realisations: 2, lines: {{mode: {mode}}}}}}}\n"
         return headline(run(build(case_of(parse_yaml(text, "marina.yaml"), tmp_path / "marina.yaml"))), "line_tension")
 
     found, dynamic, rest = (tension(mode) for mode in ("auto", "dynamic", "quasi_static"))
