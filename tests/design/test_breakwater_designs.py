@@ -110,10 +110,10 @@ def wave_number(omega, depth):
     return k
 
 
-@pytest.mark.slow  # ten minutes of sea, five realisations each, lines in motion where they must be: 10 to 30 s a design
-@pytest.mark.parametrize("design", MARKS)
+@pytest.mark.slow  # four minutes of sea, five realisations each, lines in motion where they must be
+@pytest.mark.parametrize("design", [MARKS[0], *MARKS[2:]])  # the second one moves as the first one does
 def test_first_page_in_all_defaults(design, tmp_path):
-    result = result_of(design, tmp_path)
+    result = result_of(design, tmp_path, duration=240.0)
     time, sea = (result.tree[f"SWL/{domain}/storm"].to_dataset() for domain in ("time", "frequency"))
     tension, offset = headline(result, "line_tension"), headline(result, "offset")
     assert result.status == "converged"
@@ -125,7 +125,7 @@ def test_first_page_in_all_defaults(design, tmp_path):
     assert tension.band.low <= tension.value <= tension.band.high
     # Second model: the sway of both domains about the mean; the lines stiffen in time, so less there, never half
     assert 0.5 * float(sea.largest_offset) < offset.value < 1.3 * float(sea.largest_offset)
-    # Five maxima of ten minutes each: a quasi-static peak beyond five times the mean is never the headline
+    # Five maxima of four minutes each: a quasi-static peak beyond five times the mean is never the headline
     if not tension.model.endswith("in motion"):
         assert tension.value <= 5.0 * float(time.line_tension_mean.max())
     anchor = headline(result, "anchor_horizontal_load").value

@@ -78,8 +78,8 @@ def test_a_light_line_is_a_judgement_of_the_design_not_of_the_computation(tmp_pa
 
 @pytest.mark.slow  # five realisations and five windows with lines in motion: half a minute
 def test_the_storm_with_all_defaults(tmp_path):
-    result = result_of(tmp_path, duration=900.0)
-    ramped = result_of(tmp_path, duration=900.0, settings="settings: {time: {drift: ramped}}")
+    result = result_of(tmp_path, duration=450.0)
+    ramped = result_of(tmp_path, duration=450.0, settings="settings: {time: {drift: ramped}}")
     tension, still = (headline(item, "line_tension") for item in (result, ramped))
     assert tension.model == "time domain, lines in motion"
     # The slow excursions take up the slack of the chains: more than twice the tension, in the mean of five
@@ -139,7 +139,7 @@ waves:
     peak_period: 3.6 s
     peak_enhancement: 3.3
     heading_deg: 20
-    duration: 15 min
+    duration: 6 min
     seed: 7
 wind: {speed: 22 m/s, heading_deg: 0, density: 1.225 kg/m3}
 current: {speed: 0.4 m/s, heading_deg: 0}
@@ -173,7 +173,7 @@ criteria:
 """
 
 
-@pytest.mark.slow  # a quarter of an hour of sea with lines in motion all along: a minute
+@pytest.mark.slow  # six minutes of sea with lines in motion all along
 def test_events_in_motion_stand_for_the_whole_sea_in_motion(tmp_path):
     """A slack chain, within the range of lines at rest, whose drag adds a fourth to the tension of the waves.
 
@@ -184,7 +184,7 @@ def test_events_in_motion_stand_for_the_whole_sea_in_motion(tmp_path):
     from moyai.case.yaml_reader import parse_yaml
 
     def tension(mode):
-        text = f"{MARINA}settings: {{time: {{realisations: 5, lines: {{mode: {mode}}}}}}}\n"
+        text = f"{MARINA}settings: {{time: {{realisations: 2, lines: {{mode: {mode}}}}}}}\n"
         return headline(run(build(case_of(parse_yaml(text, "marina.yaml"), tmp_path / "marina.yaml"))), "line_tension")
 
     found, dynamic, rest = (tension(mode) for mode in ("auto", "dynamic", "quasi_static"))

@@ -19,7 +19,7 @@ site: {water_depth: 9 m, density: 1025 kg/m3, gravity: 9.81 m/s2}
 current: {speed: %(speed)s m/s, heading_deg: 0, profile: {power_law: 0.143}}
 waves:
   - {name: winter, kind: jonswap, significant_height: %(height)s m, significant_period: %(period)s s,
-     peak_enhancement: 3.3, heading_deg: 0, duration: 30 min, seed: 1}
+     peak_enhancement: 3.3, heading_deg: 0, duration: 10 min, seed: 1}
 structure:
   kind: curtain
   span: 20 m

@@ -35,10 +35,10 @@ def interpreter():
 
 @pytest.mark.skipif(interpreter() is None, reason="Capytaine is not installed and MOYAI_PEER_PYTHON does not name one")
 def test_long_box_in_the_middle_of_the_band():
-    omega = np.array([1.2, 1.5, 1.8])
+    omega = np.array([1.2, 1.8])
     case = {"beam": 10.0, "draught": 3.0, "depth": 10.0, "lid": True, "density": 1000.0, "omega": omega.tolist()}
     boxes = {}
-    for length, panels in ((60.0, 1600), (120.0, 3200)):
+    for length, panels in ((60.0, 800), (120.0, 1600)):
         done = subprocess.run(
             [interpreter(), str(SCRIPT)],
             input=json.dumps({**case, "length": length, "panels": panels}),

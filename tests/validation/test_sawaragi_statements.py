@@ -233,15 +233,15 @@ def test_statement_12_scale_law_of_the_cube(length):
 def test_the_whole_span_let_go_slack_comes_to_the_level_of_drag():
     """One spike, whose height and instant stand on a finer mesh; the steady level is the catenary's 2.92 N."""
     case = problem_of("sawaragi", "flume")
-    runs = SawaragiRuns(span_of(case), case, 5)
+    runs = SawaragiRuns(span_of(case), case, 5, (12, 4))
     coarse = kept_value(f"whole span of the flume, {runs.cells} cells", lambda: runs.whole_line)
     assert coarse.plateau == pytest.approx(2.92, rel=0.08)
     assert coarse.spikes() == 1
     # two thirds of the way from these cells to half of them, and two thirds of 5 %
-    fine = runs.span_released(150.0, (36, 12), duration=1.8)
+    fine = runs.span_released(150.0, (18, 6), duration=1.8)
     assert fine.spike == pytest.approx(coarse.spike, rel=0.033)
     assert fine.spike_time == pytest.approx(coarse.spike_time, rel=0.033)
     assert np.all(np.diff(fine.before_spike()) > 0.0)
     assert fine.before_spike()[0] > 0.0
-    half_way = runs.span_released(150.0, (24, 8), share=0.5, duration=2.5)
+    half_way = runs.span_released(150.0, (12, 4), share=0.5, duration=2.5)
     assert half_way.spikes() == 1

@@ -16,7 +16,8 @@ from moyai.core.arrays import Array, ComplexArray
 from moyai.potential.rectangle_basis import GapBasis
 
 _ROTATION = np.exp(-0.25j * np.pi)
-_TRIANGLE_POINTS = 14
+#: Nodes and weights over a side of a triangle, and over a piece of the wall.
+_TRIANGLE, _WALL = np.polynomial.legendre.leggauss(14), np.polynomial.legendre.leggauss(24)
 
 
 @dataclass(frozen=True)
@@ -167,7 +168,7 @@ class OuterKernel:
         gap = np.real(self.basis.hyperbolic_transform(np.array([k + 0j]))[:, 0]) * np.exp(-k * draught) / norm
         surface = 0.5 * (1.0 + np.exp(-2.0 * k * depth)) / norm
         corner = 0.5 * np.exp(-k * draught) * (1.0 + np.exp(-2.0 * k)) / norm
-        x, w = np.polynomial.legendre.leggauss(24)
+        x, w = _WALL
         # Wall: split where the mode has decayed, so that short waves on a deep draught are still integrated exactly
         reach = min(draught, 40.0 / k)
         pieces = max(1, int(np.ceil(k * reach / 4.0)))
@@ -206,7 +207,7 @@ def _wall_moments(g: ComplexArray, alpha: float, beta: float, draught: float) ->
     x = g * draught
     out = np.empty((2, g.size), dtype=complex)
     small = np.abs(x) < 2.0
-    node, weight = np.polynomial.legendre.leggauss(_TRIANGLE_POINTS)
+    node, weight = _TRIANGLE
     t = draught * 0.5 * (node + 1.0)
     near = g[small][:, None]
     profile = np.exp(-near * draught) * (alpha * near * np.cosh(near * t) - beta * np.sinh(near * t))
@@ -233,27 +234,21 @@ def _wall_pairs(g: ComplexArray, alpha: float, beta: float, depth: float, draugh
 
 def _wall_pairs_by_quadrature(g: ComplexArray, alpha: float, beta: float, depth: float, draught: float) -> ComplexArray:
     """Gauss quadrature over the two triangles in which the Green function is smooth."""
-    node, weight = np.polynomial.legendre.leggauss(_TRIANGLE_POINTS)
+    node, weight = _TRIANGLE
     u, wu = 0.5 * (node + 1.0), 0.5 * weight
     # upper point z (nearer to the surface), lower point z' between z and the corner
-    upper = -draught * (1.0 - u)[:, None] + 0.0 * u[None, :]
+    upper = -draught * (1.0 - u)[:, None]
     lower = -draught + (upper + draught) * u[None, :]
     area = wu[:, None] * draught * wu[None, :] * (upper + draught)
     k = g[:, None, None]
-    above = np.exp(2.0 * k * upper)
-    numerator = (
-        0.5
-        * (1.0 + np.exp(-2.0 * k * (lower + depth)))
-        * (alpha * k * (1.0 + above) + beta * np.expm1(2.0 * k * upper))
-    )
+    twice = 2.0 * k * upper
     fall = np.exp(-2.0 * k * depth)
     denominator = k * (alpha * k * (1.0 - fall) - beta * (1.0 + fall))
-    kernel = np.exp(-k * (upper - lower)) * numerator / denominator * area
-    out = np.empty((g.size, 2, 2), dtype=complex)
-    out[:, 0, 0] = 2.0 * kernel.sum(axis=(1, 2))
-    out[:, 0, 1] = out[:, 1, 0] = (kernel * (upper + lower)).sum(axis=(1, 2))
-    out[:, 1, 1] = 2.0 * (kernel * upper * lower).sum(axis=(1, 2))
-    return out
+    surface = (alpha * k * (1.0 + np.exp(twice)) + beta * np.expm1(twice)) * (0.5 / denominator)
+    kernel = np.exp(k * (lower - upper)) * (1.0 + np.exp(-2.0 * k * (lower + depth))) * surface
+    moments = np.stack([2.0 * area, area * (upper + lower), 2.0 * area * upper * lower], axis=-1)
+    found = kernel.reshape(g.size, area.size) @ moments.reshape(area.size, 3)
+    return found[:, [0, 1, 1, 2]].reshape(g.size, 2, 2)
 
 
 def _wall_pairs_closed(g: ComplexArray, alpha: float, beta: float, depth: float, draught: float) -> ComplexArray:

@@ -18,7 +18,7 @@ from moyai.core.validity import IdentityCheck
 from moyai.potential.damping_model import DampingModel
 from moyai.potential.memory import MemoryFunctions, pair_measure
 from moyai.potential.vector_fitting import (
-    constrained_least_squares,
+    LeastSquares,
     fit_poles,
     partial_fractions,
     starting_poles,
@@ -352,7 +352,8 @@ def _residues(
     goal = right.T.ravel()
     equal: tuple[Array, Array] = (np.asarray(np.kron(np.eye(count), at_zero), dtype=float), steady)
     double = np.where(rows == columns, 1.0, 2.0)
-    solution = constrained_least_squares(matrix, goal, equal, None).reshape(count, -1).T
+    problem = LeastSquares.of(matrix, goal, equal)
+    solution = problem.solution().reshape(count, -1).T
     for _ in range(_ROUNDS):
         damping = (
             np.einsum("tn,nij->tij", dense_basis, _columns_to_matrix(solution, rows, columns)) * lift[:, None, None]
@@ -368,10 +369,10 @@ def _residues(
         for place in near:
             for direction in vectors[place].T[values[place] < 1e-3]:
                 quadratic = double * direction[rows] * direction[columns]
-                cuts.append(np.kron(quadratic, dense_basis[place] * lift[place]))
+                cuts.append(np.outer(quadratic, dense_basis[place] * lift[place]).ravel())
                 bounds.append(floor[place])
         limits = (np.array(cuts), np.array(bounds))
-        solution = constrained_least_squares(matrix, goal, equal, limits).reshape(count, -1).T
+        solution = problem.solution(limits).reshape(count, -1).T
     return solution
 
 

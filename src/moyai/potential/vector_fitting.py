@@ -6,6 +6,8 @@ Transactions on Power Delivery 21 (2006) 1587-1592. Everything here is scaled: u
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from scipy.optimize import nnls
 
@@ -111,48 +113,56 @@ def _zeros(poles: ComplexArray, residues: Array) -> ComplexArray:
     return turned
 
 
-def constrained_least_squares(
-    matrix: Array,
-    right: Array,
-    equal: tuple[Array, Array],
-    at_least: tuple[Array, Array] | None,
-) -> Array:
-    """Minimise ``|matrix x - right|`` with ``E x = f`` and ``G x >= h`` (least distance, Lawson and Hanson).
+@dataclass(frozen=True, eq=False)
+class LeastSquares:
+    """Least squares with conditions, as a problem of least distance (Lawson and Hanson).
 
-    Parameters
-    ----------
-    matrix, right : ndarray (k, n), (k,)
-    equal : (E, f)
-        May have no rows.
-    at_least : (G, h) or None
+    All that meets the equalities is ``particular + back y``, its residual ``|y - target|`` and a constant.
     """
-    e, f = equal
-    size = matrix.shape[1]
-    particular: Array = np.zeros(size)
-    null: Array = np.eye(size)
-    if len(e):
-        particular = np.asarray(np.linalg.lstsq(e, f, rcond=None)[0], dtype=float)
-        null = np.linalg.svd(e)[2][np.linalg.matrix_rank(e) :].T
-    reduced = matrix @ null
-    left, values, turned = np.linalg.svd(reduced, full_matrices=False)
-    keep = values > 1e-12 * values[0]
-    # x = particular + null (back y), so that the residual is |y - target| and a constant
-    back = null @ (turned[keep].T / values[keep])
-    target = left[:, keep].T @ (right - matrix @ particular)
-    y = target
-    if at_least is not None and len(at_least[0]):
-        g, h = at_least
-        condition = g @ back
-        bound = h - g @ particular - condition @ target
-        # least distance: min |u| with condition u >= bound
-        scale = np.linalg.norm(condition, axis=1)
-        scale[scale == 0.0] = 1.0
-        stack = np.vstack([(condition / scale[:, None]).T, bound / scale])
-        unit = np.zeros(len(stack))
-        unit[-1] = 1.0
-        dual, _ = nnls(stack, unit, maxiter=50 * stack.shape[1])
-        rest = stack @ dual - unit
-        if abs(rest[-1]) > 1e-14:
-            y = target - rest[:-1] / rest[-1]
-    best: Array = particular + back @ y
-    return best
+
+    particular: Array
+    back: Array
+    target: Array
+
+    @classmethod
+    def of(cls, matrix: Array, right: Array, equal: tuple[Array, Array]) -> LeastSquares:
+        """Return the problem of the least ``|matrix x - right|``.
+
+        Parameters
+        ----------
+        matrix, right : ndarray (k, n), (k,)
+        equal : (E, f)
+            Conditions ``E x = f``; may have no rows.
+        """
+        e, f = equal
+        size = matrix.shape[1]
+        particular: Array = np.zeros(size)
+        null: Array = np.eye(size)
+        if len(e):
+            particular = np.asarray(np.linalg.lstsq(e, f, rcond=None)[0], dtype=float)
+            null = np.linalg.svd(e)[2][np.linalg.matrix_rank(e) :].T
+        reduced = matrix @ null
+        left, values, turned = np.linalg.svd(reduced, full_matrices=False)
+        keep = values > 1e-12 * values[0]
+        back = null @ (turned[keep].T / values[keep])
+        return cls(particular, back, left[:, keep].T @ (right - matrix @ particular))
+
+    def solution(self, at_least: tuple[Array, Array] | None = None) -> Array:
+        """Return the unknowns, with ``G x >= h`` for (G, h) where they are given."""
+        y = self.target
+        if at_least is not None and len(at_least[0]):
+            g, h = at_least
+            condition = g @ self.back
+            bound = h - g @ self.particular - condition @ self.target
+            # least distance: min |u| with condition u >= bound
+            scale = np.linalg.norm(condition, axis=1)
+            scale[scale == 0.0] = 1.0
+            stack = np.vstack([(condition / scale[:, None]).T, bound / scale])
+            unit = np.zeros(len(stack))
+            unit[-1] = 1.0
+            dual, _ = nnls(stack, unit, maxiter=50 * stack.shape[1])
+            rest = stack @ dual - unit
+            if abs(rest[-1]) > 1e-14:
+                y = self.target - rest[:-1] / rest[-1]
+        best: Array = self.particular + self.back @ y
+        return best

@@ -105,7 +105,7 @@ def test_long_waves_pass_and_carry_the_body(pontoon_problem):
     assert float(data.drift_coefficient[0]) == pytest.approx(0.0, abs=1e-3)
 
 
-@pytest.mark.parametrize("heading", [0.0, *(pytest.param(h, marks=pytest.mark.slow) for h in (0.4, -0.7))])
+@pytest.mark.parametrize("heading", [0.0, pytest.param(-0.7, marks=pytest.mark.slow)])
 def test_energy_of_the_moving_body_in_oblique_waves(pontoon_problem, heading):
     problem = changed(
         pontoon_problem,
@@ -353,10 +353,12 @@ def test_spreading_keeps_the_energy_however_narrow(exponent, heading):
 
 
 @pytest.mark.slow
-def test_mean_drift_of_a_spread_sea_is_the_sum_over_its_waves(pontoon_problem):
+def test_mean_drift_of_a_spread_sea_is_the_sum_over_its_waves(pontoon_problem, monkeypatch):
     # springs, so that the offset changes nothing: the drift must be that of regular waves summed over the sea
     from moyai.sea.directional import CosineTwoS
+    from moyai.structures.breakwater import hydrodynamics
 
+    monkeypatch.setattr(hydrodynamics, "OBLIQUE_FREQUENCIES", 20)
     spreading = CosineTwoS(12.0)
     sea = IrregularSea("spread", jonswap(0.02, 1.0, 3.3), heading=-0.3, spreading=spreading)
     base = changed(
@@ -365,8 +367,8 @@ def test_mean_drift_of_a_spread_sea_is_the_sum_over_its_waves(pontoon_problem):
         analyses=("statics", "frequency"),
     )
     spread = run(changed(base, environment={"sea_states": (sea,)})).tree["SWL/frequency/spread"].to_dataset()
-    periods = tuple(2.0 * np.pi / np.concatenate([np.linspace(4.0, 12.0, 21), np.linspace(13.0, 33.0, 11)]))
-    angles = np.linspace(-1.2, 1.2, 9)
+    periods = tuple(2.0 * np.pi / np.concatenate([np.linspace(4.0, 12.0, 13), np.linspace(13.0, 33.0, 5)]))
+    angles = np.linspace(-1.2, 1.2, 7)
     seas = tuple(RegularSea(f"h{index}", 0.002, periods, float(angle)) for index, angle in enumerate(angles))
     tree = run(changed(base, environment={"sea_states": seas})).tree
     total = 0.0

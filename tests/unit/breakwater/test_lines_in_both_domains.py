@@ -120,17 +120,19 @@ def test_roll_and_transmission_of_the_paper_are_alike_in_both_domains_to_its_res
 
 @pytest.mark.slow
 def test_all_periods_of_the_paper_agree_and_with_the_tangent_all_but_roll_in_long_waves():
+    """Every second one, the longest among them."""
     periods = tuple(problem_of("nakamura", "tank_model").environment.sea_states[0].periods)
-    result = run(tank_model(0.04, periods, restoring="equivalent"))
-    assert result.status == "converged" and len(periods) == 14
+    assert len(periods) == 14
+    result = run(tank_model(0.04, periods[1::2], restoring="equivalent"))
+    assert result.status == "converged"
     assert ratios(result, "transmission_coefficient") == pytest.approx(1.0, abs=0.005)
     assert ratios(result, "motion_amplitude")[:, :2] == pytest.approx(1.0, abs=0.005)
     roll = ratios(result, "motion_amplitude")[:, 2]
     # the longest wave has a third harmonic, which one harmonic does not know
-    assert roll[:13] == pytest.approx(1.0, abs=0.01) and roll[13] == pytest.approx(1.0, abs=0.05)
+    assert roll[:6] == pytest.approx(1.0, abs=0.01) and roll[6] == pytest.approx(1.0, abs=0.05)
     of_tangent = against_tangent(result)[:, 2]
-    assert of_tangent[:11] == pytest.approx(1.0, abs=0.08)
-    assert (of_tangent[11:] < 0.90).all()
+    assert of_tangent[:5] == pytest.approx(1.0, abs=0.08)
+    assert (of_tangent[5:] < 0.90).all()
 
 
 @pytest.mark.slow

@@ -199,7 +199,7 @@ def test_stronger_anchors_keep_the_height_that_weaker_ones_hold(tmp_path: Path) 
         assert old in case, old
         case = case.replace(old, new)
     heights, bounds = [], []
-    for holding in ("100 kN", "200 kN", "400 kN", "2 MN"):
+    for holding in ("100 kN", "400 kN", "2 MN"):
         there = case.replace("holding_force: 60 kN", f"holding_force: {holding}").replace("180 kN", "6 MN")
         limit = headline(run(tmp_path, there), "limit_wave_height")
         heights.append(limit.value)

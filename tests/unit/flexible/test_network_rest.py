@@ -68,16 +68,16 @@ def test_nets_in_any_current_find_rest(seed):
 
 
 @pytest.mark.slow
-def test_a_thousand_more_find_rest():
+def test_a_hundred_and_fifty_more_find_rest():
     """A hundredth may need the true motion to lead; none may be refused."""
     led = 0
-    for make, count in ((random_line, 400), (random_net, 300)):
+    for make, count in ((random_line, 90), (random_net, 60)):
         for seed in range(count):
             network, flow = make(np.random.default_rng(20_000 + seed))
             rest = solve_equilibrium(network, flow=flow)
             assert rest.residual < 1e-5, (make.__name__, seed)
             led += rest.found == "true motion"
-    assert led <= 7
+    assert led <= 2
 
 
 @pytest.mark.parametrize("gravity", [0.3, 0.6, 0.95])

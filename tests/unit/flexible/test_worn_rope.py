@@ -45,7 +45,7 @@ def run(kind, strain, step, method):
 def test_a_step_is_met_by_the_quick_stiffness_and_ends_on_the_working_curve(method):
     kind = law()
     rest = float(np.interp(0.013, *kind.curve_at_rest()))
-    strain = np.full(161, 0.0135)
+    strain = np.full(101, 0.0135)
     strain[0] = 0.013
     history = run(kind, strain, 0.1, method)
     assert history.status == "converged"
@@ -61,12 +61,12 @@ def test_a_step_is_met_by_the_quick_stiffness_and_ends_on_the_working_curve(meth
 @pytest.mark.parametrize("method", ["explicit", "tr_bdf2"])
 def test_a_new_highest_tension_is_remembered(method):
     """Pulled along the curve of the new rope to 3 %, then let go to 2 %: on the working curve of what it bore there."""
-    up, down = np.linspace(0.013, 0.03, 101), np.linspace(0.03, 0.02, 101)
-    strain = np.concatenate([up, np.full(120, 0.03), down, np.full(200, 0.02)])
+    up, down = np.linspace(0.013, 0.03, 31), np.linspace(0.03, 0.02, 31)
+    strain = np.concatenate([up, np.full(70, 0.03), down, np.full(80, 0.02)])
     history = run(law(), strain, 0.1, method)
     tension = history.tension[:, 0]
     highest = float(np.interp(0.03, *NEW))
-    assert tension[220] == pytest.approx(highest, rel=1e-3)
+    assert tension[100] == pytest.approx(highest, rel=1e-3)
     assert tension[-1] == pytest.approx(float(np.interp(0.02, *law(highest=highest).curve_at_rest())), rel=5e-3)
     assert tension[-1] < 0.6 * float(np.interp(0.02, *law().curve_at_rest()))
 
@@ -86,15 +86,15 @@ def test_the_law_agrees_with_its_curve_and_the_area_under_it(form):
 @pytest.mark.slow
 def test_cycles_lose_energy_and_never_gain_it():
     """The work of the end over whole cycles on one working curve is what the dashpot takes."""
-    time = 0.05 * np.arange(801)
-    strain = 0.012 + 0.002 * np.sin(2.0 * math.pi * time / 4.0) * np.clip(time / 8.0, 0.0, 1.0)
+    time = 0.05 * np.arange(321)
+    strain = 0.012 + 0.002 * np.sin(2.0 * math.pi * time / 4.0) * np.clip(time / 4.0, 0.0, 1.0)
     history = run(law(), strain, 0.05, "tr_bdf2")
-    late = slice(400, 801)
+    late = slice(160, 321)
     loop = float(np.trapezoid(history.tension[late, 1], LENGTH * strain[late]))
     assert loop > 0.0
     assert np.all(history.tension[:, 1] <= HIGHEST)
     swing = np.ptp(history.tension[late, 1])
-    assert loop / 5.0 < math.pi / 4.0 * swing * 0.004 * LENGTH
+    assert loop / 2.0 < math.pi / 4.0 * swing * 0.004 * LENGTH
 
 
 @pytest.mark.parametrize(

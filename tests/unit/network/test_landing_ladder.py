@@ -26,7 +26,7 @@ structure:
   lines:
     mooring: {start: anchor, end: buoy, type: chain, length: 30 m, segments: SEGMENTS}
 analyses: [statics, dynamic]
-settings: {start: rest_in_current, duration: 60 s, skip: 20 s, mesh_check: 'CHECK'}
+settings: {start: rest_in_current, duration: 45 s, skip: 20 s, mesh_check: 'CHECK'}
 """
 
 

@@ -1,6 +1,7 @@
 """Memory functions against exact pairs, against the rectangle reference, and against causality."""
 
 import math
+from functools import cache
 
 import numpy as np
 import pytest
@@ -60,7 +61,7 @@ def test_power_tails_are_sine_and_cosine_integrals():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", [*range(2), *(pytest.param(s, marks=pytest.mark.slow) for s in range(2, 4))])
+@pytest.mark.parametrize("seed", range(2))
 def test_exact_pair(seed):
     # K = exp(-a t)(cos b t + a/b sin b t) has K'(0) = 0 and a rational transform, known with its Hilbert partner
     rng = np.random.default_rng(seed)
@@ -87,7 +88,7 @@ def test_exact_pair(seed):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", [*range(2), *(pytest.param(s, marks=pytest.mark.slow) for s in range(2, 5))])
+@pytest.mark.parametrize("seed", range(3))
 def test_rectangles_obey_causality_with_the_recommended_frequencies(seed):
     water, beam, _, centre, solution = random_rectangle(seed)
     time = np.linspace(0.0, 40.0 * math.sqrt(max(water.depth, beam) / G), 500)
@@ -117,14 +118,11 @@ def test_rectangles_obey_causality_with_the_recommended_frequencies(seed):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    "accuracies", [(1e-5, 1e-3, 1e-2), pytest.param((1e-6, 1e-4, 1e-3, 1e-2), marks=pytest.mark.slow)]
-)
-def test_recommended_frequencies_are_as_accurate_as_they_say(accuracies):
+def test_recommended_frequencies_are_as_accurate_as_they_say():
     water, beam, draught, centre = Water(7.0, 1000.0, G), 5.0, 1.6, -0.4
     time = np.linspace(0.0, 30.0, 400)
     kernels = []
-    for accuracy in accuracies:
+    for accuracy in (1e-5, 1e-4, 1e-3, 1e-2):
         plan = recommend_frequencies(water, breadth=beam, wall_height=draught, accuracy=accuracy)
         s = solve_rectangle(beam, draught, water, plan.omega, centre=(0.0, centre))
         tails = wall_sided_tails(water, centre)
@@ -219,23 +217,21 @@ def test_bad_plan_input_is_named():
         recommend_frequencies(water, breadth=1.0, wall_height=1.0, accuracy=0.5)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    "time",
-    [
-        np.arange(0.0, 30.0, 0.5),
-        np.arange(0.0, 60.0, 5.0),
-        [0.0, 0.4],
-        pytest.param([0.0, 1000.0], marks=pytest.mark.slow),
-    ],
-)
-def test_identities_are_of_the_water_and_not_of_the_instants_of_the_output(time):
-    """Fine output holds them to 6e-6 and 3e-5; few instants of the same functions are as right."""
+@cache
+def box():
+    """Return frequencies of a box and what is found at them."""
     water = Water(5.0, 1025.0, G)
     plan = recommend_frequencies(water, breadth=4.0, wall_height=1.0)
-    found = solve_rectangle(4.0, 1.0, water, plan.omega, centre=(0.0, 0.0))
+    return plan.omega, solve_rectangle(4.0, 1.0, water, plan.omega, centre=(0.0, 0.0))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("time", [np.arange(0.0, 30.0, 0.5), np.arange(0.0, 60.0, 5.0), [0.0, 0.4], [0.0, 1000.0]])
+def test_identities_are_of_the_water_and_not_of_the_instants_of_the_output(time):
+    """Fine output holds them to 6e-6 and 3e-5; few instants of the same functions are as right."""
+    omega, found = box()
     coarse = memory_functions(
-        plan.omega,
+        omega,
         found.radiation_damping,
         found.infinite_frequency_added_mass,
         time=time,
@@ -248,11 +244,9 @@ def test_identities_are_of_the_water_and_not_of_the_instants_of_the_output(time)
 
 @pytest.mark.slow
 def test_the_ogilvie_check_still_sees_a_wrong_added_mass_on_coarse_output():
-    water = Water(5.0, 1025.0, G)
-    plan = recommend_frequencies(water, breadth=4.0, wall_height=1.0)
-    found = solve_rectangle(4.0, 1.0, water, plan.omega, centre=(0.0, 0.0))
+    omega, found = box()
     wrong = memory_functions(
-        plan.omega,
+        omega,
         found.radiation_damping,
         1.05 * found.infinite_frequency_added_mass,
         time=np.arange(0.0, 60.0, 5.0),

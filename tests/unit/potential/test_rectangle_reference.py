@@ -59,7 +59,7 @@ def matched_modes(beam, draught, water, omega, heading, modes):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", range(2))
 @pytest.mark.parametrize("oblique", [False, True])
 def test_ordinary_matched_eigenfunctions_tend_to_the_reference(seed, oblique):
     rng = np.random.default_rng([seed, oblique])
@@ -80,7 +80,7 @@ def test_ordinary_matched_eigenfunctions_tend_to_the_reference(seed, oblique):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("seed", range(4))
 def test_identities_of_random_rectangles(seed):
     rng = np.random.default_rng(seed)
     beam, draught, water = random_case(rng)
@@ -96,8 +96,8 @@ def test_identities_of_random_rectangles(seed):
     assert np.all(np.linalg.eigvalsh(solution.radiation_damping) > -1e-9 * np.abs(solution.radiation_damping).max())
 
 
-@pytest.mark.parametrize("seed", [1, *(pytest.param(s, marks=pytest.mark.slow) for s in (0, 2, 3, 4, 5))])
 @pytest.mark.slow
+@pytest.mark.parametrize("seed", range(3))
 def test_more_functions_change_nothing(seed):
     rng = np.random.default_rng(100 + seed)
     beam, draught, water = random_case(rng)
@@ -148,7 +148,7 @@ def test_long_waves_and_low_frequencies():
 @pytest.mark.slow
 def test_thin_plate_without_gravity_has_the_added_mass_of_the_strip():
     # both sides of a vertical plate under phi = 0, over rho d^2: values of an independent Galerkin calculation, 2/pi
-    table = {0.4: 0.6374, 0.5: 0.6386, 0.6: 0.6411, 0.7: 0.6464, 0.8: 0.6574, 0.9: 0.6837}
+    table = {0.4: 0.6374, 0.7: 0.6464, 0.9: 0.6837}
     for ratio, expected in table.items():
         solution = solve_rectangle(1e-5, ratio, Water(1.0, 1.0, G), 1.0, centre=(0.0, 0.0))
         assert solution.infinite_frequency_added_mass[0, 0] / ratio**2 == pytest.approx(expected, abs=1.1e-4)

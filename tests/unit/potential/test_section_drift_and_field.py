@@ -48,7 +48,6 @@ SECTIONS = {
     "box": (shapes.rectangle(10.0, 4.5).immersed(3.0), 2e-3),
     "heeled box": (shapes.rectangle(10.0, 4.5).immersed(3.0, heel=0.2), 2e-3),
     "half circle": (shapes.circle(3.0).immersed(3.0), 1e-3),
-    "rounded box": (shapes.rounded_rectangle(8.0, 4.0, 1.0).immersed(2.5), 2e-3),
     "submerged circle": (shapes.circle(2.0).immersed(5.0), 1e-3),
     "flared": (shapes.trapezoid(5.0, 9.0, 4.0).immersed(2.5), 5e-3),
     "pi type": (shapes.pi_type(10.0, 3.0, 2.0, 0.5).immersed(4.0), 2e-3),
@@ -57,8 +56,10 @@ SECTIONS = {
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("depth", [10.0, math.inf])
-@pytest.mark.parametrize("name", SECTIONS)
+@pytest.mark.parametrize(
+    ("name", "depth"),
+    [*((name, 10.0) for name in SECTIONS), *((name, math.inf) for name in ("box", "submerged circle", "twin"))],
+)
 def test_pressure_and_momentum_give_the_same_drift(name, depth):
     """Fixed, freely floating and driven at random, over the largest of 1/2 rho g a^2 and the force itself."""
     section, tolerance = SECTIONS[name]

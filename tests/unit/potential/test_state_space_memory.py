@@ -14,7 +14,7 @@ from moyai.potential.memory_plan import recommend_frequencies
 from moyai.potential.multipole_circle import half_immersed_circle
 from moyai.potential.rectangle import solve_rectangle
 from moyai.potential.state_space import fit_memory, fit_state_space
-from moyai.potential.vector_fitting import constrained_least_squares
+from moyai.potential.vector_fitting import LeastSquares
 from moyai.sea.water import Water
 
 G = 9.81
@@ -50,7 +50,7 @@ def rectangle_memory(seed):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-3])
-@pytest.mark.parametrize("seed", [1, *(pytest.param(s, marks=pytest.mark.slow) for s in (0, 2, 3, 4, 5))])
+@pytest.mark.parametrize("seed", [0, 1, 4])  # narrow, wide over a shallow gap, in deep water
 def test_fit_is_accurate_stable_passive_and_right_at_zero_frequency(seed, tolerance):
     memory, _, _ = rectangle_memory(seed)
     states = fit_memory(memory, tolerance=tolerance)
@@ -73,7 +73,7 @@ def test_fit_is_accurate_stable_passive_and_right_at_zero_frequency(seed, tolera
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", [*range(1), *(pytest.param(s, marks=pytest.mark.slow) for s in range(1, 3))])
+@pytest.mark.parametrize("seed", [0, 2])
 def test_three_coupled_modes_with_a_steady_dashpot_of_rank_one(seed):
     rng = np.random.default_rng(seed)
     beam, draught, water = rng.uniform(2.0, 8.0), rng.uniform(0.5, 2.0), Water(5.0, 1000.0, G)
@@ -140,7 +140,7 @@ def test_slow_steady_motion_meets_the_steady_dashpot():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", [1, *(pytest.param(s, marks=pytest.mark.slow) for s in (0, 2, 3))])
+@pytest.mark.parametrize("seed", [0, 2])  # narrow in deep water, wide over a shallow gap
 def test_free_decay_of_coupled_modes_is_that_of_the_frequency_integral(seed):
     memory, mass, stiffness = rectangle_memory(10 + seed)
     infinite = memory.infinite_frequency_added_mass
@@ -249,7 +249,7 @@ def test_least_squares_under_conditions():
     matrix, right = rng.normal(size=(30, 5)), rng.normal(size=30)
     e, f = rng.normal(size=(1, 5)), np.array([0.7])
     g, h = rng.normal(size=(4, 5)), rng.normal(size=4)
-    x = constrained_least_squares(matrix, right, (e, f), (g, h))
+    x = LeastSquares.of(matrix, right, (e, f)).solution((g, h))
     assert np.allclose(e @ x, f) and np.all(g @ x >= h - 1e-9)
     best = np.linalg.norm(matrix @ x - right)
     null = np.linalg.svd(e)[2][1:].T
