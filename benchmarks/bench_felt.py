@@ -1,4 +1,4 @@
-"""What a person waits for: processor seconds of the commands, first run (nothing compiled) and warm.
+"""What a person waits for: processor seconds and elapsed time of the commands, first run (nothing compiled) and warm.
 
     python benchmarks/bench_felt.py
     python benchmarks/bench_felt.py --only pontoon curtain/dynamic --warm --keep folder
@@ -51,24 +51,27 @@ def yardstick() -> float:
     return time.process_time() - begin
 
 
-def processor_seconds(command: list[str], cache: Path) -> tuple[float, float, int]:
-    """Return processor time with children [s], largest memory [MB] and exit code of a command."""
+def timed(command: list[str], cache: Path) -> tuple[float, float, float, int]:
+    """Return processor time with children [s], elapsed time [s], largest memory [MB] and exit code of a command."""
     environment = {"OMP_NUM_THREADS": "1", **os.environ, "NUMBA_CACHE_DIR": str(cache), "MPLBACKEND": "Agg"}
+    begin = time.perf_counter()
     process = subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     _, status, usage = os.wait4(process.pid, 0)
     process.returncode = os.waitstatus_to_exitcode(status)
-    return usage.ru_utime + usage.ru_stime, usage.ru_maxrss * 1024 / MEGABYTE, process.returncode
+    elapsed = time.perf_counter() - begin
+    return usage.ru_utime + usage.ru_stime, elapsed, usage.ru_maxrss * 1024 / MEGABYTE, process.returncode
 
 
 def measured(name: str, command: list[str], cache: Path, state: str) -> dict[str, Any]:
     """Run a command between two yardsticks and return its row."""
     before = yardstick()
-    seconds, memory, code = processor_seconds(command, cache)
+    seconds, elapsed, memory, code = timed(command, cache)
     unit = 0.5 * (before + yardstick())
     return {
         "command": name,
         "state": state,
         "seconds": round(seconds, 2),
+        "elapsed": round(elapsed, 2),
         "ratio": round(seconds / unit, 2),
         "yardstick": round(unit, 3),
         "memory": round(memory),
@@ -106,7 +109,7 @@ def main() -> None:
     if given.against:
         earlier = {(row["command"], row["state"]): row for row in json.loads(given.against.read_text("utf-8"))}
     found = []
-    head = f"{'command':<26}{'state':<7}{'seconds':>9}{'ratio':>8}{'memory':>9}{'page':>7}"
+    head = f"{'command':<26}{'state':<7}{'seconds':>9}{'elapsed':>9}{'ratio':>8}{'memory':>9}{'page':>7}"
     print(head + (f"{'before':>9}{'ratio':>8}{'times':>7}" if earlier else ""), flush=True)
     with tempfile.TemporaryDirectory() as folder:
         states = ["warm"] if given.warm else ["first", "warm"]
@@ -114,7 +117,9 @@ def main() -> None:
         for row in rows(given.only, states, given.keep or Path(folder), cache):
             found.append(row)
             page = "" if row.get("page") is None else f"{row['page']:.1f}"
-            line = f"{row['command']:<26}{row['state']:<7}{row['seconds']:>9.2f}{row['ratio']:>8.2f}"
+            line = (
+                f"{row['command']:<26}{row['state']:<7}{row['seconds']:>9.2f}{row['elapsed']:>9.2f}{row['ratio']:>8.2f}"
+            )
             line += f"{row['memory']:>9.0f}{page:>7}"
             if old := earlier.get((row["command"], row["state"])):
                 line += f"{old['seconds']:>9.2f}{old['ratio']:>8.2f}{old['ratio'] / row['ratio']:>7.2f}"
