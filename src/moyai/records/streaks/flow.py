@@ -149,7 +149,7 @@ def rectangle_map(breadth: float, height: float) -> SectionMap:
 
 
 @njit(cache=True, error_model="numpy")
-def _plane(zeta, scale, series):  # type: ignore[no-untyped-def]
+def _plane(zeta: ComplexArray, scale: float, series: Array) -> ComplexArray:
     """Return the points of the plane; terms of the series that are lost in the rounding are left out."""
     out = np.empty_like(zeta)
     for p in range(zeta.size):
