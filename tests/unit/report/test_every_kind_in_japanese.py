@@ -95,9 +95,7 @@ SHORTER: dict[str, dict[str, Any]] = {
         "settings": {"duration": "8 s", "output_step": "25 ms", "ramp": "2 s", "skip": "4 s"},
         **{f"structure.lines.{side} {hand}.segments": 8 for side in ("seaward", "lee") for hand in ("left", "right")},
     },
-    "network/net_in_current": {
-        "settings.duration": "12 s", "structure.nets.net.rows": 8, "structure.nets.net.columns": 8,
-    },
+    "network/net_in_current": {"settings.duration": "20 s"},
     "network/skirt": {
         **{f"structure.sheets.skirt.{name}": count for name, count in {"rows": 4, "columns": 7}.items()},
         **{f"structure.lines.rope {n}.end": f"skirt[3,{6 * n - 6}]" for n in (1, 2)},
