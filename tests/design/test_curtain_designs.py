@@ -38,7 +38,7 @@ current: {{speed: {speed} m/s, heading_deg: 0}}
 waves:
   - {{name: daily, kind: regular, height: {daily} m, periods: [{periods}], heading_deg: 0}}
   - {{name: storm, kind: jonswap, significant_height: {storm} m, significant_period: {period} s, peak_enhancement: 3.3,
-     heading_deg: 0, duration: 8 min, seed: 1}}
+     heading_deg: 0, duration: 20 min, seed: 1}}
 structure:
   kind: curtain
   span: {span} m
