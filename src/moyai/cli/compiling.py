@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import subprocess
 import time
 from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
-from threading import Thread
 from typing import Annotated, Any
 
 import typer
@@ -29,7 +27,7 @@ def compile_command(
     written, or in the folder that NUMBA_CACHE_DIR names.
     """
     with guard(False):
-        from moyai.core.compile_ahead import further_processes, listed_kernels, parts_of, started_process
+        from moyai.core.compile_ahead import SharedList, further_processes
         from moyai.core.errors import InputError
         from moyai.core.kinds import structure_kinds
 
@@ -41,34 +39,22 @@ def compile_command(
             _record((kinds or [""])[0], record)
             return
         chosen = kinds or list(known)
-        kernels = listed_kernels(*chosen)
-        count = processes if processes is not None else further_processes() + 1
+        shared = SharedList(*chosen)
+        whole = sum(kernel.seconds for kernel in shared.kernels)
         begin = time.perf_counter()
-        running = [started_process(place, count, chosen, subprocess.PIPE) for place in range(count)]
-        own = [sum(kernel.seconds for kernel in part) for part in parts_of(kernels, count)]
-        done = [0.0] * count
-
-        def listen(place: int) -> None:
-            for line in running[place].stdout or ():
-                with suppress(ValueError):
-                    done[place] += float(line)
-
-        listeners = [Thread(target=listen, args=(place,), daemon=True) for place in range(count)]
         try:
-            for thread in listeners:
-                thread.start()
+            shared.start(processes if processes is not None else further_processes() + 1)
             with progress_bars(quiet) as progress:
-                while any(process.poll() is None for process in running):
+                while None in (codes := shared.codes):
                     time.sleep(0.2)
-                    progress("compiling", sum(map(min, done, own)), sum(own))
+                    progress("compiling", shared.seconds_done, whole)
         finally:
-            for process in running:
-                process.kill()
-                process.wait()
-        if any(process.returncode for process in running):
+            shared.stop()
+        if any(codes):
             raise typer.Exit(FAILED)
         if not quiet:
-            tell(f"{len(kernels)} kernels of {', '.join(chosen)} are compiled ({time.perf_counter() - begin:.0f} s)")
+            count, took = len(shared.kernels), time.perf_counter() - begin
+            tell(f"{count} kernels of {', '.join(chosen)} are compiled ({took:.0f} s)")
 
 
 def _record(kind: str, cases: Sequence[Path]) -> None:

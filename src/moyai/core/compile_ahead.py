@@ -2,8 +2,8 @@
 
 A kernel is compiled once on a machine and kept by numba. The lists ``structures/<kind>/kernels.txt`` name the kernels
 that the templates of a structure compile, in the order in which they are done and with the seconds that they took:
-further processes start in the middle and at the end of the list, where the run itself arrives late. A list that is out
-of date costs time, never a number: what it lacks is compiled by the run.
+further processes begin with those that take long and that the run calls late. A list that is out of date costs time,
+never a number: what it lacks is compiled by the run.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ import os
 import re
 import subprocess
 import sys
+import threading
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
@@ -95,16 +96,6 @@ def listed_kernels(*kinds: str) -> tuple[ListedKernel, ...]:
     return tuple(found.values())
 
 
-def parts_of(kernels: Sequence[ListedKernel], count: int) -> list[tuple[ListedKernel, ...]]:
-    """Return the list cut into parts that take about the same time."""
-    total, done = sum(kernel.seconds for kernel in kernels), 0.0
-    parts: list[list[ListedKernel]] = [[] for _ in range(count)]
-    for kernel in kernels:
-        parts[min(int(count * done / total), count - 1) if total > 0.0 else 0].append(kernel)
-        done += kernel.seconds
-    return [tuple(part) for part in parts]
-
-
 def compile_kernel(listed: ListedKernel) -> None:
     """Compile a kernel that the cache does not hold yet."""
     kernel = getattr(import_module(listed.module), listed.name, None)
@@ -128,14 +119,106 @@ def expected_seconds(kind: str) -> float:
     return total / min(further_processes() + 1, EFFECTIVE_PROCESSES)
 
 
-def started_process(place: int, count: int, kinds: Sequence[str], output: int = subprocess.DEVNULL) -> Process:
-    """Start a process that compiles one of ``count`` parts of the lists, and then the parts behind it.
+class SharedList:
+    """Kernels that several processes compile, each kernel in one of them.
 
-    It writes a line for every kernel that is done.
+    Parameters
+    ----------
+    *kinds : str
+        Kinds of structure.
     """
-    command = [sys.executable, "-m", "moyai.core.compile_ahead", str(place), str(count), *kinds]
-    silence, hidden = subprocess.DEVNULL, getattr(subprocess, "CREATE_NO_WINDOW", 0)
-    return subprocess.Popen(command, stdin=silence, stdout=output, stderr=silence, text=True, creationflags=hidden)
+
+    def __init__(self, *kinds: str) -> None:
+        self.kinds, self.kernels = kinds, listed_kernels(*kinds)
+        self._places = {(one.module, one.name, one.signature): place for place, one in enumerate(self.kernels)}
+        #: ``None`` as long as nobody has taken a kernel.
+        self._taken: list[threading.Event | None] = [None] * len(self.kernels)
+        self._lock = threading.Lock()
+        self._processes: list[Process] = []
+
+    def place_of(self, kernel: Any, arguments: Sequence[Any]) -> int | None:
+        """Return the place of a kernel for arguments of given types; ``None`` when the list lacks it."""
+        with suppress(ValueError):
+            function = kernel.py_func
+            return self._places.get((function.__module__, function.__name__, signature_text(arguments)))
+        return None
+
+    def claim(self, place: int) -> None:
+        """Take a kernel for this process; wait until it is done where another process has it."""
+        with self._lock:
+            taken = self._taken[place]
+            if taken is None:
+                self._taken[place] = threading.Event()
+        # with a limit, so that Ctrl-C is heard on every system
+        while taken is not None and self._processes and not taken.wait(0.1):
+            pass
+
+    def start(self, count: int) -> None:
+        """Start processes that compile what nobody has taken."""
+        self._processes += [_started(self.kinds) for _ in range(count)]
+        for process in self._processes:
+            threading.Thread(target=self._feed, args=(process,), daemon=True).start()
+
+    def _feed(self, process: Process) -> None:
+        """Give a process one kernel after the other."""
+        assert process.stdin is not None and process.stdout is not None
+        with suppress(OSError, ValueError):
+            while (place := self._next()) is not None:
+                done = self._taken[place]
+                assert done is not None
+                try:
+                    process.stdin.write(f"{place}\n")
+                    process.stdin.flush()
+                    if not process.stdout.readline():
+                        return
+                finally:
+                    done.set()
+            process.stdin.close()
+
+    def _next(self) -> int | None:
+        """Return what to compile next: the kernel that takes longest, of those that the run does not call soon.
+
+        What it calls soon it compiles itself: to wait for it takes as long.
+        """
+        with self._lock:
+            before, best, last = 0.0, None, None
+            for place, kernel in enumerate(self.kernels):
+                if self._taken[place] is None:
+                    if before >= 0.5 * kernel.seconds and (best is None or kernel.seconds > self.kernels[best].seconds):
+                        best = place
+                    before, last = before + kernel.seconds, place
+            found = last if best is None else best
+            if found is not None:
+                self._taken[found] = threading.Event()
+            return found
+
+    @property
+    def seconds_done(self) -> float:
+        """Seconds that the kernels that other processes have done took where the list was written."""
+        pairs = zip(self.kernels, self._taken, strict=True)
+        return sum(kernel.seconds for kernel, taken in pairs if taken is not None and taken.is_set())
+
+    @property
+    def codes(self) -> list[int | None]:
+        """Codes of the processes, ``None`` while they go on."""
+        return [process.poll() for process in self._processes]
+
+    def stop(self) -> None:
+        """End the processes."""
+        for process in self._processes:
+            process.kill()
+            process.wait()
+        self._processes.clear()
+
+
+def _started(kinds: Sequence[str]) -> Process:
+    """Start a process that compiles the kernels whose places in the list come in, and writes each back when done."""
+    command = [sys.executable, "-m", "moyai.core.compile_ahead", *kinds]
+    hidden = getattr(subprocess, "CREATE_NO_WINDOW", 0)
+    pipe = subprocess.PIPE
+    return subprocess.Popen(
+        command, stdin=pipe, stdout=pipe, stderr=subprocess.DEVNULL, text=True, creationflags=hidden
+    )
 
 
 @contextmanager
@@ -143,36 +226,40 @@ def compiling_ahead(kind: str) -> Iterator[None]:
     """Start further processes at the first kernel of the list that has to be compiled; end them with the block."""
     from numba.core import event
 
-    processes: list[Process] = []
+    from moyai.core.compiled import before_compiling
+
     count = further_processes() if sys.executable else 0
-    names = {(listed.module, listed.name) for listed in listed_kernels(kind)}
-    open_ones = [True]
+    shared = SharedList(kind)
+    started: list[bool] = []
+
+    def claim(kernel: Any, arguments: Sequence[Any]) -> None:
+        if started and (place := shared.place_of(kernel, arguments)) is not None:
+            shared.claim(place)
 
     class First(event.Listener):  # type: ignore[misc]
         def on_start(self, event: Any) -> None:
-            function = event.data["dispatcher"].py_func
-            if open_ones and (function.__module__, function.__name__) in names:
-                open_ones.clear()
-                processes.extend(started_process(place, count + 1, [kind]) for place in range(1, count + 1))
+            if started or not count:
+                return
+            place = shared.place_of(event.data["dispatcher"], event.data["args"])
+            if place is not None:
+                started.append(True)
+                shared.claim(place)
+                shared.start(count)
 
         def on_end(self, event: Any) -> None:
             pass
 
-    with event.install_listener("numba:compile", First()):
+    with event.install_listener("numba:compile", First()), before_compiling(claim):
         try:
             yield
         finally:
-            for process in processes:
-                process.kill()
-                process.wait()
+            shared.stop()
 
 
 if __name__ == "__main__":
     collect_rarely()
-    place, count, *kinds = sys.argv[1:]
-    lists = parts_of(listed_kernels(*kinds), int(count))
-    # who is done early goes on with the parts behind his own
-    for kernel in (kernel for part in lists[int(place) :] for kernel in part):
-        compile_kernel(kernel)
-        sys.stdout.write(f"{kernel.seconds}\n")
+    kernels = listed_kernels(*sys.argv[1:])
+    for line in sys.stdin:
+        compile_kernel(kernels[int(line)])
+        sys.stdout.write(line)
         sys.stdout.flush()

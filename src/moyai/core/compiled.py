@@ -104,7 +104,21 @@ class _Part(JITCodeLibrary):  # type: ignore[misc]
         self._finalized = True
 
 
-class _Kernel(CPUDispatcher):  # type: ignore[misc]
+#: Called with kernel and types of the arguments before a kernel is compiled or taken from the cache.
+_BEFORE: list[Callable[[Any, Sequence[Any]], None]] = []
+
+
+class _Whole(CPUDispatcher):  # type: ignore[misc]
+    """A kernel as numba compiles it."""
+
+    def compile(self, sig: Any) -> Any:
+        """Compile for arguments of given types or take from the cache; see numba's method."""
+        for call in _BEFORE:
+            call(self, sigutils.normalize_signature(sig)[0])
+        return super().compile(sig)
+
+
+class _Kernel(_Whole):
     """A kernel that others take in as a part, and Python calls in a form of its own."""
 
     def __init__(self, *arguments: Any, **options: Any) -> None:
@@ -166,13 +180,23 @@ def njit(*, pointer: bool = False, **options: Any) -> Callable[[Callable[..., An
     def compiled(function: Callable[..., Any]) -> Any:
         if numba.config.DISABLE_JIT:
             return function
-        kind = _Kernel if _KNOWN else CPUDispatcher
+        kind = _Kernel if _KNOWN else _Whole
         kernel = kind(py_func=function, targetoptions={"nopython": True, "boundscheck": None, **options})
         if cached:
             kernel._cache = _Cache(function)
         return kernel
 
     return compiled
+
+
+@contextmanager
+def before_compiling(call: Callable[[Any, Sequence[Any]], None]) -> Iterator[None]:
+    """Call with kernel and types of its arguments before it is compiled or taken from the cache."""
+    _BEFORE.append(call)
+    try:
+        yield
+    finally:
+        _BEFORE.remove(call)
 
 
 @contextmanager

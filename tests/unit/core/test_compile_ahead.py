@@ -1,5 +1,6 @@
 """Lists of kernels: they come back as types, name what exists, and hold what a first run calls."""
 
+import os
 import subprocess
 import sys
 from importlib import import_module
@@ -9,7 +10,8 @@ import numpy as np
 import pytest
 from numba import typeof, types
 
-from moyai.core.compile_ahead import ListedKernel, listed_kernels, parts_of, signature_text, signature_types
+from moyai.core import compile_ahead
+from moyai.core.compile_ahead import ListedKernel, SharedList, listed_kernels, signature_text, signature_types
 from moyai.core.kinds import structure_kind
 
 KINDS = ("breakwater", "curtain", "cage", "network", "member")
@@ -36,6 +38,20 @@ for module in [m for name, m in sys.modules.items() if name.startswith("moyai.")
                     print(module.__name__, name, signature_text(arguments))
                 except ValueError:
                     pass
+"""
+
+
+# A run that calls all kernels of a list; prints what it compiled itself
+SHARED = """
+from moyai.core.compile_ahead import compile_kernel, compiling_ahead, listed_kernels
+with compiling_ahead("member"):
+    for kernel in listed_kernels("member"):
+        compile_kernel(kernel)
+from importlib import import_module
+for listed in listed_kernels("member"):
+    kernel = getattr(import_module(listed.module), listed.name)
+    if kernel.stats.cache_misses:
+        print(listed.name)
 """
 
 
@@ -69,13 +85,47 @@ def test_a_kernel_of_two_kinds_is_compiled_once() -> None:
     assert len({(one.module, one.name, one.signature) for one in both}) == len(both)
 
 
-def test_parts_share_the_time() -> None:
-    kernels = tuple(ListedKernel(1.0 + 0.1 * number, "m", str(number), "()") for number in range(40))
-    parts = parts_of(kernels, 3)
-    assert tuple(kernel for part in parts for kernel in part) == kernels
-    whole = sum(kernel.seconds for kernel in kernels)
-    for part in parts:
-        assert sum(kernel.seconds for kernel in part) == pytest.approx(whole / 3.0, abs=5.0)
+def shared_list(monkeypatch: pytest.MonkeyPatch, *seconds: float) -> SharedList:
+    kernels = tuple(ListedKernel(took, "m", str(number), "()") for number, took in enumerate(seconds))
+    monkeypatch.setattr(compile_ahead, "listed_kernels", lambda *kinds: kernels)
+    return SharedList("network")
+
+
+def test_a_process_begins_with_what_takes_long_and_is_called_late(monkeypatch: pytest.MonkeyPatch) -> None:
+    shared = shared_list(monkeypatch, 9.0, 1.0, 4.0, 12.0, 2.0)
+    shared.claim(0)  # the run is at it
+    # 12 s with 5 s before it: the run would wait for longer than it is at its own; 4 s have 1 s before them
+    assert [shared._next() for _ in range(5)] == [4, 3, 2, 1, None]
+
+
+def test_the_largest_is_taken_first_where_the_run_is_long_in_coming(monkeypatch: pytest.MonkeyPatch) -> None:
+    shared = shared_list(monkeypatch, 9.0, 1.0, 4.0, 12.0, 2.0)
+    assert shared._next() == 3
+    assert shared._next() == 2
+    shared.claim(4)
+    assert [shared._next() for _ in range(3)] == [1, 0, None]
+
+
+# In place of the process that compiles: answers for each place, or ends without an answer
+ANSWERS = "import sys\nfor line in sys.stdin:\n    sys.stdout.write(line)\n    sys.stdout.flush()\n"
+ENDS = "import sys\nsys.stdin.readline()\n"
+
+
+@pytest.mark.parametrize(("script", "done"), [(ANSWERS, 28.0), (ENDS, 24.0)])
+def test_the_run_waits_for_what_another_process_compiles(
+    script: str, done: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shared = shared_list(monkeypatch, 9.0, 1.0, 4.0, 12.0, 2.0)
+    pipe = subprocess.PIPE
+    process = subprocess.Popen([sys.executable, "-c", script], stdin=pipe, stdout=pipe, text=True)
+    monkeypatch.setattr(compile_ahead, "_started", lambda kinds: process)
+    shared.start(1)
+    process.wait(timeout=60)
+    for place in range(5):
+        shared.claim(place)
+    shared.stop()
+    assert shared.seconds_done <= done
+    assert (shared.seconds_done == 28.0) == (script == ANSWERS)
 
 
 @pytest.mark.slow
@@ -102,15 +152,12 @@ def test_an_unknown_kind_is_refused_with_the_kinds_that_exist() -> None:
 
 
 @pytest.mark.slow
-def test_further_processes_compile_what_a_first_run_needs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The last part of the list lands in the cache of the run, which goes on by itself."""
-    from moyai.core import compile_ahead
-
-    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
+def test_run_and_further_process_share_the_kernels(tmp_path: Path) -> None:
+    """Every kernel is compiled once, by one of both, and lands in the cache."""
+    environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path), "MOYAI_COMPILE_PROCESSES": "1"}
+    answer = subprocess.run([sys.executable, "-c", SHARED], capture_output=True, text=True, check=True, env=environment)
+    own = answer.stdout.split()
     kernels = listed_kernels("member")
-    last = compile_ahead.parts_of(kernels, len(kernels))[-1][-1]
-    process = compile_ahead.started_process(len(kernels) - 1, len(kernels), ["member"], subprocess.PIPE)
-    lines = process.communicate(timeout=120)[0].splitlines()
-    assert process.returncode == 0
-    assert float(lines[-1]) == last.seconds
-    assert list(tmp_path.rglob(f"*{last.name}*.nbi"))
+    assert 0 < len(own) < len(kernels)
+    for kernel in kernels:
+        assert len(list(tmp_path.rglob(f"*.{kernel.name}-*.nbi"))) == 1
