@@ -148,7 +148,9 @@ class SharedList:
         with self._lock:
             taken = self._taken[place]
             if taken is None:
-                self._taken[place] = threading.Event()
+                # threads of this process wait for each other by numba's own lock
+                self._taken[place] = own = threading.Event()
+                own.set()
         # with a limit, so that Ctrl-C is heard on every system
         while taken is not None and self._processes and not taken.wait(0.1):
             pass
@@ -194,7 +196,7 @@ class SharedList:
 
     @property
     def seconds_done(self) -> float:
-        """Seconds that the kernels that other processes have done took where the list was written."""
+        """Seconds that the kernels that are done, or that this process took, need where the list was written."""
         pairs = zip(self.kernels, self._taken, strict=True)
         return sum(kernel.seconds for kernel, taken in pairs if taken is not None and taken.is_set())
 

@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+import threading
 from importlib import import_module
 from pathlib import Path
 
@@ -106,12 +107,22 @@ def test_the_largest_is_taken_first_where_the_run_is_long_in_coming(monkeypatch:
     assert [shared._next() for _ in range(3)] == [1, 0, None]
 
 
+def test_threads_of_the_run_do_not_wait_for_what_it_took(monkeypatch: pytest.MonkeyPatch) -> None:
+    shared = shared_list(monkeypatch, 9.0, 1.0)
+    monkeypatch.setattr(shared, "_processes", [object()])
+    shared.claim(0)
+    second = threading.Thread(target=shared.claim, args=(0,), daemon=True)
+    second.start()
+    second.join(timeout=10.0)
+    assert not second.is_alive()
+
+
 # In place of the process that compiles: answers for each place, or ends without an answer
 ANSWERS = "import sys\nfor line in sys.stdin:\n    sys.stdout.write(line)\n    sys.stdout.flush()\n"
 ENDS = "import sys\nsys.stdin.readline()\n"
 
 
-@pytest.mark.parametrize(("script", "done"), [(ANSWERS, 28.0), (ENDS, 24.0)])
+@pytest.mark.parametrize(("script", "done"), [(ANSWERS, 28.0), (ENDS, 12.0)])
 def test_the_run_waits_for_what_another_process_compiles(
     script: str, done: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -121,11 +132,11 @@ def test_the_run_waits_for_what_another_process_compiles(
     monkeypatch.setattr(compile_ahead, "_started", lambda kinds: process)
     shared.start(1)
     process.wait(timeout=60)
+    shared.claim(3)  # the process has it, or had it
+    assert shared.seconds_done == done
     for place in range(5):
         shared.claim(place)
     shared.stop()
-    assert shared.seconds_done <= done
-    assert (shared.seconds_done == 28.0) == (script == ANSWERS)
 
 
 @pytest.mark.slow
