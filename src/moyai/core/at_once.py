@@ -141,3 +141,29 @@ def each_at_once(
 
     at_once(one, len(items), progress)
     return [found[number] for number in range(len(items))]
+
+
+def each_counted(
+    words: str, work: Callable[[Item, Progress], Found], items: Sequence[Item], progress: Progress = silent
+) -> list[Found]:
+    """Return what ``work`` gives for every item, see :func:`each_at_once`, and report how many are done.
+
+    Parameters
+    ----------
+    words : str
+        What is counted.
+    work : callable
+        Takes an item and its listener.
+    items : sequence
+    progress : Progress
+    """
+    done, guard = iter(range(1, len(items) + 1)), threading.Lock()
+
+    def one(item: Item, heard: Progress) -> Found:
+        found = work(item, heard)
+        with guard:
+            heard(words, next(done), len(items))
+        return found
+
+    progress(words, 0, len(items))
+    return each_at_once(one, items, progress)

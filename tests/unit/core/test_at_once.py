@@ -13,7 +13,7 @@ import pytest
 from small_results import CURTAIN, PONTOON
 
 import moyai
-from moyai.core.at_once import at_once, each_at_once, threads
+from moyai.core.at_once import at_once, each_at_once, each_counted, threads
 from moyai.core.collected import Collected
 from moyai.core.errors import ConvergenceError
 from moyai.core.progress import Progress, silent
@@ -158,3 +158,12 @@ def assert_same(monkeypatch: pytest.MonkeyPatch, text: str) -> Any:
             np.testing.assert_array_equal(values.values, three.tree[node.path][name].values)
     assert (one.notices, one.checks, one.headlines) == (three.notices, three.checks, three.headlines)
     return three
+
+
+@pytest.mark.parametrize("cores", ["1", "3"])
+def test_what_is_done_is_counted(cores: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("MOYAI_THREADS", cores)
+    heard: list[tuple[str, float, float]] = []
+    found = each_counted("parts", lambda item, _: 2 * item, [3, 1, 2], lambda *report: heard.append(report))
+    assert found == [6, 2, 4]
+    assert heard == [("parts", number, 3) for number in range(4)]

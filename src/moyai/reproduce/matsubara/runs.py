@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from moyai.core.arrays import Array
+from moyai.core.at_once import each_counted
 from moyai.core.progress import Progress, silent
 from moyai.core.vocabulary import LINE_TENSION_PEAK_SINCE_ROW
 from moyai.morison.net_laws.matsubara import Matsubara
@@ -135,11 +137,7 @@ def run(quick: bool = False, progress: Progress = silent) -> MatsubaraRuns:
                       RigidCageWaves("heights", heights, (TAUT_PERIOD,))),
             shortened(slack, RigidCageWaves("periods", (HEIGHT,), (1.1, 1.2, 1.5))),
         ]  # fmt: skip
-    results = []
-    for index, plan in enumerate(plans):
-        progress("moorings of the paper", index, len(plans))
-        results.append(run_problem("cage", plan, progress))
-    progress("moorings of the paper", len(plans), len(plans))
+    results = each_counted("moorings of the paper", partial(run_problem, "cage"), plans, progress)
     return MatsubaraRuns(
         read(results[0], "periods"), read(results[1], "periods"), read(results[0], "heights"), taut,
         (results[0], results[1]), quick,

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from moyai.core.arrays import Array
+from moyai.core.at_once import each_counted
 from moyai.core.progress import Progress, silent
 from moyai.reproduce.inputs import problem_of, run_problem
 from moyai.structures.breakwater.model import BreakwaterProblem, Damping, MooringLine, RegularSea
@@ -108,12 +110,8 @@ def run(quick: bool = False, progress: Progress = silent) -> NakamuraRuns:
         "drifted_time": variant(case, periods, time=True),
         "moving_time": variant(case, QUICK_MOVING if quick else periods, time=True, moving=True),
     }
-    found: dict[str, Result] = {}
-    for name, plan in plans.items():
-        progress("runs of the paper", len(found), len(plans))
-        found[name] = run_problem("breakwater", plan, progress)
-    progress("runs of the paper", len(plans), len(plans))
-    return NakamuraRuns(**found, case=case, quick=quick)
+    found = each_counted("runs of the paper", partial(run_problem, "breakwater"), tuple(plans.values()), progress)
+    return NakamuraRuns(**dict(zip(plans, found, strict=True)), case=case, quick=quick)
 
 
 def values(result: Result, domain: str, name: str, dof: str = "") -> Array:

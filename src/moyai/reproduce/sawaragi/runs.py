@@ -12,6 +12,7 @@ import numpy as np
 from scipy.signal import find_peaks
 
 from moyai.core.arrays import Array
+from moyai.core.at_once import each_counted
 from moyai.core.progress import Progress, silent
 from moyai.flexible.flow import Flow
 from moyai.potential.modes import Modes, Rigid
@@ -256,8 +257,5 @@ def run(quick: bool = False, progress: Progress = silent) -> SawaragiRuns:
     case: CurtainProblem = problem_of("sawaragi", "flume")
     runs = SawaragiRuns(span_of(case), case, 21 if quick else 45, (24, 4) if quick else (24, 8))
     steps = ("line", "steel", "whole_line", "over_frequency", "over_curvature")
-    for index, name in enumerate(steps):
-        progress("parts of the paper", index, len(steps))
-        getattr(runs, name)
-    progress("parts of the paper", len(steps), len(steps))
+    each_counted("parts of the paper", lambda name, _: getattr(runs, name), steps, progress)
     return runs

@@ -6,11 +6,13 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import islice
 from typing import Any
 
 import numpy as np
 
 from moyai.core.arrays import Array
+from moyai.core.at_once import each_counted
 from moyai.core.options import checks_words
 from moyai.core.progress import Progress, silent
 from moyai.records.survey.tension_blocks import Blocks
@@ -144,28 +146,17 @@ def run(quick: bool = False, progress: Progress = silent) -> TabataRuns:
     assert case.settings.dynamic is not None
     case = _meshed(case, replace(case.settings.dynamic.mesh, along=8, down=3))
     seeds = {"890 kN": range(1, 2 if quick else 6), "890 kN/m": range(1, 2)}
-    changes = [] if quick else list(_changes(case))
-    done, steps = 0, sum(map(len, seeds.values())) + len(changes) + 2
-    progress("parts of the paper", done, steps)
     data = campaign(SEED, 40 if quick else 120)
     new, conventional = process(data), process(data, conventional=True)
-    typhoon = {}
-    for name, stiffness in ROPES.items():
-        found = []
-        for seed in seeds[name]:
-            done += 1
-            progress("parts of the paper", done, steps)
-            found.append(_in_typhoon(_with_rope(case, stiffness), seed, progress))
-        typhoon[name] = tuple(found)
-    guessed = {}
-    for name, changed in changes:
-        done += 1
-        progress("parts of the paper", done, steps)
-        guessed[name] = _in_typhoon(_with_rope(changed, ROPES["890 kN"]), 1, progress)
+    changes = {} if quick else dict(_changes(case))
+    ropes = [(_with_rope(case, ROPES[name]), seed) for name in ROPES for seed in seeds[name]]
+    changed = [(_with_rope(one, ROPES["890 kN"]), 1) for one in changes.values()]
+    pulls = each_counted("runs of the paper", lambda one, heard: _in_typhoon(*one, heard), [*ropes, *changed], progress)
+    found = iter(pulls)
+    typhoon = {name: tuple(islice(found, len(seeds[name]))) for name in ROPES}
+    guessed = dict(zip(changes, found, strict=True))
     runs = TabataRuns(data, new, conventional, typhoon, guessed, case)
-    progress("parts of the paper", steps - 1, steps)
     _ = runs.snaps
-    progress("parts of the paper", steps, steps)
     return runs
 
 
