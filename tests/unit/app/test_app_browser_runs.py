@@ -227,7 +227,9 @@ def test_a_paper_is_computed_again(address: str) -> None:
         page.evaluate("location.hash = '#/'")
         papers = "[...document.querySelectorAll('section')].find((one) => one.textContent.startsWith('Papers'))"
         until(page, papers)
-        page.evaluate(f"[...{papers}.querySelectorAll('.card')].find((one) => one.textContent.includes('Arai')).click()")
+        # the one that takes least
+        cards = f"[...{papers}.querySelectorAll('.card')]"
+        page.evaluate(f"{cards}.find((one) => one.textContent.includes('Arai')).click()")
         until(page, "document.querySelector('.job')?.dataset.state === 'done'", 400.0)
         assert page.evaluate("document.querySelector('.job').dataset.state") == "done"
         page.evaluate(REPORT)
