@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextvars import copy_context
 from queue import Empty, SimpleQueue
 from typing import TypeVar
@@ -141,6 +141,31 @@ def each_at_once(
 
     at_once(one, len(items), progress)
     return [found[number] for number in range(len(items))]
+
+
+def one_after_the_other(
+    work: Callable[[Item, Progress], Found], items: Sequence[Item], words: str, progress: Progress = silent
+) -> Iterator[Found]:
+    """Yield what ``work`` gives for every item, in their order, so many items at a time as there are cores.
+
+    A run that is stopped keeps what was yielded before.
+
+    Parameters
+    ----------
+    work : callable
+        Takes an item and its listener.
+    items : sequence
+    words : str
+        What is counted.
+    progress : Progress
+        Called with the number of items that are done.
+    """
+    size = threads()
+    progress(words, 0, len(items))
+    for first in range(0, len(items), size):
+        for number, found in enumerate(each_at_once(work, items[first : first + size], progress), first + 1):
+            yield found
+            progress(words, number, len(items))
 
 
 def each_counted(

@@ -13,7 +13,7 @@ import pytest
 from small_results import CURTAIN, PONTOON
 
 import moyai
-from moyai.core.at_once import at_once, each_at_once, each_counted, threads
+from moyai.core.at_once import at_once, each_at_once, each_counted, one_after_the_other, threads
 from moyai.core.collected import Collected
 from moyai.core.errors import ConvergenceError
 from moyai.core.progress import Progress, silent
@@ -167,3 +167,18 @@ def test_what_is_done_is_counted(cores: str, monkeypatch: pytest.MonkeyPatch) ->
     found = each_counted("parts", lambda item, _: 2 * item, [3, 1, 2], lambda *report: heard.append(report))
     assert found == [6, 2, 4]
     assert heard == [("parts", number, 3) for number in range(4)]
+
+
+@pytest.mark.parametrize("cores", ["1", "2"])
+def test_what_was_done_before_a_stop_is_kept(cores: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("MOYAI_THREADS", cores)
+
+    def listen(what: str, done: float, total: float) -> None:
+        if done == 3:
+            raise KeyboardInterrupt
+
+    found = []
+    with pytest.raises(KeyboardInterrupt):
+        for value in one_after_the_other(lambda item, _: -item, range(7), "parts", listen):
+            found.append(value)
+    assert found == [0, -1, -2]

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from moyai.core.at_once import one_after_the_other
 from moyai.core.collected import Collected, most_severe
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
@@ -122,9 +123,8 @@ def _sea_steps(
     waves = waves_of(problem, sea, water)
     runs: list[tuple[MemberWave, WaveForces]] = []
     reported: list[Notice] = []
-    for number, wave in enumerate(waves):
-        progress(f"forces, {sea.name}", number, len(waves))
-        found = march(problem, member, wave)
+    forces = one_after_the_other(lambda wave, _: march(problem, member, wave), waves, f"forces, {sea.name}", progress)
+    for number, (wave, found) in enumerate(zip(waves, forces, strict=True)):
         runs.append((wave, found))
         collected.groups[f"{root}/time/{sea.name}/wave {number + 1}"] = time_dataset(wave, found)
         collected.groups[f"{root}/waves/{sea.name}"] = sea_dataset(problem, member, runs)
@@ -134,7 +134,6 @@ def _sea_steps(
     collected.notices.extend(
         replace(notice, message=f"{sea.name}: {notice.message}") for notice in most_severe(reported)
     )
-    progress(f"forces, {sea.name}", len(waves), len(waves))
 
 
 def _realisations(
@@ -147,24 +146,24 @@ def _realisations(
     progress: Progress,
 ) -> Iterator[None]:
     """Run the realisations of an irregular sea: largest forces are means, the record nearest to the mean is kept."""
-    count = problem.settings.realisations
     found: list[xr.Dataset] = []
     records: list[xr.Dataset] = []
-    seeds: list[int] = []
     reported: list[Notice] = []
     variances: list[float] = []
-    for number in range(count):
-        progress(f"realisations, {sea.name}", number, count)
-        seed = realisation_seed(sea.seed, number)
+    seeds = [realisation_seed(sea.seed, number) for number in range(problem.settings.realisations)]
+
+    def realisation(seed: int, _: Progress) -> tuple[MemberWave, WaveForces]:
         wave = waves_of(problem, replace(sea, seed=seed), water)[0]
-        forces = march(problem, member, wave)
-        seeds.append(seed)
+        return wave, march(problem, member, wave)
+
+    runs = one_after_the_other(realisation, seeds, f"realisations, {sea.name}", progress)
+    for seed, (wave, forces) in zip(seeds, runs, strict=True):
         found.append(sea_dataset(problem, member, [(wave, forces)]))
         records.append(time_dataset(wave, forces).assign_attrs(seed=seed))
         reported.extend(wave_notices(problem, member, wave, forces))
         variances.append(float(np.var(forces.elevation)))
         # kept after each realisation, so that an interrupted run holds those that ended
-        numbers, kept = gathered(found, seeds)
+        numbers, kept = gathered(found, seeds[: len(found)])
         collected.groups[f"{root}/time/{sea.name}/sea"] = records[kept]
         collected.groups[f"{root}/waves/{sea.name}"] = numbers
         yield
@@ -172,7 +171,6 @@ def _realisations(
     collected.notices.extend(
         replace(notice, message=f"{sea.name}: {notice.message}") for notice in most_severe(reported)
     )
-    progress(f"realisations, {sea.name}", count, count)
 
 
 def _periodicity(name: str, wave: MemberWave, found: WaveForces) -> IdentityCheck:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from moyai.core.arrays import Array
+from moyai.core.at_once import one_after_the_other
 from moyai.core.collected import STOPPED, Collected, most_severe
 from moyai.core.headline import SEAS_LEFT_OUT
 from moyai.core.progress import Progress, silent
@@ -37,7 +38,7 @@ from moyai.structures.cage.rigid.sensitivity import sensitivity_dataset
 from moyai.structures.cage.rigid.setup import at_level, lines_of
 from moyai.structures.cage.rigid.statics import RigidCageEquilibrium, free_floating, rest_with_lines, size_of
 from moyai.structures.cage.rigid.variables import VOCABULARY
-from moyai.structures.cage.rigid.waves import current_along, waves_of
+from moyai.structures.cage.rigid.waves import RigidCageWave, current_along, waves_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -178,9 +179,12 @@ def _sea_steps(
     waves = waves_of(problem, sea, water)
     runs: list[RigidCageRun] = []
     reported: list[Notice] = []
-    for number, wave in enumerate(waves):
-        progress(f"time, {sea.name}", number, len(waves))
-        found = run_wave(problem, lines, rest, water, wave, progress=silent if wave.regular else progress)
+
+    def march(wave: RigidCageWave, heard: Progress) -> RigidCageRun:
+        return run_wave(problem, lines, rest, water, wave, progress=silent if wave.regular else heard)
+
+    marched = one_after_the_other(march, waves, f"time, {sea.name}", progress)
+    for number, (wave, found) in enumerate(zip(waves, marched, strict=True)):
         runs.append(found)
         label = f"wave {number + 1}" if wave.regular else "sea"
         series = time_dataset(problem, found, lines)
@@ -200,7 +204,6 @@ def _sea_steps(
     collected.notices.extend(
         replace(notice, message=f"{sea.name}: {notice.message}") for notice in most_severe(reported)
     )
-    progress(f"time, {sea.name}", len(waves), len(waves))
 
 
 def _sensitivity_steps(
