@@ -124,7 +124,10 @@ def plan_numbers(ratio: float) -> tuple[float, float]:
 
 @pytest.mark.parametrize(
     "name",
-    [pytest.param(name, marks=pytest.mark.slow) if name == "tidal channel" else name for name in FREE],
+    [
+        pytest.param(name, marks=pytest.mark.slow) if name in ("tidal channel", "strong current") else name
+        for name in FREE
+    ],
 )
 def test_depth_of_a_free_toe_is_that_of_the_closed_form(designs, name: str) -> None:
     given, result = designs(name)
@@ -244,6 +247,7 @@ def test_snap_is_of_the_size_of_its_energy(designs, name: str) -> None:
     assert float(group["design_tension"]) < math.sqrt(math.pi**2 / 4.0) * bound
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", EVERY)
 def test_one_number_on_page_table_and_record(designs, name: str) -> None:
     _, result = designs(name)
@@ -509,6 +513,7 @@ def test_what_fails_in_a_weaker_current_fails_in_a_stronger_one(tmp_path):
     assert page(0.6, f"{1.6 * float(row['governing_load']):.0f} N")[1] == "holds"
 
 
+@pytest.mark.slow
 def test_a_held_toe_is_nearest_to_the_bed_at_slack_water(tmp_path):
     """The skirt hangs its whole 5 m in 9 m of water twice a tide, however high the current lifts its toe."""
     for speed in (0.1, 0.3):

@@ -134,6 +134,7 @@ def test_linear_mooring_in_time_is_the_frequency_domain(period: float) -> None:
     assert model.linear_time_error(period) < 4e-3
 
 
+@pytest.mark.slow
 def test_reflection_and_transmission_from_time_domain_motions() -> None:
     hydro, found = model.paper_hydrodynamics(model.period_grid()), model.paper_drift()
     for period in (0.85, 0.90, 0.95, 1.00):

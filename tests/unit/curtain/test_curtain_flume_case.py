@@ -84,6 +84,7 @@ def test_marching_table_shows_order_and_iterations(flume_result):
     assert impact["reverse_iteration_converges"].values[1:].all()
 
 
+@pytest.mark.slow
 def test_snap_runs_from_release_over_the_spike_to_the_plateau(flume_result):
     result, _ = flume_result
     snap = result.tree["SWL/impact/snap"].to_dataset()

@@ -104,6 +104,7 @@ def test_own_row_is_the_limit_of_the_table(stream) -> None:
     assert 0.0 < expected < 2.0
 
 
+@pytest.mark.slow
 def test_rose_has_the_symmetry_of_the_water(stream) -> None:
     """Current along x: mirrored orientation and waves bear the same; waves from behind as from the front."""
     _, _, rose = stream

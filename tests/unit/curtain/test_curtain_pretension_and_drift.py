@@ -178,6 +178,7 @@ def test_a_drift_in_which_the_plate_is_a_bound_is_at_most(tmp_path: Path) -> Non
     assert bounded
 
 
+@pytest.mark.slow
 def test_floats_are_judged_where_no_statics_are_asked_for(tmp_path: Path) -> None:
     heavy = {"pretension": "34 kN", "holding": "200 kN"}
     for analyses, more in (("waves", {"waves": WAVES}), ("impact", {"current": CURRENT.replace("0.3 m/s", "0.6 m/s")})):

@@ -43,6 +43,7 @@ def test_a_bare_switch_before_the_file_leaves_the_file(folder: Path, tmp_path: P
     assert (tmp_path / "report_drawings").is_dir()
 
 
+@pytest.mark.slow
 def test_a_unit_is_no_folder_of_that_name(folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A folder ``m`` beside the results was taken for the file behind a bare ``--dxf``."""
     (tmp_path / "m").mkdir()
