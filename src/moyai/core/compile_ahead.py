@@ -115,8 +115,8 @@ def further_processes() -> int:
 
 def expected_seconds(kind: str) -> float:
     """Return about how long the first run of a structure compiles [s], as on the machine that wrote its list."""
-    total = sum(kernel.seconds for kernel in listed_kernels(kind))
-    return total / min(further_processes() + 1, EFFECTIVE_PROCESSES)
+    seconds = [kernel.seconds for kernel in listed_kernels(kind)]
+    return max(sum(seconds) / min(further_processes() + 1, EFFECTIVE_PROCESSES), *seconds, 0.0)
 
 
 class SharedList:
