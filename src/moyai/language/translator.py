@@ -23,6 +23,7 @@ _SCRIPTS = re.compile(f"{_JAPANESE}[A-Za-z0-9]|[A-Za-z0-9%°]{_JAPANESE}")
 _PARTICLE = re.compile("(?<=[\u3040-\u309f]) (?=\\{)|(?<=\\}) (?=[\u3040-\u309f])")
 _QUALIFIED = re.compile(r"(.*\S) \(([^()]+)\)( \[[^][]*\])?")  # a name, where it is taken, its unit
 _COUNTED = re.compile(r"(\S.*[A-Za-z)]) (-?\d[\d.]*(?: \S+)?)")  # a name and its value
+_PART = re.compile(r"(.*\S) part (\d+)")
 _FORCE = re.compile(r"(?<=\} )[kM]?N(?![A-Za-z])")  # behind a place for its number
 _COUNTER = re.compile(r"\{(\d)\} ?(?:個|本|件|回|枚|基|台|行|列)(?![所分数目])")
 _DIGIT = re.compile(r"\d")
@@ -225,6 +226,12 @@ class Translator:
         known = self._name_with_value(value, several=False) if found[1] and alone else None
         return found if known is None else (known, 0)
 
+    def _quoted(self, name: str) -> str:
+        """Return a name as it is, what the product puts behind it translated: 'mooring part 2'."""
+        match = _PART.fullmatch(name)
+        form = next((one for one in self._by_word.get("part", ()) if one.source == ("", " part ", "")), None)
+        return name if match is None or form is None else form.filled({0: match[1], 1: match[2]})
+
     def _exact(self, text: str) -> str | None:
         for form in (text, text[:1].lower() + text[1:], text[:1].upper() + text[1:]):
             if form in self._whole:
@@ -244,7 +251,9 @@ class Translator:
                 if not all(template.holds(*item) or self._is_name(item[1]) for item in values.items()):
                     continue
                 read = {
-                    number: (value, 0) if number in template.quoted else self._part(value, template.is_separator)
+                    number: (self._quoted(value), 0)
+                    if number in template.quoted
+                    else self._part(value, template.is_separator)
                     for number, value in values.items()
                 }
                 rest = sum(cost for _, cost in read.values())

@@ -154,8 +154,8 @@ def test_a_draft_keeps_place_sections_and_choices(tmp_path: Path) -> None:
     [
         (MEMBER, 80, 0.2),
         (only("network", "statics"), 16, 0.2),
-        (at_one_level(only("curtain", "statics, impact")), 8, 0.2),
-        (at_one_level(only("breakwater", "statics, mooring, frequency")), 10, 0.02),
+        (at_one_level(only("curtain", "statics, impact")), 5, 0.2),
+        (at_one_level(only("breakwater", "statics, mooring, frequency")), 6, 0.02),
     ],
     ids=["member", "network", "curtain", "breakwater"],
 )

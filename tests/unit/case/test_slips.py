@@ -150,7 +150,7 @@ def test_slips_in_designs_that_the_ranges_did_not_see_are_told():
 
 @pytest.mark.slow
 def test_four_of_five_slips_of_a_thousand_are_told():
-    found = [slip for name, text, folder in slips.sources() for slip in slips.slips(name, text, folder)]
+    found = [slip for name, text, folder in slips.sources() for slip in slips.slips(name, text, folder, every=2)]
     print(slips.table(found))
     assert {slip.outcome for slip in found} <= {"stopped", "warned", "silent"}
     for structure in {slip.structure for slip in found}:

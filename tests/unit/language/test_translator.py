@@ -99,3 +99,10 @@ def test_a_name_known_as_a_whole_stands_in_any_place() -> None:
     )
     assert found.text("water depth 15 m") == "水深 15 m"
     assert found.text("at least 15 m") == "15 m 以上"
+
+
+def test_the_part_of_a_line_is_translated_behind_the_name_that_the_user_gave() -> None:
+    messages = {"the tension of '{0}' jumps": "「{0}」の張力が跳ねる", "{0} part {1}": "{0} 部分 {1}"}
+    said = Translator(messages)
+    assert said.text("the tension of 'part of mine part 2' jumps") == "「part of mine 部分 2」の張力が跳ねる"
+    assert said.text("the tension of 'part of mine' jumps") == "「part of mine」の張力が跳ねる"

@@ -52,7 +52,7 @@ COARSE = {"around": 16, "down": 3, "bottom": 3, "rope_length": "14 m"}
 ONE_SPEED = {"current_speeds": ["0.25 m/s"], "periods": 2}
 TYPHOON = {
     "name": "typhoon 9918", "kind": "bretschneider_mitsuyasu", "significant_height": "3.06 m",
-    "significant_period": "6.75 s", "heading_deg": 60, "duration": "10 min",
+    "significant_period": "6.75 s", "heading_deg": 60, "duration": "4 min",
 }  # fmt: skip
 FEW_POINTS = {
     "map.points_across": 5, "map.points_along": 5, "settings.time": {"realisations": 2, "memory_frequencies": 12},
@@ -67,6 +67,7 @@ SHORTER: dict[str, dict[str, Any]] = {
         "settings.waves": {"settled_periods": 2, "analysed_periods": 5, "realisations": 2},
         "settings.limits": {"speeds": ["0.25 m/s", "1.5 m/s"], "highest_speed": "1.5 m/s", "highest_height": "1 m"},
     },
+    "cage": {"structure.mesh": COARSE, "settings.flexible": ONE_SPEED},
     "member": {"waves[1].duration": "4 min"},
     "units": FEW_POINTS | {
         "settings.panel_size": "4 m", "settings.frequencies.count": 4,
@@ -95,6 +96,7 @@ SHORTER: dict[str, dict[str, Any]] = {
         "settings": {"duration": "8 s", "output_step": "25 ms", "ramp": "2 s", "skip": "4 s"},
         **{f"structure.lines.{side} {hand}.segments": 8 for side in ("seaward", "lee") for hand in ("left", "right")},
     },
+    "network/buoy": {"settings.realisations": 3},
     "network/net_in_current": {"settings.duration": "20 s"},
     "network/skirt": {
         **{f"structure.sheets.skirt.{name}": count for name, count in {"rows": 4, "columns": 7}.items()},
@@ -105,7 +107,7 @@ SHORTER: dict[str, dict[str, Any]] = {
     "network/turning_rod": {"settings.duration": "30 s", "structure.lines.rope.segments": 8},
     "tabata/kansai": {
         "waves": [TYPHOON],
-        "settings.waves": {"realisations": 2},
+        "settings.waves": {"realisations": 2}, "settings.limits": {"highest_speed": "1 m/s", "highest_height": "3 m"},
         "settings.dynamic": {"cells_along": 8, "cells_down": 4},
     },
     "sawaragi/flume": {"waves[0].periods": ["2 s"], "settings.dynamic": {"cells_along": 8, "cells_down": 4}},

@@ -216,10 +216,14 @@ def _numbered(collected: _Collected, notices: Sequence[Notice]) -> range:
     return range(first, len(collected.notices))
 
 
+#: Before what limits a model that only stands for comparison.
+_COMPARED = "upright plate, for comparison"
+
+
 def _lowered(notice: Notice) -> Notice:
     if notice.severity != "warning":
         return notice
-    return replace(notice, severity="information", message=f"upright plate, for comparison: {notice.message}")
+    return replace(notice, severity="information", message=f"{_COMPARED}: {notice.message}")
 
 
 def _header(unit: LevelCurtain) -> xr.Dataset:
