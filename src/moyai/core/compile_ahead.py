@@ -13,6 +13,7 @@ import re
 import subprocess
 import sys
 import threading
+import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
@@ -28,6 +29,8 @@ PROCESSES = "MOYAI_COMPILE_PROCESSES"
 MOST_PROCESSES = 3
 #: Processes beyond which the time of all is no shorter.
 EFFECTIVE_PROCESSES = 2
+#: Seconds that a run waits for a kernel of another process, beyond twenty times what it takes.
+PATIENCE = 60.0
 LIST = "kernels.txt"
 Process = subprocess.Popen[str]
 
@@ -151,8 +154,9 @@ class SharedList:
                 # threads of this process wait for each other by numba's own lock
                 self._taken[place] = own = threading.Event()
                 own.set()
-        # with a limit, so that Ctrl-C is heard on every system
-        while taken is not None and self._processes and not taken.wait(0.1):
+        # in short turns, so that Ctrl-C is heard on every system; who hangs is not waited for
+        until = time.monotonic() + PATIENCE + 20.0 * self.kernels[place].seconds
+        while taken is not None and self._processes and not taken.wait(0.1) and time.monotonic() < until:
             pass
 
     def start(self, count: int) -> None:

@@ -117,6 +117,14 @@ def test_threads_of_the_run_do_not_wait_for_what_it_took(monkeypatch: pytest.Mon
     assert not second.is_alive()
 
 
+def test_a_process_that_hangs_is_not_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(compile_ahead, "PATIENCE", 0.2)
+    shared = shared_list(monkeypatch, 0.0)
+    monkeypatch.setattr(shared, "_processes", [object()])
+    assert shared._next() == 0
+    shared.claim(0)
+
+
 # In place of the process that compiles: answers for each place, or ends without an answer
 ANSWERS = "import sys\nfor line in sys.stdin:\n    sys.stdout.write(line)\n    sys.stdout.flush()\n"
 ENDS = "import sys\nsys.stdin.readline()\n"
