@@ -72,7 +72,7 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
-    help="How moored floating and flexible coastal structures answer waves and currents.",
+    help="How moored floating and flexible coastal structures respond to waves and currents.",
 )
 app.command("app")(app_command)
 app.command()(study)

@@ -55,7 +55,7 @@ class Request:
 
 @dataclass(frozen=True)
 class Answer:
-    """Everything that the command shows; ``text`` is the new case file, ``None`` for single figures."""
+    """Everything that the command shows; ``text`` is the new case file, ``None`` for single values."""
 
     scale: Scale
     rows: tuple[ScaledQuantity, ...]

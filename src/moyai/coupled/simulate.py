@@ -231,7 +231,7 @@ def _drive(
             if not gain <= ENERGY_STOP * throughput:
                 ending.status = "not_converged"
                 ending.message = (
-                    f"stopped at t = {begin + row * interval:g} s: energy of {gain:.3g} J came from nowhere in the "
+                    f"stopped at t = {begin + row * interval:g} s: energy balance error of {gain:.3g} J in the "
                     "network; more viscosity of the bars or a smaller step calms it"
                 )
                 break
@@ -273,7 +273,7 @@ def _history(
     through = max(float(np.max(total)), float(np.max(np.abs(record.work))), joint.work, 1e-12)
     checks = (
         IdentityCheck(
-            "energy from nowhere in the network", max(gain, 0.0) / through, ENERGY_TOLERANCE,
+            "energy balance error of the network", max(gain, 0.0) / through, ENERGY_TOLERANCE,
             "rise of kinetic and elastic energy beyond the work done, over the energy that went through",
         ),
         IdentityCheck(

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 DOFS = ("Surge", "Sway", "Heave", "Roll", "Pitch", "Yaw")
-#: Accuracy and size of the states that carry the memory.
+#: Accuracy and size of the states of the radiation memory.
 STATE_TOLERANCE, MOST_POLES = 1e-3, 24
 #: Worst fit of the memory that is taken, over the largest response of each pair of motions.
 WORST_FIT = 0.1
@@ -315,7 +315,7 @@ def _memory(
         )
     reported = Notice(
         "memory",
-        f"{len(best.poles)} poles carry the memory of the water, its frequency response within "
+        f"{len(best.poles)} poles represent the radiation memory, the fitted frequency response within "
         f"{100.0 * best.error:.1g} % of the largest of each pair of motions",
         value=float(best.error),
         limit=0.01,

@@ -98,7 +98,8 @@ def _doubts(network: Network, run: Run, check: IdentityCheck, finished: bool) ->
         found.append(
             Notice(
                 "energy-from-nowhere",
-                f"{100.0 * check.value:.3g} % of the energy came from nowhere; peaks may be too high",
+                f"{100.0 * check.value:.3g} % of the energy is spurious (error of the energy balance); peaks may be "
+                "too high",
                 check.value,
                 check.tolerance,
                 "warning",

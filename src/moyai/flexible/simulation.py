@@ -356,7 +356,7 @@ def _failure(
             f"left at {name_of_node(network, run.worst)}{advice(network)}"
         )
     worst = int(np.argmax(np.abs(np.nan_to_num(run.speed, nan=np.inf)).max(axis=0)))
-    why = f"energy of {gain:.3g} J came from nowhere"
+    why = f"energy balance error of {gain:.3g} J"
     if not_finite or wild:
         why = "values are no longer finite" if not_finite else "a node outruns all elastic waves"
     return (
@@ -383,7 +383,7 @@ def _history(
     total = energy[:, 0] + energy[:, 1]
     gain = float(np.max(total - total[0] - (energy[:, 2] - energy[0, 2]))) if last else math.nan
     check = IdentityCheck(
-        "energy from nowhere",
+        "energy balance error",
         max(gain, 0.0) / throughput if throughput > 0.0 else 0.0,
         ENERGY_TOLERANCE,
         "rise of kinetic and elastic energy beyond the work done, over the energy that went through the network",

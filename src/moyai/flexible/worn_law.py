@@ -1,4 +1,4 @@
-"""The law of a polyester rope that remembers its highest mean tension (Syrope) [eq:flexible-worn]."""
+"""The law of a polyester rope that depends on its highest mean tension (Syrope) [eq:flexible-worn]."""
 
 from __future__ import annotations
 

@@ -31,7 +31,7 @@ def roll_notices(roll: float, *, freeboard: float, draught: float, beam: float, 
         Notice(
             "roll-beyond-linear",
             f"{where}: a roll of {math.degrees(roll):.3g} deg {what}, which begins at {math.degrees(limit):.3g} deg; "
-            "restoring is linear and goes on straight: roll, and tensions in this sea, are rough",
+            "the linear restoring moment is extrapolated: roll, and tensions in this sea, are approximate",
             value=roll, limit=limit, severity="warning",
             remedy="raise the deck, widen the section or damp roll",
         ),

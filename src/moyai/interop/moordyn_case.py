@@ -388,7 +388,7 @@ def _current(deck: MoorDynDeck, dynamic: bool) -> list[str]:
         if current.file and dynamic:
             return [f"current_field: {{file: {_word(current.file)}, form: steady}}"]
         raise InputError(
-            "the current of the deck turns over the height; at rest a case file has one direction",
+            "the direction of the deck's current varies with depth; in statics a case file has one direction",
             path="Currents",
             remedy="run it through time (--duration)"
             if current.file

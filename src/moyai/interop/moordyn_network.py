@@ -406,7 +406,8 @@ def deck_line_types(kinds: Sequence[BarType]) -> tuple[DeckLineType, ...]:
             )
         if isinstance(kind.slow, WornRope):
             raise InputError(
-                f"the line type {kind.name!r} remembers its highest tension, which is not written into decks",
+                f"the line type {kind.name!r} depends on its highest mean tension (Syrope), which is not written into "
+                "decks",
                 path="line types", allowed="EA, a curve, or slow stretch",
             )  # fmt: skip
         made = DeckLineType(

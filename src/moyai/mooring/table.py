@@ -364,7 +364,7 @@ def _window(
     if line.bed_clearance(depth) >= 0.0:
         bottom = max(bottom, -depth - line.anchor[2] + 1e-9 * line.length)
     if not (high > low and top > bottom):
-        raise InputError("the motion range gives this line no room", parameter=f"lines.{line.name}")
+        raise InputError("the line is taut within the motion range", parameter=f"lines.{line.name}")
     wide_bottom, wide_top = _outward(bottom, top)
     floor = -math.inf if line.bed_clearance(depth) < 0.0 else -depth - line.anchor[2] + 1e-9 * line.length
     return _outward(low, high), (max(wide_bottom, floor), wide_top)

@@ -33,7 +33,7 @@ class Contour:
     ------
     InputError
         For values that are not finite, fewer than three corners (two with arcs), corners that coincide, no area, or a
-        contour that meets itself.
+        contour that intersects itself.
     """
 
     #: Corners (x, z) [m]; the last need not repeat the first; shape (n, 2).
@@ -92,7 +92,7 @@ class Contour:
             meet = _segments_meet(a[i], b[i], a[others], b[others], _TOUCH * size)
             if meet.any():
                 raise InputError(
-                    f"the section meets itself near x = {a[i].real:g} m, z = {a[i].imag:g} m",
+                    f"the section intersects itself near x = {a[i].real:g} m, z = {a[i].imag:g} m",
                     parameter="points",
                     remedy="list the corners once around the section",
                 )

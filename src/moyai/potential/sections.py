@@ -30,7 +30,7 @@ class Outline:
     Raises
     ------
     InputError
-        For NaN, fewer than three corners (two with arcs), repeated corners, no area, or an outline that meets itself.
+        For NaN, fewer than three corners (two with arcs), repeated corners, no area, or intersections.
     """
 
     #: Corners (x, z) [m] in the body frame; the last one need not repeat the first; shape (n, 2).
@@ -77,7 +77,7 @@ class Outline:
         clash = polygon_clash(edges.polyline(), _TOUCH * size)
         if clash is not None:
             raise InputError(
-                f"the outline meets itself near x = {clash[0]:g} m, z = {clash[1]:g} m",
+                f"the outline intersects itself near x = {clash[0]:g} m, z = {clash[1]:g} m",
                 parameter="vertices",
                 remedy="list the corners once around the section",
             )

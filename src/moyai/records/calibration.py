@@ -398,7 +398,7 @@ def _misfit(weighted: Array, freedom: int) -> tuple[Notice, ...]:
         f"the model misses the observations by {ratio:.3g} times their stated errors: the errors of the parameters, "
         "which rest on those, are too small"
     )
-    return (Notice("misfit", message, ratio, 1.0, remedy="question the model, or leave the errors out"),)
+    return (Notice("misfit", message, ratio, 1.0, remedy="check the model, or do not give errors of the measurements"),)
 
 
 def _notices(

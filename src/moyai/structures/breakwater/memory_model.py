@@ -105,7 +105,8 @@ def unit_memory(model: FrequencyModel, *, convolution: bool = False) -> UnitMemo
             memory = StateSpaceMemory.of(fit)
             checks.extend(fit.checks)
             message = (
-                f"{2 * len(fit.poles)} states or fewer carry the memory of the water, its frequency response within "
+                f"{2 * len(fit.poles)} states or fewer represent the radiation memory, the fitted frequency response "
+                "within "
                 f"{fit.error:.1e}; {plan.reason}"
             )
             if fit.error > COARSE:

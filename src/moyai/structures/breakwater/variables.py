@@ -116,7 +116,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "maximum_anchor_vertical_tension_of_realisation": ("N", "largest uplift at the anchor in each realisation"),
     "maximum_anchor_horizontal_tension_of_realisation": (
         "N",
-        "largest level pull on the anchor in each realisation",
+        "largest horizontal tension at the anchor in each realisation",
     ),
     "maximum_excursion_of_realisation": ("m", "largest excursion from rest in each realisation (roll: rad)"),
     "maximum_motion": ("m", "largest excursion from the mean (roll: rad)"),

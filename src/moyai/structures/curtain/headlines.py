@@ -411,7 +411,7 @@ def _impact_band(groups: Groups, load: _Load) -> Band | None:
     if not (math.isfinite(low) and math.isfinite(high)):
         return None
     high = max(high, reached if math.isfinite(reached) else high)
-    of = "impact: the models that count, start speed over drag and place of release"
+    of = "impact: the models used for design, start speed over drag and place of release"
     value = load.value
     of += "" if steady is None else f"; steady part: {steady.of}"
     return Band(min(low, value), max(high, value), of)
@@ -523,7 +523,7 @@ def _wave_band(groups: Groups, load: _Load) -> Band | None:
     upper = max(whole + more, reached if math.isfinite(reached) else 0.0)
     kind, _, sea = load.words("wave_source").partition(", ")
     table = groups.get(f"/{load.level}/waves/{sea}")
-    part = "steady part: drag, weights, flow under the toe and what the skirt's ends hold"
+    part = "steady part: drag, weights, flow under the toe and end restraint of the skirt"
     if kind != "slack and taut cycles" or table is None:
         return Band(whole - less, upper, part) if upper > whole else None
     own = SeaCycles.of(table)

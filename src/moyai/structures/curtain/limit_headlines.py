@@ -127,7 +127,7 @@ def limit_headlines(groups: Groups, levels: Sequence[str], span_holds: Callable[
             continue
         if band is not None and band.low < limit:
             # what is held is what holds at the unfavourable end
-            details.insert(0, f"{limit:.3g} {unit} at the values themselves; {band.of}")
+            details.insert(0, f"{limit:.3g} {unit} at nominal values; {band.of}")
             limit = band.low
         if waves and table.attrs.get("with_snaps"):
             # realisations of a sea do not tell a third digit
@@ -135,7 +135,7 @@ def limit_headlines(groups: Groups, levels: Sequence[str], span_holds: Callable[
             details += _of_other_seeds(table, limit)
         period = float(table.attrs.get("design_limit_period", math.nan))
         if key != "speed_limit" and math.isfinite(period) and limit > 0.0:
-            # the period of the height that is printed, not of the one at the values themselves
+            # the period of the height that is printed, not of the one at nominal values
             period *= math.sqrt(limit / found_at) if table.attrs.get("period_follows_height", 1) else 1.0
             details.append(f"in waves of {period:.3g} s, as settings.limits takes the period with the height")
         own = _number(table, "surface_speed")

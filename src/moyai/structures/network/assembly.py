@@ -367,7 +367,7 @@ def _with_rows(network: Network, problem: NetworkProblem, pieces: dict[str, list
                 inner = along[1:-1]
                 if inner.size == 0:
                     raise InputError(
-                        f"the line '{line.name}' has one bar: nothing can hang along it",
+                        f"the line '{line.name}' has one bar: a clump along it needs at least two",
                         parameter=f"lines.{line.name}.along",
                         remedy="give it more segments",
                     )

@@ -64,7 +64,8 @@ _NOT_JUDGED = Headline(
 )  # fmt: skip
 _OTHER_DIRECTIONS = replace(
     _NOT_JUDGED, text=f"{_NOT_JUDGED.text}, other directions of current and waves",
-    detail="lines square to current and waves may bear several times what lines along them do: run both headings",
+    detail="lines perpendicular to current and waves may carry several times the load of lines along them: run both "
+        "headings",
 )  # fmt: skip
 #: What is said of a line without a breaking load next to lines that have one.
 NO_STRENGTH = "breaking load not given of"

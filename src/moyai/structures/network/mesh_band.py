@@ -33,11 +33,11 @@ def mesh_and_step(value: float, finer: list[float], nets: bool = False) -> Band:
     """
     of, half, mesh, damped, finest = finer
     low, high = band_of(PeakSensitivity(of, half, mesh, math.nan, math.nan, math.nan, damped, finest))
-    words = "mesh and step: half the step, twice the segments, undamped and damped, and their change continued"
+    words = "mesh and step: half the step, twice the segments, undamped and damped, and their change extrapolated"
     if nets:
         far = max(of + NET_REACH * (mesh - of), 0.0)
         low, high = min(low, far), max(high, far)
-        words = "mesh and step: half the step, twice the knots of the nets, and their change continued"
+        words = "mesh and step: half the step, twice the knots of the nets, and their change extrapolated"
     return Band(min(low, value), max(high, value), words)
 
 

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 #: What the band of the longest period is of.
-MESH = "mesh: twice the segments, and their change continued"
+MESH = "mesh: twice the segments, and their change extrapolated"
 
 
 def mode_headlines(groups: Mapping[str, xr.Dataset]) -> list[Headline]:

@@ -41,7 +41,7 @@ JERK = 1.1
 #: Bars of a line up to which its peak is doubtful whatever the run shows.
 FEW_BARS = 5
 #: Doubt of a peak that finer segments only lower: lumps that stop on the bed pull harder than a smooth line.
-LANDING = "segments that land on the bed send fronts along the line"
+LANDING = "segments that land on the bed produce spurious tension waves"
 #: Bars times steps that the finest mesh of one event may take, diameters below which bars of a line mean nothing, and
 #: the change of a peak that lands with twice the bars below which no finer mesh is run.
 LADDER_WORK, SHORTEST_BAR, LANDED = 3e8, 2.0, 0.1

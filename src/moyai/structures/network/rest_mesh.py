@@ -54,7 +54,7 @@ COARSE, FINE = 12, 40
 #: Height over the bed, over that of the network, up to which a node lies on it.
 _ON_BED = 1e-4
 #: What the band of a number at rest is of.
-MESH = "mesh: twice the segments, again and again until the change is small, and that change continued"
+MESH = "mesh: twice the segments, repeatedly until the change is small, and that change extrapolated"
 
 
 @dataclass(frozen=True, eq=False)

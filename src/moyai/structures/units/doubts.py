@@ -144,16 +144,17 @@ def meeting_notice(where: str, share: np.ndarray, width: np.ndarray, least: floa
         yield Notice(
             "hulls-meet",
             f"{where}: a gap closes by {most * float(width[gap]):.3g} m of {float(width[gap]):.3g} m: hulls meet, "
-            "which lies outside the model: what connectors bear and how gaps open is not known, offsets and lines are "
-            "those of units that lie in one another",
+            "which is outside the model: forces of connectors and openings of gaps are not valid, offsets and lines "
+            "are "
+            "those of overlapping hulls",
             value=most, limit=1.0, severity="error", remedy=remedy,
         )  # fmt: skip
     elif least <= 0.0:
         yield Notice(
             "hulls-meet",
-            f"{where}: two units overlap by {-least:.3g} m in their mean position: hulls meet, which lies outside the "
-            "model: what connectors bear and how gaps open is not known, offsets and lines are those of units that lie "
-            "in one another",
+            f"{where}: two units overlap by {-least:.3g} m in their mean position: hulls meet, which is outside the "
+            "model: forces of connectors and openings of gaps are not valid, offsets and lines are those of "
+            "overlapping hulls",
             value=-least, limit=0.0, severity="error", remedy=remedy,
         )  # fmt: skip
 
@@ -184,7 +185,7 @@ def push_notices(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Notic
 
 
 def curve_notices(seas: Seas) -> Iterator[Notice]:
-    """Say which connectors are stretched or pressed beyond their measured curve, which then goes on straight."""
+    """Say which connectors are stretched or pressed beyond their measured curve, then extrapolated linearly."""
     for path, data in seas:
         name = "connector_resultant_largest"
         if "curve_lowest" not in data or name not in data:

@@ -201,7 +201,7 @@ def _root(residual: Callable[[Array], Array], start: Array) -> tuple[Array, floa
 
 
 def _require_reach(line: CageLine, cage: RigidCage, water: Water, free: RigidCageEquilibrium) -> None:
-    """Refuse a line so short that it drowns the cage."""
+    """Refuse a line so short that it submerges the cage."""
     span = line.span(free.place, cage.centre)
     if line.length >= span:
         return

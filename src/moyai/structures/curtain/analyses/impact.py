@@ -39,7 +39,7 @@ class ImpactAnswer:
     design_tension: float
     #: The skirt that bulges; None where no chord is known.
     skirt: BulgingSkirt | None
-    #: Ends of the band of the tension over ``design_tension`` [-]: the lowest of the models that count with the start
+    #: Ends of the band of the tension over ``design_tension`` [-]: the lowest of the models of the design with start
     #: speed of low drag, and the design model with that of high drag [eq:impact-band].
     uncertainty: tuple[float, float]
 

@@ -185,7 +185,7 @@ class _FoundLimits:
 
 @dataclass(frozen=True, eq=False)
 class CountedLimits:
-    """Limits by the models that count: one out of its range sets none, a bound of the load gives a limit 'at least'."""
+    """Limits by the models used for design: one out of its range gives none, a bound of the load a limit 'at least'."""
 
     unit: LevelCurtain
     settings: CurtainSettings
@@ -238,7 +238,7 @@ class CountedLimits:
         limit, bound = self._judged(lambda loads: self._height(loads, speed), lambda _: speed, self.with_plate)
         snaps = self.loads_in(speed).snaps
         if limit.value > 0.0 and snaps is None:
-            # a steady drag knows no snap: the limit can only be lower, whatever sets it
+            # a steady drag does not include snap loads: the limit can only be lower, whatever sets it
             return limit, "at most"
         if limit.value > 0.0 and snaps is not None and bound == "" and not self._knows_sheet(snaps[1], speed):
             return limit, "at most"
@@ -442,7 +442,8 @@ def _jump(unit: LevelCurtain, counted: CountedLimits, found: _FoundLimits) -> st
             low, high = found.speeds[n : n + 2]
             return (
                 f"between {low:.3g} and {high:.3g} m/s the depth falls below {100.0 * STRAIGHT:.0f} % of the length: "
-                "the snap of an upright plate is a value below and a bound above, and the heights may jump there"
+                "the snap of an upright plate is a value below that current and an upper bound above it; limits of "
+                "wave height may be discontinuous there"
             )
     return ""
 

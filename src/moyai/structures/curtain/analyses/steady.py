@@ -75,7 +75,7 @@ def compared_loads(unit: LevelCurtain) -> tuple[ComparedLoad, ...]:
         if math.isnan(law.horizontal_load):
             why += "; no solution at this load ratio"
         if not free:
-            why += "; for a toe that swings"
+            why += "; for a free toe"
         standing = "other law" if free else "out of range"
         found.append(ComparedLoad(f"free toe, {law.name}", law.horizontal_load, standing, why))
     area = span * section.effective_depth

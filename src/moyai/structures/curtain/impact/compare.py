@@ -62,7 +62,7 @@ class Comparison:
 
     @property
     def spread(self) -> float:
-        """Largest over smallest tension of the models that count."""
+        """Largest over smallest tension of the models used for design."""
         values = [item.tension for item in self.models if item.counts]
         return max(values) / min(values)
 

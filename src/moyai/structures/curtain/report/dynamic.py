@@ -251,7 +251,7 @@ def energy_figure(level: CurtainLevel, run: Group) -> Figure | None:
         (Abscissa("time", "time", "s"),),
         (Panel("energy", unit),),
         series,
-        "Cables, skirt and the water that they set in motion. A balance that rises would be energy from nowhere.",
+        "Cables, skirt and the water that they set in motion. A balance that rises would be a numerical error.",
         height=260,
     )
 

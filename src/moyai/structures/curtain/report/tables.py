@@ -261,7 +261,7 @@ def impact_tables(level: CurtainLevel) -> list[Table]:
     spread = counted_spread(level)
     note = "Sum of both cables, above the drag. "
     if math.isfinite(spread):
-        note += f"The largest of the models that count is {format_number(spread)} times the smallest."
+        note += f"The largest of the models used for design is {format_number(spread)} times the smallest."
     columns = [
         Column("Model", list(names)),
         Column("Tension", [float(value) for value in tension], "N", uniform=False),

@@ -77,7 +77,7 @@ def _check_coefficients(
     height = body.size[2] if isinstance(body, bodies.BoxBody) else body.height
     if given.draught >= height:
         findings.fault(
-            (*path, "draught"), f"a draught of {given.draught:g} m drowns a body of {height:g} m",
+            (*path, "draught"), f"a draught of {given.draught:g} m submerges a body of {height:g} m",
             allowed=f"less than {height:g} m",
         )  # fmt: skip
         return

@@ -126,7 +126,7 @@ class SlowStretchKeys(Block):
 
 
 class WornRopeKeys(Block):
-    """A polyester rope that remembers its highest mean tension (Syrope); its curve is that of the new rope."""
+    """A polyester rope whose stiffness depends on its highest mean tension (Syrope); its curve is for the new rope."""
 
     form: Literal["linear", "quadratic", "exponential"] = Field(description="Shape of the working curve at rest.")
     k1: NonNegativeNumber = Field(
@@ -155,7 +155,8 @@ class OwnType(_Internal):
         "changes.",
     )
     worn_rope: WornRopeKeys | None = Field(
-        default=None, description="How a polyester rope remembers its highest mean tension; needs 'curve'."
+        default=None,
+        description="How the stiffness of a polyester rope depends on its highest mean tension; needs 'curve'.",
     )
     volume: Annotated[float, QuantityOf(quantities.AREA, least=0.0)] | None = Field(
         default=None, description="Displaced volume per length. Default: that of the diameter."

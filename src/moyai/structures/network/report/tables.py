@@ -335,5 +335,5 @@ def run_table(level: NetworkLevel) -> Table | None:
             _column("Steps", numbers("steps"), "", digits=9, trim=True),
             Column("Status", [str(run.attributes.get("status", "")).replace("_", " ") for run in runs]),
         ],
-        "Of implicit methods the smallest step.",
+        "Smallest step, for implicit methods.",
     )

@@ -73,7 +73,7 @@ def water_in_time(
     notices = [
         Notice(
             "memory",
-            f"{at.name}: {len(memory.poles)} poles carry the memory of the water; added mass and damping within "
+            f"{at.name}: {len(memory.poles)} poles represent the radiation memory; added mass and damping within "
             f"{100.0 * memory.error:.2g} % of the largest of their pair in the band of the waves, "
             f"{100.0 * memory.error_outside:.2g} % outside",
             value=memory.error, limit=_REPORTED, severity="information" if memory.error <= _REPORTED else "warning",
