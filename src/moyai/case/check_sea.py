@@ -96,7 +96,7 @@ def check_level_names(model: Any, findings: Findings) -> None:
                 remedy=did_you_mean(name, model.site.water_levels),
             )
     for index in duplicates(chosen):
-        findings.fault(("settings", "water_levels", index), f"'{chosen[index]}' stands twice", remedy="remove one")
+        findings.fault(("settings", "water_levels", index), f"'{chosen[index]}' is given twice", remedy="remove one")
 
 
 def _check_name(path: KeyPath, name: str, findings: Findings) -> None:
@@ -150,7 +150,7 @@ def _check_levels(site: Any, findings: Findings) -> None:
     values = list(site.water_levels.items())
     for index in duplicates([f"{level!r}" for _, level in values]):
         name, level = values[index]
-        findings.warn(("site", "water_levels", name), f"another water level stands at {level:g} m as well")
+        findings.warn(("site", "water_levels", name), f"there is another water level at {level:g} m as well")
 
 
 def _check_bearings(model: Any, findings: Findings) -> None:

@@ -298,7 +298,7 @@ def _remedy(row: PlausibleRange, value: float, power: int, place: KeyPath, findi
             if plain and row.unit:
                 millimetres = f"'{number:g} mm'" if row.unit == "m" and slip == 1e-3 else ""
                 return (
-                    f"a number without unit counts in {row.unit}: give the unit; did you mean {millimetres or meant}?"
+                    f"a number without unit is read in {row.unit}: give the unit; did you mean {millimetres or meant}?"
                 )
             return f"check the number and its unit: {meant} would be usual"
     return "check the number and its unit"

@@ -205,7 +205,7 @@ class _Builder:
             if known is None:
                 self._stop(f"'*{event.anchor}' refers to an anchor that is not defined above", event)
             elif not known.complete:
-                self._stop(f"'*{event.anchor}' stands inside the block that it refers to", event)
+                self._stop(f"'*{event.anchor}' is inside the block that it refers to", event)
             return _Recorded("alias", place, known)
         node = _Recorded("scalar", place)
         if event.anchor:
@@ -274,7 +274,10 @@ class _Builder:
             elif name in out:
                 first = self.keys[here]
                 self._fault(
-                    f"the key '{name}' stands twice", key.place, here, f"it was given in line {first.line}: remove one"
+                    f"the key '{name}' is given twice",
+                    key.place,
+                    here,
+                    f"it was given in line {first.line}: remove one",
                 )
             else:
                 self.keys[here] = key.place

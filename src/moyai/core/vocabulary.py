@@ -73,7 +73,7 @@ _QUANTITIES = (
     Variable("wavelength", "m", "wave length L"),
     Variable("wave_number", "1/m", "wave number k"),
     Variable("slack_share", "1", "share of the time that the line is slack"),
-    Variable("snap_threshold", "N", "peak above which a contact counts as a snap"),
+    Variable("snap_threshold", "N", "peak above which a contact is a snap"),
     Variable("solidity_listed", "1", "listed solidity of the net"),
     Variable("frequency", "Hz", "frequency"),
 )

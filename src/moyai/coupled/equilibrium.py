@@ -223,7 +223,8 @@ class _NewtonSearch:
                 raise ConvergenceError(
                     f"no equilibrium found: body {name!r} sinks through the bed at z = {level[worst]:.4g} m, where "
                     "no equilibrium of bodies is sought",
-                    remedy="check its mass and its volume; only lines from above can hold what is heavier than water",
+                    remedy="check its mass and its volume; only lines from above can hold a body that is heavier than "
+                    "water",
                 )
 
     def jacobian(self, base: Array) -> Array:

@@ -159,6 +159,6 @@ def steps_at_the_pace(interval: float, least: int, limit: float) -> tuple[int, t
             "wave-front", f"steps of the network are {reached:.2f} of the pace of the elastic wave: sharp fronts run "
             "with ripples that raise peaks by up to a tenth", reached, PACE, "warning",
             f"rows that are a multiple of {limit:.5g} s apart, {LEAST_STEPS} times it at least (settings.output_step), "
-            "let them go at the pace",
+            "reach this step",
         ),
     )  # fmt: skip

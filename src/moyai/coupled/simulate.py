@@ -147,7 +147,7 @@ def simulate_coupled(
         raise InputError(f"tolerance is {tolerance:g}", parameter="tolerance", allowed="above 0, below 1")
     if any(kind.slow is not None for kind in network.bars.types):
         raise InputError(
-            "ropes that give way slowly are not run next to bodies", parameter="bodies",
+            "ropes with creep are not run together with bodies", parameter="bodies",
             remedy="leave 'slow_stretch' out: the quick stiffness holds in waves, the static one for slow offsets",
         )  # fmt: skip
     flow, start = flow or Flow(), start or State.at_rest(network)

@@ -217,7 +217,7 @@ def _worn_share(corrosion: float, diameter: float) -> float:
         )
     if corrosion >= diameter:
         raise InputError(
-            f"corrosion of {1000 * corrosion:g} mm eats the line of {1000 * diameter:g} mm",
+            f"corrosion of {1000 * corrosion:g} mm is more than the diameter of the line,  {1000 * diameter:g} mm",
             parameter="corrosion",
             remedy="shorten the life or choose a thicker line",
         )
@@ -225,15 +225,15 @@ def _worn_share(corrosion: float, diameter: float) -> float:
 
 
 def check_confirmation(code: DesignCode) -> tuple[Notice, ...]:
-    """Return a notice for values that were not held against the standard itself."""
+    """Return a notice for values that were not compared with the standard itself."""
     unsure = [rule for rule in code.rules if not rule.confirmed]
     if not unsure:
         return ()
     return (
         Notice(
             "code-unconfirmed",
-            f"{len(unsure)} of {len(code.rules)} values of {code.name} ({unsure[0].edition}) were not held against the "
-            "standard itself",
+            f"{len(unsure)} of {len(code.rules)} values of {code.name} ({unsure[0].edition}) were not compared with "
+            "the standard itself",
             remedy="compare them with your copy and name the code under 'confirmed'",
             source=unsure[0].source,
         ),

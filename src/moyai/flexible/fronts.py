@@ -86,7 +86,7 @@ def _notice(name: str, front: Front, explicit: bool) -> Notice:
             front.within,
             front.travel,
             "warning",
-            "twice the segments: such fronts fall with the square of the length of bars; a sensitivity run tells",
+            "twice the segments: such fronts fall with the square of the length of bars; a sensitivity run shows it",
             "wave of a node that stops, sqrt(EA m) times its speed along the bar",
         )
     return Notice(

@@ -65,7 +65,7 @@ def beyond_curves(network: Network, bars: NDArray[np.int64], peaks: Array) -> tu
                 Notice(
                     "beyond-rope-curve",
                     f"{kind.name!r} bears up to {highest:.4g} N, its rope curve ends at {last:.4g} N: "
-                    "its last slope goes on",
+                    "its last slope is used beyond",
                     highest,
                     last,
                     "warning",
@@ -87,7 +87,8 @@ def _doubts(network: Network, run: Run, check: IdentityCheck, finished: bool) ->
         found.append(
             Notice(
                 "step-not-stable",
-                f"the step of {run.step:.4g} s is {overstep:.3g} times what the network bears: peaks may be wrong",
+                f"the step of {run.step:.4g} s is {overstep:.3g} times the stable step of the network: peaks may be "
+                "wrong",
                 overstep,
                 1.0,
                 "warning",

@@ -352,7 +352,7 @@ def _failure(
     """Return when, where and why a run had to stop, and what helps."""
     if isinstance(run, ImplicitRun) and not_finite:
         return (
-            f"stopped at t = {run.time:g} s: no step of {run.step:.3g} s or less goes on, {run.force_left:.3g} N are "
+            f"stopped at t = {run.time:g} s: no step of {run.step:.3g} s or less converges, {run.force_left:.3g} N are "
             f"left at {name_of_node(network, run.worst)}{advice(network)}"
         )
     worst = int(np.argmax(np.abs(np.nan_to_num(run.speed, nan=np.inf)).max(axis=0)))

@@ -67,7 +67,7 @@ def check_statics(statics: Hydrostatics, *, vertical_pull: float, gravity: float
                 ),
                 value=abs(imbalance),
                 limit=IMBALANCE_LIMIT,
-                remedy="give mass or draught alone and let the program find the other",
+                remedy="give mass or draught alone; the program computes the other",
             )
         )
     if statics.metacentric_height <= 0.0:

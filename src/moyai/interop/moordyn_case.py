@@ -189,7 +189,7 @@ def _moved(deck: MoorDynDeck, bodies: tuple[BodyOfDeck, ...], motions: Mapping[i
             raise InputError(
                 f"{name} is not coupled and follows no motion", path="--motion",
                 allowed=", ".join(coupled) or "nothing of this deck is coupled to what moves it",
-                remedy="pins of coupled bodies and rods stand still here" if any(
+                remedy="pins of coupled bodies and rods are fixed here" if any(
                     body.name == name and body.kind == "pinned" for body in bodies
                 ) else "",
             )  # fmt: skip

@@ -316,7 +316,7 @@ def _inexpressible(network: Network, equivalent: list[float], floating: bool) ->
     ratios = []
     for kind, diameter in zip(bars.types, equivalent, strict=True):
         if not kind.tension_only:
-            refuse("a bar that bears compression", kind.name)
+            refuse("a bar that carries compression", kind.name)
         if diameter <= 0.0:
             refuse("a line without volume", kind.name)
         else:

@@ -41,7 +41,7 @@ def bemio_files(dataset: xr.Dataset) -> dict[str, bytes]:
         dataset = complete_limits(dataset)
     if "infinite_frequency_added_mass" not in dataset:
         raise InputError(
-            "BEMIO asks for the added mass at infinite frequency, which the coefficients lack",
+            "BEMIO requires the added mass at infinite frequency, which the coefficients lack",
             path="coefficients",
             remedy="more frequencies, from which moyai finds it",
         )

@@ -46,7 +46,7 @@ _CONVENTIONS = {
 }
 _LEFT_OUT = (
     UNREAD,
-    "surge, pitch and yaw have no coefficients: a section knows waves square to the crest alone",
+    "surge, pitch and yaw have no coefficients: a section is for waves at right angles to its axis only",
     "inertia in pitch and yaw is that of a uniform bar of the unit's length",
     "viscous damping, drift, wind and current are left out",
 )

@@ -40,7 +40,7 @@ def check_frequencies(omega: ArrayLike) -> Array:
             f"omega contains {bad:g} rad/s",
             parameter="omega",
             allowed="finite and greater than 0",
-            remedy="the limits at zero and infinity are in the dataset under names of their own",
+            remedy="the limits at zero and infinity are in the dataset under separate names",
         )
     return values
 
@@ -62,7 +62,7 @@ def check_headings(heading: ArrayLike) -> Array:
             f"heading contains {math.degrees(worst):g} degrees",
             parameter="heading",
             allowed="-89.5 to 89.5 degrees from +x",
-            remedy="waves from the other side meet the mirrored section: turn x round",
+            remedy="for waves from the other side mirror the section: reverse x",
         )
     return values
 

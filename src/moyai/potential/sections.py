@@ -266,7 +266,7 @@ class Section:
             left, right = chain.edges.start[0, 0], chain.edges.end[-1, 0]
             if not chain.closed and right <= left:
                 raise InputError(
-                    f"{self.name} holds water of its own or touches still water from below near x = {left:g} m",
+                    f"{self.name} encloses water or touches still water from below near x = {left:g} m",
                     parameter="draught",
                     remedy="draw the tank as a solid, or change the draught",
                 )

@@ -396,7 +396,7 @@ def _misfit(weighted: Array, freedom: int) -> tuple[Notice, ...]:
     ratio = math.sqrt(total / freedom)
     message = (
         f"the model misses the observations by {ratio:.3g} times their stated errors: the errors of the parameters, "
-        "which rest on those, are too small"
+        "which follow from them, are too small"
     )
     return (Notice("misfit", message, ratio, 1.0, remedy="check the model, or do not give errors of the measurements"),)
 
@@ -412,13 +412,13 @@ def _notices(
     notices = []
     if condition > LARGEST_CONDITION:
         pair = _worst_pair(parameters, covariance)
-        message = f"the observations do not tell the parameters apart (condition number {condition:.3g}){pair}"
+        message = f"the observations do not distinguish the parameters (condition number {condition:.3g}){pair}"
         remedy = "fix one of them, fit their product, or add observations that differ in it"
         notices.append(Notice("identifiability", message, condition, LARGEST_CONDITION, remedy=remedy))
     for parameter, value, error in zip(parameters, values, errors):
         reach = 1e-6 * max(abs(value), 1e-12)
         if value - parameter.lower <= reach or parameter.upper - value <= reach:
-            message = f"{parameter.name} stands at its bound {value:.6g}"
+            message = f"{parameter.name} is at its bound {value:.6g}"
             notices.append(Notice("parameter-bound", message, float(value), float(value), remedy="question the bound"))
         elif error > 0.5 * abs(value):
             message = f"{parameter.name} = {value:.4g} is known to {error:.3g} only"

@@ -110,7 +110,7 @@ def case_listing(root: Group) -> Block:
     """Return the text of the case file, folded away."""
     text = str(root.attributes.get("case_text", "")).rstrip()
     if not text:
-        return Paragraph("The result does not carry the text of its case file.", quiet=True)
+        return Paragraph("The result does not contain the text of its case file.", quiet=True)
     return Listing("Case file as it was run", text)
 
 
@@ -171,7 +171,7 @@ def checks_table(result: Result) -> Table:
             Column("Met", ["yes" if check.passed else "NO" for check in checks]),
             Column("Meaning", [check.meaning for check in checks]),
         ),
-        note="Relations that every correct solution obeys, held against this run.",
+        note="Relations that every correct solution satisfies, checked in this run.",
         failed=tuple(row for row, check in enumerate(checks) if not check.passed),
     )
 

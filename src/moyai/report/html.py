@@ -115,7 +115,7 @@ def render_html(document: Document) -> str:
     Returns
     -------
     str
-        Complete page; it asks nothing of the network.
+        Complete page; it needs no network.
     """
     page = _Page()
     sections = "\n".join(page.section(section) for section in document.sections)

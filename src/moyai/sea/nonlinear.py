@@ -235,7 +235,8 @@ def nonlinear_wave(
         speed = solution.celerity + current_along_wave
         if speed <= 0.0:
             raise InputError(
-                f"the current of {current_along_wave:g} m/s carries the wave backwards", parameter="current_along_wave"
+                f"the current of {current_along_wave:g} m/s is faster than the wave against it",
+                parameter="current_along_wave",
             )
         for array in (solution.elevation, solution.crest_velocities):
             array.setflags(write=False)

@@ -57,7 +57,7 @@ def storms(value: float, mean: float, factor: float) -> Band | None:
 
 
 #: What is said of a number of one realisation.
-ALONE = "one realisation: others may give more, ask for three or more"
+ALONE = "one realisation: others may give more, run three or more"
 
 
 def alone(scatter: Array) -> Bound:

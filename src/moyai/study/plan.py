@@ -227,7 +227,7 @@ def check_cases(study: Study, progress: Progress = silent) -> tuple[str, tuple[i
             more = refused[key] - 1
             faults.append(replace(fault, message=fault.message + (f" (and {more} more cases)" if more else "")))
         if some:
-            skip = "to go on without such cases: 'on_refused: skip' in the study"
+            skip = "to continue without such cases: 'on_refused: skip' in the study"
             faults[-1] = replace(faults[-1], remedy="; ".join(part for part in (faults[-1].remedy, skip) if part))
         raise CaseError(faults)
     return hashes.hexdigest(), tuple(left_out)

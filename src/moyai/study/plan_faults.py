@@ -108,7 +108,7 @@ def check_names(document: CaseDocument, axes: list[Axis]) -> None:
     twice = sorted({name for name in names if names.count(name) > 1})
     if twice:
         message = f"two axes are called '{twice[0]}'"
-        remedy = "give them names of their own with 'name'"
+        remedy = "give them different names with 'name'"
         raise CaseError([document.fault(("study", "variations"), message, remedy=remedy)])
     paths: dict[str, str] = {}
     for axis in axes:

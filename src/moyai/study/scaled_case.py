@@ -304,7 +304,7 @@ def _factor(ratio: float, from_model: bool) -> str:
 def _replace(edits: Edits, leaf: _Leaf, text: str, remark: str) -> None:
     if not edits.replace(leaf.node, text, remark):
         raise InputError(
-            "one figure stands for quantities that scale differently (a YAML alias)",
+            "one value is used for quantities that scale differently (a YAML alias)",
             path=dotted(leaf.path),
             remedy="write the figure out at each place",
         )

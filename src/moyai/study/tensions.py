@@ -135,7 +135,7 @@ def _found_by_name(study: Study, result: Result) -> list[Tensions]:
         )
     if not found:
         raise InputError(
-            "no case tells tensions of lines",
+            "no case gives tensions of lines",
             path="assess.lines",
             remedy="let the cases run 'frequency' or 'time', or name the responses under 'assess.tensions'",
         )

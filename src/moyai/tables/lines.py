@@ -163,7 +163,7 @@ def check_line_properties(properties: LineProperties) -> tuple[Notice, ...]:
         notices.append(
             Notice(
                 "line-values-unconfirmed",
-                f"{properties.name}: not every catalogue value was seen in its source",
+                f"{properties.name}: not every catalogue value was compared with its source",
                 severity="information",
                 remedy="give the breaking load of the maker's certificate before design use",
                 source=properties.source,

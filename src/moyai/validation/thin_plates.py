@@ -117,7 +117,7 @@ CASES: tuple[ValidationCase, ...] = (
         1e-10,
     ),
     ValidationCase(
-        "thin plates: flat plate that stands on the bed",
+        "thin plates: flat plate that reaches the bed",
         "28 zeta(3) / pi^3, closed form",
         lambda: _hanging(1.0),
         28.0 * _APERY / math.pi**3,

@@ -321,7 +321,7 @@ _CASES: tuple[ValidationCase, ...] = (
         0.01,
     ),
     ValidationCase(
-        "units: moment about the axis of a hinge over what it bears", "zero", hinge_moment, 0.0, 1e-9, False
+        "units: moment about the axis of a hinge over its strength", "zero", hinge_moment, 0.0, 1e-9, False
     ),
     ValidationCase(
         "units: energy of the waves, two hinged boxes, headings 0 to 80 degrees", "identity", energy_of_headings, 0.0,

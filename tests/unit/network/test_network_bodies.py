@@ -92,7 +92,7 @@ def test_a_run_with_bodies_goes_on_from_where_it_was_stopped(stopped):
         assert apart[late].max() < 2e-3 * scale
     peak = float(one["end_tension"].max())
     assert np.abs(one["end_tension"].values - two["end_tension"].values).max() < 0.02 * peak
-    assert any("goes on from an earlier one" in notice.message for notice in rest.notices)
+    assert any("continues an earlier one" in notice.message for notice in rest.notices)
 
 
 @pytest.mark.slow

@@ -453,7 +453,7 @@ def test_a_line_starts_on_a_bed_that_rises_between_its_ends(tmp_path):
         "structure:\n", "structure:\n  " + BED + "grid: {file: bed.txt}}\n"
     )
     network = assemble(problem_of(text, tmp_path), 0.0).network
-    # the anchor stands on the corner of the grid, from which the bed is rounded
+    # the anchor is on the corner of the grid, from which the bed is rounded
     inner = network.nodes.position[1:]
     assert (inner[:, 2] >= network.bed.level_at(inner) - 1e-9).all()
     rest = solve_equilibrium(network)

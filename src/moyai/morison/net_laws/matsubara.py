@@ -38,7 +38,7 @@ class Matsubara(NetLaw):
     source: ClassVar[str] = "Matsubara, Noda and Nishihira, dynamic response of an offshore fish cage, equation 2"
     reynolds_range: ClassVar[tuple[float, float]] = (84.0, 1800.0)
     solidity_range: ClassVar[tuple[float, float]] = (0.22, 0.687)
-    outside: ClassVar[str] = "below, the power goes on up to the cap; above, the coefficient is held"
+    outside: ClassVar[str] = "below, the power law is extrapolated up to the cap; above, the coefficient is held"
     skin: ClassVar[str] = "no force at zero solidity; the tangential share along the panel"
     basis: ClassVar[str] = "wire nets"
     confirmed: ClassVar[bool] = True

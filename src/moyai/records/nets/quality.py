@@ -15,7 +15,7 @@ _FEW_LEVELS = 40
 _REMEDIES = {
     "clipped": "use a wider range of the gauge; the coefficients are too small",
     "spikes": "correct single samples, or choose a part without them",
-    "flat": "choose a part in which the channel lives",
+    "flat": "choose a part in which the channel varies",
 }
 
 

@@ -224,7 +224,7 @@ def tow_coefficients(
                 tow.force.value,
                 0.0,
                 "error",
-                "give 'reverse_force: true' where the gauge counts the other way",
+                "give 'reverse_force: true' where the gauge has the opposite sign",
             )
             if against
             else Notice(

@@ -467,7 +467,7 @@ def quality_notices(
             Notice(
                 "record-gaps",
                 f"{counted(len(gaps), 'gap')}, the longest {duration:.4g} s from {instant_text(start, dated)}; "
-                "spectra fill only short ones, and say so",
+                "only short ones are filled for spectra, with a notice",
                 float(len(gaps)),
             )
         )

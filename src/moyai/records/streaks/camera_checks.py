@@ -96,7 +96,7 @@ def view_notices(calibration: CameraCalibration, centre: ArrayLike) -> tuple[Not
             Notice(
                 "view-mirrored",
                 "the targets show the light sheet mirrored: with z upwards x runs to the left of the pictures, and "
-                "what turns clockwise in them counts as anticlockwise",
+                "clockwise in them is anticlockwise",
                 remedy="right for a camera on the other side of the tank; else columns and rows, or a sign of x or z, "
                 "were exchanged",
             )

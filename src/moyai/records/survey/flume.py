@@ -80,7 +80,7 @@ class FlumeLayout:
                 f"no position for gauge {', '.join(unknown)}", parameter="gauges", allowed=", ".join(self.gauges)
             )
         if any(self.gauges[name] >= self.model for name in self.front):
-            raise InputError("a gauge in front of the model must stand between wavemaker and model", parameter="front")
+            raise InputError("a gauge in front of the model must be between wavemaker and model", parameter="front")
 
 
 @dataclass(frozen=True)

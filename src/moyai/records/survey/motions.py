@@ -112,7 +112,7 @@ def fit_decay_record(
         )
         notices.append(Notice("decay-damping", message, found.damping_ratio, 0.0, remedy="check rest, start and end"))
     if found.ratios.size < 6 and quadratic:
-        message = f"{found.ratios.size} half cycles bear two damping coefficients badly"
+        message = f"{found.ratios.size} half cycles hardly determine two damping coefficients"
         notices.append(Notice("few-cycles", message, float(found.ratios.size), 6.0))
     errors = _jackknife(found, quadratic)
     return DecayFit(found, level, float(t[0]), float(found.extreme_times[-1]), *errors, tuple(notices))

@@ -166,7 +166,7 @@ class SawaragiRuns:
     def span_released(
         self, total: float, cells: tuple[int, int], share: float = 0.0, duration: float = RELEASE, heavier: float = 1.0
     ) -> SpanRecord:
-        """Return the record of the whole span let go slack and at rest in the current, edges held in height.
+        """Return the record of the whole span released slack and at rest in the current, edges held in height.
 
         Parameters
         ----------

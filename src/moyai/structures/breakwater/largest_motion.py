@@ -96,7 +96,7 @@ class LargestOfPeriods:
             names = ", ".join(f"{period:.3g} s" for period in periods[out])
             said = (
                 f"at T = {names} the time domain is out of its range (chains at rest at every instant, or energy that "
-                "damping does not explain) and the frequency domain stands in"
+                "damping does not explain) and the frequency domain is used"
             )
         found = []
         for row in np.flatnonzero(np.isfinite(table)):

@@ -164,7 +164,7 @@ def _causality(unit: FloatingUnit, checks: tuple[IdentityCheck, ...]) -> tuple[l
         f"by up to {100.0 * worst:.1f} % of their largest values",
         value=worst,
         severity="information" if worst < 0.05 else "warning",
-        remedy="trust the frequency domain near the gap resonance, or lower the lid",
+        remedy="use the frequency domain near the gap resonance, or lower the lid",
     )
     return kept, [reported]
 

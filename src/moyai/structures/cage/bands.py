@@ -21,7 +21,7 @@ from moyai.structures.cage.settling import by_period, is_settled, scatters, stil
 if TYPE_CHECKING:
     import xarray as xr
 
-TOO_SHORT = "one seed, too short to tell the scatter of its maximum"
+TOO_SHORT = "one seed, too short to show the scatter of its maximum"
 UNSETTLED = "regular waves whose periods do not repeat yet"
 NO_LAWS = "without the net laws in the sea, whose runs failed"
 _SAME_LAWS = "the same net laws as for the volume"

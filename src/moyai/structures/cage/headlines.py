@@ -47,7 +47,8 @@ NOT_JUDGED = Headline(
 )  # fmt: skip
 _OTHER_DIRECTIONS = replace(
     NOT_JUDGED, text=f"{NOT_JUDGED.text}, other directions of current and waves",
-    detail="along the diagonal of a frame an anchor may bear half as much again as along its side, and less volume is "
+    detail="along the diagonal of a frame an anchor may take half as much load again as along its side, and less "
+        "volume is "
     "left: run both headings",
 )  # fmt: skip
 

@@ -253,7 +253,7 @@ def _reference_speed(profile: CurrentProfile, depth: float) -> float:
     speed = surface if surface > 1e-3 * largest else largest
     if speed <= 0.0:
         raise InputError(
-            "the current stands still over the depth of the skirt",
+            "the current is zero over the depth of the skirt",
             parameter="current",
             remedy="give its speed, or leave 'current' out",
         )

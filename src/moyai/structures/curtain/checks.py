@@ -61,7 +61,7 @@ def check_class(
                 value,
                 limit,
                 "warning",
-                "choose another class" if upper else "give what the class asks for",
+                "choose another class" if upper else "give what the class requires",
                 source,
             )
         )

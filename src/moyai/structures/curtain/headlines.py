@@ -282,7 +282,7 @@ def _at_rest_words(load: _Load, groups: Groups) -> str:
     name = _STEADY_NAMES.get(load.component, "")
     current = math.nan if statics is None else at_rest(statics, name)
     if load.component.startswith("anchor") and steady > current * (1.0 + 1e-9):
-        return f"steady {kilo(steady)}: the pretension, and what the line bears of the {kilo(current)} of the current"
+        return f"steady {kilo(steady)}: the pretension, and the part of the line in the {kilo(current)} of the current"
     return f"steady {kilo(steady)}"
 
 
@@ -472,7 +472,7 @@ def _mesh_band(table: xr.Dataset, load: _Load, value: float) -> Band | None:
         return Band(low, high, of, decides=False, judged=(low, factor * ceiling), beyond_bound=True, more=more)
     if count < 2:
         high = max(high, factor * judged)
-        return Band(low, high, "meshes and events, the larger counts; drag at its value")
+        return Band(low, high, "meshes and events, the larger is used; drag at its value")
     of = f"{count} realisations and two meshes; drag at its value; judged at the 95 % end of the larger mean"
     ends = (low, factor * judged)
     return Band(low, high, of, decides=False, judged=ends, realisations=count, more=_MORE)

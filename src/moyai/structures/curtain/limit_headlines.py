@@ -223,7 +223,7 @@ def _all_oblique(groups: Groups, level: str) -> str:
         return ""
     return (
         f"the seas of the case travel at {math.degrees(nearest):.0f} degrees to the normal and more: one within "
-        f"{math.degrees(FACING):.0f} degrees of it, in which the whole span holds, tells a height"
+        f"{math.degrees(FACING):.0f} degrees of it, in which the whole span holds, gives a height"
     )
 
 

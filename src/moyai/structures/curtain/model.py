@@ -207,7 +207,7 @@ class AnchorLoadSettings:
     height_ratio: float = 1.8
     #: Direction rule; one of "paper", "normal", "none".
     rule: DirectionRule = "paper"
-    #: Whether the steady tension counts; the paper leaves it out.
+    #: Whether the steady tension is included; the paper leaves it out.
     pretension: bool = True
 
     def model(self, rope_stiffness: float, line_factor: float = 1.0) -> EnergyModel:

@@ -172,8 +172,8 @@ def loads_on_time(problem: NetworkProblem, plan: RunPlan) -> list[Notice]:
         if share > SMALL_BODY:
             notices.append(
                 Notice(
-                    "body-not-small", f"body '{body.name}' is {share:.2f} wave lengths long: its loads know neither "
-                    "diffraction nor radiation", share, SMALL_BODY, "warning",
+                    "body-not-small", f"body '{body.name}' is {share:.2f} wave lengths long: its loads include "
+                    "neither diffraction nor radiation", share, SMALL_BODY, "warning",
                     "give coefficients_file of a 3-D program in place of added_mass",
                 )
             )  # fmt: skip

@@ -251,7 +251,7 @@ def _peak_uncertainty(
         if not asked:
             return None, [], history
         return None, [
-            Notice("sensitivity-left-out", "accuracy of the peak not found: the run goes on from an earlier one",
+            Notice("sensitivity-left-out", "accuracy of the peak not found: the run continues an earlier one",
                    severity="information", remedy="run it from its start with settings.sensitivity")
         ], history  # fmt: skip
     try:

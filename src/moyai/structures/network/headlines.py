@@ -269,7 +269,7 @@ def _tension(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peak: _P
             items.append(
                 Headline(
                     "end_tension", "highest at the ends of its line", max(ends), "N", f"{peak.line}, its {at}", DYNAMIC,
-                    detail="the highest tension stands inside the line",
+                    detail="the highest tension is inside the line",
                 )
             )  # fmt: skip
     return items

@@ -407,7 +407,7 @@ def _not_run(problem: NetworkProblem) -> str:
 def _result(problem: NetworkProblem, collected: Collected) -> Result:
     if collected.interrupted:
         begun = any("/time/" in name for name in collected.groups)
-        ahead = "; settings.resume goes on from its last state" if begun else ""
+        ahead = "; settings.resume continues from its last state" if begun else ""
         collected.interrupted += f"; what there was by then is kept{ahead}"
     attributes = {
         "structure": "network",

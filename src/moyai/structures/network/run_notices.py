@@ -169,11 +169,12 @@ def peak_inside(assembly: Assembly, series: xr.Dataset, name: str, bar: int) -> 
     place = float(np.sum(lengths[:row]) + 0.5 * lengths[row])
     return [
         Notice(
-            "peak-inside", f"the highest tension of '{name}' stands {place:.4g} m from its start, a slack stretch that "
+            "peak-inside", f"the highest tension of '{name}' stands {place:.4g} m from its start, where a slack part "
             f"is pulled straight or falls on the bed: {spoken(peak, 'N')} there, "
             f"{spoken(ends[0], 'N', like=peak)} at its start and {spoken(ends[1], 'N', like=peak)} at its end",
             peak, INSIDE * max(ends), "warning",
-            "take the tension at the ends for anchors and fairleads; so short an impact hangs on the internal damping: "
+            "take the tension at the ends for anchors and fairleads; so short an impact depends on the internal "
+            "damping: "
             "see settings.sensitivity",
         )
     ]  # fmt: skip

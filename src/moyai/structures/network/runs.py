@@ -132,7 +132,7 @@ def _plans(problem: NetworkProblem, water: Water) -> tuple[RunPlan, ...]:
             duration = float(problem.current_field.time[-1])
         else:
             raise InputError(
-                "nothing tells how long the run should be: no waves, no motion with a period",
+                "the duration of the run cannot be derived: no waves, no motion with a period",
                 parameter="settings.duration",
                 remedy="give a duration",
             )

@@ -80,7 +80,7 @@ def across_notices(groups: Mapping[str, xr.Dataset]) -> Iterator[Notice]:
         yield Notice(
             "motion-across-connector",
             f"{level}, {where}: the units move against each other across the connector, which would stretch it by "
-            f"{most:.3g} m; it acts along one direction and does not see it: its force is higher",
+            f"{most:.3g} m; it acts along one direction and does not resist it: its force is higher",
             value=most, severity="warning",
             remedy="run the analysis time, where chain and rubber are drawn from end to end"
             if analysis == "frequency"

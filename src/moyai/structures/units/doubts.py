@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 SLOW_DRIFT = "slow drift of the units against each other is not computed in the frequency domain and adds to it"
 LETS_GO = (
-    "a connector bears and lets go within the wave: its impacts are not in the linear answer and add to it, run the "
+    "a connector acts and releases within the wave: its impacts are not in the linear answer and add to it, run the "
     "time domain"
 )
 MEET = "hulls meet in this sea, and their impact is not computed"

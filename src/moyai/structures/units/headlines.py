@@ -232,7 +232,7 @@ def _connector_force(found: Largest) -> Headline:
     words = (
         "largest of the record, all components together"
         if found.timed
-        else "mean and waves together, along the direction that bears most"
+        else "mean and waves together, along the direction of the largest force"
     )
     return Headline(
         "connector_force", "Largest force in a connector", found.value, "N", found.where, _model(found),

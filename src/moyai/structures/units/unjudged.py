@@ -35,7 +35,7 @@ def not_judged(seas: Seas) -> Headline:
     if alone := _without_gap(seas):
         words.append("contact of hulls")
         numbers = ", ".join(str(unit) for unit in alone)
-        detail.append(f"no face of another unit stands before these units, no gap of theirs is followed: {numbers}")
+        detail.append(f"no face of another unit is opposite these units, no gap of theirs is followed: {numbers}")
     if any(
         np.isfinite(data["maximum_anchor_horizontal_tension"].values).any()
         for _, data in seas

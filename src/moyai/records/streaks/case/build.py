@@ -63,7 +63,7 @@ def _build(model: StreaksFile, findings: Findings, folder: Path) -> StreakCampai
     outline, area, words = _section(model, findings)
     names = [run.name for run in model.runs]
     for index in duplicates(names):
-        findings.fault(("runs", index, "name"), f"a run '{names[index]}' stands above already")
+        findings.fault(("runs", index, "name"), f"a run '{names[index]}' is already given above")
     runs: list[StreakRun] = []
     breadth = float(np.ptp(outline[:, 0])) if len(outline) else math.nan
     for index, block in enumerate(model.runs):
@@ -267,7 +267,7 @@ def _recordings(
         twice = [picture.name for picture in pictures if picture in known]
         if twice or len(set(pictures)) < len(pictures):
             name = twice[0] if twice else next(p.name for p in pictures if pictures.count(p) > 1)
-            findings.fault(here, f"the picture '{name}' stands twice", remedy="name each picture once")
+            findings.fault(here, f"the picture '{name}' is given twice", remedy="name each picture once")
             continue
         known.update(pictures)
         groups = [pictures] if frames else [(picture,) for picture in pictures]

@@ -145,7 +145,7 @@ def solve_about_offset(
         notices=(
             Notice(
                 "no-drift-of-given-coefficients",
-                "coefficients of a 3-D program carry no far field: no reflection, transmission or drift is computed",
+                "coefficients of a 3-D program have no far field: no reflection, transmission or drift is computed",
                 severity="information",
             ),
         ),

@@ -44,7 +44,7 @@ def _check_waves(model: schema.CageCase, findings: Findings, folder: Path) -> No
                 rigid = model.structure.model == "rigid"
                 if rigid and state.theory == "stream_function":
                     findings.fault(
-                        wave_path(findings, index, "theory"), "a rigid cage knows linear waves only",
+                        wave_path(findings, index, "theory"), "a rigid cage is for linear waves only",
                         allowed="automatic, linear", remedy="use 'model: flexible' for steep waves",
                     )  # fmt: skip
                     break

@@ -59,7 +59,8 @@ def check_moored(design: CageDesign, mooring: GridMooring, water: Water, bed: Be
         )
     if weight >= spare:
         raise InputError(
-            f"the cage does not float: net and weights weigh {weight:.4g} N in water, the collar bears {spare:.4g} N "
+            f"the cage does not float: net and weights weigh {weight:.4g} N in water, the buoyancy of the collar is "
+            f"{spare:.4g} N "
             "wholly immersed",
             parameter="collar.pipe.diameter",
             allowed=f"weights below {spare:.4g} N",

@@ -46,7 +46,7 @@ def problem_notices(problem: FlexibleCageProblem) -> tuple[Notice, ...]:
                 f"{model.mesh.around} knots around and {model.mesh.down} meshes down resolve the net coarsely",
                 float(model.mesh.around),
                 16.0,
-                remedy="refine the mesh until volume and drag stand",
+                remedy="refine the mesh until volume and drag no longer change",
                 source="mesh study in docs/validation/cage_flexible.md",
             )
         )

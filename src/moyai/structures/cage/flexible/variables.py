@@ -47,7 +47,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
         "m",
         "largest displacement of a knot of the net against the collar, from still water",
     ),
-    "net_tension": ("N/m", "largest tension of the net over the width that a bar of its mesh stands for"),
+    "net_tension": ("N/m", "largest tension of the net over the width that a bar of its mesh represents"),
     "net_tension_peak_since_row": ("N/m", "highest tension of the net over its width since the row before"),
     "worst_net_tension": ("N/m", "largest tension of the net over its width, of all currents"),
     "worst_volume_share": ("1", "smallest volume over that as built, of all currents"),

@@ -130,8 +130,8 @@ def animation(level: CageLevel, sea: str, record: RigidRecord) -> Animation | No
         key(level, sea, record.run.name, "animation"),
         f"Animated section: {record.label}",
         scene,
-        f"To scale; opened at the {what}, t = {moment:.2f} s. Water: undisturbed linear wave. Lines hang through where "
-        "they are slack.",
+        f"To scale; opened at the {what}, t = {moment:.2f} s. Water: undisturbed linear wave. Slack lines are drawn "
+        "sagging.",
         picture=with_colours(still),
     )
 

@@ -89,7 +89,7 @@ def cage_notices(problem: RigidCageProblem) -> tuple[Notice, ...]:
         found.append(
             Notice(
                 "net-law-unconfirmed",
-                f"the net law '{problem.cage.law.name}' was written down from works that use it",
+                f"the net law '{problem.cage.law.name}' was taken from works that use it",
                 severity="information",
                 remedy="hold it against its source before design use",
                 source=problem.cage.law.source,
@@ -172,7 +172,7 @@ def run_notices(problem: RigidCageProblem, run: RigidCageRun, lines: tuple[CageL
     """Hold a run against the range of its net law, the size of the cage, the bed, and breaking loads."""
     cage, wave = problem.cage, run.wave
     found = list(_law_notices(problem, run))
-    found += theory_limit(wave, "lower or lengthen the wave, or use 'model: flexible', which knows steep waves")
+    found += theory_limit(wave, "lower or lengthen the wave, or use 'model: flexible', which covers steep waves")
     size = max(cage.extent)
     if size > LARGEST_CAGE * wave.wavelength:
         found.append(

@@ -167,7 +167,8 @@ def _require_carried(
     if asked > carried:
         equal = carried / max(sum(steep), 1e-12)
         raise InputError(
-            f"the pretension pulls the cage down with {asked:.4g} N; its floats carry {carried:.4g} N beyond its "
+            f"the pretension pulls the cage down with {asked:.4g} N; the buoyancy of its floats is {carried:.4g} N "
+            "beyond its "
             "weight",
             parameter="mooring.pretension",
             allowed=f"less than about {equal:.4g} N in each line",

@@ -363,7 +363,7 @@ def mesh_notices(
     said = "; ".join(
         f"{name} in '{event}' {spoken(peak.means[0], units.get(name, 'N'), 3)} on the coarser mesh, "
         f"{spoken(peak.means[1], units.get(name, 'N'), 3)} on the finer"
-        + (", so that the number is a bound from below" if peak.at_least else ", and the larger counts")
+        + (", so that the number is a bound from below" if peak.at_least else ", and the larger is used")
         for name, event, peak in apart
     )
     return (

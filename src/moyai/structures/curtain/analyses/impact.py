@@ -223,8 +223,8 @@ def impact_notices(unit: LevelCurtain, settings: ImpactSettings, answer: ImpactA
         notices.append(
             Notice(
                 "impact-no-lower-cable",
-                "there is no lower cable: the rigid skirt of model A hangs on the upper cable alone, the lower edge of "
-                "model A2 swings free",
+                "there is no lower cable: the rigid skirt of model A hangs on the upper cable alone, the lower edge "
+                "of model A2 is free",
                 severity="information",
                 source="model A2",
             )

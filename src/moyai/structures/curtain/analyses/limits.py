@@ -410,7 +410,7 @@ def height_note(limit: Limit, highest: float) -> str:
     again = limit.crossings[1::2]
     if not again:
         return ""
-    return "holds again from " + ", ".join(f"{value:.3g} m" for value in again) + "; the smallest limit counts"
+    return "holds again from " + ", ".join(f"{value:.3g} m" for value in again) + "; the smallest limit is used"
 
 
 def _fails_at_once(limit: Limit, unit: str) -> str:
@@ -428,7 +428,7 @@ def _not_monotone(found: _FoundLimits, alone: Array, least: Array) -> str:
     return (
         f"a current of {found.speeds[n]:.3g} m/s alone would allow {alone[n]:.3g} m, more than the {least[n]:.3g} m "
         "of a weaker one: a stronger current keeps the curtain taut, and it snaps less. Weaker currents come with "
-        "every stronger one, so that the least of them all counts"
+        "every stronger one, so that the smallest of them all is used"
     )
 
 

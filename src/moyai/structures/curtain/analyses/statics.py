@@ -289,7 +289,7 @@ def _given_blockage(unit: LevelCurtain) -> list[Notice]:
     given, found = unit.curtain.drag.given_blockage, unit.statics.section.blockage
     if math.isnan(given) or abs(given - found) <= _LIKE_BLOCKAGE * given:
         return []
-    why = "its skirt flares" if found < given else "its skirt hangs deeper than that"
+    why = "its skirt flares" if found < given else "its skirt is longer than that"
     return [
         Notice(
             "curtain-blockage-given",

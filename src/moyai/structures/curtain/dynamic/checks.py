@@ -93,7 +93,7 @@ def plain(value: float) -> str:
 
 
 def still_rises(run: DynamicRun) -> bool:
-    """Return whether the highest tension stands in the later half of the run, where a higher one may still follow.
+    """Return whether the highest tension is in the second half of the run, where a higher one may still follow.
 
     A skirt with a free toe bears a first snap while it is upright and a higher one where its swing ends, several rises
     of model A later; a run that ends between both shows the first one as its peak.
@@ -172,7 +172,7 @@ def _short(run: DynamicRun, place: str, rise: float) -> Notice | None:
     if still_rises(run):
         return Notice(
             "dynamic-short",
-            f"{place}: the highest tension stands in the later half of the run of {length:.3g} s: a higher one may "
+            f"{place}: the highest tension is in the second half of the run of {length:.3g} s: a higher one may "
             "follow",
             length, length, "warning", "give a longer 'settings.dynamic.duration'", "time of the highest tension",
         )  # fmt: skip
@@ -188,7 +188,7 @@ def _before(run: DynamicRun, place: str) -> Notice | None:
     high, when = float(before.max()), float(run.history.time[~counted][int(np.argmax(before))])
     return Notice(
         "dynamic-before",
-        f"{place}: before {run.from_time:.4g} s, where counting begins, both cables bear {plain(high)} N (at "
+        f"{place}: before {run.from_time:.4g} s, where statistics begin, both cables carry {plain(high)} N (at "
         f"{when:.4g} s), after it {plain(peak)} N",
         high / peak, 1.0 + _UNSETTLED, "information", "a sea that comes up this quickly is rare; judge by which one is "
         "asked for", "highest tension of the settling time",
@@ -209,8 +209,8 @@ def _started(run: DynamicRun, place: str, period: float) -> Notice | None:
     return Notice(
         "dynamic-start",
         f"{place}: the highest tension of both cables, {plain(peak)} N, stands at {when:.4g} s, {when / period:.2g} "
-        f"peak periods after the start from rest; in the second half of the run, with its highest crest, they bear at "
-        f"most {plain(after)} N: the peaks are those of a current and waves that come up within one period",
+        "peak periods after the start from rest; in the second half of the run, with its highest crest, they carry "
+        f"at most {plain(after)} N: the peaks are those of a current and waves that come up within one period",
         peak / after if after > 0.0 else math.inf, _STARTED, "warning",
         "give more 'settings.dynamic.settled_periods' with a larger 'wave_count' to leave the start out",
         "tensions of both halves of the run",

@@ -130,7 +130,7 @@ def _snap_plan(
     if given.start == "released":
         if current is None or not unit.normal_speed > 0.0:
             raise InputError(
-                "a curtain let go at rest needs a current along its normal to become taut",
+                "a curtain released at rest needs a current along its normal to become taut",
                 parameter="settings.dynamic.start",
                 remedy="give 'current'",
             )

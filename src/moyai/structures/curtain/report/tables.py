@@ -286,7 +286,7 @@ def impact_tables(level: CurtainLevel) -> list[Table]:
             emphasised=tuple(row for row, name in enumerate(names) if name == design),
         )
     ]
-    numbers = number_table(level, group, "impact-numbers", "What the impact rests on", _IMPACT)
+    numbers = number_table(level, group, "impact-numbers", "Assumptions of the impact", _IMPACT)
     source = str(group.attributes.get("start_speed_source", ""))
     if numbers is not None:
         said = [f"Start speed: {source}." if source else "", f"Design: model {design}." if design else ""]

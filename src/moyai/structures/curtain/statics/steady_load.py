@@ -44,7 +44,7 @@ QUANTITIES: tuple[tuple[str, str, str], ...] = (
     ("anchor_force", "N", "horizontal force on the anchor of an inner support"),
     ("end_anchor_force", "N", "horizontal force on the more loaded support of a lone span"),
     ("anchor_line_tension", "N", "tension of the anchor line of an inner support"),
-    ("float_load", "N/m", "weight and downward pull that the floats carry"),
+    ("float_load", "N/m", "weight and downward pull on the floats"),
     ("effective_depth", "m", "vertical reach of the skirt"),
     ("toe_gap", "m", "clearance between toe and bed"),
     ("float_reserve_ratio", "1", "buoyancy left over buoyancy"),

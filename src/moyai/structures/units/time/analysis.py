@@ -275,7 +275,7 @@ def _notices(water: Water3D, sea: RegularSea | IrregularSea, data: xr.Dataset, r
                     f"{where}: line '{line}' is pulled to {float(ratio.max()):.3g} times its mean tension, beyond the "
                     "range of lines at rest at every instant: its largest tension is higher than what is shown",
                     value=float(ratio.max()), limit=SNAP_RATIO,
-                    remedy="use longer or softer lines; lines are set in motion where their segments tell mass, "
+                    remedy="use longer or softer lines; lines are set in motion where their segments give mass, "
                     "diameter, drag_normal, drag_tangential and added_mass_normal",
                 )
             )  # fmt: skip
