@@ -353,7 +353,7 @@ class Fatigue(Block):
 
 
 class TensionOfLine(Block):
-    """Where the results tell the tension of a line, for structures that do not list lines by name."""
+    """Where the results give the tension of a line, for structures that do not list lines by name."""
 
     maximum: Annotated[str, Field(description="Response; the largest entry of an array counts.")]
     mean: Annotated[str, Field(description="Response, for codes that part mean and dynamic tension.")] = ""

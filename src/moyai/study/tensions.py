@@ -73,7 +73,7 @@ def response(result: Result, text: str) -> xr.DataArray:
 
 
 def tensions(study: Study, result: Result, named: Mapping[str, schema.TensionOfLine]) -> list[Tensions]:
-    """Return the tensions of the lines: as the study file names them, or as the results tell them.
+    """Return the tensions of the lines: as the study file names them, or as the results give them.
 
     Raises
     ------

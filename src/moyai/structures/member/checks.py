@@ -87,7 +87,7 @@ def member_notices(problem: MemberProblem, member: StraightMember) -> tuple[Noti
         notices.append(
             Notice(
                 "coefficients-unconfirmed",
-                "tabulated drag coefficients were written down from memory of their sources",
+                "tabulated drag coefficients were not compared with the original publications",
                 severity="information",
                 remedy="check them against the source named in the table before design use",
             )

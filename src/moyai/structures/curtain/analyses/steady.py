@@ -87,7 +87,8 @@ def compared_loads(unit: LevelCurtain) -> tuple[ComparedLoad, ...]:
                 load.force / span,
                 "planning",
                 f"an upright plate of the depth reached with C_D = {load.drag_coefficient:.3g}: the oblique lower "
-                "part of the sheet is taken as upright" + ("" if load.confirmed else "; formula from memory"),
+                "part of the sheet is taken as upright"
+                + ("" if load.confirmed else "; formula not compared with the original publication"),
             )
         )
     return tuple(found)

@@ -154,7 +154,7 @@ def uncertainty_table(level: CurtainLevel) -> Table | None:
         note += " Held normals: sections of added mass keep the directions of the just-taut span."
     run_column = (Column("Run", names),) if len(set(names)) > 1 else ()
     return Table(
-        key(level, "dynamic-worth"),
+        key(level, "dynamic-uncertainty"),
         "Uncertainty of the peaks",
         (*run_column, Column("Line", lines), *in_one_unit(columns)),
         note,

@@ -235,7 +235,7 @@ def uncertainty_table(level: NetworkLevel) -> Table | None:
     error, effect = dynamic.real("discretisation_error", "run"), dynamic.real("viscosity_effect", "run")
     runs = list(dynamic.labels("run"))
     return _table(
-        slug(level.name, "worth"),
+        slug(level.name, "uncertainty"),
         "Accuracy of the peak",
         [
             Column("Run", runs),
