@@ -215,7 +215,7 @@ def _check_heading(state: Any, heading: float, path: KeyPath, findings: Findings
 
 
 def _of_theory(sea: RegularSea, period: float, water: Water) -> tuple[Notice, ...]:
-    """Hold a regular wave against breaking and against the theory that it is run in."""
+    """Compare a regular wave with breaking and against the theory that it is run in."""
     from moyai.sea.regular_theory import theory_of
     from moyai.sea.validity import check_wave
 
@@ -229,7 +229,7 @@ def check_waves(
     findings: Findings,
     check_heading: Callable[[Any, float, KeyPath, Findings], None] = _check_heading,
 ) -> None:
-    """Hold every sea state against breaking and the limits of its theory, at every water level.
+    """Compare every sea state with breaking and the limits of its theory, at every water level.
 
     Parameters
     ----------

@@ -64,7 +64,7 @@ class CaseDocument:
         """Return the place of ``path``, or of the nearest block around it that is written in the file."""
         for length in range(len(path), -1, -1):
             head = tuple(path[:length])
-            # Of a block that lacks a key, the line of its own key tells more than the line of its first entry
+            # Of a block that lacks a key, the line of its own key gives more than the line of its first entry
             first, second = (self.keys, self.values) if of_key or length < len(path) else (self.values, self.keys)
             found = first.get(head) or second.get(head)
             if found:

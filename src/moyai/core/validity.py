@@ -20,7 +20,7 @@ class Notice:
     code: str
     #: One sentence for the engineer, naming the quantity, its number and the limit.
     message: str
-    #: ``value``, ``limit``: The number found and the limit it was held against (NaN where there is none).
+    #: ``value``, ``limit``: The number found and the limit it was compared with (NaN where there is none).
     value: float = math.nan
     #: See ``value``.
     limit: float = math.nan
@@ -39,7 +39,7 @@ class Notice:
 
 @dataclass(frozen=True)
 class IdentityCheck:
-    """An identity that every correct solution obeys, held against the solution at hand."""
+    """An identity that every correct solution obeys, checked in one solution."""
 
     #: For instance ``energy balance of the fixed section``.
     name: str

@@ -92,7 +92,7 @@ _LABELS = (
 #: Concepts and labels that several kinds of result share.
 COMMON: Mapping[str, Variable] = {variable.name: variable for variable in (*_QUANTITIES, *_LABELS)}
 
-#: Names of earlier versions and what they are called, for users who ask for them.
+#: Names of earlier versions and what they are called, for users of former names.
 FORMER: Mapping[str, str] = {
     **dict.fromkeys(
         ("maximum_tension", "peak_tension", "tension_largest", "tension_maximum"), LINE_TENSION_MAXIMUM.name

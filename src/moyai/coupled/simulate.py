@@ -108,7 +108,7 @@ def simulate_coupled(
     keep_nodes, keep_bars : array_like of int, optional
         What the record of the network holds.
     carriers : mapping of str to PointCarrier, optional
-        Bodies that move already (a run that goes on, a velocity at the start), in place of fresh ones.
+        Bodies that move already (a run that continues, a velocity at the start), in place of fresh ones.
     progress : Progress
         Called with the simulated time.
 

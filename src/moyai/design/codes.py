@@ -1,4 +1,4 @@
-"""Lines held against a design code: utilisation, pass or fail, and what stands behind the factors.
+"""Lines compared with a design code: utilisation, pass or fail, and what stands behind the factors.
 
 Theory in docs/theory/design_checks.md.
 """
@@ -95,7 +95,7 @@ def design_code(
     consequence : str
         Class, for codes that have classes.
     confirmed : iterable of str
-        Editions or names of codes whose values the user has held against the standard.
+        Editions or names of codes whose values the user has compared with the standard.
     own : sequence of CodeRule
         Values of the user's own in place of the table's.
 
@@ -135,7 +135,7 @@ def design_code(
 
 
 def check_line(load: LineLoad, code: DesignCode, *, corrosion: float = 0.0, diameter: float = math.nan) -> LineCheck:
-    """Hold a line against a code.
+    """Compare a line with a code.
 
     Parameters
     ----------

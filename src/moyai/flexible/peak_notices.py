@@ -1,4 +1,4 @@
-"""What makes the peaks of a run doubtful: fronts, ropes beyond their curves, long steps, energy from nowhere.
+"""What makes the peaks of a run doubtful: fronts, ropes beyond their curves, long steps, energy balance error.
 
 Runs of networks alone and of networks with bodies are reported by the same functions.
 """
@@ -34,7 +34,7 @@ def peak_notices(
     peaks : ndarray, shape (k, b)
         Their highest tensions between rows [N].
     check : IdentityCheck
-        Energy from nowhere.
+        Energy balance error.
     finished : bool
         Whether the run came to its end; one that was stopped has said why.
     """
@@ -123,5 +123,5 @@ def advice(network: Network) -> str:
 
 
 def stable_step(run: Run) -> float:
-    """Return the largest step that a run bears now [s], NaN once its values are not finite."""
+    """Return the largest stable step of a run now [s], NaN once its values are not finite."""
     return run.limit()[0] if np.isfinite(run.place).all() else np.nan

@@ -30,7 +30,7 @@ Enough = Callable[[np.ndarray, np.ndarray, np.ndarray], bool]
 
 Method = Literal["explicit", "tr_bdf2", "esdirk4"]
 
-#: Energy from nowhere, as a part of the energy that went through the network: what is called good, and what stops a
+#: Energy balance error, as a part of the energy that went through the network: what is called good, and what stops a
 #: run.
 ENERGY_TOLERANCE, ENERGY_STOP = 0.02, 0.25
 #: Longest time over which step, drag and nearness of the surface are taken as they were at its start [s].
@@ -160,7 +160,7 @@ def simulate(
     step : float, optional
         Time step [s], rounded down to fill an output step; when left out the largest stable one times ``safety``, or,
         for
-        the implicit methods, what ``tolerance`` asks for.
+        the implicit methods, what ``tolerance`` requires.
     safety : float, optional
         Part of the largest stable step, above 0, at most 1. When left out 0.95, or 0.5 where bars may go slack with
         hardly any

@@ -1,4 +1,4 @@
-"""A network that is stepped from outside: points go where a body takes them, and the network tells what they feel.
+"""A network that is stepped from outside: points go where a body takes them, and the network gives what they feel.
 
 The explicit scheme does the small steps; a step that is tried again with a better path starts from the last accepted
 state. See :mod:`moyai.core.attachment` for the two sides of the joint and docs/theory/coupled.md.

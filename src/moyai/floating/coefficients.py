@@ -92,7 +92,7 @@ class Hydrodynamics:
 
     @classmethod
     def of_headings(cls, dataset: xr.Dataset) -> tuple[Hydrodynamics, ...]:
-        """Take a dataset of one metre apart by heading, each with its own radiation where the dataset tells it."""
+        """Take a dataset of one metre apart by heading, each with its own radiation where the dataset gives it."""
         out = []
         for index in range(dataset.sizes["wave_direction"]):
             one = dataset.isel(wave_direction=[index])

@@ -115,7 +115,7 @@ def _answer(
 ) -> _State:
     """Return the motions about the offset of a given drift, and the drift that they cause.
 
-    ``near`` is the state in a drift nearby, from which the linearisation goes on; ``held`` is what :func:`_held` gives.
+    ``near`` is the state in a drift nearby, from which the linearisation continues; ``held`` is that of :func:`_held`.
     """
     offset, stiffness = held or _held(problem, drift, start)
     total = problem.hydrostatic_stiffness + stiffness

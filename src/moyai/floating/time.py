@@ -364,7 +364,7 @@ def _stepper(
     every: int,
     saved: tuple[Array, ...],
 ) -> tuple[Any, tuple[Notice, ...]]:
-    """Return ``advance(first, steps) -> (status, good steps)`` for the memory at hand, and what there is to say."""
+    """Return ``advance(first, steps) -> (status, good steps)`` for the given memory, and what there is to say."""
     if isinstance(memory, StateSpaceMemory):
         z = np.zeros(len(memory.poles), dtype=np.complex128)
         weights = exponential_weights(memory.poles, step)

@@ -214,7 +214,7 @@ def describe(name: str) -> dict[str, str]:
 
 
 def require(source: str, **values: object) -> None:
-    """Refuse when something that the files do not tell was not given; all of them at once.
+    """Refuse when something that the files do not give was not given; all of them at once.
 
     Raises
     ------

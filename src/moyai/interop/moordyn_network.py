@@ -242,7 +242,7 @@ def to_deck(network: Network, *, title: str = "", floating: bool = False) -> Moo
     ------
     CaseError
         All that MoorDyn cannot express: floats that are partly immersed, held components, contact of points with the
-        bed, wakes, bars that bear compression, a bed above or below the depth, diameters of contact in different
+        bed, wakes, bars that carry compression, a bed above or below the depth, diameters of contact in different
         ratios to the volume.
     """
     equivalent = [math.sqrt(4.0 * kind.volume_per_length / math.pi) for kind in network.bars.types]
@@ -279,8 +279,8 @@ def to_deck(network: Network, *, title: str = "", floating: bool = False) -> Moo
 def safe_step(network: Network) -> float:
     """Return a step [s] with which MoorDyn's scheme RK4 stays stable on a network, two digits of it.
 
-    The fourth-order scheme of Runge and Kutta bears 2.8 over the fastest angular frequency of a motion without damping,
-    and as much over the rate of one that only fades; the explicit scheme here bears 2.
+    The fourth-order scheme of Runge and Kutta is stable to 2.8 over the highest frequency of a motion without damping,
+    and as much over the rate of one that only fades; the explicit scheme here to 2.
     """
     from moyai.flexible.explicit import LOAD_STEPS, ExplicitRun
 

@@ -1,6 +1,6 @@
 """Read MoorDyn input files; all faults of a file come at once, each with its line.
 
-MoorDyn itself passes over what it does not know and takes columns by their place. Here columns go by their headings;
+MoorDyn itself ignores unknown words and takes columns by their place. Here columns go by their headings;
 where a heading is not known by its place, and where the place would have given other values, a note says so. Options
 that are not known are noted and skipped, unless they look like one that a run needs.
 """

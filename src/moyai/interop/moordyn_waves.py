@@ -28,7 +28,7 @@ MOST_FREQUENCIES = 20_000
 def read_waves(
     option: DeckOption, time_step: float | None, folder: Path, faults: Faults, notes: list[str]
 ) -> DeckWaves | None:
-    """Return the waves that the option WaveKin of a deck asks for.
+    """Return the waves that the option WaveKin of a deck requires.
 
     Parameters
     ----------

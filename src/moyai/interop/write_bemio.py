@@ -32,7 +32,7 @@ def bemio_files(dataset: xr.Dataset) -> dict[str, bytes]:
     Raises
     ------
     InputError
-        When the added mass at infinite frequency is not known, which the format asks for, and the frequencies are too
+        When the added mass at infinite frequency is not known, which the format requires, and the frequencies are too
         few to find it from the damping.
     """
     import h5py

@@ -67,7 +67,7 @@ class AnchorCheck:
 
 
 def check_sinker(sinker: Sinker, horizontal: float, uplift: float) -> AnchorCheck:
-    """Hold a sinker against the pull of its line [eq:checks-sinker].
+    """Compare a sinker with the pull of its line [eq:checks-sinker].
 
     Parameters
     ----------
@@ -96,7 +96,7 @@ def check_sinker(sinker: Sinker, horizontal: float, uplift: float) -> AnchorChec
 
 
 def check_drag_anchor(anchor: DragAnchor, horizontal: float, uplift: float) -> AnchorCheck:
-    """Hold a drag anchor against the pull of its line [eq:checks-drag-anchor].
+    """Compare a drag anchor with the pull of its line [eq:checks-drag-anchor].
 
     Notices report any uplift: such anchors are not made for it.
 

@@ -101,7 +101,7 @@ class LineState:
 
 
 class LineElement(Protocol):
-    """What a line system asks of its members."""
+    """What a line system requires of its members."""
 
     @property
     def name(self) -> str:
@@ -318,7 +318,7 @@ class SpringLine:
 
     @property
     def natural_length(self) -> float:
-        """Length at which the spring bears nothing [m]; may be negative when strongly pretensioned."""
+        """Length at which the spring carries nothing [m]; may be negative when strongly pretensioned."""
         return math.dist(self.anchor, self.fairlead) - self.pretension / self.stiffness
 
     def solve(self, points: Array, water_depth: float) -> LineState:

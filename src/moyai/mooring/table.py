@@ -182,7 +182,7 @@ def tabulate_line(
     horizontal_range, vertical_range : tuple
         Window of the distances from anchor to fairlead [m].
     tolerance : float
-        |error of (H, V)| over the tension that is aimed at; ``measured_error`` tells what was reached.
+        |error of (H, V)| over the tension that is aimed at; ``measured_error`` gives what was reached.
 
     Raises
     ------

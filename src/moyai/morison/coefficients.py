@@ -136,7 +136,7 @@ class CoefficientRule:
         Raises
         ------
         InputError
-            When a law does not speak of this section.
+            When a law is not for this section.
         """
         notices: list[Notice] = []
         inertia = self._inertia(section, flow, notices)

@@ -201,7 +201,7 @@ def _segments_meet(a: complex, b: complex, c: ComplexArray, d: ComplexArray, tol
 
 
 def _boxes_meet(a: complex, b: complex, c: ComplexArray, d: ComplexArray, tolerance: float) -> NDArray[np.bool_]:
-    """Whether the boxes around the segments overlap: tells parallel segments on one line apart."""
+    """Whether the boxes around the segments overlap: separates parallel segments on one line."""
     out = np.ones(c.shape, dtype=bool)
     for part in (np.real, np.imag):
         low, high = min(part(a), part(b)) - tolerance, max(part(a), part(b)) + tolerance

@@ -266,7 +266,7 @@ def _pair_scale(coefficient: Array) -> Array:
 
 
 def _force_scale(solution: HeadingSolution) -> Array:
-    """Scale of the force on each mode from what its own motion costs, to tell a zero excitation from a small one."""
+    """Scale of the force on each mode from what its own motion costs, to find which excitation is zero."""
     states = solution.states
     inertia = states.omega[:, None] ** 2 * np.abs(np.einsum("wii->wi", solution.added_mass))
     return np.asarray(inertia.max(axis=0) + np.abs(solution.froude_krylov_force).max(axis=0))

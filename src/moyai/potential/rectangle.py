@@ -31,7 +31,7 @@ _MODES = ("sway", "heave", "roll")
 _SIDES = ("minus", "plus")
 #: Sway and roll change sign when the picture is mirrored
 _MIRROR = np.array([-1.0, 1.0, -1.0])
-#: Waves closer than this to travelling along the structure have no reflection and transmission to speak of
+#: Waves closer than this to travelling along the structure have no appreciable reflection and transmission
 _LEAST_COSINE = 1e-3
 #: Sine of the heading below which waves count as travelling along x; the answer changes with its square
 _LEAST_SINE = 1e-6
@@ -342,7 +342,7 @@ def _oblique(shape: _Shape, surface: Array, k: Array, angle: float) -> list[Fiel
 
 
 def _identities(solution: RectangleSolution) -> tuple[IdentityCheck, ...]:
-    """Hold the solution against what every correct one obeys, [eq:reference-identities]."""
+    """Compare the solution with what every correct one obeys, [eq:reference-identities]."""
     water, omega = solution.water, solution.omega
     speed = np.atleast_1d(np.asarray(group_velocity(omega, water.depth, water.gravity), dtype=float))
     energy = np.max(np.abs(np.abs(solution.reflection) ** 2 + np.abs(solution.transmission) ** 2 - 1.0))

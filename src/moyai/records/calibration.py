@@ -1,7 +1,7 @@
 """Fit the parameters of any model to observations: least squares with bounds, and how far the answer can be trusted.
 
 The model is a function of its parameters; it may be a formula or a whole simulation. Next to the estimate stand its
-covariance, a bootstrap, the fit with each storm left out, and a warning where the observations do not tell the
+covariance, a bootstrap, the fit with each storm left out, and a warning where the observations do not give the
 parameters apart.
 """
 
@@ -159,7 +159,7 @@ class _Fitter:
             bounds=(low, high),
             x_scale="jac",
             diff_step=steps,
-            # A hundredth of the step of the slopes is all that they bear, and far below any standard error
+            # A hundredth of the step of the slopes is the least that they resolve, and far below any standard error
             xtol=max(1e-2 * self.step, 1e-12),
             ftol=max(1e-2 * self.step, 1e-12),
             gtol=1e-12,
@@ -214,7 +214,7 @@ def calibrate(
     parameters : sequence of Parameter
         What is unknown, in the order of ``values``.
     error : array_like or float, optional
-        Standard errors of the observations; without them all weigh alike and the scatter tells the error.
+        Standard errors of the observations; without them all weigh alike and the scatter gives the error.
     groups : sequence of str, optional
         Storm, campaign or run of each observation: left out one by one, and drawn whole by the bootstrap.
     bootstrap : int

@@ -57,7 +57,7 @@ def grouped(notices: Iterable[Notice]) -> tuple[NoticeGroup, ...]:
     Parameters
     ----------
     notices : iterable of Notice
-        Of one kind are those with the same code; warnings of the case file are of one kind when they speak of the same
+        Of one kind are those with the same code; warnings of the case file are of one kind when they are for the same
         key.
     """
     kinds: dict[tuple[str, str], list[Notice]] = {}

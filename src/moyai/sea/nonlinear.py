@@ -1,7 +1,7 @@
 """Regular waves of finite height: Airy, Stokes to fifth order, stream function, behind one interface.
 
 Stokes coefficients come from the library raschii (Fenton 1985). Stream-function waves come from our own Newton solver,
-which goes on where raschii's stops (long waves, waves near breaking, given periods at no extra cost), or from raschii
+which continues where raschii's stops (long waves, waves near breaking, given periods at no extra cost), or from raschii
 itself as an independent solution. The period is that of the fixed frame; the waves may ride on a uniform current.
 """
 
@@ -291,7 +291,7 @@ def _raise_order(
         current=current,
     )
     if period is not None:
-        # tells blocking by the current before any iteration
+        # gives blocking by the current before any iteration
         dispersion.wave_number_in_current(problem.omega, water.depth, water.gravity, current)
     found: StreamFunctionSolution | None = None
     wave: NonlinearWave | None = None

@@ -88,7 +88,7 @@ def reach_of_mean(values: ArrayLike, probability: float = 0.95, *, alike: ArrayL
         That the mean of very many samples lies below the end of the interval.
     alike : array_like
         More values whose scatter over their mean is that of the first, such as those of another mesh: the larger of
-        both scatters counts, known as well as the larger sample tells.
+        both scatters counts, known as well as the larger sample gives.
 
     Raises
     ------

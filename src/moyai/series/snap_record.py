@@ -270,7 +270,7 @@ def _top(t: Array, row: Array, largest: int, rough: int, noise: float) -> tuple[
     """Return top and time of a parabola through the samples about the peak.
 
     From half height to the top a sine takes two thirds of its rise; the parabola spans a third of the rise to each
-    side where noise asks for it, and three samples otherwise.
+    side where noise requires it, and three samples otherwise.
     """
     reach = 1 if noise < 1e-3 * row[largest] else max(1, round(0.45 * rough))
     reach = min(reach, largest, len(row) - 1 - largest)

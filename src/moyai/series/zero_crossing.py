@@ -165,7 +165,7 @@ def share_of(count: int, fraction: float, rounding: Rounding = "nearest") -> int
 def _find_waves(values: Array, times: Array, band: float, parabola: bool, gap: float, out: Array) -> int:
     """Fill ``out[:, wave]`` with start, period, crest, trough; return the number of waves.
 
-    A NaN, and a step longer than ``gap``, end the wave at hand without counting it.
+    A NaN, and a step longer than ``gap``, end the present wave without counting it.
     """
     count = 0
     open_wave = False

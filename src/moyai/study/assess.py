@@ -36,7 +36,7 @@ _WAVES = 1000.0
 
 
 def assess(study: Study, result: Result, wanted: schema.Assessment | None) -> Result:
-    """Add what the study asks for to its result.
+    """Add what the study requires to its result.
 
     Parameters
     ----------
@@ -377,5 +377,5 @@ def _largest_of(study: Study, response: xr.DataArray) -> list[tuple[str, int, fl
 
 
 def utilised(result: Result) -> bool:
-    """Whether lines or anchors were held against something: their utilisations govern then."""
+    """Whether lines or anchors were compared with something: their utilisations govern then."""
     return any(has(result, f"/assessment/{group}", "utilisation") for group in ("lines", "anchors"))

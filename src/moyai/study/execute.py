@@ -94,7 +94,7 @@ def run_study(
     Returns
     -------
     Result
-        Status ``interrupted`` when it was stopped; the same call goes on.
+        Status ``interrupted`` when it was stopped; the same call continues.
 
     Raises
     ------

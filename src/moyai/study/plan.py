@@ -34,7 +34,7 @@ _CHECKED_ALL = 500
 def _one_realisation_a_seed(base: CaseDocument, axes: list[Axis]) -> CaseDocument:
     """Return the base case of a breakwater with one realisation a case where the study itself varies seeds.
 
-    The maxima over the seeds are then maxima, not means of several, unless the case asks for realisations itself.
+    The maxima over the seeds are then maxima, not means of several, unless the case requires realisations itself.
     """
     paths = [path for axis in axes for point in axis.points for path, _ in point.assignments]
     data = base.data

@@ -60,7 +60,7 @@ class _Leaf:
 def scale_case(case: Case, scale: Scale, *, from_model: bool = False, digits: int = 7) -> ScaledCase:
     """Return a case in another size by Froude with the Cauchy number kept [eq:similarity-ratio].
 
-    Units, order and comments stay; each changed line tells the value and the factor it comes from. Lines of the
+    Units, order and comments stay; each changed line gives the value and the factor it comes from. Lines of the
     catalogue become lines with figures of their own, since stretch and strength of a thinner chain would not follow
     the scale. Lengths, times and the like that were left to a default are written out.
 

@@ -1,4 +1,4 @@
-"""Responses of a study by name, and the tensions that its lines are held against."""
+"""Responses of a study by name, and the tensions that its lines are compared with."""
 
 from __future__ import annotations
 
@@ -110,7 +110,7 @@ def _largest(found: xr.DataArray, axes: list[str]) -> xr.DataArray:
 
 
 def breaking_loads(result: Result, level: str) -> xr.DataArray | None:
-    """Return the breaking loads of the lines at a water level, wherever the structure tells them."""
+    """Return the breaking loads of the lines at a water level, wherever the structure gives them."""
     groups = (node.path for node in result.tree.subtree if node.path.strip("/").split("/")[0] == level)
     where = next((path for path in groups if has(result, path, BREAKING_LOAD.name)), None)
     return None if where is None else variable(result, where, BREAKING_LOAD.name)

@@ -103,7 +103,7 @@ def spring_order() -> float:
 
 
 def hinge_moment() -> float:
-    """Return the moment about the axis of a hinge over the largest moment that it bears."""
+    """Return the moment about the axis of a hinge over the largest moment that it carries."""
     load = response((Connector("h", "hinge", ((0, 1),), 0.0, 3.0, (1.0, 0.0, 0.0)),))[1].load
     return float(np.abs(load[..., 0, 3]).max() / np.abs(load[..., 0, 4:]).max())
 

@@ -91,7 +91,7 @@ class PowerLawNet(NetLaw):
         return np.where(number > least, self.factor * np.maximum(number, least) ** -self.exponent, self.cap)
 
     def range_solidity(self, net: Net) -> float:
-        """Return the solidity that the law speaks of."""
+        """Return the solidity that the law is for."""
         return net.listed if self.solidity == "listed" else net.solidity
 
     def _coefficients(self, angle: Array, speed: Array, net: Net, kinematic_viscosity: float) -> tuple[Array, Array]:

@@ -1,4 +1,4 @@
-"""Hold a model against observations: bias, scatter, skill, by sea state, and the error of the field paper."""
+"""Compare a model with observations: bias, scatter, skill, by sea state, and the error of the field paper."""
 
 from __future__ import annotations
 

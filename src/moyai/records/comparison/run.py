@@ -1,4 +1,4 @@
-"""Hold the variables of a result against the columns of a record, along time, period or any other coordinate."""
+"""Compare the variables of a result with the columns of a record, along time, period or any other coordinate."""
 
 from __future__ import annotations
 

@@ -91,7 +91,7 @@ def implausible_notices(fits: Sequence[ForceFit], setup: Setup) -> list[Notice]:
 
 
 def periodicity_notices(record: ForceRecord, period: float, orders: int) -> list[Notice]:
-    """Hold the velocity against mean and harmonics of the period.
+    """Compare the velocity with mean and harmonics of the period.
 
     Raises
     ------

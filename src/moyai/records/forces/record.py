@@ -204,8 +204,8 @@ class NoiseCut:
 def noise_cut(velocity: Array, force: Array, step: float) -> NoiseCut | None:
     """Return where noise takes over in the derivative of a velocity (samples,) [eq:identification-noise].
 
-    The force knows of the waves and not of the noise of the current meter: the derivative is cut where the part that is
-    coherent with the force ends. ``None`` where the record is too short to tell.
+    The force contains the waves and not the noise of the current meter: the derivative is cut where the part that is
+    coherent with the force ends. ``None`` where the record is too short to show it.
     """
     from scipy.signal import csd, welch
 
@@ -253,7 +253,7 @@ def period_of(time: Array, records: Array) -> float:
     Raises
     ------
     InputError
-        When the record holds less than two periods, so that it cannot tell.
+        When the record holds less than two periods, so that it does not show it.
     """
     step = float((time[-1] - time[0]) / (time.size - 1))
     duration = step * time.size

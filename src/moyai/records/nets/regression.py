@@ -294,7 +294,7 @@ def fit_joint_law(
             "the Reynolds numbers of the runs hardly differ", parameter="runs", remedy="tow at several speeds"
         )
     noise = np.square(spread / value)
-    # a diameter that solidity already tells, or too few nets, leaves nothing to learn from it
+    # a diameter that solidity already gives, or too few nets, leaves nothing to learn from it
     per_net = np.array([[share[index == k][0], d[index == k][0]] for k in range(len(names))])
     distinct = float(np.ptp(d)) > 0.1 and len(names) > _LEAST_NETS
     with_diameter = distinct and abs(float(np.corrcoef(per_net.T)[0, 1])) < 0.98

@@ -76,7 +76,7 @@ class CageRecord:
 
 @dataclass(frozen=True)
 class EndTension:
-    """What one end of a line bears."""
+    """What one end of a line carries."""
 
     line: str
     end: str

@@ -459,7 +459,7 @@ def _percent(count: int, samples: int) -> str:
 def quality_notices(
     quality: Mapping[str, Mapping[str, int]], samples: int, gaps: Sequence[tuple[float, float]], dated: bool
 ) -> tuple[Notice, ...]:
-    """Return what a reader must know of the quality of a record."""
+    """Return what a reader must know about the quality of a record."""
     notices = []
     if gaps:
         start, duration = max(gaps, key=lambda gap: gap[1])

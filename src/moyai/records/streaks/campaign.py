@@ -124,7 +124,7 @@ def measure_campaign(
     ----------
     campaign : Campaign
     store : DatasetStore, optional
-        Keeps every recording that is done: an interrupted batch goes on from there.
+        Keeps every recording that is done: an interrupted batch continues from there.
     attributes : mapping, optional
         Attributes of the root of the result, such as the text of the case file.
     progress : Progress

@@ -223,7 +223,7 @@ def measure_circulation(
     length = float(np.ptp(shape[:, 0]))
     outlier = outliers(points, vectors, error, length)
     if orbits is not None:
-        # a place that no orbit leads around cannot be held against the exact drift
+        # a place that no orbit leads around cannot be compared with the exact drift
         outlier = outlier | np.isnan(orbits.drift(points, 0.0)[0]).any(axis=1)
     points, vectors, error = points[~outlier], vectors[~outlier], error[~outlier]
     contours = [contour_points(shape, item) for item in ratio]

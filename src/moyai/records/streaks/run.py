@@ -180,7 +180,7 @@ def analyse_recording(
     mask_margin : float
         Margin around it [m].
     store : DatasetStore, optional
-        Keeps the outcome, so that an interrupted batch goes on where it stopped.
+        Keeps the outcome, so that an interrupted batch continues where it stopped.
     progress : Progress
 
     Returns

@@ -112,7 +112,7 @@ def directional_spectrum(
     lowest, highest : float
         Band [Hz].
     largest_order : int, optional
-        Highest order of the Fourier series: by default what the number of cross spectra bears, at most 6.
+        Highest order of the Fourier series: by default what the number of cross spectra determines, at most 6.
 
     Returns
     -------

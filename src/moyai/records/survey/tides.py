@@ -59,7 +59,7 @@ class TidalFit:
     reference: float
     #: Complex amplitudes ``Re(X exp(-i omega (t - reference)))`` along x and y; shape (constituents, 2).
     amplitudes: ArrayLike
-    #: Constituents that the record is too short to tell from a larger neighbour.
+    #: Constituents that the record is too short to separate from a larger neighbour.
     left_out: tuple[str, ...]
     notices: tuple[Notice, ...]
 
@@ -99,7 +99,7 @@ def fit_tide(
     x, y : array_like
         Velocities [m/s] or, without ``y``, a water level [m]; NaN where missing.
     names : sequence of str, optional
-        Constituents; by default all that the record can tell apart.
+        Constituents; by default all that the record can separate.
     rayleigh : float
         Two constituents are distinguished when their frequencies differ by so many cycles over the record.
     trend : bool

@@ -76,7 +76,7 @@ class TabataRuns:
     new: Blocks
     #: Both types through the chain of the paper.
     conventional: Blocks
-    #: What the span bears in the typhoon, a realisation each, by the stiffness of :data:`ROPES`.
+    #: Loads of the span in the typhoon, a realisation each, by the stiffness of :data:`ROPES`.
     typhoon: Mapping[str, tuple[Pulls, ...]]
     #: The same with one guessed value changed, by the words of the change, for a rope of 890 kN for a strain of one.
     guessed: Mapping[str, Pulls]

@@ -170,7 +170,7 @@ def _causality(unit: FloatingUnit, checks: tuple[IdentityCheck, ...]) -> tuple[l
 
 
 def _functions(unit: FloatingUnit, beam: Hydrodynamics) -> tuple[MemoryFunctions, MemoryPlan]:
-    """Return the memory functions of the unit on a time grid that the damping itself asks for."""
+    """Return the memory functions of the unit on a time grid that the damping itself requires."""
     planar = beam.has_far_field
     start = damping_start(unit) if planar else "zero"
     steady = None

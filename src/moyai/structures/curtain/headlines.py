@@ -55,7 +55,7 @@ _NOT_JUDGED = Headline(
     detail="ageing, fouling and fatigue of the sheet and its ropes, a curtain with one anchor line lost, stress at "
     "seams and eyelets, and the holding of an anchor in its soil are not computed",
 )  # fmt: skip
-#: Key that asks for more realisations.
+#: Key for more realisations.
 _MORE = "settings.waves.realisations"
 #: Groups that a level has where waves were run.
 _IN_WAVES = ("waves", "dynamic", "weaker_currents")
@@ -109,7 +109,7 @@ class _Load:
         high = self.value
         if self.band is not None:
             high = max(high, self.band.high) if self.band.decides else max(high, *(self.band.judged or ()))
-        # a bound from below proves strength only where its band goes on beyond it, as criteria are judged
+        # a bound from below proves strength only where its band continues beyond it, as criteria are judged
         known = self.bound != "at least" or (self.band is not None and self.band.beyond_bound)
         return known and high * self.number("safety_factor") <= self.number("capacity")
 
@@ -269,7 +269,7 @@ def _runs_of(
 
 
 def _line(load: _Load) -> str:
-    """Return the component of the whole span that bears a load: that of an anchor is its line, turned."""
+    """Return the component of the whole span that carries a load: that of an anchor is its line, turned."""
     return "anchor line" if load.component == "anchor" else load.component
 
 
@@ -573,7 +573,7 @@ def _steady_band(groups: Groups, load: _Load) -> Band | None:
         return None if band is None or not value > 0.0 else band.scaled(load.number("steady_load") / value)
     band = statics_band(statics, _STEADY_NAMES.get(load.component, ""))
     if band is not None and load.component.startswith("anchor"):
-        # a pretension bears part of it
+        # a pretension carries part of it
         band = replace(band, low=load.number("steady_low"), high=load.number("steady_high"))
     return band
 

@@ -130,7 +130,7 @@ def limit_headlines(groups: Groups, levels: Sequence[str], span_holds: Callable[
             details.insert(0, f"{limit:.3g} {unit} at nominal values; {band.of}")
             limit = band.low
         if waves and table.attrs.get("with_snaps"):
-            # realisations of a sea do not tell a third digit
+            # realisations of a sea do not give a third digit
             limit = _two_digits(limit)
             details += _of_other_seeds(table, limit)
         period = float(table.attrs.get("design_limit_period", math.nan))

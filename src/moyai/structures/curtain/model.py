@@ -76,7 +76,7 @@ class AnchorLines:
 
 @dataclass(frozen=True)
 class Strengths:
-    """What the components bear; :data:`UNJUDGED` where the case says nothing."""
+    """What the components carry; :data:`UNJUDGED` where the case says nothing."""
 
     #: ``upper_cable``, ``lower_cable``, ``sheet``, ``joint``, ``anchor_line``, ``anchor``: Cables, joint, line, holding
     #: force of the anchor [N]; sheet [N/m].
@@ -257,7 +257,7 @@ class CurtainSettings:
     anchor_loads: AnchorLoadSettings | None = None
     limits: LimitSettings = field(default_factory=LimitSettings)
     dynamic: DynamicSettings | None = None
-    #: Leave out what only tells how far the statics vary: ends of the drag, band of the steady load, largest spacing.
+    #: Leave out what only gives how far the statics vary: ends of the drag, band of the steady load, largest spacing.
     nominal: bool = False
 
     @property

@@ -135,7 +135,7 @@ class _Slack(NamedTuple):
 
 
 def _at_slack(statics: xr.Dataset, key: str) -> _Slack | None:
-    """Return a number at slack water; None where the case does not tell it."""
+    """Return a number at slack water; None where the case does not give it."""
     value = float(statics[f"slack_{key}"]) if f"slack_{key}" in statics else math.nan
     if math.isnan(value):
         return None

@@ -98,7 +98,7 @@ def member_notices(problem: MemberProblem, member: StraightMember) -> tuple[Noti
 def wave_notices(
     problem: MemberProblem, member: StraightMember, wave: MemberWave, found: WaveForces
 ) -> tuple[Notice, ...]:
-    """Hold one wave against slenderness and the range of the circulation law."""
+    """Compare one wave with slenderness and the range of the circulation law."""
     notices = list(found.notices)
     if isinstance(wave.flow, NonlinearFlow):
         notices.extend(wave.flow.wave.notices())

@@ -77,7 +77,7 @@ def loads_of(plan: BodyPlan, dataset: xr.Dataset, water: Water) -> WaveLoads:
 def with_coefficients(
     problem: NetworkProblem, datasets: Mapping[str, xr.Dataset]
 ) -> tuple[NetworkProblem, list[Notice], list[IdentityCheck]]:
-    """Return the problem whose bodies bear the loads of their coefficients, with what there is to say of them.
+    """Return the problem whose bodies carry the loads of their coefficients, with what there is to say of them.
 
     Parameters
     ----------
@@ -141,7 +141,7 @@ def _other_water(problem: NetworkProblem, name: str, dataset: xr.Dataset) -> lis
 
 
 def loads_on_time(problem: NetworkProblem, plan: RunPlan) -> list[Notice]:
-    """Hold the waves of a run against what the loads of the bodies know.
+    """Compare the waves of a run with the range of the loads of the bodies.
 
     Raises
     ------

@@ -138,7 +138,7 @@ def _net_widths(groups: Mapping[str, xr.Dataset]) -> dict[str, float]:
 def _net_tension(
     problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peaks: list[_Peak], widths: Mapping[str, float]
 ) -> list[Headline]:
-    """Return the highest tension of nets whose bars gather twines, over the width of netting that bears it.
+    """Return the highest tension of nets whose bars gather twines, over the width of netting that carries it.
 
     That of a bar is as much as the mesh makes it: a limit in newton says nothing of it.
     """
@@ -307,7 +307,7 @@ def _utilisation(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peak
 
 
 def _types_of_parts(problem: NetworkProblem) -> dict[str, str]:
-    """Return words for the parts of lines whose parts differ in strength: of what type, and what they bear."""
+    """Return words for the parts of lines whose parts differ in strength: of what type, and what they carry."""
     return {
         name: f"{part.bar_type.name}, its own highest tension"
         for line in problem.lines
@@ -348,7 +348,7 @@ def _mean(groups: Mapping[str, xr.Dataset], peak: _Peak, load: float) -> float |
 def _band(groups: Mapping[str, xr.Dataset], peak: _Peak) -> tuple[Band | None, list[str], Bound]:
     """Return what mesh, step and the chance of one seed do to a tension, what is to be said of it, and what it proves.
 
-    A record too short to tell its chance, or one seed in which a line snaps, can break a limit and cannot keep one.
+    A record too short to show its chance, or one seed in which a line snaps, can break a limit and cannot keep one.
     """
     if peak.model == REST:
         band, settled = _rest_band(groups, peak)

@@ -22,7 +22,7 @@ REMEDY = "settings.sensitivity: true checks them"
 
 
 #: Whole change from a net to one of no mesh over that to twice its knots. The half cell at a held row that no bar
-#: bears is an error of first order, which would make it 2; nets of 4 x 5 to 25 x 33 knots came to 2.2.
+#: carries is an error of first order, which would make it 2; nets of 4 x 5 to 25 x 33 knots came to 2.2.
 NET_REACH = 2.5
 
 

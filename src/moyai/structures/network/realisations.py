@@ -79,7 +79,7 @@ def left_out(problem: NetworkProblem, plan: RunPlan, history: History) -> list[N
 
 
 def _wanted(problem: NetworkProblem, plan: RunPlan, history: History, doubtful: bool) -> int:
-    """Return how many realisations the case asks for, or fit into what may be spent; 1 is the run of the case alone."""
+    """Return how many realisations the case requires, or fit into what may be spent; 1 is the run of the case alone."""
     network, asked = history.network, problem.settings.realisations
     together = (
         isinstance(_sea(problem, plan), IrregularSea) and history.method == "explicit"
@@ -110,7 +110,7 @@ def realisations_of(
     doubtful: bool,
     progress: Progress,
 ) -> Realisations | None:
-    """Run further realisations of an irregular sea, as many as the case asks for or as take little time.
+    """Run further realisations of an irregular sea, as many as the case requires or as take little time.
 
     Parameters
     ----------

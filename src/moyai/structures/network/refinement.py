@@ -185,7 +185,7 @@ def check_event(
             pulls[name] = _in_proportion(one, whole[name] / one.peak, lands)
     own = {}
     for name, one in found.lines.items():
-        # another line may bear most at another time: what the event says of it is then not of its peak
+        # another line may carry most at another time: what the event says of it is then not of its peak
         top = peak if name == line else _highest(history, _bars_of(assembly, name), skip)
         if one.peak > 0.0 and (name == line or abs(one.peak / top - 1.0) <= SAME_EVENT):
             own[name] = _in_proportion(one, top / one.peak, lands)

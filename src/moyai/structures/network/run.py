@@ -87,7 +87,7 @@ def run(
 def _steps(problem: NetworkProblem, collected: Collected, progress: Progress) -> Iterator[None]:
     levels = problem.environment.water_levels
     if problem.bodies and "dynamic" in problem.settings.analyses:
-        # waves that the loads do not know are reported before anything is run
+        # waves that the loads do not have are reported before anything is run
         for _, level in levels:
             for plan in run_plans(problem, problem.environment.water_at(level)):
                 collected.notices.extend(loads_on_time(problem, plan))
@@ -302,7 +302,7 @@ def _stiffness(
 
 
 def _weight_check(assembly: Assembly, found: dict[str, Equilibrium], said: str, collected: Collected) -> None:
-    """Hold the loads on all held points against the weight in water, where nothing lies on a bed or floats."""
+    """Compare the loads on all held points with the weight in water, where nothing lies on a bed or floats."""
     network = assembly.network
     carried = any(name in network.points for name in network.motion_names)
     if carried or network.sheets is not None or network.bed is not None or network.nodes.held.any():

@@ -154,7 +154,7 @@ def _turned_cloth(history: History) -> list[Notice]:
 
 
 def peak_inside(assembly: Assembly, series: xr.Dataset, name: str, bar: int) -> list[Notice]:
-    """Say when the highest tension stands inside a line whose ends bear much less."""
+    """Say when the highest tension stands inside a line whose ends carry much less."""
     if name not in assembly.lines or bar < 0:
         return []
     time = series["time"].values

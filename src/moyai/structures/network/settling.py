@@ -222,7 +222,7 @@ def settled(problem: NetworkProblem, plan: RunPlan, series: xr.Dataset, origin: 
     ----------
     problem, plan
     series : xarray.Dataset
-        Of the whole run, with the rows of an earlier one that it goes on from.
+        Of the whole run, with the rows of an earlier one that it continues from.
     origin : ndarray, shape (points, 3), or None
         Places of the points in still water [m]; where the run begins when left out.
     """

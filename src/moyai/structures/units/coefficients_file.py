@@ -157,7 +157,7 @@ def _within(at: RowAtLevel, point: Array, unit: int) -> bool:
 
 
 def _stiffness_notices(dataset: xr.Dataset, at: RowAtLevel) -> list[Notice]:
-    """Hold the heave stiffness of the file against that of the units: another draught, section or unit of length."""
+    """Compare the heave stiffness of the file with that of the units: another draught, section or unit of length."""
     if "hydrostatic_stiffness" not in dataset:
         return []
     found = np.diag(dataset["hydrostatic_stiffness"].values)[2::6]

@@ -36,7 +36,7 @@ def why_loose(path: str, data: xr.Dataset) -> str:
 
 
 def lets_go(path: str, data: xr.Dataset) -> bool:
-    """Whether a connector of the row bears and lets go within the waves, in the frequency domain."""
+    """Whether a connector of the row carries and lets go within the waves, in the frequency domain."""
     lost = None if in_time(path) else data.get("connector_loses_contact")
     return lost is not None and bool(lost.values.any())
 

@@ -158,7 +158,7 @@ def unit_mesh(
     even : bool
         Whether the middle of the unit falls on a station.
     end_size : float or None
-        Of the panels on the ends across, where a gap asks for smaller ones [m].
+        Of the panels on the ends across, where a gap requires smaller ones [m].
     """
     along = cuts(length, size, even=even) - 0.5 * length
     pieces: list[Array] = []

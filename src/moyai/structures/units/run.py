@@ -103,7 +103,7 @@ def irregular_frequency(at: RowAtLevel) -> float:
 
 
 def check_resolution(at: RowAtLevel, panels: MeshPanels, omega: Array) -> tuple[Notice, ...]:
-    """Hold the panels against the shortest wave.
+    """Compare the panels with the shortest wave.
 
     Raises
     ------
@@ -207,7 +207,7 @@ def _level_steps(
         found = row_from_file(of_file, at, omega, headings)
         hydro = found.hydro
         collected.notices.extend(replace(item, message=f"{at.name}: {item.message}") for item in found.notices)
-        # what the file does not know moves nothing
+        # what the file does not have moves nothing
         settings = replace(settings, drift=settings.drift and hydro.drift is not None)
         problem = replace(problem, settings=settings)
     collected.checks.extend(replace(check, name=f"{at.name}: {check.name}") for check in hydro.checks)
@@ -312,7 +312,7 @@ def _section(
 def _balance(
     at: RowAtLevel, sea: RegularSea | IrregularSea, answers: list[SeaAnswer], hydro: RowHydrodynamics
 ) -> list[IdentityCheck]:
-    """Hold what the far waves lose against what damping takes; the surface damped in gaps takes a part unknown here."""
+    """Compare what the far waves lose with what damping takes; the surface damped in gaps takes a part unknown here."""
     if at.row.gap_damping_lid > 0.0 or hydro.panels is None:
         return []
     worst = max(float(np.abs(item.far.balance).max()) for item in answers)

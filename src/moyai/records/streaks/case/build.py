@@ -204,7 +204,7 @@ def _encloses_origin(corners: Array) -> bool:
 def _check_sizes(
     runs: Sequence[StreakRun], calm: Sequence[Recording], shape: tuple[int, int] | None, findings: Findings
 ) -> None:
-    """Hold the size of every picture against the first: one calibration holds for one size."""
+    """Compare the size of every picture with the first: one calibration holds for one size."""
     if shape is None:
         return
     places: list[tuple[KeyPath, Recording]] = [(("no_model",), item) for item in calm]
@@ -224,7 +224,7 @@ def _check_sizes(
 
 
 def _size_of(picture: Path) -> tuple[int, int] | None:
-    """Return rows and columns from the head of a file, ``None`` where it cannot tell."""
+    """Return rows and columns from the head of a file, ``None`` where it does not show them."""
     import imageio.v3 as imageio
 
     try:

@@ -376,7 +376,7 @@ def _rest(problem: BreakwaterProblem) -> tuple[InputError | None, tuple[Notice, 
 
 
 def _check_lines_at_rest(model: BreakwaterCase, unit: Breakwater, environment: Environment, findings: Findings) -> None:
-    """Hold each line of the upright unit against its strength and its slack, at every water level."""
+    """Compare each line of the upright unit with its strength and its slack, at every water level."""
     from moyai.floating.statics import body_to_site
     from moyai.mooring.checks import check_line_system
     from moyai.mooring.system import LineSystem

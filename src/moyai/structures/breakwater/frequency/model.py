@@ -155,7 +155,7 @@ def solve_about_offset(
 def energy_identity(
     model: FrequencyModel, far: FarField, motions: Motions, hydro: Hydrodynamics, where: str
 ) -> tuple[IdentityCheck, ...]:
-    """Hold the loss of the moving body against the work of its damping, to the accuracy of the coefficients.
+    """Compare the loss of the moving body with the work of its damping, to the accuracy of the coefficients.
 
     A damping lid takes energy of its own, which the solve of the section holds against its own identity.
     """

@@ -133,7 +133,7 @@ def linear_damping(model: FrequencyModel, added_mass: Array, stiffness: Array) -
 
 @dataclass(frozen=True)
 class SeaOfRun:
-    """What a run needs to know of its sea next to the forces on the unit."""
+    """What a run needs of its sea next to the forces on the unit."""
 
     waves: WaveComponents | None
     current: Current | None

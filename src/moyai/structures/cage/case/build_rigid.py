@@ -99,7 +99,7 @@ def net_of(entry: parts.RigidNet) -> Net:
 
 
 def law_of(entry: parts.NetDrag) -> NetLaw:
-    """Return the law of a net entry; options that the law does not know are left out."""
+    """Return the law of a net entry; options that the law does not have are left out."""
     try:
         law = net_law(entry.law)
         options: dict[str, object] = {

@@ -13,7 +13,7 @@ from moyai.structures.cage.case import schema
 from moyai.structures.cage.case.check_rigid import check_law_and_water
 from moyai.structures.cage.case.schema_flexible import FlexibleCageStructure, GridEntry, RopeEntry
 
-#: Share of the way that anchor lines may lack at rest; fibre ropes bear it as a pretension
+#: Share of the way that anchor lines may lack at rest; fibre ropes take it as a pretension
 _USUAL_STRETCH = 0.02
 
 

@@ -15,7 +15,7 @@ _STRETCH = 0.15
 
 
 def floating_balance(design: CageDesign, water: Water) -> tuple[float, float]:
-    """Return the submerged weight of one cage below its collar, and what the collar can bear beyond its own weight [N].
+    """Return the submerged weight of one cage below its collar, and the buoyancy of the collar less its weight [N].
 
     Net, growth, sinkers, sinker tube and centre weight against the pipes of the collar wholly immersed.
     """

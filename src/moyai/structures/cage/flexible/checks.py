@@ -72,7 +72,7 @@ def design_speed(problem: FlexibleCageProblem) -> float:
 
 
 def rest_checks(level: str, statics: xr.Dataset) -> tuple[IdentityCheck, ...]:
-    """Hold the pull on the anchors against the drag of the water on all parts."""
+    """Compare the pull on the anchors with the drag of the water on all parts."""
     moving = statics.variables["current_speed"].values > 0.0
     if not moving.any():
         return ()

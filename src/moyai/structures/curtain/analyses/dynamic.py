@@ -37,7 +37,7 @@ class SpanLoad(NamedTuple):
     """Highest tension of a component, the run in which it stands, whether smaller cells give more, and what is judged.
 
     Tensions in N, N/m; what is judged is the upper end of the interval of the mean, the tension itself without one.
-    ``open`` tells that some run, this one or another, leaves the component open upwards.
+    ``open`` states that some run, this one or another, leaves the component open upwards.
     """
 
     load: float
@@ -203,7 +203,7 @@ def _steadied(first: DynamicRun, run: DynamicRun, place: str) -> tuple[Notice, .
 
 
 def _models(unit: LevelCurtain, settings: CurtainSettings) -> xr.Dataset | None:
-    """Return the peaks of models A and A2 at the start speed, to hold the dynamic peak against."""
+    """Return the peaks of models A and A2 at the start speed, to compare the dynamic peak with."""
     import xarray as xr
 
     speed = settings.impact.start_speed or unit.normal_speed

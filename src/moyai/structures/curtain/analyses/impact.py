@@ -199,7 +199,7 @@ def counts(model: str) -> bool:
 def skirt_tension(answer: ImpactAnswer, tension: float) -> float:
     """Return the tension of the skirt per width [N/m] that goes with a sum of cable tensions [N].
 
-    Each cable bears half of the load on the section, sigma d0/2; the skirt is an arc that stretches.
+    Each cable carries half of the load on the section, sigma d0/2; the skirt is an arc that stretches.
     """
     return math.nan if answer.skirt is None else answer.skirt.edge_tension(0.5 * line_load(answer, tension))
 

@@ -500,7 +500,7 @@ def _speeds(unit: LevelCurtain, settings: CurtainSettings, limit: Limit) -> tupl
     """Return the speeds of the table: as given, or up past the limit, with the limit and the current of the case."""
     weaker: tuple[float, ...] = ()
     if "waves" in settings.analyses:
-        # in them the sheet hangs straighter and may bear more; at slack water there is no shape to speak of
+        # in them the sheet hangs straighter and may carry more; at slack water there is no stable shape
         weaker = tuple(speed for speed in currents_of_waves(unit) if speed > 0.0)
     if settings.limits.speeds is not None:
         return tuple(sorted({max(speed, 1e-3) for speed in settings.limits.speeds}.union(weaker)))

@@ -167,7 +167,7 @@ def _statics(unit: LevelCurtain, cases: tuple[CurtainStatics, ...], significant_
 def _at_slack_water(unit: LevelCurtain) -> dict[str, float]:
     """Return toe clearance and float reserve of a curtain that hangs straight down without a current.
 
-    The flared skirt of a curtain in its current stands higher, and the load bears part of its weight: both numbers
+    The flared skirt of a curtain in its current stands higher, and the load carries part of its weight: both numbers
     are on the favourable side there. Its ends are those of the range of the toe's weight; of a held toe it is as if the
     lower cable bore nothing of it.
     """

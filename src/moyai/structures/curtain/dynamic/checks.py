@@ -25,7 +25,7 @@ _STRAINED, _STRETCHED = 0.05, 0.25
 
 
 def run_checks(run: DynamicRun, place: str) -> tuple[IdentityCheck, ...]:
-    """Return the energy checks of a run: what came from nowhere, and what viscosity had to take.
+    """Return the energy checks of a run: its spurious energy, and what viscosity had to take.
 
     The second finds cloth that crumples in the mesh: turning sections then feed it and viscosity eats it, so that the
     sum balances while the peaks are those of the mesh.
@@ -95,7 +95,7 @@ def plain(value: float) -> str:
 def still_rises(run: DynamicRun) -> bool:
     """Return whether the highest tension is in the second half of the run, where a higher one may still follow.
 
-    A skirt with a free toe bears a first snap while it is upright and a higher one where its swing ends, several rises
+    A skirt with a free toe has a first snap while it is upright and a higher one where its swing ends, several rises
     of model A later; a run that ends between both shows the first one as its peak.
     """
     time = run.history.time
@@ -104,7 +104,7 @@ def still_rises(run: DynamicRun) -> bool:
 
 
 def _leads(run: DynamicRun, name: str) -> bool:
-    """Return whether a line bears enough for its peak to matter."""
+    """Return whether a line carries enough for its peak to matter."""
     return run.peak(name)[0] > 0.5 * max(run.peak(other)[0] for other in run.names)
 
 

@@ -40,7 +40,7 @@ class ModelTension:
     time: float
     #: What the model takes for granted.
     assumption: str
-    #: ``upper_tension``, ``lower_tension``: Largest tension of each cable [N]; NaN where the model does not tell them
+    #: ``upper_tension``, ``lower_tension``: Largest tension of each cable [N]; NaN where the model does not give them
     #: apart.
     upper_tension: float = math.nan
     #: See ``upper_tension``.

@@ -1,4 +1,4 @@
-"""The limit rose: what the curtain bears over wave direction and its own orientation, as drawing, figure and tables."""
+"""The limit rose: permissible heights over wave direction and curtain orientation, as drawing, figure and tables."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def _degrees(angle: float, turn: float = 360.0) -> float:
 
 
 def _best(group: Group, orientation: Array) -> int | None:
-    """Return the row of the orientation that bears most, ``None`` where no sea chooses one."""
+    """Return the row of the best orientation, ``None`` where no sea chooses one."""
     best = attribute(group, "best_orientation")
     return None if math.isnan(best) else int(np.argmin(np.abs(orientation - best)))
 

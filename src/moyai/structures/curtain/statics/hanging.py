@@ -187,7 +187,7 @@ def tight_line(force: float, pretension: float) -> float:
     """Return the tension of the tighter of two alike lines that hold a support from both sides [N].
 
     While neither is slack the one gains half of the force and the other loses it; beyond twice the pretension the one
-    bears all of it [eq:curtain-pretension].
+    carries all of it [eq:curtain-pretension].
 
     Parameters
     ----------
@@ -232,7 +232,7 @@ def supported(
     toe : tuple of float
         Gap under the toe [m], speed in it [m/s], that over the undisturbed one [-].
     lower_share : float
-        Share of the tension that the lower cable bears [-].
+        Share of the tension that the lower cable carries [-].
     """
     first, second = plan.downstream_end_forces
     lean = abs(plan.inward_end_forces[0] - plan.inward_end_forces[1])

@@ -1,7 +1,7 @@
 """The one steady load of a curtain: value of the model that governs, and its band over what is not known.
 
 Section and plan in equilibrium give the load for a free and for a held toe alike. A skirt whose toe swings flares
-until its weights balance the current: a load normal to the sheet leaves its tension alone, so the top bears at most
+until its weights balance the current: a load normal to the sheet leaves its tension alone, so the top carries at most
 what hangs below it [eq:curtain-steady-bound], however large the drag coefficient is. What is not known is varied one
 at a time, and then everything together that lowers or raises the load.
 """
@@ -96,7 +96,7 @@ class SteadyState:
 
 
 def _borne(statics: CurtainStatics) -> float:
-    """Return the load per length that reaches the cables [N/m]: without what a bed bears."""
+    """Return the load per length that reaches the cables [N/m]: without what a bed carries."""
     return statics.section.load if statics.toe_gap != 0.0 else statics.section.top_load
 
 
@@ -296,7 +296,7 @@ def steady_load(
             state = SteadyState(change.name, solve(change.apply(curtain)))
         except (InputError, ConvergenceError):
             if change.subject == "law" and free:
-                # no shape to compute: but whatever the law is, the top bears no more than what hangs below it
+                # no shape to compute: but whatever the law is, the top carries no more than what hangs below it
                 unknown_law = max(bound - middle, 0.0)
                 causes.append(SteadyState(f"{change.name}: no shape, bound by the weights", given.statics, unknown_law))
             else:

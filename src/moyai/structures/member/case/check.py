@@ -221,7 +221,7 @@ def _check_section(problem: MemberProblem, findings: Findings) -> None:
 
 
 def _check_waves(model: schema.MemberCase, problem: MemberProblem, findings: Findings) -> None:
-    """Hold every sea state against breaking and the limits of its theory, at every water level."""
+    """Compare every sea state with breaking and the limits of its theory, at every water level."""
     from moyai.sea.validity import check_spectrum, check_wave
 
     for index, (state, sea) in enumerate(zip(model.waves, problem.seas)):

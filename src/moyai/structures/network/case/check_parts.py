@@ -180,7 +180,7 @@ def check_bars(model: NetworkCase, findings: Findings) -> None:
 
 
 def check_sheets(model: NetworkCase, findings: Findings) -> None:
-    """Refuse sheets that bear nothing."""
+    """Refuse sheets that carry nothing."""
     for name, sheet in model.structure.sheets.items():
         if sheet.warp_stiffness == 0.0 and sheet.weft_stiffness == 0.0:
             findings.fault(

@@ -390,7 +390,7 @@ def _check_by_building(model: schema.UnitsCase, findings: Findings, folder: Path
 
 
 def _check_lines_at_rest(problem: UnitsProblem, at: RowAtLevel, findings: Findings) -> bool:
-    """Hold the lines of every unit against their strength and slack; return whether any is impossible."""
+    """Compare the lines of every unit with their strength and slack; return whether any is impossible."""
     from moyai.mooring.checks import check_line_system
 
     places = {line.name: index for index, line in enumerate(problem.row.lines)}

@@ -71,7 +71,7 @@ class RowInTime:
 
     @property
     def balanced(self) -> Array:
-        """Part of the force of the lines (m,) that weight and buoyancy bear at rest."""
+        """Part of the force of the lines (m,) that weight and buoyancy carry at rest."""
         out = np.zeros(self.at.size)
         out[2::6] = self.at.line_force(np.zeros(self.at.size))[2::6]
         return out
