@@ -30,10 +30,14 @@ class Notice:
     remedy: str = ""
     #: Paper, equation or standard behind the limit.
     source: str = ""
+    #: Unit of ``value`` and ``limit`` where a reader sees another one: ``rad`` of angles.
+    unit: Literal["", "rad"] = ""
 
     def as_dict(self) -> dict[str, Any]:
-        """Return a JSON-ready mapping (NaN becomes ``None``)."""
+        """Return a JSON-ready mapping (NaN becomes ``None``; no ``unit`` where there is none)."""
         record = asdict(self)
+        if not self.unit:
+            del record["unit"]
         return {key: None if isinstance(item, float) and math.isnan(item) else item for key, item in record.items()}
 
 

@@ -148,7 +148,7 @@ def simulate_coupled(
     if any(kind.slow is not None for kind in network.bars.types):
         raise InputError(
             "ropes with creep are not run together with bodies", parameter="bodies",
-            remedy="leave 'slow_stretch' out: the quick stiffness holds in waves, the static one for slow offsets",
+            remedy="leave the slow stretch out: the quick stiffness holds in waves, the static one for slow offsets",
         )  # fmt: skip
     flow, start = flow or Flow(), start or State.at_rest(network)
     check_points(network, bodies, carriers or {}, start)

@@ -33,7 +33,7 @@ def roll_notices(roll: float, *, freeboard: float, draught: float, beam: float, 
             f"{where}: a roll of {math.degrees(roll):.3g} deg {what}, which begins at {math.degrees(limit):.3g} deg; "
             "the linear restoring moment is extrapolated: roll, and tensions in this sea, are approximate",
             value=roll, limit=limit, severity="warning",
-            remedy="raise the deck, widen the section or damp roll",
+            remedy="raise the deck, widen the section or damp roll", unit="rad",
         ),
     )  # fmt: skip
 

@@ -28,7 +28,7 @@ from moyai.report.document import (
 )
 from moyai.report.formatting import display_unit
 from moyai.report.html import STATUS_WORDS
-from moyai.report.notices import first_page_notices
+from moyai.report.notices import first_page_notices, value_and_limit
 from moyai.report.reading import Group, root_of, walk
 
 MOST_CURVES = 12
@@ -179,14 +179,15 @@ def checks_table(result: Result) -> Table:
 def notices_table(result: Result) -> Table:
     """Return all notices, also those for information."""
     notices = result.notices
+    shown = [value_and_limit(notice) for notice in notices]
     return Table(
         "notices",
         "Notices on the range of validity",
         (
             Column("Kind", [notice.severity for notice in notices]),
             Column("Statement", [notice.message for notice in notices]),
-            Column("Found", [notice.value for notice in notices], uniform=False),
-            Column("Limit", [notice.limit for notice in notices], uniform=False),
+            Column("Found", [value for value, _ in shown], uniform=False),
+            Column("Limit", [limit for _, limit in shown], uniform=False),
             Column("Remedy", [notice.remedy for notice in notices]),
             Column("Source", [notice.source for notice in notices]),
         ),

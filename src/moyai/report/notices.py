@@ -89,6 +89,13 @@ def _group(members: list[Notice]) -> NoticeGroup:
     return NoticeGroup(worst, len(unlike), places if len(unlike) > 1 else ())
 
 
+def value_and_limit(notice: Notice) -> tuple[float, float]:
+    """Return the number of a notice and its limit as a page shows them: angles in degrees."""
+    if notice.unit == "rad":
+        return math.degrees(notice.value), math.degrees(notice.limit)
+    return notice.value, notice.limit
+
+
 def _distance(notice: Notice) -> float:
     """Return how far a notice's number lies from its limit, as a ratio; 0 where it is not known."""
     value, limit = abs(notice.value), abs(notice.limit)

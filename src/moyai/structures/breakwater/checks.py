@@ -35,10 +35,10 @@ def check_problem(problem: BreakwaterProblem) -> tuple[Notice, ...]:
                 Notice(
                     "oblique-heading",
                     f"{sea.name}: waves reach the unit at {math.degrees(sea.heading):.0f} degrees, where its length "
-                    "and "
-                    "ends matter more than its section",
-                    value=math.degrees(abs(sea.heading)),
-                    limit=math.degrees(SHORT_CREST_ANGLE),
+                    "and ends matter more than its section",
+                    value=abs(sea.heading),
+                    limit=SHORT_CREST_ANGLE,
+                    unit="rad",
                 )
             )
         if sea.heading != 0.0 and "time" in problem.analyses:

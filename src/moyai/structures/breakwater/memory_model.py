@@ -152,7 +152,7 @@ def _causality(unit: FloatingUnit, checks: tuple[IdentityCheck, ...]) -> tuple[l
             advice = Notice(
                 "gap-memory",
                 f"{unit.name}: the water in the gap resonates too sharply for a memory in time",
-                remedy="give structure.gap_damping_lid (0.01 to 0.1), or leave the time domain out",
+                remedy="give a damping lid in the gap (0.01 to 0.1), or leave the time domain out",
             )
             return list(checks), [advice]
         return list(checks), []

@@ -63,7 +63,7 @@ _WEAKER = (
     "waves in currents weaker than that of the case are computed at half of it alone, where the whole span is run by "
     "default"
 )
-_MISSING = "'settings.impact.chord' and a skirt that stretches, or 'dynamic' in 'analyses'"
+_MISSING = "the chord of the impact and a skirt that stretches, or 'dynamic' in 'analyses'"
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from moyai.structures.curtain.steady_headlines import Groups, at_rest, statics_b
 if TYPE_CHECKING:
     import xarray as xr
 
-REMEDY = "add 'dynamic' to 'analyses', with settings.dynamic.sheet_mass, for the value"
+REMEDY = "add 'dynamic' to 'analyses', with the mass of the sheet, for the value"
 
 #: Parts that an impact loads
 _STRUCK = ("upper cable", "lower cable", "sheet", "joint", "anchor line", "anchor")
@@ -137,7 +137,7 @@ def limit_headlines(groups: Groups, levels: Sequence[str], span_holds: Callable[
         if key != "speed_limit" and math.isfinite(period) and limit > 0.0:
             # the period of the height that is printed, not of the one at nominal values
             period *= math.sqrt(limit / found_at) if table.attrs.get("period_follows_height", 1) else 1.0
-            details.append(f"in waves of {period:.3g} s, as settings.limits takes the period with the height")
+            details.append(f"in waves of {period:.3g} s, as the limits take the period with the height")
         own = _number(table, "surface_speed")
         if key == "speed_limit" and own > 0.0 and not said:
             details.append(f"{limit / own:.2f} of the current of the case, {own:.3g} m/s")
@@ -165,7 +165,7 @@ def _of_other_seeds(table: xr.Dataset, limit: float) -> list[str]:
         return []
     return [
         f"other seeds may give {scatter:.2g} m less or more (one standard deviation with {count} realisations): "
-        "more by settings.waves.realisations"
+        "run more realisations"
     ]
 
 

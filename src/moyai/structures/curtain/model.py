@@ -62,14 +62,14 @@ class AnchorLines:
             raise InputError(
                 "anchor lines in water of infinite depth reach no bed",
                 parameter="water_depth",
-                remedy="give the depth, or 'slope_deg' of the lines",
+                remedy="give the depth, or the slope of the lines",
             )
         if not self.length > depth:
             raise InputError(
                 f"an anchor line of {self.length:g} m in water of {depth:g} m",
                 parameter="anchors.length",
                 allowed=f"more than {depth:g} m",
-                remedy="lengthen the line, or give 'slope_deg'",
+                remedy="lengthen the line, or give its slope",
             )
         return math.asin(depth / self.length)
 

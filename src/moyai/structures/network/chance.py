@@ -28,7 +28,7 @@ NEAR_SLACK = 1.0 / 3.0
 HELD = 0.5
 #: What is said of one seed in which lines snap, segments land or lines come near to slack, and what helps.
 SNAPS_OF_ONE_SEED = "one seed of a line that snaps, lands or comes near to slack: others may give much more"
-MORE_SEEDS, ONE_BY_ONE = "settings.realisations runs them", "run the case with other seeds, one by one"
+MORE_SEEDS, ONE_BY_ONE = "give the number of realisations to run them", "run the case with other seeds, one by one"
 #: Key for more realisations.
 MORE = "settings.realisations"
 

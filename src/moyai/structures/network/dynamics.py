@@ -252,7 +252,7 @@ def _peak_uncertainty(
             return None, [], history
         return None, [
             Notice("sensitivity-left-out", "accuracy of the peak not found: the run continues an earlier one",
-                   severity="information", remedy="run it from its start with settings.sensitivity")
+                   severity="information", remedy="run it from its start with a sensitivity run")
         ], history  # fmt: skip
     try:
         motions = motions_of(problem, plan.duration)

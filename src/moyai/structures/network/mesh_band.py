@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 UNCHECKED = "mesh and step not checked"
 #: What is said with it where the number proves no limit kept.
-REMEDY = "settings.sensitivity: true checks them"
+REMEDY = "a sensitivity run checks them"
 
 
 #: Whole change from a net to one of no mesh over that to twice its knots. The half cell at a held row that no bar

@@ -258,7 +258,7 @@ class MotionPlan:
                 allowed="a table over the whole run",
                 remedy="let its times begin at 0 s"
                 if self.table.start > 1e-9
-                else f"lengthen the table, or set settings.duration to {self.table.end:g} s at most",
+                else f"lengthen the table, or set the duration of the run to {self.table.end:g} s at most",
             )
         return self.table
 

@@ -58,7 +58,7 @@ class Realisations:
             Notice(
                 "realisations-lost",
                 f"{lost} of {self.seeds.size} realisations blew up at the shortest step: means are those of the others",
-                lost, 0, remedy="give a shorter settings.step or more internal damping",
+                lost, 0, remedy="give a shorter step or more internal damping",
             )
         ]  # fmt: skip
 

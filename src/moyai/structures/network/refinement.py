@@ -462,7 +462,7 @@ def not_converged(found: PeakSensitivity, goal: float, line: str, why: str, segm
     remedy = (
         f"{finer}, more internal damping (damping_ratio: {DAMPING:g} of critical), or a line that does not go slack"
         if by_mesh >= by_step
-        else "a shorter settings.step, or the internal damping that the line has"
+        else "a shorter step, or the internal damping that the line has"
     )
     if knots:
         return (
@@ -485,5 +485,5 @@ def unchecked(why: str, off: bool = False) -> Notice:
         if off
         else f"{why}; twice the segments and half the step were not run: they would take too long",
         severity="warning",
-        remedy="settings.sensitivity: true runs them all the same",
+        remedy="a sensitivity run runs them all the same",
     )

@@ -63,7 +63,7 @@ class Drift:
         return [
             Notice(
                 "still-drifting", f"{self.words()}: tensions, pulls and offsets are those of the way there",
-                severity="warning", remedy="a longer settings.duration, or settings.start: rest_in_current",
+                severity="warning", remedy="a longer duration, or the start 'rest_in_current'",
             )
         ]  # fmt: skip
 

@@ -144,7 +144,7 @@ def _check_bodies(dataset: xr.Dataset, at: RowAtLevel) -> None:
             allowed="bodies in the order and at the places of the units",
             remedy=f"give bodies: [{', '.join(order)}]"
             if all(order)
-            else "give 'origin' and 'x_axis_heading_deg' of the axes of the file, or correct the places of the units",
+            else "give origin and heading of the x axis of the file, or correct the places of the units",
         )
 
 
@@ -279,7 +279,7 @@ def at_frequencies(whole: RowHydrodynamics, omega: Array) -> RowHydrodynamics:
             f"the seas need {omega.min():.4g} to {omega.max():.4g} rad/s, the file holds {own[0]:.4g} to "
             f"{own[-1]:.4g} rad/s",
             parameter=WHERE,
-            remedy="run the program at more frequencies, or give 'settings.frequencies' within those of the file",
+            remedy="run the program at more frequencies, or give frequencies within those of the file",
         )
     clipped = np.clip(omega, own[0], own[-1])
     k = np.array([float(wave_number(w, whole.water.depth, whole.water.gravity)) for w in clipped])

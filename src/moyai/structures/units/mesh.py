@@ -410,5 +410,5 @@ def check_gaps(section: Section, length: float, placements: tuple[Placement, ...
                     f"({size:.3g} m)",
                     parameter="units",
                     allowed=f"at least {LEAST_GAP * size:.3g} m with these panels",
-                    remedy="widen the gap or give smaller panels (settings.panel_size)",
+                    remedy="widen the gap or give smaller panels",
                 )

@@ -162,7 +162,7 @@ def settling_notices(sea: str, series: xr.Dataset) -> tuple[Notice, ...]:
             "cage-not-settled",
             f"{sea}, {series.attrs['wave']}: after {periods:.3g} periods {name} still changes by {change:.2g} % a "
             "period: what has not settled is a bound",
-            change, severity="warning", remedy="give more 'settings.flexible.most_periods'",
+            change, severity="warning", remedy="give more periods at most",
         ),
     )  # fmt: skip
 

@@ -205,6 +205,7 @@ def run_notices(problem: RigidCageProblem, run: RigidCageRun, lines: tuple[CageL
                 limit=math.radians(60.0),
                 severity="error",
                 remedy="check centre of gravity and moorings",
+                unit="rad",
             )
         )
     return tuple(found)

@@ -104,7 +104,7 @@ def start_speed(unit: LevelCurtain, settings: ImpactSettings) -> tuple[float, st
         raise InputError(
             "the start speed of the impact needs a current along the normal",
             parameter="settings.impact.start",
-            remedy="give 'current', or 'settings.impact.start_speed'",
+            remedy="give a current, or the start speed of the impact",
         )
     if settings.start == "current":
         return current, "current, mean over the skirt"
@@ -233,7 +233,7 @@ def impact_notices(unit: LevelCurtain, settings: ImpactSettings, answer: ImpactA
         notices.append(
             Notice(
                 "impact-no-arc",
-                "models B and AB and the tension of the skirt need 'settings.impact.chord' and a skirt that stretches",
+                "models B and AB and the tension of the skirt need the chord of the impact and a skirt that stretches",
                 severity="information",
                 remedy="give the straight distance of the skirt's edges when it becomes taut, and its stiffness",
             )

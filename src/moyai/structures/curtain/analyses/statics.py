@@ -295,7 +295,7 @@ def _given_blockage(unit: LevelCurtain) -> list[Notice]:
             "curtain-blockage-given",
             f"the blockage of the case, {given:.3g}, governs the drag coefficient; the curtain in equilibrium fills "
             f"{found:.3g} of the depth, since {why}",
-            found, given, "information", "leave 'structure.drag.blockage' out to take that of the equilibrium",
+            found, given, "information", "leave the blockage of the drag out to take that of the equilibrium",
         )
     ]  # fmt: skip
 

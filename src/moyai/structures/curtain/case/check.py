@@ -60,7 +60,7 @@ def _check_needs(model: CurtainCase, findings: Findings) -> None:
         findings.fault(
             ("analyses",),
             "the analysis 'impact' needs a start speed",
-            remedy="give 'current', or 'settings.impact.start_speed'",
+            remedy="give a current, or the start speed of the impact",
         )
     if "anchor_loads" in asked:
         _check_anchor_loads(model, findings)
@@ -275,7 +275,7 @@ def _check_dynamic(model: CurtainCase, findings: Findings) -> None:
         findings.fault(
             ("settings", "dynamic"),
             "the buoys of anchored supports need 'settings.dynamic.support_mass' or 'settings.anchor_loads.float_mass'",
-            remedy="give the mass of one buoy with its added mass, or leave 'structure.anchors' out for fixed supports",
+            remedy="give the mass of one buoy with its added mass, or leave the anchors out for fixed supports",
         )
     if unit.length <= unit.span:
         findings.fault(
@@ -311,7 +311,7 @@ def _check_dynamic(model: CurtainCase, findings: Findings) -> None:
         findings.fault(
             ("settings", "dynamic", "start"),
             "a drifting start needs a speed",
-            remedy="give 'current', or 'settings.impact.start_speed'",
+            remedy="give a current, or the start speed of the impact",
         )
     if given.start == "released" and model.current is None:
         findings.fault(

@@ -166,7 +166,7 @@ def _short(run: DynamicRun, place: str, rise: float) -> Notice | None:
             "dynamic-short",
             f"{place}: the run of {length:.3g} s is shorter than the rise of the snap by model A, {rise:.3g} s: its "
             "highest tension is no peak",
-            length, rise, "warning", "give a longer 'settings.dynamic.duration', or leave it out",
+            length, rise, "warning", "give a longer duration of the dynamic run, or leave it out",
             "time of the peak of model A",
         )  # fmt: skip
     if still_rises(run):
@@ -174,7 +174,7 @@ def _short(run: DynamicRun, place: str, rise: float) -> Notice | None:
             "dynamic-short",
             f"{place}: the highest tension is in the second half of the run of {length:.3g} s: a higher one may "
             "follow",
-            length, length, "warning", "give a longer 'settings.dynamic.duration'", "time of the highest tension",
+            length, length, "warning", "give a longer duration of the dynamic run", "time of the highest tension",
         )  # fmt: skip
     return None
 
@@ -212,7 +212,7 @@ def _started(run: DynamicRun, place: str, period: float) -> Notice | None:
         "peak periods after the start from rest; in the second half of the run, with its highest crest, they carry "
         f"at most {plain(after)} N: the peaks are those of a current and waves that come up within one period",
         peak / after if after > 0.0 else math.inf, _STARTED, "warning",
-        "give more 'settings.dynamic.settled_periods' with a larger 'wave_count' to leave the start out",
+        "give more settled periods with a larger count of waves to leave the start out",
         "tensions of both halves of the run",
     )  # fmt: skip
 
@@ -233,7 +233,7 @@ def _unsettled(run: DynamicRun, place: str, period: float) -> Notice | None:
         f"{spoken(max(peaks), 'N', 3)} over {count} periods: the motion has not settled, and the highest is that of "
         "these periods only",
         max(peaks) / min(peaks) if min(peaks) > 0.0 else math.inf, 1.0 + _UNSETTLED, "warning",
-        "give more 'settings.dynamic.settled_periods' and 'analysed_periods'; snaps in regular waves may never settle",
+        "give more settled and analysed periods; snaps in regular waves may never settle",
         "peaks of each period",
     )  # fmt: skip
 
