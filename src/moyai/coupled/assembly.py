@@ -26,11 +26,11 @@ ALIGNED = 1e-6
 class RodPart:
     """A round rod along one of the axes of its body."""
 
-    #: [m].
+    #: One end [m].
     start: Triple
-    #: [m].
+    #: The other end [m].
     end: Triple
-    #: [m].
+    #: Diameter [m].
     diameter: float
     #: Of a solid cylinder [kg/m].
     mass_per_length: float

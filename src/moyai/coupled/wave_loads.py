@@ -41,9 +41,9 @@ class WaveLoads:
     #: Exciting force per unit amplitude, Re(X exp(-i omega t)), phase at the origin of the coefficients; shape (n, m,
     #: 6).
     amplitude: ComplexArray
-    #: Shape (6, 6).
+    #: Added mass at infinite frequency; shape (6, 6).
     infinite_frequency_added_mass: Array
-    #: Shape (6, 6).
+    #: Hydrostatic stiffness; shape (6, 6).
     stiffness: Array
     memory: StateSpaceMemory
     #: At rest [m3].
@@ -60,7 +60,7 @@ class WaveLoads:
     follow: bool = False
     #: Identities of the memory.
     checks: tuple[IdentityCheck, ...] = ()
-    #: Identities of the memory.
+    #: Notices of the memory.
     notices: tuple[Notice, ...] = ()
 
     @classmethod

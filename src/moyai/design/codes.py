@@ -22,9 +22,9 @@ class LineLoad:
 
     #: Name of the line.
     line: str
-    #: [N]
+    #: Largest tension [N].
     maximum_tension: float
-    #: [N]
+    #: Mean tension [N].
     mean_tension: float
     #: Minimum breaking load of the new line [N].
     breaking_load: float

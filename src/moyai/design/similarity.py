@@ -79,9 +79,9 @@ class ScaledQuantity:
     name: str
     #: See ``name``.
     unit: str
-    #: Values in that unit.
+    #: Value of the prototype, in that unit.
     prototype: float
-    #: Values in that unit.
+    #: Value of the model, in that unit.
     model: float
     #: Prototype over model [-].
     ratio: float

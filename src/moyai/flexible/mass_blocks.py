@@ -89,9 +89,9 @@ class MassBlocks:
 class PackedBlocks:
     """Blocks ready for the kernels."""
 
-    #: As in :class:`MassBlocks`.
+    #: Nodes, as in :class:`MassBlocks`.
     nodes: IntArray
-    #: As in :class:`MassBlocks`.
+    #: Guides, as in :class:`MassBlocks`.
     guides: IntArray
     #: Directions, roots of the stretch and first lengths of the guides, shares of the own mass in the inverse; the
     #: kernels turn them; shape (g, k, 6).

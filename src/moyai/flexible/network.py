@@ -32,9 +32,9 @@ class Network:
         the bed, driven nodes without motion.
     """
 
-    #: The parts.
+    #: Nodes of the network.
     nodes: Nodes
-    #: The parts.
+    #: Bars of the network.
     bars: Bars
     #: Depth, density, gravity.
     water: Water

@@ -76,11 +76,11 @@ class StepRecord:
     tension_peak: Array
     #: See ``tension``.
     tension_trough: Array
-    #: As in :class:`moyai.flexible.result.History` [J]; shape (k,).
+    #: Kinetic energy, as in :class:`moyai.flexible.result.History` [J]; shape (k,).
     kinetic_energy: Array
-    #: As in :class:`moyai.flexible.result.History` [J]; shape (k,).
+    #: Elastic energy [J]; shape (k,).
     elastic_energy: Array
-    #: As in :class:`moyai.flexible.result.History` [J]; shape (k,).
+    #: Work done on the network [J]; shape (k,).
     work: Array
 
 

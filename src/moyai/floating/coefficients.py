@@ -38,9 +38,9 @@ class Hydrodynamics:
 
     #: Angular frequencies, increasing [rad/s]; shape (n,).
     omega: Array
-    #: ``[frequency, influenced, radiating]`` [kg, kg m, kg m2 and per second]; shape (n, m, m).
+    #: Added mass ``[frequency, influenced, radiating]`` [kg, kg m, kg m2]; shape (n, m, m).
     added_mass: Array
-    #: ``[frequency, influenced, radiating]`` [kg, kg m, kg m2 and per second]; shape (n, m, m).
+    #: Radiation damping in the same order [kg/s, kg m/s, kg m2/s]; shape (n, m, m).
     radiation_damping: Array
     #: Complex force per unit wave amplitude [N/m, N]; shape (n, h, m).
     excitation: ComplexArray

@@ -47,9 +47,9 @@ class DriftProblem:
 
     #: Coefficients of the whole unit with the far field; the loop uses heading number ``heading_index``.
     hydrodynamics: Hydrodynamics
-    #: Shape (m, m).
+    #: Mass matrix; shape (m, m).
     inertia: Array
-    #: Shape (m, m).
+    #: Hydrostatic stiffness; shape (m, m).
     hydrostatic_stiffness: Array
     mooring: Mooring
     water: Water

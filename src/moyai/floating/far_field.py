@@ -20,9 +20,9 @@ from moyai.sea.water import Water
 class FarField:
     """Waves far from the moving section and what they cost, per frequency and heading."""
 
-    #: Complex coefficients of the moving body; shape (n, h).
+    #: Complex reflection coefficient of the moving body; shape (n, h).
     reflection: ComplexArray
-    #: Complex coefficients of the moving body; shape (n, h).
+    #: Complex transmission coefficient of the moving body; shape (n, h).
     transmission: ComplexArray
     #: E_L = 1 - |R|^2 - |T|^2; shape (n, h).
     loss: Array

@@ -76,9 +76,9 @@ class Simulation:
 
     #: [s]; shape (n,).
     time: Array
-    #: Relative to rest [m, rad; per second]; shape (n, m).
+    #: Position relative to rest [m, rad]; shape (n, m).
     position: Array
-    #: Relative to rest [m, rad; per second]; shape (n, m).
+    #: Velocity [m/s, rad/s]; shape (n, m).
     velocity: Array
     #: Of all nonlinear lines, at-rest force included [N, N m]; shape (n, m).
     mooring_force: Array

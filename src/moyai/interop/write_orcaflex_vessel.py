@@ -217,9 +217,9 @@ class MooringOfUnit:
     """A line between the unit and the bed, in the axes of the site."""
 
     name: str
-    #: z from still water [m].
+    #: Fairlead, z from still water [m].
     fairlead: tuple[float, float, float]
-    #: z from still water [m].
+    #: Anchor, z from still water [m].
     anchor: tuple[float, float, float]
     #: Line type, length and longest segment [m], from the fairlead.
     sections: tuple[tuple[str, float, float], ...]

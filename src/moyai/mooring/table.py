@@ -43,11 +43,11 @@ class TabulatedForce:
     tolerance: float
     #: Largest relative error found at 4000 random points of the window.
     measured_error: float
-    #: Arrays for :func:`moyai.mooring.planar_kernel.table_force`.
+    #: Forces and derivatives at the nodes, for :func:`moyai.mooring.planar_kernel.table_force`.
     nodes: Array = field(repr=False)
-    #: Arrays for :func:`moyai.mooring.planar_kernel.table_force`.
+    #: First cell of every uniform bin, for the same function.
     lookup: IntArray = field(repr=False)
-    #: Arrays for :func:`moyai.mooring.planar_kernel.table_force`.
+    #: Integers of the line, for the same function.
     index: IntArray = field(repr=False)
 
     @property

@@ -18,9 +18,9 @@ class MeasuredRange:
 
     #: Of the law, in words.
     name: str
-    #: Range that its source covers [-].
+    #: Range of the Keulegan-Carpenter number of its source [-].
     keulegan_carpenter: tuple[float, float]
-    #: Range that its source covers [-].
+    #: Range of the Reynolds number of its source [-].
     reynolds: tuple[float, float]
     #: ``below``, ``above``: Allowance under and over the coefficient, as a part of it [-].
     below: float

@@ -54,23 +54,23 @@ class RectangleSolution:
     omega: Array
     #: Directions of travel [rad]; shape (h,).
     heading: Array
-    #: Motions equal along the structure [kg/m, kg, kg m; /s]; shape (n, 3, 3).
+    #: Added mass of motions equal along the structure [kg/m, kg, kg m]; shape (n, 3, 3).
     added_mass: Array
-    #: Motions equal along the structure [kg/m, kg, kg m; /s]; shape (n, 3, 3).
+    #: Radiation damping of the same motions [kg/(m s), kg/s, kg m/s]; shape (n, 3, 3).
     radiation_damping: Array
-    #: Limits of the added mass; shape (3, 3).
+    #: Added mass at infinite frequency; shape (3, 3).
     infinite_frequency_added_mass: Array
-    #: Limits of the added mass; shape (3, 3).
+    #: Added mass at zero frequency; shape (3, 3).
     zero_frequency_added_mass: Array
     #: Wave amplitude per unit velocity towards -x and +x [s, m s]; shape (n, 3, 2).
     radiated_wave: ComplexArray
-    #: Per unit wave amplitude [N/m2, N/m]; shape (n, h, 3).
+    #: Exciting force per unit wave amplitude [N/m2, N/m]; shape (n, h, 3).
     excitation_force: ComplexArray
-    #: Per unit wave amplitude [N/m2, N/m]; shape (n, h, 3).
+    #: Part of the undisturbed wave in it [N/m2, N/m]; shape (n, h, 3).
     froude_krylov_force: ComplexArray
-    #: Of the body held fixed; shape (n, h).
+    #: Reflection coefficient of the body held fixed; shape (n, h).
     reflection: ComplexArray
-    #: Of the body held fixed; shape (n, h).
+    #: Transmission coefficient of the body held fixed; shape (n, h).
     transmission: ComplexArray
     #: Energy, Haskind, symmetry, far-field damping.
     checks: tuple[IdentityCheck, ...]

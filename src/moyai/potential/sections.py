@@ -244,11 +244,11 @@ class Section:
 
     #: Whole outlines in the frame of the site.
     outlines: tuple[Outline, ...]
-    #: How the hull was set into the water [m, rad, m].
+    #: Draught that the hull was set to [m].
     draught: float
-    #: How the hull was set into the water [m, rad, m].
+    #: Heel that the hull was set to [rad].
     heel: float = 0.0
-    #: How the hull was set into the water [m, rad, m].
+    #: Sideways shift of the hull [m].
     offset: float = 0.0
     #: For messages and plots.
     name: str = "section"

@@ -34,9 +34,9 @@ class Parameter:
     name: str
     #: First guess.
     start: float
-    #: Bounds.
+    #: Lower bound.
     lower: float = -math.inf
-    #: Bounds.
+    #: Upper bound.
     upper: float = math.inf
     unit: str = ""
 
@@ -79,9 +79,9 @@ class Calibration:
     prediction: Array
     #: See ``prediction``.
     residual: Array
-    #: Of the residual.
+    #: Mean of the residual.
     bias: float
-    #: Of the residual.
+    #: Root mean square of the residual.
     rms: float
     #: Condition number of the scaled sensitivities.
     condition: float

@@ -18,11 +18,11 @@ GUMBEL_SKEWNESS, GUMBEL_KURTOSIS = 1.1395, 5.4
 class Interval:
     """An estimate with its confidence interval."""
 
-    #: Of the unit of the data.
+    #: Estimate, in the unit of the data.
     value: float
-    #: Of the unit of the data.
+    #: Lower end of its interval.
     lower: float
-    #: Of the unit of the data.
+    #: Upper end of its interval.
     upper: float
     #: Probability that the interval covers.
     confidence: float

@@ -36,9 +36,9 @@ class WaveOptions:
     crest: Literal["sample", "parabola"] = "parabola"
     #: How N/3 and N/10 are rounded to whole waves (at least one); one of "nearest", "down", "up".
     share: Rounding = "nearest"
-    #: Waves with other periods are left out of the statistics [s].
+    #: Waves with shorter periods are left out of the statistics [s].
     shortest: float = 0.0
-    #: Waves with other periods are left out of the statistics [s].
+    #: Waves with longer periods are left out of the statistics [s].
     longest: float = math.inf
 
     def __post_init__(self) -> None:

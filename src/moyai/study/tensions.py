@@ -28,11 +28,11 @@ class Tensions:
 
     #: Where they stand in the results.
     group: str
-    #: [N]
+    #: Largest tensions [N].
     maximum: xr.DataArray
-    #: [N]
+    #: Mean tensions [N].
     mean: xr.DataArray
-    #: [N]
+    #: Breaking loads [N].
     breaking: xr.DataArray
     #: Largest vertical pull at the anchor [N].
     uplift: xr.DataArray | None

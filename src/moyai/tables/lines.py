@@ -36,9 +36,9 @@ class LineProperties:
     drag_normal: float
     #: See ``drag_normal``.
     drag_tangential: float
-    #: Added-mass coefficients on the displaced volume [-].
+    #: Added-mass coefficient across, on the displaced volume [-].
     added_mass_normal: float
-    #: Added-mass coefficients on the displaced volume [-].
+    #: Added-mass coefficient along, on the displaced volume [-].
     added_mass_tangential: float
     #: Range of the source [m].
     diameter_range: tuple[float, float]

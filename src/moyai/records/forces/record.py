@@ -195,9 +195,9 @@ class NoiseCut:
 
     #: Frequency above which force and velocity have nothing in common [Hz].
     frequency: float
-    #: Share of the variance of the derivative that noise makes: as recorded, and below the cut.
+    #: Share of the variance of the derivative that noise makes, as recorded.
     share: float
-    #: Share of the variance of the derivative that noise makes: as recorded, and below the cut.
+    #: The same share below the cut.
     share_left: float
 
 

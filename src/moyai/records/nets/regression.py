@@ -33,9 +33,9 @@ class NetPowerLaw:
     factor: float
     #: See ``factor``.
     exponent: float
-    #: At the confidence asked for.
+    #: Interval of the factor at the confidence asked for.
     factor_interval: tuple[float, float]
-    #: At the confidence asked for.
+    #: Interval of the exponent at that confidence.
     exponent_interval: tuple[float, float]
     #: Standard deviation of ln C_D beyond the errors of the runs.
     scatter: float
@@ -133,11 +133,11 @@ class JointLaw:
     between: float
     #: Width of the prior of the standardised slopes of solidity and diameter: 0 leaves one power law for all.
     prior: float
-    #: What the law was fitted to.
+    #: Reynolds numbers that the law was fitted to.
     reynolds_range: tuple[float, float]
-    #: What the law was fitted to.
+    #: Solidities that the law was fitted to.
     solidity_range: tuple[float, float]
-    #: What the law was fitted to.
+    #: Twine diameters that the law was fitted to [m].
     diameter_range: tuple[float, float]
     #: ``count``, ``nets``: Runs and nets.
     count: int

@@ -31,9 +31,9 @@ class Tow:
     window: tuple[float, float]
     #: [m/s].
     speed: Mean
-    #: [N].
+    #: Mean force [N].
     force: Mean
-    #: [N].
+    #: Mean lift [N]; None where it was not measured.
     lift: Mean | None
     #: Force over the whole record, without the vibration [N].
     clean: Array
@@ -132,9 +132,9 @@ class FrameLaw:
 
     #: Of its runs, speed rising [m/s].
     speeds: tuple[float, ...]
-    #: Of its runs, speed rising [N].
+    #: Mean forces of its runs, speed rising [N].
     forces: tuple[float, ...]
-    #: Of its runs, speed rising [N].
+    #: Their standard errors [N].
     errors: tuple[float, ...]
     names: tuple[str, ...]
 

@@ -43,9 +43,9 @@ class QualityOptions:
     clip_samples: int = 3
     #: Look for clipping at the lowest value too; not where a channel rests there by nature (a slack line).
     clip_lowest: bool = True
-    #: Range of the instrument [unit of the channel].
+    #: Lower end of the instrument's range [unit of the channel].
     lowest: float = -math.inf
-    #: Range of the instrument [unit of the channel].
+    #: Upper end of it [unit of the channel].
     highest: float = math.inf
     #: A trend of the block means over the record, beyond its own uncertainty, that exceeds this share of the channel's
     #: standard deviation is a drift; infinite looks for none.

@@ -45,9 +45,9 @@ class StreakRun:
     name: str
     #: Wave period [s].
     period: float
-    #: Velocity amplitudes of the undisturbed orbit at the centre of the section [m/s].
+    #: Velocity amplitude along x of the undisturbed orbit at the centre of the section [m/s].
     amplitude_x: float
-    #: Velocity amplitudes of the undisturbed orbit at the centre of the section [m/s].
+    #: The same along z [m/s].
     amplitude_z: float
     recordings: tuple[Recording, ...]
     #: Reduction of the inertia coefficient found from forces; NaN where it was not measured.

@@ -54,11 +54,11 @@ class BlockResult:
     cut: dict[str, Waves] = field(default_factory=dict)
     #: By channel: (frequency, density, degrees of freedom, figures).
     spectra: dict[str, tuple[Array, Array, float, dict[str, float]]] = field(default_factory=dict)
-    #: Figures by name.
+    #: Values of the directions by name.
     directions: dict[str, float] = field(default_factory=dict)
-    #: Figures by name.
+    #: Values of the current by name.
     current: dict[str, float] = field(default_factory=dict)
-    #: Figures by name.
+    #: Values of the reflection by name.
     reflection: dict[str, float] = field(default_factory=dict)
     #: By channel: figures by name.
     tensions: dict[str, dict[str, float]] = field(default_factory=dict)

@@ -286,13 +286,13 @@ class FourierDirections:
     frequency: Array
     #: Surface elevation [m2/Hz], from the vertical channel.
     spectrum: Array
-    #: Fourier coefficients [-].
+    #: Fourier coefficient of cos [-].
     a1: Array
-    #: Fourier coefficients [-].
+    #: Fourier coefficient of sin [-].
     b1: Array
-    #: Fourier coefficients [-].
+    #: Fourier coefficient of cos 2 [-].
     a2: Array
-    #: Fourier coefficients [-].
+    #: Fourier coefficient of sin 2 [-].
     b2: Array
     #: Horizontal over vertical energy against linear theory [-]: 1 in a sea that obeys it.
     check_ratio: Array

@@ -114,11 +114,11 @@ class RegularRun:
     reflection: float
     #: See ``reflection``.
     transmission: float
-    #: The same spread for these (incident in the unit of the gauges).
+    #: The same spread of the reflection coefficient.
     reflection_spread: float
-    #: The same spread for these (incident in the unit of the gauges).
+    #: The same spread of the transmission coefficient.
     transmission_spread: float
-    #: The same spread for these (incident in the unit of the gauges).
+    #: The same spread of the incident wave, in the unit of the gauges.
     incident_spread: float
     #: Channels in the order of the harmonics.
     names: tuple[str, ...]

@@ -39,9 +39,9 @@ class IrregularSeparation:
     reflection: float
     #: See ``reflection``.
     reflection_error: float
-    #: 4 sqrt(m0) over the band [m].
+    #: Incident 4 sqrt(m0) over the band [m].
     incident_height: float
-    #: 4 sqrt(m0) over the band [m].
+    #: Reflected 4 sqrt(m0) over the band [m].
     reflected_height: float
     degrees_of_freedom: float
     segments: int

@@ -44,9 +44,9 @@ class Release:
     taut: float
     #: See ``taut``.
     rise: float
-    #: Sum of both cables [N].
+    #: Spike of the sum of both cables [N].
     spike: float
-    #: Sum of both cables [N].
+    #: Plateau of the sum of both cables [N].
     plateau: float
 
 

@@ -59,9 +59,9 @@ class FloatingUnit:
     breakwater: Breakwater
     #: Wetted section at rest.
     section: Section
-    #: At rest [m, rad].
+    #: Draught at rest [m].
     draught: float
-    #: At rest [m, rad].
+    #: Heel at rest [rad].
     heel: float
     #: Mass of the unit [kg].
     mass: float

@@ -34,9 +34,9 @@ class RunPlan:
     #: Of its group in the results.
     name: str
     flow: Flow
-    #: [s].
+    #: Duration of the run [s].
     duration: float
-    #: [s].
+    #: Step of the output [s].
     output_step: float
     #: That the eye follows: of the waves, else of the motions; NaN without either [s].
     period: float

@@ -140,9 +140,9 @@ class LinesInMotion:
 class BodyStart:
     """Motion of the unit that a run starts from."""
 
-    #: Relative to rest; shape (3,).
+    #: Position relative to rest; shape (3,).
     position: Array
-    #: Relative to rest; shape (3,).
+    #: Velocity; shape (3,).
     velocity: Array
     #: States of the memory of the water; shape (poles,).
     memory: NDArray[np.complex128]

@@ -60,9 +60,9 @@ class FlexibleCageProblem:
     environment: Environment
     seas: tuple[RigidCageWaves | IrregularSea, ...]
     settings: FlexibleSettings
-    #: Kept with the result.
+    #: Text of the case file, kept with the result.
     case_text: str = ""
-    #: Kept with the result.
+    #: Hash of that text.
     case_hash: str = ""
     criteria: tuple[Criterion, ...] = ()
     model: ClassVar[str] = "flexible"

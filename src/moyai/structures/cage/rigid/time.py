@@ -29,13 +29,13 @@ class March:
     tension: Array
     #: Largest tension around the row, found within the steps [N]; shape (rows, lines).
     tension_peak: Array
-    #: What it took.
+    #: Steps taken.
     steps: int
-    #: What it took.
+    #: Steps refused.
     refused: int
-    #: What it took.
+    #: Events found.
     events: int
-    #: What it took.
+    #: Evaluations of the forces.
     evaluations: int
     #: ``converged``, ``not_converged`` or ``interrupted``.
     status: str

@@ -247,9 +247,9 @@ class EdgeImpact:
 
     #: [s].
     time: Array
-    #: [N].
+    #: Tension of the upper cable [N].
     upper_tension: Array
-    #: [N].
+    #: Tension of the lower cable [N].
     lower_tension: Array
     #: Largest relative change of kinetic energy plus work of the springs.
     energy_error: float

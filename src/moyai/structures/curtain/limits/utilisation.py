@@ -99,9 +99,9 @@ class Requirements:
 class AddedLoads:
     """What waves or an impact add to the steady loads."""
 
-    #: Tension [N].
+    #: Tension of the upper cable [N].
     upper_cable: float = 0.0
-    #: Tension [N].
+    #: Tension of the lower cable [N].
     lower_cable: float = 0.0
     #: Tension of the skirt per width [N/m].
     sheet: float = 0.0

@@ -107,9 +107,9 @@ class CurtainStatics:
     toe_speed: float
     #: Over that of the undisturbed current there [-]; NaN in infinite depth, or where nothing flows there.
     toe_speed_ratio: float
-    #: Of the two cables [N].
+    #: Tension of the upper cable [N].
     upper_tension: float
-    #: Of the two cables [N].
+    #: Tension of the lower cable [N].
     lower_tension: float
     #: Horizontal force on the anchor of an inner support, with an equal span on its other side [N].
     anchor_force: float
