@@ -64,7 +64,7 @@ def beyond_curves(network: Network, bars: NDArray[np.int64], peaks: Array) -> tu
             found.append(
                 Notice(
                     "beyond-rope-curve",
-                    f"{kind.name!r} bears up to {highest:.4g} N, its rope curve ends at {last:.4g} N: "
+                    f"{kind.name!r} carries up to {highest:.4g} N, its rope curve ends at {last:.4g} N: "
                     "its last slope is used beyond",
                     highest,
                     last,

@@ -224,7 +224,7 @@ def require(source: str, **values: object) -> None:
     missing = [name for name, value in values.items() if value is None]
     if missing:
         raise InputError(
-            f"{source} does not tell {', '.join(name.replace('_', ' ') for name in missing)}",
+            f"{source} does not give {', '.join(name.replace('_', ' ') for name in missing)}",
             path=", ".join(missing),
             remedy="give " + " and ".join(missing),
         )

@@ -238,7 +238,7 @@ def dispersion(time: ArrayLike, start: float, duration: float, blocks: int) -> f
         raise InputError(f"blocks is {blocks}", parameter="blocks", allowed="at least 2")
     counts, _ = np.histogram(np.asarray(time), bins=blocks, range=(start, start + duration))
     if counts.sum() == 0:
-        raise InputError("no event lies in the blocks", parameter="time", allowed="at least one event")
+        raise InputError("no event is in the blocks", parameter="time", allowed="at least one event")
     return float(counts.var(ddof=1) / counts.mean())
 
 

@@ -394,6 +394,6 @@ def _header(case: Case, scale: Scale, from_model: bool) -> str:
         f"{sizes[0]} of '{case.path.name}', made by 'moyai scale': Froude, Cauchy number kept.",
         f"Prototype over model: {ratios}.",
         f"Density of the water {scale.density:.6g}, gravity {scale.gravity:.6g} times.",
-        f"Behind a changed value stands that of the {sizes[1]} and the factor; other comments are of the file given.",
+        f"Behind a changed value is that of the {sizes[1]} and the factor; other comments are of the file given.",
     ]
     return "".join(f"# {line}\n" for line in lines) + "\n"

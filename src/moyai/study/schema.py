@@ -345,7 +345,7 @@ class Fatigue(Block):
     ]
     equivalent_cycles: Annotated[
         PositiveNumber | None,
-        Field(description="A year; tells the constant range of tension that does the same damage in so many cycles."),
+        Field(description="A year; gives the constant range of tension that does the same damage in so many cycles."),
     ] = None
     over: Annotated[str, Field(description="Axis of the sea states with their probabilities.")] = "sea_state"
     safety_factor: Annotated[PositiveNumber, Field(description="On life.")] = 1.0

@@ -196,7 +196,7 @@ CASES: tuple[ValidationCase, ...] = (
         partial(_planted, False),
         1.4,
         0.05,
-        note="four records with noise; the third harmonic lies in the stop band",
+        note="four records with noise; the third harmonic is in the stop band",
     ),
     ValidationCase(
         "nets: C_M of a net towed against waves, by a gauge on the carriage",

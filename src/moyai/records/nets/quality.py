@@ -41,7 +41,7 @@ def record_notices(run: NetRun) -> list[Notice]:
         for kind, count in found.items():
             if count == 0:
                 continue
-            words = {"clipped": "stand at the limit of the gauge", "spikes": "are spikes", "flat": "stand still"}[kind]
+            words = {"clipped": "are at the limit of the gauge", "spikes": "are spikes", "flat": "are constant"}[kind]
             notices.append(
                 Notice(
                     f"net-record-{kind}",

@@ -281,7 +281,7 @@ def _result(
         notices.extend(law_notices)
     message = ""
     if interrupted:
-        message = f"{len(measured)} of {len(campaign.runs)} runs are done; the same command goes on from there"
+        message = f"{len(measured)} of {len(campaign.runs)} runs are done; the same command continues from there"
     unique = tuple(dict.fromkeys(notices))
     return Result(
         xr.DataTree.from_dict(VOCABULARY.close(groups)),

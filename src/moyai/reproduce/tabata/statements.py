@@ -149,7 +149,7 @@ def _factor(runs: TabataRuns) -> Finding:
     )
     return judged(
         paper[1] <= planted <= paper[2] and single[1] <= planted <= single[2], words,
-        f"1.7 T_1/10 stands for T_max, which is {ratio:.2f} T_1/10 here: a factor {(1.7 / ratio) ** 2:.2f} in M; the "
+        f"1.7 T_1/10 represents T_max, which is {ratio:.2f} T_1/10 here: a factor {(1.7 / ratio) ** 2:.2f} in M; the "
         f"largest of many scattered pulls is set against the wave of 1.8 H_1/3: a factor "
         f"{paper[0] / planted / (1.7 / ratio) ** 2:.2f}. Where the sea scatters as the campaign does, 0.2 by that rule "
         f"is {0.2 * planted / paper[0]:.2f} by single waves",

@@ -72,7 +72,7 @@ def left_out(problem: NetworkProblem, plan: RunPlan, history: History) -> list[N
         Notice(
             "realisations-left-out",
             f"of {asked} realisations one was run: bodies, nets with panels, sheets, slow ropes, lines that part, "
-            "implicit methods and runs that go on from earlier ones have no others",
+            "implicit methods and runs that continue earlier ones have no others",
             1, asked, remedy="run the case with other seeds, one by one",
         )
     ]  # fmt: skip

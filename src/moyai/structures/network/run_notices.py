@@ -53,7 +53,7 @@ def wet_in_air(network: Network, position: Array, said: str = "") -> list[Notice
     return [
         Notice(
             "wet-in-air",
-            f"{said}{over.size} bodies with volume and 'height: 0' stand above still water with all of their buoyancy, "
+            f"{said}{over.size} bodies with volume and 'height: 0' are above still water with all of their buoyancy, "
             f"'{name}' the highest: tensions are not those of floats at the surface",
             float(position[node, 2]), 0.0, "error", "leave 'height' out, or give the height of the body",
         )
@@ -169,7 +169,7 @@ def peak_inside(assembly: Assembly, series: xr.Dataset, name: str, bar: int) -> 
     place = float(np.sum(lengths[:row]) + 0.5 * lengths[row])
     return [
         Notice(
-            "peak-inside", f"the highest tension of '{name}' stands {place:.4g} m from its start, where a slack part "
+            "peak-inside", f"the highest tension of '{name}' is {place:.4g} m from its start, where a slack part "
             f"is pulled straight or falls on the bed: {spoken(peak, 'N')} there, "
             f"{spoken(ends[0], 'N', like=peak)} at its start and {spoken(ends[1], 'N', like=peak)} at its end",
             peak, INSIDE * max(ends), "warning",

@@ -139,7 +139,7 @@ def _check_bodies(dataset: xr.Dataset, at: RowAtLevel) -> None:
         where = f"in unit {others[0]}" if others else f"at x = {point[0]:.4g} m, y = {point[1]:.4g} m"
         order = [next((b for b, column in zip(bodies, inside) if column[unit]), "") for unit in range(row.count)]
         raise InputError(
-            f"body '{name}' of the file stands {where}, unit {number + 1} at x = {place.x:.4g} m, y = {place.y:.4g} m",
+            f"body '{name}' of the file is {where}, unit {number + 1} at x = {place.x:.4g} m, y = {place.y:.4g} m",
             parameter=WHERE,
             allowed="bodies in the order and at the places of the units",
             remedy=f"give bodies: [{', '.join(order)}]"

@@ -367,7 +367,7 @@ def _vibration(group: Group) -> list[Block]:
             Mark("line", x=float(attributes["line"])),
             Mark("to", x=float(attributes["high"])),
         )
-        words = f"The line stands {float(attributes['prominence']):.0f} times above the spectrum around it."
+        words = f"The line is {float(attributes['prominence']):.0f} times above the spectrum around it."
     x = {"f": frequency}
     return [
         Paragraph(

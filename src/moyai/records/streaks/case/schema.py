@@ -129,7 +129,7 @@ class RecordingBlock(Block):
     """Pictures taken in one go."""
 
     pictures: Annotated[tuple[FileName, ...], Field(min_length=1, max_length=2000)] = Field(
-        description="Files in the order of time; a name with * stands for all that match, sorted."
+        description="Files in the order of time; a name with * means all that match, sorted."
     )
 
 

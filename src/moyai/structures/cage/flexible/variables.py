@@ -17,7 +17,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "net_area": ("m2", "outline area of the net of one cage"),
     "net_mass": ("kg", "mass in air of the net of one cage"),
     "submerged_weight": ("N", "weight in water of net and weights of one cage"),
-    "reserve_buoyancy": ("N", "what the collar bears wholly immersed beyond its own weight"),
+    "reserve_buoyancy": ("N", "buoyancy of the collar, wholly immersed, less its own weight"),
     "solidity": ("1", "geometric solidity of the net"),
     "breaking_load": ("N", "breaking load of the weakest segment"),
     "current_speed": ("m/s", "speed of the current at the surface"),

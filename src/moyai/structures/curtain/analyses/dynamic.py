@@ -189,9 +189,9 @@ def _steadied(first: DynamicRun, run: DynamicRun, place: str) -> tuple[Notice, .
     if first.history.status == "converged":
         gained, taken = run_checks(first, "")
         why = (
-            f"{100 * gained.value:.3g} % of the energy that went through the span came from nowhere"
+            f"{100 * gained.value:.3g} % of the energy that went through the span is an error of the energy balance"
             if taken.passed
-            else f"viscosity took {taken.value:.3g} times per period what the span ever held"
+            else f"viscosity took {taken.value:.3g} times per period the largest energy of the span"
         )
     return (
         Notice(

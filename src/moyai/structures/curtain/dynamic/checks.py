@@ -208,7 +208,7 @@ def _started(run: DynamicRun, place: str, period: float) -> Notice | None:
         return None
     return Notice(
         "dynamic-start",
-        f"{place}: the highest tension of both cables, {plain(peak)} N, stands at {when:.4g} s, {when / period:.2g} "
+        f"{place}: the highest tension of both cables, {plain(peak)} N, is at {when:.4g} s, {when / period:.2g} "
         "peak periods after the start from rest; in the second half of the run, with its highest crest, they carry "
         f"at most {plain(after)} N: the peaks are those of a current and waves that come up within one period",
         peak / after if after > 0.0 else math.inf, _STARTED, "warning",

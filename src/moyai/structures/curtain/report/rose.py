@@ -123,16 +123,17 @@ def _over_orientation(level: CurtainLevel, group: Group, orientation: Array, hel
     ]
     series.append(Series("worst sea", x, group.require("held_ratio", "orientation")[order], 1, 0, style="line+points"))
     best = _best(group, orientation)
-    marks = [Mark("as it lies", x=float(degrees[0]), panel=0), Mark("borne", y=1.0, panel=1)]
+    marks = [Mark("as it lies", x=float(degrees[0]), panel=0), Mark("permitted", y=1.0, panel=1)]
     if best is not None and best != 0:
-        marks.append(Mark("bears most", x=float(degrees[best]), panel=0))
+        marks.append(Mark("best orientation", x=float(degrees[best]), panel=0))
     return Figure(
         key(level, "limit-over-orientation"),
         "Permissible height over the orientation of the curtain",
         (Abscissa("orientation", "heading of the normal", "deg"),),
         (Panel("significant height held", "m", from_zero=True), Panel("held over height of the sea", from_zero=True)),
         tuple(series),
-        "In waves from the direction of each sea of the case; below 1 a sea is not borne. A normal and its "
+        "In waves from the direction of each sea of the case; below 1 the height of a sea is not permitted. A normal "
+        "and its "
         "opposite are one orientation.",
         tuple(marks),
         height=440,

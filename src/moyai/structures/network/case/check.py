@@ -394,7 +394,7 @@ def _check_ground(network: Network, depth: float, findings: Findings) -> None:
         one = named[0] if named else network.strands[0].name
         findings.warn(
             ("structure", "bed"),
-            f"{int(beyond.sum())} nodes of the network, some of '{one}' among them, stand beyond the grid of the bed, "
+            f"{int(beyond.sum())} nodes of the network, some of '{one}' among them, are beyond the grid of the bed, "
             "which is flat there",
             remedy="give a grid that covers the network",
         )

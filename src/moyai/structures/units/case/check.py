@@ -88,7 +88,7 @@ def _check_file(model: schema.UnitsCase, findings: Findings) -> None:
         )  # fmt: skip
     if model.structure.gap_damping_lid > 0.0:
         findings.fault(
-            ("structure", "gap_damping_lid"), "the damping of the gaps is in the coefficients of the file or nowhere",
+            ("structure", "gap_damping_lid"), "the damping of the gaps is in the coefficients of the file alone",
             remedy="leave it out, and damp the gaps in the program that computes the file",
         )  # fmt: skip
     if model.settings.panel_size is not None:
