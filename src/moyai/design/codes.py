@@ -217,7 +217,7 @@ def _worn_share(corrosion: float, diameter: float) -> float:
         )
     if corrosion >= diameter:
         raise InputError(
-            f"corrosion of {1000 * corrosion:g} mm is more than the diameter of the line,  {1000 * diameter:g} mm",
+            f"corrosion of {1000 * corrosion:g} mm is more than the diameter of the line, {1000 * diameter:g} mm",
             parameter="corrosion",
             remedy="shorten the life or choose a thicker line",
         )

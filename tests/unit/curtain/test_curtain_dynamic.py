@@ -348,7 +348,7 @@ def test_runs_tell_what_they_did_not_reach() -> None:
     assert "shorter than the rise" in run_notices(short, "here", rise, False)[0].message
     assert not run_notices(whole, "here", rise, False)
     # the same short run where model A is quicker: the tension is highest at its end
-    assert "later half" in run_notices(short, "here", 0.1 * rise, False)[0].message
+    assert "second half" in run_notices(short, "here", 0.1 * rise, False)[0].message
 
 
 @pytest.mark.slow

@@ -471,5 +471,5 @@ def test_a_bed_that_varies_is_checked(tmp_path):
     with pytest.raises(CaseError, match="z = -12 m lies under the bed, which is 10"):
         problem_of(text, tmp_path)
     (tmp_path / "bed.txt").write_text("0 -5 10\n0 5 10\n20 -5 34\n")
-    with pytest.raises(CaseError, match="stands nowhere in a grid of 2 by 2 lines"):
+    with pytest.raises(CaseError, match="is given nowhere in a grid of 2 by 2 lines"):
         problem_of(text, tmp_path)

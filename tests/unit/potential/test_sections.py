@@ -136,7 +136,7 @@ def test_dry_and_tank_sections_are_refused():
     with pytest.raises(InputError, match="does not reach the water"):
         shapes.rectangle(2.0, 1.0).immersed(-0.5)
     tank = [(0, 0), (5, 0), (5, 3), (4, 3), (4, 1), (1, 1), (1, 3), (0, 3)]
-    with pytest.raises(InputError, match="water of its own"):
+    with pytest.raises(InputError, match="encloses water"):
         shapes.polygon(tank).immersed(2.0)
     with pytest.raises(InputError, match="draught"):
         shapes.rectangle(2.0, 1.0).immersed(float("nan"))

@@ -181,7 +181,7 @@ def test_bodies_in_another_order_and_axes(folder, computed, dataset):
     turned = moved_axes(in_order(dataset, [2, 1]), (30.0, -5.0), np.radians(-90.0))
     write_coefficients("wamit", turned, folder / "turned")
     entry = "program: wamit, path: turned/unit.1"
-    with pytest.raises(CaseError, match="stands at x = "):
+    with pytest.raises(CaseError, match="is at x = "):
         case(folder, *from_file(entry))
     # axes of the file in those of the row: turned back by 90 degrees, its origin at -R(90) (30, -5) = (-5, -30)
     entry += ", x_axis_heading_deg: 90, origin: [-5 m, -30 m]"
